@@ -1,0 +1,80 @@
+// Jones-Wilkins-Lee equation of state in energy form (paper Eq. 32; unreacted explosive and products).
+#pragma once
+
+#include "launchsafe/math/pack.hpp"
+
+namespace launchsafe::materials {
+
+/// p = A (1 - w/(R1 V)) exp(-R1 V) + B (1 - w/(R2 V)) exp(-R2 V) + w E/V; V relative volume, E per initial volume.
+struct JwlParameters {
+  double a = 778.1e11;             ///< A, Pa [P]
+  double b = -5.031e9;             ///< B, Pa [P]
+  double r1 = 11.3;                ///< R1 [P]
+  double r2 = 1.13;                ///< R2 [P]
+  double omega = 0.8938;           ///< w [P]
+  double initial_density = 1717.0; ///< kg/m3 [P]
+  double initial_energy = -6.11861e8;  ///< E(V = 1), J per m3 of initial volume; makes p(V = 1) vanish [D]
+};
+
+/// Unreacted Composition B. The initial energy is computed so that p(V = 1) = 0 to round-off.
+JwlParameters unreacted_composition_b();
+/// Detonation products of Composition B [L].
+JwlParameters composition_b_products();
+
+/// The part of the pressure (Pa) that does not depend on the energy, at relative volume V > 0.
+template <class Real>
+Real jwl_cold_pressure(const JwlParameters& m, Real v) {
+  using math::exp;
+  const Real inverse_v = Real(1.0) / v;
+  return Real(m.a) * (Real(1.0) - Real(m.omega / m.r1) * inverse_v) * exp(Real(-m.r1) * v) +
+         Real(m.b) * (Real(1.0) - Real(m.omega / m.r2) * inverse_v) * exp(Real(-m.r2) * v);
+}
+
+/// Energy E (J per m3 of initial volume) at V and temperature T (K) with rho0 Cv = `heat_capacity` (J/(m3 K)):
+/// A/R1 exp(-R1 V) + B/R2 exp(-R2 V) + rho0 Cv T. With it the energy form and the temperature form
+/// p = A exp(-R1 V) + B exp(-R2 V) + w rho0 Cv T/V are one law. Unreacted Composition B: 2.487e6 J/(m3 K) [L].
+double jwl_energy_at_temperature(const JwlParameters& m, double v, double heat_capacity, double temperature);
+
+/// Relative volume V_CJ = 1 - P_CJ/(rho0 D^2) behind a detonation of velocity D (m/s) and pressure P_CJ (Pa).
+double chapman_jouguet_volume(const JwlParameters& m, double velocity, double pressure);
+
+/// Energy E0 (J/m3) of the products' law before detonation, Eq. 34: E_CJ - 1/2 P_CJ (1 - V_CJ), with E_CJ from the law
+/// itself at (V_CJ, P_CJ).
+double chapman_jouguet_initial_energy(const JwlParameters& m, double velocity, double pressure);
+
+/// Pressure (Pa, compression positive) at relative volume V > 0 and energy E (J per m3 of initial volume).
+template <class Real>
+Real jwl_pressure(const JwlParameters& m, Real v, Real energy) {
+  return jwl_cold_pressure(m, v) + Real(m.omega) * energy / v;
+}
+
+/// Isentropic bulk modulus -V dp/dV|_s (Pa), using dE = -p dV.
+template <class Real>
+Real jwl_bulk_modulus(const JwlParameters& m, Real v, Real energy) {
+  using math::exp;
+  const Real p = jwl_pressure(m, v, energy);
+  const Real exp1 = Real(m.a) * exp(Real(-m.r1) * v), exp2 = Real(m.b) * exp(Real(-m.r2) * v);
+  const Real dp_dv = exp1 * (Real(m.omega) / (Real(m.r1) * v * v) - Real(m.r1) + Real(m.omega) / v) +
+                     exp2 * (Real(m.omega) / (Real(m.r2) * v * v) - Real(m.r2) + Real(m.omega) / v) -
+                     Real(m.omega) * energy / (v * v);
+  return -v * (dp_dv - Real(m.omega) * p / v);
+}
+
+template <class Real>
+struct JwlState {
+  Real pressure;  ///< Pa
+  Real energy;    ///< J per m3 of initial volume
+};
+
+/// Adiabatic change from (p0, E0) at V0 to V1 with dE = -1/2 (p0 + p1) dV; linear in E, hence solved exactly.
+/// Second-order accurate in V1 - V0.
+template <class Real>
+JwlState<Real> jwl_compress(const JwlParameters& m, Real v0, Real p0, Real energy0, Real v1) {
+  const Real half_dv = Real(0.5) * (v1 - v0);
+  const Real cold = jwl_cold_pressure(m, v1);
+  const Real stiffness = Real(m.omega) / v1;
+  const Real energy1 = (energy0 - half_dv * (p0 + cold)) / (Real(1.0) + half_dv * stiffness);
+  return {cold + stiffness * energy1, energy1};
+}
+
+}  // namespace launchsafe::materials

@@ -1,0 +1,62 @@
+// Symmetric trace-free tensors of a body that is axisymmetric or in plane strain.
+#pragma once
+
+#include "launchsafe/math/pack.hpp"
+
+namespace launchsafe::math {
+
+/// A deviator with the components rr, xx and rx; the hoop component is tt = -(rr + xx). In plane strain read
+/// y for r and z for the hoop direction. The unit is that of what it holds (Pa, 1/s, or 1).
+template <class Real>
+struct Deviator {
+  Real rr{0.0}, xx{0.0}, rx{0.0};
+
+  Real tt() const { return -(rr + xx); }
+  friend Deviator operator+(Deviator a, Deviator b) { return {a.rr + b.rr, a.xx + b.xx, a.rx + b.rx}; }
+  friend Deviator operator-(Deviator a, Deviator b) { return {a.rr - b.rr, a.xx - b.xx, a.rx - b.rx}; }
+  friend Deviator operator*(Real factor, Deviator a) { return {factor * a.rr, factor * a.xx, factor * a.rx}; }
+};
+
+/// Double contraction A : B over all nine components.
+template <class Real>
+Real contract(Deviator<Real> a, Deviator<Real> b) {
+  return a.rr * b.rr + a.xx * b.xx + a.tt() * b.tt() + Real(2.0) * a.rx * b.rx;
+}
+
+/// Von Mises equivalent of a stress deviator, sqrt(3/2 S:S).
+template <class Real>
+Real von_mises(Deviator<Real> stress) {
+  return sqrt(Real(1.5) * contract(stress, stress));
+}
+
+/// Equivalent of a strain(-rate) deviator, sqrt(2/3 e:e).
+template <class Real>
+Real equivalent_strain(Deviator<Real> strain) {
+  return sqrt(Real(2.0 / 3.0) * contract(strain, strain));
+}
+
+/// The in-plane rotation of one step: cosine and sine of the angle, from the spin increment.
+template <class Real>
+struct Rotation {
+  Real cosine{1.0}, sine{0.0};
+};
+
+/// Rotation by the angle `spin` = 1/2 (dv_r/dx - dv_x/dr) dt (rad), by the half-angle form (1 - h^2, 2h)/(1 +
+/// h^2), h = spin/2: orthogonal to round-off for any angle, and equal to the angle itself to second order, as
+/// the Jaumann rate asks (Hughes & Winget 1980).
+template <class Real>
+Rotation<Real> rotation_of(Real spin) {
+  const Real half = Real(0.5) * spin;
+  const Real scale = Real(1.0) / (Real(1.0) + half * half);
+  return {(Real(1.0) - half * half) * scale, Real(2.0) * half * scale};
+}
+
+/// R S R^T for the in-plane rotation with W_rx = 1/2 (dv_r/dx - dv_x/dr).
+template <class Real>
+Deviator<Real> rotate(Deviator<Real> s, Rotation<Real> q) {
+  const Real cc = q.cosine * q.cosine, ss = q.sine * q.sine, cs = q.cosine * q.sine;
+  return {cc * s.rr + ss * s.xx + Real(2.0) * cs * s.rx, ss * s.rr + cc * s.xx - Real(2.0) * cs * s.rx,
+          cs * (s.xx - s.rr) + (cc - ss) * s.rx};
+}
+
+}  // namespace launchsafe::math

@@ -1,0 +1,68 @@
+// Statistics of a study: least squares with its uncertainty, tolerance factors, and the grid convergence
+// index.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace launchsafe::math {
+
+/// Ordinary least squares y = sum_k coefficient_k x_k + error, errors independent with one unknown variance.
+/// With no degrees of freedom left the fit goes through all points and every uncertainty is NaN.
+struct LeastSquares {
+  std::vector<double> coefficients;     ///< unit of y over unit of the regressor
+  std::vector<double> standard_errors;  ///< of the coefficients
+  std::vector<double> residuals;        ///< y - fit, in the order of the data
+  std::vector<double> inverse_normal;   ///< (X^T X)^-1, row by row
+  double residual_deviation = 0;        ///< s = sqrt(sum residual^2 / degrees_of_freedom), unit of y
+  double r_squared = 0;                 ///< 1 - residual/total sum of squares about the mean
+  int degrees_of_freedom = 0;           ///< observations minus coefficients
+
+  /// Fitted value at the regressors `row` (one value per coefficient).
+  double at(const std::vector<double>& row) const;
+  /// Half widths of two-sided bands at confidence `level` in (0, 1): of the mean at one given row (Student
+  /// t), of the mean at all rows at once (Working-Hotelling, F), and of one new observation (Student t).
+  double mean_half_width(const std::vector<double>& row, double level) const;
+  double simultaneous_half_width(const std::vector<double>& row, double level) const;
+  double prediction_half_width(const std::vector<double>& row, double level) const;
+
+ private:
+  double leverage(const std::vector<double>& row) const;
+};
+
+/// Fits y on the rows of regressors. Nothing where the sizes differ, a number is not finite, there are fewer
+/// observations than coefficients, or the regressors depend on each other.
+std::optional<LeastSquares> least_squares(const std::vector<std::vector<double>>& rows,
+                                          const std::vector<double>& y);
+
+/// The row (1, x, ..., x^degree).
+std::vector<double> polynomial_row(double x, int degree);
+
+/// Straight line y = coefficients[0] + coefficients[1] x.
+std::optional<LeastSquares> fit_line(const std::vector<double>& x, const std::vector<double>& y);
+
+/// One-sided normal tolerance factor k1: mean + k1 * deviation of a sample of n >= 2 lies above the share
+/// `coverage` of the population with probability `confidence`. Exact, from the noncentral t distribution (ISO
+/// 16269-6).
+double one_sided_tolerance_factor(int n, double coverage, double confidence);
+
+/// Discretisation uncertainty from three systematically refined meshes (Celik et al., J. Fluids Eng. 130,
+/// 2008).
+struct GridConvergence {
+  double order = 0;          ///< observed order p
+  double extrapolated = 0;   ///< Richardson value for cell size 0
+  double fine_error = 0;     ///< |phi1 - phi2| / |phi1|
+  double fine_index = 0;     ///< GCI of the fine mesh, 1.25 fine_error/(r21^p - 1), relative
+  bool oscillating = false;  ///< the two differences have opposite signs; the order is then of little worth
+};
+
+/// `values` and `cell_sizes` (any unit, increasing) from the fine to the coarse mesh. Nothing where a size
+/// does not grow, a difference vanishes or no order above 0 fits.
+std::optional<GridConvergence> grid_convergence(const std::array<double, 3>& values,
+                                                const std::array<double, 3>& cell_sizes);
+
+/// Representative cell size (1/cells)^(1/dimension) of a domain of unit size.
+double representative_cell_size(double cells, int dimension);
+
+}  // namespace launchsafe::math

@@ -1,0 +1,210 @@
+// Particle-to-grid and grid-to-particle transfer of a Pack of particles.
+//
+// Eight neighbouring particles mostly lie in eight consecutive cells, so node values are read and written as
+// consecutive Packs. Lanes for which that holds with the same offset share a pass; after cell crossings a
+// Pack takes two passes, in the worst case eight. One path, no scalar fallback, and an order of addition that
+// is fixed.
+#pragma once
+
+#include "launchsafe/mpm/grid.hpp"
+#include "launchsafe/mpm/shape.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace launchsafe::mpm {
+
+using math::Mask;
+using math::Pack;
+
+/// What a body and a grid fix for all stencils of a step.
+struct StencilContext {
+  const Grid& grid;
+  double origin_x;        ///< of the window, m; differs between reading and writing when the window moves
+  double half_x, half_r;  ///< m
+  bool axisymmetric;
+};
+
+/// Weights of eight particles, and the first node of each.
+struct Stencil {
+  AxialWeights<Pack> axial;
+  RadialWeights<Pack> radial;
+  Mask::Lanes first;  ///< node index minus lane: equal for lanes on consecutive nodes
+  Mask inside;        ///< the particle lies on the grid
+};
+
+inline Pack to_pack(Mask::Lanes integers) { return Pack(__builtin_convertvector(integers, Pack::Lanes)); }
+inline Mask::Lanes truncate(Pack x) { return __builtin_convertvector(x.lanes, Mask::Lanes); }
+
+/// Splits a grid coordinate into the cell and a flag. Coordinates outside [lowest, highest) and NaN read as
+/// `lowest`.
+struct CellPosition {
+  Mask::Lanes cell;
+  Mask inside;
+};
+inline CellPosition locate(Pack coordinate, int lowest, int highest) {
+  const Pack low(static_cast<double>(lowest));
+  const Mask inside = (coordinate >= low) & (coordinate < Pack(static_cast<double>(highest)));
+  return {truncate(select(inside, coordinate, low)), inside};
+}
+
+/// Stencils of eight particles. A Pack may touch seven nodes before and after those of its particles, hence
+/// the margin.
+inline Stencil stencil_of(const StencilContext& context, Pack x, Pack r) {
+  constexpr int margin = static_cast<int>(math::pack_width);
+  const Grid& grid = context.grid;
+  const Pack local_x = x - context.origin_x;
+  const CellPosition axial =
+      locate((local_x - context.half_x) * (1.0 / grid.dx), margin, grid.nodes_x - 2 - margin);
+  Stencil stencil;
+  stencil.axial = axial_weights(local_x - to_pack(axial.cell) * grid.dx, context.half_x, grid.dx);
+  // Radial coordinates count from the padding row below r = 0.
+  const double padding = Grid::radial_padding;
+  const int highest = grid.nodes_r - 3;
+  CellPosition radial;
+  if (context.axisymmetric) {
+    const auto interval = cut_at_axis(r, context.half_r);
+    radial =
+        locate((interval.centre - interval.half) * (1.0 / grid.dr) + padding, Grid::radial_padding, highest);
+    stencil.radial = axisymmetric_weights(interval, (to_pack(radial.cell) - padding) * grid.dr, grid.dr);
+  } else {
+    radial = locate((r - context.half_r) * (1.0 / grid.dr) + padding, 0, highest);
+    const auto planar =
+        axial_weights(r - (to_pack(radial.cell) - padding) * grid.dr, context.half_r, grid.dr);
+    for (int k = 0; k < 3; ++k) {
+      stencil.radial.value[k] = planar.value[k];
+      stencil.radial.gradient[k] = planar.gradient[k];
+      stencil.radial.hoop[k] = Pack(0.0);
+    }
+  }
+  constexpr Mask::Lanes lane = {0, 1, 2, 3, 4, 5, 6, 7};
+  stencil.first = radial.cell * static_cast<std::int64_t>(grid.nodes_x) + axial.cell - lane;
+  stencil.inside = axial.inside & radial.inside;
+  return stencil;
+}
+
+/// Calls `pass(first_node, lanes)` for every group of lanes on consecutive nodes; `lanes` are those it
+/// serves.
+template <class Pass>
+void for_each_run(const Stencil& stencil, Mask lanes, Pass&& pass) {
+  while (any(lanes)) {
+    std::size_t leader = 0;
+    while (lanes.lanes[leader] == 0) ++leader;
+    const std::int64_t first = stencil.first[leader];
+    const Mask run{lanes.lanes & (stencil.first == first)};
+    pass(static_cast<std::ptrdiff_t>(first), run);
+    lanes = lanes & !run;
+  }
+}
+
+/// What eight particles read from the grid.
+struct Gathered {
+  Pack velocity_x{0.0}, velocity_r{0.0};          ///< m/s
+  Pack change_x{0.0}, change_r{0.0};              ///< m/s
+  Pack rate_rr{0.0}, rate_xx{0.0}, rate_tt{0.0};  ///< 1/s
+  Pack vr_by_x{0.0}, vx_by_r{0.0};                ///< 1/s
+};
+
+namespace detail {
+
+inline Gathered gather_run(const Grid& grid, const Stencil& s, std::ptrdiff_t first) {
+  Gathered g;
+  for (int j = 0; j < 3; ++j) {
+    Pack vx(0.0), vr(0.0), cx(0.0), cr(0.0), vx_by_x(0.0), vr_by_x(0.0);
+    const std::ptrdiff_t row = first + j * static_cast<std::ptrdiff_t>(grid.nodes_x);
+    for (int i = 0; i < 3; ++i) {
+      const Pack node_vx = Pack::load(grid.velocity_x.data() + row + i);
+      const Pack node_vr = Pack::load(grid.velocity_r.data() + row + i);
+      vx += s.axial.value[i] * node_vx;
+      vr += s.axial.value[i] * node_vr;
+      vx_by_x += s.axial.gradient[i] * node_vx;
+      vr_by_x += s.axial.gradient[i] * node_vr;
+      cx += s.axial.value[i] * Pack::load(grid.change_x.data() + row + i);
+      cr += s.axial.value[i] * Pack::load(grid.change_r.data() + row + i);
+    }
+    const Pack value = s.radial.value[j], gradient = s.radial.gradient[j];
+    g.velocity_x += value * vx;
+    g.velocity_r += value * vr;
+    g.change_x += value * cx;
+    g.change_r += value * cr;
+    g.rate_rr += gradient * vr;
+    g.rate_xx += value * vx_by_x;
+    g.rate_tt += s.radial.hoop[j] * vr;
+    g.vr_by_x += value * vr_by_x;
+    g.vx_by_r += gradient * vx;
+  }
+  return g;
+}
+
+inline void blend(Gathered& into, const Gathered& from, Mask lanes) {
+  const auto take = [lanes](Pack& a, const Pack& b) { a = select(lanes, b, a); };
+  take(into.velocity_x, from.velocity_x);
+  take(into.velocity_r, from.velocity_r);
+  take(into.change_x, from.change_x);
+  take(into.change_r, from.change_r);
+  take(into.rate_rr, from.rate_rr);
+  take(into.rate_xx, from.rate_xx);
+  take(into.rate_tt, from.rate_tt);
+  take(into.vr_by_x, from.vr_by_x);
+  take(into.vx_by_r, from.vx_by_r);
+}
+
+inline void accumulate(double* target, Pack value) { (Pack::load(target) + value).store(target); }
+
+}  // namespace detail
+
+/// Reads the grid for the lanes in `lanes`; the others get zeros.
+inline Gathered gather(const Grid& grid, const Stencil& stencil, Mask lanes) {
+  Gathered result;
+  for_each_run(stencil, lanes, [&](std::ptrdiff_t first, Mask run) {
+    detail::blend(result, detail::gather_run(grid, stencil, first), run);
+  });
+  return result;
+}
+
+/// What eight particles give to the grid.
+struct Scattered {
+  Pack mass, velocity_x, velocity_r;                ///< kg, m/s
+  Pack volume;                                      ///< m3 per radian, or per metre of depth
+  Pack stress_rr, stress_xx, stress_tt, stress_rx;  ///< Cauchy, tension positive, Pa
+};
+
+/// Adds mass, momentum and internal force f = -sum V (stress grad N) (model section 2) of the lanes in
+/// `lanes`.
+inline void scatter(Grid& grid, const Stencil& s, const Scattered& p, Mask lanes) {
+  // Local copies: the compiler cannot know that the sums do not hold the grid's own pointers.
+  double* const node_mass = grid.mass.data();
+  double* const momentum_x = grid.momentum_x.data();
+  double* const momentum_r = grid.momentum_r.data();
+  double* const force_x = grid.force_x.data();
+  double* const force_r = grid.force_r.data();
+  const std::ptrdiff_t row = grid.nodes_x;
+  for_each_run(s, lanes, [&](std::ptrdiff_t first, Mask run) {
+    const Pack mass = select(run, p.mass, Pack(0.0));
+    const Pack volume = select(run, p.volume, Pack(0.0));
+    const Pack rr = volume * p.stress_rr, xx = volume * p.stress_xx, tt = volume * p.stress_tt,
+               rx = volume * p.stress_rx;
+    Pack row_mass[3], fx_value[3], fx_slope[3], fr_value[3], fr_slope[3];
+    for (int j = 0; j < 3; ++j) {
+      row_mass[j] = mass * s.radial.value[j];
+      fx_value[j] = -(rx * s.radial.gradient[j]);
+      fx_slope[j] = -(xx * s.radial.value[j]);
+      fr_value[j] = -(rr * s.radial.gradient[j] + tt * s.radial.hoop[j]);
+      fr_slope[j] = -(rx * s.radial.value[j]);
+    }
+    for (int i = 0; i < 3; ++i) {  // outermost, so that overlapping stores are far apart
+      const Pack value = s.axial.value[i], slope = s.axial.gradient[i];
+      for (int j = 0; j < 3; ++j) {
+        const std::ptrdiff_t node = first + j * row + i;
+        const Pack part = row_mass[j] * value;
+        detail::accumulate(node_mass + node, part);
+        detail::accumulate(momentum_x + node, part * p.velocity_x);
+        detail::accumulate(momentum_r + node, part * p.velocity_r);
+        detail::accumulate(force_x + node, fx_value[j] * value + fx_slope[j] * slope);
+        detail::accumulate(force_r + node, fr_value[j] * value + fr_slope[j] * slope);
+      }
+    }
+  });
+}
+
+}  // namespace launchsafe::mpm

@@ -1,0 +1,95 @@
+// What one case came to: the mechanics once, and a skin history for every gap.
+#pragma once
+
+#include "launchsafe/surface/skin.hpp"
+#include "launchsafe/trace/bottom_trace.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::run {
+
+/// How a mechanical run ended. Everything but `completed` makes every verdict on it indeterminate.
+enum class RunStatus {
+  completed,
+  non_finite,
+  energy_drift,
+  time_step_collapse,
+  particles_left_grid,
+  interrupted
+};
+std::string to_string(RunStatus status);
+
+/// Running sums of the energy balance, J (axisymmetric: of the whole shell; plane strain: per metre, half
+/// model).
+struct EnergyBalance {
+  double kinetic = 0;     ///< of the motion relative to the frame, with the scaled inertia
+  double internal = 0;    ///< stress power integrated
+  double external = 0;    ///< work of the chamber pressure
+  double body_force = 0;  ///< work of the accelerating frame's body force (co-moving frame only)
+  double damping = 0;     ///< taken out by damping and by the PIC share
+  double plastic = 0;     ///< dissipated in steel
+  double viscous = 0;     ///< dissipated in the charge's Maxwell elements
+  double crack = 0;       ///< dissipated by crack growth
+  double scale() const;   ///< what drift is measured against, > 0
+  double drift() const;   ///< (kinetic + internal + damping - external - body_force)/scale
+};
+
+/// A row of the monitor history.
+struct MonitorSample {
+  double time = 0;       ///< s
+  double time_step = 0;  ///< s
+  EnergyBalance energy;
+  double largest_plastic_strain = 0;
+  double largest_crack_radius = 0;  ///< m
+  double momentum = 0;              ///< kg m/s, axial, relative to the frame
+};
+
+/// Particle fields at one instant, in particle order.
+struct Snapshot {
+  double time = 0;
+  std::vector<double> x, r, velocity_x, velocity_r, density, pressure, von_mises, temperature, crack_radius,
+      plastic_strain;
+  std::vector<int> body;  ///< index into Scene::bodies
+};
+
+/// On how many particle-steps limiters acted; a verdict that depended on one says so.
+struct LimiterCounts {
+  std::uint64_t crack_at_bound = 0;  ///< a crack was at its largest radius
+  std::uint64_t tension_cutoff = 0;  ///< the charge's tension cut-off acted
+  std::uint64_t hugoniot_guard = 0;  ///< the guard of the Hugoniot pole acted
+};
+
+struct MechanicsResult {
+  RunStatus status = RunStatus::completed;
+  std::string reason;   ///< when and where, if not completed
+  double end_time = 0;  ///< s, reached
+  std::uint64_t steps = 0;
+  std::uint64_t particles = 0;
+  double wall_time = 0;  ///< s
+  double update_rate() const { return wall_time > 0 ? double(steps) * double(particles) / wall_time : 0; }
+  double mass_steel = 0, mass_charge = 0;  ///< kg, summed over the particles
+  trace::BottomTrace trace;
+  std::vector<MonitorSample> monitor;
+  std::vector<Snapshot> snapshots;
+  LimiterCounts limiters;
+};
+
+/// One gap of a case.
+struct GapResult {
+  double gap = 0;  ///< m
+  surface::SkinHistory skin;
+  surface::Maximum at_points;  ///< T_max over the observation points: what verdicts use
+  surface::Maximum anywhere;   ///< over the whole bottom
+  double sampling_error = 0;   ///< K, |T_max - T_max on the thinned trace|
+  bool coupled = false;        ///< integrated inside the mechanics rather than on its trace
+};
+
+struct CaseResult {
+  MechanicsResult mechanics;
+  std::vector<GapResult> gaps;
+};
+
+}  // namespace launchsafe::run

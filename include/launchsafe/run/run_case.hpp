@@ -1,0 +1,38 @@
+// One case: a scene in, a result out. The mechanics runs once and leaves a bottom trace; every gap is
+// integrated on it.
+#pragma once
+
+#include "launchsafe/run/case_result.hpp"
+#include "launchsafe/scene/scene.hpp"
+
+#include <atomic>
+#include <functional>
+
+namespace launchsafe::run {
+
+/// What the caller may watch and steer while a case runs.
+struct RunOptions {
+  /// Set from another thread (or a signal handler) to stop: the run ends within a few steps as `interrupted`.
+  const std::atomic<bool>* stop = nullptr;
+  /// Called a few times a second of wall time from the running thread with the share done, 0..1.
+  std::function<void(double)> progress;
+};
+
+/// Runs the mechanics of a scene over its load's duration and records the bottom trace, the monitors and the
+/// snapshots. Never throws on numerical failure: the status says what happened, and what was recorded until
+/// then is kept. The result depends on the scene alone, bitwise, not on threads or on what else runs.
+MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& options = {});
+
+/// Skin temperatures of one gap (m) on a finished trace, with the trace's sampling error. The scene's surface
+/// and kinetics parameters apply; its own list of gaps does not.
+GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trace, double gap);
+
+/// `run_mechanics` and `evaluate_gap` for each of the scene's gaps.
+CaseResult run_case(const scene::Scene& scene, const RunOptions& options = {});
+
+/// A run of its own with the surface carried inside the mechanics, advanced with every time step: an
+/// independent confirmation of one gap (m). Below ignition it must agree with the traced temperatures to
+/// integration tolerance.
+CaseResult run_coupled(const scene::Scene& scene, double gap, const RunOptions& options = {});
+
+}  // namespace launchsafe::run

@@ -1,0 +1,59 @@
+// What is wrong with an input, as a value: where, what was found, what is allowed, and what was perhaps
+// meant.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace launchsafe::scene {
+
+/// One fault in something a user wrote. Empty strings and zero lines are parts that do not apply.
+struct InputError {
+  std::string file;
+  int line = 0;            ///< from 1
+  int column = 0;          ///< from 1
+  std::string key;         ///< dotted, such as "charge.crack_radius"
+  std::string found;       ///< what stands there
+  std::string allowed;     ///< what may stand there
+  std::string suggestion;  ///< what was perhaps meant, ready to be copied
+
+  /// One line: "scene.toml:12:3: charge.crack_radius: found ...; allowed: ...; did you mean ...?"
+  std::string message() const;
+};
+
+/// A value, or the reason why there is none.
+template <class T, class Error = InputError>
+class Expected {
+ public:
+  Expected(T value) : content_(std::in_place_index<0>, std::move(value)) {}
+  Expected(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
+
+  bool has_value() const { return content_.index() == 0; }
+  explicit operator bool() const { return has_value(); }
+
+  /// Only where has_value().
+  T& value() { return *std::get_if<0>(&content_); }
+  const T& value() const { return *std::get_if<0>(&content_); }
+  T& operator*() { return value(); }
+  const T& operator*() const { return value(); }
+  T* operator->() { return &value(); }
+  const T* operator->() const { return &value(); }
+
+  /// Only where !has_value().
+  const Error& error() const { return *std::get_if<1>(&content_); }
+
+ private:
+  std::variant<T, Error> content_;
+};
+
+/// The candidate nearest to `word` in letters changed, added, dropped or swapped, case ignored; empty if none
+/// is near (more than a third of the letters differ, and more than two of them).
+std::string nearest_of(std::string_view word, const std::vector<std::string>& candidates);
+
+/// `"a", "b" or "c"`.
+std::string quoted_list(const std::vector<std::string>& words);
+
+}  // namespace launchsafe::scene

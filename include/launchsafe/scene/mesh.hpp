@@ -1,0 +1,42 @@
+// How the grid is fitted to the shell, and how many particles a body gets. Pure arithmetic: the plan counts
+// with it and the mechanics builds with it, so both speak of the same mesh.
+#pragma once
+
+#include "launchsafe/scene/scene.hpp"
+
+#include <cstdint>
+
+namespace launchsafe::scene {
+
+/// Cells of the fitted grid. An axial grid line runs through `x_anchor` and a radial one through r = 0 and r
+/// = radius.
+struct Mesh {
+  double dx = 0;        ///< axial cell length, m, at most the nominal cell size
+  double dr = 0;        ///< radial cell length, m, at most the nominal cell size
+  double x_anchor = 0;  ///< the charge bottom; without a charge the base of the scene, m
+  double radius = 0;    ///< outer radius of the scene, m, a whole number of radial cells
+};
+
+/// Particles of one body in each direction, each at least 1. They tile the body exactly, whatever the grid.
+struct ParticleCount {
+  int nx = 0;
+  int nr = 0;
+  std::int64_t total() const { return static_cast<std::int64_t>(nx) * nr; }
+};
+
+/// Smallest whole number of parts no longer than `part` that make up `length`; at least 1. A part that
+/// divides the length up to a relative 1e-9 counts as dividing it.
+int parts_of(double length, double part);
+
+/// The charge (without one, the whole scene) is a whole number of cells long and the outer radius a whole
+/// number of cells wide, none larger than `scene.numerics.cell_size`. Needs at least one body and a cell size
+/// > 0.
+Mesh fit_mesh(const Scene& scene);
+
+/// Particles for `particles_per_cell` >= 1 in each direction: the body's length over the cell's, rounded up.
+ParticleCount particles_of(const Mesh& mesh, const Body& body, int particles_per_cell);
+
+/// Particles of all bodies.
+std::int64_t particle_count(const Scene& scene);
+
+}  // namespace launchsafe::scene

@@ -1,0 +1,71 @@
+// Which physics a scene needs, and why the rest is left out: decided from the scene's own numbers before
+// anything runs.
+#pragma once
+
+#include "launchsafe/scene/scene.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace launchsafe::scene {
+
+/// One term of the physics, in or out.
+struct Term {
+  bool in = false;
+  bool forced = false;  ///< the user decided, not the plan
+  std::string reason;   ///< with the numbers it rests on
+  double value = 0;     ///< what was compared, in the unit that `reason` names
+  double bound = 0;     ///< with what
+};
+
+/// What a case will allocate and execute.
+struct Plan {
+  Term conduction;        ///< grid heat conduction; value and bound: diffusion length over cell size
+  Term bulk_reaction;     ///< Arrhenius heat in the bulk; value and bound: K of self-heating over the run
+  Term air;               ///< the air of the gaps; value: largest gap, m
+  Term cracks;            ///< crack strain in the charge; value: crack radius over flaw size
+  Term crack_growth;      ///< value: largest growth speed, m/s
+  Term crack_friction;    ///< friction of crack faces raises the toughness; value: coefficient
+  Term surface;           ///< skin temperatures of the charge bottom; value: number of gaps
+  Term friction_heat;     ///< value: localisation
+  Term inertial_scaling;  ///< value: the factor
+  Term snapshots;         ///< value: their number
+
+  std::int64_t particles_steel = 0;
+  std::int64_t particles_charge = 0;
+  std::int64_t particles() const { return particles_steel + particles_charge; }
+  std::int64_t cells = 0;  ///< of the fitted grid over the shell at rest
+  double time_step = 0;    ///< s, at rest: CFL h/c_L, times sqrt(inertial_scaling)
+  std::int64_t steps = 0;  ///< duration over time_step; compression stiffens, so a run takes some more
+  double memory = 0;       ///< bytes of particles and grid, estimated
+};
+
+/// Longitudinal sound speed at rest (m/s) of a material of the scene.
+double longitudinal_speed(const Scene& scene, BodyMaterial material);
+/// The largest over the materials the scene has.
+double longitudinal_speed(const Scene& scene);
+
+/// Distance (m) heat diffuses in a material over the load's duration: sqrt(k t/(rho c)).
+double diffusion_length(const Scene& scene, BodyMaterial material);
+
+/// Hydrostatic setback pressure (Pa) at the charge bottom at the load's peak, rho L a of the rigid
+/// projectile; 0 without a charge.
+double setback_pressure(const Scene& scene);
+
+/// Upper bound (K) of the bulk temperature of the charge. With p twice the setback pressure: the initial
+/// temperature, adiabatic compression by p, and the heat of (1 + mu_d) p^2/G, all work of p on the strain p/G
+/// of the slowest Maxwell element and its sliding friction. Localised heat is the surface's matter, not the
+/// bulk's.
+double bulk_temperature_bound(const Scene& scene);
+
+Plan make_plan(const Scene& scene);
+
+/// Seconds of wall time at an update rate (particle updates per second, > 0).
+double predicted_time(const Plan& plan, double update_rate);
+
+/// What `launchsafe explain` prints: masses, load, mesh, what is in and what is left out, and what the run
+/// will cost; the time too where an update rate (particle updates per second) is given.
+std::string to_text(const Plan& plan, const Scene& scene, double update_rate = 0.0);
+
+}  // namespace launchsafe::scene

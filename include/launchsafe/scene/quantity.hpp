@@ -1,0 +1,65 @@
+// Numbers with units, as users write them ("2.5 mm", "0 to 11.8 cm", "0, 0.01, 0.02 cm"), to SI and back.
+#pragma once
+
+#include "launchsafe/scene/input_error.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace launchsafe::scene {
+
+/// What a number measures. `number` is dimensionless, `count` a whole dimensionless number.
+enum class Dimension {
+  number,
+  count,
+  length,
+  time,
+  pressure,
+  temperature,
+  density,
+  speed,
+  frequency,
+  specific_energy,
+  specific_heat,
+  conductivity,
+  toughness
+};
+
+/// "length", "temperature", ... for messages.
+std::string_view name_of(Dimension dimension);
+/// "m", "K", ...; empty for `number` and `count`.
+std::string_view si_unit_of(Dimension dimension);
+/// A value as it is written in a scene, with its quotation marks: `"2.5 mm"`, `0.5`.
+std::string_view example_of(Dimension dimension);
+/// Names of all units of a dimension, the one users commonly write first.
+std::vector<std::string> units_of(Dimension dimension);
+
+/// Why a text is no quantity; the reader that knows the place makes an InputError of it.
+struct QuantityFault {
+  std::string found;
+  std::string allowed;
+  std::string suggestion;
+};
+
+/// One number and its unit: "2.5 mm". The result is the double nearest to the decimal number in SI: "11.8 cm"
+/// is exactly 0.118.
+Expected<double, QuantityFault> parse_quantity(std::string_view text, Dimension dimension);
+
+/// "0 to 11.8 cm" or "0 cm to 118 mm": two numbers, lower first; a number without a unit takes the next
+/// one's.
+Expected<std::vector<double>, QuantityFault> parse_range(std::string_view text, Dimension dimension);
+
+/// "0, 0.01, 0.02 cm": one or more numbers; a number without a unit takes the next one's.
+Expected<std::vector<double>, QuantityFault> parse_list(std::string_view text, Dimension dimension);
+
+/// For people: six digits in the unit that reads best, such as "0.25 cm", "18 ms", "496 MPa".
+std::string format_quantity(double si_value, Dimension dimension);
+/// For programs: the shortest decimal that reads back to the same double, in SI.
+std::string exact_quantity(double si_value, Dimension dimension);
+
+/// A value in a named unit of the dimension ("cm"), as a number; NaN for a unit that the dimension does not
+/// have.
+double in_unit(double si_value, Dimension dimension, std::string_view unit);
+
+}  // namespace launchsafe::scene

@@ -1,0 +1,66 @@
+// A scene from a file: read, completed, validated; changed key by key; listed and written back.
+#pragma once
+
+#include "launchsafe/scene/scene.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace launchsafe::scene {
+
+/// A value that the user gave, and where.
+struct Given {
+  Place place;
+  Value value;
+};
+
+/// A valid scene, and what in it was said rather than assumed.
+struct SceneFile {
+  Scene scene;
+  std::string file;                     ///< as named by the user
+  std::filesystem::path folder;         ///< what relative paths in it start from
+  std::map<std::string, Given> given;   ///< scene keys that the user set
+  std::map<std::string, Place> places;  ///< of "body.<name>.x", "observation_point.<name>.r", ...
+};
+
+/// Reads and validates a scene file; its curve file is read too. Nothing is computed. Never throws.
+Expected<SceneFile> read_scene(const std::filesystem::path& file);
+/// The same from text; `file` is named in errors, and relative paths start from its folder.
+Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& file);
+
+/// The key of a scene by dotted name; for geometry "body.<name>.x" or ".r" of a body that the scene has.
+Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& name, const Place& place);
+
+/// The scene with one key changed, validated anew. Keys that would contradict the new one lose their given
+/// value: setting charge.face_friction drops charge.crack_friction, setting kinetics.set drops the numbers of
+/// the law, ...
+Expected<SceneFile> with_key(const SceneFile& file, const std::string& name, const Value& value,
+                             const Place& place);
+/// The same with the value as written: "0.1 mm", "true", "comp-b". Sweeps and the command line use it.
+Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& name, std::string_view written,
+                                     const Place& place);
+
+/// One key of a scene with its value.
+struct ListedKey {
+  std::string name;
+  std::string value;  ///< as people read it
+  Standing standing;  ///< `input` where the user gave it
+  std::string sentence;
+  Place place;  ///< where the user gave it
+};
+std::vector<ListedKey> list_keys(const SceneFile& file);
+
+/// The whole scene as TOML in SI, every key written, measured curves included: reads back to exactly the same
+/// scene. Equal texts are equal scenes, whatever file they came from.
+std::string to_toml(const Scene& scene);
+
+/// The first fault that makes a scene unfit to compute, if any (see the places of the file for where).
+std::optional<InputError> validate(const SceneFile& file);
+
+}  // namespace launchsafe::scene

@@ -1,0 +1,159 @@
+// One launch, as plain values in SI units: what is simulated and how. Reading it from a file is in
+// `read_scene.hpp`.
+#pragma once
+
+#include "launchsafe/materials/ideal_gas.hpp"
+#include "launchsafe/materials/johnson_cook.hpp"
+#include "launchsafe/materials/jwl.hpp"
+#include "launchsafe/materials/kinetics.hpp"
+#include "launchsafe/materials/mie_gruneisen.hpp"
+#include "launchsafe/materials/visco_scram.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::scene {
+
+enum class Symmetry { axisymmetric, plane_strain };
+enum class Frame { co_moving, lab };
+enum class Barrel { rigid, none };
+enum class BodyMaterial { steel, charge };
+/// auto: the plan decides from the scene's own numbers.
+enum class Switch { automatic, on, off };
+enum class FrictionClosure { literal, inelastic, none };
+enum class AirPressure { charge_bottom, chamber };
+enum class AirModel { reservoir, balance };
+enum class Exchange { rate, per_step };
+
+/// A rectangle of one material in the (x, r) half plane; x grows from nose to base. Lengths in m.
+struct Body {
+  std::string name;
+  BodyMaterial material = BodyMaterial::steel;
+  double x_begin = 0, x_end = 0;
+  double r_begin = 0, r_end = 0;
+};
+
+/// Pressure on the base. Either the analytic shape p0 + (peak - p0) ((t/tm) exp(1 - t/tm))^n or a measured
+/// curve.
+struct Load {
+  double duration = 18e-3;             ///< s
+  double peak = 496e6;                 ///< Pa
+  double base = 101325.0;              ///< p0, Pa
+  double peak_time = 11e-3;            ///< t_m, s
+  double exponent = 12.0;              ///< n
+  std::string curve_file;              ///< as the user wrote it
+  std::vector<double> curve_time;      ///< s, increasing; empty for the analytic shape
+  std::vector<double> curve_pressure;  ///< Pa, one for every time
+  bool rescale_to_peak = false;        ///< scale the measured curve so that its maximum is `peak`
+};
+
+struct Steel {
+  materials::MieGruneisenParameters eos;
+  materials::JohnsonCookParameters strength;
+};
+
+struct Charge {
+  materials::ViscoScramParameters cracks;
+  materials::JwlParameters eos = materials::unreacted_composition_b();
+  double tension_cutoff = 5e6;     ///< Pa, > 0: the pressure never falls below -cutoff
+  double specific_heat = 1780.0;   ///< J/(kg K)
+  double conductivity = 0.246;     ///< W/(m K)
+  double sliding_friction = 0.24;  ///< mu_d
+  materials::KineticsParameters kinetics;
+};
+
+/// The bottom gap, its air and the skin of the charge (model section 6).
+struct Surface {
+  std::vector<double> gaps{0.0};  ///< m
+  materials::AirParameters air;
+  AirPressure air_pressure = AirPressure::charge_bottom;
+  AirModel air_model = AirModel::reservoir;
+  Exchange exchange = Exchange::rate;
+  double skin_thickness = 1e-4;   ///< h_ex, m
+  double exchange_time = 3.6e-4;  ///< tau_ex, s [C]
+  FrictionClosure friction = FrictionClosure::literal;
+  double localisation = 300.0;  ///< [C]
+};
+
+struct Numerics {
+  double cell_size = 2.5e-3;         ///< nominal, m; fitted to the shell (see mpm::fit_grid)
+  int particles_per_cell = 1;        ///< in each direction
+  double time_step_factor = 0.4;     ///< CFL
+  double inertial_scaling = 1.0;     ///< s >= 1
+  double damping_time = 0.0;         ///< s; decay time of the relative velocity, 0 = no damping
+  double pic_fraction = 0.0;         ///< share of PIC in the velocity update, 0 = pure FLIP
+  double energy_drift_limit = 0.05;  ///< of the energy scale; past it the run is stopped and indeterminate
+};
+
+struct ObservationPoint {
+  std::string name;
+  double x = 0, r = 0;  ///< m
+};
+
+struct Output {
+  double trace_interval = 2e-5;  ///< s
+  std::vector<ObservationPoint> observation_points;
+  std::vector<double> snapshot_times;  ///< s; full particle fields written at these times
+};
+
+struct Physics {
+  Switch conduction = Switch::automatic;     ///< grid heat conduction
+  Switch bulk_reaction = Switch::automatic;  ///< Arrhenius heat in the bulk of the charge
+  /// Temperature or pressure shares below which a term is left out.
+  double conduction_bound = 0.05;  ///< diffusion length over cell size
+  double reaction_bound = 0.1;     ///< K of self-heating over the run
+};
+
+struct Scene {
+  std::string title;
+  Symmetry symmetry = Symmetry::axisymmetric;
+  Frame frame = Frame::co_moving;
+  Barrel barrel = Barrel::rigid;
+  double initial_temperature = 300.0;  ///< K
+  std::vector<Body> bodies;
+  Load load;
+  Steel steel;
+  Charge charge;
+  Surface surface;
+  Numerics numerics;
+  Output output;
+  Physics physics;
+};
+
+/// The smallest rectangle around all bodies of a material (or all bodies).
+struct Extent {
+  double x_begin = 0, x_end = 0, r_begin = 0, r_end = 0;
+};
+Extent extent_of(const Scene& scene);
+Extent extent_of(const Scene& scene, BodyMaterial material);
+
+/// Masses in kg (axisymmetric: of the whole shell; plane strain: per metre of depth, half model).
+double mass_of(const Scene& scene, BodyMaterial material);
+double total_mass(const Scene& scene);
+/// Area of the loaded base face (m2; plane strain: m2 per metre of depth, half model).
+double base_area(const Scene& scene);
+
+/// Axial acceleration (m/s2) of the whole projectile as one rigid body under a pressure (Pa) on its base.
+double rigid_acceleration(const Scene& scene, double pressure);
+
+bool has_material(const Scene& scene, BodyMaterial material);
+
+/// Chamber pressure (Pa) on the base at time t (s); monotone cubic (PCHIP) through a measured curve of at
+/// least two points at increasing times, held constant outside it. Curves of two or three points are joined
+/// by straight lines.
+class PressureHistory {
+ public:
+  explicit PressureHistory(const Load& load);
+  double at(double time) const;
+  /// Largest pressure over the load's duration, Pa.
+  double peak() const;
+
+ private:
+  Load load_;
+  std::function<double(double)>
+      curve_;  ///< between the first and the last point; empty for the analytic shape
+  double scale_ = 1.0;
+};
+
+}  // namespace launchsafe::scene

@@ -1,0 +1,29 @@
+// Every key of a scene file: name, dimension, range, default, standing and meaning, bound to the member of
+// the Scene that it fills. This is the only list: reading, documenting, sweeping and storing scenes all go
+// through it.
+#pragma once
+
+#include "launchsafe/scene/scene.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
+
+#include <string>
+#include <vector>
+
+namespace launchsafe::scene {
+
+/// Keys of the scene itself, in the order in which they are applied.
+const std::vector<Key<Scene>>& scene_keys();
+/// Keys of one [[body]].
+const std::vector<Key<Body>>& body_keys();
+/// Keys of one [[observation_point]].
+const std::vector<Key<ObservationPoint>>& observation_point_keys();
+
+/// A key and its default as people read it; an empty default for a key that must be given.
+struct DocumentedKey {
+  KeyDescription description;
+  std::string default_text;
+};
+/// All keys of a scene file, those of bodies and observation points as "body.x" and "observation_point.x".
+std::vector<DocumentedKey> describe_keys();
+
+}  // namespace launchsafe::scene

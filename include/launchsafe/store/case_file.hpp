@@ -1,0 +1,36 @@
+// One result file a case: HDF5 with units on every dataset, whole or not there, never silently replaced.
+//
+// The first 512 bytes are an HDF5 user block that holds, as text, the length and the SHA-256 of what follows.
+// They are checked before HDF5 sees a byte, so that no damage can be read as a result.
+#pragma once
+
+#include "launchsafe/run/case_result.hpp"
+#include "launchsafe/scene/scene.hpp"
+#include "launchsafe/store/manifest.hpp"
+#include "launchsafe/store/result.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace launchsafe::store {
+
+/// Writes a case file at `path` and, when there are snapshots, `path` with the extension .xdmf beside it, by
+/// which ParaView opens the particles as a time series. Never overwrites a different result: a file with
+/// another input hash at `path` is a conflict. Errors: failed (a result whose arrays do not fit together),
+/// conflict, corrupt (something at `path` that is no case file), write_failed.
+MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene& scene,
+                           const run::CaseResult& result, const Manifest& manifest);
+
+struct StoredCase {
+  Manifest manifest;
+  std::string title;  ///< of the scene
+  run::CaseResult result;
+};
+
+/// All that `write_case_file` was given but the scene, bit by bit. Errors: missing, unreadable, corrupt.
+Result<StoredCase> read_case_file(const std::filesystem::path& path);
+
+/// The manifest alone; the whole file is checked all the same. Errors: missing, unreadable, corrupt.
+Result<Manifest> read_manifest(const std::filesystem::path& path);
+
+}  // namespace launchsafe::store

@@ -1,0 +1,239 @@
+#include "launchsafe/report/table.hpp"
+
+#include "launchsafe/report/number.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+
+namespace launchsafe::report {
+namespace {
+
+const Cell& cell_at(const std::vector<Cell>& row, std::size_t column) {
+  static const Cell nothing;
+  return column < row.size() ? row[column] : nothing;
+}
+
+std::string rounded(double value, const Column& column) {
+  switch (column.notation) {
+    case Notation::scientific:
+      return scientific(value, column.decimals);
+    case Notation::significant:
+      return significant(value, column.decimals);
+    case Notation::fixed:
+      break;
+  }
+  return fixed(value, column.decimals);
+}
+
+/// For people.
+std::string shown(const Cell& cell, const Column& column) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* number = std::get_if<double>(&cell)) return rounded(*number, column);
+  if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
+  return {};
+}
+
+std::string heading(const Column& column) {
+  return column.unit.empty() ? column.name : column.name + " [" + column.unit + "]";
+}
+
+std::string padded(const std::string& text, std::size_t width, Alignment alignment) {
+  const std::string fill(width - std::min(width, display_width(text)), ' ');
+  return alignment == Alignment::left ? text + fill : fill + text;
+}
+
+using Grid = std::vector<std::vector<std::string>>;
+
+/// All cells as text, the headings first.
+template <class Escape>
+Grid grid_of(const Table& table, Escape escape) {
+  Grid grid(1);
+  for (const Column& column : table.columns) grid.front().push_back(escape(heading(column)));
+  for (const auto& row : table.rows) {
+    auto& line = grid.emplace_back();
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      line.push_back(escape(shown(cell_at(row, i), table.columns[i])));
+    }
+  }
+  return grid;
+}
+
+std::vector<std::size_t> widths_of(const Grid& grid, std::size_t smallest) {
+  std::vector<std::size_t> widths(grid.front().size(), smallest);
+  for (const auto& line : grid) {
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], display_width(line[i]));
+  }
+  return widths;
+}
+
+std::string on_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return text;
+}
+
+std::string text_line(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
+                      const std::vector<Column>& columns) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    line += (i > 0 ? "  " : "") + padded(cells[i], widths[i], columns[i].alignment);
+  }
+  return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+}
+
+std::string markdown_escaped(const std::string& text) {
+  constexpr std::string_view markup = "\\|*_`<>[]#~";
+  std::string escaped;
+  for (const char character : text) {
+    if (markup.find(character) != std::string_view::npos) escaped += '\\';
+    if (character == '&') {
+      escaped += "&amp;";
+    } else if (character == '\n') {
+      escaped += "<br>";
+    } else if (character != '\r') {
+      escaped += character;
+    }
+  }
+  return escaped;
+}
+
+std::string markdown_line(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
+                          const std::vector<Column>& columns) {
+  std::string line = "|";
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    line += " " + padded(cells[i], widths[i], columns[i].alignment) + " |";
+  return line + "\n";
+}
+
+std::string markdown_rule(const std::vector<std::size_t>& widths, const std::vector<Column>& columns) {
+  std::string line = "|";
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    line += columns[i].alignment == Alignment::right ? " " + std::string(widths[i] - 1, '-') + ": |"
+                                                     : " " + std::string(widths[i], '-') + " |";
+  }
+  return line + "\n";
+}
+
+std::string csv_quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos && !text.starts_with(' ') && !text.ends_with(' '))
+    return text;
+  std::string quoted = "\"";
+  for (const char character : text) {
+    if (character == '"') quoted += '"';
+    quoted += character;
+  }
+  return quoted + "\"";
+}
+
+std::string csv_cell(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return csv_quoted(*text);
+  if (const auto* number = std::get_if<double>(&cell)) return exact(*number);
+  if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
+  return {};
+}
+
+nlohmann::ordered_json json_cell(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* count = std::get_if<std::int64_t>(&cell)) return *count;
+  const auto* number = std::get_if<double>(&cell);
+  return number != nullptr && std::isfinite(*number) ? nlohmann::ordered_json(*number) : nullptr;
+}
+
+std::string key_of(const Column& column) {
+  if (!column.key.empty()) return column.key;
+  std::string key;
+  for (const char character : column.name + (column.unit.empty() ? "" : " " + column.unit)) {
+    const auto byte = static_cast<unsigned char>(character);
+    if (byte == '%') {
+      key += "percent";
+    } else if (std::isalnum(byte) != 0) {
+      key += static_cast<char>(std::tolower(byte));
+    } else if (!key.empty() && key.back() != '_') {
+      key += '_';
+    }
+  }
+  key.resize(key.find_last_not_of('_') + 1);
+  return key.empty() ? "column" : key;
+}
+
+}  // namespace
+
+Column text_column(std::string name) {
+  Column column;
+  column.name = std::move(name);
+  column.alignment = Alignment::left;
+  return column;
+}
+
+std::vector<std::string> keys_of(const Table& table) {
+  std::vector<std::string> keys;
+  for (const Column& column : table.columns) {
+    const std::string wanted = key_of(column);
+    std::string key = wanted;
+    for (int number = 2; std::find(keys.begin(), keys.end(), key) != keys.end(); ++number) {
+      key = wanted + "_" + std::to_string(number);
+    }
+    keys.push_back(key);
+  }
+  return keys;
+}
+
+std::string to_text(const Table& table) {
+  const Grid grid = grid_of(table, on_one_line);
+  const auto widths = widths_of(grid, 1);
+  std::string text = table.title.empty() ? "" : table.title + "\n\n";
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    text += text_line(grid[i], widths, table.columns);
+    if (i > 0) continue;
+    std::vector<std::string> rules;
+    for (const std::size_t width : widths) rules.emplace_back(width, '-');
+    text += text_line(rules, widths, table.columns);
+  }
+  for (std::size_t i = 0; i < table.notes.size(); ++i) text += (i == 0 ? "\n" : "") + table.notes[i] + "\n";
+  return text;
+}
+
+std::string to_markdown(const Table& table) {
+  const Grid grid = grid_of(table, markdown_escaped);
+  const auto widths = widths_of(grid, 3);
+  std::string text = table.title.empty() ? "" : "**" + markdown_escaped(table.title) + "**\n\n";
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    text += markdown_line(grid[i], widths, table.columns);
+    if (i == 0) text += markdown_rule(widths, table.columns);
+  }
+  for (const std::string& note : table.notes) text += "\n" + markdown_escaped(note) + "\n";
+  return text;
+}
+
+std::string to_csv(const Table& table) {
+  std::string text;
+  const auto keys = keys_of(table);
+  for (std::size_t i = 0; i < keys.size(); ++i) text += (i > 0 ? "," : "") + csv_quoted(keys[i]);
+  text += "\r\n";
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < keys.size(); ++i) text += (i > 0 ? "," : "") + csv_cell(cell_at(row, i));
+    text += "\r\n";
+  }
+  return text;
+}
+
+nlohmann::ordered_json to_json(const Table& table) {
+  const auto keys = keys_of(table);
+  auto columns = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    columns.push_back({{"key", keys[i]}, {"name", table.columns[i].name}, {"unit", table.columns[i].unit}});
+  }
+  auto rows = nlohmann::ordered_json::array();
+  for (const auto& row : table.rows) {
+    auto object = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < keys.size(); ++i) object[keys[i]] = json_cell(cell_at(row, i));
+    rows.push_back(std::move(object));
+  }
+  return {{"title", table.title}, {"columns", std::move(columns)}, {"rows", std::move(rows)}};
+}
+
+}  // namespace launchsafe::report

@@ -1,0 +1,31 @@
+// Temperatures in the bulk of the charge, and grid conduction: what the mechanics does not need at every
+// step.
+#pragma once
+
+#include "launchsafe/mpm/simulation.hpp"
+#include "launchsafe/scene/plan.hpp"
+
+#include <vector>
+
+namespace launchsafe::run {
+
+/// Advances the particle temperatures from one trace sample to the next, with the terms that the scene's plan
+/// keeps. The bulk takes friction heat with factor 1; localised heat belongs to the sliding layers (model
+/// section 5).
+class BulkHeat {
+ public:
+  explicit BulkHeat(const mpm::Simulation& simulation);
+  void advance_to(mpm::Simulation& simulation, double time);
+
+ private:
+  void add_friction(mpm::ChargeBody& charge, math::AlignedArray& before) const;
+  void react(mpm::ChargeBody& charge, double dt) const;
+
+  scene::Charge charge_;
+  std::size_t closure_;
+  bool reaction_, conduction_;
+  std::vector<math::AlignedArray> friction_before_;  ///< J/m3, by charge body
+  double time_ = 0;
+};
+
+}  // namespace launchsafe::run

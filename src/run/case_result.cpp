@@ -1,0 +1,35 @@
+#include "launchsafe/run/case_result.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::run {
+
+std::string to_string(RunStatus status) {
+  switch (status) {
+    case RunStatus::completed:
+      return "completed";
+    case RunStatus::non_finite:
+      return "non-finite";
+    case RunStatus::energy_drift:
+      return "energy drift";
+    case RunStatus::time_step_collapse:
+      return "time step collapse";
+    case RunStatus::particles_left_grid:
+      return "particles left the grid";
+    case RunStatus::interrupted:
+      return "interrupted";
+  }
+  return "unknown";
+}
+
+double EnergyBalance::scale() const {
+  return std::max({std::abs(kinetic) + std::abs(internal) + std::abs(damping),
+                   std::abs(external) + std::abs(body_force), 1e-300});
+}
+
+double EnergyBalance::drift() const {
+  return (kinetic + internal + damping - external - body_force) / scale();
+}
+
+}  // namespace launchsafe::run

@@ -1,0 +1,33 @@
+// Watches a running simulation: energy balance, extremes, and whether it can still be believed.
+#pragma once
+
+#include "launchsafe/mpm/simulation.hpp"
+#include "launchsafe/run/case_result.hpp"
+
+#include <optional>
+#include <string>
+
+namespace launchsafe::run {
+
+/// The energy balance of the present state, in J of the whole shell (plane strain: per metre).
+EnergyBalance energy_of(const mpm::Simulation& simulation);
+MonitorSample monitor_sample(const mpm::Simulation& simulation, double time_step);
+Snapshot take_snapshot(const mpm::Simulation& simulation);
+LimiterCounts count_limited(const mpm::Simulation& simulation);
+
+struct Stop {
+  RunStatus status;
+  std::string reason;
+};
+
+/// Elastic energy (J) that the bodies would hold under a hundredth of the load's peak: drift is not judged on less. The
+/// leapfrog's velocities lie half a step after its stresses, which shows in the balance while the first wave of a step
+/// load crosses its first cells.
+double least_judged_energy(const scene::Scene& scene);
+
+/// Why the run has to stop now, if it has to. `largest_energy` is the largest energy scale seen so far (J):
+/// drift is measured against it, so that the small energies of unloading do not magnify round-off.
+std::optional<Stop> reason_to_stop(const mpm::Simulation& simulation, const EnergyBalance& energy,
+                                   double largest_energy, double drift_limit);
+
+}  // namespace launchsafe::run

@@ -1,0 +1,259 @@
+#include "launchsafe/run/run_case.hpp"
+
+#include "bulk_heat.hpp"
+#include "flush_denormals.hpp"
+#include "monitor.hpp"
+#include "trace_recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::run {
+namespace {
+
+/// Steps between two looks at the stable time step, the stop flag and the energy balance.
+constexpr std::uint64_t steps_per_check = 16;
+/// A step shorter than this share of the first one means that the state has blown up.
+constexpr double collapse_share = 1e-3;
+constexpr std::uint64_t monitor_samples = 500;
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Skin temperatures advanced with the mechanics, for one gap.
+class CoupledSurface {
+ public:
+  CoupledSurface(const scene::Scene& scene, double gap, const TraceRecorder& recorder)
+      : model_(surface::skin_model(scene)), closure_(static_cast<std::size_t>(scene.surface.friction)) {
+    history_.gap = gap;
+    const auto& stations = recorder.trace().stations;
+    points_.assign(stations.size(), surface::SkinPoint{model_.initial_temperature});
+    friction_.assign(stations.size(), 0.0);
+    air_pressure_ = pressure_of(recorder, scene.load.base);
+    record(recorder);
+  }
+
+  void advance(const mpm::Simulation& simulation, const TraceRecorder& recorder, double dt) {
+    const double begin = materials::adiabatic_temperature(model_.surface.air, air_pressure_);
+    air_pressure_ = pressure_of(recorder, simulation.chamber_pressure());
+    const double end = materials::adiabatic_temperature(model_.surface.air, air_pressure_);
+    const auto& stations = recorder.trace().stations;
+    for (std::size_t s = 0; s < points_.size(); ++s) {
+      const bool was_ignited = points_[s].ignited;
+      points_[s] = surface::advance_skin(model_, history_.gap, points_[s], dt, begin, end,
+                                         heating(simulation, recorder, s, dt));
+      if (points_[s].ignited && !was_ignited)
+        note_ignition(stations[s].observation, s, simulation.time() - dt + points_[s].ignition_time);
+    }
+  }
+
+  void record(const TraceRecorder& recorder) {
+    history_.time.push_back(recorder.trace().time.back());
+    history_.air_temperature.push_back(materials::adiabatic_temperature(model_.surface.air, air_pressure_));
+    for (const surface::SkinPoint& point : points_) history_.temperature.push_back(point.temperature);
+  }
+
+  surface::SkinHistory take() { return std::move(history_); }
+
+ private:
+  double pressure_of(const TraceRecorder& recorder, double chamber) const {
+    return model_.surface.air_pressure == scene::AirPressure::chamber ? chamber : recorder.bottom_pressure();
+  }
+  double heating(const mpm::Simulation& simulation, const TraceRecorder& recorder, std::size_t s, double dt) {
+    if (closure_ >= trace::traced_closures) return 0.0;
+    const double before = friction_[s];
+    friction_[s] = recorder.friction(simulation, closure_, s);
+    return (friction_[s] - before) * model_.surface.localisation /
+           (model_.charge_density * model_.specific_heat * dt);
+  }
+  void note_ignition(bool observation, std::size_t station, double time) {
+    const double share = points_[station].chemical_share;
+    const auto cause = share > 0.5 ? surface::IgnitionCause::arrhenius : surface::IgnitionCause::trigger;
+    const surface::Ignition ignition{time, station, cause, share};
+    if (!history_.ignition_anywhere) history_.ignition_anywhere = ignition;
+    if (observation && !history_.ignition) history_.ignition = ignition;
+  }
+
+  surface::SkinModel model_;
+  std::size_t closure_;
+  surface::SkinHistory history_;
+  std::vector<surface::SkinPoint> points_;
+  std::vector<double> friction_;
+  double air_pressure_ = 0;
+};
+
+/// One mechanical run, with a surface carried along where one is given a gap.
+class Runner {
+ public:
+  Runner(const scene::Scene& scene, const RunOptions& options, std::optional<double> coupled_gap)
+      : options_(options),
+        simulation_(scene),
+        recorder_(simulation_, simulation_.scene()),
+        heat_(simulation_) {
+    if (coupled_gap) surface_.emplace(simulation_.scene(), *coupled_gap, recorder_);
+    result_.particles = simulation_.particles();
+    simulation_.for_each_body([&](const mpm::Kinematics& p) {
+      const bool steel =
+          scene.bodies[static_cast<std::size_t>(p.body)].material == scene::BodyMaterial::steel;
+      (steel ? result_.mass_steel : result_.mass_charge) += mpm::mass_of(p, scene.symmetry);
+    });
+  }
+
+  MechanicsResult run() {
+    const FlushDenormals flush;
+    const double duration = simulation_.scene().load.duration;
+    const double first_step = simulation_.stable_time_step();
+    double time_step = first_step;
+    take_monitor_sample(time_step);
+    while (!finished() && result_.status == RunStatus::completed) {
+      if (result_.steps % steps_per_check == 0) {
+        time_step = simulation_.stable_time_step();
+        check(time_step, first_step);
+        if (result_.status != RunStatus::completed) break;
+      }
+      // The last step ends on the duration; the one before shares what is left, so that neither is tiny.
+      const double remaining = duration - simulation_.time();
+      advance(remaining <= time_step ? remaining : std::min(time_step, 0.5 * remaining));
+    }
+    take_monitor_sample(time_step);
+    if (result_.status == RunStatus::completed) check_energy(energy_of(simulation_));
+    result_.end_time = simulation_.time();
+    result_.limiters = count_limited(simulation_);
+    result_.wall_time = seconds_since(start_);
+    result_.trace = recorder_.take();
+    return std::move(result_);
+  }
+
+  surface::SkinHistory take_skin() { return surface_->take(); }
+
+ private:
+  void advance(double dt) {
+    const scene::Scene& scene = simulation_.scene();
+    simulation_.step(dt);
+    ++result_.steps;
+    recorder_.accumulate(simulation_, dt);
+    if (surface_) surface_->advance(simulation_, recorder_, dt);
+    const double time = simulation_.time();
+    const bool last = finished();
+    if (time >= next_sample_ || last) {
+      recorder_.sample(simulation_);
+      if (surface_) surface_->record(recorder_);
+      heat_.advance_to(simulation_, time);
+      while (next_sample_ <= time) next_sample_ += scene.output.trace_interval;
+    }
+    while (next_snapshot_ < scene.output.snapshot_times.size() &&
+           time >= scene.output.snapshot_times[next_snapshot_]) {
+      result_.snapshots.push_back(take_snapshot(simulation_));
+      ++next_snapshot_;
+    }
+    if (time >= next_monitor_ && !last) take_monitor_sample(dt);
+  }
+
+  bool finished() const {
+    const double duration = simulation_.scene().load.duration;
+    return duration - simulation_.time() <= 1e-12 * duration;
+  }
+
+  void check(double time_step, double first_step) {
+    if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed))
+      return stop(
+          {RunStatus::interrupted, fmt::format("stopped at t = {:.6g} ms", 1e3 * simulation_.time())});
+    if (std::isfinite(time_step) && time_step < collapse_share * first_step)
+      return stop({RunStatus::time_step_collapse,
+                   fmt::format("at t = {:.6g} ms: the stable time step fell from {:.3g} s to {:.3g} s",
+                               1e3 * simulation_.time(), first_step, time_step)});
+    check_energy(energy_of(simulation_));
+    if (options_.progress && seconds_since(last_report_) > 0.25) {
+      last_report_ = Clock::now();
+      options_.progress(simulation_.time() / simulation_.scene().load.duration);
+    }
+  }
+
+  void check_energy(const EnergyBalance& energy) {
+    largest_energy_ = std::max(largest_energy_, energy.scale());
+    if (const auto reason = reason_to_stop(simulation_, energy, largest_energy_,
+                                           simulation_.scene().numerics.energy_drift_limit))
+      stop(*reason);
+  }
+
+  void stop(const Stop& why) {
+    result_.status = why.status;
+    result_.reason = why.reason;
+  }
+
+  void take_monitor_sample(double time_step) {
+    result_.monitor.push_back(monitor_sample(simulation_, time_step));
+    next_monitor_ =
+        simulation_.time() + simulation_.scene().load.duration / static_cast<double>(monitor_samples);
+  }
+
+  RunOptions options_;
+  mpm::Simulation simulation_;
+  TraceRecorder recorder_;
+  BulkHeat heat_;
+  std::optional<CoupledSurface> surface_;
+  MechanicsResult result_;
+  Clock::time_point start_ = Clock::now(), last_report_ = start_;
+  double next_sample_ = simulation_.scene().output.trace_interval;
+  double next_monitor_ = 0;
+  std::size_t next_snapshot_ = 0;
+  double largest_energy_ = least_judged_energy(simulation_.scene());
+};
+
+GapResult gap_result(surface::SkinHistory skin, const trace::BottomTrace& trace) {
+  GapResult result;
+  result.gap = skin.gap;
+  result.at_points = surface::maximum_at_observation_points(skin, trace);
+  result.anywhere = surface::maximum_anywhere(skin);
+  result.skin = std::move(skin);
+  return result;
+}
+
+}  // namespace
+
+MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& options) {
+  return Runner(scene, options, std::nullopt).run();
+}
+
+GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trace, double gap) {
+  const surface::SkinModel model = surface::skin_model(scene);
+  GapResult result = gap_result(surface::integrate_skin(model, trace, gap), trace);
+  const trace::BottomTrace coarse = trace::thinned(trace);
+  const auto coarse_maximum =
+      surface::maximum_at_observation_points(surface::integrate_skin(model, coarse, gap), coarse);
+  result.sampling_error = std::abs(result.at_points.temperature - coarse_maximum.temperature);
+  return result;
+}
+
+CaseResult run_case(const scene::Scene& scene, const RunOptions& options) {
+  CaseResult result;
+  result.mechanics = run_mechanics(scene, options);
+  if (scene::has_material(scene, scene::BodyMaterial::charge))
+    for (const double gap : scene.surface.gaps)
+      result.gaps.push_back(evaluate_gap(scene, result.mechanics.trace, gap));
+  return result;
+}
+
+CaseResult run_coupled(const scene::Scene& scene, double gap, const RunOptions& options) {
+  CaseResult result;
+  if (scene.surface.air_model == scene::AirModel::balance) {
+    // The air's balance couples all stations; it is integrated on a trace with a sample every few steps.
+    scene::Scene fine = scene;
+    fine.output.trace_interval = 8.0 * mpm::Simulation(scene).stable_time_step();
+    result.mechanics = run_mechanics(fine, options);
+    result.gaps.push_back(evaluate_gap(fine, result.mechanics.trace, gap));
+  } else {
+    Runner runner(scene, options, gap);
+    result.mechanics = runner.run();
+    result.gaps.push_back(gap_result(runner.take_skin(), result.mechanics.trace));
+  }
+  result.gaps.back().coupled = true;
+  return result;
+}
+
+}  // namespace launchsafe::run

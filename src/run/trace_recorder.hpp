@@ -1,0 +1,49 @@
+// Records the bottom trace of a running simulation.
+#pragma once
+
+#include "launchsafe/mpm/simulation.hpp"
+#include "launchsafe/trace/bottom_trace.hpp"
+
+#include <vector>
+
+namespace launchsafe::run {
+
+/// Stations are the particles of the charge's bottom row and the scene's observation points. A scene without
+/// a charge has no stations, and its trace holds the chamber pressure only.
+class TraceRecorder {
+ public:
+  TraceRecorder(const mpm::Simulation& simulation, const scene::Scene& scene);
+
+  /// Takes in the step that has just been done (its end state; dt in s).
+  void accumulate(const mpm::Simulation& simulation, double dt);
+  /// Appends a sample of the present state and starts the next interval.
+  void sample(const mpm::Simulation& simulation);
+
+  double bottom_pressure() const { return bottom_pressure_; }  ///< Pa, at the present state
+  /// Friction energy since the start at a station, J/m3, by closure index.
+  double friction(const mpm::Simulation& simulation, std::size_t closure, std::size_t station) const;
+  const trace::BottomTrace& trace() const { return trace_; }
+  trace::BottomTrace take() { return std::move(trace_); }
+
+ private:
+  /// A particle of the bottom with a weight: its area for the mean pressure, its share for a station.
+  struct Share {
+    std::size_t charge;  ///< index into Simulation::charges()
+    std::size_t slot;
+    double weight;
+  };
+  void add_bottom_row(const mpm::Simulation& simulation, const scene::Scene& scene, std::size_t charge);
+  void add_observation_point(const mpm::Simulation& simulation, const scene::ObservationPoint& point);
+  double measure_bottom_pressure(const mpm::Simulation& simulation) const;
+
+  trace::BottomTrace trace_;
+  std::vector<Share> bottom_;                          ///< weights sum to 1
+  std::vector<std::vector<Share>> shares_;             ///< by station
+  double floor_ = 0;                                   ///< Pa: the air's initial pressure
+  double bottom_pressure_ = 0, chamber_pressure_ = 0;  ///< Pa, at the present state
+  double bottom_integral_ = 0, chamber_integral_ = 0;  ///< Pa s, over the present interval
+  double interval_begin_ = 0;                          ///< s
+  double steps_ = 0;
+};
+
+}  // namespace launchsafe::run

@@ -1,0 +1,140 @@
+// How keys and their values are written, for people and for programs.
+#include "launchsafe/scene/toml_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace launchsafe::scene {
+namespace {
+
+std::string limits_text(const KeyDescription& key) {
+  const Limits& limits = key.limits;
+  const auto shown = [&](double value) { return format_quantity(value, key.dimension); };
+  const bool low = std::isfinite(limits.lowest), high = std::isfinite(limits.highest);
+  if (low && high) {
+    return fmt::format(", {} {}to {}{}", shown(limits.lowest), limits.lowest_allowed ? "" : "(excluded) ",
+                       shown(limits.highest), limits.highest_allowed ? "" : " (excluded)");
+  }
+  if (low)
+    return fmt::format(", {}{}", limits.lowest_allowed ? "at least " : "more than ", shown(limits.lowest));
+  if (high)
+    return fmt::format(", {}{}", limits.highest_allowed ? "at most " : "less than ", shown(limits.highest));
+  return {};
+}
+
+/// A unit of the dimension with a blank before it, or nothing.
+std::string first_unit(Dimension dimension) {
+  const auto units = units_of(dimension);
+  return units.empty() ? std::string{} : " " + units.front();
+}
+
+}  // namespace
+
+std::string_view letter_of(Standing standing) {
+  switch (standing) {
+    case Standing::input:
+      return "input";
+    case Standing::paper:
+      return "P";
+    case Standing::literature:
+      return "L";
+    case Standing::derived:
+      return "D";
+    case Standing::assumed:
+      return "A";
+    case Standing::calibrated:
+      return "C";
+  }
+  return {};
+}
+
+std::string_view meaning_of(Standing standing) {
+  switch (standing) {
+    case Standing::input:
+      return "given in the file";
+    case Standing::paper:
+      return "stated in the paper";
+    case Standing::literature:
+      return "literature";
+    case Standing::derived:
+      return "derived";
+    case Standing::assumed:
+      return "assumed";
+    case Standing::calibrated:
+      return "calibrated";
+  }
+  return {};
+}
+
+bool Limits::contain(double value) const {
+  const bool above_lowest = lowest_allowed ? value >= lowest : value > lowest;
+  const bool below_highest = highest_allowed ? value <= highest : value < highest;
+  return above_lowest && below_highest;
+}
+
+std::string allowed_text(const KeyDescription& key) {
+  const std::string_view name = name_of(key.dimension);
+  const std::string limits = limits_text(key);
+  switch (key.kind) {
+    case KeyKind::flag:
+      return "true or false";
+    case KeyKind::word:
+      return quoted_list(key.words);
+    case KeyKind::text:
+      return "a text in quotation marks";
+    case KeyKind::number: {
+      std::string text = fmt::format("a {}{}, such as {}", name, limits, example_of(key.dimension));
+      const auto units = units_of(key.dimension);
+      if (!units.empty()) text += fmt::format(" (units: {})", fmt::join(units, ", "));
+      return text;
+    }
+    case KeyKind::range:
+      return fmt::format("a range, lower end first, of a {}{}, such as \"0 to 2.5{}\"", name, limits,
+                         first_unit(key.dimension));
+    case KeyKind::list:
+      return fmt::format(
+          "a list of {}, each a {}{}, such as \"0, 1.5, 2{}\"",
+          key.list_length > 0 ? fmt::format("{} values", key.list_length) : "one or more values", name,
+          limits, first_unit(key.dimension));
+  }
+  return {};
+}
+
+std::string format_value(const KeyDescription& key, const Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return format_quantity(*number, key.dimension);
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  std::string joined;
+  for (const double number : std::get<std::vector<double>>(value)) {
+    if (!joined.empty()) joined += key.kind == KeyKind::range ? " to " : ", ";
+    joined += format_quantity(number, key.dimension);
+  }
+  return joined;
+}
+
+std::string exact_toml(const KeyDescription& key, const Value& value) {
+  const bool plain = units_of(key.dimension).empty();
+  if (const auto* number = std::get_if<double>(&value)) {
+    return plain ? exact_quantity(*number, key.dimension)
+                 : '"' + exact_quantity(*number, key.dimension) + '"';
+  }
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    std::ostringstream stream;
+    stream << toml::value<std::string>(*text);
+    return stream.str();
+  }
+  const auto& numbers = std::get<std::vector<double>>(value);
+  if (numbers.empty()) return "[]";
+  const bool range = key.kind == KeyKind::range;
+  std::string joined;
+  for (const double number : numbers) {
+    if (!joined.empty()) joined += range ? " to " : ", ";
+    joined += fmt::format("{}", number);
+  }
+  return fmt::format("\"{}{}{}\"", joined, plain ? "" : " ", si_unit_of(key.dimension));
+}
+
+}  // namespace launchsafe::scene

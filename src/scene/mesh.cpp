@@ -1,0 +1,47 @@
+#include "launchsafe/scene/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::scene {
+namespace {
+
+bool has_charge(const Scene& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const Body& body) { return body.material == BodyMaterial::charge; });
+}
+
+}  // namespace
+
+int parts_of(double length, double part) {
+  return std::max(1, static_cast<int>(std::ceil(length / part - 1e-9)));
+}
+
+Mesh fit_mesh(const Scene& scene) {
+  const Extent all = extent_of(scene);
+  const Extent fitted = has_charge(scene) ? extent_of(scene, BodyMaterial::charge) : all;
+  const double length = fitted.x_end - fitted.x_begin;
+  Mesh mesh;
+  mesh.dx = length / parts_of(length, scene.numerics.cell_size);
+  mesh.dr = all.r_end / parts_of(all.r_end, scene.numerics.cell_size);
+  mesh.x_anchor = fitted.x_end;
+  mesh.radius = all.r_end;
+  return mesh;
+}
+
+ParticleCount particles_of(const Mesh& mesh, const Body& body, int particles_per_cell) {
+  return {parts_of((body.x_end - body.x_begin) * particles_per_cell, mesh.dx),
+          parts_of((body.r_end - body.r_begin) * particles_per_cell, mesh.dr)};
+}
+
+std::int64_t particle_count(const Scene& scene) {
+  if (scene.bodies.empty()) return 0;
+  const Mesh mesh = fit_mesh(scene);
+  std::int64_t total = 0;
+  for (const Body& body : scene.bodies) {
+    total += particles_of(mesh, body, scene.numerics.particles_per_cell).total();
+  }
+  return total;
+}
+
+}  // namespace launchsafe::scene

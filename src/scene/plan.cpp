@@ -1,0 +1,213 @@
+#include "launchsafe/scene/plan.hpp"
+
+#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/quantity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::scene {
+namespace {
+
+/// Bytes that the mechanics holds for a particle and a grid cell, about: state, increments and transfer
+/// weights.
+constexpr double bytes_per_steel_particle = 320.0;
+constexpr double bytes_per_charge_particle = 560.0;
+constexpr double bytes_per_cell = 128.0;
+
+std::string length_text(double length) { return format_quantity(length, Dimension::length); }
+
+/// Setback is exceeded where waves ring through the charge; the bound allows for as much again.
+constexpr double pressure_margin = 2.0;
+
+/// What the user forced, or what the plan decides.
+Term switched(Switch user, bool needed, std::string reason, double value, double bound) {
+  const bool forced = user != Switch::automatic;
+  const bool in = forced ? user == Switch::on : needed;
+  if (forced) reason = (in ? "forced on; " : "forced off; ") + reason;
+  return {in, forced, std::move(reason), value, bound};
+}
+
+Term plan_conduction(const Scene& scene, const Mesh& mesh) {
+  // Verdicts rest on the charge's temperature; heat in the steel only softens it a little.
+  const bool charge = has_material(scene, BodyMaterial::charge);
+  const double length = diffusion_length(scene, charge ? BodyMaterial::charge : BodyMaterial::steel);
+  const double cell = std::min(mesh.dx, mesh.dr);
+  const double share = length / cell;
+  const double bound = scene.physics.conduction_bound;
+  return switched(
+      scene.physics.conduction, share > bound,
+      fmt::format("heat diffuses {} in the {} over the run, {:.3g} of a cell of {}; left out up to {:.3g}",
+                  length_text(length), charge ? "charge" : "steel", share, length_text(cell), bound),
+      share, bound);
+}
+
+Term plan_bulk_reaction(const Scene& scene) {
+  if (!has_material(scene, BodyMaterial::charge)) return {false, false, "no charge", 0.0, 0.0};
+  const double temperature = bulk_temperature_bound(scene);
+  const double heating =
+      materials::arrhenius_heating(scene.charge.kinetics, scene.charge.specific_heat, temperature) *
+      scene.load.duration;
+  const double bound = scene.physics.reaction_bound;
+  return switched(
+      scene.physics.bulk_reaction, heating > bound,
+      fmt::format("the bulk of the charge stays below {:.4g} K, where the reaction heats it by {:.2g} K "
+                  "over the run; left out up to {:.3g} K",
+                  temperature, heating, bound),
+      heating, bound);
+}
+
+Term plan_surface(const Scene& scene) {
+  const auto gaps = static_cast<double>(scene.surface.gaps.size());
+  if (!has_material(scene, BodyMaterial::charge)) return {false, false, "no charge", gaps, 0.0};
+  return {true, false, fmt::format("{:.0f} gaps on one bottom trace", gaps), gaps, 0.0};
+}
+
+Term plan_air(const Scene& scene) {
+  double largest = 0.0;
+  for (const double gap : scene.surface.gaps) largest = std::max(largest, gap);
+  if (!has_material(scene, BodyMaterial::charge)) return {false, false, "no charge", largest, 0.0};
+  if (!(largest > 0.0)) return {false, false, "no gap above 0 cm", largest, 0.0};
+  return {true, false, fmt::format("gaps up to {}", length_text(largest)), largest, 0.0};
+}
+
+Term plan_cracks(const Scene& scene) {
+  const materials::ViscoScramParameters& cracks = scene.charge.cracks;
+  if (!has_material(scene, BodyMaterial::charge)) return {false, false, "no charge", 0.0, 0.0};
+  if (!(cracks.flaw_size > 0.0)) return {false, false, "charge.flaw_size is 0", 0.0, 0.0};
+  const double ratio = cracks.initial_crack_radius / cracks.flaw_size;
+  if (!(ratio > 0.0)) return {false, false, "charge.crack_radius is 0", 0.0, 0.0};
+  return {true, false,
+          fmt::format("crack radius {} at flaw size {}", length_text(cracks.initial_crack_radius),
+                      length_text(cracks.flaw_size)),
+          ratio, 0.0};
+}
+
+Term plan_crack_growth(const Scene& scene, const Term& cracks) {
+  const double speed = scene.charge.cracks.largest_growth_speed;
+  if (!cracks.in) return {false, false, "no cracks", speed, 0.0};
+  if (!scene.charge.cracks.growth) return {false, false, "charge.crack_growth is false", speed, 0.0};
+  return {true, false, fmt::format("up to {:.4g} m/s", speed), speed, 0.0};
+}
+
+Term plan_crack_friction(const Scene& scene, const Term& growth) {
+  const double friction = scene.charge.cracks.face_friction;
+  if (!growth.in) return {false, false, "no crack growth that it could hold back", friction, 0.0};
+  if (!(friction > 0.0)) return {false, false, "charge.face_friction is 0", friction, 0.0};
+  return {true, false, fmt::format("coefficient {:.3g} of closed crack faces", friction), friction, 0.0};
+}
+
+Term plan_friction_heat(const Scene& scene) {
+  const Surface& surface = scene.surface;
+  if (!has_material(scene, BodyMaterial::charge)) return {false, false, "no charge", 0.0, 0.0};
+  if (surface.friction == FrictionClosure::none) return {false, false, "friction.closure is none", 0.0, 0.0};
+  const double factor = scene.charge.sliding_friction * surface.localisation;
+  if (!(factor > 0.0)) return {false, false, "sliding_friction or localisation is 0", factor, 0.0};
+  return {true, false,
+          fmt::format("closure \"{}\", localisation {:.6g}",
+                      surface.friction == FrictionClosure::literal ? "literal" : "inelastic",
+                      surface.localisation),
+          surface.localisation, 0.0};
+}
+
+Term plan_inertial_scaling(const Scene& scene) {
+  const double scaling = scene.numerics.inertial_scaling;
+  if (!(scaling > 1.0)) return {false, false, "full inertia", scaling, 1.0};
+  return {true, false,
+          fmt::format("inertia times {:.4g}, steps {:.3g} times longer", scaling, std::sqrt(scaling)),
+          scaling, 1.0};
+}
+
+Term plan_snapshots(const Scene& scene) {
+  const auto count = static_cast<double>(scene.output.snapshot_times.size());
+  if (scene.output.snapshot_times.empty()) return {false, false, "none asked for", count, 0.0};
+  return {true, false, fmt::format("{:.0f} times", count), count, 0.0};
+}
+
+void count_work(const Scene& scene, const Mesh& mesh, Plan& plan) {
+  for (const Body& body : scene.bodies) {
+    const std::int64_t particles = particles_of(mesh, body, scene.numerics.particles_per_cell).total();
+    (body.material == BodyMaterial::steel ? plan.particles_steel : plan.particles_charge) += particles;
+  }
+  const Extent all = extent_of(scene);
+  plan.cells = static_cast<std::int64_t>(parts_of(all.x_end - all.x_begin, mesh.dx)) *
+               parts_of(all.r_end - all.r_begin, mesh.dr);
+  plan.time_step = scene.numerics.time_step_factor * std::min(mesh.dx, mesh.dr) / longitudinal_speed(scene) *
+                   std::sqrt(scene.numerics.inertial_scaling);
+  plan.steps = static_cast<std::int64_t>(std::ceil(scene.load.duration / plan.time_step - 1e-9));
+  plan.memory = bytes_per_steel_particle * static_cast<double>(plan.particles_steel) +
+                bytes_per_charge_particle * static_cast<double>(plan.particles_charge) +
+                bytes_per_cell * static_cast<double>(plan.cells);
+}
+
+}  // namespace
+
+double longitudinal_speed(const Scene& scene, BodyMaterial material) {
+  if (material == BodyMaterial::steel) {
+    const auto& eos = scene.steel.eos;
+    return std::sqrt(eos.sound_speed * eos.sound_speed +
+                     4.0 / 3.0 * scene.steel.strength.shear_modulus / eos.density);
+  }
+  const auto& eos = scene.charge.eos;
+  const double bulk = materials::jwl_bulk_modulus(eos, 1.0, eos.initial_energy);
+  return std::sqrt((bulk + 4.0 / 3.0 * scene.charge.cracks.shear_modulus()) / eos.initial_density);
+}
+
+double longitudinal_speed(const Scene& scene) {
+  double largest = 0.0;
+  for (const BodyMaterial material : {BodyMaterial::steel, BodyMaterial::charge}) {
+    if (has_material(scene, material)) largest = std::max(largest, longitudinal_speed(scene, material));
+  }
+  return largest;
+}
+
+double diffusion_length(const Scene& scene, BodyMaterial material) {
+  const bool steel = material == BodyMaterial::steel;
+  const double conductivity = steel ? scene.steel.strength.conductivity : scene.charge.conductivity;
+  const double heat_capacity = steel ? scene.steel.eos.density * scene.steel.strength.specific_heat
+                                     : scene.charge.eos.initial_density * scene.charge.specific_heat;
+  return std::sqrt(conductivity * scene.load.duration / heat_capacity);
+}
+
+double setback_pressure(const Scene& scene) {
+  const Extent charge = extent_of(scene, BodyMaterial::charge);
+  const double acceleration = rigid_acceleration(scene, PressureHistory(scene.load).peak());
+  return scene.charge.eos.initial_density * (charge.x_end - charge.x_begin) * acceleration;
+}
+
+double bulk_temperature_bound(const Scene& scene) {
+  const Charge& charge = scene.charge;
+  const double pressure = pressure_margin * setback_pressure(scene);
+  const double bulk = materials::jwl_bulk_modulus(charge.eos, 1.0, charge.eos.initial_energy);
+  const auto& rates = charge.cracks.relaxation_rates;
+  const auto slowest = static_cast<std::size_t>(std::min_element(rates.begin(), rates.end()) - rates.begin());
+  const double work =
+      (1.0 + charge.sliding_friction) * pressure * pressure / charge.cracks.shear_moduli[slowest];
+  const double compressed = scene.initial_temperature * std::exp(charge.eos.omega * pressure / bulk);
+  return compressed + work / (charge.eos.initial_density * charge.specific_heat);
+}
+
+Plan make_plan(const Scene& scene) {
+  const Mesh mesh = fit_mesh(scene);
+  Plan plan;
+  plan.conduction = plan_conduction(scene, mesh);
+  plan.bulk_reaction = plan_bulk_reaction(scene);
+  plan.air = plan_air(scene);
+  plan.cracks = plan_cracks(scene);
+  plan.crack_growth = plan_crack_growth(scene, plan.cracks);
+  plan.crack_friction = plan_crack_friction(scene, plan.crack_growth);
+  plan.surface = plan_surface(scene);
+  plan.friction_heat = plan_friction_heat(scene);
+  plan.inertial_scaling = plan_inertial_scaling(scene);
+  plan.snapshots = plan_snapshots(scene);
+  count_work(scene, mesh, plan);
+  return plan;
+}
+
+double predicted_time(const Plan& plan, double update_rate) {
+  return static_cast<double>(plan.steps) * static_cast<double>(plan.particles()) / update_rate;
+}
+
+}  // namespace launchsafe::scene

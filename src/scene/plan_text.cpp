@@ -1,0 +1,105 @@
+// The plan as people read it.
+#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/scene/quantity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace launchsafe::scene {
+namespace {
+
+std::string row(std::string_view name, const std::string& value) {
+  return fmt::format("  {:<22}{}\n", name, value);
+}
+
+std::string bodies_text(const Scene& scene) {
+  const Mesh mesh = fit_mesh(scene);
+  std::string text = "Bodies\n";
+  for (const Body& body : scene.bodies) {
+    const ParticleCount count = particles_of(mesh, body, scene.numerics.particles_per_cell);
+    text += row(body.name,
+                fmt::format("{}, x {:.6g} to {:.6g} cm, r {:.6g} to {:.6g} cm, {} x {} particles",
+                            body.material == BodyMaterial::steel ? "steel" : "charge", 100 * body.x_begin,
+                            100 * body.x_end, 100 * body.r_begin, 100 * body.r_end, count.nx, count.nr));
+  }
+  const char* unit = scene.symmetry == Symmetry::axisymmetric ? "kg" : "kg per metre, half model";
+  text += row("mass", fmt::format("{:.6g} {} (steel {:.6g}, charge {:.6g})", total_mass(scene), unit,
+                                  mass_of(scene, BodyMaterial::steel), mass_of(scene, BodyMaterial::charge)));
+  return text;
+}
+
+std::string load_text(const Scene& scene) {
+  const double peak = PressureHistory(scene.load).peak();
+  std::string text = "Load\n";
+  text += row("shape", scene.load.curve_time.empty()
+                           ? std::string("analytic")
+                           : fmt::format("measured, {} points{}", scene.load.curve_time.size(),
+                                         scene.load.rescale_to_peak ? ", rescaled" : ""));
+  text += row("duration", format_quantity(scene.load.duration, Dimension::time));
+  text += row("peak", format_quantity(peak, Dimension::pressure));
+  text += row("rigid acceleration", fmt::format("{:.6g} m/s2", rigid_acceleration(scene, peak)));
+  if (has_material(scene, BodyMaterial::charge)) {
+    text += row("setback pressure", format_quantity(setback_pressure(scene), Dimension::pressure));
+  }
+  return text;
+}
+
+std::string term_text(std::string_view name, const Term& term) {
+  return row(name, fmt::format("{:<4}{}", term.in ? "in" : "out", term.reason));
+}
+
+std::string physics_text(const Plan& plan) {
+  std::string text = "Physics\n";
+  for (const auto& [name, term] :
+       {std::pair<std::string_view, const Term*>{"skin of the bottom", &plan.surface},
+        {"air in the gap", &plan.air},
+        {"friction heat", &plan.friction_heat},
+        {"cracks", &plan.cracks},
+        {"crack growth", &plan.crack_growth},
+        {"crack friction", &plan.crack_friction},
+        {"heat conduction", &plan.conduction},
+        {"bulk reaction", &plan.bulk_reaction},
+        {"inertial scaling", &plan.inertial_scaling},
+        {"snapshots", &plan.snapshots}}) {
+    text += term_text(name, *term);
+  }
+  return text;
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < 100.0) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 6000.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+std::string cost_text(const Plan& plan, const Scene& scene, double update_rate) {
+  const Mesh mesh = fit_mesh(scene);
+  std::string text = "Cost\n";
+  text += row("mesh", fmt::format("{} cells of {:.6g} x {:.6g} mm, {} particles", plan.cells, 1e3 * mesh.dx,
+                                  1e3 * mesh.dr, plan.particles()));
+  text += row("time step",
+              fmt::format("{} at rest, sound at {:.2f} m/s", format_quantity(plan.time_step, Dimension::time),
+                          longitudinal_speed(scene)));
+  text += row("steps", fmt::format("{}", plan.steps));
+  text += row("memory", fmt::format("about {:.3g} MB", plan.memory / 1e6));
+  if (update_rate > 0.0) {
+    text += row("time", fmt::format("about {} at {:.3g} particle updates per second",
+                                    duration_text(predicted_time(plan, update_rate)), update_rate));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const Plan& plan, const Scene& scene, double update_rate) {
+  std::string text = scene.title.empty() ? std::string{} : scene.title + "\n\n";
+  text += bodies_text(scene) + "\n" + load_text(scene) + "\n" + physics_text(plan) + "\n";
+  return text + cost_text(plan, scene, update_rate);
+}
+
+}  // namespace launchsafe::scene

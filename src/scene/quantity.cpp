@@ -1,0 +1,268 @@
+#include "launchsafe/scene/quantity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <system_error>
+
+namespace launchsafe::scene {
+namespace {
+
+constexpr std::size_t dimension_count = static_cast<std::size_t>(Dimension::toughness) + 1;
+
+/// All units are powers of ten of the SI unit, so a decimal number converts without rounding twice.
+struct Unit {
+  std::string_view name;
+  int power;  ///< SI units per unit, as a power of ten
+};
+
+struct DimensionInfo {
+  std::string_view name;
+  std::string_view example;
+  std::string_view si_unit;
+  std::vector<Unit> units;    ///< the one to suggest first
+  std::vector<Unit> display;  ///< to try in this order when formatting for people
+};
+
+const DimensionInfo& info_of(Dimension dimension) {
+  static const std::array<DimensionInfo, dimension_count> table{{
+      {"number", "0.5", "", {}, {}},
+      {"whole number", "2", "", {}, {}},
+      {"length",
+       "\"2.5 mm\"",
+       "m",
+       {{"cm", -2}, {"mm", -3}, {"m", 0}, {"um", -6}, {"µm", -6}},
+       {{"cm", -2}, {"mm", -3}, {"um", -6}, {"m", 0}}},
+      {"time",
+       "\"18 ms\"",
+       "s",
+       {{"ms", -3}, {"s", 0}, {"us", -6}, {"µs", -6}, {"ns", -9}},
+       {{"ms", -3}, {"us", -6}, {"s", 0}, {"ns", -9}}},
+      {"pressure",
+       "\"496 MPa\"",
+       "Pa",
+       {{"MPa", 6}, {"GPa", 9}, {"kPa", 3}, {"Pa", 0}, {"bar", 5}, {"TPa", 12}, {"kbar", 8}, {"Mbar", 11}},
+       {{"MPa", 6}, {"GPa", 9}, {"TPa", 12}, {"kPa", 3}, {"Pa", 0}}},
+      {"temperature", "\"300 K\"", "K", {{"K", 0}}, {}},
+      {"density", "\"1717 kg/m3\"", "kg/m3", {{"kg/m3", 0}, {"g/cm3", 3}, {"kg/m^3", 0}, {"g/cm^3", 3}}, {}},
+      {"speed", "\"300 m/s\"", "m/s", {{"m/s", 0}, {"km/s", 3}, {"mm/us", 3}}, {}},
+      {"frequency", "\"7320 1/s\"", "1/s", {{"1/s", 0}, {"1/ms", 3}, {"1/us", 6}}, {}},
+      {"specific energy",
+       "\"5.82 MJ/kg\"",
+       "J/kg",
+       {{"MJ/kg", 6}, {"kJ/kg", 3}, {"J/kg", 0}},
+       {{"MJ/kg", 6}, {"kJ/kg", 3}, {"J/kg", 0}}},
+      {"specific heat",
+       "\"1780 J/(kg K)\"",
+       "J/(kg K)",
+       {{"J/(kg K)", 0}, {"J/kg/K", 0}, {"J/kgK", 0}, {"kJ/(kg K)", 3}},
+       {}},
+      {"thermal conductivity",
+       "\"0.246 W/(m K)\"",
+       "W/(m K)",
+       {{"W/(m K)", 0}, {"W/m/K", 0}, {"W/mK", 0}},
+       {}},
+      {"fracture toughness",
+       "\"0.5 MPa m^0.5\"",
+       "Pa m^0.5",
+       {{"MPa m^0.5", 6}, {"Pa m^0.5", 0}},
+       {{"MPa m^0.5", 6}, {"Pa m^0.5", 0}}},
+  }};
+  return table[static_cast<std::size_t>(dimension)];
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+std::string without_blanks(std::string_view text) {
+  std::string result;
+  std::copy_if(text.begin(), text.end(), std::back_inserter(result),
+               [](char c) { return c != ' ' && c != '\t'; });
+  return result;
+}
+
+std::optional<Unit> find_unit(Dimension dimension, std::string_view name) {
+  const std::string wanted = without_blanks(name);
+  for (const Unit& unit : info_of(dimension).units) {
+    if (without_blanks(unit.name) == wanted) return unit;
+  }
+  return std::nullopt;
+}
+
+/// "which is a time", for a unit of another dimension; else "whose unit is unknown".
+std::string kind_of_unit(std::string_view name) {
+  for (std::size_t i = 0; i < dimension_count; ++i) {
+    const auto dimension = static_cast<Dimension>(i);
+    if (find_unit(dimension, name)) {
+      return fmt::format("which is a {}", info_of(dimension).name);
+    }
+  }
+  return fmt::format("with the unknown unit \"{}\"", name);
+}
+
+QuantityFault fault(std::string found, Dimension dimension, std::string suggestion = {}) {
+  const DimensionInfo& info = info_of(dimension);
+  std::string allowed = fmt::format("a {}, such as {}", info.name, info.example);
+  if (!info.units.empty()) allowed += fmt::format(" (units: {})", fmt::join(units_of(dimension), ", "));
+  return {std::move(found), std::move(allowed), std::move(suggestion)};
+}
+
+/// A number and what follows it, both as written.
+struct Token {
+  std::string_view number;
+  std::string_view unit;
+};
+
+Expected<Token, QuantityFault> split(std::string_view text, std::string_view whole, Dimension dimension) {
+  text = trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (status == std::errc::invalid_argument) {
+    return fault(fmt::format("\"{}\", where no number is readable", whole), dimension);
+  }
+  if (status == std::errc::result_out_of_range || !std::isfinite(value)) {
+    return fault(fmt::format("\"{}\", which is not a finite number", whole), dimension);
+  }
+  const auto length = static_cast<std::size_t>(end - text.data());
+  return Token{text.substr(0, length), trimmed(text.substr(length))};
+}
+
+/// The double nearest to `number` times ten to the power.
+double scaled(std::string_view number, int power) {
+  const std::size_t e = number.find_first_of("eE");
+  int exponent = 0;
+  if (e != std::string_view::npos) {
+    std::string_view digits = number.substr(e + 1);
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+  }
+  const std::string decimal = fmt::format("{}e{}", number.substr(0, e), exponent + power);
+  double value = 0.0;
+  const auto [end, status] = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
+  // Out of range here is a number that underflows or overflows only in SI.
+  if (status != std::errc{}) return exponent + power > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+  return value;
+}
+
+Expected<double, QuantityFault> convert(const Token& token, std::string_view whole, Dimension dimension) {
+  const DimensionInfo& info = info_of(dimension);
+  if (info.units.empty()) {
+    if (!token.unit.empty())
+      return fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit)), dimension);
+    return scaled(token.number, 0);
+  }
+  if (token.unit.empty()) {
+    return fault(fmt::format("\"{}\", without a unit", whole), dimension,
+                 fmt::format("\"{} {}\"", trimmed(whole), info.units.front().name));
+  }
+  const std::optional<Unit> unit = find_unit(dimension, token.unit);
+  if (!unit) {
+    const std::string near = nearest_of(token.unit, units_of(dimension));
+    return fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit)), dimension,
+                 near.empty() ? std::string{} : fmt::format("\"{} {}\"", token.number, near));
+  }
+  const double value = scaled(token.number, unit->power);
+  if (!std::isfinite(value))
+    return fault(fmt::format("\"{}\", which is not a finite number", whole), dimension);
+  return value;
+}
+
+/// Parts joined by a separator, each a number with its unit or with that of the next part that has one.
+Expected<std::vector<double>, QuantityFault> convert_all(const std::vector<std::string_view>& parts,
+                                                         std::string_view whole, Dimension dimension) {
+  std::vector<double> values(parts.size());
+  std::string_view unit;
+  for (std::size_t i = parts.size(); i-- > 0;) {
+    auto token = split(parts[i], whole, dimension);
+    if (!token) return token.error();
+    if (token->unit.empty()) token->unit = unit;
+    unit = token->unit;
+    const auto value = convert(*token, whole, dimension);
+    if (!value) return value.error();
+    values[i] = *value;
+  }
+  return values;
+}
+
+}  // namespace
+
+std::string_view name_of(Dimension dimension) { return info_of(dimension).name; }
+
+std::string_view example_of(Dimension dimension) { return info_of(dimension).example; }
+
+std::string_view si_unit_of(Dimension dimension) { return info_of(dimension).si_unit; }
+
+std::vector<std::string> units_of(Dimension dimension) {
+  std::vector<std::string> names;
+  for (const Unit& unit : info_of(dimension).units) names.emplace_back(unit.name);
+  return names;
+}
+
+Expected<double, QuantityFault> parse_quantity(std::string_view text, Dimension dimension) {
+  const auto token = split(text, text, dimension);
+  if (!token) return token.error();
+  return convert(*token, text, dimension);
+}
+
+Expected<std::vector<double>, QuantityFault> parse_range(std::string_view text, Dimension dimension) {
+  const std::size_t separator = text.find(" to ");
+  const auto two_values = [&](std::string found) {
+    QuantityFault result = fault(std::move(found), dimension);
+    const DimensionInfo& info = info_of(dimension);
+    result.allowed =
+        fmt::format("a range of {}, lower end first, such as \"0 to 2.5{}{}\"", info.name,
+                    info.units.empty() ? "" : " ", info.units.empty() ? "" : info.units.front().name);
+    return result;
+  };
+  if (separator == std::string_view::npos) return two_values(fmt::format("\"{}\", without \"to\"", text));
+  auto values = convert_all({text.substr(0, separator), text.substr(separator + 4)}, text, dimension);
+  if (!values) return values;
+  if (!((*values)[0] < (*values)[1])) return two_values(fmt::format("\"{}\", which has no extent", text));
+  return values;
+}
+
+Expected<std::vector<double>, QuantityFault> parse_list(std::string_view text, Dimension dimension) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return convert_all(parts, text, dimension);
+}
+
+std::string format_quantity(double si_value, Dimension dimension) {
+  const DimensionInfo& info = info_of(dimension);
+  for (const Unit& unit : info.display) {
+    const double value = in_unit(si_value, dimension, unit.name);
+    if (si_value == 0.0 || (std::abs(value) >= 0.0999999 && std::abs(value) < 999.9999)) {
+      return fmt::format("{:.6g} {}", value, unit.name);
+    }
+  }
+  return fmt::format("{:.6g}{}{}", si_value, info.si_unit.empty() ? "" : " ", info.si_unit);
+}
+
+std::string exact_quantity(double si_value, Dimension dimension) {
+  const std::string_view unit = si_unit_of(dimension);
+  return fmt::format("{}{}{}", si_value, unit.empty() ? "" : " ", unit);
+}
+
+double in_unit(double si_value, Dimension dimension, std::string_view unit_name) {
+  const std::optional<Unit> unit = find_unit(dimension, unit_name);
+  if (!unit) return std::numeric_limits<double>::quiet_NaN();
+  const double factor = std::pow(10.0, std::abs(unit->power));
+  return unit->power > 0 ? si_value / factor : si_value * factor;
+}
+
+}  // namespace launchsafe::scene

@@ -1,0 +1,226 @@
+#include "launchsafe/scene/read_scene.hpp"
+
+#include "launchsafe/scene/pressure_curve.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace launchsafe::scene {
+namespace {
+
+const std::vector<std::string> tables_read_apart{"body", "observation_point"};
+
+/// Reads [[name]] tables into `owners`; the places become "name.<name of the owner>.<key>".
+template <class Owner>
+std::optional<InputError> read_tables(const toml::table& root, const std::string& name,
+                                      const std::vector<Key<Owner>>& keys, const std::string& file,
+                                      std::vector<Owner>& owners, std::map<std::string, Place>& places) {
+  const toml::node* node = root.get(name);
+  if (!node || (node->is_array() && node->as_array()->empty())) return std::nullopt;
+  const toml::array* array = node->as_array();
+  if (!array || !node->is_array_of_tables()) {
+    return error_at(place_of(*node, file), name, found_text(*node),
+                    fmt::format("tables, each written [[{}]]", name));
+  }
+  for (const toml::node& element : *array) {
+    Owner owner;
+    auto read = read_table(*element.as_table(), keys, {}, file, owner);
+    if (!read) {
+      InputError error = read.error();
+      error.key = name + "." + error.key;
+      return error;
+    }
+    for (auto& [key, place] : *read) {
+      // Of two with one name the second one's place stands: that is the one to complain about.
+      places.insert_or_assign(fmt::format("{}.{}.{}", name, owner.name, key), std::move(place));
+    }
+    owners.push_back(std::move(owner));
+  }
+  return std::nullopt;
+}
+
+std::optional<InputError> read_curve_file(SceneFile& file) {
+  Load& load = file.scene.load;
+  if (load.curve_file.empty()) return std::nullopt;
+  const std::filesystem::path path = file.folder / load.curve_file;
+  std::error_code status;
+  if (!std::filesystem::exists(path, status)) {
+    const auto missing = read_text_file(path);
+    const auto given = file.given.find("load.curve");
+    const Place place = given == file.given.end() ? Place{file.file} : given->second.place;
+    return error_at(place, "load.curve", fmt::format("\"{}\", which does not exist", load.curve_file),
+                    "a CSV file, by its path from the scene file's folder",
+                    missing ? std::string{} : missing.error().suggestion);
+  }
+  auto curve = read_pressure_curve(path);
+  if (!curve) return curve.error();
+  load.curve_time = std::move(curve->time);
+  load.curve_pressure = std::move(curve->pressure);
+  return std::nullopt;
+}
+
+/// The scene from its bodies, its points and the given keys, applied in the order of their declaration.
+std::optional<InputError> rebuild(SceneFile& file) {
+  Scene fresh;
+  fresh.bodies = std::move(file.scene.bodies);
+  fresh.output.observation_points = std::move(file.scene.output.observation_points);
+  for (const Key<Scene>& key : scene_keys()) {
+    const auto given = file.given.find(key.name);
+    if (given != file.given.end()) key.set(fresh, given->second.value);
+  }
+  file.scene = std::move(fresh);
+  if (auto error = read_curve_file(file)) return error;
+  return validate(file);
+}
+
+/// Keys whose given value would contradict or override a new value of `name`.
+std::vector<std::string> overridden_by(const std::string& name) {
+  if (name == "charge.face_friction") return {"charge.crack_friction"};
+  if (name == "charge.crack_friction") return {"charge.face_friction"};
+  if (name == "load.curve") return {"load.curve_time", "load.curve_pressure"};
+  if (name == "kinetics.set") {
+    return {"kinetics.heat_of_reaction", "kinetics.frequency", "kinetics.activation_temperature"};
+  }
+  return {};
+}
+
+/// "body.<name>.<key>" taken apart.
+struct BodyKey {
+  std::size_t body = 0;
+  const Key<Body>* key = nullptr;
+};
+
+std::optional<BodyKey> find_body_key(const Scene& scene, const std::string& name) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const std::string prefix = "body." + scene.bodies[i].name + ".";
+    if (!name.starts_with(prefix)) continue;
+    const Key<Body>* key = find_key(body_keys(), name.substr(prefix.size()));
+    if (key && key->kind == KeyKind::range) return BodyKey{i, key};
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> names_of_keys(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Key<Scene>& key : scene_keys()) names.push_back(key.name);
+  for (const Body& body : scene.bodies) {
+    names.push_back(fmt::format("body.{}.x", body.name));
+    names.push_back(fmt::format("body.{}.r", body.name));
+  }
+  return names;
+}
+
+}  // namespace
+
+Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& path) {
+  const auto table = parse_toml(text, path.string());
+  if (!table) return table.error();
+  SceneFile file;
+  file.file = path.string();
+  file.folder = path.parent_path();
+  Scene& scene = file.scene;
+  // Faults of the keys first, then of the tables; within each by line.
+  auto read = read_described(*table, descriptions_of(scene_keys()), tables_read_apart, file.file);
+  if (!read) return read.error();
+  for (auto& [index, value] : read->values) {
+    const std::string& name = scene_keys()[index].name;
+    file.given[name] = {read->places[name], std::move(value)};
+  }
+  if (auto error = read_tables(*table, "body", body_keys(), file.file, scene.bodies, file.places))
+    return *error;
+  if (auto error = read_tables(*table, "observation_point", observation_point_keys(), file.file,
+                               scene.output.observation_points, file.places)) {
+    return *error;
+  }
+  if (auto error = rebuild(file)) return *error;
+  return file;
+}
+
+Expected<SceneFile> read_scene(const std::filesystem::path& file) {
+  const auto text = read_text_file(file);
+  if (!text) return text.error();
+  return parse_scene(*text, file);
+}
+
+Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& name, const Place& place) {
+  if (const Key<Scene>* key = find_key(scene_keys(), name)) return static_cast<const KeyDescription&>(*key);
+  if (const auto found = find_body_key(file.scene, name)) {
+    KeyDescription description = *found->key;
+    description.name = name;
+    return description;
+  }
+  return unknown_key(place, name, names_of_keys(file.scene));
+}
+
+Expected<SceneFile> with_key(const SceneFile& file, const std::string& name, const Value& value,
+                             const Place& place) {
+  const auto description = describe_key(file, name, place);
+  if (!description) return description.error();
+  SceneFile changed = file;
+  if (const auto found = find_body_key(file.scene, name)) {
+    found->key->set(changed.scene.bodies[found->body], value);
+    changed.places[name] = place;
+  } else {
+    for (const std::string& overridden : overridden_by(name)) changed.given.erase(overridden);
+    changed.given[name] = {place, value};
+  }
+  if (auto error = rebuild(changed)) return *error;
+  return changed;
+}
+
+Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& name, std::string_view written,
+                                     const Place& place) {
+  const auto description = describe_key(file, name, place);
+  if (!description) return description.error();
+  const auto value = parse_value(written, *description, place);
+  if (!value) return value.error();
+  return with_key(file, name, *value, place);
+}
+
+std::vector<ListedKey> list_keys(const SceneFile& file) {
+  std::vector<ListedKey> listed;
+  for (const Key<Scene>& key : scene_keys()) {
+    const auto given = file.given.find(key.name);
+    const bool is_given = given != file.given.end();
+    listed.push_back({key.name, format_value(key, key.get(file.scene)),
+                      is_given ? Standing::input : key.standing, key.sentence,
+                      is_given ? given->second.place : Place{}});
+  }
+  return listed;
+}
+
+namespace {
+
+template <class Owner>
+std::string inline_table(const std::vector<Key<Owner>>& keys, const Owner& owner) {
+  std::string text;
+  for (const Key<Owner>& key : keys) {
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key.name, exact_toml(key, key.get(owner)));
+  }
+  return "{ " + text + " }";
+}
+
+template <class Owner>
+std::string inline_tables(const std::string& name, const std::vector<Key<Owner>>& keys,
+                          const std::vector<Owner>& owners) {
+  std::string text = name + " = [\n";
+  for (const Owner& owner : owners) text += "  " + inline_table(keys, owner) + ",\n";
+  return text + "]\n";
+}
+
+}  // namespace
+
+std::string to_toml(const Scene& scene) {
+  std::string text;
+  for (const Key<Scene>& key : scene_keys()) {
+    // The points of a measured curve are written; the file they came from need not exist any more.
+    if (key.name == "load.curve") continue;
+    text += fmt::format("{} = {}\n", key.name, exact_toml(key, key.get(scene)));
+  }
+  text += inline_tables("body", body_keys(), scene.bodies);
+  text += inline_tables("observation_point", observation_point_keys(), scene.output.observation_points);
+  return text;
+}
+
+}  // namespace launchsafe::scene

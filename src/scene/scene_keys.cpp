@@ -1,0 +1,283 @@
+#include "launchsafe/scene/scene_keys.hpp"
+
+#include "material_keys.hpp"
+
+#include <iterator>
+#include <utility>
+
+namespace launchsafe::scene {
+namespace {
+
+using Keys = std::vector<Key<Scene>>;
+
+/// The same key, with something that follows from it done after it is set.
+Key<Scene> then(Key<Scene> key, std::function<void(Scene&)> consequence) {
+  key.set = [set = std::move(key.set), consequence = std::move(consequence)](Scene& scene,
+                                                                             const Value& value) {
+    set(scene, value);
+    consequence(scene);
+  };
+  return key;
+}
+
+Keys general_keys() {
+  return {
+      text_key<Scene>(
+          "title", Standing::assumed, "What this scene is, for reports.",
+          [](auto& s) -> auto& { return s.title; }),
+      word_key<Scene, Symmetry>(
+          "symmetry", Standing::paper, "Full shell of revolution, or a slice of unit depth (half model).",
+          {{"axisymmetric", Symmetry::axisymmetric}, {"plane-strain", Symmetry::plane_strain}},
+          [](auto& s) -> auto& { return s.symmetry; }),
+      word_key<Scene, Frame>(
+          "frame", Standing::assumed,
+          "Grid that accelerates with the projectile, or a grid at rest that it flies through.",
+          {{"co-moving", Frame::co_moving}, {"lab", Frame::lab}}, [](auto& s) -> auto& { return s.frame; }),
+      word_key<Scene, Barrel>(
+          "barrel", Standing::assumed,
+          "Frictionless rigid barrel around the outer surface, or a free outer surface.",
+          {{"rigid", Barrel::rigid}, {"none", Barrel::none}}, [](auto& s) -> auto& { return s.barrel; }),
+      then(number_key<Scene>(
+               "initial_temperature", Dimension::temperature, between(200, 500), Standing::paper,
+               "Temperature of all bodies and of the gap's air before launch.",
+               [](auto& s) -> auto& { return s.initial_temperature; }),
+           [](Scene& s) { s.surface.air.initial_temperature = s.initial_temperature; }),
+  };
+}
+
+Keys load_keys() {
+  return {
+      number_key<Scene>(
+          "load.duration", Dimension::time, above_to(0, 1), Standing::paper,
+          "Simulated time, from the ignition of the propellant on.",
+          [](auto& s) -> auto& { return s.load.duration; }),
+      number_key<Scene>(
+          "load.peak", Dimension::pressure, above_to(0, 10e9), Standing::paper, "Largest chamber pressure.",
+          [](auto& s) -> auto& { return s.load.peak; }),
+      number_key<Scene>(
+          "load.base", Dimension::pressure, between(0, 10e9), Standing::assumed,
+          "Chamber pressure at the start.", [](auto& s) -> auto& { return s.load.base; }),
+      number_key<Scene>(
+          "load.peak_time", Dimension::time, above_to(0, 1), Standing::assumed,
+          "Time of the largest chamber pressure.", [](auto& s) -> auto& { return s.load.peak_time; }),
+      number_key<Scene>(
+          "load.exponent", Dimension::number, above_to(0, 1000), Standing::assumed,
+          "Steepness n of base + (peak - base) ((t/peak_time) exp(1 - t/peak_time))^n.",
+          [](auto& s) -> auto& { return s.load.exponent; }),
+      text_key<Scene>(
+          "load.curve", Standing::assumed,
+          "Measured curve that replaces the analytic shape: a CSV file beside the scene, with a header "
+          "such as time_ms,pressure_MPa; empty for none.",
+          [](auto& s) -> auto& { return s.load.curve_file; }),
+      may_be_empty(list_key<Scene>(
+          "load.curve_time", Dimension::time, any_number(), Standing::assumed,
+          "Times of a measured curve written in the scene itself, increasing.",
+          [](auto& s) -> auto& { return s.load.curve_time; })),
+      may_be_empty(list_key<Scene>(
+          "load.curve_pressure", Dimension::pressure, between(0, 10e9), Standing::assumed,
+          "Pressures of a measured curve written in the scene itself.",
+          [](auto& s) -> auto& { return s.load.curve_pressure; })),
+      flag_key<Scene>(
+          "load.rescale_to_peak", Standing::assumed,
+          "Scale the measured curve so that its largest pressure is load.peak.",
+          [](auto& s) -> auto& { return s.load.rescale_to_peak; }),
+  };
+}
+
+Keys gap_keys() {
+  return {
+      list_key<Scene>(
+          "gap.thickness", Dimension::length, between(0, 0.01), Standing::paper,
+          "Gaps between charge and base; all are judged on one run of the mechanics.",
+          [](auto& s) -> auto& { return s.surface.gaps; }),
+      word_key<Scene, AirPressure>(
+          "gap.pressure", Standing::assumed,
+          "What compresses the air: the charge's bottom stress or the chamber.",
+          {{"charge-bottom", AirPressure::charge_bottom}, {"chamber", AirPressure::chamber}},
+          [](auto& s) -> auto& { return s.surface.air_pressure; }),
+      word_key<Scene, AirModel>(
+          "gap.air", Standing::paper, "Air that stays on its adiabat, or air that loses what the skin gains.",
+          {{"reservoir", AirModel::reservoir}, {"balance", AirModel::balance}},
+          [](auto& s) -> auto& { return s.surface.air_model; }),
+      word_key<Scene, Exchange>(
+          "gap.exchange", Standing::derived,
+          "Heat exchange as a rate, or the printed share in each time step, which depends on it.",
+          {{"rate", Exchange::rate}, {"per-step", Exchange::per_step}},
+          [](auto& s) -> auto& { return s.surface.exchange; }),
+      number_key<Scene>(
+          "gap.skin_thickness", Dimension::length, above_to(0, 0.01), Standing::paper,
+          "Thickness of the charge's skin that the air heats.",
+          [](auto& s) -> auto& { return s.surface.skin_thickness; }),
+      number_key<Scene>(
+          "gap.exchange_time", Dimension::time, above_to(0, 100), Standing::calibrated,
+          "Time constant of the exchange between air and skin.",
+          [](auto& s) -> auto& { return s.surface.exchange_time; }),
+      number_key<Scene>(
+          "gap.air_density", Dimension::density, above_to(0, 100), Standing::literature,
+          "Density of the air before launch.", [](auto& s) -> auto& { return s.surface.air.density; }),
+      number_key<Scene>(
+          "gap.air_specific_heat", Dimension::specific_heat, above_to(0, 1e5), Standing::literature,
+          "Specific heat of the air.", [](auto& s) -> auto& { return s.surface.air.specific_heat; }),
+      number_key<Scene>(
+          "gap.air_heat_ratio", Dimension::number, above_to(1, 2), Standing::paper,
+          "Adiabatic exponent of the air.", [](auto& s) -> auto& { return s.surface.air.heat_ratio; }),
+      number_key<Scene>(
+          "gap.air_temperature", Dimension::temperature, between(200, 500), Standing::paper,
+          "Temperature of the air before launch; follows initial_temperature unless given.",
+          [](auto& s) -> auto& { return s.surface.air.initial_temperature; }),
+      number_key<Scene>(
+          "gap.air_pressure", Dimension::pressure, above_to(0, 10e6), Standing::assumed,
+          "Pressure of the air before launch.",
+          [](auto& s) -> auto& { return s.surface.air.initial_pressure; }),
+      word_key<Scene, FrictionClosure>(
+          "friction.closure", Standing::assumed,
+          "Which strain rate the sliding friction acts on: total, inelastic or none.",
+          {{"literal", FrictionClosure::literal},
+           {"inelastic", FrictionClosure::inelastic},
+           {"none", FrictionClosure::none}},
+          [](auto& s) -> auto& { return s.surface.friction; }),
+      number_key<Scene>(
+          "friction.localisation", Dimension::number, between(0, 1e6), Standing::calibrated,
+          "Crack spacing over the thickness of the sliding layer: factor on the friction heat.",
+          [](auto& s) -> auto& { return s.surface.localisation; }),
+  };
+}
+
+Keys numerics_keys() {
+  return {
+      number_key<Scene>(
+          "numerics.cell_size", Dimension::length, between(1e-5, 1), Standing::assumed,
+          "Largest cell length; the grid is fitted to the shell with cells no longer than this.",
+          [](auto& s) -> auto& { return s.numerics.cell_size; }),
+      number_key<Scene>(
+          "numerics.particles_per_cell", Dimension::count, between(1, 16), Standing::assumed,
+          "Particles per cell in each direction.",
+          [](auto& s) -> auto& { return s.numerics.particles_per_cell; }),
+      number_key<Scene>(
+          "numerics.time_step_factor", Dimension::number, above_to(0, 1), Standing::assumed,
+          "Time step over the time sound takes through a cell (CFL).",
+          [](auto& s) -> auto& { return s.numerics.time_step_factor; }),
+      number_key<Scene>(
+          "numerics.inertial_scaling", Dimension::number, between(1, 1e4), Standing::assumed,
+          "Factor on the inertia of the motion relative to the accelerating frame; an accuracy knob.",
+          [](auto& s) -> auto& { return s.numerics.inertial_scaling; }),
+      number_key<Scene>(
+          "numerics.damping_time", Dimension::time, between(0, 1), Standing::assumed,
+          "Decay time of the relative velocity; \"0 ms\" for no damping.",
+          [](auto& s) -> auto& { return s.numerics.damping_time; }),
+      number_key<Scene>(
+          "numerics.pic_fraction", Dimension::number, between(0, 1), Standing::assumed,
+          "Share of PIC in the velocity update; 0 is pure FLIP.",
+          [](auto& s) -> auto& { return s.numerics.pic_fraction; }),
+      number_key<Scene>(
+          "numerics.energy_drift_limit", Dimension::number, above_to(0, 100), Standing::assumed,
+          "Energy drift, as a share of the energy scale, past which a run is indeterminate.",
+          [](auto& s) -> auto& { return s.numerics.energy_drift_limit; }),
+  };
+}
+
+Keys output_keys() {
+  const std::vector<std::pair<std::string, Switch>> switches{
+      {"auto", Switch::automatic}, {"on", Switch::on}, {"off", Switch::off}};
+  return {
+      number_key<Scene>(
+          "output.trace_interval", Dimension::time, above_to(0, 1), Standing::assumed,
+          "Interval between samples of the bottom trace.",
+          [](auto& s) -> auto& { return s.output.trace_interval; }),
+      may_be_empty(list_key<Scene>(
+          "output.snapshots", Dimension::time, between(0, 1), Standing::assumed,
+          "Times at which the fields of all particles are stored.",
+          [](auto& s) -> auto& { return s.output.snapshot_times; })),
+      word_key<Scene, Switch>(
+          "physics.conduction", Standing::assumed,
+          "Heat conduction between particles: as the plan decides, or forced.", switches,
+          [](auto& s) -> auto& { return s.physics.conduction; }),
+      word_key<Scene, Switch>(
+          "physics.bulk_reaction", Standing::assumed,
+          "Reaction heat in the bulk of the charge: as the plan decides, or forced.", switches,
+          [](auto& s) -> auto& { return s.physics.bulk_reaction; }),
+      number_key<Scene>(
+          "physics.conduction_bound", Dimension::number, at_least(0), Standing::assumed,
+          "Diffusion length over cell size below which conduction is left out.",
+          [](auto& s) -> auto& { return s.physics.conduction_bound; }),
+      number_key<Scene>(
+          "physics.reaction_bound", Dimension::temperature, at_least(0), Standing::assumed,
+          "Self-heating over the run below which the bulk reaction is left out.",
+          [](auto& s) -> auto& { return s.physics.reaction_bound; }),
+  };
+}
+
+void append(Keys& keys, Keys more) {
+  keys.insert(keys.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+Keys all_scene_keys() {
+  Keys keys = general_keys();
+  append(keys, load_keys());
+  append(keys, steel_keys());
+  append(keys, charge_keys());
+  append(keys, kinetics_keys());
+  append(keys, gap_keys());
+  append(keys, numerics_keys());
+  append(keys, output_keys());
+  return keys;
+}
+
+template <class Owner>
+void document(std::vector<DocumentedKey>& documented, const std::vector<Key<Owner>>& keys,
+              const std::string& prefix) {
+  for (const Key<Owner>& key : keys) {
+    DocumentedKey entry{key, key.required ? std::string{} : format_value(key, key.default_value())};
+    entry.description.name = prefix + key.name;
+    documented.push_back(std::move(entry));
+  }
+}
+
+}  // namespace
+
+const std::vector<Key<Scene>>& scene_keys() {
+  static const Keys keys = all_scene_keys();
+  return keys;
+}
+
+const std::vector<Key<Body>>& body_keys() {
+  static const std::vector<Key<Body>> keys{
+      required(text_key<Body>(
+          "name", Standing::input, "Name of the body, unique.", [](auto& b) -> auto& { return b.name; })),
+      required(word_key<Body, BodyMaterial>(
+          "material", Standing::input, "What the body is made of.",
+          {{"steel", BodyMaterial::steel}, {"charge", BodyMaterial::charge}},
+          [](auto& b) -> auto& { return b.material; })),
+      required(range_key<Body>(
+          "x", Dimension::length, between(0, 10), Standing::input, "Axial extent, from the nose to the base.",
+          [](auto& b) -> auto& { return b.x_begin; }, [](auto& b) -> auto& { return b.x_end; })),
+      required(range_key<Body>(
+          "r", Dimension::length, between(0, 10), Standing::input, "Radial extent, from the axis outward.",
+          [](auto& b) -> auto& { return b.r_begin; }, [](auto& b) -> auto& { return b.r_end; })),
+  };
+  return keys;
+}
+
+const std::vector<Key<ObservationPoint>>& observation_point_keys() {
+  static const std::vector<Key<ObservationPoint>> keys{
+      required(text_key<ObservationPoint>(
+          "name", Standing::input, "Name of the point, unique.", [](auto& p) -> auto& { return p.name; })),
+      required(number_key<ObservationPoint>(
+          "x", Dimension::length, between(0, 10), Standing::input, "Axial position at rest.",
+          [](auto& p) -> auto& { return p.x; })),
+      required(number_key<ObservationPoint>(
+          "r", Dimension::length, between(0, 10), Standing::input, "Radial position at rest.",
+          [](auto& p) -> auto& { return p.r; })),
+  };
+  return keys;
+}
+
+std::vector<DocumentedKey> describe_keys() {
+  std::vector<DocumentedKey> documented;
+  document(documented, scene_keys(), "");
+  document(documented, body_keys(), "body.");
+  document(documented, observation_point_keys(), "observation_point.");
+  return documented;
+}
+
+}  // namespace launchsafe::scene

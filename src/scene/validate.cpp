@@ -1,0 +1,276 @@
+// What a scene must satisfy beyond the range of each key, before anything is computed.
+#include "launchsafe/scene/read_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace launchsafe::scene {
+namespace {
+
+using Fault = std::optional<InputError>;
+
+std::string centimetres(double length) { return format_quantity(length, Dimension::length); }
+
+std::string range_text(double begin, double end) {
+  return fmt::format("{:.6g} to {:.6g} cm", in_unit(begin, Dimension::length, "cm"),
+                     in_unit(end, Dimension::length, "cm"));
+}
+
+/// Where the user gave a key; the file as a whole if it is a default.
+Place place_of_key(const SceneFile& file, const std::string& key) {
+  const auto given = file.given.find(key);
+  if (given != file.given.end()) return given->second.place;
+  const auto place = file.places.find(key);
+  return place != file.places.end() ? place->second : Place{file.file};
+}
+
+InputError fault_at(const SceneFile& file, const std::string& key, std::string found, std::string allowed,
+                    std::string suggestion = {}) {
+  return error_at(place_of_key(file, key), key, std::move(found), std::move(allowed), std::move(suggestion));
+}
+
+/// Round-off of lengths written in decimals, m.
+double tolerance_of(const SceneFile& file) {
+  const Extent all = extent_of(file.scene);
+  return 1e-9 * std::max(all.x_end - all.x_begin, all.r_end);
+}
+
+Fault check_names(const SceneFile& file) {
+  if (file.scene.bodies.empty()) {
+    return fault_at(file, "body", "no body", "at least one [[body]] with name, material, x and r");
+  }
+  std::set<std::string> names;
+  for (const Body& body : file.scene.bodies) {
+    if (body.name.empty() || !names.insert(body.name).second) {
+      return fault_at(
+          file, "body." + body.name + ".name",
+          fmt::format("\"{}\" {}", body.name, body.name.empty() ? "without letters" : "a second time"),
+          "a name that no other body has");
+    }
+  }
+  names.clear();
+  for (const ObservationPoint& point : file.scene.output.observation_points) {
+    if (point.name.empty() || !names.insert(point.name).second) {
+      return fault_at(
+          file, "observation_point." + point.name + ".name",
+          fmt::format("\"{}\" {}", point.name, point.name.empty() ? "without letters" : "a second time"),
+          "a name that no other observation point has");
+    }
+  }
+  return std::nullopt;
+}
+
+Fault check_charge_fits(const SceneFile& file) {
+  if (!has_material(file.scene, BodyMaterial::steel)) return std::nullopt;
+  const Extent shell = extent_of(file.scene, BodyMaterial::steel);
+  const double tolerance = tolerance_of(file);
+  for (const Body& body : file.scene.bodies) {
+    if (body.material != BodyMaterial::charge) continue;
+    const auto sticks_out = [&](const char* axis, double begin, double end, double shell_begin,
+                                double shell_end) {
+      return fault_at(
+          file, fmt::format("body.{}.{}", body.name, axis),
+          fmt::format("\"{}\", which sticks out of the shell", range_text(begin, end)),
+          fmt::format("a charge within the steel, {} {}", axis, range_text(shell_begin, shell_end)));
+    };
+    if (body.x_begin < shell.x_begin - tolerance || body.x_end > shell.x_end + tolerance) {
+      return sticks_out("x", body.x_begin, body.x_end, shell.x_begin, shell.x_end);
+    }
+    if (body.r_begin < shell.r_begin - tolerance || body.r_end > shell.r_end + tolerance) {
+      return sticks_out("r", body.r_begin, body.r_end, shell.r_begin, shell.r_end);
+    }
+  }
+  return std::nullopt;
+}
+
+Fault check_overlaps(const SceneFile& file) {
+  const double tolerance = tolerance_of(file);
+  const auto& bodies = file.scene.bodies;
+  for (std::size_t j = 1; j < bodies.size(); ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
+      const Body &a = bodies[i], &b = bodies[j];
+      const double x_begin = std::max(a.x_begin, b.x_begin), x_end = std::min(a.x_end, b.x_end);
+      const double r_begin = std::max(a.r_begin, b.r_begin), r_end = std::min(a.r_end, b.r_end);
+      if (x_end - x_begin <= tolerance || r_end - r_begin <= tolerance) continue;
+      // The direction in which they overlap less is the one that was probably meant to be otherwise.
+      const char* axis = x_end - x_begin < r_end - r_begin ? "x" : "r";
+      return fault_at(file, fmt::format("body.{}.{}", b.name, axis),
+                      fmt::format("\"{}\", which overlaps the body \"{}\" in x {}, r {}", b.name, a.name,
+                                  range_text(x_begin, x_end), range_text(r_begin, r_end)),
+                      "bodies that touch but do not overlap");
+    }
+  }
+  return std::nullopt;
+}
+
+/// A body thinner than half a cell is not resolved by the mesh at all.
+Fault check_cell_size(const SceneFile& file) {
+  const double cell = file.scene.numerics.cell_size;
+  double largest = std::numeric_limits<double>::infinity();
+  const Body* thinnest = nullptr;
+  for (const Body& body : file.scene.bodies) {
+    const double allowed = 2.0 * std::min(body.x_end - body.x_begin, body.r_end - body.r_begin);
+    if (allowed >= largest) continue;
+    largest = allowed;
+    thinnest = &body;
+  }
+  if (!thinnest || cell <= largest * (1.0 + 1e-9)) return std::nullopt;
+  return fault_at(file, "numerics.cell_size",
+                  fmt::format("{}, with which the body \"{}\", {} thick, has no particle of the mesh",
+                              centimetres(cell), thinnest->name, centimetres(0.5 * largest)),
+                  fmt::format("at most {} for this body", centimetres(largest)));
+}
+
+Fault check_load(const SceneFile& file) {
+  const Load& load = file.scene.load;
+  if (load.curve_time.size() != load.curve_pressure.size()) {
+    return fault_at(file, "load.curve_pressure",
+                    fmt::format("{} values for {} times", load.curve_pressure.size(), load.curve_time.size()),
+                    "one pressure for every time");
+  }
+  if (load.curve_time.size() == 1) {
+    return fault_at(file, "load.curve_time", "1 point", "a curve of at least two points");
+  }
+  const auto& times = load.curve_time;
+  const auto late =
+      std::adjacent_find(times.begin(), times.end(), [](double a, double b) { return !(a < b); });
+  if (late != times.end()) {
+    return fault_at(file, "load.curve_time",
+                    fmt::format("{} followed by {}", format_quantity(*late, Dimension::time),
+                                format_quantity(*std::next(late), Dimension::time)),
+                    "times in increasing order");
+  }
+  if (times.empty() && load.rescale_to_peak) {
+    return fault_at(file, "load.rescale_to_peak", "true without a measured curve",
+                    "true together with load.curve");
+  }
+  if (times.empty() && load.base > load.peak) {
+    return fault_at(
+        file, file.given.contains("load.base") ? "load.base" : "load.peak",
+        fmt::format("a base of {} and a peak of {}", format_quantity(load.base, Dimension::pressure),
+                    format_quantity(load.peak, Dimension::pressure)),
+        "a base pressure of at most the peak");
+  }
+  return std::nullopt;
+}
+
+Fault check_kinetics(const SceneFile& file) {
+  const materials::KineticsParameters& kinetics = file.scene.charge.kinetics;
+  const double initial = file.scene.initial_temperature;
+  if (!(kinetics.ignition_temperature < kinetics.burnt_temperature)) {
+    const bool burnt = file.given.contains("kinetics.burnt_temperature");
+    return fault_at(file, burnt ? "kinetics.burnt_temperature" : "kinetics.ignition_temperature",
+                    fmt::format("an ignition temperature of {:.6g} K and a burnt temperature of {:.6g} K",
+                                kinetics.ignition_temperature, kinetics.burnt_temperature),
+                    "an ignition temperature below the burnt temperature");
+  }
+  if (!(initial < kinetics.ignition_temperature)) {
+    return fault_at(file, "kinetics.ignition_temperature",
+                    fmt::format("{:.6g} K", kinetics.ignition_temperature),
+                    fmt::format("a temperature above the initial {:.6g} K", initial));
+  }
+  return std::nullopt;
+}
+
+Fault check_steel(const SceneFile& file) {
+  const materials::JohnsonCookParameters& steel = file.scene.steel.strength;
+  if (steel.room_temperature < steel.melting_temperature) return std::nullopt;
+  return fault_at(file, "steel.melting_temperature", fmt::format("{:.6g} K", steel.melting_temperature),
+                  fmt::format("a temperature above the room temperature, {:.6g} K", steel.room_temperature));
+}
+
+Fault check_crack_friction(const SceneFile& file) {
+  const auto flag = file.given.find("charge.crack_friction");
+  const auto coefficient = file.given.find("charge.face_friction");
+  if (flag == file.given.end() || coefficient == file.given.end()) return std::nullopt;
+  const bool on = std::get<bool>(flag->second.value);
+  const double friction = std::get<double>(coefficient->second.value);
+  if (on == (friction > 0.0)) return std::nullopt;
+  return fault_at(
+      file, "charge.crack_friction", fmt::format("{} with face_friction = {}", on, friction),
+      on ? "true with a face_friction above 0" : "false with a face_friction of 0, or without one");
+}
+
+Fault check_gaps(const SceneFile& file) {
+  std::vector<double> gaps = file.scene.surface.gaps;
+  std::sort(gaps.begin(), gaps.end());
+  const auto twice = std::adjacent_find(gaps.begin(), gaps.end(),
+                                        [](double a, double b) { return b - a <= 1e-9 * std::max(b, 1e-6); });
+  if (twice != gaps.end()) {
+    return fault_at(file, "gap.thickness", fmt::format("{} twice", centimetres(*twice)), "each gap once");
+  }
+  if (!gaps.empty() && gaps.back() > 0.0 && !has_material(file.scene, BodyMaterial::charge)) {
+    return fault_at(file, "gap.thickness",
+                    fmt::format("a gap of {} in a scene without a charge", centimetres(gaps.back())),
+                    "gaps only under a body of material \"charge\"");
+  }
+  return std::nullopt;
+}
+
+bool inside(const Body& body, const ObservationPoint& point, double tolerance) {
+  return point.x >= body.x_begin - tolerance && point.x <= body.x_end + tolerance &&
+         point.r >= body.r_begin - tolerance && point.r <= body.r_end + tolerance;
+}
+
+Fault check_observation_points(const SceneFile& file) {
+  const double tolerance = tolerance_of(file);
+  for (const ObservationPoint& point : file.scene.output.observation_points) {
+    const bool in_charge =
+        std::any_of(file.scene.bodies.begin(), file.scene.bodies.end(), [&](const Body& body) {
+          return body.material == BodyMaterial::charge && inside(body, point, tolerance);
+        });
+    if (in_charge) continue;
+    const Extent charge = extent_of(file.scene, BodyMaterial::charge);
+    const bool in_x = point.x >= charge.x_begin - tolerance && point.x <= charge.x_end + tolerance;
+    std::string allowed = "none: the scene has no charge";
+    if (has_material(file.scene, BodyMaterial::charge)) {
+      allowed = fmt::format("a point in the charge, x {}, r {}", range_text(charge.x_begin, charge.x_end),
+                            range_text(charge.r_begin, charge.r_end));
+    }
+    return fault_at(file, fmt::format("observation_point.{}.{}", point.name, in_x ? "r" : "x"),
+                    fmt::format("x {}, r {}", centimetres(point.x), centimetres(point.r)), allowed);
+  }
+  return std::nullopt;
+}
+
+Fault check_numerics(const SceneFile& file) {
+  const Scene& scene = file.scene;
+  if (scene.frame == Frame::lab && scene.numerics.inertial_scaling > 1.0) {
+    return fault_at(file, "numerics.inertial_scaling",
+                    fmt::format("{:.6g} in the lab frame", scene.numerics.inertial_scaling),
+                    "1 in the lab frame; more than 1 only with frame = \"co-moving\"");
+  }
+  return std::nullopt;
+}
+
+Fault check_output(const SceneFile& file) {
+  const double duration = file.scene.load.duration;
+  const std::string until = format_quantity(duration, Dimension::time);
+  if (file.scene.output.trace_interval > duration) {
+    return fault_at(file, "output.trace_interval",
+                    format_quantity(file.scene.output.trace_interval, Dimension::time),
+                    "an interval of at most the load's duration, " + until);
+  }
+  for (const double time : file.scene.output.snapshot_times) {
+    if (time <= duration * (1.0 + 1e-12)) continue;
+    return fault_at(file, "output.snapshots", format_quantity(time, Dimension::time),
+                    "times from 0 ms to the load's duration, " + until);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<InputError> validate(const SceneFile& file) {
+  for (const auto check : {check_names, check_charge_fits, check_overlaps, check_cell_size, check_load,
+                           check_kinetics, check_steel, check_crack_friction, check_gaps,
+                           check_observation_points, check_numerics, check_output}) {
+    if (Fault fault = check(file)) return fault;
+  }
+  return std::nullopt;
+}
+
+}  // namespace launchsafe::scene

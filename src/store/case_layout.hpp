@@ -1,0 +1,324 @@
+// Where everything is in a case file. Each function serves writing and reading: `Archive` is Hdf5Writer with
+// const values, or Hdf5Reader with values to fill.
+#pragma once
+
+#include "launchsafe/run/case_result.hpp"
+#include "launchsafe/store/hdf5.hpp"
+#include "launchsafe/store/manifest.hpp"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace launchsafe::store {
+
+template <class Enumeration>
+struct Named {
+  Enumeration value;
+  const char* name;
+};
+
+/// The file format's own words; they stay when the program's messages change.
+inline constexpr std::array run_status_names{
+    Named{run::RunStatus::completed, "completed"},
+    Named{run::RunStatus::non_finite, "non_finite"},
+    Named{run::RunStatus::energy_drift, "energy_drift"},
+    Named{run::RunStatus::time_step_collapse, "time_step_collapse"},
+    Named{run::RunStatus::particles_left_grid, "particles_left_grid"},
+    Named{run::RunStatus::interrupted, "interrupted"},
+};
+inline constexpr std::array ignition_cause_names{
+    Named{surface::IgnitionCause::trigger, "trigger"},
+    Named{surface::IgnitionCause::arrhenius, "arrhenius"},
+};
+inline constexpr std::array<const char*, trace::traced_closures> closure_names{"literal", "inelastic"};
+
+/// A number of any integral type.
+template <class Archive, class Number>
+void integer(Archive& archive, const std::string& name, Number& value, const Label& label) {
+  std::int64_t stored = static_cast<std::int64_t>(value);
+  archive.value(name, stored, label);
+  if constexpr (Archive::reading) value = static_cast<Number>(stored);
+}
+
+/// An enumerator by its name.
+template <class Archive, class Value, class Names>
+void choice(Archive& archive, const std::string& name, Value& value, const Names& names, const Label& label) {
+  std::string text;
+  for (const auto& each : names) {
+    if (each.value == value) text = each.name;
+  }
+  archive.value(name, text, label);
+  if constexpr (Archive::reading) {
+    for (const auto& each : names) {
+      if (text == each.name) {
+        value = each.value;
+        return;
+      }
+    }
+    archive.fail(name + " is '" + text + "', which this program does not know");
+  }
+}
+
+/// One member of every row as an array; the first column read decides how many rows there are.
+template <class Archive, class Rows, class Member>
+void column(Archive& archive, const std::string& name, Rows& rows, Member member, const Label& label) {
+  using Row = typename std::remove_const_t<Rows>::value_type;
+  using Value = std::remove_cvref_t<std::invoke_result_t<Member, Row&>>;
+  using Stored = std::conditional_t<std::is_integral_v<Value>, std::int64_t, Value>;
+  std::vector<Stored> values;
+  if constexpr (!Archive::reading) {
+    for (const auto& row : rows) values.push_back(static_cast<Stored>(std::invoke(member, row)));
+    archive.array(name, values, label);
+  } else {
+    archive.array(name, values, label);
+    if (rows.empty()) rows.resize(values.size());
+    if (rows.size() != values.size())
+      return archive.fail(name + " has another length than the columns before it");
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      std::invoke(member, rows[i]) = static_cast<Value>(values[i]);
+  }
+}
+
+/// An array that is as long as the times it belongs to, or empty where it was not recorded.
+template <class Archive, class Values>
+void history(Archive& archive, const std::string& name, Values& values, std::size_t length,
+             const Label& label) {
+  archive.array(name, values, label);
+  if (!values.empty() && values.size() != length) archive.fail(name + " has another length than its times");
+}
+
+/// Groups "0000", "0001", ... one for each element.
+template <class Archive, class Elements, class Body>
+void list(Archive& archive, const std::string& name, const std::string& description, Elements& elements,
+          Body body) {
+  archive.group(name, description, [&] {
+    if constexpr (Archive::reading) elements.resize(archive.size());
+    for (std::size_t i = 0; i < elements.size() && !archive.failed(); ++i) {
+      const std::string digits = std::to_string(i);
+      const std::string group = std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
+      archive.group(group, description, [&] { body(elements[i]); });
+    }
+  });
+}
+
+/// Plane vectors as rows of three, the last zero, as visualisation programs want them.
+template <class Archive, class Values>
+void plane_vectors(Archive& archive, const std::string& name, Values& along, Values& across,
+                   std::size_t count, const Label& label) {
+  std::vector<double> rows;
+  if constexpr (!Archive::reading) {
+    if (along.size() != across.size()) return archive.fail(name + " has components of different lengths");
+    for (std::size_t i = 0; i < along.size(); ++i) rows.insert(rows.end(), {along[i], across[i], 0.0});
+    archive.table(name, rows, {count, 3}, label);
+  } else {
+    archive.table(name, rows, {count, 3}, label);
+    for (std::size_t i = 0; i + 2 < rows.size(); i += 3) {
+      along.push_back(rows[i]);
+      across.push_back(rows[i + 1]);
+    }
+  }
+}
+
+template <class Archive, class Value>
+void lay_out_manifest(Archive& archive, Value& manifest) {
+  archive.group("manifest", "Where this result came from", [&] {
+    archive.value("input", manifest.input_text, {"none", "all that determines the case"});
+    archive.value("input_sha256", manifest.input_sha256, {"none", "SHA-256 of the input"});
+    archive.value("program_version", manifest.program_version, {"none", "version of launchsafe"});
+    archive.value("commit", manifest.commit, {"none", "commit that the program was built from"});
+    archive.value("compiler", manifest.compiler, {"none", "compiler of the program"});
+    archive.value("compiler_flags", manifest.compiler_flags, {"none", "flags of the compiler"});
+    archive.value("build_type", manifest.build_type, {"none", "CMake build type"});
+    archive.group("libraries", "Libraries that the program was built with", [&] {
+      column(archive, "name", manifest.libraries, &LibraryVersion::name, {"none", "name of the library"});
+      column(archive, "version", manifest.libraries, &LibraryVersion::version, {"none", "its version"});
+    });
+    archive.value("host", manifest.host, {"none", "machine"});
+    integer(archive, "threads", manifest.threads, {"1", "threads that the program used"});
+    archive.value("start_time", manifest.start_time, {"none", "start, ISO 8601, UTC"});
+    archive.value("wall_time", manifest.wall_time, {"s", "wall time of the case"});
+  });
+}
+
+template <class Archive, class Trace>
+void lay_out_trace(Archive& archive, Trace& trace) {
+  using trace::Station;
+  archive.group("stations", "Radial places on the charge bottom", [&] {
+    column(archive, "name", trace.stations, &Station::name, {"none", "name"});
+    column(archive, "x", trace.stations, &Station::x, {"m", "initial axial position"});
+    column(archive, "r", trace.stations, &Station::r, {"m", "initial radial position"});
+    column(archive, "area", trace.stations, &Station::area, {"m2", "share of the bottom"});
+    column(archive, "observation", trace.stations, &Station::observation, {"1", "1 for observation points"});
+  });
+  archive.array("time", trace.time, {"s", "time since the start of the load"});
+  const std::size_t samples = trace.time.size();
+  history(archive, "chamber_pressure", trace.chamber_pressure, samples, {"Pa", "pressure on the base"});
+  history(archive, "bottom_pressure", trace.bottom_pressure, samples,
+          {"Pa", "area mean of the axial compression over the bottom row"});
+  history(archive, "mean_chamber_pressure", trace.mean_chamber_pressure, samples,
+          {"Pa", "chamber pressure, mean over the interval that ends at the sample"});
+  history(archive, "mean_bottom_pressure", trace.mean_bottom_pressure, samples,
+          {"Pa", "bottom pressure, mean over the interval that ends at the sample"});
+  history(archive, "steps", trace.steps, samples, {"1", "time steps since the start"});
+  for (std::size_t closure = 0; closure < closure_names.size(); ++closure) {
+    archive.table(
+        std::string("friction_") + closure_names[closure], trace.friction[closure],
+        {samples, trace.stations.size()},
+        {"J/m3", "friction energy since the start without localisation; rows are times, columns stations"});
+  }
+}
+
+template <class Archive, class Rows>
+void lay_out_energy(Archive& archive, Rows& rows) {
+  const auto energy = [&](const std::string& name, double run::EnergyBalance::*term,
+                          const std::string& what) {
+    column(archive, name, rows, [term](auto& sample) -> auto& { return sample.energy.*term; }, {"J", what});
+  };
+  using run::EnergyBalance;
+  energy("kinetic_energy", &EnergyBalance::kinetic,
+         "kinetic energy relative to the frame, with the scaled inertia");
+  energy("internal_energy", &EnergyBalance::internal, "integrated stress power");
+  energy("external_work", &EnergyBalance::external, "work of the chamber pressure");
+  energy("body_force_work", &EnergyBalance::body_force, "work of the accelerating frame's body force");
+  energy("damping_loss", &EnergyBalance::damping, "taken out by damping and the PIC share");
+  energy("plastic_dissipation", &EnergyBalance::plastic, "dissipated in steel");
+  energy("viscous_dissipation", &EnergyBalance::viscous, "dissipated in the charge's Maxwell elements");
+  energy("crack_dissipation", &EnergyBalance::crack, "dissipated by crack growth");
+}
+
+template <class Archive, class Rows>
+void lay_out_monitor(Archive& archive, Rows& rows) {
+  using run::MonitorSample;
+  column(archive, "time", rows, &MonitorSample::time, {"s", "time"});
+  column(archive, "time_step", rows, &MonitorSample::time_step, {"s", "time step"});
+  lay_out_energy(archive, rows);
+  column(archive, "largest_plastic_strain", rows, &MonitorSample::largest_plastic_strain,
+         {"1", "largest equivalent plastic strain"});
+  column(archive, "largest_crack_radius", rows, &MonitorSample::largest_crack_radius,
+         {"m", "largest crack radius"});
+  column(archive, "momentum", rows, &MonitorSample::momentum,
+         {"kg m/s", "axial momentum relative to the frame"});
+}
+
+template <class Archive, class Value>
+void lay_out_snapshot(Archive& archive, Value& snapshot) {
+  archive.value("time", snapshot.time, {"s", "time of the snapshot"});
+  std::vector<std::int64_t> body(snapshot.body.begin(), snapshot.body.end());
+  archive.array("body", body, {"1", "index of the body, in the order of scene/bodies"});
+  if constexpr (Archive::reading) snapshot.body.assign(body.begin(), body.end());
+  const std::size_t count = body.size();
+  plane_vectors(archive, "position", snapshot.x, snapshot.r, count, {"m", "axial, radial, 0"});
+  plane_vectors(archive, "velocity", snapshot.velocity_x, snapshot.velocity_r, count,
+                {"m/s", "axial, radial, 0; relative to the frame"});
+  history(archive, "density", snapshot.density, count, {"kg/m3", "density"});
+  history(archive, "pressure", snapshot.pressure, count, {"Pa", "pressure, compression positive"});
+  history(archive, "von_mises", snapshot.von_mises, count, {"Pa", "von Mises stress"});
+  history(archive, "temperature", snapshot.temperature, count, {"K", "temperature"});
+  history(archive, "crack_radius", snapshot.crack_radius, count, {"m", "crack radius"});
+  history(archive, "plastic_strain", snapshot.plastic_strain, count, {"1", "equivalent plastic strain"});
+}
+
+template <class Archive, class Value>
+void lay_out_mechanics(Archive& archive, Value& mechanics) {
+  archive.group("mechanics", "The mechanical run", [&] {
+    choice(archive, "status", mechanics.status, run_status_names, {"none", "how the run ended"});
+    archive.value("reason", mechanics.reason, {"none", "when and where, if not completed"});
+    archive.value("end_time", mechanics.end_time, {"s", "time reached"});
+    archive.value("steps", mechanics.steps, {"1", "time steps"});
+    archive.value("particles", mechanics.particles, {"1", "particles"});
+    archive.value("wall_time", mechanics.wall_time, {"s", "wall time of the mechanics"});
+    if constexpr (!Archive::reading) {
+      archive.value("update_rate", mechanics.update_rate(), {"1/s", "particle updates per second"});
+    }
+    archive.value("mass_steel", mechanics.mass_steel, {"kg", "mass of the steel, summed over the particles"});
+    archive.value("mass_charge", mechanics.mass_charge,
+                  {"kg", "mass of the charge, summed over the particles"});
+    archive.group("limiters", "How often limiters acted", [&] {
+      auto& limiters = mechanics.limiters;
+      archive.value("crack_at_bound", limiters.crack_at_bound,
+                    {"1", "particles whose crack reached its bound"});
+      archive.value("tension_cutoff", limiters.tension_cutoff,
+                    {"1", "particles that reached the tension cut-off"});
+      archive.value("hugoniot_guard", limiters.hugoniot_guard,
+                    {"1", "particles at the guarded Hugoniot pole"});
+    });
+    archive.group("monitor", "History of the energy balance and of stability",
+                  [&] { lay_out_monitor(archive, mechanics.monitor); });
+    archive.group("trace", "History of the charge bottom", [&] { lay_out_trace(archive, mechanics.trace); });
+  });
+  list(archive, "snapshots", "Particle fields at one time", mechanics.snapshots,
+       [&](auto& snapshot) { lay_out_snapshot(archive, snapshot); });
+}
+
+/// Station names beside their numbers are for people; reading goes by the number.
+template <class Archive>
+void lay_out_station(Archive& archive, auto& station, const trace::BottomTrace& trace) {
+  archive.value("station", station, {"1", "index of the station"});
+  if constexpr (!Archive::reading) {
+    const std::string name = station < trace.stations.size() ? trace.stations[station].name : "";
+    archive.value("station_name", name, {"none", "name of the station"});
+  }
+}
+
+template <class Archive>
+void lay_out_ignition(Archive& archive, const std::string& name, auto& ignition,
+                      const trace::BottomTrace& trace) {
+  if constexpr (Archive::reading) {
+    if (!archive.has(name)) return;
+    ignition.emplace();
+  } else {
+    if (!ignition) return;
+  }
+  archive.group(name, "First ignition; absent when there is none", [&] {
+    archive.value("time", ignition->time, {"s", "time of ignition"});
+    lay_out_station(archive, ignition->station, trace);
+    choice(archive, "cause", ignition->cause, ignition_cause_names,
+           {"none", "trigger: T1 by heating from outside"});
+    archive.value("chemical_share", ignition->chemical_share, {"1", "Arrhenius share of the heating at T1"});
+  });
+}
+
+template <class Archive>
+void lay_out_maximum(Archive& archive, const std::string& name, const std::string& description, auto& maximum,
+                     const trace::BottomTrace& trace) {
+  archive.group(name, description, [&] {
+    archive.value("temperature", maximum.temperature, {"K", "highest temperature"});
+    archive.value("time", maximum.time, {"s", "when"});
+    lay_out_station(archive, maximum.station, trace);
+  });
+}
+
+template <class Archive, class Value>
+void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) {
+  auto& skin = gap.skin;
+  archive.value("gap", gap.gap, {"m", "thickness of the bottom gap"});
+  archive.value("sampling_error", gap.sampling_error, {"K", "change of T_max on a trace thinned by two"});
+  integer(archive, "coupled", gap.coupled, {"1", "1 when integrated inside the mechanics"});
+  lay_out_maximum(archive, "maximum_at_points", "T_max over the observation points", gap.at_points, trace);
+  lay_out_maximum(archive, "maximum_anywhere", "T_max over the whole bottom", gap.anywhere, trace);
+  lay_out_ignition(archive, "ignition", skin.ignition, trace);
+  lay_out_ignition(archive, "ignition_anywhere", skin.ignition_anywhere, trace);
+  archive.group("skin", "Skin temperatures", [&] {
+    archive.value("gap", skin.gap, {"m", "gap of this history"});
+    archive.value("energy_residual", skin.energy_residual,
+                  {"1", "energy residual relative to the heat exchanged"});
+    archive.array("time", skin.time, {"s", "time"});
+    history(archive, "air_temperature", skin.air_temperature, skin.time.size(),
+            {"K", "temperature of the gap's air"});
+    archive.table("temperature", skin.temperature, {skin.time.size(), trace.stations.size()},
+                  {"K", "skin temperature; rows are times, columns stations"});
+  });
+}
+
+template <class Archive, class Value>
+void lay_out_result(Archive& archive, Value& result) {
+  lay_out_mechanics(archive, result.mechanics);
+  list(archive, "gaps", "One bottom gap", result.gaps,
+       [&](auto& gap) { lay_out_gap(archive, gap, result.mechanics.trace); });
+}
+
+}  // namespace launchsafe::store

@@ -1,0 +1,80 @@
+#include "launchsafe/store/manifest.hpp"
+
+#include <Eigen/src/Core/util/Macros.h>
+#include <boost/version.hpp>
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <hdf5.h>
+#include <nlohmann/json.hpp>
+#include <toml++/impl/version.h>
+#include <unistd.h>
+
+#include <array>
+#include <ctime>
+
+// Libraries of the rooms above, known here by their headers alone.
+#if __has_include(<oneapi/tbb/version.h>)
+#include <oneapi/tbb/version.h>
+#endif
+#if __has_include(<CLI/Version.hpp>)
+#include <CLI/Version.hpp>
+#endif
+
+#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/version.hpp"
+
+namespace launchsafe::store {
+namespace {
+
+std::string dotted(int major, int minor, int patch) { return fmt::format("{}.{}.{}", major, minor, patch); }
+
+std::string hdf5_version() {
+  unsigned major = 0, minor = 0, release = 0;
+  if (H5get_libversion(&major, &minor, &release) < 0) return "unknown";
+  return fmt::format("{}.{}.{}", major, minor, release);
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+}  // namespace
+
+std::vector<LibraryVersion> library_versions() {
+  return {
+      {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"Boost", dotted(BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
+      {"HDF5", hdf5_version()},
+      {"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+      {"toml++", dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
+      {"nlohmann-json",
+       dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+#ifdef TBB_VERSION_STRING
+      {"oneTBB", TBB_VERSION_STRING},
+#endif
+#ifdef CLI11_VERSION
+      {"CLI11", CLI11_VERSION},
+#endif
+  };
+}
+
+std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+Manifest make_manifest(std::string input_text, int threads) {
+  Manifest manifest;
+  manifest.input_sha256 = sha256(input_text);
+  manifest.input_text = std::move(input_text);
+  manifest.program_version = version::number;
+  manifest.commit = version::commit;
+  manifest.compiler = version::compiler;
+  manifest.compiler_flags = version::flags;
+  manifest.build_type = version::build_type;
+  manifest.libraries = library_versions();
+  manifest.host = host_name();
+  manifest.threads = threads;
+  manifest.start_time = utc_now();
+  return manifest;
+}
+
+}  // namespace launchsafe::store

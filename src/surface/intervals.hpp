@@ -1,0 +1,65 @@
+// A bottom trace read as one set of constant rates per interval between samples.
+#pragma once
+
+#include "launchsafe/surface/skin.hpp"
+
+#include <vector>
+
+namespace launchsafe::surface::detail {
+
+/// Pressure on the air over one interval, Pa: its ends and its mean.
+struct IntervalPressure {
+  double begin = 0, end = 0, mean = 0;
+  /// The parabola through both ends with this mean, at the share s of the interval in [0, 1].
+  double at(double s) const {
+    return begin + s * (end - begin) + 3.0 * (2.0 * mean - begin - end) * s * (1.0 - s);
+  }
+};
+
+/// Air temperature over one interval as a straight line, K.
+struct LinearAir {
+  double begin = 0, end = 0;
+};
+
+/// The straight line whose mean is that of the adiabat over the interval, to fourth order in its length, and
+/// whose slope is that of the two ends. The skin takes in the integral of the air temperature, so matching
+/// means makes the trace's sampling error fourth order where linear interpolation of the samples would leave
+/// second order, and a thinned trace, which keeps the means exactly, gives nearly the same skin. The line may
+/// jump at samples; it never falls below the initial air temperature.
+LinearAir linear_air(const materials::AirParameters& air, const IntervalPressure& pressure);
+
+/// Reads a trace for one model and one gap. Interval k ends at sample k + 1.
+class Intervals {
+ public:
+  Intervals(const SkinModel& model, const trace::BottomTrace& trace, double gap);
+
+  std::size_t count() const { return trace_.samples() > 0 ? trace_.samples() - 1 : 0; }
+  double length(std::size_t interval) const { return trace_.time[interval + 1] - trace_.time[interval]; }
+  IntervalPressure pressure(std::size_t interval) const;
+  double pressure_at(std::size_t sample) const { return pressure_[sample]; }
+  /// Rate (1/s) at which the skin takes on the air's temperature.
+  double exchange_rate(std::size_t interval) const;
+  /// Friction heating (K/s) of a station, the traced energy spread evenly over the interval; NaN where the
+  /// trace holds no energies for the closure asked for.
+  double friction_heating(std::size_t interval, std::size_t station) const;
+
+ private:
+  const SkinModel& model_;
+  const trace::BottomTrace& trace_;
+  const std::vector<double>& pressure_;
+  const std::vector<double>& mean_;
+  const std::vector<double>* friction_;  ///< nothing for the closure `none`
+  double ratio_;                         ///< kappa h
+};
+
+/// Rate (1/s) of the printed exchange, a factor 1 - kappa h in each of `steps` steps over `length` seconds.
+double per_step_rate(double ratio, double steps, double length);
+
+/// Integrates all stations with the air losing what the skins gain (AirModel::balance).
+SkinHistory integrate_balance(const SkinModel& model, const trace::BottomTrace& trace, double gap);
+
+/// Notes an ignition at `time` (s) if it is the first so far.
+void note_ignition(SkinHistory& history, const trace::BottomTrace& trace, std::size_t station, double time,
+                   double chemical_share);
+
+}  // namespace launchsafe::surface::detail

@@ -1,0 +1,94 @@
+#include "launchsafe/surface/skin.hpp"
+
+#include "intervals.hpp"
+#include "skin_equation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::surface {
+
+namespace {
+
+/// Every station by itself under the given air (AirModel::reservoir).
+SkinHistory integrate_reservoir(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
+  const detail::Intervals intervals(model, trace, gap);
+  const std::size_t stations = trace.stations.size();
+  SkinHistory history;
+  history.temperature.assign(trace.samples() * stations, model.initial_temperature);
+  for (std::size_t sample = 0; sample < trace.samples(); ++sample) {
+    history.air_temperature.push_back(
+        materials::adiabatic_temperature(model.surface.air, intervals.pressure_at(sample)));
+  }
+  std::vector<SkinPoint> points(stations, SkinPoint{model.initial_temperature});
+  for (std::size_t interval = 0; interval < intervals.count(); ++interval) {
+    const double length = intervals.length(interval);
+    const detail::LinearAir air = detail::linear_air(model.surface.air, intervals.pressure(interval));
+    detail::SkinEquation equation;
+    equation.exchange_rate = intervals.exchange_rate(interval);
+    equation.air = air.begin;
+    equation.air_slope = (air.end - air.begin) / length;
+    for (std::size_t station = 0; station < stations; ++station) {
+      SkinPoint& point = points[station];
+      const bool was_ignited = point.ignited;
+      equation.heating = intervals.friction_heating(interval, station);
+      point = detail::advance(model, equation, point, length);
+      history.temperature[(interval + 1) * stations + station] = point.temperature;
+      if (point.ignited && !was_ignited) {
+        detail::note_ignition(history, trace, station, trace.time[interval] + point.ignition_time,
+                              point.chemical_share);
+      }
+    }
+  }
+  return history;
+}
+
+bool all_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+}  // namespace
+
+SkinModel skin_model(const scene::Scene& scene) {
+  SkinModel model;
+  model.surface = scene.surface;
+  model.kinetics = scene.charge.kinetics;
+  model.charge_density = scene.charge.eos.initial_density;
+  model.specific_heat = scene.charge.specific_heat;
+  model.initial_temperature = scene.initial_temperature;
+  return model;
+}
+
+double heat_capacity_ratio(const SkinModel& model, double gap) {
+  const scene::Surface& s = model.surface;
+  return s.air.density * gap * s.air.specific_heat /
+         (model.charge_density * s.skin_thickness * model.specific_heat);
+}
+
+SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
+  const bool balanced = model.surface.air_model == scene::AirModel::balance && gap > 0.0;
+  SkinHistory history =
+      balanced ? detail::integrate_balance(model, trace, gap) : integrate_reservoir(model, trace, gap);
+  history.gap = gap;
+  history.time = trace.time;
+  if (!all_finite(history.temperature) || !all_finite(history.air_temperature)) {
+    history.ignition.reset();
+    history.ignition_anywhere.reset();
+  }
+  return history;
+}
+
+SkinPoint advance_skin(const SkinModel& model, double gap, SkinPoint point, double dt, double air_begin,
+                       double air_end, double friction_heating) {
+  const double ratio = heat_capacity_ratio(model, gap);
+  detail::SkinEquation equation;
+  equation.exchange_rate = model.surface.exchange == scene::Exchange::per_step
+                               ? detail::per_step_rate(ratio, 1.0, dt)
+                               : ratio / model.surface.exchange_time;
+  equation.air = air_begin;
+  equation.air_slope = (air_end - air_begin) / dt;
+  equation.heating = friction_heating;
+  return detail::advance(model, equation, point, dt);
+}
+
+}  // namespace launchsafe::surface

@@ -1,0 +1,193 @@
+#include "skin_equation.hpp"
+
+#include "launchsafe/math/phi.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::surface::detail {
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+enum class Phase { solid, reacting, burnt };
+
+/// The reaction term and its slope.
+struct Reaction {
+  double rate = 0;   ///< K/s
+  double slope = 0;  ///< 1/s
+};
+
+/// One equation in one phase, with the method that follows it.
+class PhaseEquation {
+ public:
+  PhaseEquation(const SkinModel& model, const SkinEquation& equation, const Trigger& trigger, Phase phase)
+      : kinetics_(model.kinetics),
+        prefactor_(phase == Phase::burnt
+                       ? 0.0
+                       : model.kinetics.heat_of_reaction * model.kinetics.frequency / model.specific_heat),
+        equation_(equation),
+        scale_(phase == Phase::reacting ? trigger.amplification : 1.0),
+        phase_(phase) {}
+
+  struct Step {
+    double temperature;  ///< K, fourth order
+    double error;        ///< K, its difference from the embedded third order
+  };
+
+  /// One step of the exponential Rosenbrock method exprb43 (Hochbruck, Ostermann & Schweitzer, SIAM J. Numer.
+  /// Anal. 47, 2009) from T at time t over h. The linear part, here the exchange with an air temperature that
+  /// goes linearly, is exact at any stiffness; the stages see only what is left of the reaction after its
+  /// tangent is taken off.
+  Step step(double t, double temperature, double h) const {
+    const Reaction here = reaction(temperature);
+    const double rate = scale_ * equation_.exchange_rate;
+    const double jacobian = here.slope - rate;
+    const double drift = rate * equation_.air_slope;
+    const double slope = rate * (equation_.air + equation_.air_slope * t - temperature) +
+                         scale_ * equation_.heating + here.rate;
+    const auto half = math::phi_functions(0.5 * h * jacobian);
+    const auto full = math::phi_functions(h * jacobian);
+    const double linear = temperature + h * (full[1] * slope + h * full[2] * drift);
+    const double middle = temperature + 0.5 * h * (half[1] * slope + 0.5 * h * half[2] * drift);
+    const double rest2 = remainder(temperature, here, middle);
+    const double rest3 = remainder(temperature, here, linear + h * full[1] * rest2);
+    const double third = 16.0 * full[3] * rest2 - 2.0 * full[3] * rest3;
+    const double correction = full[4] * (12.0 * rest3 - 48.0 * rest2);
+    return {linear + h * (third + correction), h * std::abs(correction)};
+  }
+
+ private:
+  Reaction reaction(double temperature) const {
+    if (!(prefactor_ > 0.0) || !(temperature > 0.0))
+      return {temperature - temperature, 0.0};  // 0, or NaN for NaN
+    const double inverse = 1.0 / temperature;
+    const double rate = scale_ * prefactor_ * std::exp(-kinetics_.activation_temperature * inverse);
+    const double slope = rate * kinetics_.activation_temperature * inverse * inverse;
+    if (phase_ == Phase::solid) return {rate, slope};
+    const double span = kinetics_.burnt_temperature - kinetics_.ignition_temperature;
+    const double left = std::clamp((kinetics_.burnt_temperature - temperature) / span, 0.0, 1.0);
+    return {left * rate, left * slope - rate / span};
+  }
+
+  /// What the reaction at `other` has beyond its tangent at `temperature`.
+  double remainder(double temperature, const Reaction& here, double other) const {
+    return reaction(other).rate - here.rate - here.slope * (other - temperature);
+  }
+
+  const materials::KineticsParameters& kinetics_;
+  double prefactor_;
+  const SkinEquation& equation_;
+  double scale_;
+  Phase phase_;
+};
+
+/// Where an integration stopped.
+struct Arrival {
+  double time = 0;         ///< s
+  double temperature = 0;  ///< K
+  bool at_target = false;
+};
+
+/// The part of a step at which the temperature reaches the target: bisection on its length, down to
+/// round-off.
+double crossing(const PhaseEquation& equation, double t, double temperature, double h, double target) {
+  double below = 0.0, above = h;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    const double middle = 0.5 * (below + above);
+    (equation.step(t, temperature, middle).temperature < target ? below : above) = middle;
+  }
+  return above;
+}
+
+/// Follows one phase from `start` until the temperature reaches the target, falls below the floor, or time is
+/// up.
+Arrival follow(const PhaseEquation& equation, Arrival start, double end, double floor, double target,
+               double tolerance) {
+  constexpr int most_attempts = 100000;
+  Arrival at = start;
+  double h = end - at.time;
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    const bool last = h >= end - at.time;
+    if (last) h = end - at.time;
+    const auto step = equation.step(at.time, at.temperature, h);
+    const double share = step.error / (tolerance * at.temperature);
+    // An infinite or undefined result counts as a rejection.
+    const bool accepted = share <= 1.0 && std::isfinite(step.temperature);
+    const double factor = std::isfinite(share) ? 0.9 * std::pow(std::max(share, 1e-8), -0.25) : 0.1;
+    if (accepted && step.temperature >= target) {
+      return {at.time + crossing(equation, at.time, at.temperature, h, target), target, true};
+    }
+    if (accepted) {
+      at = {last ? end : at.time + h, step.temperature, false};
+      if (last || at.temperature < floor) return at;
+    }
+    h *= std::clamp(factor, 0.1, accepted ? 5.0 : 0.9);
+  }
+  return {end, not_a_number, false};
+}
+
+bool is_finite(const SkinEquation& equation, const SkinPoint& point, double dt) {
+  return std::isfinite(equation.exchange_rate) && std::isfinite(equation.air) &&
+         std::isfinite(equation.air_slope) && std::isfinite(equation.heating) &&
+         std::isfinite(point.temperature) && std::isfinite(dt);
+}
+
+}  // namespace
+
+Trigger trigger_of(const SkinModel& model) {
+  const materials::KineticsParameters& k = model.kinetics;
+  if (!(k.ignition_temperature < k.burnt_temperature)) return {k.burnt_temperature, 1.0, true};
+  const double gain =
+      k.heat_of_reaction / (model.specific_heat * (k.burnt_temperature - k.ignition_temperature));
+  if (gain >= 1.0) return {k.ignition_temperature, 1.0, true};
+  return {k.ignition_temperature, 1.0 / (1.0 - gain), false};
+}
+
+double chemical_share(const SkinModel& model, double temperature, double outside) {
+  const double chemical = materials::arrhenius_heating(model.kinetics, model.specific_heat, temperature);
+  const double total = chemical + std::max(outside, 0.0);
+  return total > 0.0 ? chemical / total : 0.0;
+}
+
+SkinPoint advance(const SkinModel& model, const SkinEquation& equation, SkinPoint point, double dt) {
+  if (!is_finite(equation, point, dt)) {
+    point.temperature = not_a_number;
+    return point;
+  }
+  const Trigger trigger = trigger_of(model);
+  const double infinity = std::numeric_limits<double>::infinity();
+  Arrival at{0.0, point.temperature, false};
+  while (!point.ignited && at.time < dt) {
+    const Phase phase =
+        at.temperature >= trigger.temperature && !trigger.immediate ? Phase::reacting : Phase::solid;
+    const double target = phase == Phase::solid ? trigger.temperature : model.kinetics.burnt_temperature;
+    const double floor = phase == Phase::solid ? -infinity : trigger.temperature;
+    at.at_target = at.temperature >= target;
+    if (!at.at_target) {
+      const PhaseEquation solid(model, equation, trigger, phase);
+      at = follow(solid, at, dt, floor, target, model.relative_tolerance);
+    }
+    if (at.at_target && (phase == Phase::reacting || trigger.immediate)) {
+      const double outside =
+          equation.exchange_rate * (equation.air + equation.air_slope * at.time - at.temperature) +
+          equation.heating;
+      point.ignited = true;
+      point.ignition_time = at.time;
+      point.chemical_share = chemical_share(model, at.temperature, outside);
+      at.temperature = std::max(at.temperature, model.kinetics.burnt_temperature);
+    }
+  }
+  if (point.ignited && at.time < dt) {
+    SkinEquation exchange = equation;
+    exchange.heating = 0.0;
+    const PhaseEquation burnt(model, exchange, trigger, Phase::burnt);
+    at.temperature = burnt.step(at.time, at.temperature, dt - at.time).temperature;
+  }
+  point.temperature = at.temperature;
+  return point;
+}
+
+}  // namespace launchsafe::surface::detail

@@ -1,0 +1,82 @@
+#include "launchsafe/trace/bottom_trace.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::trace {
+
+namespace {
+
+/// Samples that a trace half as dense keeps: 0, 2, 4, ... and the last.
+std::vector<std::size_t> kept_samples(std::size_t count) {
+  std::vector<std::size_t> kept;
+  for (std::size_t sample = 0; sample < count; sample += 2) kept.push_back(sample);
+  if (count > 0 && kept.back() != count - 1) kept.push_back(count - 1);
+  return kept;
+}
+
+std::vector<double> picked(const std::vector<double>& values, const std::vector<std::size_t>& kept) {
+  std::vector<double> result;
+  for (const std::size_t sample : kept) result.push_back(values[sample]);
+  return result;
+}
+
+/// Means over the longer intervals: the old means weighted by their lengths.
+std::vector<double> combined_means(const std::vector<double>& time, const std::vector<double>& means,
+                                   const std::vector<std::size_t>& kept) {
+  std::vector<double> result;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (k == 0) {
+      result.push_back(means[kept[0]]);
+      continue;
+    }
+    double weighted = 0.0;
+    for (std::size_t sample = kept[k - 1] + 1; sample <= kept[k]; ++sample) {
+      weighted += (time[sample] - time[sample - 1]) * means[sample];
+    }
+    result.push_back(weighted / (time[kept[k]] - time[kept[k - 1]]));
+  }
+  return result;
+}
+
+std::vector<double> picked_rows(const std::vector<double>& values, std::size_t width,
+                                const std::vector<std::size_t>& kept) {
+  std::vector<double> result;
+  if (values.empty()) return result;  // a closure that was not traced
+  for (const std::size_t sample : kept) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(sample * width);
+    result.insert(result.end(), begin, begin + static_cast<std::ptrdiff_t>(width));
+  }
+  return result;
+}
+
+}  // namespace
+
+BottomTrace thinned(const BottomTrace& trace) {
+  const std::vector<std::size_t> kept = kept_samples(trace.samples());
+  BottomTrace result;
+  result.stations = trace.stations;
+  result.time = picked(trace.time, kept);
+  result.chamber_pressure = picked(trace.chamber_pressure, kept);
+  result.bottom_pressure = picked(trace.bottom_pressure, kept);
+  result.mean_chamber_pressure = combined_means(trace.time, trace.mean_chamber_pressure, kept);
+  result.mean_bottom_pressure = combined_means(trace.time, trace.mean_bottom_pressure, kept);
+  result.steps = picked(trace.steps, kept);
+  for (std::size_t closure = 0; closure < traced_closures; ++closure) {
+    result.friction[closure] = picked_rows(trace.friction[closure], trace.stations.size(), kept);
+  }
+  return result;
+}
+
+double interpolate(const std::vector<double>& time, const std::vector<double>& value, double t) {
+  if (time.empty() || time.size() != value.size() || std::isnan(t))
+    return std::numeric_limits<double>::quiet_NaN();
+  if (t <= time.front()) return value.front();
+  if (t >= time.back()) return value.back();
+  const auto after = static_cast<std::size_t>(std::upper_bound(time.begin(), time.end(), t) - time.begin());
+  const double share = (t - time[after - 1]) / (time[after] - time[after - 1]);
+  return value[after - 1] + share * (value[after] - value[after - 1]);
+}
+
+}  // namespace launchsafe::trace

@@ -1,0 +1,170 @@
+#include "launchsafe/materials/ideal_gas.hpp"
+#include "launchsafe/materials/jwl.hpp"
+#include "launchsafe/materials/kinetics.hpp"
+#include "launchsafe/materials/mie_gruneisen.hpp"
+#include "launchsafe/materials/vlw.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace launchsafe::materials;
+
+/// Isentropic bulk modulus from the law's own adiabatic steps: central difference.
+double jwl_modulus_by_differences(const JwlParameters& m, double v) {
+  const double energy = m.initial_energy, d = 1e-5 * v;
+  const double pressure = jwl_pressure(m, v, energy);
+  const double up = jwl_compress(m, v, pressure, energy, v + d).pressure;
+  const double down = jwl_compress(m, v, pressure, energy, v - d).pressure;
+  return -v * (up - down) / (2.0 * d);
+}
+
+TEST(Jwl, BulkModulusIsTheSlopeOfTheAdiabat) {
+  for (const JwlParameters& m : {unreacted_composition_b(), composition_b_products()}) {
+    for (const double v : {0.8, 0.95, 1.0, 1.02}) {
+      const double modulus = jwl_bulk_modulus(m, v, m.initial_energy);
+      EXPECT_NEAR(jwl_modulus_by_differences(m, v) / modulus, 1.0, 1e-7) << v;
+    }
+  }
+}
+
+TEST(Jwl, UnreactedChargeBearsNothingAtRest) {
+  const JwlParameters m = unreacted_composition_b();
+  EXPECT_NEAR(jwl_pressure(m, 1.0, m.initial_energy), 0.0, 1e-6);
+  EXPECT_NEAR(m.initial_energy, -6.11861e8, 5e2);  // model section 4
+}
+
+TEST(Jwl, EnergyAndTemperatureFormsAreOneLaw) {
+  const JwlParameters m = unreacted_composition_b();
+  for (const double v : {0.7, 0.9, 1.0}) {
+    const double energy = jwl_energy_at_temperature(m, v, 2.487e6, 298.0);
+    const double direct =
+        m.a * std::exp(-m.r1 * v) + m.b * std::exp(-m.r2 * v) + m.omega * 2.487e6 * 298.0 / v;
+    EXPECT_NEAR(jwl_pressure(m, v, energy) / direct, 1.0, 1e-11) << v;
+  }
+}
+
+TEST(Jwl, AdiabaticStepKeepsTheTrapezoidalEnergy) {
+  const JwlParameters m = unreacted_composition_b();
+  const auto state = jwl_compress(m, 1.0, 0.0, m.initial_energy, 0.98);
+  EXPECT_NEAR(state.energy, m.initial_energy + 0.01 * state.pressure, 1e-6);
+  EXPECT_NEAR(state.pressure, jwl_pressure(m, 0.98, state.energy), 1e-5);
+}
+
+TEST(Jwl, ChapmanJouguetStateGivesTheProductsEnergy) {
+  const JwlParameters m = composition_b_products();
+  EXPECT_NEAR(chapman_jouguet_volume(m, 7980.0, 29.5e9), 1.0 - 29.5e9 / (1717.0 * 7980.0 * 7980.0), 1e-15);
+  // The literature's E0; D and P_CJ have three digits.
+  EXPECT_NEAR(chapman_jouguet_initial_energy(m, 7980.0, 29.5e9) / 8.5e9, 1.0, 5e-3);
+}
+
+TEST(MieGruneisen, BulkModulusIsTheSlopeOfTheAdiabat) {
+  const MieGruneisenParameters m;
+  for (const double mu : {0.0, 0.01, 0.1, 0.3}) {
+    const double energy = hugoniot_energy(m, mu) + 2000.0, pressure = mie_gruneisen_pressure(m, mu, energy);
+    const double d = 1e-6;
+    const double up = mie_gruneisen_compress(m, mu, pressure, energy, mu + d, 0.0).pressure;
+    const double modulus = (1.0 + mu) * (up - pressure) / d;
+    EXPECT_NEAR(modulus / mie_gruneisen_bulk_modulus(m, mu, pressure), 1.0, 2e-5) << mu;
+  }
+  EXPECT_NEAR(mie_gruneisen_bulk_modulus(m, -0.01, 0.0), 0.99 * 7830.0 * 4610.0 * 4610.0, 1.0);
+}
+
+TEST(MieGruneisen, HugoniotStateIsItsOwnPressure) {
+  const MieGruneisenParameters m;
+  for (const double mu : {0.001, 0.05, 0.2}) {
+    const double hugoniot = hugoniot_pressure(m, mu);
+    EXPECT_NEAR(mie_gruneisen_pressure(m, mu, hugoniot_energy(m, mu)) / hugoniot, 1.0, 1e-14);
+  }
+}
+
+TEST(MieGruneisen, IsGuardedAtThePoleAndSaysSo) {
+  const MieGruneisenParameters m;
+  const double bound = largest_compression(m);
+  EXPECT_NEAR(bound, 0.9 / 0.73, 1e-14);
+  EXPECT_TRUE(mie_gruneisen_is_valid(m, 0.99 * bound));
+  EXPECT_FALSE(mie_gruneisen_is_valid(m, 1.01 * bound));
+  EXPECT_FALSE(mie_gruneisen_is_valid(m, std::nan("")));
+  EXPECT_EQ(hugoniot_pressure(m, 2.0 * bound), hugoniot_pressure(m, bound));
+}
+
+TEST(MieGruneisen, HeatRaisesThePressureOnlyInCompression) {
+  const MieGruneisenParameters m;
+  EXPECT_NEAR(mie_gruneisen_pressure(m, 0.0, 1000.0), 1.67 * 7830.0 * 1000.0, 1e-3);
+  EXPECT_EQ(mie_gruneisen_pressure(m, -0.01, 1000.0), -0.01 * 7830.0 * 4610.0 * 4610.0);
+}
+
+TEST(VirialGas, SeriesAgreesWithTheIntegralOverThePotential) {
+  // -3 integral (exp(-u/T*) - 1) r^2 dr with u = 4 (r^-12 - r^-6), by Simpson's rule to r = 40 and an
+  // analytic tail.
+  EXPECT_NEAR(reduced_second_virial(0.3), -27.8805828, 1e-7);
+  EXPECT_NEAR(reduced_second_virial(0.5), -8.7202054, 1e-7);
+  EXPECT_NEAR(reduced_second_virial(100.0), 0.4640694690, 1e-9);
+  EXPECT_TRUE(std::isnan(reduced_second_virial(0.0)));
+  EXPECT_TRUE(std::isnan(reduced_second_virial(-1.0)));
+}
+
+TEST(VirialGas, DiluteGasIsIdeal) {
+  const VirialState state = virial_state(water(), 600.0, 1.0);
+  EXPECT_TRUE(state.valid);
+  EXPECT_NEAR(state.pressure, gas_constant * 600.0, 0.2);
+  EXPECT_NEAR(state.compressibility, 1.0, 1e-4);
+}
+
+TEST(VirialGas, FurtherTermsFollowTheSeries) {
+  // x = b0/V = 0.6378 for N2 at 100 cm3/mol; the fourth term is B*/T*^(1/4) x^3/2^4.
+  const double t = 800.0 / 95.05, b = reduced_second_virial(t), x = 0.6378;
+  EXPECT_NEAR(virial_compressibility(nitrogen(), 800.0, 100e-6, 4) -
+                  virial_compressibility(nitrogen(), 800.0, 100e-6),
+              b / std::pow(t, 0.25) * x * x * x / 16.0, 1e-14);
+}
+
+TEST(VirialGas, NegativeCompressibilityIsAReportedLimit) {
+  // Steam at the burnt temperature in the molar volume that the products of the charge would have at its
+  // density.
+  const VirialState state = virial_state(water(), 784.0, 1.0 / (1717.0 * 30.447));
+  EXPECT_LT(state.compressibility, 0.0);
+  EXPECT_FALSE(state.valid);
+  EXPECT_TRUE(std::isnan(state.pressure));
+}
+
+TEST(VirialGas, MixtureIsLinearInTheMoleFractions) {
+  const double density = 300.0, temperature = 2500.0;
+  const auto gases = composition_b_gas();
+  double amount = 0.0, expected = 0.0;
+  for (const auto& gas : gases) amount += gas.amount;
+  EXPECT_NEAR(amount, 30.447, 1e-12);  // mol per kg
+  for (const auto& gas : gases) {
+    expected +=
+        gas.amount / amount * virial_compressibility(gas.potential, temperature, 1.0 / (density * amount));
+  }
+  const VirialState state = virial_state(gases, temperature, density);
+  EXPECT_NEAR(state.compressibility, expected, 1e-13);
+  EXPECT_NEAR(state.pressure, expected * gas_constant * temperature * density * amount, 1.0);
+}
+
+TEST(Air, StaysAtItsInitialTemperatureBelowItsInitialPressure) {
+  const AirParameters air;
+  EXPECT_EQ(adiabatic_temperature(air, 0.0), 300.0);
+  EXPECT_EQ(adiabatic_temperature(air, air.initial_pressure), 300.0);
+  EXPECT_TRUE(std::isnan(adiabatic_temperature(air, std::nan(""))));
+}
+
+TEST(ReactionDegree, RisesLinearlyBetweenItsTemperatures) {
+  const KineticsParameters k;
+  EXPECT_EQ(reaction_degree(k, 524.9), 0.0);
+  EXPECT_NEAR(reaction_degree(k, 0.5 * (525.0 + 784.0)), 0.5, 1e-14);
+  EXPECT_EQ(reaction_degree(k, 785.0), 1.0);
+  EXPECT_TRUE(std::isnan(reaction_degree(k, std::nan(""))));
+}
+
+TEST(ReactionDegree, WithoutATriggerOnlyTheBurntTemperatureCounts) {
+  KineticsParameters k;
+  k.ignition_temperature = INFINITY;
+  EXPECT_EQ(reaction_degree(k, 700.0), 0.0);
+  EXPECT_EQ(reaction_degree(k, 790.0), 1.0);
+}
+
+}  // namespace

@@ -1,0 +1,158 @@
+#include "launchsafe/report/plot.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+
+namespace launchsafe::report {
+namespace {
+
+Plot sample() {
+  Plot plot;
+  plot.title = "T_max against gap";
+  plot.x = {"gap [cm]"};
+  plot.y = {"T max [K]"};
+  plot.series = {{"computed", {0, 0.01, 0.02, 0.03}, {416, 442, 468, 493}}};
+  return plot;
+}
+
+bool gnuplot_is_there() { return std::system("command -v gnuplot >/dev/null 2>&1") == 0; }
+
+/// Tests that draw; skipped, and said so, where gnuplot is not installed.
+class DrawnPlot : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!gnuplot_is_there()) GTEST_SKIP() << "gnuplot is not installed";
+  }
+};
+
+TEST_F(DrawnPlot, IsAnSvgPictureOfItsSize) {
+  const auto svg = to_svg(sample());
+  ASSERT_TRUE(svg) << svg.error().message;
+  EXPECT_TRUE(svg->starts_with("<?xml"));
+  EXPECT_NE(svg->find("width=\"800\" height=\"520\""), std::string::npos);
+  EXPECT_NE(svg->find("T_max against gap"), std::string::npos) << "underscores are no subscripts";
+  EXPECT_NE(svg->find("computed"), std::string::npos);
+}
+
+TEST_F(DrawnPlot, IsTheSameEveryTime) {
+  const auto first = to_svg(sample()), second = to_svg(sample());
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(*first, *second);
+}
+
+TEST_F(DrawnPlot, TextIsNeverACommand) {
+  const auto trap =
+      std::filesystem::temp_directory_path() / ("launchsafe-trap-" + std::to_string(::getpid()));
+  const std::string command = "touch " + trap.string();
+  Plot plot = sample();
+  plot.title = "a'; system(\"" + command + "\"); '";
+  plot.x.label = "`" + command + "`";
+  plot.y.label = "'\n!" + command + "\n'";
+  plot.series[0].label = "@HOME ''\\";
+  plot.annotations = {{0.01, 450, "END_OF_DATA\n" + command + " $(x) %s"}};
+  plot.vertical_lines = {{0.02, "\\\nsystem '" + command + "'"}};
+  const auto svg = to_svg(plot);
+  ASSERT_TRUE(svg) << svg.error().message;
+  EXPECT_FALSE(std::filesystem::exists(trap));
+  EXPECT_NE(svg->find("`touch"), std::string::npos) << "shown as it is";
+  std::filesystem::remove(trap);
+}
+
+TEST_F(DrawnPlot, LeavesOutWhatCannotBeDrawn) {
+  Plot plot = sample();
+  plot.y.scale = Scale::logarithmic;
+  plot.series[0].y = {416, std::numeric_limits<double>::quiet_NaN(), -1, 493};
+  plot.series.push_back({"infinite", {0.01}, {std::numeric_limits<double>::infinity()}});
+  plot.series.push_back({"none", {}, {}});
+  const auto svg = to_svg(plot);
+  EXPECT_TRUE(svg) << svg.error().message;
+}
+
+TEST_F(DrawnPlot, HasEveryStyle) {
+  Plot plot = sample();
+  for (const Style style :
+       {Style::line, Style::dashed_line, Style::points, Style::error_bars, Style::steps}) {
+    plot.series.push_back({"style", {0, 0.02}, {400, 500}, style, {5, 10}});
+  }
+  for (const Legend legend :
+       {Legend::top_right, Legend::bottom_left, Legend::bottom_right, Legend::right_of_plot, Legend::none}) {
+    plot.legend = legend;
+    const auto svg = to_svg(plot);
+    ASSERT_TRUE(svg) << svg.error().message;
+  }
+}
+
+TEST_F(DrawnPlot, ASinglePointIsEnough) {
+  Plot plot = sample();
+  plot.series = {{"one", {0.0}, {300.0}, Style::points}};
+  EXPECT_TRUE(to_svg(plot));
+  plot.x.scale = plot.y.scale = Scale::logarithmic;
+  plot.series = {{"one", {2.0}, {300.0}, Style::points}};
+  EXPECT_TRUE(to_svg(plot));
+}
+
+TEST_F(DrawnPlot, IsWrittenToAFile) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("launchsafe-plot-" + std::to_string(::getpid()) + ".svg");
+  EXPECT_FALSE(write_svg(sample(), path));
+  EXPECT_GT(std::filesystem::file_size(path), 1000U);
+  std::filesystem::remove(path);
+  const auto error = write_svg(sample(), path / "in" / "no.svg");
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->kind, store::Error::Kind::write_failed);
+}
+
+TEST(Plot, AMissingProgramIsAnErrorThatNamesIt) {
+  const auto svg = to_svg(sample(), "no-such-gnuplot");
+  ASSERT_FALSE(svg);
+  EXPECT_EQ(svg.error().kind, store::Error::Kind::missing);
+  EXPECT_NE(svg.error().message.find("no-such-gnuplot"), std::string::npos);
+}
+
+TEST(Plot, AProgramThatFailsIsAnError) {
+  for (const char* program : {"false", "true"}) {
+    const auto svg = to_svg(sample(), program);
+    ASSERT_FALSE(svg);
+    EXPECT_EQ(svg.error().kind, store::Error::Kind::failed);
+  }
+}
+
+TEST(Plot, SeriesOfDifferentLengthsAreAnError) {
+  Plot plot = sample();
+  plot.series[0].y.pop_back();
+  const auto svg = to_svg(plot);
+  ASSERT_FALSE(svg);
+  EXPECT_NE(svg.error().message.find("computed"), std::string::npos);
+}
+
+TEST(Plot, ErrorBarsNeedTheirErrors) {
+  Plot plot = sample();
+  plot.series[0].style = Style::error_bars;
+  EXPECT_FALSE(to_svg(plot));
+}
+
+TEST(Plot, NothingToDrawIsAnError) {
+  Plot plot = sample();
+  plot.series.clear();
+  EXPECT_FALSE(to_svg(plot));
+  plot.series = {{"gone", {std::numeric_limits<double>::quiet_NaN()}, {1.0}}};
+  EXPECT_FALSE(to_svg(plot));
+}
+
+TEST(Plot, LimitsThatLeaveNothingAreAnError) {
+  Plot plot = sample();
+  plot.x.minimum = 5;
+  plot.x.maximum = 5;
+  EXPECT_FALSE(to_svg(plot));
+  plot = sample();
+  plot.y.scale = Scale::logarithmic;
+  plot.y.minimum = 0;
+  EXPECT_FALSE(to_svg(plot));
+}
+
+}  // namespace
+}  // namespace launchsafe::report

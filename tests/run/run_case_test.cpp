@@ -1,0 +1,138 @@
+#include "launchsafe/run/run_case.hpp"
+
+#include "launchsafe/scene/read_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+namespace launchsafe::run {
+namespace {
+
+/// The shipped scene at a mesh that runs in a fraction of a second.
+scene::Scene coarse_scene() {
+  scene::Scene scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
+  scene.numerics.cell_size = 10e-3;
+  scene.numerics.inertial_scaling = 16.0;
+  return scene;
+}
+
+bool same(const trace::BottomTrace& a, const trace::BottomTrace& b) {
+  return a.time == b.time && a.bottom_pressure == b.bottom_pressure &&
+         a.mean_bottom_pressure == b.mean_bottom_pressure && a.friction == b.friction && a.steps == b.steps;
+}
+
+TEST(RunMechanics, CompletesTheLaunchWithAClosedEnergyBalance) {
+  const MechanicsResult result = run_mechanics(coarse_scene());
+  ASSERT_EQ(result.status, RunStatus::completed) << result.reason;
+  EXPECT_NEAR(result.end_time, 18e-3, 1e-12);
+  EXPECT_NEAR(result.trace.time.back(), 18e-3, 1e-12);
+  // Masses: model section 1, six digits.
+  EXPECT_NEAR(result.mass_steel, 51.1314, 5e-5);
+  EXPECT_NEAR(result.mass_charge, 12.7625, 5e-5);
+  for (const MonitorSample& sample : result.monitor) {
+    if (sample.energy.scale() < 1.0) continue;  // J, of about 1000 at the peak
+    EXPECT_LT(std::abs(sample.energy.drift()), 2e-3) << "at " << sample.time;
+    EXPECT_GE(sample.energy.plastic, 0.0);
+    EXPECT_GE(sample.energy.viscous, 0.0);
+    EXPECT_GE(sample.energy.crack, 0.0);
+  }
+  EXPECT_GT(result.update_rate(), 0.0);
+}
+
+TEST(RunMechanics, FrictionEnergyNeverFallsAndTheBottomPressureFollowsTheLoad) {
+  const trace::BottomTrace trace = run_mechanics(coarse_scene()).trace;
+  const std::size_t stations = trace.stations.size();
+  for (const auto& friction : trace.friction)
+    for (std::size_t i = stations; i < friction.size(); ++i) EXPECT_GE(friction[i], friction[i - stations]);
+  // The wall carries part of the charge's weight, so the bottom sees less than the setback pressure of the
+  // charge alone, 140.843 MPa (model section 1), and well over half of it.
+  const double peak = *std::max_element(trace.bottom_pressure.begin(), trace.bottom_pressure.end());
+  EXPECT_LT(peak, 140.843e6);
+  EXPECT_GT(peak, 70e6);
+}
+
+TEST(RunMechanics, IsBitwiseTheSameOnEveryThread) {
+  scene::Scene scene = coarse_scene();
+  scene.load.duration = 9e-3;
+  const MechanicsResult here = run_mechanics(scene);
+  MechanicsResult there[2];
+  std::thread first([&] { there[0] = run_mechanics(scene); }),
+      second([&] { there[1] = run_mechanics(scene); });
+  first.join();
+  second.join();
+  EXPECT_TRUE(same(here.trace, there[0].trace));
+  EXPECT_TRUE(same(here.trace, there[1].trace));
+}
+
+TEST(RunMechanics, SaysWhenAndWhereAnUnstableStepBreaksTheRun) {
+  scene::Scene scene = coarse_scene();
+  scene.numerics.time_step_factor = 3.0;  // beyond any explicit limit
+  const MechanicsResult result = run_mechanics(scene);
+  EXPECT_NE(result.status, RunStatus::completed);
+  EXPECT_NE(result.reason.find("t = "), std::string::npos) << result.reason;
+  EXPECT_LT(result.end_time, 18e-3);
+}
+
+TEST(RunMechanics, StopsSoonWhenAsked) {
+  const std::atomic<bool> stop{true};
+  RunOptions options;
+  options.stop = &stop;
+  const MechanicsResult result = run_mechanics(coarse_scene(), options);
+  EXPECT_EQ(result.status, RunStatus::interrupted);
+  EXPECT_LT(result.steps, 100u);
+}
+
+TEST(RunMechanics, TakesSnapshotsOfAllParticlesAtTheTimesAskedFor) {
+  scene::Scene scene = coarse_scene();
+  scene.load.duration = 6e-3;
+  scene.output.snapshot_times = {2e-3, 5e-3};
+  const MechanicsResult result = run_mechanics(scene);
+  ASSERT_EQ(result.snapshots.size(), 2u);
+  EXPECT_NEAR(result.snapshots[1].time, 5e-3, 1e-5);
+  EXPECT_EQ(result.snapshots[1].x.size(), result.particles);
+}
+
+TEST(RunCase, HotterForWiderGapsAndTheSamplingErrorIsSmall) {
+  const CaseResult result = run_case(coarse_scene());
+  ASSERT_EQ(result.gaps.size(), 6u);
+  for (std::size_t i = 1; i < result.gaps.size(); ++i)
+    EXPECT_GT(result.gaps[i].at_points.temperature, result.gaps[i - 1].at_points.temperature);
+  for (const GapResult& gap : result.gaps)
+    if (!gap.skin.ignition) {
+      EXPECT_LT(gap.sampling_error, 0.02) << gap.gap;
+    }  // K
+}
+
+/// The skin changes nothing in the mechanics below ignition, so a run that carries it must give the traced
+/// temperatures to the tolerance of the integrations (model section 6).
+TEST(RunCoupled, AgreesWithTheTracedTemperaturesBelowIgnition) {
+  const scene::Scene scene = coarse_scene();
+  for (const double gap : {0.0, 2e-4}) {
+    const CaseResult coupled = run_coupled(scene, gap);
+    const GapResult traced = evaluate_gap(scene, coupled.mechanics.trace, gap);
+    ASSERT_EQ(coupled.mechanics.status, RunStatus::completed);
+    ASSERT_EQ(coupled.gaps.front().skin.temperature.size(), traced.skin.temperature.size());
+    for (std::size_t i = 0; i < traced.skin.temperature.size(); ++i)
+      ASSERT_NEAR(coupled.gaps.front().skin.temperature[i], traced.skin.temperature[i], 2e-2);
+    EXPECT_NEAR(coupled.gaps.front().at_points.temperature, traced.at_points.temperature, 1e-3);
+    EXPECT_TRUE(coupled.gaps.front().coupled);
+  }
+}
+
+TEST(RunCoupled, IgnitesWhenAndWhereTheTraceDoes) {
+  scene::Scene scene = coarse_scene();
+  scene.surface.localisation = 800.0;
+  scene.charge.kinetics.ignition_temperature = 420.0;  // well inside the heating
+  const CaseResult coupled = run_coupled(scene, 4e-4);
+  const GapResult traced = evaluate_gap(scene, coupled.mechanics.trace, 4e-4);
+  ASSERT_TRUE(coupled.gaps.front().skin.ignition.has_value());
+  ASSERT_TRUE(traced.skin.ignition.has_value());
+  EXPECT_EQ(coupled.gaps.front().skin.ignition->station, traced.skin.ignition->station);
+  EXPECT_NEAR(coupled.gaps.front().skin.ignition->time, traced.skin.ignition->time, 1e-6);
+}
+
+}  // namespace
+}  // namespace launchsafe::run

@@ -1,0 +1,53 @@
+#include "launchsafe/scene/mesh.hpp"
+
+#include "launchsafe/scene/read_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace launchsafe::scene {
+namespace {
+
+TEST(Mesh, ChargeAndRadiusAreWholeNumbersOfCells) {
+  auto file = read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml");
+  ASSERT_TRUE(file);
+  for (const double size : {1e-3, 1.25e-3, 2.5e-3, 2.7e-3, 5e-3}) {
+    file->scene.numerics.cell_size = size;
+    const Mesh mesh = fit_mesh(file->scene);
+    EXPECT_LE(mesh.dx, size * (1 + 1e-8));
+    EXPECT_LE(mesh.dr, size * (1 + 1e-8));
+    EXPECT_NEAR(0.56 / mesh.dx, std::round(0.56 / mesh.dx), 1e-9);
+    EXPECT_NEAR(0.0775 / mesh.dr, std::round(0.0775 / mesh.dr), 1e-9);
+    EXPECT_EQ(mesh.x_anchor, 0.678);
+    EXPECT_EQ(mesh.radius, 0.0775);
+  }
+}
+
+TEST(Mesh, DivisibleLengthsAreNotRoundedUp) {
+  EXPECT_EQ(parts_of(0.56, 0.0025), 224);
+  EXPECT_EQ(parts_of(0.3, 0.1), 3);
+  EXPECT_EQ(parts_of(0.31, 0.1), 4);
+  EXPECT_EQ(parts_of(0.01, 0.1), 1);
+}
+
+TEST(Mesh, EveryBodyHasAtLeastOneParticle) {
+  const Mesh mesh{0.01, 0.01, 0.0, 0.02};
+  const Body foil{"foil", BodyMaterial::steel, 0.0, 0.1, 0.019, 0.02};
+  EXPECT_EQ(particles_of(mesh, foil, 1).nr, 1);
+  EXPECT_EQ(particles_of(mesh, foil, 1).nx, 10);
+  EXPECT_EQ(particles_of(mesh, foil, 2).nx, 20);
+}
+
+TEST(Mesh, SceneWithoutChargeIsFittedAsAWhole) {
+  Scene scene;
+  scene.bodies = {{"bar", BodyMaterial::steel, 0.0, 0.1, 0.0, 0.01}};
+  scene.numerics.cell_size = 0.003;
+  const Mesh mesh = fit_mesh(scene);
+  EXPECT_DOUBLE_EQ(mesh.dx, 0.1 / 34);
+  EXPECT_EQ(mesh.x_anchor, 0.1);
+  EXPECT_EQ(particle_count(scene), 34 * 4);
+}
+
+}  // namespace
+}  // namespace launchsafe::scene

@@ -1,0 +1,103 @@
+#include "launchsafe/scene/plan.hpp"
+
+#include "launchsafe/scene/mesh.hpp"
+#include "scene/scene_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace launchsafe::scene {
+namespace {
+
+Scene small() {
+  const auto file = parse_scene(small_scene, "shell.toml");
+  EXPECT_TRUE(file) << file.error().message();
+  return file ? file->scene : Scene{};
+}
+
+TEST(Plan, LeavesConductionOutBelowItsBound) {
+  Scene scene = small();
+  scene.load.duration = 18e-3;
+  EXPECT_NEAR(diffusion_length(scene, BodyMaterial::charge), 38.06e-6, 0.01e-6);
+  EXPECT_FALSE(make_plan(scene).conduction.in);
+  scene.physics.conduction_bound = 0.01;
+  EXPECT_TRUE(make_plan(scene).conduction.in);
+  scene.physics.conduction = Switch::off;
+  const Plan plan = make_plan(scene);
+  EXPECT_FALSE(plan.conduction.in);
+  EXPECT_TRUE(plan.conduction.forced);
+}
+
+TEST(Plan, LeavesBulkReactionOutWhereTheChargeStaysCold) {
+  Scene scene = small();
+  EXPECT_GT(bulk_temperature_bound(scene), scene.initial_temperature);
+  EXPECT_FALSE(make_plan(scene).bulk_reaction.in);
+  scene.physics.bulk_reaction = Switch::on;
+  EXPECT_TRUE(make_plan(scene).bulk_reaction.in);
+  scene.physics.bulk_reaction = Switch::automatic;
+  scene.initial_temperature = 480.0;
+  EXPECT_TRUE(make_plan(scene).bulk_reaction.in);
+}
+
+TEST(Plan, HasAirOnlyWhereThereIsAGap) {
+  Scene scene = small();
+  EXPECT_TRUE(make_plan(scene).air.in);
+  scene.surface.gaps = {0.0};
+  EXPECT_FALSE(make_plan(scene).air.in);
+  EXPECT_TRUE(make_plan(scene).surface.in);
+}
+
+TEST(Plan, CracksNeedFlawsAndARadius) {
+  Scene scene = small();
+  EXPECT_TRUE(make_plan(scene).cracks.in);
+  EXPECT_TRUE(make_plan(scene).crack_growth.in);
+  EXPECT_TRUE(make_plan(scene).crack_friction.in);
+  scene.charge.cracks.face_friction = 0.0;
+  EXPECT_FALSE(make_plan(scene).crack_friction.in);
+  scene.charge.cracks.growth = false;
+  EXPECT_FALSE(make_plan(scene).crack_growth.in);
+  EXPECT_TRUE(make_plan(scene).cracks.in);
+  scene.charge.cracks.flaw_size = 0.0;
+  EXPECT_FALSE(make_plan(scene).cracks.in);
+  scene = small();
+  scene.charge.cracks.initial_crack_radius = 0.0;
+  EXPECT_FALSE(make_plan(scene).cracks.in);
+}
+
+TEST(Plan, SteelAloneHasNoSurface) {
+  Scene scene = small();
+  scene.bodies = {{"bar", BodyMaterial::steel, 0.0, 0.1, 0.0, 0.01}};
+  const Plan plan = make_plan(scene);
+  EXPECT_FALSE(plan.surface.in);
+  EXPECT_FALSE(plan.air.in);
+  EXPECT_FALSE(plan.cracks.in);
+  EXPECT_FALSE(plan.bulk_reaction.in);
+  EXPECT_EQ(plan.particles_charge, 0);
+}
+
+TEST(Plan, CountsParticlesAndStepsAsTheMeshDoes) {
+  Scene scene = small();
+  EXPECT_NEAR(longitudinal_speed(scene), 5905.50, 0.01);
+  const Plan plan = make_plan(scene);
+  EXPECT_EQ(plan.particles(), particle_count(scene));
+  EXPECT_NEAR(plan.time_step, 0.4 * 2.5e-3 / 5905.50, 1e-12);
+  EXPECT_EQ(plan.steps, static_cast<std::int64_t>(std::ceil(1e-3 / plan.time_step)));
+  scene.numerics.inertial_scaling = 16.0;
+  EXPECT_NEAR(make_plan(scene).time_step, 4.0 * plan.time_step, 1e-15);
+  EXPECT_DOUBLE_EQ(predicted_time(plan, 1e6), static_cast<double>(plan.steps * plan.particles()) / 1e6);
+}
+
+TEST(Plan, TextNamesEveryTermAndItsReason) {
+  const Scene scene = small();
+  const Plan plan = make_plan(scene);
+  const std::string text = to_text(plan, scene, 7e6);
+  for (const Term& term : {plan.conduction, plan.bulk_reaction, plan.air, plan.cracks, plan.crack_growth,
+                           plan.crack_friction, plan.surface, plan.friction_heat, plan.snapshots}) {
+    EXPECT_FALSE(term.reason.empty());
+    EXPECT_NE(text.find(term.reason), std::string::npos) << term.reason;
+  }
+}
+
+}  // namespace
+}  // namespace launchsafe::scene

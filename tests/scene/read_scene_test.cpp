@@ -1,0 +1,241 @@
+#include "launchsafe/scene/read_scene.hpp"
+
+#include "scene/scene_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace launchsafe::scene {
+namespace {
+
+const std::string shipped = LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml";
+
+TEST(ReadScene, ShippedSceneIsTheOneOfTheModel) {
+  const auto file = read_scene(shipped);
+  ASSERT_TRUE(file) << file.error().message();
+  const Scene& scene = file->scene;
+  ASSERT_EQ(scene.bodies.size(), 4u);
+  EXPECT_EQ(scene.bodies[1].material, BodyMaterial::charge);
+  EXPECT_EQ(scene.surface.gaps, (std::vector<double>{0.0, 1e-4, 2e-4, 3e-4, 3.9e-4, 4e-4}));
+  ASSERT_EQ(scene.output.observation_points.size(), 13u);
+  for (std::size_t i = 0; i < 13; ++i) {
+    EXPECT_EQ(scene.output.observation_points[i].name, "G" + std::to_string(i + 1));
+    EXPECT_EQ(scene.output.observation_points[i].x, 0.6775);
+    EXPECT_NEAR(scene.output.observation_points[i].r, 0.0625 - 0.005 * static_cast<double>(i), 1e-15);
+  }
+  EXPECT_EQ(scene.load.peak, 496e6);
+  EXPECT_EQ(scene.charge.kinetics.name, "comp-b");
+  EXPECT_GT(scene.charge.cracks.face_friction, 0.0);
+}
+
+TEST(ReadScene, WhatTheShippedSceneLeavesOutIsTheDefault) {
+  const auto file = read_scene(shipped);
+  ASSERT_TRUE(file);
+  const Scene defaults;
+  EXPECT_EQ(file->scene.charge.eos.initial_energy, defaults.charge.eos.initial_energy);
+  EXPECT_EQ(file->scene.surface.exchange_time, defaults.surface.exchange_time);
+  EXPECT_EQ(file->scene.steel.strength.a, defaults.steel.strength.a);
+}
+
+TEST(ReadScene, WrittenSceneReadsBackToTheSame) {
+  auto file = read_scene(shipped);
+  ASSERT_TRUE(file);
+  file->scene.surface.localisation = 1.0 / 3.0;
+  file->scene.title = "a \"quoted\" title\nof two lines";
+  file->scene.load.curve_time = {0.0, 1e-3, 0.0021};
+  file->scene.load.curve_pressure = {1e5, 1e8, 2e8 / 3.0};
+  file->scene.output.snapshot_times = {0.0, 5e-3};
+  file->scene.charge.cracks.face_friction = 0.0;
+  const std::string text = to_toml(file->scene);
+  const auto again = parse_scene(text, "again.toml");
+  ASSERT_TRUE(again) << again.error().message() << text;
+  EXPECT_EQ(to_toml(again->scene), text);
+  EXPECT_EQ(again->scene.surface.localisation, 1.0 / 3.0);
+  EXPECT_EQ(again->scene.title, file->scene.title);
+}
+
+TEST(ReadScene, MissingFileIsNamedWithTheNearestOne) {
+  const auto file = read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155m.toml");
+  ASSERT_FALSE(file);
+  const std::string message = file.error().message();
+  EXPECT_NE(message.find("scene_155m.toml: found no such file; allowed: a file that exists"),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("did you mean"), std::string::npos) << message;
+  EXPECT_NE(message.find("scene_155mm.toml"), std::string::npos) << message;
+  EXPECT_FALSE(read_scene(LAUNCHSAFE_SOURCE_DIR "/studies"));
+  EXPECT_FALSE(read_scene("no such folder/scene.toml"));
+}
+
+TEST(ReadScene, SyntaxErrorIsNamedWithItsLine) {
+  const auto text = with(small_scene, "duration = \"1 ms\"", "duration = \"1 ms");
+  expect_error(error_of(text), 2, "", "not TOML", "key =");
+}
+
+TEST(ReadScene, UnknownKeysAreRefusedWithTheNearestOne) {
+  auto text = with(small_scene, "duration", "duratoin");
+  expect_error(error_of(text), 2, "load.duratoin", "unknown key", "in [load] the keys duration, peak");
+  EXPECT_EQ(error_of(text).suggestion, "load.duration");
+  text = with(small_scene, "r = \"0 to 1.5 cm\"", "r = \"0 to 1.5 cm\"\nradius = 3");
+  expect_error(error_of(text), line_of(text, "radius"), "body.radius", "unknown key", "name, material, x, r");
+  text = with(small_scene, "[[body]]", "[[bodies]]");
+  EXPECT_EQ(error_of(text).suggestion, "body");
+  text = with(small_scene, "[gap]", "[gapp]");
+  expect_error(error_of(text), 5, "gapp.thickness", "unknown key", "the tables load, steel, charge");
+  EXPECT_EQ(error_of(text).suggestion, "gap.thickness");
+}
+
+TEST(ReadScene, WrongUnitsAndTypesAreRefused) {
+  auto text = with(small_scene, "\"1 ms\"", "\"1 mm\"");
+  expect_error(error_of(text), 2, "load.duration", "\"1 mm\", which is a length", "a time");
+  text = with(small_scene, "\"1 ms\"", "1");
+  expect_error(error_of(text), 2, "load.duration", "1, without a unit", "a time");
+  EXPECT_EQ(error_of(text).suggestion, "\"1 ms\"");
+  text = with(small_scene, "\"1 ms\"", "\"1\"");
+  expect_error(error_of(text), 2, "load.duration", "\"1\", without a unit", "a time");
+  text = with(small_scene, "\"1 ms\"", "\"1 fortnight\"");
+  expect_error(error_of(text), 2, "load.duration", "unknown unit \"fortnight\"", "ms, s, us");
+  text = with(small_scene, "\"1 ms\"", "\"nan ms\"");
+  expect_error(error_of(text), 2, "load.duration", "not a finite number", "a time");
+  text = with(small_scene, "material = \"steel\"", "material = \"stele\"");
+  expect_error(error_of(text), line_of(text, "stele"), "body.material", "\"stele\"",
+               "\"steel\" or \"charge\"");
+  EXPECT_EQ(error_of(text).suggestion, "\"steel\"");
+  text = with(small_scene, "x = \"0 to 1 cm\"", "x = \"1 cm\"");
+  expect_error(error_of(text), line_of(text, "x = "), "body.x", "without \"to\"", "a range");
+}
+
+TEST(ReadScene, MissingKeysOfABodyAreNamed) {
+  const auto text = with(small_scene, "material = \"charge\"\n", "");
+  const InputError error = error_of(text);
+  EXPECT_EQ(error.key, "body.material");
+  EXPECT_NE(error.found.find("missing"), std::string::npos);
+  EXPECT_GT(error.line, 0);
+}
+
+TEST(ReadScene, NegativeLengthsAreRefused) {
+  auto text = with(small_scene, "r = \"0 to 2 cm\"", "r = \"-1 to 2 cm\"");
+  expect_error(error_of(text), line_of(text, "-1 to"), "body.r", "\"-1 to 2 cm\"", "0 cm to 10 m");
+  text = "numerics.cell_size = \"-1 mm\"\n" + small_scene;
+  expect_error(error_of(text), 1, "numerics.cell_size", "\"-1 mm\"", "10 um to 100 cm");
+  text = with(small_scene, "r = \"0 to 2 cm\"", "r = \"2 to 2 cm\"");
+  expect_error(error_of(text), line_of(text, "2 to 2"), "body.r", "no extent", "lower end first");
+}
+
+TEST(ReadScene, ChargeThatDoesNotFitIsRefused) {
+  auto text = with(small_scene, "r = \"0 to 1.5 cm\"", "r = \"0 to 2.5 cm\"");
+  expect_error(error_of(text), line_of(text, "2.5 cm"), "body.filling.r", "sticks out of the shell",
+               "r 0 to 2 cm");
+  text = with(small_scene, "x = \"1 to 4 cm\"", "x = \"1 to 5 cm\"");
+  expect_error(error_of(text), line_of(text, "1 to 5"), "body.filling.x", "sticks out of the shell",
+               "x 0 to 4 cm");
+}
+
+TEST(ReadScene, OverlappingBodiesAreRefused) {
+  const auto text = with(small_scene, "r = \"1.5 to 2 cm\"", "r = \"1.4 to 2 cm\"");
+  expect_error(error_of(text), line_of(text, "1.4 to"), "body.wall.r", "overlaps the body \"filling\"",
+               "do not overlap");
+}
+
+TEST(ReadScene, MeshWithNoParticleInABodyIsRefused) {
+  const auto text = "numerics.cell_size = \"1.5 cm\"\n" + small_scene;
+  expect_error(error_of(text), 1, "numerics.cell_size", "body \"wall\", 0.5 cm thick, has no particle",
+               "at most 1 cm");
+  EXPECT_TRUE(parse_scene("numerics.cell_size = \"1 cm\"\n" + small_scene, "shell.toml"));
+}
+
+TEST(ReadScene, GapListsWithDuplicatesOrNegativesAreRefused) {
+  auto text = with(small_scene, "0, 0.01 cm", "0, 0.01, 0.02, 0.01 cm");
+  expect_error(error_of(text), 5, "gap.thickness", "0.1 mm twice", "each gap once");
+  text = with(small_scene, "0, 0.01 cm", "0, -0.01 cm");
+  expect_error(error_of(text), 5, "gap.thickness", "-0.01 cm", "0 cm to 1 cm");
+  text = with(small_scene, "\"0, 0.01 cm\"", "[]");
+  expect_error(error_of(text), 5, "gap.thickness", "an empty array", "one or more");
+}
+
+TEST(ReadScene, IgnitionMustLieBelowTheBurntTemperature) {
+  const auto text = "kinetics.ignition_temperature = \"800 K\"\n" + small_scene;
+  expect_error(error_of(text), 1, "kinetics.ignition_temperature", "800 K", "below the burnt temperature");
+}
+
+TEST(ReadScene, ObservationPointsMustLieInTheCharge) {
+  const auto text = with(small_scene, "r = \"1 cm\"", "r = \"1.6 cm\"");
+  expect_error(error_of(text), line_of(text, "1.6 cm"), "observation_point.G1.r", "r 1.6 cm",
+               "r 0 to 1.5 cm");
+}
+
+TEST(ReadScene, InertialScalingNeedsTheCoMovingFrame) {
+  const auto text = "frame = \"lab\"\nnumerics.inertial_scaling = 4\n" + small_scene;
+  expect_error(error_of(text), 2, "numerics.inertial_scaling", "4 in the lab frame", "co-moving");
+}
+
+TEST(ReadScene, SnapshotsMustLieWithinTheLaunch) {
+  const auto text = "output.snapshots = \"0, 2 ms\"\n" + small_scene;
+  expect_error(error_of(text), 1, "output.snapshots", "2 ms", "1 ms");
+}
+
+TEST(ReadScene, NamesMustBeUnique) {
+  const auto text = with(small_scene, "\"wall\"", "\"cup\"");
+  expect_error(error_of(text), line_of(text, "x = \"1 to 4 cm\"\nr = \"1.5 to 2") - 2, "body.cup.name",
+               "\"cup\" a second time", "no other body");
+}
+
+TEST(ReadScene, SteelAloneIsASceneWithoutGaps) {
+  const std::string bar =
+      "[[body]]\nname = \"bar\"\nmaterial = \"steel\"\nx = \"0 to 10 cm\"\nr = \"0 to 1 cm\"\n";
+  EXPECT_TRUE(parse_scene(bar, "shell.toml"));
+  expect_error(error_of("gap.thickness = \"0.1 mm\"\n" + bar), 1, "gap.thickness", "without a charge",
+               "charge");
+  const InputError empty = error_of("title = \"nothing\"");
+  EXPECT_EQ(empty.key, "body");
+  EXPECT_EQ(empty.found, "no body");
+}
+
+class CurveFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(CurveFile, IsFoundBesideTheScene) {
+  write("gun.csv", "time_ms,pressure_MPa\n0,0.1\n0.5,300\n1,10\n");
+  const auto file =
+      read_scene(write("shell.toml", with(small_scene, "[load]", "[load]\ncurve = \"gun.csv\"")));
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->scene.load.curve_pressure, (std::vector<double>{1e5, 3e8, 1e7}));
+  EXPECT_EQ(PressureHistory(file->scene.load).at(5e-4), 3e8);
+}
+
+TEST_F(CurveFile, ThatIsMissingIsNamedWithItsKey) {
+  write("gun.csv", "time_ms,pressure_MPa\n0,0.1\n0.5,300\n");
+  const auto file =
+      read_scene(write("shell.toml", with(small_scene, "[load]", "[load]\ncurve = \"gunn.csv\"")));
+  ASSERT_FALSE(file);
+  EXPECT_EQ(file.error().line, 2);
+  EXPECT_EQ(file.error().key, "load.curve");
+  EXPECT_NE(file.error().found.find("\"gunn.csv\", which does not exist"), std::string::npos);
+  EXPECT_NE(file.error().suggestion.find("gun.csv"), std::string::npos);
+}
+
+TEST_F(CurveFile, ThatIsFaultyIsNamedWithItsOwnLine) {
+  write("gun.csv", "time_ms,pressure_MPa\n0,0.1\n0.5,nan\n");
+  const auto file =
+      read_scene(write("shell.toml", with(small_scene, "[load]", "[load]\ncurve = \"gun.csv\"")));
+  ASSERT_FALSE(file);
+  EXPECT_TRUE(file.error().file.ends_with("gun.csv"));
+  EXPECT_EQ(file.error().line, 3);
+}
+
+}  // namespace
+}  // namespace launchsafe::scene

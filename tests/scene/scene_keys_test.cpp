@@ -1,0 +1,137 @@
+#include "launchsafe/scene/scene_keys.hpp"
+
+#include "scene/scene_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace launchsafe::scene {
+namespace {
+
+SceneFile small() {
+  auto file = parse_scene(small_scene, "shell.toml");
+  EXPECT_TRUE(file) << file.error().message();
+  return *file;
+}
+
+TEST(SceneKeys, EveryKeyIsDocumentedOnce) {
+  std::set<std::string> names;
+  for (const DocumentedKey& key : describe_keys()) {
+    EXPECT_TRUE(names.insert(key.description.name).second) << key.description.name;
+    EXPECT_TRUE(key.description.sentence.ends_with('.')) << key.description.name;
+    EXPECT_FALSE(allowed_text(key.description).empty()) << key.description.name;
+  }
+  EXPECT_TRUE(names.contains("charge.crack_radius"));
+  EXPECT_TRUE(names.contains("body.x"));
+}
+
+TEST(SceneKeys, EveryDefaultIsAllowedAndReadsBack) {
+  for (const Key<Scene>& key : scene_keys()) {
+    const std::string line = "value = " + exact_toml(key, key.default_value());
+    const auto table = parse_toml(line, "defaults.toml");
+    ASSERT_TRUE(table) << line;
+    const auto value = read_value(*table->get("value"), key, "defaults.toml");
+    ASSERT_TRUE(value) << key.name << " " << value.error().message();
+    EXPECT_EQ(*value, key.default_value()) << key.name;
+  }
+}
+
+TEST(SceneKeys, EveryKeyReadsWhatItSets) {
+  for (const Key<Scene>& key : scene_keys()) {
+    Scene scene;
+    Value value = key.default_value();
+    if (auto* number = std::get_if<double>(&value))
+      *number = key.dimension == Dimension::count ? 2.0 : *number * 0.75;
+    if (auto* flag = std::get_if<bool>(&value)) *flag = !*flag;
+    if (key.kind == KeyKind::word) value = key.words.back();
+    if (key.kind == KeyKind::text) value = std::string("some text");
+    if (auto* list = std::get_if<std::vector<double>>(&value)) {
+      for (double& number : *list) number *= 0.5;
+      if (key.list_length == 0) list->push_back(0.125);
+    }
+    key.set(scene, value);
+    EXPECT_EQ(key.get(scene), value) << key.name;
+  }
+}
+
+TEST(SceneKeys, KineticsAreNamedAfterTheirNumbers) {
+  const SceneFile file = small();
+  const auto printed = with_written_key(file, "kinetics.set", "printed", {});
+  ASSERT_TRUE(printed);
+  EXPECT_EQ(printed->scene.charge.kinetics.activation_temperature, 2.7e4);
+  const auto custom = with_written_key(*printed, "kinetics.activation_temperature", "25000 K", {});
+  ASSERT_TRUE(custom);
+  EXPECT_EQ(custom->scene.charge.kinetics.name, "custom");
+  EXPECT_EQ(custom->scene.charge.kinetics.activation_temperature, 2.5e4);
+  const auto again = with_written_key(*custom, "kinetics.set", "comp-b", {});
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->scene.charge.kinetics.activation_temperature, 2.17e4);
+  EXPECT_EQ(again->scene.charge.kinetics.name, "comp-b");
+}
+
+TEST(SceneKeys, CrackFrictionIsSugarForACoefficient) {
+  const auto off = with_written_key(small(), "charge.crack_friction", "false", {});
+  ASSERT_TRUE(off);
+  EXPECT_EQ(off->scene.charge.cracks.face_friction, 0.0);
+  const auto coefficient = with_written_key(*off, "charge.face_friction", "0.2", {});
+  ASSERT_TRUE(coefficient);
+  EXPECT_EQ(coefficient->scene.charge.cracks.face_friction, 0.2);
+  const auto text = "charge.crack_friction = true\ncharge.face_friction = 0\n" + small_scene;
+  expect_error(error_of(text), 1, "charge.crack_friction", "face_friction = 0",
+               "true with a face_friction above 0");
+}
+
+TEST(SceneKeys, JwlConstantsKeepThePressureOfTheUnloadedChargeZero) {
+  const auto changed = with_written_key(small(), "charge.jwl.omega", "0.5", {});
+  ASSERT_TRUE(changed);
+  const auto& eos = changed->scene.charge.eos;
+  EXPECT_NEAR(materials::jwl_pressure(eos, 1.0, eos.initial_energy), 0.0, 1e-5);
+}
+
+TEST(SceneKeys, GapAirStartsAtTheInitialTemperatureUnlessSaid) {
+  const auto warm = with_written_key(small(), "initial_temperature", "320 K", {});
+  ASSERT_TRUE(warm);
+  EXPECT_EQ(warm->scene.surface.air.initial_temperature, 320.0);
+  const auto cold_air = with_written_key(*warm, "gap.air_temperature", "290 K", {});
+  ASSERT_TRUE(cold_air);
+  EXPECT_EQ(cold_air->scene.surface.air.initial_temperature, 290.0);
+  EXPECT_EQ(cold_air->scene.initial_temperature, 320.0);
+}
+
+TEST(SceneKeys, ChangedSceneIsValidatedAtThePlaceOfTheChange) {
+  const SceneFile file = small();
+  const auto thick = with_written_key(file, "body.filling.r", "0 to 1.8 cm", {"sweep.toml", 7, 1});
+  ASSERT_FALSE(thick);
+  EXPECT_NE(thick.error().found.find("overlaps"), std::string::npos);
+  const auto shorter = with_written_key(file, "body.filling.x", "1 to 3.95 cm", {"sweep.toml", 7, 1});
+  ASSERT_TRUE(shorter) << shorter.error().message();
+  EXPECT_EQ(shorter->scene.bodies[1].x_end, 0.0395);
+  const auto unknown = with_written_key(file, "charge.crack_radios", "1 mm", {"sweep.toml", 7, 1});
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().suggestion, "charge.crack_radius");
+  EXPECT_TRUE(unknown.error().message().starts_with("sweep.toml:7:1: charge.crack_radios"));
+  const auto wrong = with_written_key(file, "charge.crack_radius", "1 ms", {"sweep.toml", 8, 1});
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().line, 8);
+}
+
+TEST(SceneKeys, ListingTellsInputFromDefault) {
+  const SceneFile file = small();
+  const auto listed = list_keys(file);
+  EXPECT_EQ(listed.size(), scene_keys().size());
+  for (const ListedKey& key : listed) {
+    EXPECT_EQ(key.standing == Standing::input, file.given.contains(key.name)) << key.name;
+    if (key.name == "load.duration") {
+      EXPECT_EQ(key.value, "1 ms");
+      EXPECT_EQ(key.place.line, 2);
+    }
+    if (key.name == "charge.crack_radius") {
+      EXPECT_EQ(key.value, "30 um");
+      EXPECT_EQ(letter_of(key.standing), "P");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace launchsafe::scene

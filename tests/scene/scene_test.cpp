@@ -1,0 +1,121 @@
+#include "launchsafe/scene/scene.hpp"
+
+#include "launchsafe/scene/read_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace launchsafe::scene {
+namespace {
+
+Scene shell_155mm() {
+  const auto file = read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml");
+  EXPECT_TRUE(file) << file.error().message();
+  return file ? file->scene : Scene{};
+}
+
+TEST(Scene, MassesOfTheShippedShellAreThoseOfTheModel) {
+  const Scene scene = shell_155mm();
+  EXPECT_NEAR(mass_of(scene, BodyMaterial::steel), 51.1314, 5e-5);
+  EXPECT_NEAR(mass_of(scene, BodyMaterial::charge), 12.7625, 5e-5);
+  EXPECT_NEAR(total_mass(scene), 63.8939, 5e-5);
+  const double charge = 1717.0 * std::numbers::pi * 0.065 * 0.065 * 0.56;
+  EXPECT_NEAR(mass_of(scene, BodyMaterial::charge), charge, 4e-15 * charge);
+}
+
+TEST(Scene, RigidAccelerationOfTheShippedShellIsThatOfTheModel) {
+  const Scene scene = shell_155mm();
+  EXPECT_NEAR(base_area(scene), std::numbers::pi * 0.0775 * 0.0775, 1e-17);
+  EXPECT_NEAR(rigid_acceleration(scene, 496e6), 1.46479e5, 0.5);
+  EXPECT_NEAR(1717.0 * 0.56 * rigid_acceleration(scene, 496e6), 140.843e6, 500.0);
+}
+
+TEST(Scene, PlaneStrainIsHalfASlabOfUnitDepth) {
+  Scene scene = shell_155mm();
+  scene.symmetry = Symmetry::plane_strain;
+  EXPECT_NEAR(base_area(scene), 0.0775, 1e-16);
+  EXPECT_NEAR(1717.0 * 0.56 * rigid_acceleration(scene, 496e6), 163.156e6, 500.0);
+}
+
+TEST(Scene, ExtentsEncloseTheBodies) {
+  const Scene scene = shell_155mm();
+  const Extent all = extent_of(scene), charge = extent_of(scene, BodyMaterial::charge);
+  EXPECT_EQ(all.x_end, 0.74);
+  EXPECT_EQ(all.r_end, 0.0775);
+  EXPECT_EQ(charge.x_begin, 0.118);
+  EXPECT_EQ(charge.x_end, 0.678);
+  EXPECT_EQ(extent_of(Scene{}).x_end, 0.0);
+}
+
+TEST(Scene, BaseAreaCountsOnlyFacesAtTheVeryBase) {
+  Scene scene;
+  scene.bodies = {{"rod", BodyMaterial::steel, 0.0, 0.1, 0.0, 0.01},
+                  {"ring", BodyMaterial::steel, 0.0, 0.2, 0.01, 0.02}};
+  EXPECT_NEAR(base_area(scene), std::numbers::pi * (0.02 * 0.02 - 0.01 * 0.01), 1e-18);
+}
+
+TEST(PressureHistory, AnalyticShapeRisesToItsPeakAndFalls) {
+  const Load load;
+  const PressureHistory history(load);
+  EXPECT_EQ(history.at(0.0), load.base);
+  EXPECT_EQ(history.at(-1.0), load.base);
+  EXPECT_DOUBLE_EQ(history.at(load.peak_time), load.peak);
+  EXPECT_DOUBLE_EQ(history.peak(), load.peak);
+  const double ratio = 7.0 / 11.0;
+  const double expected = load.base + (load.peak - load.base) * std::pow(ratio * std::exp(1.0 - ratio), 12.0);
+  EXPECT_NEAR(history.at(7e-3), expected, 1e-12 * expected);
+  for (double t = 0.0; t < 0.0179; t += 1e-4) {
+    EXPECT_EQ(history.at(t) < history.at(t + 1e-4), t + 0.5e-4 < load.peak_time) << t;
+  }
+}
+
+Load measured(std::vector<double> time, std::vector<double> pressure) {
+  Load load;
+  load.curve_time = std::move(time);
+  load.curve_pressure = std::move(pressure);
+  return load;
+}
+
+TEST(PressureHistory, MeasuredCurvePassesThroughItsPointsWithoutOvershoot) {
+  const std::vector<double> time{0.0, 1e-3, 1.1e-3, 4e-3, 7e-3, 18e-3};
+  const std::vector<double> pressure{1e5, 1e5, 4e8, 4.1e8, 2e8, 1e8};
+  const PressureHistory history(measured(time, pressure));
+  for (std::size_t i = 0; i < time.size(); ++i) EXPECT_DOUBLE_EQ(history.at(time[i]), pressure[i]);
+  for (std::size_t i = 0; i + 1 < time.size(); ++i) {
+    double last = pressure[i];
+    const double direction = pressure[i + 1] >= pressure[i] ? 1.0 : -1.0;
+    for (int k = 1; k <= 50; ++k) {
+      const double value = history.at(time[i] + (time[i + 1] - time[i]) * k / 50.0);
+      EXPECT_GE(direction * (value - last), -1e-6) << i << " " << k;
+      last = value;
+    }
+  }
+}
+
+TEST(PressureHistory, MeasuredCurveIsHeldOutsideItsPoints) {
+  for (const std::size_t points : {2u, 3u, 4u}) {
+    const std::vector<double> time{1e-3, 2e-3, 3e-3, 5e-3}, pressure{1e5, 2e5, 4e5, 3e5};
+    const auto end = static_cast<std::ptrdiff_t>(points);
+    const PressureHistory history(
+        measured({time.begin(), time.begin() + end}, {pressure.begin(), pressure.begin() + end}));
+    EXPECT_EQ(history.at(0.0), 1e5);
+    EXPECT_EQ(history.at(1.0), pressure[points - 1]);
+    EXPECT_GT(history.at(1.5e-3), 1e5);
+    EXPECT_LT(history.at(1.5e-3), 2e5);
+    EXPECT_DOUBLE_EQ(history.at(2e-3), 2e5);
+  }
+}
+
+TEST(PressureHistory, MeasuredCurveIsRescaledOnRequest) {
+  Load load = measured({0.0, 1e-3, 2e-3, 3e-3}, {0.0, 1e8, 2e8, 1e8});
+  load.peak = 5e8;
+  EXPECT_DOUBLE_EQ(PressureHistory(load).at(2e-3), 2e8);
+  load.rescale_to_peak = true;
+  EXPECT_DOUBLE_EQ(PressureHistory(load).at(2e-3), 5e8);
+  EXPECT_DOUBLE_EQ(PressureHistory(load).peak(), 5e8);
+}
+
+}  // namespace
+}  // namespace launchsafe::scene

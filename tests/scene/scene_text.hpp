@@ -1,0 +1,81 @@
+// A small valid scene as text, for tests that break it in one place.
+#pragma once
+
+#include "launchsafe/scene/read_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace launchsafe::scene {
+
+inline const std::string small_scene = R"([load]
+duration = "1 ms"
+
+[gap]
+thickness = "0, 0.01 cm"
+
+[[body]]
+name = "cup"
+material = "steel"
+x = "0 to 1 cm"
+r = "0 to 2 cm"
+
+[[body]]
+name = "filling"
+material = "charge"
+x = "1 to 4 cm"
+r = "0 to 1.5 cm"
+
+[[body]]
+name = "wall"
+material = "steel"
+x = "1 to 4 cm"
+r = "1.5 to 2 cm"
+
+[[observation_point]]
+name = "G1"
+x = "3.9 cm"
+r = "1 cm"
+)";
+
+/// The text with its first `from` replaced by `to`.
+inline std::string with(std::string text, std::string_view from, std::string_view to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+/// Line (from 1) on which `part` first stands.
+inline int line_of(const std::string& text, std::string_view part) {
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(text.find(part));
+  return 1 + static_cast<int>(std::count(text.begin(), end, '\n'));
+}
+
+/// The error of a scene text, read as "shell.toml".
+inline InputError error_of(const std::string& text) {
+  const auto file = parse_scene(text, "shell.toml");
+  EXPECT_FALSE(file) << "the scene was accepted";
+  return file ? InputError{} : file.error();
+}
+
+/// Checks that an error names file, line, key, what was found and what is allowed, in the error and in its
+/// message.
+inline void expect_error(const InputError& error, int line, std::string_view key, std::string_view found,
+                         std::string_view allowed) {
+  const std::string message = error.message();
+  EXPECT_EQ(error.file, "shell.toml");
+  EXPECT_EQ(error.line, line) << message;
+  EXPECT_EQ(error.key, key) << message;
+  EXPECT_NE(error.found.find(found), std::string::npos) << message;
+  EXPECT_NE(error.allowed.find(allowed), std::string::npos) << message;
+  EXPECT_TRUE(message.starts_with("shell.toml:" + std::to_string(line) + ":")) << message;
+  for (const std::string& part : {error.key, error.found, error.allowed, error.suggestion}) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+}
+
+}  // namespace launchsafe::scene

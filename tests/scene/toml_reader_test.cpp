@@ -1,0 +1,156 @@
+#include "launchsafe/scene/toml_reader.hpp"
+
+#include <gtest/gtest.h>
+
+namespace launchsafe::scene {
+namespace {
+
+enum class Colour { red, green };
+
+struct Thing {
+  double length = 2.5e-3;
+  int count = 3;
+  bool flag = true;
+  Colour colour = Colour::red;
+  std::vector<double> times;
+  double share = 0.5;
+};
+
+std::vector<Key<Thing>> thing_keys() {
+  return {
+      number_key<Thing>(
+          "length", Dimension::length, above(0), Standing::paper, "A length.",
+          [](auto& t) -> auto& { return t.length; }),
+      number_key<Thing>(
+          "part.count", Dimension::count, between(1, 9), Standing::assumed, "A count.",
+          [](auto& t) -> auto& { return t.count; }),
+      flag_key<Thing>(
+          "part.flag", Standing::assumed, "A flag.", [](auto& t) -> auto& { return t.flag; }),
+      word_key<Thing, Colour>(
+          "colour", Standing::assumed, "A word.", {{"red", Colour::red}, {"green", Colour::green}},
+          [](auto& t) -> auto& { return t.colour; }),
+      may_be_empty(list_key<Thing>(
+          "times", Dimension::time, at_least(0), Standing::assumed, "A list.",
+          [](auto& t) -> auto& { return t.times; })),
+      number_key<Thing>(
+          "share", Dimension::number, between(0, 1), Standing::assumed, "A share.",
+          [](auto& t) -> auto& { return t.share; }),
+  };
+}
+
+Expected<Thing> read(std::string_view text) {
+  const auto table = parse_toml(text, "thing.toml");
+  if (!table) return table.error();
+  Thing thing;
+  const auto places = read_table(*table, thing_keys(), {"other"}, "thing.toml", thing);
+  if (!places) return places.error();
+  return thing;
+}
+
+TEST(TomlReader, FillsTheBoundMembers) {
+  const auto thing = read(R"(
+length = "11.8 cm"
+colour = "green"
+times = ["1 ms", "20 us"]
+share = 1
+part = { count = 7, flag = false }
+[other]
+anything = "is read by others"
+)");
+  ASSERT_TRUE(thing) << thing.error().message();
+  EXPECT_EQ(thing->length, 0.118);
+  EXPECT_EQ(thing->count, 7);
+  EXPECT_FALSE(thing->flag);
+  EXPECT_EQ(thing->colour, Colour::green);
+  EXPECT_EQ(thing->times, (std::vector<double>{1e-3, 2e-5}));
+  EXPECT_EQ(thing->share, 1.0);
+}
+
+TEST(TomlReader, LeavesDefaultsWhereNothingIsSaid) {
+  const auto thing = read("");
+  ASSERT_TRUE(thing);
+  EXPECT_EQ(thing->length, 2.5e-3);
+  EXPECT_EQ(std::get<double>(thing_keys()[0].default_value()), 2.5e-3);
+}
+
+TEST(TomlReader, ReportsTheFirstFaultByLine) {
+  const auto thing = read("share = 2\nlength = \"5 ms\"\n");
+  ASSERT_FALSE(thing);
+  EXPECT_EQ(thing.error().line, 1);
+  EXPECT_EQ(thing.error().key, "share");
+}
+
+TEST(TomlReader, RefusesWrongTypes) {
+  struct Case {
+    const char* text;
+    const char* key;
+    const char* found;
+    const char* allowed;
+  };
+  for (const Case& wrong :
+       std::vector<Case>{{"length = 12", "length", "12, without a unit", "a length"},
+                         {"length = true", "length", "true", "a length"},
+                         {"length = [1]", "length", "[ 1 ]", "a length"},
+                         {"length = \"nan cm\"", "length", "not a finite number", "a length"},
+                         {"share = nan", "share", "not a finite number", "0 to 1"},
+                         {"share = \"0.5\"", "share", "which is a text", "a number"},
+                         {"share = 1.5", "share", "1.5", "0 to 1"},
+                         {"part.count = 2.5", "part.count", "no whole number", "1 to 9"},
+                         {"part.count = 10", "part.count", "10", "1 to 9"},
+                         {"part.flag = 1", "part.flag", "1", "true or false"},
+                         {"colour = \"gren\"", "colour", "\"gren\"", "\"red\" or \"green\""},
+                         {"colour = 3", "colour", "3", "\"red\" or \"green\""},
+                         {"times = [\"1 cm\"]", "times", "which is a length", "time"},
+                         {"part = 3", "part", "3", "a table, written [part]"},
+                         {"length = 1979-05-27", "length", "1979-05-27", "a length"}}) {
+    const auto thing = read(wrong.text);
+    ASSERT_FALSE(thing) << wrong.text;
+    const InputError& error = thing.error();
+    EXPECT_EQ(error.key, wrong.key) << error.message();
+    EXPECT_NE(error.found.find(wrong.found), std::string::npos) << error.message();
+    EXPECT_NE(error.allowed.find(wrong.allowed), std::string::npos) << error.message();
+    EXPECT_EQ(error.line, 1);
+  }
+}
+
+TEST(TomlReader, SuggestsTheNearestWordAndKey) {
+  EXPECT_EQ(read("colour = \"gren\"").error().suggestion, "\"green\"");
+  EXPECT_EQ(read("lenght = \"1 cm\"").error().suggestion, "length");
+  EXPECT_EQ(read("[prat]\ncount = 2").error().suggestion, "part.count");
+  EXPECT_EQ(read("[colours]").error().suggestion, "colour");
+  EXPECT_EQ(read("quite_different = 1").error().suggestion, "");
+}
+
+TEST(TomlReader, ReadsSeveralValuesForASweep) {
+  const auto table =
+      parse_toml("a = \"0.1, 0.2 mm\"\nb = [\"red\", \"green\"]\nc = [0.1, 0.2]\nd = \"0, -1 mm\"", "s");
+  ASSERT_TRUE(table);
+  const auto keys = thing_keys();
+  const auto lengths = read_values(*table->get("a"), keys[0], "s");
+  ASSERT_TRUE(lengths);
+  EXPECT_EQ(*lengths, (std::vector<Value>{1e-4, 2e-4}));
+  const auto words = read_values(*table->get("b"), keys[3], "s");
+  ASSERT_TRUE(words);
+  EXPECT_EQ(*words, (std::vector<Value>{std::string("red"), std::string("green")}));
+  EXPECT_EQ(read_values(*table->get("c"), keys[5], "s")->size(), 2u);
+  EXPECT_FALSE(read_values(*table->get("d"), keys[0], "s"));
+}
+
+TEST(TomlReader, ParsesValuesAsWrittenOnACommandLine) {
+  const auto keys = thing_keys();
+  EXPECT_EQ(std::get<double>(*parse_value("2 mm", keys[0], {})), 2e-3);
+  EXPECT_EQ(std::get<double>(*parse_value("0.25", keys[5], {})), 0.25);
+  EXPECT_EQ(std::get<bool>(*parse_value("false", keys[2], {})), false);
+  EXPECT_FALSE(parse_value("-2 mm", keys[0], {}));
+  EXPECT_FALSE(parse_value("2.5", keys[1], {}));
+  EXPECT_FALSE(parse_value("yes", keys[2], {}));
+}
+
+TEST(TomlReader, SyntaxErrorsNameTheirPlace) {
+  const auto table = parse_toml("a = 1\nb = = 2\n", "thing.toml");
+  ASSERT_FALSE(table);
+  EXPECT_TRUE(table.error().message().starts_with("thing.toml:2:")) << table.error().message();
+}
+
+}  // namespace
+}  // namespace launchsafe::scene

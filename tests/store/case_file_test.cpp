@@ -1,0 +1,322 @@
+#include "launchsafe/store/case_file.hpp"
+
+#include "child_process.hpp"
+#include "launchsafe/store/atomic_file.hpp"
+#include "sample_case.hpp"
+#include "temporary_folder.hpp"
+
+#include <hdf5.h>
+
+#include <bit>
+#include <cstdint>
+#include <fstream>
+
+namespace launchsafe::store {
+namespace {
+
+using namespace launchsafe::testing;
+
+class CaseFile : public TemporaryFolder {
+ protected:
+  std::filesystem::path path() const { return folder() / "case.h5"; }
+
+  void write_sample() {
+    const MaybeError error = write_case_file(path(), sample_scene(), sample_case(), sample_manifest());
+    ASSERT_FALSE(error) << error->message;
+  }
+
+  void overwrite(std::string_view bytes) { std::ofstream(path(), std::ios::binary) << bytes; }
+};
+
+std::vector<std::uint64_t> bits(const std::vector<double>& values) {
+  std::vector<std::uint64_t> result;
+  for (const double value : values) result.push_back(std::bit_cast<std::uint64_t>(value));
+  return result;
+}
+
+void expect_same(const trace::BottomTrace& a, const trace::BottomTrace& b) {
+  ASSERT_EQ(a.stations.size(), b.stations.size());
+  for (std::size_t i = 0; i < a.stations.size(); ++i) {
+    EXPECT_EQ(a.stations[i].name, b.stations[i].name);
+    EXPECT_EQ(bits({a.stations[i].x, a.stations[i].r, a.stations[i].area}),
+              bits({b.stations[i].x, b.stations[i].r, b.stations[i].area}));
+    EXPECT_EQ(a.stations[i].observation, b.stations[i].observation);
+  }
+  EXPECT_EQ(bits(a.time), bits(b.time));
+  EXPECT_EQ(bits(a.chamber_pressure), bits(b.chamber_pressure));
+  EXPECT_EQ(bits(a.bottom_pressure), bits(b.bottom_pressure));
+  EXPECT_EQ(bits(a.mean_chamber_pressure), bits(b.mean_chamber_pressure));
+  EXPECT_EQ(bits(a.mean_bottom_pressure), bits(b.mean_bottom_pressure));
+  EXPECT_EQ(bits(a.steps), bits(b.steps));
+  for (std::size_t i = 0; i < trace::traced_closures; ++i)
+    EXPECT_EQ(bits(a.friction[i]), bits(b.friction[i]));
+}
+
+std::vector<double> numbers_of(const run::MonitorSample& sample) {
+  const run::EnergyBalance& energy = sample.energy;
+  return {sample.time,
+          sample.time_step,
+          energy.kinetic,
+          energy.internal,
+          energy.external,
+          energy.body_force,
+          energy.damping,
+          energy.plastic,
+          energy.viscous,
+          energy.crack,
+          sample.momentum,
+          sample.largest_plastic_strain,
+          sample.largest_crack_radius};
+}
+
+void expect_same(const run::Snapshot& a, const run::Snapshot& b) {
+  EXPECT_EQ(bits({a.time}), bits({b.time}));
+  EXPECT_EQ(a.body, b.body);
+  EXPECT_EQ(bits(a.x), bits(b.x));
+  EXPECT_EQ(bits(a.r), bits(b.r));
+  EXPECT_EQ(bits(a.velocity_x), bits(b.velocity_x));
+  EXPECT_EQ(bits(a.velocity_r), bits(b.velocity_r));
+  EXPECT_EQ(bits(a.density), bits(b.density));
+  EXPECT_EQ(bits(a.pressure), bits(b.pressure));
+  EXPECT_EQ(bits(a.von_mises), bits(b.von_mises));
+  EXPECT_EQ(bits(a.temperature), bits(b.temperature));
+  EXPECT_EQ(bits(a.crack_radius), bits(b.crack_radius));
+  EXPECT_EQ(bits(a.plastic_strain), bits(b.plastic_strain));
+}
+
+void expect_same(const run::MechanicsResult& a, const run::MechanicsResult& b) {
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.reason, b.reason);
+  EXPECT_EQ(a.steps, b.steps);
+  EXPECT_EQ(a.particles, b.particles);
+  EXPECT_EQ(bits({a.end_time, a.wall_time, a.mass_steel, a.mass_charge}),
+            bits({b.end_time, b.wall_time, b.mass_steel, b.mass_charge}));
+  EXPECT_EQ(a.limiters.crack_at_bound, b.limiters.crack_at_bound);
+  EXPECT_EQ(a.limiters.tension_cutoff, b.limiters.tension_cutoff);
+  EXPECT_EQ(a.limiters.hugoniot_guard, b.limiters.hugoniot_guard);
+  expect_same(a.trace, b.trace);
+  ASSERT_EQ(a.monitor.size(), b.monitor.size());
+  for (std::size_t i = 0; i < a.monitor.size(); ++i) {
+    EXPECT_EQ(bits(numbers_of(a.monitor[i])), bits(numbers_of(b.monitor[i])));
+  }
+  ASSERT_EQ(a.snapshots.size(), b.snapshots.size());
+  for (std::size_t i = 0; i < a.snapshots.size(); ++i) expect_same(a.snapshots[i], b.snapshots[i]);
+}
+
+void expect_same(const std::optional<surface::Ignition>& a, const std::optional<surface::Ignition>& b) {
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (!a) return;
+  EXPECT_EQ(bits({a->time, a->chemical_share}), bits({b->time, b->chemical_share}));
+  EXPECT_EQ(a->station, b->station);
+  EXPECT_EQ(a->cause, b->cause);
+}
+
+void expect_same(const run::GapResult& a, const run::GapResult& b) {
+  EXPECT_EQ(bits({a.gap, a.sampling_error, a.skin.gap, a.skin.energy_residual}),
+            bits({b.gap, b.sampling_error, b.skin.gap, b.skin.energy_residual}));
+  EXPECT_EQ(bits({a.at_points.temperature, a.at_points.time, a.anywhere.temperature, a.anywhere.time}),
+            bits({b.at_points.temperature, b.at_points.time, b.anywhere.temperature, b.anywhere.time}));
+  EXPECT_EQ(a.at_points.station, b.at_points.station);
+  EXPECT_EQ(a.anywhere.station, b.anywhere.station);
+  EXPECT_EQ(a.coupled, b.coupled);
+  EXPECT_EQ(bits(a.skin.time), bits(b.skin.time));
+  EXPECT_EQ(bits(a.skin.air_temperature), bits(b.skin.air_temperature));
+  EXPECT_EQ(bits(a.skin.temperature), bits(b.skin.temperature));
+  expect_same(a.skin.ignition, b.skin.ignition);
+  expect_same(a.skin.ignition_anywhere, b.skin.ignition_anywhere);
+}
+
+TEST_F(CaseFile, ReadsBackEveryBit) {
+  write_sample();
+  const Result<StoredCase> stored = read_case_file(path());
+  ASSERT_TRUE(stored) << stored.error().message;
+  const run::CaseResult expected = sample_case();
+  EXPECT_EQ(stored->title, "155 mm shell");
+  expect_same(expected.mechanics, stored->result.mechanics);
+  ASSERT_EQ(expected.gaps.size(), stored->result.gaps.size());
+  for (std::size_t i = 0; i < expected.gaps.size(); ++i)
+    expect_same(expected.gaps[i], stored->result.gaps[i]);
+}
+
+TEST_F(CaseFile, KeepsTheManifest) {
+  const Manifest manifest = sample_manifest();
+  ASSERT_FALSE(write_case_file(path(), sample_scene(), sample_case(), manifest));
+  const Result<Manifest> stored = read_manifest(path());
+  ASSERT_TRUE(stored) << stored.error().message;
+  EXPECT_EQ(*stored, manifest);
+  EXPECT_EQ(stored->wall_time, 62.25);
+}
+
+TEST_F(CaseFile, AnEmptyResultIsKeptToo) {
+  ASSERT_FALSE(write_case_file(path(), {}, {}, sample_manifest()));
+  const Result<StoredCase> stored = read_case_file(path());
+  ASSERT_TRUE(stored) << stored.error().message;
+  EXPECT_EQ(stored->result.mechanics.trace.samples(), 0U);
+  EXPECT_TRUE(stored->result.gaps.empty());
+}
+
+TEST_F(CaseFile, EveryLengthOfATruncatedFileIsAnError) {
+  write_sample();
+  const std::string whole = *read_file(path());
+  std::vector<std::size_t> lengths{0, 1, 20, 21, 100, 511, 512, 513, 600, whole.size() - 1};
+  for (std::size_t length = 1000; length < whole.size(); length += whole.size() / 40)
+    lengths.push_back(length);
+  for (const std::size_t length : lengths) {
+    overwrite(std::string_view(whole).substr(0, length));
+    const Result<StoredCase> stored = read_case_file(path());
+    ASSERT_FALSE(stored) << length;
+    EXPECT_EQ(stored.error().kind, Error::Kind::corrupt) << length;
+    EXPECT_NE(stored.error().message.find(path().string()), std::string::npos) << stored.error().message;
+  }
+}
+
+TEST_F(CaseFile, AnyDamagedByteIsAnErrorOrDoesNotMatter) {
+  write_sample();
+  const std::string whole = *read_file(path());
+  const std::size_t stride = whole.size() / 199;
+  for (std::size_t place = 0; place < whole.size(); place += stride) {
+    std::string damaged = whole;
+    damaged[place] = static_cast<char>(damaged[place] ^ 0x10);
+    overwrite(damaged);
+    const Result<StoredCase> stored = read_case_file(path());
+    if (place >= 512) {
+      ASSERT_FALSE(stored) << place;
+    }
+    if (!stored) {
+      EXPECT_EQ(stored.error().kind, Error::Kind::corrupt) << place;
+    }
+  }
+}
+
+TEST_F(CaseFile, WhatIsNoCaseFileIsAnErrorAndStays) {
+  overwrite("somebody's notes");
+  const MaybeError error = write_case_file(path(), sample_scene(), sample_case(), sample_manifest());
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->kind, Error::Kind::corrupt);
+  EXPECT_EQ(*read_file(path()), "somebody's notes");
+}
+
+TEST_F(CaseFile, AMissingFileIsToldFromADamagedOne) {
+  const Result<StoredCase> stored = read_case_file(path());
+  ASSERT_FALSE(stored);
+  EXPECT_EQ(stored.error().kind, Error::Kind::missing);
+}
+
+TEST_F(CaseFile, NeverReplacesTheResultOfAnotherInput) {
+  write_sample();
+  const std::string before = *read_file(path());
+  const MaybeError error = write_case_file(path(), sample_scene(), sample_case(), sample_manifest("other"));
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->kind, Error::Kind::conflict);
+  EXPECT_EQ(*read_file(path()), before);
+}
+
+TEST_F(CaseFile, ReplacesTheResultOfTheSameInput) {
+  write_sample();
+  run::CaseResult result = sample_case();
+  result.mechanics.wall_time = 1234;
+  ASSERT_FALSE(write_case_file(path(), sample_scene(), result, sample_manifest()));
+  EXPECT_EQ(read_case_file(path())->result.mechanics.wall_time, 1234);
+}
+
+TEST_F(CaseFile, AFullDiskIsAnErrorAndLeavesNothing) {
+  // Large enough for the first block and some of the rest, too small for all.
+  EXPECT_TRUE(holds_under_file_size_limit(4096, [&] {
+    const MaybeError error = write_case_file(path(), sample_scene(), sample_case(), sample_manifest());
+    return error && error->kind == Error::Kind::write_failed;
+  }));
+  EXPECT_EQ(listing(), std::vector<std::string>{});
+}
+
+TEST_F(CaseFile, AFullDiskLeavesTheFileBeforeAsItWas) {
+  write_sample();
+  const std::string before = *read_file(path());
+  EXPECT_TRUE(holds_under_file_size_limit(4096, [&] {
+    return write_case_file(path(), sample_scene(), sample_case(), sample_manifest()).has_value();
+  }));
+  EXPECT_EQ(*read_file(path()), before);
+}
+
+TEST_F(CaseFile, AFolderThatIsNotThereIsAnError) {
+  const auto inside = folder() / "missing" / "case.h5";
+  const MaybeError error = write_case_file(inside, sample_scene(), sample_case(), sample_manifest());
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->kind, Error::Kind::write_failed);
+  EXPECT_FALSE(std::filesystem::exists(inside));
+}
+
+TEST_F(CaseFile, AFolderThatMayNotBeWrittenIsAnError) {
+  using std::filesystem::perms;
+  std::filesystem::permissions(
+      folder(), perms::owner_read | perms::owner_exec | perms::others_read | perms::others_exec);
+  EXPECT_TRUE(holds_without_privileges([&] {
+    const MaybeError error = write_case_file(path(), sample_scene(), sample_case(), sample_manifest());
+    return error && error->kind == Error::Kind::write_failed;
+  }));
+  std::filesystem::permissions(folder(), perms::owner_all);
+  EXPECT_EQ(listing(), std::vector<std::string>{});
+}
+
+TEST_F(CaseFile, AResultThatDoesNotFitTogetherIsAnErrorAndLeavesNothing) {
+  run::CaseResult result = sample_case();
+  result.mechanics.trace.chamber_pressure.pop_back();
+  const MaybeError error = write_case_file(path(), sample_scene(), result, sample_manifest());
+  ASSERT_TRUE(error);
+  EXPECT_NE(error->message.find("chamber_pressure"), std::string::npos) << error->message;
+  EXPECT_EQ(listing(), std::vector<std::string>{});
+}
+
+// --- what other programs see ---
+
+struct Visit {
+  int datasets = 0;
+  std::vector<std::string> without_units;
+};
+
+herr_t look_at(hid_t root, const char* name, const H5O_info_t* info, void* data) {
+  auto& visit = *static_cast<Visit*>(data);
+  if (info->type != H5O_TYPE_DATASET) return 0;
+  ++visit.datasets;
+  const auto has = [&](const char* attribute) {
+    return H5Aexists_by_name(root, name, attribute, H5P_DEFAULT) > 0;
+  };
+  if (!has("units") || !has("description")) visit.without_units.emplace_back(name);
+  return 0;
+}
+
+TEST_F(CaseFile, IsAnHdf5FileWithUnitsOnEveryDataset) {
+  write_sample();
+  const hid_t file = H5Fopen(path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  Visit visit;
+  EXPECT_GE(H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, look_at, &visit, H5O_INFO_BASIC), 0);
+  H5Fclose(file);
+  EXPECT_GT(visit.datasets, 80);
+  EXPECT_EQ(visit.without_units, std::vector<std::string>{});
+}
+
+TEST_F(CaseFile, SaysAtItsBeginningWhatItIs) {
+  write_sample();
+  const std::string whole = *read_file(path());
+  EXPECT_TRUE(whole.starts_with("launchsafe case file 1\nbytes "));
+}
+
+TEST_F(CaseFile, SnapshotsComeWithADescriptionForParaview) {
+  write_sample();
+  const Result<std::string> description = read_file(folder() / "case.xdmf");
+  ASSERT_TRUE(description);
+  EXPECT_NE(description->find("<Time Value=\"0.002\"/>"), std::string::npos);
+  EXPECT_NE(description->find(">case.h5:/snapshots/0001/position<"), std::string::npos);
+  EXPECT_EQ(description->find("crack_radius"), std::string::npos) << "the sample has none";
+  EXPECT_EQ(description->find(folder().string()), std::string::npos) << "the folder can be moved";
+}
+
+TEST_F(CaseFile, WithoutSnapshotsThereIsNoDescription) {
+  run::CaseResult result = sample_case();
+  result.mechanics.snapshots.clear();
+  ASSERT_FALSE(write_case_file(path(), sample_scene(), result, sample_manifest()));
+  EXPECT_EQ(listing(), std::vector<std::string>{"case.h5"});
+}
+
+}  // namespace
+}  // namespace launchsafe::store

@@ -1,0 +1,40 @@
+#include "launchsafe/store/manifest.hpp"
+
+#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/version.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+
+namespace launchsafe::store {
+namespace {
+
+TEST(Manifest, NamesInputProgramAndMachine) {
+  const Manifest manifest = make_manifest("title = 'shell'", 2);
+  EXPECT_EQ(manifest.input_text, "title = 'shell'");
+  EXPECT_EQ(manifest.input_sha256, sha256("title = 'shell'"));
+  EXPECT_EQ(manifest.program_version, version::number);
+  EXPECT_EQ(manifest.commit, version::commit);
+  EXPECT_EQ(manifest.compiler, version::compiler);
+  EXPECT_FALSE(manifest.host.empty());
+  EXPECT_EQ(manifest.threads, 2);
+}
+
+TEST(Manifest, StartsNowInUtc) {
+  EXPECT_TRUE(std::regex_match(utc_now(), std::regex(R"(20\d\d-[01]\d-[0-3]\dT[0-2]\d:[0-5]\d:[0-6]\dZ)")));
+}
+
+TEST(Manifest, NamesEveryLibraryWithADottedVersion) {
+  const std::vector<LibraryVersion> libraries = library_versions();
+  for (const char* name : {"Eigen", "Boost", "HDF5", "fmt", "toml++", "nlohmann-json", "oneTBB", "CLI11"}) {
+    const auto found = std::find_if(libraries.begin(), libraries.end(),
+                                    [&](const auto& library) { return library.name == name; });
+    ASSERT_NE(found, libraries.end()) << name;
+    EXPECT_TRUE(std::regex_match(found->version, std::regex(R"(\d+\.\d+(\.\d+)?)"))) << found->version;
+  }
+}
+
+}  // namespace
+}  // namespace launchsafe::store

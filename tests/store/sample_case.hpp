@@ -1,0 +1,113 @@
+// A small result in which every field has a value of its own, some of them not numbers.
+#pragma once
+
+#include "launchsafe/run/case_result.hpp"
+#include "launchsafe/scene/scene.hpp"
+#include "launchsafe/store/manifest.hpp"
+
+#include <limits>
+
+namespace launchsafe::testing {
+
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
+
+inline trace::BottomTrace sample_trace() {
+  trace::BottomTrace trace;
+  trace.stations = {{"G1", 0.6, 0.0, 0.0, true}, {"row 0", 0.6, 0.00125, 4.9e-6, false}};
+  trace.time = {0, 1e-5, 2e-5};
+  trace.chamber_pressure = {101325, 2e5, 0.1};
+  trace.bottom_pressure = {101325, not_a_number, -0.0};
+  trace.mean_chamber_pressure = {101325, 1.5e5, 3e5};
+  trace.mean_bottom_pressure = {101325, 5e-324, infinite};
+  trace.steps = {0, 20, 40};
+  trace.friction[0] = {0, 0, 1.1, 2.2, 3.3, 4.4};
+  return trace;  // the other closure was not traced
+}
+
+inline run::Snapshot sample_snapshot(double time) {
+  run::Snapshot snapshot;
+  snapshot.time = time;
+  snapshot.x = {0.1, 0.2, 0.3};
+  snapshot.r = {0.01, 0.02, 0.03};
+  snapshot.velocity_x = {1, -2, 3};
+  snapshot.velocity_r = {0.5, not_a_number, -0.5};
+  snapshot.density = {7830, 7830, 1717};
+  snapshot.pressure = {1e8, 2e8, 3e8};
+  snapshot.von_mises = {4e8, 5e8, 1e6};
+  snapshot.temperature = {300, 301, 302};
+  snapshot.plastic_strain = {0, 0.01, 0};
+  snapshot.body = {0, 0, 1};
+  return snapshot;  // no crack radius
+}
+
+inline run::MechanicsResult sample_mechanics() {
+  run::MechanicsResult mechanics;
+  mechanics.status = run::RunStatus::energy_drift;
+  mechanics.reason = "drift 0.06 at 0.017 s";
+  mechanics.end_time = 0.017;
+  mechanics.steps = (std::uint64_t{1} << 53) + 1;
+  mechanics.particles = 9021;
+  mechanics.wall_time = 61.5;
+  mechanics.mass_steel = 36.1;
+  mechanics.mass_charge = 7.2;
+  mechanics.trace = sample_trace();
+  run::MonitorSample sample;
+  sample.time = 1e-5;
+  sample.time_step = 5e-7;
+  sample.energy.kinetic = 1;
+  sample.energy.internal = 2;
+  sample.energy.external = 3;
+  sample.energy.body_force = 4;
+  sample.energy.damping = 5;
+  sample.energy.plastic = 6;
+  sample.energy.viscous = 7;
+  sample.energy.crack = 8;
+  sample.largest_plastic_strain = 0.01;
+  sample.largest_crack_radius = 3e-5;
+  sample.momentum = -1e-300;
+  mechanics.monitor = {run::MonitorSample{}, sample};
+  mechanics.snapshots = {sample_snapshot(0.001), sample_snapshot(0.002)};
+  mechanics.limiters = {11, 12, 13};
+  return mechanics;
+}
+
+inline run::GapResult sample_gap(double thickness) {
+  run::GapResult gap;
+  gap.gap = gap.skin.gap = thickness;
+  gap.skin.time = {0, 1e-5, 2e-5};
+  gap.skin.air_temperature = {300, 350, 400};
+  gap.skin.temperature = {300, 300, 310, 311, 320, not_a_number};
+  gap.skin.energy_residual = 1e-14;
+  gap.at_points = {523.3, 0.0179, 0};
+  gap.anywhere = {530.5, 0.018, 1};
+  gap.sampling_error = 0.02;
+  return gap;
+}
+
+inline run::CaseResult sample_case() {
+  run::CaseResult result;
+  result.mechanics = sample_mechanics();
+  result.gaps = {sample_gap(0.00039), sample_gap(0.0004)};
+  result.gaps[1].coupled = true;
+  result.gaps[1].skin.ignition = {0.0177, 0, surface::IgnitionCause::trigger, 0.25};
+  result.gaps[1].skin.ignition_anywhere = {0.0176, 1, surface::IgnitionCause::arrhenius, 0.75};
+  return result;
+}
+
+inline scene::Scene sample_scene() {
+  scene::Scene scene;
+  scene.title = "155 mm shell";
+  scene.bodies = {{"wall", scene::BodyMaterial::steel, 0, 0.7, 0.065, 0.0775},
+                  {"charge", scene::BodyMaterial::charge, 0.1, 0.6, 0, 0.065}};
+  scene.output.observation_points = {{"G1", 0.6, 0.0}};
+  return scene;
+}
+
+inline store::Manifest sample_manifest(const std::string& input = "title = \"155 mm shell\"\n") {
+  store::Manifest manifest = store::make_manifest(input, 2);
+  manifest.wall_time = 62.25;
+  return manifest;
+}
+
+}  // namespace launchsafe::testing

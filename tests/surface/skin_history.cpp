@@ -1,0 +1,218 @@
+// The skin on a whole trace: air models, sampling, ignition, maxima, cost.
+#include "launchsafe/surface/skin.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::surface;
+
+/// A launch with the default load on the charge bottom and friction that grows with t^3 to `friction` J/m3.
+trace::BottomTrace launch(int intervals, int rows, double friction) {
+  trace::BottomTrace trace;
+  trace.stations = {{"G1", 0.6775, 0.0625, 0.0, true}, {"G13", 0.6775, 0.0025, 0.0, true}};
+  for (int row = 0; row < rows; ++row) {
+    trace.stations.push_back({"row " + std::to_string(row), 0.6775, 0.001 * row, 1e-4 * (row + 1), false});
+  }
+  const auto pressure = [](double t) {
+    return 101325.0 + 140e6 * std::pow(t / 11e-3 * std::exp(1.0 - t / 11e-3), 12.0);
+  };
+  for (int sample = 0; sample <= intervals; ++sample) {
+    const double dt = 18e-3 / intervals, t = dt * sample;
+    double mean = 0.0;
+    for (int k = 0; k < 64; ++k) mean += pressure(t - dt * (k + 0.5) / 64.0) / 64.0;
+    if (sample == 0) mean = pressure(0.0);
+    trace.time.push_back(t);
+    for (auto* values : {&trace.bottom_pressure, &trace.chamber_pressure}) values->push_back(pressure(t));
+    for (auto* values : {&trace.mean_bottom_pressure, &trace.mean_chamber_pressure}) values->push_back(mean);
+    trace.steps.push_back(200.0 * sample);
+    for (auto& closure : trace.friction) {
+      for (std::size_t station = 0; station < trace.stations.size(); ++station) {
+        const double share =
+            1.0 - 0.2 * static_cast<double>(station) / static_cast<double>(trace.stations.size());
+        closure.push_back(share * friction * std::pow(t / 18e-3, 3.0));
+      }
+    }
+  }
+  return trace;
+}
+
+constexpr double friction_energy = 1.1e6;  // J/m3: 108 K at a localisation of 300
+
+double last(const SkinHistory& history, const trace::BottomTrace& trace, std::size_t station) {
+  return history.temperature[(history.time.size() - 1) * trace.stations.size() + station];
+}
+
+TEST(SkinHistory, WithoutGapOnlyFrictionHeats) {
+  const trace::BottomTrace trace = launch(100, 0, friction_energy);
+  SkinModel model;
+  model.kinetics.frequency = 0.0;
+  const SkinHistory history = integrate_skin(model, trace, 0.0);
+  EXPECT_NEAR(last(history, trace, 0), 300.0 + 300.0 * friction_energy / (1717.0 * 1780.0), 1e-9);
+  EXPECT_FALSE(history.ignition.has_value());
+  EXPECT_EQ(history.air_temperature.front(), 300.0);
+}
+
+TEST(SkinHistory, SamplingErrorIsFourthOrder) {
+  SkinModel model;
+  const auto temperature = [&](int intervals) {
+    const trace::BottomTrace trace = launch(intervals, 0, 0.0);
+    return last(integrate_skin(model, trace, 3e-4), trace, 0);
+  };
+  const double reference = temperature(3200);
+  EXPECT_LE(std::abs(temperature(100) - reference), 1e-3);
+  EXPECT_LE(std::abs(temperature(800) - reference), 1e-5);
+  const trace::BottomTrace trace = launch(900, 0, 0.0);
+  EXPECT_NEAR(last(integrate_skin(model, trace::thinned(trace), 3e-4), trace::thinned(trace), 0),
+              last(integrate_skin(model, trace, 3e-4), trace, 0), 1e-4);
+}
+
+TEST(SkinHistory, TracedTemperaturesAreThoseOfFineCalls) {
+  // What a coupled run does: many small calls with the air at the ends of each. Second order in their length.
+  const trace::BottomTrace trace = launch(900, 0, 0.0), fine = launch(90000, 0, 0.0);
+  const SkinModel model;
+  SkinPoint point{300.0};
+  for (std::size_t k = 1; k < fine.samples(); ++k) {
+    const auto air = [&](std::size_t sample) {
+      return materials::adiabatic_temperature(model.surface.air, fine.bottom_pressure[sample]);
+    };
+    point = advance_skin(model, 3e-4, point, fine.time[k] - fine.time[k - 1], air(k - 1), air(k), 0.0);
+  }
+  EXPECT_NEAR(last(integrate_skin(model, trace, 3e-4), trace, 0), point.temperature, 1e-4);
+}
+
+TEST(SkinHistory, FirstIgnitionIsReportedWithTimeStationAndCause) {
+  const trace::BottomTrace trace = launch(900, 3, 3.0 * friction_energy);
+  const SkinHistory history = integrate_skin(SkinModel{}, trace, 0.0);
+  ASSERT_TRUE(history.ignition.has_value());
+  ASSERT_TRUE(history.ignition_anywhere.has_value());
+  EXPECT_EQ(history.ignition->station, 0u);  // the station with the most friction
+  EXPECT_EQ(history.ignition_anywhere->station, 0u);
+  EXPECT_EQ(history.ignition->cause, IgnitionCause::trigger);
+  EXPECT_LT(history.ignition->chemical_share, 0.5);
+  EXPECT_GT(history.ignition->time, 0.01);
+  EXPECT_LT(history.ignition->time, 0.018);
+  EXPECT_NEAR(maximum_anywhere(history).temperature, 784.0, 1e-9);
+}
+
+TEST(SkinHistory, PerStepExchangeGoesWithTheNumberOfSteps) {
+  // With ever more steps the printed form lets the skin follow the air; that is why it is not the default.
+  trace::BottomTrace few = launch(300, 0, 0.0), many = few;
+  for (double& steps : few.steps) steps *= 0.01;
+  for (double& steps : many.steps) steps *= 1000.0;
+  SkinModel model;
+  model.surface.exchange = scene::Exchange::per_step;
+  model.kinetics.frequency = 0.0;
+  model.kinetics.ignition_temperature = model.kinetics.burnt_temperature = 1e9;
+  EXPECT_LT(last(integrate_skin(model, few, 1e-5), few, 0), 350.0);
+  const SkinHistory history = integrate_skin(model, many, 1e-5);
+  EXPECT_NEAR(last(history, many, 0), history.air_temperature.back(), 10.0);
+}
+
+TEST(SkinHistory, NotANumberInTheTraceIsNoVerdict) {
+  for (int which = 0; which < 3; ++which) {
+    trace::BottomTrace trace = launch(300, 2, 3.0 * friction_energy);
+    if (which == 0) trace.bottom_pressure[250] = std::nan("");
+    if (which == 1) trace.mean_bottom_pressure[250] = std::nan("");
+    if (which == 2) trace.friction[0][250 * 4 + 3] = std::nan("");
+    for (const auto air : {scene::AirModel::reservoir, scene::AirModel::balance}) {
+      SkinModel model;
+      model.surface.air_model = air;
+      const SkinHistory history = integrate_skin(model, trace, 3e-4);
+      EXPECT_FALSE(history.ignition.has_value()) << which;
+      EXPECT_FALSE(history.ignition_anywhere.has_value()) << which;
+      EXPECT_TRUE(std::isnan(maximum_anywhere(history).temperature)) << which;
+    }
+  }
+}
+
+TEST(SkinHistory, ClosureThatWasNotTracedIsNoVerdict) {
+  trace::BottomTrace trace = launch(10, 0, friction_energy);
+  trace.friction[0].clear();
+  EXPECT_TRUE(std::isnan(maximum_anywhere(integrate_skin(SkinModel{}, trace, 3e-4)).temperature));
+}
+
+TEST(AirBalance, ConservesEnergyToRoundOff) {
+  for (const double exchange_time : {1e-9, 1e-6, 3.6e-4}) {
+    SkinModel model;
+    model.surface.air_model = scene::AirModel::balance;
+    model.surface.exchange_time = exchange_time;
+    const trace::BottomTrace trace = launch(300, 5, friction_energy);
+    EXPECT_LE(integrate_skin(model, trace, 4e-4).energy_residual, 1e-9) << exchange_time;
+  }
+}
+
+TEST(AirBalance, NeverHeatsMoreThanTheReservoir) {
+  const trace::BottomTrace trace = launch(300, 3, friction_energy);
+  SkinModel model;
+  const double reservoir = last(integrate_skin(model, trace, 3e-4), trace, 0);
+  model.surface.air_model = scene::AirModel::balance;
+  EXPECT_LT(last(integrate_skin(model, trace, 3e-4), trace, 0), reservoir);
+}
+
+TEST(AirBalance, ConvergesToItsFineSampling) {
+  SkinModel model;
+  model.surface.air_model = scene::AirModel::balance;
+  const auto temperature = [&](int intervals) {
+    const trace::BottomTrace trace = launch(intervals, 1, friction_energy);
+    return last(integrate_skin(model, trace, 3e-4), trace, 0);
+  };
+  EXPECT_NEAR(temperature(900), temperature(7200), 1e-3);
+}
+
+TEST(AirBalance, StiffExchangeKeepsAirAndSkinTogether) {
+  SkinModel model;
+  model.surface.air_model = scene::AirModel::balance;
+  model.surface.exchange_time = 1e-9;
+  model.surface.friction = scene::FrictionClosure::none;
+  const trace::BottomTrace trace = launch(300, 1, 0.0);
+  const SkinHistory history = integrate_skin(model, trace, 4e-4);
+  for (std::size_t sample = 0; sample < trace.samples(); ++sample) {
+    EXPECT_NEAR(history.air_temperature[sample], history.temperature[sample * 3 + 2], 1e-3);
+  }
+}
+
+TEST(SkinMaxima, AreTakenOverTheirStationsAndTimes) {
+  trace::BottomTrace trace;
+  trace.stations = {{"G1", 0, 0, 0, true}, {"row 0", 0, 0, 1, false}, {"G2", 0, 0, 0, true}};
+  SkinHistory history;
+  history.time = {0.0, 1.0, 2.0};
+  history.temperature = {300, 300, 300, 400, 900, 380, 350, 310, 420};
+  const Maximum points = maximum_at_observation_points(history, trace), anywhere = maximum_anywhere(history);
+  EXPECT_EQ(points.temperature, 420.0);
+  EXPECT_EQ(points.station, 2u);
+  EXPECT_EQ(points.time, 2.0);
+  EXPECT_EQ(anywhere.temperature, 900.0);
+  EXPECT_EQ(anywhere.station, 1u);
+  EXPECT_EQ(maximum_at_time(history, trace, 1.5).temperature, 400.0);  // G2: (380 + 420)/2; G1: 375
+  EXPECT_EQ(spread_at_time(history, trace, 1.5), 25.0);
+  history.temperature[5] = std::nan("");
+  EXPECT_TRUE(std::isnan(maximum_at_observation_points(history, trace).temperature));
+  EXPECT_TRUE(std::isnan(maximum_at_time(history, trace, 1.0).temperature));
+  EXPECT_TRUE(std::isnan(spread_at_time(history, trace, 1.0)));
+}
+
+TEST(SkinHistory, FortyStationsOnAThousandSamplesTakeMilliseconds) {
+  const trace::BottomTrace trace = launch(1000, 38, friction_energy);
+  for (const auto air : {scene::AirModel::reservoir, scene::AirModel::balance}) {
+    SkinModel model;
+    model.surface.air_model = air;
+    double best = 1.0;  // of three, as the machine may be busy
+    for (int run = 0; run < 3; ++run) {
+      const auto begin = std::chrono::steady_clock::now();
+      integrate_skin(model, trace, 4e-4);
+      best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    }
+    RecordProperty(air == scene::AirModel::balance ? "balance_ms" : "reservoir_ms",
+                   std::to_string(1e3 * best));
+#ifdef NDEBUG
+    EXPECT_LT(best, 0.05);
+#endif
+  }
+}
+
+}  // namespace

@@ -1,0 +1,82 @@
+#include "launchsafe/trace/bottom_trace.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace launchsafe::trace;
+
+BottomTrace example(std::size_t samples) {
+  BottomTrace trace;
+  trace.stations = {{"G1", 0.6775, 0.0625, 0.0, true}, {"row 0", 0.6775, 0.001, 1e-4, false}};
+  double time = 0.0;
+  for (std::size_t k = 0; k < samples; ++k) {
+    const double value = static_cast<double>(k);
+    time += k == 0 ? 0.0 : 1.0 + 0.1 * value;  // uneven intervals
+    trace.time.push_back(time);
+    trace.chamber_pressure.push_back(10.0 + value);
+    trace.bottom_pressure.push_back(20.0 + value);
+    trace.mean_chamber_pressure.push_back(9.5 + value * value);
+    trace.mean_bottom_pressure.push_back(19.5 + value);
+    trace.steps.push_back(7.0 * value);
+    for (auto& closure : trace.friction) {
+      closure.push_back(value);
+      closure.push_back(100.0 + value);
+    }
+  }
+  return trace;
+}
+
+double integral(const BottomTrace& trace) {
+  double total = 0.0;
+  for (std::size_t k = 1; k < trace.samples(); ++k) {
+    total += (trace.time[k] - trace.time[k - 1]) * trace.mean_chamber_pressure[k];
+  }
+  return total;
+}
+
+TEST(ThinnedTrace, KeepsEverySecondSampleAndTheLast) {
+  for (const std::size_t samples : {1, 2, 3, 8, 9}) {
+    const BottomTrace whole = example(samples), half = thinned(whole);
+    EXPECT_EQ(half.samples(), samples / 2 + 1);
+    EXPECT_EQ(half.time.front(), whole.time.front());
+    EXPECT_EQ(half.time.back(), whole.time.back());
+    EXPECT_EQ(half.friction[0].size(), half.samples() * 2);
+    EXPECT_EQ(half.friction[1].back(), whole.friction[1].back());
+    EXPECT_EQ(half.steps.back(), whole.steps.back());
+  }
+}
+
+TEST(ThinnedTrace, KeepsTheIntegralOfThePressure) {
+  for (const std::size_t samples : {2, 5, 8, 40}) {
+    const BottomTrace trace = example(samples);
+    EXPECT_NEAR(integral(thinned(trace)), integral(trace), 1e-12 * integral(trace));
+  }
+}
+
+TEST(ThinnedTrace, OfNothingIsNothing) { EXPECT_EQ(thinned(BottomTrace{}).samples(), 0u); }
+
+TEST(ThinnedTrace, LeavesOutAClosureThatWasNotTraced) {
+  BottomTrace trace = example(5);
+  trace.friction[1].clear();
+  EXPECT_TRUE(thinned(trace).friction[1].empty());
+}
+
+TEST(Interpolate, IsLinearBetweenSamplesAndConstantOutside) {
+  const std::vector<double> time{0.0, 1.0, 3.0}, value{1.0, 2.0, -2.0};
+  EXPECT_EQ(interpolate(time, value, -1.0), 1.0);
+  EXPECT_EQ(interpolate(time, value, 0.5), 1.5);
+  EXPECT_EQ(interpolate(time, value, 1.0), 2.0);
+  EXPECT_EQ(interpolate(time, value, 2.5), -1.0);
+  EXPECT_EQ(interpolate(time, value, 9.0), -2.0);
+}
+
+TEST(Interpolate, WithoutAnAnswerGivesNotANumber) {
+  EXPECT_TRUE(std::isnan(interpolate({}, {}, 0.0)));
+  EXPECT_TRUE(std::isnan(interpolate({0.0, 1.0}, {1.0, 2.0}, std::nan(""))));
+  EXPECT_TRUE(std::isnan(interpolate({0.0, 1.0}, {1.0}, 0.5)));
+}
+
+}  // namespace
