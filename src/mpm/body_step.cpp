@@ -133,14 +133,19 @@ Stressed update_material(ChargeBody& body, const ChargeLaw& law, std::size_t slo
   return {stress, pressure, density1, work};
 }
 
-/// FLIP velocity update with an optional share of PIC; returns the kinetic energy that the share takes out.
-Pack update_velocity(Kinematics& p, const Gathered& g, std::size_t slot, Pack mass, double pic_fraction) {
-  const Pack vx = load(p.velocity_x, slot) + g.change_x, vr = load(p.velocity_r, slot) + g.change_r;
+/// FLIP velocity update with an optional share of PIC. Adds the kinetic energy that the share takes out, and
+/// the time-centred kinetic energy of the step's begin.
+void update_velocity(Kinematics& p, const Gathered& g, std::size_t slot, Pack mass, double pic_fraction,
+                     StepTotals& totals) {
+  const Pack old_vx = load(p.velocity_x, slot), old_vr = load(p.velocity_r, slot);
+  const Pack vx = old_vx + g.change_x, vr = old_vr + g.change_r;
   const Pack new_vx = vx + pic_fraction * (g.velocity_x - vx),
              new_vr = vr + pic_fraction * (g.velocity_r - vr);
   store(p.velocity_x, slot, new_vx);
   store(p.velocity_r, slot, new_vr);
-  return 0.5 * mass * (vx * vx + vr * vr - new_vx * new_vx - new_vr * new_vr);
+  const Pack half_mass = 0.5 * mass;
+  totals.pic_loss += half_mass * (vx * vx + vr * vr - new_vx * new_vx - new_vr * new_vr);
+  totals.centred_kinetic += half_mass * (old_vx * vx + old_vr * vr);
 }
 
 /// Everything but the rare sub-steps is inlined: a call would pass its Packs through memory.
@@ -156,7 +161,7 @@ template <class Body, class Law>
     const Pack x0 = load(p.x, slot), r0 = load(p.r, slot);
     const Stencil old_stencil = stencil_of(reading, x0, r0);
     const Gathered g = gather(grid, old_stencil, real & old_stencil.inside);
-    totals.pic_loss += update_velocity(p, g, slot, select(real, mass, Pack(0.0)), context.pic_fraction);
+    update_velocity(p, g, slot, mass, context.pic_fraction, totals);
     const Pack x1 = x0 + context.dt * g.velocity_x, r1 = r0 + context.dt * g.velocity_r;
     store(p.x, slot, x1);
     store(p.r, slot, r1);

@@ -118,8 +118,8 @@ void Simulation::press_bore(int body, double pressure) {
   });
 }
 
-/// The inner faces as radial nodal forces, cut by the linear hat functions in r at their present place and weighted
-/// in x like their particles.
+/// The inner faces as radial nodal forces, cut by the linear hat functions in r at their present place and
+/// weighted in x like their particles.
 void Simulation::locate_bores() {
   bore_shares_.clear();
   for (const Bore& bore : bores_) {
@@ -130,8 +130,7 @@ void Simulation::locate_bores() {
       const Stencil stencil = stencil_of(context, Pack(p.x[slot]), Pack(p.r[slot]));
       if (stencil.inside.lanes[0] == 0) continue;
       const double face = p.r[slot] - p.half_r;
-      const double force =
-          bore.pressure * radial_measure(axisymmetric(), face) * p.lattice.spacing_x;
+      const double force = bore.pressure * radial_measure(axisymmetric(), face) * p.lattice.spacing_x;
       const double coordinate = face / grid_.dr + Grid::radial_padding;
       const double cell = std::floor(coordinate), share = coordinate - cell;
       const auto nodes_x = static_cast<std::size_t>(grid_.nodes_x);
@@ -182,6 +181,7 @@ void Simulation::update_grid(double dt) {
 }
 
 void Simulation::step(double dt) {
+  balance_ = energy_;
   const double pressure = load_.at(time_), next_pressure = load_.at(time_ + dt);
   locate_load();
   for (const LoadShare& share : load_shares_) grid_.force_x[share.node] += pressure * share.force;
@@ -200,6 +200,7 @@ void Simulation::step(double dt) {
   StepTotals totals;
   for (SteelBody& body : steel_) advance(body, scene_.steel, grid_, context, totals);
   for (ChargeBody& body : charges_) advance(body, scene_.charge, grid_, context, totals);
+  balance_.kinetic = scene_.numerics.inertial_scaling * sum(totals.centred_kinetic);
   energy_.internal += sum(totals.internal);
   energy_.plastic += sum(totals.plastic);
   energy_.viscous += sum(totals.viscous);

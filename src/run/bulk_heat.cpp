@@ -9,7 +9,7 @@ BulkHeat::BulkHeat(const mpm::Simulation& simulation)
       closure_(static_cast<std::size_t>(simulation.scene().surface.friction)) {
   const scene::Plan plan = scene::make_plan(simulation.scene());
   reaction_ = plan.bulk_reaction.in;
-  conduction_ = plan.conduction.in;
+  if (plan.conduction.in) conduction_.emplace(simulation);
   for (const mpm::ChargeBody& body : simulation.charges())
     friction_before_.emplace_back(body.kinematics.x.size(), 0.0);
 }
@@ -22,6 +22,7 @@ void BulkHeat::advance_to(mpm::Simulation& simulation, double time) {
     add_friction(simulation.charges()[c], friction_before_[c]);
     if (reaction_) react(simulation.charges()[c], dt);
   }
+  if (conduction_) conduction_->advance(simulation, dt);
 }
 
 void BulkHeat::add_friction(mpm::ChargeBody& charge, math::AlignedArray& before) const {

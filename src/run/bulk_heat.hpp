@@ -2,9 +2,11 @@
 // step.
 #pragma once
 
+#include "launchsafe/mpm/conduction.hpp"
 #include "launchsafe/mpm/simulation.hpp"
 #include "launchsafe/scene/plan.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace launchsafe::run {
@@ -23,7 +25,8 @@ class BulkHeat {
 
   scene::Charge charge_;
   std::size_t closure_;
-  bool reaction_, conduction_;
+  bool reaction_;
+  std::optional<mpm::Conduction> conduction_;        ///< only where the plan keeps it
   std::vector<math::AlignedArray> friction_before_;  ///< J/m3, by charge body
   double time_ = 0;
 };

@@ -44,7 +44,7 @@ EnergyBalance energy_of(const mpm::Simulation& simulation) {
   const double whole = whole_shell(simulation);
   const mpm::EnergyTotals& totals = simulation.energy();
   EnergyBalance energy;
-  energy.kinetic = whole * simulation.kinetic_energy();
+  energy.kinetic = whole * totals.kinetic;
   energy.internal = whole * totals.internal;
   energy.external = whole * totals.external;
   energy.body_force = whole * totals.body_force;

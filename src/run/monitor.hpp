@@ -9,7 +9,7 @@
 
 namespace launchsafe::run {
 
-/// The energy balance of the present state, in J of the whole shell (plane strain: per metre).
+/// The energy balance at the begin of the last step, in J of the whole shell (plane strain: per metre).
 EnergyBalance energy_of(const mpm::Simulation& simulation);
 MonitorSample monitor_sample(const mpm::Simulation& simulation, double time_step);
 Snapshot take_snapshot(const mpm::Simulation& simulation);
@@ -20,9 +20,8 @@ struct Stop {
   std::string reason;
 };
 
-/// Elastic energy (J) that the bodies would hold under a hundredth of the load's peak: drift is not judged on less. The
-/// leapfrog's velocities lie half a step after its stresses, which shows in the balance while the first wave of a step
-/// load crosses its first cells.
+/// Elastic energy (J) that the bodies would hold under a hundredth of the load's peak: drift is not judged on
+/// less, where it would be the first cells' share in the first steps.
 double least_judged_energy(const scene::Scene& scene);
 
 /// Why the run has to stop now, if it has to. `largest_energy` is the largest energy scale seen so far (J):

@@ -92,6 +92,11 @@ TEST(RunMechanics, TakesSnapshotsOfAllParticlesAtTheTimesAskedFor) {
   const MechanicsResult result = run_mechanics(scene);
   ASSERT_EQ(result.snapshots.size(), 2u);
   EXPECT_NEAR(result.snapshots[1].time, 5e-3, 1e-5);
+  // Pressure and friction have heated the bulk a little, adiabatic compression is not in its equation.
+  for (const double temperature : result.snapshots[1].temperature) {
+    EXPECT_GE(temperature, 300.0);
+    EXPECT_LT(temperature, 301.0);
+  }
   EXPECT_EQ(result.snapshots[1].x.size(), result.particles);
 }
 
@@ -104,6 +109,17 @@ TEST(RunCase, HotterForWiderGapsAndTheSamplingErrorIsSmall) {
     if (!gap.skin.ignition) {
       EXPECT_LT(gap.sampling_error, 0.02) << gap.gap;
     }  // K
+}
+
+/// What the plan leaves out must not matter (its bound: 38 um of diffusion in a cell of millimetres).
+TEST(RunCase, ForcingConductionAndReactionOnChangesNoVerdictTemperature) {
+  scene::Scene scene = coarse_scene();
+  scene.surface.gaps = {2e-4};
+  const CaseResult without = run_case(scene);
+  scene.physics.conduction = scene.physics.bulk_reaction = scene::Switch::on;
+  const CaseResult with = run_case(scene);
+  ASSERT_EQ(with.mechanics.status, RunStatus::completed);
+  EXPECT_NEAR(with.gaps.front().at_points.temperature, without.gaps.front().at_points.temperature, 0.1);  // K
 }
 
 /// The skin changes nothing in the mechanics below ignition, so a run that carries it must give the traced
@@ -132,6 +148,24 @@ TEST(RunCoupled, IgnitesWhenAndWhereTheTraceDoes) {
   ASSERT_TRUE(traced.skin.ignition.has_value());
   EXPECT_EQ(coupled.gaps.front().skin.ignition->station, traced.skin.ignition->station);
   EXPECT_NEAR(coupled.gaps.front().skin.ignition->time, traced.skin.ignition->time, 1e-6);
+}
+
+/// Opt-in (a minute): the bound on the mesh dependence of the charge-bottom pressure up to the peak.
+TEST(BottomPressureSlow, AgreesWithinFivePercentAtHalfTheCellSize) {
+  scene::Scene scene = coarse_scene();
+  scene.numerics.cell_size = 2.5e-3;
+  const trace::BottomTrace coarse = run_mechanics(scene).trace;
+  scene.numerics.cell_size = 1.25e-3;
+  const trace::BottomTrace fine = run_mechanics(scene).trace;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < fine.samples() && fine.time[i] <= scene.load.peak_time; ++i) {
+    const double difference =
+        trace::interpolate(coarse.time, coarse.bottom_pressure, fine.time[i]) - fine.bottom_pressure[i];
+    if (fine.bottom_pressure[i] > 1e6)
+      largest = std::max(largest, std::abs(difference) / fine.bottom_pressure[i]);
+  }
+  RecordProperty("largest_difference_percent", std::to_string(100.0 * largest));
+  EXPECT_LT(largest, 0.05);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ TEST(ReadScene, WhatTheShippedSceneLeavesOutIsTheDefault) {
   ASSERT_TRUE(file);
   const Scene defaults;
   EXPECT_EQ(file->scene.charge.eos.initial_energy, defaults.charge.eos.initial_energy);
-  EXPECT_EQ(file->scene.surface.exchange_time, defaults.surface.exchange_time);
+  EXPECT_EQ(file->scene.charge.tension_cutoff, defaults.charge.tension_cutoff);
   EXPECT_EQ(file->scene.steel.strength.a, defaults.steel.strength.a);
 }
 

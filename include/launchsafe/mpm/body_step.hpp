@@ -19,7 +19,7 @@ struct StepContext {
 
 /// What a step adds to the energy balance (J per radian, or per metre) and to the limiters (particle-steps).
 struct StepTotals {
-  Pack internal{0.0}, plastic{0.0}, viscous{0.0}, crack{0.0}, pic_loss{0.0};
+  Pack internal{0.0}, plastic{0.0}, viscous{0.0}, crack{0.0}, pic_loss{0.0}, centred_kinetic{0.0};
   Pack tension_cutoff{0.0}, hugoniot_guard{0.0}, crack_at_bound{0.0}, off_grid{0.0};
 };
 

@@ -17,6 +17,9 @@ namespace launchsafe::mpm {
 
 /// Energy balance since the start, J per radian (axisymmetric) or per metre of depth.
 struct EnergyTotals {
+  /// Of the motion relative to the frame, with scaled inertia, centred in time: velocities live half a step
+  /// away from stresses (leapfrog), and m v_old v_new/2 is what the discrete work balances.
+  double kinetic = 0;
   double internal = 0, external = 0, body_force = 0, damping = 0;
   double plastic = 0, viscous = 0, crack = 0;
 };
@@ -29,6 +32,9 @@ struct EventCounts {
 class Simulation {
  public:
   explicit Simulation(scene::Scene scene);
+  // Loaded faces and anchors point into the bodies.
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
 
   /// Stable time step (s) for the present state: CFL min(dx, dr)/(c_L + |v|), times sqrt(inertial_scaling).
   double stable_time_step() const;
@@ -40,9 +46,10 @@ class Simulation {
   double chamber_pressure() const { return load_.at(time_); }  ///< Pa
   /// Acceleration (m/s2) of the co-moving frame at a time; 0 in the lab frame.
   double frame_acceleration(double time) const;
-  const EnergyTotals& energy() const { return energy_; }
+  /// The balance at the begin of the last step, where all its parts are known at one time.
+  const EnergyTotals& energy() const { return balance_; }
   const EventCounts& events() const { return events_; }
-  /// Kinetic energy relative to the frame with scaled inertia, J per radian or metre.
+  /// Kinetic energy of the particles relative to the frame with scaled inertia, J per radian or metre.
   double kinetic_energy() const;
   /// Axial momentum relative to the frame, kg m/s per radian or metre.
   double axial_momentum() const;
@@ -63,8 +70,8 @@ class Simulation {
   }
   /// Clears the grid and gives it the particles' mass and momentum again: after a test has set velocities.
   void restart();
-  /// Puts a steady pressure (Pa) on the inner radial face of a body (index into Scene::bodies) from now on. Its
-  /// work counts as external. No scene asks for it; the thick-walled tube of `launchsafe verify` does.
+  /// Puts a steady pressure (Pa) on the inner radial face of a body (index into Scene::bodies) from now on.
+  /// Its work counts as external. No scene asks for it; the thick-walled tube of `launchsafe verify` does.
   void press_bore(int body, double pressure);
 
  private:
@@ -106,13 +113,14 @@ class Simulation {
   std::vector<LoadShare> load_shares_;
   std::vector<Bore> bores_;
   std::vector<LoadShare> bore_shares_;  ///< radial
-  double total_mass_ = 0;   ///< kg per radian or metre
-  double loaded_area_ = 0;  ///< m2 per radian or metre
+  double total_mass_ = 0;               ///< kg per radian or metre
+  double loaded_area_ = 0;              ///< m2 per radian or metre
   double time_ = 0;
   double travel_ = 0;       ///< m, of the window's target in the lab frame
   double base_origin_ = 0;  ///< m, of the grid at rest
   std::uint64_t particles_ = 0;
-  EnergyTotals energy_;
+  EnergyTotals energy_;   ///< at the present time, without the kinetic energy
+  EnergyTotals balance_;  ///< at the begin of the last step
   EventCounts events_;
 };
 

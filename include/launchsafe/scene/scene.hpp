@@ -79,7 +79,7 @@ struct Surface {
 struct Numerics {
   double cell_size = 2.5e-3;         ///< nominal, m; fitted to the shell (see mpm::fit_grid)
   int particles_per_cell = 1;        ///< in each direction
-  double time_step_factor = 0.4;     ///< CFL
+  double time_step_factor = 0.5;     ///< CFL
   double inertial_scaling = 1.0;     ///< s >= 1
   double damping_time = 0.0;         ///< s; decay time of the relative velocity, 0 = no damping
   double pic_fraction = 0.0;         ///< share of PIC in the velocity update, 0 = pure FLIP

@@ -1,0 +1,52 @@
+// Heat conduction through all bodies, as an operator beside the step: the run room applies it every so often.
+//
+// It is a finite-volume scheme on the bodies' own lattices, not on the background grid. Through the
+// background grid a particle would receive increments of nodal means, and what varies from one particle to
+// the next within a cell is invisible to those means: it would neither decay nor stay within the initial
+// extremes. Neighbours in a lattice stay neighbours, and bodies are bonded, so the links between particles
+// are fixed. They are taken at rest; strain changes them by its own order.
+#pragma once
+
+#include "launchsafe/mpm/simulation.hpp"
+
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <vector>
+
+namespace launchsafe::mpm {
+
+/// Backward Euler in time: stable and free of new extremes for any step, conserves heat, first order in the
+/// step. Second order in the particle spacing. All outer faces are adiabatic unless `hold_base` or
+/// `heat_base` says otherwise.
+class Conduction {
+ public:
+  explicit Conduction(const Simulation& simulation);
+
+  /// Keeps the base-side face of the scene at a temperature (K) from now on.
+  void hold_base(double temperature);
+  /// Heat flux (W/m2) into the base-side face of the scene from now on.
+  void heat_base(double flux);
+
+  /// Conducts over dt > 0 (s) and refreshes what the steel keeps of its temperature.
+  void advance(Simulation& simulation, double dt);
+
+  /// Heat content sum m c T, J per radian (axisymmetric) or per metre of depth.
+  double heat(const Simulation& simulation) const;
+
+ private:
+  /// A particle on the base-side face of the scene.
+  struct BaseFace {
+    Eigen::Index particle;
+    double area;         ///< m2 per radian or metre
+    double conductance;  ///< W/K from the particle's centre to the face
+  };
+
+  Eigen::VectorXd capacity_;                 ///< J/K by particle, body after body
+  Eigen::SparseMatrix<double> conductance_;  ///< W/K, symmetric, rows sum to 0
+  std::vector<BaseFace> base_;
+  double held_temperature_ = 0, flux_ = 0;
+  bool held_ = false;
+};
+
+}  // namespace launchsafe::mpm

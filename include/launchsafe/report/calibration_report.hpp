@@ -1,0 +1,34 @@
+// A calibration as tables, a page and JSON.
+#pragma once
+
+#include "launchsafe/report/table.hpp"
+#include "launchsafe/report/written_files.hpp"
+#include "launchsafe/store/result.hpp"
+#include "launchsafe/study/calibration.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace launchsafe::report {
+
+/// What the evidence supports, and which constants the scene should hold.
+std::string answer(const study::CalibrationResult& result);
+
+/// Constants and misfits of every mesh, closure and kinetics: what is printed on stdout.
+Table calibration_table(const study::CalibrationResult& result);
+/// Every hold-out of one row: predicted, published, misfit.
+Table hold_out_table(const study::CalibrationResult& result, const study::CalibrationRow& row);
+/// What the constants do from mesh to mesh.
+Table convergence_table(const study::CalibrationResult& result);
+/// The recommended constants beside those of the scene file.
+Table constants_table(const study::CalibrationResult& result);
+
+nlohmann::ordered_json to_json(const study::CalibrationResult& result);
+std::string to_markdown(const study::CalibrationResult& result);
+
+/// Writes calibration.csv, hold_outs.csv, study.json, report.md and one case file for every mechanical run
+/// into a folder, which is made. Errors: conflict, write_failed.
+store::Result<WrittenFiles> write_report(const study::CalibrationResult& result,
+                                         const std::filesystem::path& folder);
+
+}  // namespace launchsafe::report

@@ -1,0 +1,40 @@
+// A critical-gap study as tables, pages, JSON and a picture.
+#pragma once
+
+#include "launchsafe/report/plot.hpp"
+#include "launchsafe/report/table.hpp"
+#include "launchsafe/report/written_files.hpp"
+#include "launchsafe/study/critical_gap.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace launchsafe::report {
+
+/// The answer in a sentence or two: "Critical gap 0.0395 cm ...", a bound, or why there is none.
+std::string answer(const study::CriticalGapResult& result);
+
+/// A row for every gap of every case: what is printed on stdout.
+Table verdict_table(const study::CriticalGapResult& result);
+/// Maximum and early temperatures against the published ones; without rows where there are none.
+Table comparison_table(const study::CriticalGapResult& result);
+/// Critical gap of every case, with bracket and confirmation.
+Table critical_gap_table(const study::CriticalGapResult& result);
+/// Lines of one case and their residuals.
+Table fit_table(const study::CaseOutcome& outcome);
+/// Status, energy drift, limiters and speed of every run.
+Table run_table(const study::CriticalGapResult& result);
+
+/// One object: critical_gap, verdicts, fit, timing, and cases where there are several.
+nlohmann::ordered_json to_json(const study::CriticalGapResult& result);
+/// The page; `picture` is the name of the picture's file, or empty where there is none.
+std::string to_markdown(const study::CriticalGapResult& result, const std::string& picture);
+/// Maximum temperature against gap.
+Plot temperature_plot(const study::CriticalGapResult& result);
+
+/// Writes verdicts.csv, verdicts.md, study.json, report.md, temperature.svg and one case file for every
+/// mechanical run into a folder, which is made. Errors: conflict, write_failed.
+store::Result<WrittenFiles> write_report(const study::CriticalGapResult& result,
+                                         const std::filesystem::path& folder);
+
+}  // namespace launchsafe::report

@@ -1,0 +1,116 @@
+// The study of kind calibration: the constants that published rows ask for, and what they then predict.
+#pragma once
+
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/read_study.hpp"
+#include "launchsafe/surface/skin.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+/// The calibrated constants of a scene.
+struct Constants {
+  double localisation = not_a_number;
+  double exchange_time = not_a_number;         ///< s
+  double ignition_temperature = not_a_number;  ///< K
+};
+
+/// The gaps and temperatures that constants are fitted to (model section 8): nothing else is.
+struct CalibrationTargets {
+  Reference zero_gap;       ///< sets the localisation
+  Reference wide_gap;       ///< sets the exchange time
+  double safe_gap = 0;      ///< m, largest gap that did not ignite
+  double igniting_gap = 0;  ///< m, smallest gap that did
+};
+/// The targets among a study's references, or what is missing.
+scene::Expected<CalibrationTargets> calibration_targets(const StudyFile& study);
+
+/// Constants with how well they meet the rows they were fitted to.
+struct CalibratedConstants {
+  Constants constants;
+  double zero_gap_misfit = not_a_number;  ///< K, left over
+  double wide_gap_misfit = not_a_number;  ///< K, left over
+  /// K, maximum temperatures without a trigger at the safe and the igniting gap: T1 is between them
+  double ignition_lowest = not_a_number, ignition_highest = not_a_number;
+  std::string failure;  ///< why there are none; empty when all went well
+};
+
+/// Fits localisation, exchange time and ignition temperature on one trace with the model's friction closure
+/// and kinetics. Root finding by TOMS 748; the two fits are repeated until both rows are met.
+CalibratedConstants calibrate(const surface::SkinModel& model, const trace::BottomTrace& trace,
+                              const CalibrationTargets& targets);
+
+/// A prediction that nothing was fitted to.
+struct HoldOut {
+  std::string quantity;             ///< "T max", "T at 10 ms", "spread at 10 ms", "ignition time", ...
+  double gap = 0;                   ///< m
+  double predicted = not_a_number;  ///< K or s
+  double published = not_a_number;  ///< K or s
+  bool temperature = true;          ///< counts in the root mean square; spreads and times do not
+  bool in_seconds = false;
+  double misfit() const { return predicted - published; }
+};
+
+/// Where the maximum was predicted and published.
+struct Placement {
+  std::string quantity;
+  double gap = 0;  ///< m
+  std::string predicted, published;
+};
+
+/// One mesh with one friction closure and one kinetics.
+struct CalibrationRow {
+  double cell_size = 0;  ///< m
+  scene::FrictionClosure closure = scene::FrictionClosure::literal;
+  std::string kinetics;
+  bool calibratable = true;  ///< false for the closure "none": predictions with the scene's constants
+  CalibratedConstants calibrated;
+  std::vector<HoldOut> hold_outs;
+  std::vector<Placement> placements;
+  double root_mean_square = not_a_number;         ///< K, over the temperature hold-outs
+  double spread_root_mean_square = not_a_number;  ///< K, over the spreads
+  std::string failure;                            ///< of the run or of the fit; empty when all went well
+};
+std::string to_string(scene::FrictionClosure closure);
+
+/// How much a constant moves from the coarsest to the finest mesh.
+struct Convergence {
+  scene::FrictionClosure closure = scene::FrictionClosure::literal;
+  std::string kinetics;
+  double localisation_change = not_a_number;  ///< (finest - coarsest)/finest
+  double exchange_time_change = not_a_number;
+};
+
+/// The mechanical run of one mesh.
+struct CalibrationRun {
+  StudyCase input;
+  run::MechanicsResult mechanics;
+  std::string failure;
+  std::string start_time;  ///< UTC
+};
+
+/// What the evidence says.
+struct Recommendation {
+  std::optional<std::size_t> row;  ///< of `rows`: closure that predicts best, on the mesh of the scene
+  std::string reason;
+};
+
+struct CalibrationResult {
+  StudyFile study;
+  std::vector<CalibrationRun> runs;
+  std::vector<CalibrationRow> rows;  ///< mesh by mesh, closure by closure, kinetics by kinetics
+  std::vector<Convergence> convergence;
+  Recommendation recommendation;
+  Constants in_scene;  ///< what the scene file holds now
+  Timing timing;
+  bool interrupted = false;
+  bool any_failed() const;
+};
+
+/// Runs a study of kind calibration: one mechanical run a mesh, everything else on the traces.
+CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& options = {});
+
+}  // namespace launchsafe::study

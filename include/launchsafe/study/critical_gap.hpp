@@ -1,0 +1,91 @@
+// The study of kind critical-gap: which gaps ignite, and from which gap on.
+#pragma once
+
+#include "launchsafe/study/bracket.hpp"
+#include "launchsafe/study/fit.hpp"
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/read_study.hpp"
+#include "launchsafe/study/verdict.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+/// A maximum with its place by name.
+struct Peak {
+  double temperature = not_a_number;  ///< K
+  double time = not_a_number;         ///< s
+  std::string point;                  ///< station
+};
+
+struct NamedIgnition {
+  surface::IgnitionCause cause = surface::IgnitionCause::trigger;
+  double time = 0;  ///< s
+  std::string point;
+  double chemical_share = 0;  ///< of the heating rate at ignition
+};
+std::string to_string(surface::IgnitionCause cause);
+
+/// A row of the verdict table.
+struct GapVerdict {
+  double gap = 0;                      ///< m
+  Peak maximum;                        ///< over the observation points: what the verdict uses
+  Peak early;                          ///< the same at Study::early_time
+  double spread = not_a_number;        ///< K, over the observation points at the end
+  double early_spread = not_a_number;  ///< K, at Study::early_time
+  Peak anywhere;                       ///< over the whole bottom
+  double margin = not_a_number;        ///< K, to the ignition temperature
+  Uncertainty uncertainty;
+  std::optional<NamedIgnition> ignition;           ///< at an observation point
+  std::optional<NamedIgnition> ignition_anywhere;  ///< on the whole bottom
+  Judgement judgement;
+  std::optional<Reference> reference;
+  /// K, this minus the reference; NaN without one or where either ignited
+  double misfit() const;
+  double early_misfit() const;
+};
+
+/// A complete coupled run on one side of the bracket.
+struct Confirmation {
+  double gap = 0;  ///< m
+  bool expected_ignition = false;
+  bool ran = false;
+  bool completed = false;
+  bool ignited = false;
+  double maximum_temperature = not_a_number;  ///< K, at the observation points
+  double difference = not_a_number;           ///< K, coupled minus traced; NaN where either ignited
+  double wall_time = 0;                       ///< s
+  std::string failure;                        ///< why it did not complete
+  bool agrees() const { return completed && ignited == expected_ignition; }
+};
+
+/// One mechanical case with its gaps.
+struct CaseOutcome {
+  StudyCase input;
+  run::CaseResult result;         ///< mechanics, and a skin history for every gap
+  std::string failure;            ///< why every verdict is indeterminate; empty for a completed run
+  std::string start_time;         ///< UTC
+  CriticalGap critical;           ///< at the observation points
+  CriticalGap critical_anywhere;  ///< if ignition anywhere on the bottom counted
+  std::vector<Confirmation> confirmations;
+  std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps
+  std::optional<GapFit> fit;         ///< over the rows that do not ignite
+  bool completed() const { return failure.empty(); }
+};
+
+struct CriticalGapResult {
+  StudyFile study;
+  std::vector<CaseOutcome> cases;  ///< in the order of StudyFile::cases
+  Timing timing;
+  bool interrupted = false;
+  bool any_failed() const;         ///< a run failed
+  bool any_indeterminate() const;  ///< a verdict or a critical gap is indeterminate
+};
+
+/// Runs a study of kind critical-gap. Never throws for a case that fails: its verdicts are indeterminate with
+/// the reason, and the others go on. Apart from the timing the result depends on the study alone.
+CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& options = {});
+
+}  // namespace launchsafe::study

@@ -1,0 +1,97 @@
+// A study from a file: what is asked of a scene, read and validated before anything is computed.
+#pragma once
+
+#include "launchsafe/scene/read_scene.hpp"
+
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace launchsafe::study {
+
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+enum class StudyKind { critical_gap, calibration };
+std::string to_string(StudyKind kind);
+
+/// A row of published results to compare with; what it does not say is NaN or empty.
+struct Reference {
+  double gap = not_a_number;                  ///< m, >= 0
+  double maximum_temperature = not_a_number;  ///< K, over the whole launch
+  std::string point;                          ///< where that was
+  double early_temperature = not_a_number;    ///< K, highest at Study::early_time
+  std::string early_point;                    ///< where that was
+  double spread = not_a_number;               ///< K, highest minus lowest observation point at the end
+  double early_spread = not_a_number;         ///< K, likewise at Study::early_time
+  double ignition_time = not_a_number;        ///< s; NaN for a gap that did not ignite
+  bool calibrated = false;                    ///< used to calibrate; otherwise a hold-out
+  bool ignited() const { return ignition_time == ignition_time; }
+};
+
+/// Straight line of maximum temperature against gap as published: slope in K per cm (as printed), intercept
+/// in K.
+struct ReferenceLine {
+  double slope = not_a_number;
+  double intercept = not_a_number;
+  bool given() const { return slope == slope && intercept == intercept; }
+};
+
+/// What a study file says, in SI.
+struct Study {
+  StudyKind kind = StudyKind::critical_gap;
+  std::string title;
+  std::string scene;          ///< path of the scene from the study file's folder, as the user wrote it
+  double early_time = 10e-3;  ///< s; an instant at which temperatures are compared too
+  std::vector<Reference> references;
+  ReferenceLine reference_line;
+
+  // kind critical-gap
+  std::vector<double> gaps;            ///< m; those of the scene where the file has none
+  std::vector<double> peak_pressures;  ///< Pa; empty: the scene's
+  std::vector<double> crack_radii;     ///< m, c(0); empty: the scene's
+  std::vector<double> flaw_sizes;      ///< m, a; empty: the scene's
+  double tolerance = 1e-6;             ///< m, largest width of the bracket of the critical gap
+  double largest_gap = 1e-3;           ///< m, where the search for the critical gap ends
+  bool confirm = true;                 ///< complete coupled runs on both sides of the bracket
+  double numerical_uncertainty = 0;    ///< K, of the maximum temperature, from a mesh study
+
+  // kind calibration
+  std::vector<double> meshes;              ///< m, cell sizes; empty: the scene's
+  bool compare_kinetics = false;           ///< calibrate with every named kinetics, not only the scene's
+  double ignition_lowest = not_a_number;   ///< K, published bracket of the ignition temperature
+  double ignition_highest = not_a_number;  ///< K
+};
+
+/// One mechanical run of a study: a complete, valid scene.
+struct StudyCase {
+  std::string label;         ///< "496 MPa, 30 um, 1 mm", or "2.5 mm" for the mesh of a calibration
+  double peak_pressure = 0;  ///< Pa
+  double crack_radius = 0;   ///< m
+  double flaw_size = 0;      ///< m
+  double cell_size = 0;      ///< m
+  scene::SceneFile scene;
+};
+
+/// A valid study with its scene and its cases.
+struct StudyFile {
+  Study study;
+  std::string file;                              ///< as named by the user
+  std::map<std::string, scene::Place> places;    ///< of every key the user gave
+  std::map<std::string, std::string> overrides;  ///< [set]: scene key, value as people read it
+  scene::SceneFile scene;                        ///< with the overrides
+  std::vector<StudyCase> cases;  ///< pressures x crack radii x flaw sizes, the last fastest; or the meshes
+};
+
+/// Reads and validates a study file and its scene. Nothing is computed. Never throws.
+scene::Expected<StudyFile> read_study(const std::filesystem::path& file);
+/// The same from text; `file` is named in errors, and the scene is sought from its folder.
+scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& file);
+
+/// The keys of a study file and of one [[reference]], for documentation.
+std::vector<scene::KeyDescription> describe_study_keys();
+
+}  // namespace launchsafe::study

@@ -1,0 +1,65 @@
+// Independent tasks on all cores, longest first; one task's failure is its own.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+/// How far a study is.
+struct Progress {
+  std::size_t done = 0, running = 0, total = 0;  ///< tasks
+  double fraction = 0;                           ///< of all work, 0..1, with the shares of running tasks
+  double seconds_elapsed = 0;
+  double seconds_left = 0;  ///< estimate; negative while nothing is known
+};
+/// Called from any running thread, one call at a time, a few times a second and at every change.
+using ProgressCallback = std::function<void(const Progress&)>;
+
+/// Cores this process may use: its CPU affinity, and the CPU quota of its control groups. At least 1.
+int available_cores();
+
+/// Adds up what tasks of several batches report.
+class ProgressTracker {
+ public:
+  explicit ProgressTracker(ProgressCallback callback);
+  /// Work that is known to come; may be taken back with negative numbers when it turns out not to be needed.
+  void expect(std::ptrdiff_t tasks, double cost);
+  void started();
+  /// A running task has done `share` (0..1) of its work since its last report.
+  void advanced(double cost);
+  void finished();
+
+ private:
+  void report();
+  ProgressCallback callback_;
+  std::mutex mutex_;
+  std::chrono::steady_clock::time_point start_;
+  Progress progress_;
+  double cost_ = 0, cost_done_ = 0;
+};
+
+/// One task. `work` gets a function to report the share done (0..1) with.
+struct Task {
+  double cost = 1;  ///< relative, > 0
+  std::function<void(const std::function<void(double)>& report_share)> work;
+};
+
+/// What became of one task.
+struct TaskOutcome {
+  bool started = false;  ///< false when the stop flag came first
+  std::string failure;   ///< what an exception said; empty when all went well
+};
+
+/// Runs all tasks with at most `jobs` at a time (<= 0: available_cores()), the most costly first. Never
+/// throws for a task's exception. Once `stop` is set no further task starts. Outcomes are in the order of the
+/// tasks.
+std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, int jobs, ProgressTracker& tracker,
+                                   const std::atomic<bool>* stop = nullptr);
+
+}  // namespace launchsafe::study

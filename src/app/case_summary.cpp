@@ -1,0 +1,210 @@
+#include "case_summary.hpp"
+
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/quantity.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <string_view>
+
+namespace launchsafe::app {
+namespace {
+
+using scene::Dimension;
+
+/// The paper tabulates temperatures at this time as well, s.
+constexpr double early_time = 10e-3;
+
+bool has_observation_points(const trace::BottomTrace& trace) {
+  for (const trace::Station& station : trace.stations) {
+    if (station.observation) return true;
+  }
+  return false;
+}
+
+bool reaches_early_time(const run::MechanicsResult& mechanics) {
+  return mechanics.end_time >= early_time && has_observation_points(mechanics.trace);
+}
+
+/// An observation point by its name, any other place on the bottom by its radius.
+std::string place_of(const trace::BottomTrace& trace, std::size_t index) {
+  if (index >= trace.stations.size()) return "";
+  const trace::Station& station = trace.stations[index];
+  if (station.observation) return station.name;
+  return "r = " + scene::format_quantity(station.r, Dimension::length);
+}
+
+std::string_view cause_of(const surface::Ignition& ignition) {
+  return ignition.cause == surface::IgnitionCause::trigger ? "T1 reached" : "Arrhenius runaway";
+}
+
+std::string ignition_text(const std::optional<surface::Ignition>& ignition, const trace::BottomTrace& trace) {
+  if (!ignition) return "none";
+  return fmt::format("{} at {:.3f} ms, {}", cause_of(*ignition), 1e3 * ignition->time,
+                     place_of(trace, ignition->station));
+}
+
+/// Three cells: temperature, place, time in ms; empty where there is no such place.
+void add_maximum(std::vector<report::Cell>& row, const surface::Maximum& maximum,
+                 const trace::BottomTrace& trace, bool exists) {
+  if (!exists) {
+    row.insert(row.end(), 3, report::Cell{});
+    return;
+  }
+  row.emplace_back(maximum.temperature);
+  row.emplace_back(place_of(trace, maximum.station));
+  row.emplace_back(1e3 * maximum.time);
+}
+
+std::vector<report::Column> gap_columns(bool early) {
+  std::vector<report::Column> columns{
+      {.name = "gap", .unit = "cm", .decimals = 5, .notation = report::Notation::significant},
+      {.name = "T max", .unit = "K"},
+      report::text_column("at"),
+      {.name = "time", .unit = "ms", .decimals = 2}};
+  if (early) columns.push_back({.name = "T at 10 ms", .unit = "K"});
+  columns.push_back({.name = "T max anywhere", .unit = "K"});
+  columns.push_back(report::text_column("where"));
+  columns.push_back({.name = "when", .unit = "ms", .decimals = 2});
+  columns.push_back(report::text_column("ignition"));
+  return columns;
+}
+
+std::string line(std::string_view label, const std::string& value) {
+  return fmt::format("  {:<22}{}\n", label, value);
+}
+
+std::string kilojoules(double joules) { return fmt::format("{:.6g} kJ", joules / 1e3); }
+
+std::string energy_text(const run::EnergyBalance& energy) {
+  std::string text = "Energy balance at the end\n";
+  text += line("kinetic", kilojoules(energy.kinetic));
+  text += line("internal", kilojoules(energy.internal));
+  text += line("  plastic", kilojoules(energy.plastic));
+  text += line("  viscous", kilojoules(energy.viscous));
+  text += line("  crack", kilojoules(energy.crack));
+  text += line("damping", kilojoules(energy.damping));
+  text += line("external work", kilojoules(energy.external));
+  text += line("frame's body force", kilojoules(energy.body_force));
+  text += line("drift", fmt::format("{:.3g} % of {}", 100.0 * energy.drift(), kilojoules(energy.scale())));
+  return text;
+}
+
+std::string limiter_text(const run::LimiterCounts& limiters) {
+  std::string text;
+  const auto add = [&text](std::string_view what, std::uint64_t count) {
+    if (count > 0) text += line(what, fmt::format("{} particles", count));
+  };
+  add("crack at its bound", limiters.crack_at_bound);
+  add("tension cut-off", limiters.tension_cutoff);
+  add("Hugoniot guard", limiters.hugoniot_guard);
+  return text.empty() ? text : "Limiters that acted\n" + text;
+}
+
+std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mechanics) {
+  const char* unit = scene.symmetry == scene::Symmetry::axisymmetric ? "kg" : "kg per metre, half model";
+  std::string text = "Run\n";
+  text += line("status", mechanics.status == run::RunStatus::completed
+                             ? run::to_string(mechanics.status)
+                             : fmt::format("{}: {}", run::to_string(mechanics.status), mechanics.reason));
+  text += line("simulated", scene::format_quantity(mechanics.end_time, Dimension::time));
+  text += line("mass", fmt::format("steel {:.6g}, charge {:.6g} {}", mechanics.mass_steel,
+                                   mechanics.mass_charge, unit));
+  text += line("particles", fmt::format("{}", mechanics.particles));
+  text += line("steps", fmt::format("{}", mechanics.steps));
+  text += line("wall time", report::duration(mechanics.wall_time));
+  text += line("update rate",
+               fmt::format("{:.2f} million particle updates per second", mechanics.update_rate() / 1e6));
+  return text;
+}
+
+nlohmann::ordered_json maximum_json(const surface::Maximum& maximum, const trace::BottomTrace& trace) {
+  return {{"temperature_k", maximum.temperature},
+          {"at", place_of(trace, maximum.station)},
+          {"time_s", maximum.time}};
+}
+
+nlohmann::ordered_json ignition_json(const std::optional<surface::Ignition>& ignition,
+                                     const trace::BottomTrace& trace) {
+  if (!ignition) return nullptr;
+  return {{"cause", ignition->cause == surface::IgnitionCause::trigger ? "trigger" : "arrhenius"},
+          {"time_s", ignition->time},
+          {"at", place_of(trace, ignition->station)},
+          {"chemical_share", ignition->chemical_share}};
+}
+
+nlohmann::ordered_json gap_json(const run::GapResult& gap, const run::MechanicsResult& mechanics) {
+  const trace::BottomTrace& trace = mechanics.trace;
+  const bool observed = has_observation_points(trace);
+  nlohmann::ordered_json object{{"gap_cm", scene::in_unit(gap.gap, Dimension::length, "cm")}};
+  object["at_observation_points"] =
+      observed ? maximum_json(gap.at_points, trace) : nlohmann::ordered_json(nullptr);
+  if (reaches_early_time(mechanics)) {
+    object["at_10_ms"] = maximum_json(surface::maximum_at_time(gap.skin, trace, early_time), trace);
+  }
+  object["anywhere"] = maximum_json(gap.anywhere, trace);
+  object["ignition"] = ignition_json(gap.skin.ignition, trace);
+  object["ignition_anywhere"] = ignition_json(gap.skin.ignition_anywhere, trace);
+  object["sampling_error_k"] = gap.sampling_error;
+  return object;
+}
+
+nlohmann::ordered_json energy_json(const run::EnergyBalance& energy) {
+  return {
+      {"kinetic_j", energy.kinetic},       {"internal_j", energy.internal}, {"external_j", energy.external},
+      {"body_force_j", energy.body_force}, {"damping_j", energy.damping},   {"plastic_j", energy.plastic},
+      {"viscous_j", energy.viscous},       {"crack_j", energy.crack},       {"drift", energy.drift()}};
+}
+
+}  // namespace
+
+report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result) {
+  const trace::BottomTrace& trace = result.mechanics.trace;
+  const bool early = reaches_early_time(result.mechanics);
+  report::Table table{scene.title, gap_columns(early), {}};
+  for (const run::GapResult& gap : result.gaps) {
+    std::vector<report::Cell> row{scene::in_unit(gap.gap, Dimension::length, "cm")};
+    add_maximum(row, gap.at_points, trace, has_observation_points(trace));
+    if (early) row.emplace_back(surface::maximum_at_time(gap.skin, trace, early_time).temperature);
+    add_maximum(row, gap.anywhere, trace, !trace.stations.empty());
+    row.emplace_back(ignition_text(gap.skin.ignition, trace));
+    table.rows.push_back(std::move(row));
+  }
+  table.notes.push_back(
+      "T max is over the observation points, which verdicts use; the place next to the wall is a stress "
+      "singularity, where the maximum anywhere grows with refinement.");
+  return table;
+}
+
+std::string case_text(const scene::Scene& scene, const run::CaseResult& result) {
+  std::string text;
+  if (!result.gaps.empty()) text += report::to_text(gap_table(scene, result)) + "\n";
+  const auto& monitor = result.mechanics.monitor;
+  if (!monitor.empty()) text += energy_text(monitor.back().energy) + "\n";
+  const std::string limiters = limiter_text(result.mechanics.limiters);
+  if (!limiters.empty()) text += limiters + "\n";
+  return text + cost_text(scene, result.mechanics);
+}
+
+nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResult& result) {
+  const run::MechanicsResult& mechanics = result.mechanics;
+  nlohmann::ordered_json object{{"title", scene.title},
+                                {"status", run::to_string(mechanics.status)},
+                                {"reason", mechanics.reason},
+                                {"simulated_s", mechanics.end_time},
+                                {"gaps", nlohmann::ordered_json::array()}};
+  for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
+  if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
+  object["limiters"] = {{"crack_at_bound", mechanics.limiters.crack_at_bound},
+                        {"tension_cutoff", mechanics.limiters.tension_cutoff},
+                        {"hugoniot_guard", mechanics.limiters.hugoniot_guard}};
+  object["mass"] = {{"steel_kg", mechanics.mass_steel}, {"charge_kg", mechanics.mass_charge}};
+  object["timing"] = {{"particles", mechanics.particles},
+                      {"steps", mechanics.steps},
+                      {"wall_time_s", mechanics.wall_time},
+                      {"updates_per_second", mechanics.update_rate()}};
+  return object;
+}
+
+}  // namespace launchsafe::app

@@ -1,0 +1,31 @@
+// The command line: what can be written on it, and its help.
+#pragma once
+
+#include "commands.hpp"
+
+#include <string>
+#include <variant>
+
+namespace launchsafe::app {
+
+/// The text that `--help` or `--version` asks for.
+struct Information {
+  std::string text;
+};
+/// Why the command line makes no sense.
+struct UsageError {
+  std::string message;
+};
+
+using Request =
+    std::variant<Information, UsageError, RunArguments, StudyArguments, VerifyArguments, ExplainArguments>;
+
+struct CommandLine {
+  Request request;
+  bool quiet = false;
+  bool json = false;
+};
+
+CommandLine parse_command_line(int argument_count, const char* const* arguments);
+
+}  // namespace launchsafe::app

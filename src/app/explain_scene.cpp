@@ -1,0 +1,72 @@
+#include "explain_scene.hpp"
+
+#include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "signals.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <string_view>
+#include <utility>
+
+namespace launchsafe::app {
+namespace {
+
+using namespace std::chrono_literals;
+
+nlohmann::ordered_json term_json(const scene::Term& term) {
+  return {{"in", term.in},
+          {"forced", term.forced},
+          {"reason", term.reason},
+          {"value", term.value},
+          {"bound", term.bound}};
+}
+
+nlohmann::ordered_json physics_json(const scene::Plan& plan) {
+  return {{"surface", term_json(plan.surface)},
+          {"air", term_json(plan.air)},
+          {"friction_heat", term_json(plan.friction_heat)},
+          {"cracks", term_json(plan.cracks)},
+          {"crack_growth", term_json(plan.crack_growth)},
+          {"crack_friction", term_json(plan.crack_friction)},
+          {"conduction", term_json(plan.conduction)},
+          {"bulk_reaction", term_json(plan.bulk_reaction)},
+          {"inertial_scaling", term_json(plan.inertial_scaling)},
+          {"snapshots", term_json(plan.snapshots)}};
+}
+
+}  // namespace
+
+double measured_update_rate(const scene::Scene& scene) {
+  std::atomic<bool> enough{false};
+  const auto start = std::chrono::steady_clock::now();
+  run::RunOptions options;
+  options.stop = &enough;
+  options.progress = [&](double) {
+    if (std::chrono::steady_clock::now() - start > 300ms || stop_requested()) enough = true;
+  };
+  const run::MechanicsResult result = run::run_mechanics(scene, options);
+  return stop_requested() ? 0.0 : result.update_rate();
+}
+
+std::string scene_text(const scene::Scene& scene, double update_rate) {
+  return scene::to_text(scene::make_plan(scene), scene, update_rate);
+}
+
+nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate) {
+  const scene::Plan plan = scene::make_plan(scene);
+  return {{"title", scene.title},
+          {"physics", physics_json(plan)},
+          {"particles", {{"steel", plan.particles_steel}, {"charge", plan.particles_charge}}},
+          {"cells", plan.cells},
+          {"time_step_s", plan.time_step},
+          {"steps", plan.steps},
+          {"memory_bytes", plan.memory},
+          {"updates_per_second", update_rate},
+          {"predicted_time_s",
+           update_rate > 0 ? nlohmann::ordered_json(scene::predicted_time(plan, update_rate)) : nullptr}};
+}
+
+}  // namespace launchsafe::app

@@ -1,0 +1,66 @@
+#include "progress.hpp"
+
+#include "launchsafe/report/number.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+namespace launchsafe::app {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A line that wraps cannot be rewritten.
+constexpr std::size_t widest_line = 79;
+
+std::string fitted(const std::string& line) {
+  return line.size() <= widest_line ? line : line.substr(0, widest_line);
+}
+
+}  // namespace
+
+ProgressStyle progress_style(bool quiet) {
+  if (quiet) return ProgressStyle::none;
+  const char* terminal = std::getenv("TERM");
+  const bool dumb = terminal == nullptr || std::string_view(terminal) == "dumb";
+  return ::isatty(STDERR_FILENO) == 1 && !dumb ? ProgressStyle::terminal : ProgressStyle::plain;
+}
+
+Progress::~Progress() { clear(); }
+
+void Progress::show(const std::string& line) {
+  if (style_ == ProgressStyle::none) return;
+  const std::lock_guard lock(mutex_);
+  const auto now = std::chrono::steady_clock::now();
+  const bool terminal = style_ == ProgressStyle::terminal;
+  if (now - last_ < (terminal ? 200ms : 10s)) return;
+  last_ = now;
+  shown_ = terminal;
+  fmt::print(stderr, "{}{}{}", terminal ? "\r" : "", terminal ? fitted(line) : line,
+             terminal ? "\x1b[K" : "\n");
+  std::fflush(stderr);
+}
+
+void Progress::clear() {
+  const std::lock_guard lock(mutex_);
+  erase();
+}
+
+void Progress::erase() {
+  if (!shown_) return;
+  shown_ = false;
+  fmt::print(stderr, "\r\x1b[K");
+  std::fflush(stderr);
+}
+
+std::string time_left(double share, double elapsed) {
+  constexpr double too_early = 0.005;
+  if (!(share > too_early) || share > 1.0) return {};
+  return fmt::format("{} left", report::duration(elapsed * (1.0 - share) / share));
+}
+
+}  // namespace launchsafe::app

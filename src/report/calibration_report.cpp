@@ -1,0 +1,284 @@
+// Tables, page, JSON and files of a calibration.
+#include "launchsafe/report/calibration_report.hpp"
+
+#include "launchsafe/report/number.hpp"
+#include "study_text.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace launchsafe::report {
+namespace {
+
+using detail::number;
+using Json = nlohmann::ordered_json;
+using study::CalibrationResult, study::CalibrationRow;
+
+Column fixed_column(std::string name, std::string unit, int decimals, std::string key) {
+  return {std::move(name), std::move(unit), Alignment::right, decimals, Notation::fixed, std::move(key)};
+}
+Column significant_column(std::string name, std::string unit, std::string key) {
+  return {std::move(name), std::move(unit), Alignment::right, 6, Notation::significant, std::move(key)};
+}
+
+Cell optional_number(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
+
+std::string remark_of(const CalibrationRow& row) {
+  if (!row.failure.empty()) return row.failure;
+  return row.calibratable ? std::string{}
+                          : "not calibratable at gap 0; with the scene's exchange time and T1";
+}
+
+/// Whether the calibrated ignition temperature lies in the published bracket.
+std::string bracket_check(const study::Study& study, const CalibrationRow& row) {
+  const double value = row.calibrated.constants.ignition_temperature;
+  if (!std::isfinite(value) || !std::isfinite(study.ignition_lowest)) return {};
+  const bool inside = value >= study.ignition_lowest && value <= study.ignition_highest;
+  return inside ? "inside" : "outside";
+}
+
+}  // namespace
+
+Table calibration_table(const CalibrationResult& result) {
+  Table table;
+  table.title = "Calibrated constants, and how far they miss what they were not fitted to";
+  table.columns = {significant_column("cell", "mm", "cell_size_mm"),
+                   text_column("closure"),
+                   text_column("kinetics"),
+                   significant_column("localisation", "", "localisation"),
+                   significant_column("exchange time", "ms", "exchange_time_ms"),
+                   fixed_column("T1", "K", 2, "ignition_temperature_K"),
+                   fixed_column("T1 from", "K", 2, "ignition_lowest_K"),
+                   fixed_column("to", "K", 2, "ignition_highest_K"),
+                   text_column("published bracket"),
+                   fixed_column("RMS", "K", 2, "rms_K"),
+                   fixed_column("RMS of spreads", "K", 2, "spread_rms_K"),
+                   text_column("remark")};
+  for (const CalibrationRow& row : result.rows) {
+    const study::CalibratedConstants& fitted = row.calibrated;
+    table.rows.push_back({1e3 * row.cell_size, study::to_string(row.closure), row.kinetics,
+                          optional_number(fitted.constants.localisation),
+                          optional_number(1e3 * fitted.constants.exchange_time),
+                          optional_number(fitted.constants.ignition_temperature),
+                          optional_number(fitted.ignition_lowest), optional_number(fitted.ignition_highest),
+                          bracket_check(result.study.study, row), optional_number(row.root_mean_square),
+                          optional_number(row.spread_root_mean_square), remark_of(row)});
+  }
+  table.notes.push_back(
+      "RMS: over the temperature hold-outs, predicted minus published. T1 is the middle between "
+      "the untriggered T max of the largest published gap that is safe and of the smallest that "
+      "ignites.");
+  return table;
+}
+
+Table hold_out_table(const CalibrationResult& result, const CalibrationRow& row) {
+  Table table;
+  table.title = fmt::format("Hold-outs: {} mm, {}, {}", significant(1e3 * row.cell_size, 6),
+                            study::to_string(row.closure), row.kinetics);
+  table.columns = {text_column("quantity"),
+                   significant_column("gap", "cm", "gap_cm"),
+                   fixed_column("predicted", "", 2, "predicted"),
+                   fixed_column("published", "", 2, "published"),
+                   fixed_column("misfit", "", 2, "misfit"),
+                   text_column("unit")};
+  for (const study::HoldOut& each : row.hold_outs) {
+    const double scale = each.in_seconds ? 1e3 : 1.0;
+    table.rows.push_back({each.quantity, 100.0 * each.gap, optional_number(scale * each.predicted),
+                          scale * each.published, optional_number(scale * each.misfit()),
+                          std::string(each.in_seconds ? "ms" : "K")});
+  }
+  for (const study::Placement& each : row.placements) {
+    table.notes.push_back(fmt::format("Place of {} at {}: predicted {}, published {}.", each.quantity,
+                                      detail::centimetres(each.gap), each.predicted, each.published));
+  }
+  if (result.study.study.references.empty()) table.notes.push_back("The study has no published rows.");
+  return table;
+}
+
+Table convergence_table(const CalibrationResult& result) {
+  Table table;
+  table.title = "From the coarsest to the finest mesh";
+  table.columns = {text_column("closure"), text_column("kinetics"),
+                   fixed_column("localisation", "%", 1, "localisation_change_percent"),
+                   fixed_column("exchange time", "%", 1, "exchange_time_change_percent")};
+  for (const study::Convergence& each : result.convergence) {
+    table.rows.push_back({study::to_string(each.closure), each.kinetics,
+                          optional_number(100.0 * each.localisation_change),
+                          optional_number(100.0 * each.exchange_time_change)});
+  }
+  return table;
+}
+
+Table constants_table(const CalibrationResult& result) {
+  Table table;
+  if (!result.recommendation.row) return table;
+  const CalibrationRow& row = result.rows[*result.recommendation.row];
+  const study::Constants &fitted = row.calibrated.constants, &now = result.in_scene;
+  const std::string closure_now = study::to_string(result.study.scene.scene.surface.friction);
+  table.title = "Constants the scene should hold";
+  table.columns = {text_column("key"), text_column("calibrated"), text_column("in the scene now"),
+                   fixed_column("difference", "%", 2, "difference_percent")};
+  const auto add = [&table](std::string key, double value, double held, double scale, const char* unit) {
+    table.rows.push_back({std::move(key), significant(scale * value, 6) + unit,
+                          significant(scale * held, 6) + unit, 100.0 * (held - value) / value});
+  };
+  table.rows.push_back({"friction.closure", study::to_string(row.closure), closure_now, Cell()});
+  add("friction.localisation", fitted.localisation, now.localisation, 1.0, "");
+  add("gap.exchange_time", fitted.exchange_time, now.exchange_time, 1e3, " ms");
+  add("kinetics.ignition_temperature", fitted.ignition_temperature, now.ignition_temperature, 1.0, " K");
+  table.notes.push_back(fmt::format("They belong to cells of {} mm and the scene's other settings.",
+                                    significant(1e3 * row.cell_size, 6)));
+  return table;
+}
+
+std::string answer(const CalibrationResult& result) {
+  std::string text = result.recommendation.reason;
+  if (result.recommendation.row) {
+    const CalibrationRow& row = result.rows[*result.recommendation.row];
+    const study::Constants& fitted = row.calibrated.constants;
+    text += fmt::format(
+        " The scene should hold \"{}\": at {} mm, localisation {}, exchange time {} ms, ignition "
+        "temperature {} K.",
+        study::to_string(row.closure), significant(1e3 * row.cell_size, 6),
+        significant(fitted.localisation, 6), significant(1e3 * fitted.exchange_time, 6),
+        significant(fitted.ignition_temperature, 6));
+  }
+  return text.empty() ? "No calibration: no run was made." : text;
+}
+
+namespace {
+
+Json json_of(const CalibrationRow& row, const study::Study& study) {
+  Json json{{"cell_size_mm", number(1e3 * row.cell_size)},
+            {"closure", study::to_string(row.closure)},
+            {"kinetics", row.kinetics},
+            {"calibratable", row.calibratable},
+            {"localisation", number(row.calibrated.constants.localisation)},
+            {"exchange_time_s", number(row.calibrated.constants.exchange_time)},
+            {"ignition_temperature_K", number(row.calibrated.constants.ignition_temperature)},
+            {"ignition_lowest_K", number(row.calibrated.ignition_lowest)},
+            {"ignition_highest_K", number(row.calibrated.ignition_highest)},
+            {"published_bracket", bracket_check(study, row)},
+            {"zero_gap_misfit_K", number(row.calibrated.zero_gap_misfit)},
+            {"wide_gap_misfit_K", number(row.calibrated.wide_gap_misfit)},
+            {"rms_K", number(row.root_mean_square)},
+            {"spread_rms_K", number(row.spread_root_mean_square)},
+            {"reason", remark_of(row)},
+            {"hold_outs", Json::array()},
+            {"placements", Json::array()}};
+  for (const study::HoldOut& each : row.hold_outs) {
+    json["hold_outs"].push_back({{"quantity", each.quantity},
+                                 {"gap_cm", number(100.0 * each.gap)},
+                                 {"unit", each.in_seconds ? "s" : "K"},
+                                 {"predicted", number(each.predicted)},
+                                 {"published", number(each.published)},
+                                 {"misfit", number(each.misfit())}});
+  }
+  for (const study::Placement& each : row.placements) {
+    json["placements"].push_back({{"quantity", each.quantity},
+                                  {"gap_cm", number(100.0 * each.gap)},
+                                  {"predicted", each.predicted},
+                                  {"published", each.published}});
+  }
+  return json;
+}
+
+Json recommendation_json(const CalibrationResult& result) {
+  Json json{{"reason", result.recommendation.reason}, {"row", nullptr}};
+  if (result.recommendation.row) json["row"] = *result.recommendation.row;
+  return json;
+}
+
+Table run_table(const CalibrationResult& result) {
+  Table table;
+  table.title = "Runs";
+  table.columns = {text_column("mesh"),
+                   text_column("status"),
+                   {"energy drift", "", Alignment::right, 1, Notation::scientific, {}},
+                   {"updates", "1/s", Alignment::right, 2, Notation::scientific, {}},
+                   text_column("limiters that acted (particle steps)")};
+  for (const study::CalibrationRun& run : result.runs) {
+    table.rows.push_back({run.input.label, run.failure.empty() ? "completed" : run.failure,
+                          optional_number(detail::energy_drift(run.mechanics)),
+                          optional_number(run.mechanics.update_rate()),
+                          detail::limiters_text(run.mechanics.limiters)});
+  }
+  return table;
+}
+
+/// All hold-outs of all rows in one table, for other programs.
+Table all_hold_outs(const CalibrationResult& result) {
+  Table table;
+  for (const CalibrationRow& row : result.rows) {
+    const Table one = hold_out_table(result, row);
+    if (table.columns.empty()) {
+      table.columns = {significant_column("cell", "mm", "cell_size_mm"), text_column("closure"),
+                       text_column("kinetics")};
+      table.columns.insert(table.columns.end(), one.columns.begin(), one.columns.end());
+    }
+    for (const std::vector<Cell>& cells : one.rows) {
+      std::vector<Cell> extended{1e3 * row.cell_size, study::to_string(row.closure), row.kinetics};
+      extended.insert(extended.end(), cells.begin(), cells.end());
+      table.rows.push_back(std::move(extended));
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+Json to_json(const CalibrationResult& result) {
+  Json json{{"kind", "calibration"},
+            {"study", detail::study_file_name(result.study)},
+            {"title", result.study.study.title},
+            {"answer", answer(result)},
+            {"calibrations", Json::array()},
+            {"convergence", to_json(convergence_table(result))["rows"]},
+            {"recommendation", recommendation_json(result)},
+            {"in_scene",
+             {{"closure", study::to_string(result.study.scene.scene.surface.friction)},
+              {"localisation", number(result.in_scene.localisation)},
+              {"exchange_time_s", number(result.in_scene.exchange_time)},
+              {"ignition_temperature_K", number(result.in_scene.ignition_temperature)}}},
+            {"timing", detail::timing_json(result.timing)}};
+  for (const CalibrationRow& row : result.rows)
+    json["calibrations"].push_back(json_of(row, result.study.study));
+  return json;
+}
+
+std::string to_markdown(const CalibrationResult& result) {
+  std::string text = fmt::format("# {}\n\n{}\n\n    {}\n\n", result.study.study.title, answer(result),
+                                 detail::remaking_command(result.study));
+  if (const Table table = constants_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
+  text += to_markdown(calibration_table(result)) + "\n";
+  if (!result.convergence.empty()) text += to_markdown(convergence_table(result)) + "\n";
+  for (const CalibrationRow& row : result.rows) {
+    if (!row.hold_outs.empty()) text += to_markdown(hold_out_table(result, row)) + "\n";
+  }
+  text += "## Setup\n\n" + detail::setup_text(result.study) + "\n" + to_markdown(run_table(result)) + "\n" +
+          detail::timing_text(result.timing) + "\n";
+  return text;
+}
+
+store::Result<WrittenFiles> write_report(const CalibrationResult& result,
+                                         const std::filesystem::path& folder) {
+  WrittenFiles written;
+  if (auto error = detail::write_texts(folder,
+                                       {{"calibration.csv", to_csv(calibration_table(result))},
+                                        {"hold_outs.csv", to_csv(all_hold_outs(result))},
+                                        {"report.md", to_markdown(result)},
+                                        {"study.json", to_json(result).dump(2) + "\n"}},
+                                       written)) {
+    return *error;
+  }
+  for (const study::CalibrationRun& run : result.runs) {
+    if (run.mechanics.trace.samples() == 0) continue;
+    if (auto error = detail::write_case(folder, run.input, {run.mechanics, {}}, run.start_time, written))
+      return *error;
+  }
+  return written;
+}
+
+}  // namespace launchsafe::report

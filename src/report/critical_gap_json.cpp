@@ -1,0 +1,150 @@
+// A critical-gap study as one JSON object.
+#include "launchsafe/report/critical_gap_report.hpp"
+#include "study_text.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace launchsafe::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using detail::number;
+using study::CaseOutcome;
+
+Json json_of(const study::CriticalGap& gap) {
+  return {{"value_cm", number(100.0 * gap.value)}, {"lower_cm", number(100.0 * gap.lower)},
+          {"upper_cm", number(100.0 * gap.upper)}, {"uncertainty_cm", number(100.0 * gap.uncertainty)},
+          {"kind", study::to_string(gap.kind)},    {"reason", gap.reason}};
+}
+
+Json json_of(const std::optional<study::NamedIgnition>& ignition) {
+  if (!ignition) return nullptr;
+  return {{"cause", study::to_string(ignition->cause)},
+          {"time_ms", number(1e3 * ignition->time)},
+          {"point", ignition->point},
+          {"chemical_share", number(ignition->chemical_share)}};
+}
+
+/// The comparison with the published row; nulls where there is none.
+void add_reference(Json& json, const study::GapVerdict& row) {
+  const study::Reference paper = row.reference.value_or(study::Reference{});
+  json["paper_K"] = number(paper.maximum_temperature);
+  json["misfit_K"] = number(row.misfit());
+  json["paper_10ms_K"] = number(paper.early_temperature);
+  json["misfit_10ms_K"] = number(row.early_misfit());
+  json["paper_ignition_ms"] = number(1e3 * paper.ignition_time);
+  json["standing"] = row.reference ? Json(paper.calibrated ? "calibrated" : "hold-out") : Json(nullptr);
+}
+
+Json json_of(const study::GapVerdict& row, const study::StudyCase& input) {
+  Json json{{"gap_cm", number(100.0 * row.gap)},
+            {"peak_pressure_MPa", number(1e-6 * input.peak_pressure)},
+            {"crack_radius_um", number(1e6 * input.crack_radius)},
+            {"flaw_size_mm", number(1e3 * input.flaw_size)},
+            {"T_max_K", number(row.maximum.temperature)},
+            {"at", row.maximum.point},
+            {"time_ms", number(1e3 * row.maximum.time)},
+            {"T_max_10ms_K", number(row.early.temperature)},
+            {"at_10ms", row.early.point},
+            {"spread_K", number(row.spread)},
+            {"spread_10ms_K", number(row.early_spread)},
+            {"anywhere_K", number(row.anywhere.temperature)},
+            {"anywhere_at", row.anywhere.point},
+            {"margin_K", number(row.margin)},
+            {"uncertainty_K", number(row.uncertainty.total())},
+            {"verdict", study::to_string(row.judgement.verdict)},
+            {"reason", row.judgement.reason},
+            {"ignition", json_of(row.ignition)},
+            {"ignition_anywhere", json_of(row.ignition_anywhere)}};
+  add_reference(json, row);
+  return json;
+}
+
+Json json_of(const study::Line& line) {
+  Json residuals = Json::array();
+  for (const double residual : line.residuals) residuals.push_back(number(residual));
+  return {{"slope_K_per_cm", number(line.slope)},
+          {"intercept_K", number(line.intercept)},
+          {"residuals_K", std::move(residuals)},
+          {"rms_K", number(line.root_mean_square)}};
+}
+
+Json json_of(const std::optional<study::GapFit>& fit) {
+  if (!fit) return nullptr;
+  Json json = json_of(fit->ordinary);
+  json["slope_standard_error_K_per_cm"] = number(fit->least_squares.standard_errors[1]);
+  json["intercept_standard_error_K"] = number(fit->least_squares.standard_errors[0]);
+  json["r_squared"] = number(fit->least_squares.r_squared);
+  json["residual_deviation_K"] = number(fit->least_squares.residual_deviation);
+  json["gaps_cm"] = Json::array();
+  for (const double gap : fit->gaps) json["gaps_cm"].push_back(number(100.0 * gap));
+  json["mixed"] = fit->mixed ? json_of(*fit->mixed) : Json(nullptr);
+  json["published"] = fit->published ? json_of(*fit->published) : Json(nullptr);
+  return json;
+}
+
+Json json_of(const study::Confirmation& each) {
+  return {{"gap_cm", number(100.0 * each.gap)},
+          {"expected_ignition", each.expected_ignition},
+          {"completed", each.completed},
+          {"ignited", each.completed ? Json(each.ignited) : Json(nullptr)},
+          {"T_max_K", number(each.maximum_temperature)},
+          {"coupled_minus_traced_K", number(each.difference)},
+          {"reason", each.failure}};
+}
+
+Json verdicts_of(const CaseOutcome& outcome) {
+  Json rows = Json::array();
+  for (const study::GapVerdict& row : outcome.verdicts) rows.push_back(json_of(row, outcome.input));
+  return rows;
+}
+
+Json json_of(const CaseOutcome& outcome) {
+  const run::MechanicsResult& run = outcome.result.mechanics;
+  Json json{{"case", outcome.input.label},
+            {"status", outcome.completed() ? "completed" : outcome.failure},
+            {"energy_drift", number(detail::energy_drift(run))},
+            {"updates_per_second", number(run.update_rate())},
+            {"critical_gap", json_of(outcome.critical)},
+            {"critical_gap_anywhere", json_of(outcome.critical_anywhere)},
+            {"confirmations", Json::array()},
+            {"fit", json_of(outcome.fit)}};
+  for (const study::Confirmation& each : outcome.confirmations)
+    json["confirmations"].push_back(json_of(each));
+  json["case_file"] = outcome.result.mechanics.trace.samples() > 0
+                          ? Json(detail::case_file_name(outcome.input))
+                          : Json(nullptr);
+  return json;
+}
+
+/// The critical gap of the whole study: the only case's, or else nothing that one number could say.
+Json overall(const study::CriticalGapResult& result) {
+  if (result.cases.size() == 1) return json_of(result.cases.front().critical);
+  study::CriticalGap none;
+  none.reason = "several cases, each with its own critical gap: see cases";
+  Json json = json_of(none);
+  json["kind"] = "several";
+  return json;
+}
+
+}  // namespace
+
+Json to_json(const study::CriticalGapResult& result) {
+  Json json{{"kind", "critical-gap"},
+            {"study", detail::study_file_name(result.study)},
+            {"title", result.study.study.title},
+            {"answer", answer(result)},
+            {"critical_gap", overall(result)},
+            {"verdicts", Json::array()},
+            {"fit", nullptr},
+            {"timing", detail::timing_json(result.timing)},
+            {"cases", Json::array()}};
+  for (const CaseOutcome& outcome : result.cases) {
+    for (Json& row : verdicts_of(outcome)) json["verdicts"].push_back(std::move(row));
+    json["cases"].push_back(json_of(outcome));
+  }
+  if (result.cases.size() == 1) json["fit"] = json_of(result.cases.front().fit);
+  return json;
+}
+
+}  // namespace launchsafe::report

@@ -1,0 +1,185 @@
+// The page, the picture and the files of a critical-gap study.
+#include "launchsafe/report/critical_gap_report.hpp"
+
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/study/calibration.hpp"
+#include "study_text.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace launchsafe::report {
+namespace {
+
+using study::CaseOutcome, study::CriticalGapKind, study::CriticalGapResult;
+
+std::string answer_of(const CaseOutcome& outcome) {
+  const study::CriticalGap& gap = outcome.critical;
+  const std::string remark = gap.reason.empty() ? "" : " (" + gap.reason + ")";
+  switch (gap.kind) {
+    case CriticalGapKind::value: {
+      const bool confirmed = !outcome.confirmations.empty();
+      return fmt::format(
+          "the critical gap is {}: {} does not ignite, {} does{}{}.", detail::centimetres(gap.value),
+          detail::centimetres(gap.lower), detail::centimetres(gap.upper),
+          confirmed ? "; complete coupled runs on both sides agree" : "; not confirmed by coupled runs",
+          remark);
+    }
+    case CriticalGapKind::all_safe:
+      return fmt::format("the critical gap is more than {}: {}.", detail::centimetres(gap.lower), gap.reason);
+    case CriticalGapKind::all_ignite:
+      return fmt::format("no gap is safe: {}.", gap.reason);
+    case CriticalGapKind::indeterminate:
+      break;
+  }
+  return fmt::format("the critical gap is indeterminate: {}.", gap.reason);
+}
+
+std::string friction_remark(const scene::Scene& scene) {
+  return fmt::format(
+      "The friction closure is \"{}\" with a localisation of {}, and the exchange time is {} ms. These two "
+      "and "
+      "the ignition temperature ({} K) are calibrated on three published rows (see "
+      "`studies/calibrate_table8.toml`), so the critical gap of the calibration's own load and defect is a "
+      "fit, "
+      "not a prediction. What is predicted is how it moves with pressure, defect, load shape and design.\n",
+      study::to_string(scene.surface.friction), significant(scene.surface.localisation, 6),
+      significant(1e3 * scene.surface.exchange_time, 6),
+      significant(scene.charge.kinetics.ignition_temperature, 6));
+}
+
+std::string uncertainty_text(const CriticalGapResult& result) {
+  std::string text =
+      "The uncertainty of a temperature is the sum of the trace's sampling error, the integration error and, "
+      "where confirmed, the largest difference between traced and coupled runs";
+  const double numerical = result.study.study.numerical_uncertainty;
+  text += numerical > 0
+              ? fmt::format(", and {} K for the mesh, as the study states.", significant(numerical, 3))
+              : std::string(". The error of the mesh is not included (`numerical_uncertainty` is 0 K).");
+  for (const CaseOutcome& outcome : result.cases) {
+    for (const study::Confirmation& each : outcome.confirmations) {
+      if (!std::isfinite(each.difference)) continue;
+      text += fmt::format(" Coupled minus traced at {} ({}): {} K.", detail::centimetres(each.gap),
+                          outcome.input.label, scientific(each.difference, 1));
+    }
+  }
+  return text + "\n";
+}
+
+bool acted(const run::LimiterCounts& limiters) {
+  return limiters.crack_at_bound + limiters.tension_cutoff + limiters.hugoniot_guard > 0;
+}
+
+/// What every page must say when bounds within the models were reached.
+std::string limiter_remark(const CriticalGapResult& result) {
+  std::string text;
+  for (const CaseOutcome& outcome : result.cases) {
+    const run::LimiterCounts& limiters = outcome.result.mechanics.limiters;
+    if (!acted(limiters)) continue;
+    text += fmt::format("Limiters acted in {} ({} particle steps); its verdicts rest on them too.\n",
+                        outcome.input.label, detail::limiters_text(limiters));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string answer(const CriticalGapResult& result) {
+  if (result.cases.size() == 1) {
+    std::string text = answer_of(result.cases.front());
+    text.front() = 'T';
+    if (!text.starts_with("The")) text.front() = 'N';
+    return text;
+  }
+  std::string text;
+  for (const CaseOutcome& outcome : result.cases)
+    text += (text.empty() ? "" : "\n") + outcome.input.label + ": " + answer_of(outcome);
+  return text;
+}
+
+std::string to_markdown(const CriticalGapResult& result, const std::string& picture) {
+  std::string text = fmt::format("# {}\n\n{}\n\n", result.study.study.title, answer(result));
+  text += fmt::format("    {}\n\n", detail::remaking_command(result.study));
+  text += to_markdown(verdict_table(result)) + "\n";
+  if (!picture.empty()) text += fmt::format("![T max against gap]({})\n\n", picture);
+  if (const Table table = comparison_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
+  text += to_markdown(critical_gap_table(result)) + "\n";
+  for (const CaseOutcome& outcome : result.cases) {
+    if (outcome.fit) text += to_markdown(fit_table(outcome)) + "\n";
+  }
+  text += "## What it rests on\n\n" + friction_remark(result.study.scene.scene) + "\n";
+  text += uncertainty_text(result) + "\n";
+  if (const std::string remark = limiter_remark(result); !remark.empty()) text += remark + "\n";
+  text += "## Setup\n\n" + detail::setup_text(result.study) + "\n";
+  text += to_markdown(run_table(result)) + "\n" + detail::timing_text(result.timing) + "\n";
+  return text;
+}
+
+Plot temperature_plot(const CriticalGapResult& result) {
+  Plot plot;
+  plot.title = "Highest temperature of the charge bottom";
+  plot.x.label = "gap [cm]";
+  plot.y.label = "T max [K]";
+  Series published{"published", {}, {}, Style::points};
+  for (const CaseOutcome& outcome : result.cases) {
+    Series series{result.cases.size() == 1 ? "computed" : outcome.input.label, {}, {}, Style::points};
+    for (const study::GapVerdict& row : outcome.verdicts) {
+      series.x.push_back(100.0 * row.gap);
+      series.y.push_back(row.maximum.temperature);
+    }
+    plot.series.push_back(std::move(series));
+    if (outcome.fit && result.cases.size() == 1) {
+      Series line{"least squares", {}, {}, Style::line};
+      for (const double gap : outcome.fit->gaps) {
+        line.x.push_back(100.0 * gap);
+        line.y.push_back(outcome.fit->ordinary.intercept + outcome.fit->ordinary.slope * 100.0 * gap);
+      }
+      plot.series.push_back(std::move(line));
+    }
+    if (outcome.critical.kind == CriticalGapKind::value)
+      plot.vertical_lines.push_back({100.0 * outcome.critical.value, "critical gap"});
+  }
+  for (const study::Reference& reference : result.study.study.references) {
+    published.x.push_back(100.0 * reference.gap);
+    published.y.push_back(reference.maximum_temperature);
+  }
+  if (!published.x.empty()) plot.series.push_back(std::move(published));
+  plot.horizontal_lines.push_back(
+      {result.study.scene.scene.charge.kinetics.ignition_temperature, "ignition temperature"});
+  return plot;
+}
+
+store::Result<WrittenFiles> write_report(const CriticalGapResult& result,
+                                         const std::filesystem::path& folder) {
+  WrittenFiles written;
+  const Table verdicts = verdict_table(result);
+  if (auto error = detail::write_texts(
+          folder, {{"verdicts.csv", to_csv(verdicts)}, {"verdicts.md", to_markdown(verdicts)}}, written)) {
+    return *error;
+  }
+  for (const CaseOutcome& outcome : result.cases) {
+    if (outcome.result.mechanics.trace.samples() == 0) continue;
+    if (auto error = detail::write_case(folder, outcome.input, outcome.result, outcome.start_time, written))
+      return *error;
+  }
+  std::string picture = "temperature.svg";
+  if (auto error = write_svg(temperature_plot(result), folder / picture)) {
+    if (error->kind == store::Error::Kind::write_failed) return *error;
+    written.remarks.push_back("no picture: " + error->message);
+    picture.clear();
+  } else {
+    written.files.push_back(picture);
+  }
+  std::string page = to_markdown(result, picture);
+  if (picture.empty())
+    page += "\nThere is no picture: gnuplot was not found or failed when this page was made.\n";
+  if (auto error = detail::write_texts(
+          folder, {{"report.md", page}, {"study.json", to_json(result).dump(2) + "\n"}}, written)) {
+    return *error;
+  }
+  return written;
+}
+
+}  // namespace launchsafe::report

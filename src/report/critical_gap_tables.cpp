@@ -1,0 +1,221 @@
+// The tables of a critical-gap study.
+#include "launchsafe/report/critical_gap_report.hpp"
+#include "study_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::report {
+namespace {
+
+using study::CaseOutcome, study::CriticalGapResult, study::GapVerdict;
+
+Column number_column(std::string name, std::string unit, int decimals, std::string key) {
+  return {std::move(name), std::move(unit), Alignment::right, decimals, Notation::fixed, std::move(key)};
+}
+Column significant_column(std::string name, std::string unit, int digits, std::string key) {
+  return {std::move(name), std::move(unit), Alignment::right, digits, Notation::significant, std::move(key)};
+}
+Column named_text(std::string name, std::string key) {
+  Column column = text_column(std::move(name));
+  column.key = std::move(key);
+  return column;
+}
+
+/// Nothing for a number that is not there; other than NaN in a result that should have one.
+Cell optional_number(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
+
+std::string standing_of(const GapVerdict& row) {
+  if (!row.reference) return {};
+  return row.reference->calibrated ? "calibrated" : "hold-out";
+}
+
+/// Misfit (K) of a calibrated row above which the scene's constants are not those of its calibration.
+constexpr double calibration_slack = 0.5;
+
+std::string ignition_text(const GapVerdict& row) {
+  if (!row.ignition) return {};
+  return fmt::format("{} at {:.2f} ms, {}", study::to_string(row.ignition->cause), 1e3 * row.ignition->time,
+                     row.ignition->point);
+}
+
+}  // namespace
+
+Table verdict_table(const CriticalGapResult& result) {
+  Table table;
+  table.title = "Verdicts";
+  table.columns = {significant_column("gap", "cm", 6, "gap_cm"),
+                   significant_column("p max", "MPa", 6, "peak_pressure_MPa"),
+                   significant_column("c(0)", "um", 6, "crack_radius_um"),
+                   significant_column("a", "mm", 6, "flaw_size_mm"),
+                   number_column("T max", "K", 1, "T_max_K"),
+                   named_text("at", "at"),
+                   number_column("time", "ms", 2, "time_ms"),
+                   number_column(fmt::format("T at {:.6g} ms", 1e3 * result.study.study.early_time), "K", 1,
+                                 "T_max_10ms_K"),
+                   number_column("anywhere", "K", 1, "anywhere_K"),
+                   number_column("margin", "K", 2, "margin_K"),
+                   significant_column("uncertainty", "K", 2, "uncertainty_K"),
+                   named_text("verdict", "verdict"),
+                   named_text("reason", "reason"),
+                   named_text("ignition", "ignition")};
+  for (const CaseOutcome& outcome : result.cases) {
+    for (const GapVerdict& row : outcome.verdicts) {
+      table.rows.push_back(
+          {100.0 * row.gap, 1e-6 * outcome.input.peak_pressure, 1e6 * outcome.input.crack_radius,
+           1e3 * outcome.input.flaw_size, row.maximum.temperature, row.maximum.point, 1e3 * row.maximum.time,
+           row.early.temperature, row.anywhere.temperature, row.margin, row.uncertainty.total(),
+           study::to_string(row.judgement.verdict), row.judgement.reason, ignition_text(row)});
+    }
+  }
+  if (result.study.study.numerical_uncertainty == 0.0)
+    table.notes.push_back("The uncertainty does not include the error of the mesh.");
+  table.notes.push_back(
+      "Verdicts rest on the observation points; \"anywhere\" includes the corner of charge, wall and base, a "
+      "stress singularity whose value grows as the mesh is refined.");
+  return table;
+}
+
+Table comparison_table(const CriticalGapResult& result) {
+  Table table;
+  const std::string early = fmt::format("{:.6g} ms", 1e3 * result.study.study.early_time);
+  table.title = "Against the published results";
+  table.columns = {significant_column("gap", "cm", 6, "gap_cm"),
+                   named_text("standing", "standing"),
+                   number_column("T max", "K", 1, "T_max_K"),
+                   number_column("paper", "K", 1, "paper_K"),
+                   number_column("misfit", "K", 1, "misfit_K"),
+                   named_text("at", "at"),
+                   named_text("paper at", "paper_at"),
+                   number_column("T at " + early, "K", 1, "T_max_10ms_K"),
+                   number_column("paper", "K", 1, "paper_10ms_K"),
+                   number_column("misfit", "K", 1, "misfit_10ms_K"),
+                   named_text("at", "at_10ms"),
+                   named_text("paper at", "paper_at_10ms"),
+                   number_column("ignition", "ms", 2, "ignition_ms"),
+                   number_column("paper", "ms", 2, "paper_ignition_ms")};
+  bool ignited = false;
+  double worst = 0;  // misfit of a calibrated row, K
+  for (const CaseOutcome& outcome : result.cases) {
+    for (const GapVerdict& row : outcome.verdicts) {
+      if (!row.reference) continue;
+      const study::Reference& paper = *row.reference;
+      ignited = ignited || paper.ignited() || row.ignition;
+      if (paper.calibrated && !(std::abs(row.misfit()) <= worst)) worst = std::abs(row.misfit());
+      table.rows.push_back({100.0 * row.gap, standing_of(row), row.maximum.temperature,
+                            optional_number(paper.maximum_temperature), optional_number(row.misfit()),
+                            row.maximum.point, paper.point, row.early.temperature,
+                            optional_number(paper.early_temperature), optional_number(row.early_misfit()),
+                            row.early.point, paper.early_point,
+                            row.ignition ? optional_number(1e3 * row.ignition->time) : Cell(),
+                            optional_number(1e3 * paper.ignition_time)});
+    }
+  }
+  table.notes.push_back(
+      "Misfit: predicted minus published. Calibrated: constants were fitted to the T max of "
+      "this row; its other columns, and all of the hold-outs, are predictions.");
+  if (!(worst <= calibration_slack)) {
+    table.notes.push_back(fmt::format(
+        "The scene's constants do not meet the calibrated rows (misfit {:.1f} K): they belong to other "
+        "settings, and no row here counts as calibrated.",
+        worst));
+  }
+  if (ignited) {
+    table.notes.push_back(
+        "After ignition T max is that of the burning skin; it is not compared. The ignition "
+        "temperature was set between the largest published gap that is safe and the smallest "
+        "that ignites.");
+  }
+  return table;
+}
+
+namespace {
+
+std::string confirmation_text(const CaseOutcome& outcome) {
+  if (outcome.confirmations.empty()) return "not confirmed";
+  std::string text;
+  for (const study::Confirmation& each : outcome.confirmations) {
+    const std::string said = !each.completed ? "failed" : each.ignited ? "ignites" : "does not ignite";
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", detail::centimetres(each.gap), said);
+  }
+  return text;
+}
+
+}  // namespace
+
+Table critical_gap_table(const CriticalGapResult& result) {
+  Table table;
+  table.title = "Critical gap";
+  table.columns = {text_column("case"),
+                   named_text("kind", "kind"),
+                   significant_column("value", "cm", 6, "value_cm"),
+                   significant_column("safe", "cm", 6, "lower_cm"),
+                   significant_column("ignites", "cm", 6, "upper_cm"),
+                   significant_column("uncertainty", "cm", 2, "uncertainty_cm"),
+                   significant_column("anywhere", "cm", 6, "anywhere_cm"),
+                   named_text("coupled runs", "coupled_runs"),
+                   named_text("remark", "reason")};
+  for (const CaseOutcome& outcome : result.cases) {
+    const study::CriticalGap& gap = outcome.critical;
+    table.rows.push_back({outcome.input.label, study::to_string(gap.kind), optional_number(100.0 * gap.value),
+                          optional_number(100.0 * gap.lower), optional_number(100.0 * gap.upper),
+                          optional_number(100.0 * gap.uncertainty),
+                          optional_number(100.0 * outcome.critical_anywhere.value),
+                          confirmation_text(outcome), gap.reason});
+  }
+  return table;
+}
+
+Table fit_table(const CaseOutcome& outcome) {
+  Table table;
+  if (!outcome.fit) return table;
+  const study::GapFit& fit = *outcome.fit;
+  const auto& ols = fit.least_squares;
+  table.title = "T max = intercept + slope * gap over the rows that do not ignite, " + outcome.input.label;
+  table.columns = {text_column("line"), number_column("slope", "K/cm", 1, "slope_K_per_cm"),
+                   number_column("intercept", "K", 3, "intercept_K"), number_column("RMS", "K", 2, "rms_K")};
+  for (const double gap : fit.gaps) {
+    table.columns.push_back(number_column(fmt::format("residual {:.6g}", 100.0 * gap), "K", 2,
+                                          fmt::format("residual_{:.6g}_cm_K", 100.0 * gap)));
+  }
+  const auto add = [&table](std::string name, const study::Line& line) {
+    std::vector<Cell> cells{std::move(name), line.slope, line.intercept, line.root_mean_square};
+    for (const double residual : line.residuals) cells.emplace_back(residual);
+    table.rows.push_back(std::move(cells));
+  };
+  add("least squares", fit.ordinary);
+  if (fit.mixed) add("its slope through the zero-gap row (the paper's form)", *fit.mixed);
+  if (fit.published) add("as published", *fit.published);
+  if (ols.degrees_of_freedom > 0) {
+    table.notes.push_back(
+        fmt::format("Least squares: slope {:.1f} +- {:.1f} K/cm, intercept {:.2f} +- {:.2f} K "
+                    "(standard errors), R^2 {:.5f}, residual deviation {:.2f} K.",
+                    ols.coefficients[1], ols.standard_errors[1], ols.coefficients[0], ols.standard_errors[0],
+                    ols.r_squared, ols.residual_deviation));
+  }
+  return table;
+}
+
+Table run_table(const CriticalGapResult& result) {
+  Table table;
+  table.title = "Runs";
+  table.columns = {text_column("case"),
+                   named_text("status", "status"),
+                   {"energy drift", "", Alignment::right, 1, Notation::scientific, "energy_drift"},
+                   {"steps", "", Alignment::right, 0, Notation::fixed, "steps"},
+                   {"particles", "", Alignment::right, 0, Notation::fixed, "particles"},
+                   {"updates", "1/s", Alignment::right, 2, Notation::scientific, "updates_per_second"},
+                   named_text("limiters that acted (particle steps)", "limiters")};
+  for (const CaseOutcome& outcome : result.cases) {
+    const run::MechanicsResult& run = outcome.result.mechanics;
+    table.rows.push_back({outcome.input.label, outcome.completed() ? "completed" : outcome.failure,
+                          optional_number(detail::energy_drift(run)), static_cast<std::int64_t>(run.steps),
+                          static_cast<std::int64_t>(run.particles), optional_number(run.update_rate()),
+                          detail::limiters_text(run.limiters)});
+  }
+  return table;
+}
+
+}  // namespace launchsafe::report

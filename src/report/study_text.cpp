@@ -1,0 +1,138 @@
+#include "study_text.hpp"
+
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/case_file.hpp"
+#include "launchsafe/store/manifest.hpp"
+#include "launchsafe/store/sha256.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::report::detail {
+
+std::string study_file_name(const study::StudyFile& study) {
+  const std::filesystem::path path(study.file);
+  return path.is_absolute() ? path.filename().string() : path.string();
+}
+
+std::string remaking_command(const study::StudyFile& study) {
+  return fmt::format("launchsafe study {} -o DIR", study_file_name(study));
+}
+
+std::string setup_text(const study::StudyFile& study) {
+  std::string text = fmt::format("- Study `{}`, scene `{}`", study_file_name(study), study.study.scene);
+  for (const auto& [key, value] : study.overrides) text += fmt::format(", with `{}` = {}", key, value);
+  text += "\n";
+  const std::vector<std::string> shown{"symmetry",
+                                       "frame",
+                                       "barrel",
+                                       "load.peak",
+                                       "load.duration",
+                                       "numerics.cell_size",
+                                       "numerics.inertial_scaling",
+                                       "numerics.damping_time",
+                                       "charge.crack_radius",
+                                       "charge.flaw_size",
+                                       "gap.pressure",
+                                       "gap.air",
+                                       "gap.exchange",
+                                       "gap.exchange_time",
+                                       "friction.closure",
+                                       "friction.localisation",
+                                       "kinetics.set",
+                                       "kinetics.ignition_temperature"};
+  for (const scene::ListedKey& key : scene::list_keys(study.scene)) {
+    if (std::find(shown.begin(), shown.end(), key.name) == shown.end()) continue;
+    text += fmt::format("- `{}` = {}\n", key.name, key.value);
+  }
+  return text;
+}
+
+std::string timing_text(const study::Timing& timing) {
+  return fmt::format(
+      "{} mechanical run{}, {} particle updates per second and core, {} of wall time with {} "
+      "case{} at a time.",
+      timing.runs, timing.runs == 1 ? "" : "s", scientific(timing.updates_per_second(), 2),
+      duration(timing.wall_time), timing.jobs, timing.jobs == 1 ? "" : "s");
+}
+
+nlohmann::ordered_json timing_json(const study::Timing& timing) {
+  return {{"wall_s", number(timing.wall_time)},
+          {"runs", timing.runs},
+          {"jobs", timing.jobs},
+          {"particle_updates", number(timing.particle_updates)},
+          {"run_s", number(timing.run_time)},
+          {"updates_per_second", number(timing.updates_per_second())}};
+}
+
+double energy_drift(const run::MechanicsResult& mechanics) {
+  // Against the largest energy of the whole run: in its first moments all energies are next to nothing.
+  double largest = std::numeric_limits<double>::quiet_NaN(), scale = 0;
+  for (const run::MonitorSample& sample : mechanics.monitor) scale = std::max(scale, sample.energy.scale());
+  for (const run::MonitorSample& sample : mechanics.monitor) {
+    const double drift = std::abs(sample.energy.drift()) * sample.energy.scale() / scale;
+    if (!(drift <= largest)) largest = drift;
+  }
+  return largest;
+}
+
+std::string limiters_text(const run::LimiterCounts& limiters) {
+  std::string text;
+  const auto add = [&text](const char* name, std::uint64_t count) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
+  };
+  add("crack bound", limiters.crack_at_bound);
+  add("tension cut-off", limiters.tension_cutoff);
+  add("Hugoniot guard", limiters.hugoniot_guard);
+  return text.empty() ? "none" : text;
+}
+
+nlohmann::ordered_json number(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+std::string centimetres(double length) { return fmt::format("{:.6g} cm", 100.0 * length); }
+
+std::string case_file_name(const study::StudyCase& input) {
+  std::string name = "case_";
+  for (const char letter : input.label) {
+    if (std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.') name += letter;
+    if (letter == ',') name += '_';
+  }
+  return name + "_" + store::sha256(scene::to_toml(input.scene.scene)).substr(0, 8) + ".h5";
+}
+
+store::MaybeError write_case(const std::filesystem::path& folder, const study::StudyCase& input,
+                             const run::CaseResult& result, const std::string& start_time,
+                             WrittenFiles& written) {
+  store::Manifest manifest = store::make_manifest(scene::to_toml(input.scene.scene), 1);
+  manifest.start_time = start_time;
+  manifest.wall_time = result.mechanics.wall_time;
+  const std::string name = case_file_name(input);
+  if (auto error = store::write_case_file(folder / name, input.scene.scene, result, manifest)) return error;
+  written.files.push_back(name);
+  return {};
+}
+
+store::MaybeError write_texts(const std::filesystem::path& folder,
+                              const std::vector<std::pair<std::string, std::string>>& texts,
+                              WrittenFiles& written) {
+  std::error_code status;
+  std::filesystem::create_directories(folder, status);
+  if (status) {
+    return store::Error{store::Error::Kind::write_failed,
+                        fmt::format("cannot make the folder {}: {}", folder.string(), status.message())};
+  }
+  for (const auto& [name, text] : texts) {
+    if (auto error = store::write_file_atomically(folder / name, {text})) return error;
+    written.files.push_back(name);
+  }
+  return {};
+}
+
+}  // namespace launchsafe::report::detail

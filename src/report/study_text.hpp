@@ -1,0 +1,50 @@
+// Text and files that the reports of all studies share.
+#pragma once
+
+#include "launchsafe/report/written_files.hpp"
+#include "launchsafe/run/case_result.hpp"
+#include "launchsafe/store/result.hpp"
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/read_study.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace launchsafe::report::detail {
+
+/// The study file as in a command that works anywhere: never an absolute path.
+std::string study_file_name(const study::StudyFile& study);
+/// The command that remakes a report.
+std::string remaking_command(const study::StudyFile& study);
+/// What was simulated, as Markdown list items: scene, overrides, load, mesh, surface constants.
+std::string setup_text(const study::StudyFile& study);
+/// Runs, update rate and wall time in one sentence.
+std::string timing_text(const study::Timing& timing);
+nlohmann::ordered_json timing_json(const study::Timing& timing);
+/// Largest absolute energy drift over the monitor's history, as a share of the run's largest energy; NaN
+/// without one.
+double energy_drift(const run::MechanicsResult& mechanics);
+/// "crack bound 12, tension cut-off 3", or "none".
+std::string limiters_text(const run::LimiterCounts& limiters);
+/// A number, or null where it is not finite.
+nlohmann::ordered_json number(double value);
+/// A length in cm as people read it, six digits.
+std::string centimetres(double length);
+
+/// Name of the file of one mechanical case: what it is, and the start of the hash of its scene.
+std::string case_file_name(const study::StudyCase& input);
+/// Writes the result of one mechanical run into its case file.
+store::MaybeError write_case(const std::filesystem::path& folder, const study::StudyCase& input,
+                             const run::CaseResult& result, const std::string& start_time,
+                             WrittenFiles& written);
+
+/// Makes a folder and writes texts into it, one file each.
+store::MaybeError write_texts(const std::filesystem::path& folder,
+                              const std::vector<std::pair<std::string, std::string>>& texts,
+                              WrittenFiles& written);
+
+}  // namespace launchsafe::report::detail

@@ -1,0 +1,118 @@
+#include "launchsafe/study/bracket.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace launchsafe::study {
+
+CriticalGap::CriticalGap()
+    : value(std::numeric_limits<double>::quiet_NaN()), lower(value), upper(value), uncertainty(value) {}
+
+std::string to_string(CriticalGapKind kind) {
+  switch (kind) {
+    case CriticalGapKind::value:
+      return "value";
+    case CriticalGapKind::all_safe:
+      return "all-safe";
+    case CriticalGapKind::all_ignite:
+      return "all-ignite";
+    case CriticalGapKind::indeterminate:
+      return "indeterminate";
+  }
+  return "indeterminate";
+}
+
+namespace {
+
+using State = std::function<GapState(double)>;
+
+/// Intervals of the scan; a change and back again within one of them stays unseen.
+constexpr int scan_intervals = 32;
+/// The bisection goes this much further than the tolerance before the bracket is centred on the change.
+constexpr double refinement = 64.0;
+
+std::string centimetres(double length) { return fmt::format("{:.6g} cm", 100.0 * length); }
+
+CriticalGap undefined_at(double gap) {
+  CriticalGap result;
+  result.reason = "the temperature at a gap of " + centimetres(gap) + " is not a number";
+  return result;
+}
+
+struct Bracket {
+  double lower, upper;
+};
+
+/// Halves a bracket down to `width`. Nothing, and the gap in `undefined`, where a state is undefined.
+std::optional<Bracket> bisect(const State& state, Bracket bracket, double width, double& undefined) {
+  while (bracket.upper - bracket.lower > width) {
+    const double middle = 0.5 * (bracket.lower + bracket.upper);
+    if (middle <= bracket.lower || middle >= bracket.upper) break;
+    const GapState here = state(middle);
+    if (here == GapState::undefined) {
+      undefined = middle;
+      return std::nullopt;
+    }
+    (here == GapState::ignites ? bracket.upper : bracket.lower) = middle;
+  }
+  return bracket;
+}
+
+/// A bracket of nearly the tolerance with the change in its middle, so that a confirmation stands clear of it
+/// on both sides. Sides that do not hold keep the narrow bracket's.
+Bracket centred(const State& state, const Bracket& narrow, double tolerance) {
+  const double middle = 0.5 * (narrow.lower + narrow.upper);
+  const double half = 0.5 * tolerance * (1.0 - 1e-9);
+  Bracket wide{std::max(0.0, middle - half), middle + half};
+  if (wide.lower > narrow.lower || state(wide.lower) != GapState::safe) wide.lower = narrow.lower;
+  if (wide.upper < narrow.upper || state(wide.upper) != GapState::ignites) wide.upper = narrow.upper;
+  return wide;
+}
+
+}  // namespace
+
+CriticalGap find_critical_gap(const State& state, double largest, double tolerance) {
+  std::vector<double> gaps;
+  std::vector<GapState> states;
+  for (int i = 0; i <= scan_intervals; ++i) {
+    gaps.push_back(largest * i / scan_intervals);
+    states.push_back(state(gaps.back()));
+    if (states.back() == GapState::undefined) return undefined_at(gaps.back());
+  }
+  CriticalGap result;
+  const auto first = std::find(states.begin(), states.end(), GapState::ignites);
+  const auto index = static_cast<std::size_t>(first - states.begin());
+  if (first == states.end()) {
+    result.kind = CriticalGapKind::all_safe;
+    result.lower = largest;
+    result.reason = "no ignition up to " + centimetres(largest) + ", where the search ended";
+    return result;
+  }
+  const auto again = std::find(first, states.end(), GapState::safe);
+  if (again != states.end()) {
+    result.reason = "not monotone: no ignition at " +
+                    centimetres(gaps[static_cast<std::size_t>(again - states.begin())]) + " again";
+  }
+  if (index == 0) {
+    result.kind = CriticalGapKind::all_ignite;
+    result.upper = 0.0;
+    if (result.reason.empty()) result.reason = "ignition at every gap, also without one";
+    return result;
+  }
+  double undefined = 0;
+  const auto narrow = bisect(state, {gaps[index - 1], gaps[index]}, tolerance / refinement, undefined);
+  if (!narrow) return undefined_at(undefined);
+  const Bracket bracket = centred(state, *narrow, tolerance);
+  result.kind = CriticalGapKind::value;
+  result.lower = bracket.lower;
+  result.upper = bracket.upper;
+  result.value = 0.5 * (bracket.lower + bracket.upper);
+  return result;
+}
+
+}  // namespace launchsafe::study

@@ -1,0 +1,185 @@
+#include "launchsafe/study/critical_gap.hpp"
+
+#include "case_runs.hpp"
+#include "gap_analysis.hpp"
+#include "launchsafe/store/manifest.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace launchsafe::study {
+
+std::string to_string(surface::IgnitionCause cause) {
+  return cause == surface::IgnitionCause::trigger ? "T1" : "Arrhenius";
+}
+
+double GapVerdict::misfit() const {
+  if (!reference || reference->ignited() || ignition) return not_a_number;
+  return maximum.temperature - reference->maximum_temperature;
+}
+
+double GapVerdict::early_misfit() const {
+  return reference ? early.temperature - reference->early_temperature : not_a_number;
+}
+
+bool CriticalGapResult::any_failed() const {
+  return std::any_of(cases.begin(), cases.end(), [](const CaseOutcome& each) {
+    return !each.completed() ||
+           std::any_of(each.confirmations.begin(), each.confirmations.end(),
+                       [](const Confirmation& confirmation) { return !confirmation.completed; });
+  });
+}
+
+bool CriticalGapResult::any_indeterminate() const {
+  return std::any_of(cases.begin(), cases.end(), [](const CaseOutcome& each) {
+    return each.critical.kind == CriticalGapKind::indeterminate ||
+           std::any_of(each.verdicts.begin(), each.verdicts.end(),
+                       [](const GapVerdict& row) { return row.judgement.verdict == Verdict::indeterminate; });
+  });
+}
+
+namespace {
+
+/// The mechanics of every case, each with its traced gaps.
+void run_mechanics(CriticalGapResult& result, const StudyOptions& options, ProgressTracker& tracker) {
+  std::vector<Task> tasks;
+  for (CaseOutcome& outcome : result.cases) {
+    tasks.push_back({detail::cost_of(outcome.input.scene.scene), [&](const auto& report_share) {
+                       outcome.start_time = store::utc_now();
+                       outcome.result.mechanics = options.runners.mechanics(
+                           outcome.input.scene.scene, detail::run_options(options, report_share));
+                       outcome.failure = detail::failure_of(outcome.result.mechanics, {true, {}});
+                       detail::find_critical_gaps(result.study.study, outcome);
+                       detail::evaluate_gaps(result.study.study, outcome);
+                     }});
+  }
+  const auto outcomes = run_tasks(tasks, options.jobs, tracker, options.stop);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    CaseOutcome& outcome = result.cases[i];
+    detail::add_run(result.timing, outcome.result.mechanics, outcomes[i]);
+    if (outcomes[i].started && outcomes[i].failure.empty()) continue;
+    // Whatever was left half done is thrown away: rows without numbers, and the reason.
+    const CaseOutcome broken = std::move(outcome);
+    outcome = CaseOutcome{};
+    outcome.input = broken.input;
+    outcome.start_time = broken.start_time;
+    outcome.failure = detail::failure_of(outcome.result.mechanics, outcomes[i]);
+    detail::find_critical_gaps(result.study.study, outcome);
+    detail::evaluate_gaps(result.study.study, outcome);
+  }
+}
+
+Confirmation expectation(double gap, bool ignition) {
+  Confirmation confirmation;
+  confirmation.gap = gap;
+  confirmation.expected_ignition = ignition;
+  return confirmation;
+}
+
+Confirmation confirm(const CaseOutcome& outcome, double gap, const StudyOptions& options,
+                     const std::function<void(double)>& report_share, run::MechanicsResult& mechanics,
+                     bool expected) {
+  const scene::Scene& scene = outcome.input.scene.scene;
+  run::CaseResult coupled = options.runners.coupled(scene, gap, detail::run_options(options, report_share));
+  mechanics = std::move(coupled.mechanics);
+  Confirmation confirmation = expectation(gap, expected);
+  confirmation.ran = true;
+  confirmation.wall_time = mechanics.wall_time;
+  confirmation.failure = detail::failure_of(mechanics, {true, {}});
+  if (!confirmation.failure.empty()) return confirmation;
+  if (coupled.gaps.empty() || !std::isfinite(coupled.gaps.front().at_points.temperature)) {
+    confirmation.failure = "its temperature is not a number";
+    return confirmation;
+  }
+  confirmation.completed = true;
+  confirmation.ignited = coupled.gaps.front().skin.ignition.has_value();
+  confirmation.maximum_temperature = coupled.gaps.front().at_points.temperature;
+  const run::GapResult traced = run::evaluate_gap(scene, outcome.result.mechanics.trace, gap);
+  if (!confirmation.ignited && !traced.skin.ignition)
+    confirmation.difference = confirmation.maximum_temperature - traced.at_points.temperature;
+  return confirmation;
+}
+
+/// The places at which confirmations go, and the runs they came from.
+struct Planned {
+  CaseOutcome* outcome;
+  std::size_t side;
+  run::MechanicsResult mechanics = {};
+};
+
+std::vector<Planned> plan_confirmations(CriticalGapResult& result) {
+  std::vector<Planned> planned;
+  for (CaseOutcome& outcome : result.cases) {
+    if (outcome.critical.kind != CriticalGapKind::value) continue;
+    outcome.confirmations = {expectation(outcome.critical.lower, false),
+                             expectation(outcome.critical.upper, true)};
+    for (std::size_t side = 0; side < 2; ++side) planned.push_back({&outcome, side});
+  }
+  return planned;
+}
+
+/// Complete coupled runs on both sides of every bracket.
+void run_confirmations(CriticalGapResult& result, const StudyOptions& options, ProgressTracker& tracker) {
+  std::vector<Planned> planned = plan_confirmations(result);
+  std::vector<Task> tasks;
+  for (Planned& each : planned) {
+    tasks.push_back({detail::cost_of(each.outcome->input.scene.scene), [&](const auto& report_share) {
+                       Confirmation& place = each.outcome->confirmations[each.side];
+                       place = confirm(*each.outcome, place.gap, options, report_share, each.mechanics,
+                                       place.expected_ignition);
+                     }});
+  }
+  const auto outcomes = run_tasks(tasks, options.jobs, tracker, options.stop);
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    detail::add_run(result.timing, planned[i].mechanics, outcomes[i]);
+    Confirmation& confirmation = planned[i].outcome->confirmations[planned[i].side];
+    if (outcomes[i].started && outcomes[i].failure.empty()) continue;
+    confirmation.ran = true;
+    confirmation.completed = false;
+    confirmation.failure = detail::failure_of({}, outcomes[i]);
+  }
+}
+
+/// Takes back the progress of confirmations that no bracket needs.
+void expect_confirmations(const CriticalGapResult& result, ProgressTracker& tracker, bool before) {
+  for (const CaseOutcome& outcome : result.cases) {
+    const double cost = 2.0 * detail::cost_of(outcome.input.scene.scene);
+    if (before) {
+      tracker.expect(2, cost);
+    } else if (outcome.critical.kind != CriticalGapKind::value) {
+      tracker.expect(-2, -cost);
+    }
+  }
+}
+
+}  // namespace
+
+CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  CriticalGapResult result;
+  result.study = study;
+  result.timing.jobs = detail::jobs_of(options);
+  ProgressTracker tracker(options.progress);
+  for (const StudyCase& input : study.cases) {
+    CaseOutcome outcome;
+    outcome.input = input;
+    result.cases.push_back(std::move(outcome));
+    tracker.expect(1, detail::cost_of(input.scene.scene));
+  }
+  if (study.study.confirm) expect_confirmations(result, tracker, true);
+  run_mechanics(result, options, tracker);
+  if (study.study.confirm) {
+    expect_confirmations(result, tracker, false);
+    run_confirmations(result, options, tracker);
+  }
+  for (CaseOutcome& outcome : result.cases) {
+    detail::apply_confirmations(study.study, outcome);
+    detail::conclude(study.study, outcome);
+  }
+  result.interrupted = options.stop != nullptr && options.stop->load();
+  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace launchsafe::study

@@ -1,0 +1,192 @@
+#include "gap_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::study::detail {
+namespace {
+
+using trace::BottomTrace;
+
+std::string name_of(const BottomTrace& trace, std::size_t station) {
+  return station < trace.stations.size() ? trace.stations[station].name : std::string{};
+}
+
+Peak peak_of(const surface::Maximum& maximum, const BottomTrace& trace) {
+  return {maximum.temperature, maximum.time, name_of(trace, maximum.station)};
+}
+
+std::optional<NamedIgnition> named(const std::optional<surface::Ignition>& ignition,
+                                   const BottomTrace& trace) {
+  if (!ignition) return std::nullopt;
+  return NamedIgnition{ignition->cause, ignition->time, name_of(trace, ignition->station),
+                       ignition->chemical_share};
+}
+
+bool all_finite(const surface::SkinHistory& history) {
+  return !history.temperature.empty() && std::isfinite(surface::maximum_anywhere(history).temperature);
+}
+
+GapState state_of(const surface::SkinHistory& history, bool anywhere) {
+  if (!all_finite(history)) return GapState::undefined;
+  return (anywhere ? history.ignition_anywhere : history.ignition) ? GapState::ignites : GapState::safe;
+}
+
+double largest_gap(const Study& study) {
+  double largest = study.largest_gap;
+  for (const double gap : study.gaps) largest = std::max(largest, gap);
+  return largest;
+}
+
+/// What a tolerance ten times wider changes, K.
+double integration_error(const surface::SkinModel& model, const BottomTrace& trace,
+                         const run::GapResult& gap) {
+  surface::SkinModel wide = model;
+  wide.relative_tolerance *= 10.0;
+  const auto maximum =
+      surface::maximum_at_observation_points(surface::integrate_skin(wide, trace, gap.gap), trace);
+  return std::abs(maximum.temperature - gap.at_points.temperature);
+}
+
+const Reference* reference_for(const Study& study, double gap) {
+  for (const Reference& reference : study.references) {
+    if (std::abs(reference.gap - gap) <= 1e-9) return &reference;
+  }
+  return nullptr;
+}
+
+GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const run::GapResult& gap) {
+  const scene::Scene& scene = outcome.input.scene.scene;
+  const BottomTrace& trace = outcome.result.mechanics.trace;
+  GapVerdict row;
+  row.gap = gap.gap;
+  row.maximum = peak_of(gap.at_points, trace);
+  row.anywhere = peak_of(gap.anywhere, trace);
+  row.early = peak_of(surface::maximum_at_time(gap.skin, trace, study.early_time), trace);
+  row.spread = surface::spread_at_time(gap.skin, trace, scene.load.duration);
+  row.early_spread = surface::spread_at_time(gap.skin, trace, study.early_time);
+  row.margin = scene.charge.kinetics.ignition_temperature - gap.at_points.temperature;
+  row.ignition = named(gap.skin.ignition, trace);
+  row.ignition_anywhere = named(gap.skin.ignition_anywhere, trace);
+  row.uncertainty.sampling = gap.sampling_error;
+  row.uncertainty.integration = integration_error(surface::skin_model(scene), trace, gap);
+  row.uncertainty.numerical = study.numerical_uncertainty;
+  return row;
+}
+
+/// Uncertainty of a temperature just below ignition, K.
+Uncertainty uncertainty_at(const Study& study, const CaseOutcome& outcome, const run::GapResult& gap) {
+  Uncertainty uncertainty;
+  uncertainty.sampling = gap.sampling_error;
+  uncertainty.integration =
+      integration_error(surface::skin_model(outcome.input.scene.scene), outcome.result.mechanics.trace, gap);
+  uncertainty.numerical = study.numerical_uncertainty;
+  for (const Confirmation& confirmation : outcome.confirmations) {
+    if (std::isfinite(confirmation.difference))
+      uncertainty.coupling = std::max(uncertainty.coupling, std::abs(confirmation.difference));
+  }
+  return uncertainty;
+}
+
+/// Half the bracket, and the temperature uncertainty over the slope of temperature against gap just below it.
+void set_gap_uncertainty(const Study& study, CaseOutcome& outcome) {
+  CriticalGap& critical = outcome.critical;
+  if (critical.kind != CriticalGapKind::value) return;
+  const double half = 0.5 * (critical.upper - critical.lower);
+  const scene::Scene& scene = outcome.input.scene.scene;
+  const BottomTrace& trace = outcome.result.mechanics.trace;
+  const double below = std::max(0.0, critical.lower - std::max(study.tolerance, 0.02 * critical.lower));
+  const run::GapResult at_lower = run::evaluate_gap(scene, trace, critical.lower);
+  const run::GapResult at_below = run::evaluate_gap(scene, trace, below);
+  const double slope =
+      (at_lower.at_points.temperature - at_below.at_points.temperature) / (critical.lower - below);
+  const double temperature = uncertainty_at(study, outcome, at_below).total();
+  critical.uncertainty = half + (slope > 0 ? temperature / slope : critical.value);
+  if (outcome.critical_anywhere.kind == CriticalGapKind::value)
+    outcome.critical_anywhere.uncertainty = critical.uncertainty;
+}
+
+CriticalGap indeterminate(std::string reason) {
+  CriticalGap gap;
+  gap.reason = std::move(reason);
+  return gap;
+}
+
+std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
+  if (!confirmation.ran || confirmation.agrees()) return std::nullopt;
+  const std::string gap = fmt::format("the coupled run at {:.6g} cm ", 100.0 * confirmation.gap);
+  if (!confirmation.completed) return gap + "did not complete: " + confirmation.failure;
+  return gap + (confirmation.ignited ? "ignites" : "does not ignite") + ", the traced temperatures " +
+         (confirmation.expected_ignition ? "do" : "do not");
+}
+
+}  // namespace
+
+void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
+  if (!outcome.completed()) {
+    outcome.critical = outcome.critical_anywhere = indeterminate(outcome.failure);
+    return;
+  }
+  const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
+  const auto search = [&](bool anywhere) {
+    return find_critical_gap(
+        [&](double gap) {
+          return state_of(surface::integrate_skin(model, outcome.result.mechanics.trace, gap), anywhere);
+        },
+        largest_gap(study), study.tolerance);
+  };
+  outcome.critical = search(false);
+  outcome.critical_anywhere = search(true);
+}
+
+void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
+  for (const double gap : study.gaps) {
+    if (outcome.result.mechanics.trace.samples() == 0) {
+      GapVerdict row;
+      row.gap = gap;
+      outcome.verdicts.push_back(std::move(row));
+    } else {
+      outcome.result.gaps.push_back(
+          run::evaluate_gap(outcome.input.scene.scene, outcome.result.mechanics.trace, gap));
+      outcome.verdicts.push_back(row_of(study, outcome, outcome.result.gaps.back()));
+    }
+    if (const Reference* reference = reference_for(study, gap))
+      outcome.verdicts.back().reference = *reference;
+  }
+}
+
+void apply_confirmations(const Study& study, CaseOutcome& outcome) {
+  set_gap_uncertainty(study, outcome);
+  for (const Confirmation& confirmation : outcome.confirmations) {
+    const auto disagreement = disagreement_of(confirmation);
+    if (!disagreement) continue;
+    // The bracket stays readable in the reason; a number that was not confirmed is none.
+    outcome.critical =
+        indeterminate(fmt::format("{} (traced bracket {:.6g} to {:.6g} cm)", *disagreement,
+                                  100.0 * outcome.critical.lower, 100.0 * outcome.critical.upper));
+    return;
+  }
+}
+
+void conclude(const Study& study, CaseOutcome& outcome) {
+  double coupling = 0;
+  for (const Confirmation& confirmation : outcome.confirmations) {
+    if (std::isfinite(confirmation.difference))
+      coupling = std::max(coupling, std::abs(confirmation.difference));
+  }
+  std::vector<double> gaps, temperatures;
+  for (GapVerdict& row : outcome.verdicts) {
+    row.uncertainty.coupling = coupling;
+    row.judgement = judge({outcome.completed(), outcome.failure, row.ignition.has_value(), row.gap,
+                           row.maximum.temperature, row.margin, row.uncertainty.total()},
+                          outcome.critical);
+    if (row.ignition || !outcome.completed()) continue;
+    gaps.push_back(row.gap);
+    temperatures.push_back(row.maximum.temperature);
+  }
+  outcome.fit = fit_gaps(gaps, temperatures, study.reference_line);
+}
+
+}  // namespace launchsafe::study::detail

@@ -1,0 +1,62 @@
+#include "launchsafe/study/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace launchsafe::study {
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::safe:
+      return "SAFE";
+    case Verdict::unsafe:
+      return "UNSAFE";
+    case Verdict::indeterminate:
+      return "INDETERMINATE";
+  }
+  return "INDETERMINATE";
+}
+
+namespace {
+
+Judgement indeterminate(std::string reason) { return {Verdict::indeterminate, std::move(reason)}; }
+
+/// The distance of a gap that did not ignite to the critical gap.
+Judgement judge_distance(const Evidence& evidence, const CriticalGap& critical) {
+  switch (critical.kind) {
+    case CriticalGapKind::indeterminate:
+      return indeterminate("the critical gap is indeterminate: " + critical.reason);
+    case CriticalGapKind::all_ignite:
+      return indeterminate("no ignition here, but at smaller gaps");
+    case CriticalGapKind::all_safe:
+      return {Verdict::safe, fmt::format("margin {:.3g} K over uncertainty {:.2g} K", evidence.margin,
+                                         evidence.uncertainty)};
+    case CriticalGapKind::value:
+      break;
+  }
+  const double distance = critical.value - evidence.gap;
+  // Written so that NaN is never safe.
+  if (!(distance > critical.uncertainty)) {
+    return indeterminate(fmt::format("{:.3g} cm from the critical gap, whose uncertainty is {:.2g} cm",
+                                     100.0 * distance, 100.0 * critical.uncertainty));
+  }
+  return {Verdict::safe,
+          fmt::format("margin {:.3g} K over uncertainty {:.2g} K", evidence.margin, evidence.uncertainty)};
+}
+
+}  // namespace
+
+Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
+  if (!evidence.completed)
+    return indeterminate(evidence.failure.empty() ? "the run failed" : evidence.failure);
+  if (!std::isfinite(evidence.maximum_temperature)) return indeterminate("the temperature is not a number");
+  if (evidence.ignited) return {Verdict::unsafe, "ignition"};
+  if (!(evidence.margin > evidence.uncertainty)) {
+    return indeterminate(fmt::format("margin {:.3g} K within the uncertainty, {:.2g} K", evidence.margin,
+                                     evidence.uncertainty));
+  }
+  return judge_distance(evidence, critical);
+}
+
+}  // namespace launchsafe::study

@@ -1,0 +1,127 @@
+// Heat conduction in the charge against the half space of Carslaw & Jaeger, and its conservation and bounds.
+#include "launchsafe/mpm/conduction.hpp"
+#include "mechanics_scenes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace launchsafe::verify::mechanics {
+namespace {
+
+constexpr double micrometre = 1e-6, duration = 1e-3;
+
+/// A strip of charge 0.1 mm long, eleven diffusion lengths of 1 ms, in cells of 0.5 um; its base is the half
+/// space's face.
+scene::Scene strip() {
+  scene::Scene scene =
+      block(scene::BodyMaterial::charge, 100.0 * micrometre, 0.5 * micrometre, 0.5 * micrometre);
+  scene.symmetry = scene::Symmetry::plane_strain;
+  return scene;
+}
+
+void conduct(mpm::Conduction& conduction, mpm::Simulation& simulation, double time, int steps) {
+  for (int step = 0; step < steps; ++step) conduction.advance(simulation, time / steps);
+}
+
+/// Lowest and highest temperature of all particles, K.
+struct Range {
+  double low, high;
+};
+Range range_of(const mpm::Simulation& simulation) {
+  Range range{HUGE_VAL, -HUGE_VAL};
+  simulation.for_each_body([&](const mpm::Kinematics& p) {
+    for (std::size_t i = 0; i < p.mass.size(); ++i) {
+      if (!(p.mass[i] > 0.0)) continue;
+      range.low = std::min(range.low, p.temperature[i]);
+      range.high = std::max(range.high, p.temperature[i]);
+    }
+  });
+  return range;
+}
+
+/// Temperatures from 300 to 1300 K that jump from particle to particle.
+void make_checkered(mpm::Simulation& simulation) {
+  std::uint32_t random = 1;
+  const auto shake = [&](mpm::Kinematics& p) {
+    for (double& temperature : p.temperature) {
+      random = random * 1664525U + 1013904223U;
+      temperature = 300.0 + 1000.0 * static_cast<double>(random >> 8) / 16777215.0;
+    }
+  };
+  for (mpm::SteelBody& body : simulation.steel()) shake(body.kinematics);
+  for (mpm::ChargeBody& body : simulation.charges()) shake(body.kinematics);
+}
+
+}  // namespace
+
+Checks semi_infinite_conduction() {
+  const std::string group = "conduction", half_space = "Carslaw & Jaeger, half space";
+  mpm::Simulation simulation(strip());
+  mpm::Conduction conduction(simulation);
+  conduction.hold_base(simulation.scene().initial_temperature + 1.0);
+  conduct(conduction, simulation, duration, 1000);
+  const mpm::Kinematics& p = simulation.charges()[0].kinematics;
+  const int face = 180;  // 10 um from the base, between two particles
+  const double rise =
+      0.5 * (p.temperature[p.lattice.slot(face - 1, 0)] + p.temperature[p.lattice.slot(face, 0)]) - 300.0;
+  const scene::Charge& charge = simulation.scene().charge;
+  return {{group, "diffusivity of the charge",
+           charge.conductivity / (charge.eos.initial_density * charge.specific_heat), 8.049053e-8, 1e-7,
+           "m2/s", "k/(rho c)", false},
+          {group, "share of the face's rise 10 um deep after 1 ms", rise, 0.430605, 5e-4, "",
+           half_space + ": erfc", true}};
+}
+
+Checks conduction_under_flux() {
+  mpm::Simulation simulation(strip());
+  mpm::Conduction conduction(simulation);
+  conduction.heat_base(1e6);
+  conduct(conduction, simulation, duration, 1000);
+  const mpm::Kinematics& p = simulation.charges()[0].kinematics;
+  const int last = p.lattice.columns - 1;
+  // The face lies half a spacing beyond the last particle; the slope there is q/k.
+  const double half_spacing = 0.5 * p.lattice.spacing_x;
+  const double surface = p.temperature[p.lattice.slot(last, 0)] +
+                         half_spacing * 1e6 / simulation.scene().charge.conductivity - 300.0;
+  return {{"conduction", "surface rise under 1 MW/m2 after 1 ms", surface, 41.15213, 1e-3, "K",
+           "Carslaw & Jaeger, half space: 2 q sqrt(t/(pi k rho c))", false}};
+}
+
+Checks conduction_keeps_heat() {
+  mpm::Simulation simulation(shell_155(10e-3));
+  make_checkered(simulation);
+  mpm::Conduction conduction(simulation);
+  const double before = conduction.heat(simulation);
+  conduct(conduction, simulation, 20.0, 100);
+  return {{"conduction", "change of the heat of the shell over 100 steps of 0.2 s",
+           conduction.heat(simulation) / before - 1.0, 0.0, 1e-12, "", "adiabatic faces", true}};
+}
+
+Checks conduction_in_long_steps() {
+  const std::string group = "conduction";
+  Checks checks;
+  // Of the charge, alpha dt/h^2; of the steel a hundred times more.
+  constexpr double fourier_number = 1e4, cell = 10e-3;
+  const scene::Scene shell = shell_155(cell);
+  const double dt = fourier_number * cell * cell * shell.charge.eos.initial_density *
+                    shell.charge.specific_heat / shell.charge.conductivity;
+  mpm::Simulation simulation(shell_155(10e-3));
+  make_checkered(simulation);
+  mpm::Conduction conduction(simulation);
+  const Range before = range_of(simulation);
+  double outside = 0.0;
+  for (int step = 0; step < 3; ++step) {
+    conduction.advance(simulation, dt);
+    const Range now = range_of(simulation);
+    outside = std::max({outside, before.low - now.low, now.high - before.high});
+  }
+  checks.push_back({group, "temperature beyond the initial extremes, Fourier number 1e4", outside, 0.0, 1e-9,
+                    "K", "maximum principle", true});
+  const Range after = range_of(simulation);
+  checks.push_back({group, "spread left after three steps at Fourier number 1e4", after.high - after.low, 0.0,
+                    1e-3, "K", "heat spreads evenly in the end", true});
+  return checks;
+}
+
+}  // namespace launchsafe::verify::mechanics

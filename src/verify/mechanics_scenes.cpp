@@ -1,0 +1,63 @@
+#include "mechanics_scenes.hpp"
+
+#include <cmath>
+
+namespace launchsafe::verify::mechanics {
+
+using scene::BodyMaterial;
+
+scene::Scene shell_155(double cell_size) {
+  scene::Scene shell;
+  shell.bodies = {{"nose", BodyMaterial::steel, 0.0, 0.118, 0.0, 0.0775},
+                  {"charge", BodyMaterial::charge, 0.118, 0.678, 0.0, 0.065},
+                  {"wall", BodyMaterial::steel, 0.118, 0.678, 0.065, 0.0775},
+                  {"base", BodyMaterial::steel, 0.678, 0.74, 0.0, 0.0775}};
+  shell.numerics.cell_size = cell_size;
+  return shell;
+}
+
+scene::Scene block(BodyMaterial material, double length, double radius, double cell_size) {
+  scene::Scene block;
+  block.bodies = {{"block", material, 0.0, length, 0.0, radius}};
+  block.numerics.cell_size = cell_size;
+  block.load.base = 0.0;
+  return block;
+}
+
+scene::Load ramp(double pressure, double rise, double duration) {
+  scene::Load load;
+  load.duration = duration;
+  constexpr int points = 64;
+  for (int k = 0; k <= points; ++k) {
+    const double share = static_cast<double>(k) / points;
+    load.curve_time.push_back(share * rise);
+    load.curve_pressure.push_back(pressure * share * share * share * (10.0 - share * (15.0 - 6.0 * share)));
+  }
+  load.curve_time.push_back(duration);
+  load.curve_pressure.push_back(pressure);
+  return load;
+}
+
+void make_elastic(scene::Scene& scene) { scene.steel.strength.a = 1e15; }
+
+double run_to(mpm::Simulation& simulation, double end) {
+  const double span = end - simulation.time();
+  const double steps = std::ceil(span / simulation.stable_time_step());
+  const double dt = span / steps;
+  for (double step = 0.0; step < steps; step += 1.0) simulation.step(dt);
+  return dt;
+}
+
+double axial_stress(const mpm::SteelBody& body, std::size_t slot) {
+  return body.stress_xx[slot] - body.kinematics.pressure[slot];
+}
+
+double axial_stress(const mpm::ChargeBody& body, std::size_t slot) {
+  return mpm::axial_deviator(body, slot) - body.kinematics.pressure[slot];
+}
+
+double observed_order(double coarse_error, double fine_error, double ratio) {
+  return std::log(coarse_error / fine_error) / std::log(ratio);
+}
+
+}  // namespace launchsafe::verify::mechanics

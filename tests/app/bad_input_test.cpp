@@ -1,0 +1,79 @@
+// Faults of the input end the program before it computes or writes anything.
+#include "program.hpp"
+
+#include <vector>
+
+namespace launchsafe::app {
+namespace {
+
+struct Fault {
+  std::string name;
+  std::string from, to;              ///< what is changed in the valid scene
+  std::vector<std::string> message;  ///< what the one message names
+};
+
+class BadInputProgram : public Program, public ::testing::WithParamInterface<Fault> {};
+
+TEST_P(BadInputProgram, EndsWithOneMessageAndNoOutput) {
+  const Fault& fault = GetParam();
+  const std::string scene = with(tiny_scene, fault.from, fault.to);
+  write("shell.toml", scene);
+  const Outcome outcome = run({"run", "shell.toml", "-o", "out"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+  EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
+  EXPECT_TRUE(outcome.says("shell.toml:")) << outcome.err;
+  for (const std::string& part : fault.message)
+    EXPECT_TRUE(outcome.says(part)) << part << " in " << outcome.err;
+  EXPECT_FALSE(exists("out"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, BadInputProgram,
+    ::testing::Values(
+        Fault{"SyntaxError", "[load]", "[load", {":3:"}},
+        Fault{"UnknownKey",
+              "peak_time = ",
+              "peek_time = ",
+              {":7:", "load.peek_time", "did you mean", "peak_time"}},
+        Fault{"WrongUnit", "\"50 MPa\"", "\"50 ms\"", {":6:", "load.peak", "50 ms", "MPa"}},
+        Fault{"UnknownUnit", "\"50 MPa\"", "\"50 furlongs\"", {":6:", "load.peak", "furlongs"}},
+        Fault{"WrongType", "\"50 MPa\"", "true", {":6:", "load.peak", "true"}},
+        Fault{"NotANumber", "exponent = 3", "exponent = nan", {":8:", "load.exponent", "nan"}},
+        Fault{"NegativeLength", "\"5 mm\"", "\"-5 mm\"", {":14:", "numerics.cell_size", "-5 mm"}},
+        Fault{"ChargeOutsideTheShell", "x = \"1 to 4 cm\"", "x = \"1 to 7 cm\"", {"body.filling.x"}},
+        Fault{"OverlappingBodies", "\"1.5 to 2 cm\"", "\"1 to 2 cm\"", {"body.wall.r", "filling", "overlap"}},
+        Fault{"CurveWithOnePoint",
+              "exponent = 3",
+              "curve_time = \"0 ms\"\ncurve_pressure = \"1 MPa\"",
+              {":8:", "load.curve_time", "two points"}},
+        Fault{"UnorderedTimes",
+              "exponent = 3",
+              "curve_time = \"0, 2, 1 ms\"\ncurve_pressure = \"0, 1, 2 MPa\"",
+              {":8:", "load.curve_time", "increasing"}},
+        Fault{"NoParticleInABody", "\"5 mm\"", "\"40 mm\"", {":14:", "numerics.cell_size", "no particle"}},
+        Fault{"DuplicateGaps",
+              "\"0, 0.01 cm\"",
+              "\"0, 0.01, 0.1 mm, 0.01 cm\"",
+              {":11:", "gap.thickness", "once"}},
+        Fault{"MissingCurveFile", "exponent = 3", "curve = \"none.csv\"", {":8:", "load.curve", "none.csv"}}),
+    [](const auto& test) { return test.param.name; });
+
+class MissingInputProgram : public Program {};
+
+TEST_F(MissingInputProgram, IsNamedByEverySubcommandThatReadsOne) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"run", "absent.toml", "-o", "out"},
+                                             {"study", "absent.toml", "-o", "out"},
+                                             {"explain", "absent.toml"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments.front();
+    EXPECT_TRUE(outcome.says("absent.toml")) << outcome.err;
+    EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
+    EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+  }
+  EXPECT_FALSE(exists("out"));
+}
+
+}  // namespace
+}  // namespace launchsafe::app

@@ -1,0 +1,105 @@
+// What can be written on the command line, and what the program says about itself.
+#include "launchsafe/version.hpp"
+#include "program.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace launchsafe::app {
+namespace {
+
+class CommandLineProgram : public Program {};
+
+TEST_F(CommandLineProgram, VersionNamesCommitCompilerFlagsAndLibraries) {
+  const Outcome outcome = run({"--version"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(outcome.err.empty()) << outcome.err;
+  const std::vector<std::string> parts{"launchsafe " + std::string(version::number),
+                                       "commit",
+                                       std::string(version::compiler),
+                                       "-std=c++20",
+                                       "HDF5",
+                                       "Eigen",
+                                       "CLI11"};
+  for (const std::string& part : parts) {
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
+  }
+}
+
+TEST_F(CommandLineProgram, EveryHelpHasExamples) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"--help"}, {"run", "--help"}, {"study", "--help"}, {"verify", "--help"}, {"explain", "--help"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_TRUE(outcome.err.empty()) << outcome.err;
+    EXPECT_NE(outcome.out.find("Examples:\n  launchsafe "), std::string::npos) << outcome.out;
+  }
+}
+
+TEST_F(CommandLineProgram, TheFirstHelpNamesEverySubcommandAndExitCode) {
+  const std::string help = run({"--help"}).out;
+  for (const char* part : {"run ", "study ", "verify ", "explain ", "0 done", "2 bad", "3 some",
+                           "4 a verdict", "70 ", "75 interrupted"}) {
+    EXPECT_NE(help.find(part), std::string::npos) << part;
+  }
+}
+
+TEST_F(CommandLineProgram, SenselessCommandLinesAreBadUsage) {
+  write("scene.toml", tiny_scene);
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"launch"},
+                                             {"run"},
+                                             {"run", "scene.toml", "--fast"},
+                                             {"run", "scene.toml", "more"},
+                                             {"study", "study.toml"},
+                                             {"study", "study.toml", "-o", "out", "--jobs", "0"},
+                                             {"study", "study.toml", "-o", "out", "--jobs", "two"},
+                                             {"explain"},
+                                             {"explain", "scene.toml", "--keys"},
+                                             {"verify", "--quiet", "--filter", "no check has this name"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << (arguments.empty() ? "" : arguments.front());
+    EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+    EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
+  }
+  EXPECT_FALSE(exists("out"));
+}
+
+TEST_F(CommandLineProgram, AnOutputThatCannotBeWrittenIsAnError) {
+  start({"--version"});
+  EXPECT_EQ(wait().code, 0);
+  std::filesystem::remove(folder() / "stdout.txt");
+  std::filesystem::create_symlink("/dev/full", folder() / "stdout.txt");
+  start({"--version"});
+  // The outcome is taken by hand: /dev/full would be read without end.
+  int status = 0;
+  ASSERT_EQ(::waitpid(child(), &status, 0), child());
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 70);
+  EXPECT_NE(read("stderr.txt").find("standard output"), std::string::npos);
+}
+
+TEST_F(CommandLineProgram, VerifyPrintsATableThatTheFilterNarrows) {
+  const Outcome outcome = run({"verify", "--filter", "JWL"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("jwl: pressure at V = 1"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("air: "), std::string::npos);
+  EXPECT_EQ(outcome.out.find("FAIL"), std::string::npos);
+}
+
+TEST_F(CommandLineProgram, VerifyGivesEveryNumberAsJson) {
+  const Outcome outcome = run({"verify", "--filter", "relaxation", "--json"});
+  EXPECT_EQ(outcome.code, 0);
+  const auto object = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(object["failed"], 0);
+  EXPECT_EQ(object["passed"], object["checks"].size());
+  for (const auto& check : object["checks"]) {
+    for (const char* key : {"name", "computed", "expected", "error", "tolerance", "source"}) {
+      EXPECT_TRUE(check.contains(key)) << key;
+    }
+    EXPECT_TRUE(check["pass"]);
+  }
+}
+
+}  // namespace
+}  // namespace launchsafe::app

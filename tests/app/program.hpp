@@ -1,0 +1,157 @@
+// The real program, started as a user would, with its output in files.
+#pragma once
+
+#include "store/temporary_folder.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace launchsafe::app {
+
+/// A small shell whose run takes milliseconds.
+inline const std::string tiny_scene = R"(title = "a small shell"
+
+[load]
+duration = "0.05 ms"
+base = "0 Pa"
+peak = "50 MPa"
+peak_time = "0.05 ms"
+exponent = 3
+
+[gap]
+thickness = "0, 0.01 cm"
+
+[numerics]
+cell_size = "5 mm"
+energy_drift_limit = 0.5
+
+[output]
+trace_interval = "5 us"
+
+[[body]]
+name = "cup"
+material = "steel"
+x = "0 to 1 cm"
+r = "0 to 2 cm"
+
+[[body]]
+name = "filling"
+material = "charge"
+x = "1 to 4 cm"
+r = "0 to 1.5 cm"
+
+[[body]]
+name = "wall"
+material = "steel"
+x = "1 to 4 cm"
+r = "1.5 to 2 cm"
+
+[[body]]
+name = "base"
+material = "steel"
+x = "4 to 5 cm"
+r = "0 to 2 cm"
+
+[[observation_point]]
+name = "G1"
+x = "3.9 cm"
+r = "1 cm"
+)";
+
+/// The text with its first `from` replaced by `to`.
+inline std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+/// A launch that takes minutes: no test waits for its end.
+inline std::string long_scene() {
+  return with(with(tiny_scene, "0.05 ms", "500 ms"), "\"5 mm\"", "\"0.5 mm\"");
+}
+
+/// How the program ended.
+struct Outcome {
+  int code = -1;  ///< of its exit; -1 when a signal ended it
+  std::string out, err;
+  double seconds = 0;
+
+  int lines_of_error() const {
+    int lines = 0;
+    for (const char letter : err) lines += letter == '\n' ? 1 : 0;
+    return lines;
+  }
+  bool says(const std::string& part) const { return err.find(part) != std::string::npos; }
+};
+
+/// Tests in a folder of their own that start the program there.
+class Program : public testing::TemporaryFolder {
+ protected:
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder() / name, std::ios::binary) << text;
+  }
+  std::string read(const std::string& name) const {
+    std::ifstream file(folder() / name, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder() / name); }
+
+  /// Starts the program with the test's folder as its working directory.
+  void start(std::vector<std::string> arguments, int error_descriptor = -1) {
+    arguments.insert(arguments.begin(), LAUNCHSAFE_PROGRAM);
+    start_time_ = std::chrono::steady_clock::now();
+    child_ = ::fork();
+    if (child_ == 0) become(arguments, error_descriptor);
+    ASSERT_GT(child_, 0);
+  }
+  void send(int signal) const { ASSERT_EQ(::kill(child_, signal), 0); }
+  pid_t child() const { return child_; }
+
+  Outcome wait() {
+    Outcome outcome;
+    int status = 0;
+    EXPECT_EQ(::waitpid(child_, &status, 0), child_);
+    if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
+    outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_time_).count();
+    outcome.out = read("stdout.txt");
+    outcome.err = read("stderr.txt");
+    return outcome;
+  }
+
+  Outcome run(const std::vector<std::string>& arguments) {
+    start(arguments);
+    return wait();
+  }
+
+ private:
+  [[noreturn]] void become(std::vector<std::string>& arguments, int error_descriptor) const {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(signal, SIG_DFL);
+    if (::chdir(folder().c_str()) != 0) ::_exit(126);
+    constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
+    ::dup2(::open("stdout.txt", flags, 0600), STDOUT_FILENO);
+    ::dup2(error_descriptor >= 0 ? error_descriptor : ::open("stderr.txt", flags, 0600), STDERR_FILENO);
+    std::vector<char*> pointers;
+    for (std::string& argument : arguments) pointers.push_back(argument.data());
+    pointers.push_back(nullptr);
+    ::execv(pointers.front(), pointers.data());
+    ::_exit(127);
+  }
+
+  pid_t child_ = -1;
+  std::chrono::steady_clock::time_point start_time_;
+};
+
+}  // namespace launchsafe::app

@@ -1,0 +1,127 @@
+// launchsafe run: what it prints, what it writes, and how it ends.
+#include "launchsafe/store/case_file.hpp"
+#include "program.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace launchsafe::app {
+namespace {
+
+class RunProgram : public Program {};
+
+TEST_F(RunProgram, PrintsATableAndWritesACaseFileInUnderASecond) {
+  write("shell.toml", tiny_scene);
+  const Outcome outcome = run({"run", "shell.toml", "-o", "out/deep"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_LT(outcome.seconds, 1.0);
+  for (const std::string part : {"a small shell", "T max [K]", "G1", "ignition", "Energy balance", "drift",
+                                 "particles", "steps", "wall time", "million particle updates per second"}) {
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
+  }
+  const auto stored = store::read_case_file(folder() / "out/deep/shell.h5");
+  ASSERT_TRUE(stored) << stored.error().message;
+  EXPECT_EQ(stored->title, "a small shell");
+  EXPECT_EQ(stored->result.gaps.size(), 2u);
+  EXPECT_EQ(stored->result.mechanics.status, run::RunStatus::completed);
+}
+
+TEST_F(RunProgram, WritesNothingWithoutBeingTold) {
+  write("shell.toml", tiny_scene);
+  EXPECT_EQ(run({"run", "shell.toml"}).code, 0);
+  EXPECT_EQ(listing().size(), 3u);  // the scene, stdout, stderr
+}
+
+TEST_F(RunProgram, JsonIsOneObjectAndNothingElse) {
+  write("shell.toml", tiny_scene);
+  const Outcome outcome = run({"run", "shell.toml", "--json", "--quiet"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(outcome.err.empty()) << outcome.err;
+  const auto object = nlohmann::json::parse(outcome.out);  // throws on anything after the object
+  EXPECT_EQ(object["status"], "completed");
+  ASSERT_EQ(object["gaps"].size(), 2u);
+  EXPECT_EQ(object["gaps"][1]["gap_cm"], 0.01);
+  EXPECT_EQ(object["gaps"][1]["at_observation_points"]["at"], "G1");
+  EXPECT_TRUE(object["gaps"][1]["ignition"].is_null());
+  EXPECT_GT(object["timing"]["updates_per_second"], 0.0);
+  EXPECT_TRUE(object["energy"].contains("drift"));
+  EXPECT_TRUE(object["file"].is_null());
+}
+
+TEST_F(RunProgram, WithoutATerminalNothingMovesTheCursor) {
+  write("shell.toml", tiny_scene);
+  const Outcome outcome = run({"run", "shell.toml", "-o", "out"});
+  for (const std::string& text : {outcome.out, outcome.err}) {
+    EXPECT_EQ(text.find('\r'), std::string::npos);
+    EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  }
+}
+
+TEST_F(RunProgram, TheSameInputMayBeRunAgainIntoTheSameFolder) {
+  write("shell.toml", tiny_scene);
+  ASSERT_EQ(run({"run", "shell.toml", "-o", "out"}).code, 0);
+  write("shell.toml", "# a remark changes nothing\n" + tiny_scene);
+  EXPECT_EQ(run({"run", "shell.toml", "-o", "out"}).code, 0);
+}
+
+TEST_F(RunProgram, ADifferentInputIsRefusedAndTheResultLeftAsItWas) {
+  write("shell.toml", tiny_scene);
+  ASSERT_EQ(run({"run", "shell.toml", "-o", "out"}).code, 0);
+  const std::string before = read("out/shell.h5");
+  write("shell.toml", with(tiny_scene, "50 MPa", "60 MPa"));
+  const Outcome outcome = run({"run", "shell.toml", "-o", "out"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(outcome.says("out/shell.h5")) << outcome.err;
+  EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+  EXPECT_EQ(read("out/shell.h5"), before);
+}
+
+TEST_F(RunProgram, AFileThatIsNoResultIsNotOverwritten) {
+  write("shell.toml", tiny_scene);
+  std::filesystem::create_directory(folder() / "out");
+  write("out/shell.h5", "notes");
+  EXPECT_EQ(run({"run", "shell.toml", "-o", "out"}).code, 2);
+  EXPECT_EQ(read("out/shell.h5"), "notes");
+}
+
+TEST_F(RunProgram, AnOutputThatIsAFileIsBadInput) {
+  write("shell.toml", tiny_scene);
+  write("out", "notes");
+  const Outcome outcome = run({"run", "shell.toml", "-o", "out"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
+  EXPECT_EQ(read("out"), "notes");
+}
+
+TEST_F(RunProgram, ARunPastItsEnergyBoundIsIndeterminateAndSaysWhen) {
+  write("shell.toml", with(tiny_scene, "energy_drift_limit = 0.5", "energy_drift_limit = 1e-9"));
+  const Outcome outcome = run({"run", "shell.toml", "-o", "out"});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_TRUE(outcome.says("energy drift")) << outcome.err;
+  EXPECT_TRUE(outcome.says(" ms")) << outcome.err;
+  const auto stored = store::read_case_file(folder() / "out/shell.h5");
+  ASSERT_TRUE(stored);
+  EXPECT_EQ(stored->result.mechanics.status, run::RunStatus::energy_drift);
+}
+
+TEST_F(RunProgram, ExplainSaysWhatIsInAndWhatItCosts) {
+  write("shell.toml", tiny_scene);
+  const Outcome outcome = run({"explain", "shell.toml"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const std::string part : {"heat conduction       out", "crack growth          in", "40 particles",
+                                 "memory", "particle updates per second"}) {
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
+  }
+  EXPECT_EQ(nlohmann::json::parse(run({"explain", "shell.toml", "--json"}).out)["particles"]["charge"], 18);
+}
+
+TEST_F(RunProgram, ExplainListsEveryKeyWithItsStanding) {
+  const Outcome outcome = run({"explain", "--keys"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("\ncharge.crack_radius\n"), std::string::npos);
+  EXPECT_NE(outcome.out.find("default: 30 um  [P]"), std::string::npos) << outcome.out;
+  const auto keys = nlohmann::json::parse(run({"explain", "--keys", "--json"}).out)["keys"];
+  EXPECT_GT(keys.size(), 50u);
+}
+
+}  // namespace
+}  // namespace launchsafe::app

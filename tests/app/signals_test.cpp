@@ -1,0 +1,86 @@
+// Signals, terminals and closed pipes.
+#include "program.hpp"
+
+#include <cstdlib>
+
+namespace launchsafe::app {
+namespace {
+
+using namespace std::chrono_literals;
+
+class SignalledProgram : public Program, public ::testing::WithParamInterface<int> {};
+
+TEST_P(SignalledProgram, EndsWithinTwoSecondsAndSaysWhatWasKept) {
+  write("shell.toml", long_scene());
+  start({"run", "shell.toml", "-o", "out"});
+  std::this_thread::sleep_for(500ms);
+  const auto begin = std::chrono::steady_clock::now();
+  send(GetParam());
+  const Outcome outcome = wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 2s);
+  EXPECT_EQ(outcome.code, 75) << outcome.err;
+  EXPECT_TRUE(outcome.says("nothing of this case was kept")) << outcome.err;
+  EXPECT_TRUE(outcome.says("launchsafe run shell.toml -o out")) << outcome.err;
+  EXPECT_TRUE(std::filesystem::is_empty(folder() / "out"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, SignalledProgram, ::testing::Values(SIGINT, SIGTERM),
+                         [](const auto& test) { return test.param == SIGINT ? "Interrupt" : "Terminate"; });
+
+class VerifyProgram : public Program {};
+
+TEST_F(VerifyProgram, IsInterruptedWithinTwoSeconds) {
+  start({"verify"});
+  std::this_thread::sleep_for(300ms);
+  const auto begin = std::chrono::steady_clock::now();
+  send(SIGTERM);
+  const Outcome outcome = wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 2s);
+  EXPECT_EQ(outcome.code, 75) << outcome.err;
+  EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+}
+
+class TerminalProgram : public Program {
+ protected:
+  /// What the program shows on a terminal before it is interrupted.
+  std::string shown(const std::vector<std::string>& arguments) {
+    const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+    if (terminal < 0 || ::grantpt(terminal) != 0 || ::unlockpt(terminal) != 0) return "no terminal";
+    const int other_end = ::open(::ptsname(terminal), O_RDWR | O_NOCTTY);
+    ::setenv("TERM", "xterm", 1);
+    start(arguments, other_end);
+    ::close(other_end);
+    std::this_thread::sleep_for(1500ms);
+    send(SIGINT);
+    std::string text;
+    char letters[256];
+    for (ssize_t count = 0; (count = ::read(terminal, letters, sizeof letters)) > 0;) {
+      text.append(letters, static_cast<std::size_t>(count));
+    }
+    ::close(terminal);
+    EXPECT_EQ(wait().code, 75);
+    return text;
+  }
+};
+
+TEST_F(TerminalProgram, ShowsOneLineThatIsRewrittenAndThenRemoved) {
+  write("shell.toml", long_scene());
+  const std::string text = shown({"run", "shell.toml"});
+  if (text == "no terminal") GTEST_SKIP() << text;
+  EXPECT_NE(text.find("of 500 ms"), std::string::npos) << text;
+  const std::size_t erased = text.rfind("\r\x1b[K");
+  ASSERT_NE(erased, std::string::npos);
+  EXPECT_EQ(text.find('\n'), text.rfind('\n')) << text;  // only the last message ends a line
+  EXPECT_GT(text.find("launchsafe: interrupted"), erased);
+}
+
+TEST_F(TerminalProgram, ShowsNothingWhenQuiet) {
+  write("shell.toml", long_scene());
+  const std::string text = shown({"run", "shell.toml", "--quiet"});
+  if (text == "no terminal") GTEST_SKIP() << text;
+  EXPECT_EQ(text.find("of 500 ms, "), std::string::npos) << text;
+  EXPECT_EQ(text.find('\x1b'), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace launchsafe::app

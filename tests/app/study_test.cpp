@@ -1,0 +1,92 @@
+// launchsafe study: its answer on stdout and in the folder, and what it refuses.
+#include "program.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+
+namespace launchsafe::app {
+namespace {
+
+const std::string small_study = R"(kind = "critical-gap"
+scene = "shell.toml"
+gaps = "0, 0.01, 0.02 cm"
+early_time = "0.03 ms"
+)";
+
+class StudyProgram : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write("shell.toml", tiny_scene);
+    write("study.toml", small_study);
+  }
+};
+
+TEST_F(StudyProgram, JsonHoldsGapVerdictsFitAndTiming) {
+  const Outcome outcome = run({"study", "study.toml", "-o", "out", "--jobs", "2", "--json", "--quiet"});
+  EXPECT_TRUE(outcome.code == 0 || outcome.code == 4) << outcome.code << outcome.err;
+  const auto object = nlohmann::json::parse(outcome.out);
+  for (const char* key : {"value_cm", "lower_cm", "upper_cm"}) {
+    EXPECT_TRUE(object["critical_gap"].contains(key)) << key;
+  }
+  EXPECT_EQ(object["verdicts"].size(), 3u);
+  EXPECT_TRUE(object.contains("fit"));
+  EXPECT_TRUE(object.contains("timing"));
+  EXPECT_EQ(nlohmann::json::parse(read("out/manifest.json"))["threads"], 2);
+  EXPECT_TRUE(exists("out/verdicts.csv"));
+}
+
+TEST_F(StudyProgram, TheSameStudyMayBeRunAgainIntoItsFolderAndADifferentOneNot) {
+  const int code = run({"study", "study.toml", "-o", "out"}).code;
+  write("study.toml", "# a remark\n" + small_study);
+  EXPECT_EQ(run({"study", "study.toml", "-o", "out"}).code, code);
+  const std::string before = read("out/verdicts.csv");
+  write("study.toml", with(small_study, "0.02 cm", "0.03 cm"));
+  const Outcome other_gaps = run({"study", "study.toml", "-o", "out"});
+  EXPECT_EQ(other_gaps.code, 2);
+  EXPECT_EQ(other_gaps.lines_of_error(), 1) << other_gaps.err;
+  write("study.toml", small_study);
+  write("shell.toml", with(tiny_scene, "50 MPa", "60 MPa"));
+  EXPECT_EQ(run({"study", "study.toml", "-o", "out"}).code, 2);
+  EXPECT_EQ(read("out/verdicts.csv"), before);
+}
+
+TEST_F(StudyProgram, FaultsOfStudyAndSceneEndItBeforeAnythingIsWritten) {
+  write("study.toml", with(small_study, "gaps", "gasp"));
+  const Outcome unknown = run({"study", "study.toml", "-o", "out"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_TRUE(unknown.says("study.toml:3:")) << unknown.err;
+  EXPECT_TRUE(unknown.says("did you mean")) << unknown.err;
+  write("study.toml", small_study);
+  write("shell.toml", with(tiny_scene, "\"5 mm\"", "\"-5 mm\""));
+  const Outcome negative = run({"study", "study.toml", "-o", "out"});
+  EXPECT_EQ(negative.code, 2);
+  EXPECT_TRUE(negative.says("shell.toml:14:")) << negative.err;
+  EXPECT_FALSE(exists("out"));
+}
+
+TEST_F(StudyProgram, ExplainCountsItsRuns) {
+  const auto plan = nlohmann::json::parse(run({"explain", "study.toml", "--json"}).out);
+  EXPECT_EQ(plan["kind"], "critical-gap");
+  EXPECT_EQ(plan["mechanical_runs"], 1);
+  EXPECT_EQ(plan["coupled_runs_at_most"], 2);
+  EXPECT_EQ(plan["gaps"], 3);
+  EXPECT_NE(run({"explain", "study.toml"}).out.find("mechanical runs       1"), std::string::npos);
+}
+
+TEST_F(StudyProgram, IsInterruptedWithinTwoSeconds) {
+  using namespace std::chrono_literals;
+  write("shell.toml", long_scene());
+  start({"study", "study.toml", "-o", "out"});
+  std::this_thread::sleep_for(500ms);
+  const auto begin = std::chrono::steady_clock::now();
+  send(SIGINT);
+  const Outcome outcome = wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 2s);
+  EXPECT_EQ(outcome.code, 75) << outcome.err;
+  EXPECT_TRUE(outcome.says("launchsafe study study.toml -o out")) << outcome.err;
+}
+
+}  // namespace
+}  // namespace launchsafe::app

@@ -1,0 +1,129 @@
+// Cost of each material update, one particle at a time (double) and eight (Pack); items are particles.
+#include "launchsafe/materials/johnson_cook.hpp"
+#include "launchsafe/materials/jwl.hpp"
+#include "launchsafe/materials/mie_gruneisen.hpp"
+#include "launchsafe/materials/visco_scram.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <vector>
+
+namespace {
+
+using namespace launchsafe::materials;
+using launchsafe::math::Deviator;
+using launchsafe::math::Pack;
+
+constexpr std::size_t particles = 4096;  // fits the second-level cache
+
+template <class Real>
+constexpr std::size_t lanes = sizeof(Real) / sizeof(double);
+
+template <class Real>
+void count_particles(benchmark::State& state) {
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(particles));
+}
+
+/// Closed cracks under setback pressure that grow slowly: what most of the charge does most of the time.
+template <class Real>
+void visco_scram(benchmark::State& state) {
+  const ViscoScramParameters law;
+  const auto step = relaxation(law, 2e-7);
+  ViscoScramState<Real> virgin{};
+  virgin.crack_radius = Real(law.initial_crack_radius);
+  std::vector<ViscoScramState<Real>> points(particles / lanes<Real>, virgin);
+  const Deviator<Real> de{Real(1e-9), Real(-3e-9), Real(2e-9)};
+  Real total(0.0);
+  for (auto _ : state) {
+    for (auto& point : points) {
+      const auto lost = visco_scram_update(law, step, point, de, Real(1e8));
+      total += lost.viscous + lost.crack + lost.inelastic_strain;
+    }
+    benchmark::DoNotOptimize(total);
+  }
+  count_particles<Real>(state);
+}
+
+/// The same law while its cracks run away (no friction, high stress), sub-stepped.
+template <class Real>
+void visco_scram_runaway(benchmark::State& state) {
+  ViscoScramParameters law;
+  law.face_friction = 0.0;
+  const auto step = relaxation(law, 2e-7);
+  ViscoScramState<Real> virgin{};
+  virgin.crack_radius = Real(law.initial_crack_radius);
+  for (auto& element : virgin.elements) element.rx = Real(3e6);
+  for (auto _ : state) {
+    for (std::size_t k = 0; k < particles / lanes<Real>; ++k) {
+      auto point = virgin;
+      auto lost = visco_scram_update(law, step, point, {Real(0.0), Real(0.0), Real(1e-4)}, Real(0.0));
+      benchmark::DoNotOptimize(lost);
+    }
+  }
+  count_particles<Real>(state);
+}
+
+/// Radial return with `stress` of the first yield stress in per cent: 50 is elastic, 110 yields.
+template <class Real>
+void johnson_cook(benchmark::State& state) {
+  const JohnsonCookParameters law;
+  const double stress = 792e6 * static_cast<double>(state.range(0)) / 100.0;
+  const std::vector<Deviator<Real>> trials(
+      particles / lanes<Real>, Deviator<Real>{Real(0.0), Real(0.0), Real(stress / std::sqrt(3.0))});
+  for (auto _ : state) {
+    for (const auto& trial : trials) {
+      auto result = johnson_cook_return(law, trial, Real(1e-3), Real(320.0), Real(2e-7));
+      benchmark::DoNotOptimize(result);
+    }
+  }
+  count_particles<Real>(state);
+}
+
+template <class Real>
+void jwl(benchmark::State& state) {
+  const JwlParameters law = unreacted_composition_b();
+  for (auto _ : state) {
+    JwlState<Real> point{Real(0.0), Real(law.initial_energy)};
+    Real v(1.0);
+    for (std::size_t k = 0; k < particles / lanes<Real>; ++k) {
+      const Real next = v - Real(1e-6);
+      point = jwl_compress(law, v, point.pressure, point.energy, next);
+      Real modulus = jwl_bulk_modulus(law, next, point.energy);
+      benchmark::DoNotOptimize(modulus);
+      v = next;
+    }
+    benchmark::DoNotOptimize(point);
+  }
+  count_particles<Real>(state);
+}
+
+template <class Real>
+void mie_gruneisen(benchmark::State& state) {
+  const MieGruneisenParameters law;
+  for (auto _ : state) {
+    MieGruneisenState<Real> point{Real(0.0), Real(0.0)};
+    Real mu(0.0);
+    for (std::size_t k = 0; k < particles / lanes<Real>; ++k) {
+      const Real next = mu + Real(1e-6);
+      point = mie_gruneisen_compress(law, mu, point.pressure, point.energy, next, Real(0.0));
+      Real modulus = mie_gruneisen_bulk_modulus(law, next, point.pressure);
+      benchmark::DoNotOptimize(modulus);
+      mu = next;
+    }
+    benchmark::DoNotOptimize(point);
+  }
+  count_particles<Real>(state);
+}
+
+BENCHMARK(visco_scram<double>);
+BENCHMARK(visco_scram<Pack>);
+BENCHMARK(visco_scram_runaway<double>);
+BENCHMARK(visco_scram_runaway<Pack>);
+BENCHMARK(johnson_cook<double>)->Arg(50)->Arg(110);
+BENCHMARK(johnson_cook<Pack>)->Arg(50)->Arg(110);
+BENCHMARK(jwl<double>);
+BENCHMARK(jwl<Pack>);
+BENCHMARK(mie_gruneisen<double>);
+BENCHMARK(mie_gruneisen<Pack>);
+
+}  // namespace

@@ -1,0 +1,156 @@
+// Heat conduction: conservation, bounds, interfaces, the axisymmetric operator.
+#include "launchsafe/mpm/conduction.hpp"
+
+#include "scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace {
+
+using namespace launchsafe;
+
+void shake(mpm::Simulation& simulation, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> kelvin(300.0, 1300.0);
+  const auto set = [&](mpm::Kinematics& p) {
+    for (double& temperature : p.temperature) temperature = kelvin(random);
+  };
+  for (mpm::SteelBody& body : simulation.steel()) set(body.kinematics);
+  for (mpm::ChargeBody& body : simulation.charges()) set(body.kinematics);
+}
+
+template <class F>
+void for_each_temperature(const mpm::Simulation& simulation, F&& f) {
+  simulation.for_each_body([&](const mpm::Kinematics& p) {
+    for (std::size_t i = 0; i < p.mass.size(); ++i)
+      if (p.mass[i] > 0.0) f(p.temperature[i]);
+  });
+}
+
+TEST(Conduction, ConservesHeatOnEveryMeshAndSymmetry) {
+  for (const auto symmetry : {scene::Symmetry::axisymmetric, scene::Symmetry::plane_strain})
+    for (const double cell : {7e-3, 10e-3, 13e-3})
+      for (const double dt : {1e-3, 1.0, 1e5}) {
+        scene::Scene shell = test_support::shell_155(cell, 2);
+        shell.symmetry = symmetry;
+        mpm::Simulation simulation(shell);
+        shake(simulation, 3);
+        mpm::Conduction conduction(simulation);
+        const double before = conduction.heat(simulation);
+        conduction.advance(simulation, dt);
+        EXPECT_NEAR(conduction.heat(simulation) / before, 1.0, 1e-12) << cell << ' ' << dt;
+      }
+}
+
+TEST(Conduction, StaysWithinTheInitialExtremesForAnyStep) {
+  // Backward Euler with an M-matrix has a discrete maximum principle.
+  for (const double dt : {1e-6, 1e-2, 1e2, 1e6, 1e9}) {
+    mpm::Simulation simulation(test_support::shell_155(10e-3));
+    shake(simulation, 5);
+    mpm::Conduction conduction(simulation);
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for_each_temperature(simulation, [&](double t) {
+      low = std::min(low, t);
+      high = std::max(high, t);
+    });
+    conduction.advance(simulation, dt);
+    for_each_temperature(simulation, [&](double t) {
+      EXPECT_GE(t, low - 1e-9);
+      EXPECT_LE(t, high + 1e-9);
+    });
+  }
+}
+
+TEST(Conduction, EndsAtTheMeanTemperature) {
+  mpm::Simulation simulation(test_support::shell_155(10e-3));
+  shake(simulation, 7);
+  mpm::Conduction conduction(simulation);
+  const double heat = conduction.heat(simulation);
+  for (int step = 0; step < 3; ++step) conduction.advance(simulation, 1e9);
+  double mean = -1.0;
+  for_each_temperature(simulation, [&](double t) {
+    if (mean < 0.0) mean = t;
+    EXPECT_NEAR(t, mean, 1e-6);
+  });
+  EXPECT_NEAR(conduction.heat(simulation) / heat, 1.0, 1e-12);
+}
+
+TEST(Conduction, DecaysLikeTheFirstRadialMode) {
+  // T = 300 + 100 J0(j r/R), j = 3.8317059702075123 the first zero of J1, decays with the rate alpha (j/R)^2.
+  constexpr double radius = 0.02, zero = 3.8317059702075123;
+  const auto rate_error = [&](double cell) {
+    mpm::Simulation simulation(test_support::steel_bar(0.01, radius, cell));
+    mpm::Kinematics& p = simulation.steel()[0].kinematics;
+    for (std::size_t i = 0; i < p.r.size(); ++i)
+      p.temperature[i] = 300.0 + 100.0 * std::cyl_bessel_j(0.0, zero * p.r[i] / radius);
+    const auto amplitude = [&] {
+      double top = 0.0, bottom = 0.0;
+      for (std::size_t i = 0; i < p.r.size(); ++i) {
+        const double mode = std::cyl_bessel_j(0.0, zero * p.r[i] / radius);
+        top += p.mass[i] * (p.temperature[i] - 300.0) * mode;
+        bottom += p.mass[i] * mode * mode;
+      }
+      return top / bottom;
+    };
+    const auto& steel = simulation.scene().steel;
+    const double rate = steel.strength.conductivity / (steel.eos.density * steel.strength.specific_heat) *
+                        std::pow(zero / radius, 2);
+    mpm::Conduction conduction(simulation);
+    const double start = amplitude();
+    const double dt = 1e-4 / rate;
+    for (int step = 0; step < 100; ++step) conduction.advance(simulation, dt);
+    // Backward Euler divides by 1 + rate dt a step.
+    const double measured = (std::pow(start / amplitude(), 0.01) - 1.0) / dt;
+    return std::abs(measured / rate - 1.0);
+  };
+  const double coarse = rate_error(1e-3), fine = rate_error(0.5e-3);
+  EXPECT_LT(fine, 1e-3);
+  EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.2);
+}
+
+TEST(Conduction, CarriesTheFluxThroughTheInterfacesOfALayer) {
+  // A layer of charge between a plate of steel, heated at the base, and a sink of steel. In the end all warm
+  // at one rate, so of the heat that enters, each face passes on the share of the capacity beyond it.
+  constexpr double flux = 1e4, sink_length = 0.2, layer_length = 2e-3, plate_length = 8e-3;
+  scene::Scene pair;
+  pair.symmetry = scene::Symmetry::plane_strain;
+  const double layer_begin = sink_length, layer_end = layer_begin + layer_length;
+  pair.bodies = {{"sink", scene::BodyMaterial::steel, 0.0, layer_begin, 0.0, 1e-3},
+                 {"layer", scene::BodyMaterial::charge, layer_begin, layer_end, 0.0, 1e-3},
+                 {"plate", scene::BodyMaterial::steel, layer_end, layer_end + plate_length, 0.0, 1e-3}};
+  pair.numerics.cell_size = 1e-3;
+  mpm::Simulation simulation(pair);
+  mpm::Conduction conduction(simulation);
+  conduction.heat_base(flux);
+  // Time constants: plate over layer 230 s, sink 3800 s/pi^2.
+  for (int step = 0; step < 400; ++step) conduction.advance(simulation, 50.0);
+  const double sink = 7830.0 * 460.0 * sink_length, layer = 1717.0 * 1780.0 * layer_length,
+               plate = 7830.0 * 460.0 * plate_length;
+  const mpm::Kinematics& in_layer = simulation.charges()[0].kinematics;
+  const mpm::Kinematics& in_plate = simulation.steel()[1].kinematics;
+  const auto at = [](const mpm::Kinematics& p, int i) { return p.temperature[p.lattice.slot(i, 0)]; };
+  const double through_middle = (at(in_layer, 1) - at(in_layer, 0)) * 0.246 / in_layer.lattice.spacing_x;
+  EXPECT_NEAR(through_middle / flux, (sink + 0.5 * layer) / (sink + layer + plate), 1e-4);
+  // From the layer's last particle to the plate's first: two half spacings in series.
+  const double resistance = 0.5 * (in_layer.lattice.spacing_x / 0.246 + in_plate.lattice.spacing_x / 38.0);
+  EXPECT_NEAR((at(in_plate, 0) - at(in_layer, 1)) / resistance / flux,
+              (sink + layer) / (sink + layer + plate), 1e-4);
+}
+
+TEST(Conduction, RefreshesTheFlowStressOfHeatedSteel) {
+  mpm::Simulation simulation(test_support::steel_bar(0.02, 0.01, 2.5e-3));
+  mpm::Conduction conduction(simulation);
+  conduction.hold_base(900.0);
+  conduction.advance(simulation, 100.0);
+  const mpm::SteelBody& body = simulation.steel()[0];
+  const std::size_t slot = body.kinematics.lattice.slot(0, 0);
+  EXPECT_GT(body.kinematics.temperature[slot], 500.0);
+  EXPECT_DOUBLE_EQ(body.flow_stress[slot],
+                   materials::johnson_cook_flow_stress(simulation.scene().steel.strength, 0.0, 0.0,
+                                                       body.kinematics.temperature[slot]));
+}
+
+}  // namespace

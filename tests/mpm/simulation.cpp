@@ -1,0 +1,149 @@
+// The step: balance of uniform stress, momentum, frames.
+#include "launchsafe/mpm/simulation.hpp"
+
+#include "launchsafe/materials/mie_gruneisen.hpp"
+#include "scenes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace launchsafe;
+
+/// All steel under one hydrostatic pressure, at rest, with particles that still tile the body. Returns the
+/// pressure.
+double compress(mpm::Simulation& simulation, double mu) {
+  const auto& eos = simulation.scene().steel.eos;
+  const double pressure = materials::mie_gruneisen_pressure(eos, mu, 0.0);
+  for (mpm::SteelBody& body : simulation.steel()) {
+    mpm::Kinematics& p = body.kinematics;
+    for (std::size_t i = 0; i < p.mass.size(); ++i) {
+      p.density[i] *= 1.0 + mu;
+      p.mass[i] *= 1.0 + mu;
+      p.pressure[i] = pressure;
+    }
+  }
+  simulation.restart();
+  return pressure;
+}
+
+/// Scenes whose meshes do and do not divide their lengths.
+std::vector<scene::Scene> patches() {
+  std::vector<scene::Scene> all;
+  for (const auto symmetry : {scene::Symmetry::axisymmetric, scene::Symmetry::plane_strain})
+    for (const double cell : {2.5e-3, 2.7e-3})
+      for (const int per_cell : {1, 2, 3}) {
+        scene::Scene bar = test_support::steel_bar(0.06, 0.02, cell, per_cell);
+        // Two bodies whose common face lies inside cells.
+        bar.bodies = {{"front", scene::BodyMaterial::steel, 0.0, 0.0283, 0.0, 0.02},
+                      {"core", scene::BodyMaterial::steel, 0.0283, 0.06, 0.0, 0.0131},
+                      {"wall", scene::BodyMaterial::steel, 0.0283, 0.06, 0.0131, 0.02}};
+        bar.symmetry = symmetry;
+        bar.frame = scene::Frame::lab;
+        all.push_back(bar);
+      }
+  return all;
+}
+
+TEST(PatchTest, PressureOnTheBaseBalancesUniformStress) {
+  for (const scene::Scene& bar : patches()) {
+    const double mu = 1e-3;
+    scene::Scene loaded = bar;
+    loaded.load = test_support::steady_pressure(materials::mie_gruneisen_pressure(bar.steel.eos, mu, 0.0));
+    mpm::Simulation simulation(loaded);
+    compress(simulation, mu);
+    const double dt = 1e-12;
+    simulation.step(dt);  // gives the grid the stress
+    const mpm::Grid& grid = simulation.grid();
+    const double largest_force = *std::max_element(grid.force_x.begin(), grid.force_x.end());
+    ASSERT_GT(largest_force, 0.0);
+    const math::AlignedArray force_r = grid.force_r;
+    simulation.step(dt);
+    for (int j = 0; j < grid.nodes_r; ++j)
+      for (int i = 0; i < grid.nodes_x; ++i) {
+        const std::size_t n = grid.index(i, j);
+        const bool beyond_front = grid.origin_x + i * grid.dx > 2.5 * grid.dx;
+        if (beyond_front) {
+          EXPECT_NEAR(grid.change_x[n] / dt, 0.0, 1e-3) << i << ' ' << j;  // m/s2, of 1e7 at the free front
+        }
+        if (grid.moves_r[n] > 0.0) {
+          EXPECT_NEAR(force_r[n] / largest_force, 0.0, 1e-12) << i << ' ' << j;
+        }
+      }
+  }
+}
+
+TEST(PatchTest, PressureInTheBoreBalancesUniformStress) {
+  for (const auto symmetry : {scene::Symmetry::axisymmetric, scene::Symmetry::plane_strain})
+    for (const double cell : {2.5e-3, 2.7e-3}) {
+      scene::Scene ring = test_support::steel_bar(0.06, 0.02, cell);
+      ring.bodies[0].r_begin = 0.0087;
+      ring.symmetry = symmetry;
+      ring.frame = scene::Frame::lab;
+      const double mu = 1e-3;
+      ring.load = test_support::steady_pressure(materials::mie_gruneisen_pressure(ring.steel.eos, mu, 0.0));
+      mpm::Simulation simulation(ring);
+      simulation.press_bore(0, compress(simulation, mu));
+      const double dt = 1e-12;
+      simulation.step(dt);
+      simulation.step(dt);
+      const mpm::Grid& grid = simulation.grid();
+      for (int j = 0; j < grid.nodes_r; ++j)
+        for (int i = 0; i < grid.nodes_x; ++i) {
+          const std::size_t n = grid.index(i, j);
+          if (grid.moves_r[n] > 0.0) {
+            EXPECT_NEAR(grid.change_r[n] / dt, 0.0, 1e-2) << i << ' ' << j;  // m/s2, of 1e7 without
+          }
+        }
+    }
+}
+
+TEST(Simulation, RigidAccelerationIsPressureTimesAreaOverMass) {
+  // Model section 1: 496 MPa on the 155 mm shell.
+  const mpm::Simulation still(test_support::shell_155());
+  EXPECT_NEAR(still.frame_acceleration(11e-3), 1.46479e5, 0.5);
+}
+
+TEST(Simulation, KeepsTheRelativeMomentumZeroInTheCoMovingFrame) {
+  // The body force takes exactly what the pressure gives, so the projectile stays where it is.
+  scene::Scene shell = test_support::shell_155(5e-3);
+  shell.load.peak_time = 1e-3;
+  shell.load.duration = 1e-3;
+  mpm::Simulation simulation(shell);
+  double given = 0.0;
+  while (simulation.time() < 1e-3) {
+    const double dt = simulation.stable_time_step();
+    given += simulation.frame_acceleration(simulation.time()) * dt;
+    simulation.step(dt);
+  }
+  EXPECT_GT(given, 10.0);
+  EXPECT_NEAR(simulation.axial_momentum() / 10.0, 0.0, 1e-10 * given);
+}
+
+TEST(Simulation, GainsTheImpulseOfThePressureInTheLabFrame) {
+  scene::Scene shell = test_support::shell_155(5e-3);
+  shell.frame = scene::Frame::lab;
+  shell.load = test_support::steady_pressure(100e6);
+  mpm::Simulation simulation(shell);
+  while (simulation.time() < 1e-3) simulation.step(simulation.stable_time_step());
+  const double impulse = 100e6 * scene::base_area(shell) * simulation.time();
+  EXPECT_NEAR(2.0 * std::numbers::pi * simulation.axial_momentum() / -impulse, 1.0, 1e-10);
+}
+
+TEST(Simulation, IsBitwiseRepeatable) {
+  const auto run = [] {
+    mpm::Simulation simulation(test_support::shell_155(5e-3));
+    for (int step = 0; step < 200; ++step) simulation.step(simulation.stable_time_step());
+    return simulation.charges()[0].kinematics.x;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+TEST(Simulation, InertialScalingLengthensTheStepByItsRoot) {
+  scene::Scene shell = test_support::shell_155(5e-3);
+  const double plain = mpm::Simulation(shell).stable_time_step();
+  shell.numerics.inertial_scaling = 16.0;
+  EXPECT_NEAR(mpm::Simulation(shell).stable_time_step(), 4.0 * plain, 1e-12 * plain);
+}
+
+}  // namespace

@@ -1,0 +1,107 @@
+#include "launchsafe/study/scheduler.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+namespace {
+
+using namespace launchsafe::study;
+
+Task task_of(double cost, std::function<void()> work) {
+  return {cost, [work = std::move(work)](const std::function<void(double)>&) { work(); }};
+}
+
+TEST(Scheduler, StartsTheMostCostlyFirst) {
+  std::vector<int> order;
+  std::vector<Task> tasks;
+  for (const int cost : {2, 5, 1, 4, 3})
+    tasks.push_back(task_of(cost, [&order, cost] { order.push_back(cost); }));
+  ProgressTracker tracker({});
+  run_tasks(tasks, 1, tracker);
+  EXPECT_EQ(order, (std::vector<int>{5, 4, 3, 2, 1}));
+}
+
+TEST(Scheduler, AFailureIsThatTasksAlone) {
+  std::atomic<int> done{0};
+  std::vector<Task> tasks;
+  for (int i = 0; i < 8; ++i) {
+    tasks.push_back(task_of(1, [&done, i] {
+      if (i == 3) throw std::runtime_error("broken");
+      if (i == 5) throw 5;
+      ++done;
+    }));
+  }
+  ProgressTracker tracker({});
+  const auto outcomes = run_tasks(tasks, 2, tracker);
+  EXPECT_EQ(done, 6);
+  EXPECT_EQ(outcomes[3].failure, "broken");
+  EXPECT_EQ(outcomes[5].failure, "an unknown exception");
+  for (const std::size_t i : {0u, 1u, 2u, 4u, 6u, 7u}) EXPECT_TRUE(outcomes[i].failure.empty()) << i;
+}
+
+TEST(Scheduler, NeverRunsMoreThanTheJobsAskedFor) {
+  for (const int jobs : {1, 2}) {
+    std::atomic<int> running{0}, most{0};
+    std::vector<Task> tasks;
+    for (int i = 0; i < 12; ++i) {
+      tasks.push_back(task_of(1, [&] {
+        const int now = ++running;
+        int before = most;
+        while (now > before && !most.compare_exchange_weak(before, now)) {
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        --running;
+      }));
+    }
+    ProgressTracker tracker({});
+    run_tasks(tasks, jobs, tracker);
+    EXPECT_LE(most, jobs);
+  }
+}
+
+TEST(Scheduler, StartsNothingAfterTheStopFlag) {
+  std::atomic<bool> stop{false};
+  std::vector<Task> tasks;
+  for (int i = 0; i < 4; ++i) tasks.push_back(task_of(4 - i, [&stop, i] { stop = i == 1; }));
+  ProgressTracker tracker({});
+  const auto outcomes = run_tasks(tasks, 1, tracker, &stop);
+  EXPECT_TRUE(outcomes[0].started);
+  EXPECT_TRUE(outcomes[1].started);
+  EXPECT_FALSE(outcomes[2].started);
+  EXPECT_FALSE(outcomes[3].started);
+}
+
+TEST(Scheduler, ReportsProgressThatEndsAtOne) {
+  std::vector<Progress> reports;
+  ProgressTracker tracker([&reports](const Progress& progress) { reports.push_back(progress); });
+  std::vector<Task> tasks;
+  for (int i = 0; i < 3; ++i) {
+    tasks.push_back({1.0 + i, [](const std::function<void(double)>& report) {
+                       report(0.5);
+                       report(0.25);  // never goes back
+                     }});
+    tracker.expect(1, tasks.back().cost);
+  }
+  run_tasks(tasks, 1, tracker);
+  ASSERT_FALSE(reports.empty());
+  EXPECT_TRUE(std::is_sorted(reports.begin() + 3, reports.end(),
+                             [](const Progress& a, const Progress& b) { return a.fraction < b.fraction; }));
+  EXPECT_EQ(reports.back().done, 3u);
+  EXPECT_EQ(reports.back().total, 3u);
+  EXPECT_EQ(reports.back().running, 0u);
+  EXPECT_NEAR(reports.back().fraction, 1.0, 1e-12);
+  EXPECT_NEAR(reports.back().seconds_left, 0.0, 1e-9);
+}
+
+TEST(Scheduler, RunsNothingForNoTasks) {
+  ProgressTracker tracker({});
+  EXPECT_TRUE(run_tasks({}, 4, tracker).empty());
+}
+
+TEST(Scheduler, FindsAtLeastOneCore) { EXPECT_GE(available_cores(), 1); }
+
+}  // namespace

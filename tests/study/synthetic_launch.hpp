@@ -1,0 +1,100 @@
+// A launch in closed form in place of the mechanics, so that studies run in milliseconds.
+#pragma once
+
+#include "launchsafe/run/run_case.hpp"
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/read_study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace launchsafe::study {
+
+inline const std::filesystem::path studies_folder = std::filesystem::path(LAUNCHSAFE_SOURCE_DIR) / "studies";
+
+/// A study text as if it stood beside the shipped ones.
+inline scene::Expected<StudyFile> parse_here(const std::string& text) {
+  return parse_study(text, studies_folder / "some_study.toml");
+}
+
+inline StudyFile study_of(const std::string& text) {
+  auto study = parse_here(text);
+  EXPECT_TRUE(study) << (study ? "" : study.error().message());
+  return study ? *study : StudyFile{};
+}
+
+inline const std::string critical_text = "kind = \"critical-gap\"\nscene = \"scene_155mm.toml\"\n";
+
+/// The bottom under a load of the default shape: pressure in proportion to the peak, friction energy that
+/// grows with t^3, highest at the second station in the end.
+inline trace::BottomTrace synthetic_trace(double peak, double friction) {
+  constexpr int intervals = 240;
+  trace::BottomTrace trace;
+  trace.stations = {{"G1", 0.6775, 0.0625, 0.0, true},
+                    {"G2", 0.6775, 0.0575, 0.0, true},
+                    {"G13", 0.6775, 0.0025, 0.0, true},
+                    {"row 0", 0.6775, 0.0637, 1e-4, false}};
+  const double shares[2][4] = {{0.95, 1.0, 0.7, 1.02}, {0.9, 1.0, 0.5, 1.02}};
+  const auto pressure = [peak](double t) {
+    return 101325.0 + 140.0 / 496.0 * peak * std::pow(t / 11e-3 * std::exp(1.0 - t / 11e-3), 12.0);
+  };
+  for (int sample = 0; sample <= intervals; ++sample) {
+    const double dt = 18e-3 / intervals, t = dt * sample;
+    double mean = 0.0;
+    for (int k = 0; k < 16; ++k) mean += pressure(t - dt * (k + 0.5) / 16.0) / 16.0;
+    if (sample == 0) mean = pressure(0.0);
+    trace.time.push_back(t);
+    for (auto* values : {&trace.bottom_pressure, &trace.chamber_pressure}) values->push_back(pressure(t));
+    for (auto* values : {&trace.mean_bottom_pressure, &trace.mean_chamber_pressure}) values->push_back(mean);
+    trace.steps.push_back(200.0 * sample);
+    for (std::size_t closure = 0; closure < 2; ++closure) {
+      for (const double share : shares[closure])
+        trace.friction[closure].push_back(share * friction * std::pow(t / 18e-3, 3.0));
+    }
+  }
+  return trace;
+}
+
+/// Friction energy (J/m3, before localisation) that heats by `kelvin` at a localisation of 300.
+inline double friction_for(double kelvin) { return kelvin * 1717.0 * 1780.0 / 300.0; }
+
+inline run::MechanicsResult synthetic_mechanics(const scene::Scene& scene, double kelvin = 116.1) {
+  run::MechanicsResult result;
+  result.end_time = scene.load.duration;
+  result.steps = 1000;
+  result.particles = 10;
+  result.wall_time = 1.0;
+  result.trace = synthetic_trace(scene.load.peak, friction_for(kelvin));
+  return result;
+}
+
+/// Runners on the synthetic trace; the coupled one agrees with it.
+inline Runners synthetic_runners(double kelvin = 116.1) {
+  return {[kelvin](const scene::Scene& scene, const run::RunOptions&) {
+            return synthetic_mechanics(scene, kelvin);
+          },
+          [kelvin](const scene::Scene& scene, double gap, const run::RunOptions&) {
+            run::CaseResult result;
+            result.mechanics = synthetic_mechanics(scene, kelvin);
+            result.gaps.push_back(run::evaluate_gap(scene, result.mechanics.trace, gap));
+            return result;
+          }};
+}
+
+/// The constants that the synthetic launch is made for.
+inline const std::string synthetic_constants =
+    "[set]\nfriction.closure = \"literal\"\nfriction.localisation = 300\ngap.exchange_time = \"0.36 ms\"\n"
+    "kinetics.set = \"comp-b\"\nkinetics.ignition_temperature = \"525 K\"\n";
+
+inline StudyOptions synthetic_options(int jobs = 1) {
+  StudyOptions options;
+  options.jobs = jobs;
+  options.runners = synthetic_runners();
+  return options;
+}
+
+}  // namespace launchsafe::study
