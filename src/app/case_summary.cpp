@@ -1,6 +1,7 @@
 #include "case_summary.hpp"
 
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
 #include <fmt/format.h>
@@ -171,6 +172,9 @@ report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result
     row.emplace_back(ignition_text(gap.skin.ignition, trace));
     table.rows.push_back(std::move(row));
   }
+  if (const std::string edges = scene::charge_edges_off_grid(scene); !edges.empty())
+    table.notes.push_back("The charge lies off the grid lines (" + edges +
+                          "): calibrated constants do not carry over from a grid that fits.");
   table.notes.push_back(
       "T max is over the observation points, which verdicts use; the place next to the wall is a stress "
       "singularity, where the maximum anywhere grows with refinement.");

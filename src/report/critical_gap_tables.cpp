@@ -1,5 +1,6 @@
 // The tables of a critical-gap study.
 #include "launchsafe/report/critical_gap_report.hpp"
+#include "launchsafe/scene/mesh.hpp"
 #include "study_text.hpp"
 
 #include <fmt/format.h>
@@ -72,6 +73,9 @@ Table verdict_table(const CriticalGapResult& result) {
   }
   if (result.study.study.numerical_uncertainty == 0.0)
     table.notes.push_back("The uncertainty does not include the error of the mesh.");
+  if (const std::string edges = scene::charge_edges_off_grid(result.study.scene.scene); !edges.empty())
+    table.notes.push_back("The charge lies off the grid lines (" + edges +
+                          "): calibrated constants do not carry over from a grid that fits.");
   table.notes.push_back(
       "Verdicts rest on the observation points; \"anywhere\" includes the corner of charge, wall and base, a "
       "stress singularity whose value grows as the mesh is refined.");

@@ -1,5 +1,7 @@
 #include "launchsafe/scene/mesh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -27,6 +29,20 @@ Mesh fit_mesh(const Scene& scene) {
   mesh.x_anchor = fitted.x_end;
   mesh.radius = all.r_end;
   return mesh;
+}
+
+std::string charge_edges_off_grid(const Scene& scene) {
+  const Mesh mesh = fit_mesh(scene);
+  std::string edges;
+  for (const Body& body : scene.bodies) {
+    if (body.material != BodyMaterial::charge) continue;
+    for (const double r : {body.r_begin, body.r_end}) {
+      const double cells = r / mesh.dr;
+      if (std::abs(cells - std::round(cells)) < 1e-6) continue;
+      edges += fmt::format("{}r = {:.6g} cm at {:.2f} cells", edges.empty() ? "" : ", ", 100.0 * r, cells);
+    }
+  }
+  return edges;
 }
 
 ParticleCount particles_of(const Mesh& mesh, const Body& body, int particles_per_cell) {

@@ -82,6 +82,9 @@ std::string cost_text(const Plan& plan, const Scene& scene, double update_rate) 
   std::string text = "Cost\n";
   text += row("mesh", fmt::format("{} cells of {:.6g} x {:.6g} mm, {} particles", plan.cells, 1e3 * mesh.dx,
                                   1e3 * mesh.dr, plan.particles()));
+  if (const std::string edges = charge_edges_off_grid(scene); !edges.empty())
+    text +=
+        row("charge off the grid", edges + "; calibrated constants do not carry over from a grid that fits");
   text += row("time step",
               fmt::format("{} at rest, sound at {:.2f} m/s", format_quantity(plan.time_step, Dimension::time),
                           longitudinal_speed(scene)));

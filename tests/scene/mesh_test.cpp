@@ -49,5 +49,15 @@ TEST(Mesh, SceneWithoutChargeIsFittedAsAWhole) {
   EXPECT_EQ(particle_count(scene), 34 * 4);
 }
 
+TEST(Mesh, NamesTheChargeEdgeThatTheGridLinesMiss) {
+  Scene scene;
+  scene.bodies = {{"charge", BodyMaterial::charge, 0.0, 0.1, 0.0, 0.065},
+                  {"wall", BodyMaterial::steel, 0.0, 0.1, 0.065, 0.0775}};
+  scene.numerics.cell_size = 2.5e-3;  // 26 and 31 cells
+  EXPECT_EQ(charge_edges_off_grid(scene), "");
+  scene.numerics.cell_size = 1e-3;  // 77.5 mm make 78 cells, 65 mm 65.42
+  EXPECT_EQ(charge_edges_off_grid(scene), "r = 6.5 cm at 65.42 cells");
+}
+
 }  // namespace
 }  // namespace launchsafe::scene

@@ -5,6 +5,7 @@
 #include "launchsafe/scene/scene.hpp"
 
 #include <cstdint>
+#include <string>
 
 namespace launchsafe::scene {
 
@@ -32,6 +33,12 @@ int parts_of(double length, double part);
 /// number of cells wide, none larger than `scene.numerics.cell_size`. Needs at least one body and a cell size
 /// > 0.
 Mesh fit_mesh(const Scene& scene);
+
+/// Radial edges of charge bodies that lie off the grid lines, for a message ("r = 6.5 cm at 65.42 cells");
+/// empty where the grid runs along all of them. Off grid lines charge and wall share cells, which changes the
+/// friction heat beside the wall by a share that refinement does not remove: constants calibrated on a grid
+/// that fits do not carry over.
+std::string charge_edges_off_grid(const Scene& scene);
 
 /// Particles for `particles_per_cell` >= 1 in each direction: the body's length over the cell's, rounded up.
 ParticleCount particles_of(const Mesh& mesh, const Body& body, int particles_per_cell);
