@@ -95,7 +95,7 @@ std::string energy_text(const run::EnergyBalance& energy) {
 std::string limiter_text(const run::LimiterCounts& limiters) {
   std::string text;
   const auto add = [&text](std::string_view what, std::uint64_t count) {
-    if (count > 0) text += line(what, fmt::format("{} particles", count));
+    if (count > 0) text += line(what, fmt::format("{} particle-steps", count));
   };
   add("crack at its bound", limiters.crack_at_bound);
   add("tension cut-off", limiters.tension_cutoff);

@@ -11,7 +11,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace launchsafe::app {
 namespace {
@@ -98,6 +100,13 @@ ExitCode run_command(const RunArguments& arguments, Console& console) {
   object["input_sha256"] = manifest.input_sha256;
   object["file"] = target.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(target.string());
   console.print_json(object);
+  const bool finite = std::all_of(result.gaps.begin(), result.gaps.end(), [](const run::GapResult& gap) {
+    return std::isfinite(gap.anywhere.temperature);
+  });
+  if (!finite) {
+    console.error("a skin temperature is not a number; every verdict on it is indeterminate");
+    return ExitCode::indeterminate;
+  }
   if (result.mechanics.status == run::RunStatus::completed) return ExitCode::done;
   console.error(fmt::format("the run ended early ({}): {}; every verdict on it is indeterminate",
                             run::to_string(result.mechanics.status), result.mechanics.reason));

@@ -55,9 +55,10 @@ std::string uncertainty_text(const CriticalGapResult& result) {
       "The uncertainty of a temperature is the sum of the trace's sampling error, the integration error and, "
       "where confirmed, the largest difference between traced and coupled runs";
   const double numerical = result.study.study.numerical_uncertainty;
-  text += numerical > 0
-              ? fmt::format(", and {} K for the mesh, as the study states.", significant(numerical, 3))
-              : std::string(". The error of the mesh is not included (`numerical_uncertainty` is 0 K).");
+  text += fmt::format(", and {} K for the mesh, {}.", significant(numerical, 3),
+                      result.study.study.numerical_uncertainty_assumed
+                          ? "assumed, as the study states none for these settings"
+                          : "as the study states");
   for (const CaseOutcome& outcome : result.cases) {
     for (const study::Confirmation& each : outcome.confirmations) {
       if (!std::isfinite(each.difference)) continue;

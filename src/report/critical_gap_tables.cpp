@@ -71,8 +71,11 @@ Table verdict_table(const CriticalGapResult& result) {
            study::to_string(row.judgement.verdict), row.judgement.reason, ignition_text(row)});
     }
   }
-  if (result.study.study.numerical_uncertainty == 0.0)
-    table.notes.push_back("The uncertainty does not include the error of the mesh.");
+  if (result.study.study.numerical_uncertainty_assumed)
+    table.notes.push_back(
+        fmt::format("The uncertainty includes {} K for the mesh, assumed: the study states none that "
+                    "applies to these settings (`numerical_uncertainty`).",
+                    result.study.study.numerical_uncertainty));
   if (const std::string edges = scene::charge_edges_off_grid(result.study.scene.scene); !edges.empty())
     table.notes.push_back("The charge lies off the grid lines (" + edges +
                           "): calibrated constants do not carry over from a grid that fits.");
@@ -107,7 +110,8 @@ Table comparison_table(const CriticalGapResult& result) {
       if (!row.reference) continue;
       const study::Reference& paper = *row.reference;
       ignited = ignited || paper.ignited() || row.ignition;
-      if (paper.calibrated && !(std::abs(row.misfit()) <= worst)) worst = std::abs(row.misfit());
+      if (paper.calibrated)
+        worst = std::max(worst, std::isfinite(row.misfit()) ? std::abs(row.misfit()) : HUGE_VAL);
       table.rows.push_back({100.0 * row.gap, standing_of(row), row.maximum.temperature,
                             optional_number(paper.maximum_temperature), optional_number(row.misfit()),
                             row.maximum.point, paper.point, row.early.temperature,
@@ -122,9 +126,10 @@ Table comparison_table(const CriticalGapResult& result) {
       "this row; its other columns, and all of the hold-outs, are predictions.");
   if (!(worst <= calibration_slack)) {
     table.notes.push_back(fmt::format(
-        "The scene's constants do not meet the calibrated rows (misfit {:.1f} K): they belong to other "
-        "settings, and no row here counts as calibrated.",
-        worst));
+        "The scene's constants do not meet the calibrated rows ({}): they belong to other settings, and no "
+        "row here "
+        "counts as calibrated.",
+        std::isfinite(worst) ? fmt::format("misfit {:.1f} K", worst) : std::string("one of them ignites")));
   }
   if (ignited) {
     table.notes.push_back(

@@ -34,7 +34,7 @@ class CoupledSurface {
     const auto& stations = recorder.trace().stations;
     points_.assign(stations.size(), surface::SkinPoint{model_.initial_temperature});
     friction_.assign(stations.size(), 0.0);
-    air_pressure_ = pressure_of(recorder, scene.load.base);
+    air_pressure_ = pressure_of(recorder, scene::PressureHistory(scene.load).at(0.0));
     record(recorder);
   }
 

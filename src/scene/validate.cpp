@@ -215,6 +215,9 @@ bool inside(const Body& body, const ObservationPoint& point, double tolerance) {
          point.r >= body.r_begin - tolerance && point.r <= body.r_end + tolerance;
 }
 
+/// m. Observation points read the skin of the charge's bottom, and verdicts rest on them.
+constexpr double largest_point_depth = 10e-3;
+
 Fault check_observation_points(const SceneFile& file) {
   const double tolerance = tolerance_of(file);
   for (const ObservationPoint& point : file.scene.output.observation_points) {
@@ -222,6 +225,12 @@ Fault check_observation_points(const SceneFile& file) {
         std::any_of(file.scene.bodies.begin(), file.scene.bodies.end(), [&](const Body& body) {
           return body.material == BodyMaterial::charge && inside(body, point, tolerance);
         });
+    const double depth = extent_of(file.scene, BodyMaterial::charge).x_end - point.x;
+    if (in_charge && depth > largest_point_depth + tolerance) {
+      return fault_at(file, fmt::format("observation_point.{}.x", point.name), centimetres(point.x),
+                      fmt::format("at most {} from the charge's bottom, whose temperatures it reads",
+                                  centimetres(largest_point_depth)));
+    }
     if (in_charge) continue;
     const Extent charge = extent_of(file.scene, BodyMaterial::charge);
     const bool in_x = point.x >= charge.x_begin - tolerance && point.x <= charge.x_end + tolerance;

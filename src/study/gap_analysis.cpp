@@ -152,8 +152,8 @@ void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
           run::evaluate_gap(outcome.input.scene.scene, outcome.result.mechanics.trace, gap));
       outcome.verdicts.push_back(row_of(study, outcome, outcome.result.gaps.back()));
     }
-    if (const Reference* reference = reference_for(study, gap))
-      outcome.verdicts.back().reference = *reference;
+    const Reference* reference = outcome.input.own_conditions ? reference_for(study, gap) : nullptr;
+    if (reference != nullptr) outcome.verdicts.back().reference = *reference;
   }
 }
 
@@ -170,18 +170,33 @@ void apply_confirmations(const Study& study, CaseOutcome& outcome) {
   }
 }
 
+/// True where a row that the constants were calibrated on is missed: the constants belong to other settings,
+/// and a stated uncertainty does not cover that.
+bool misses_calibrated_rows(const CaseOutcome& outcome) {
+  constexpr double slack = 0.5;  // K
+  return std::any_of(outcome.verdicts.begin(), outcome.verdicts.end(), [](const GapVerdict& row) {
+    return row.reference && row.reference->calibrated && !(std::abs(row.misfit()) <= slack);
+  });
+}
+
 void conclude(const Study& study, CaseOutcome& outcome) {
   double coupling = 0;
   for (const Confirmation& confirmation : outcome.confirmations) {
     if (std::isfinite(confirmation.difference))
       coupling = std::max(coupling, std::abs(confirmation.difference));
   }
+  const bool foreign = misses_calibrated_rows(outcome);
   std::vector<double> gaps, temperatures;
   for (GapVerdict& row : outcome.verdicts) {
     row.uncertainty.coupling = coupling;
+    if (foreign)
+      row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
     row.judgement = judge({outcome.completed(), outcome.failure, row.ignition.has_value(), row.gap,
                            row.maximum.temperature, row.margin, row.uncertainty.total()},
                           outcome.critical);
+    if (!row.ignition && row.ignition_anywhere)
+      row.judgement.reason +=
+          "; the bottom ignites off the observation points, at " + row.ignition_anywhere->point;
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);
     temperatures.push_back(row.maximum.temperature);

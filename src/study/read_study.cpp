@@ -1,5 +1,6 @@
 #include "launchsafe/study/read_study.hpp"
 
+#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/study/calibration.hpp"
 #include "study_keys.hpp"
 
@@ -186,11 +187,16 @@ Fault add_cases(StudyFile& study, const std::vector<Axis>& axes, std::size_t dep
                    s.charge.cracks.initial_crack_radius,
                    s.charge.cracks.flaw_size,
                    s.numerics.cell_size,
+                   true,
                    scene};
     made.label = study.study.kind == StudyKind::calibration
                      ? fmt::format("{:.6g} mm", 1e3 * made.cell_size)
                      : fmt::format("{:.6g} MPa, {:.6g} um, {:.6g} mm", 1e-6 * made.peak_pressure,
                                    1e6 * made.crack_radius, 1e3 * made.flaw_size);
+    const scene::Scene& own = study.scene.scene;
+    made.own_conditions = made.peak_pressure == own.load.peak &&
+                          made.crack_radius == own.charge.cracks.initial_crack_radius &&
+                          made.flaw_size == own.charge.cracks.flaw_size;
     study.cases.push_back(std::move(made));
     return std::nullopt;
   }
@@ -219,6 +225,20 @@ Fault make_cases(StudyFile& study) {
                    0, study.scene);
 }
 
+/// A stated uncertainty belongs to the scene's own numerics on a grid that runs along the charge's edges.
+/// Without one, or elsewhere, nothing is known, and a large one is assumed, so that no verdict is SAFE on the
+/// strength of silence.
+void settle_numerical_uncertainty(StudyFile& study) {
+  Study& s = study.study;
+  const bool other_numerics =
+      std::any_of(study.overrides.begin(), study.overrides.end(),
+                  [](const auto& each) { return each.first.starts_with("numerics."); });
+  const bool unstated = !std::isfinite(s.numerical_uncertainty);
+  if (!unstated && !other_numerics && scene::charge_edges_off_grid(study.scene.scene).empty()) return;
+  s.numerical_uncertainty_assumed = unstated || s.numerical_uncertainty < assumed_numerical_uncertainty;
+  if (s.numerical_uncertainty_assumed) s.numerical_uncertainty = assumed_numerical_uncertainty;
+}
+
 }  // namespace
 
 scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& path) {
@@ -236,6 +256,7 @@ scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesys
   if (Fault fault = read_scene_of(study, path.parent_path())) return *fault;
   if (Fault fault = apply_overrides(*table, study)) return *fault;
   if (Fault fault = check_scene(study)) return *fault;
+  settle_numerical_uncertainty(study);
   if (Fault fault = make_cases(study)) return *fault;
   if (study.study.title.empty()) study.study.title = study.scene.scene.title;
   return study;

@@ -153,7 +153,8 @@ TEST(Air, StaysAtItsInitialTemperatureBelowItsInitialPressure) {
 }
 
 TEST(ReactionDegree, RisesLinearlyBetweenItsTemperatures) {
-  const KineticsParameters k;
+  KineticsParameters k;
+  k.ignition_temperature = 525.0;
   EXPECT_EQ(reaction_degree(k, 524.9), 0.0);
   EXPECT_NEAR(reaction_degree(k, 0.5 * (525.0 + 784.0)), 0.5, 1e-14);
   EXPECT_EQ(reaction_degree(k, 785.0), 1.0);

@@ -11,9 +11,21 @@ using namespace launchsafe::study;
 
 const std::string gaps = "gaps = \"0, 0.01, 0.02, 0.03, 0.06 cm\"\n";
 
-TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
-  const CriticalGapResult result =
+/// Silence about the mesh is no certainty: the same gaps as above, nothing stated.
+TEST(CriticalGapStudy, WithoutAStatedUncertaintyASmallMarginIsNotSafe) {
+  const auto result =
       run_critical_gap(study_of(critical_text + gaps + synthetic_constants), synthetic_options());
+  for (const GapVerdict& row : result.cases.front().verdicts)
+    if (row.judgement.verdict == Verdict::safe) {
+      EXPECT_GT(row.margin, assumed_numerical_uncertainty);
+    }
+  EXPECT_TRUE(result.any_indeterminate());
+}
+
+TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
+  const CriticalGapResult result = run_critical_gap(
+      study_of(critical_text + gaps + "numerical_uncertainty = \"0.1 K\"\n" + synthetic_constants),
+      synthetic_options());
   ASSERT_EQ(result.cases.size(), 1u);
   const CaseOutcome& outcome = result.cases[0];
   ASSERT_EQ(outcome.critical.kind, CriticalGapKind::value) << outcome.critical.reason;

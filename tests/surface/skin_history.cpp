@@ -1,5 +1,6 @@
 // The skin on a whole trace: air models, sampling, ignition, maxima, cost.
 #include "launchsafe/surface/skin.hpp"
+#include "plain_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -49,7 +50,7 @@ double last(const SkinHistory& history, const trace::BottomTrace& trace, std::si
 
 TEST(SkinHistory, WithoutGapOnlyFrictionHeats) {
   const trace::BottomTrace trace = launch(100, 0, friction_energy);
-  SkinModel model;
+  SkinModel model = plain_model();
   model.kinetics.frequency = 0.0;
   const SkinHistory history = integrate_skin(model, trace, 0.0);
   EXPECT_NEAR(last(history, trace, 0), 300.0 + 300.0 * friction_energy / (1717.0 * 1780.0), 1e-9);
@@ -58,7 +59,7 @@ TEST(SkinHistory, WithoutGapOnlyFrictionHeats) {
 }
 
 TEST(SkinHistory, SamplingErrorIsFourthOrder) {
-  SkinModel model;
+  SkinModel model = plain_model();
   const auto temperature = [&](int intervals) {
     const trace::BottomTrace trace = launch(intervals, 0, 0.0);
     return last(integrate_skin(model, trace, 3e-4), trace, 0);
@@ -74,7 +75,7 @@ TEST(SkinHistory, SamplingErrorIsFourthOrder) {
 TEST(SkinHistory, TracedTemperaturesAreThoseOfFineCalls) {
   // What a coupled run does: many small calls with the air at the ends of each. Second order in their length.
   const trace::BottomTrace trace = launch(900, 0, 0.0), fine = launch(90000, 0, 0.0);
-  const SkinModel model;
+  const SkinModel model = plain_model();
   SkinPoint point{300.0};
   for (std::size_t k = 1; k < fine.samples(); ++k) {
     const auto air = [&](std::size_t sample) {
@@ -104,7 +105,7 @@ TEST(SkinHistory, PerStepExchangeGoesWithTheNumberOfSteps) {
   trace::BottomTrace few = launch(300, 0, 0.0), many = few;
   for (double& steps : few.steps) steps *= 0.01;
   for (double& steps : many.steps) steps *= 1000.0;
-  SkinModel model;
+  SkinModel model = plain_model();
   model.surface.exchange = scene::Exchange::per_step;
   model.kinetics.frequency = 0.0;
   model.kinetics.ignition_temperature = model.kinetics.burnt_temperature = 1e9;
@@ -120,7 +121,7 @@ TEST(SkinHistory, NotANumberInTheTraceIsNoVerdict) {
     if (which == 1) trace.mean_bottom_pressure[250] = std::nan("");
     if (which == 2) trace.friction[0][250 * 4 + 3] = std::nan("");
     for (const auto air : {scene::AirModel::reservoir, scene::AirModel::balance}) {
-      SkinModel model;
+      SkinModel model = plain_model();
       model.surface.air_model = air;
       const SkinHistory history = integrate_skin(model, trace, 3e-4);
       EXPECT_FALSE(history.ignition.has_value()) << which;
@@ -138,7 +139,7 @@ TEST(SkinHistory, ClosureThatWasNotTracedIsNoVerdict) {
 
 TEST(AirBalance, ConservesEnergyToRoundOff) {
   for (const double exchange_time : {1e-9, 1e-6, 3.6e-4}) {
-    SkinModel model;
+    SkinModel model = plain_model();
     model.surface.air_model = scene::AirModel::balance;
     model.surface.exchange_time = exchange_time;
     const trace::BottomTrace trace = launch(300, 5, friction_energy);
@@ -148,14 +149,14 @@ TEST(AirBalance, ConservesEnergyToRoundOff) {
 
 TEST(AirBalance, NeverHeatsMoreThanTheReservoir) {
   const trace::BottomTrace trace = launch(300, 3, friction_energy);
-  SkinModel model;
+  SkinModel model = plain_model();
   const double reservoir = last(integrate_skin(model, trace, 3e-4), trace, 0);
   model.surface.air_model = scene::AirModel::balance;
   EXPECT_LT(last(integrate_skin(model, trace, 3e-4), trace, 0), reservoir);
 }
 
 TEST(AirBalance, ConvergesToItsFineSampling) {
-  SkinModel model;
+  SkinModel model = plain_model();
   model.surface.air_model = scene::AirModel::balance;
   const auto temperature = [&](int intervals) {
     const trace::BottomTrace trace = launch(intervals, 1, friction_energy);
@@ -165,7 +166,7 @@ TEST(AirBalance, ConvergesToItsFineSampling) {
 }
 
 TEST(AirBalance, StiffExchangeKeepsAirAndSkinTogether) {
-  SkinModel model;
+  SkinModel model = plain_model();
   model.surface.air_model = scene::AirModel::balance;
   model.surface.exchange_time = 1e-9;
   model.surface.friction = scene::FrictionClosure::none;
@@ -199,7 +200,7 @@ TEST(SkinMaxima, AreTakenOverTheirStationsAndTimes) {
 TEST(SkinHistory, FortyStationsOnAThousandSamplesTakeMilliseconds) {
   const trace::BottomTrace trace = launch(1000, 38, friction_energy);
   for (const auto air : {scene::AirModel::reservoir, scene::AirModel::balance}) {
-    SkinModel model;
+    SkinModel model = plain_model();
     model.surface.air_model = air;
     double best = 1.0;  // of three, as the machine may be busy
     for (int run = 0; run < 3; ++run) {

@@ -1,5 +1,6 @@
 // One station of the skin equation: ignition, its cause and time, and failure.
 #include "launchsafe/surface/skin.hpp"
+#include "plain_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +27,7 @@ SkinPoint after(const SkinModel& model, double gap, SkinPoint point, double dura
 }
 
 SkinModel without_reaction() {
-  SkinModel model;
+  SkinModel model = plain_model();
   model.kinetics.frequency = 0.0;
   return model;
 }
@@ -50,7 +51,7 @@ TEST(SkinIgnition, FromThereOnlyTheExchangeActs) {
 }
 
 TEST(SkinIgnition, RunawayBelowTheTriggerIsArrhenius) {
-  SkinModel model;
+  SkinModel model = plain_model();
   model.kinetics.ignition_temperature = 700.0;
   const SkinPoint point = after(model, 0.0, {560.0}, 18e-3, 100, 300.0, 0.0);
   ASSERT_TRUE(point.ignited);
@@ -59,7 +60,7 @@ TEST(SkinIgnition, RunawayBelowTheTriggerIsArrhenius) {
 }
 
 TEST(SkinIgnition, WithoutATriggerItIsSeenAtTheBurntTemperature) {
-  SkinModel model;
+  SkinModel model = plain_model();
   model.kinetics.ignition_temperature = std::numeric_limits<double>::infinity();
   const SkinPoint point = after(model, 0.0, {560.0}, 18e-3, 100, 300.0, 0.0);
   ASSERT_TRUE(point.ignited);
@@ -93,7 +94,7 @@ TEST(SkinPerStep, OneCallIsOnePrintedStep) {
 }
 
 TEST(SkinFailure, NotANumberStaysSoAndDoesNotIgnite) {
-  const SkinModel model;
+  const SkinModel model = plain_model();
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, infinity}) {
     for (const SkinPoint& point : {advance_skin(model, 4e-4, {300.0}, 1e-5, bad, 500.0, 0.0),

@@ -1,4 +1,5 @@
-// Zero-order Arrhenius decomposition and the ignition trigger of Composition B (paper Eq. 38-39, model section 4).
+// Zero-order Arrhenius decomposition and the ignition trigger of Composition B (paper Eq. 38-39, model
+// section 4).
 #pragma once
 
 #include <cmath>
@@ -7,12 +8,12 @@
 namespace launchsafe::materials {
 
 struct KineticsParameters {
-  std::string name = "comp-b";            ///< "comp-b" [C], "printed" [P] or "custom"
-  double heat_of_reaction = 5.82e6;       ///< Q, J/kg [P]
-  double frequency = 2.01e18;             ///< Z, 1/s [P]
-  double activation_temperature = 2.17e4; ///< E/R, K; 2.7e4 as printed
-  double ignition_temperature = 525.0;    ///< T1, K [C]
-  double burnt_temperature = 784.0;       ///< T2, K [P]: reaction degree 1, heating stops
+  std::string name = "comp-b";             ///< "comp-b" [C], "printed" [P] or "custom"
+  double heat_of_reaction = 5.82e6;        ///< Q, J/kg [P]
+  double frequency = 2.01e18;              ///< Z, 1/s [P]
+  double activation_temperature = 2.17e4;  ///< E/R, K; 2.7e4 as printed
+  double ignition_temperature = 521.52;    ///< T1, K [C]
+  double burnt_temperature = 784.0;        ///< T2, K [P]: reaction degree 1, heating stops
 };
 
 /// Heating rate (K/s) of unreacted explosive at temperature T (K): (Q Z/c) exp(-(E/R)/T).

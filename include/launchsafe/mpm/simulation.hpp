@@ -17,8 +17,8 @@ namespace launchsafe::mpm {
 
 /// Energy balance since the start, J per radian (axisymmetric) or per metre of depth.
 struct EnergyTotals {
-  /// Of the motion relative to the frame, with scaled inertia, centred in time: velocities live half a step
-  /// away from stresses (leapfrog), and m v_old v_new/2 is what the discrete work balances.
+  /// Of the motion relative to the mass centre, with scaled inertia, centred in time: velocities live half a
+  /// step away from stresses (leapfrog), and m v_old v_new/2 is what the discrete work balances.
   double kinetic = 0;
   double internal = 0, external = 0, body_force = 0, damping = 0;
   double plastic = 0, viscous = 0, crack = 0;
@@ -119,8 +119,9 @@ class Simulation {
   double travel_ = 0;       ///< m, of the window's target in the lab frame
   double base_origin_ = 0;  ///< m, of the grid at rest
   std::uint64_t particles_ = 0;
-  EnergyTotals energy_;   ///< at the present time, without the kinetic energy
-  EnergyTotals balance_;  ///< at the begin of the last step
+  EnergyTotals energy_;      ///< at the present time, without the kinetic energy
+  double bulk_kinetic_ = 0;  ///< of the mass centre, centred in the last step
+  EnergyTotals balance_;     ///< at the begin of the last step
   EventCounts events_;
 };
 

@@ -70,14 +70,14 @@ struct Surface {
   AirPressure air_pressure = AirPressure::charge_bottom;
   AirModel air_model = AirModel::reservoir;
   Exchange exchange = Exchange::rate;
-  double skin_thickness = 1e-4;   ///< h_ex, m
-  double exchange_time = 3.6e-4;  ///< tau_ex, s [C]
+  double skin_thickness = 1e-4;       ///< h_ex, m
+  double exchange_time = 2.97513e-4;  ///< tau_ex, s [C]
   FrictionClosure friction = FrictionClosure::literal;
-  double localisation = 300.0;  ///< [C]
+  double localisation = 802.835;  ///< [C]
 };
 
 struct Numerics {
-  double cell_size = 2.5e-3;         ///< nominal, m; fitted to the shell (see mpm::fit_grid)
+  double cell_size = 2.5e-3;         ///< nominal, m; fitted to the shell (see scene::fit_mesh)
   int particles_per_cell = 1;        ///< in each direction
   double time_step_factor = 0.5;     ///< CFL
   double inertial_scaling = 1.0;     ///< s >= 1
