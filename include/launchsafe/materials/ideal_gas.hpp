@@ -4,15 +4,15 @@
 namespace launchsafe::materials {
 
 struct AirParameters {
-  double density = 1.1766;           ///< rho_a0, kg/m3 at the initial state [L]
-  double specific_heat = 1005.0;     ///< c_a, J/(kg K) [L]
-  double heat_ratio = 1.4;           ///< gamma [P]
-  double initial_temperature = 300.0;///< T0, K [P]
-  double initial_pressure = 101325.0;///< p0, Pa [A]
+  double density = 1.1766;             ///< rho_a0, kg/m3 at the initial state [L]
+  double specific_heat = 1005.0;       ///< c_a, J/(kg K) [L]
+  double heat_ratio = 1.4;             ///< gamma [P]
+  double initial_temperature = 300.0;  ///< T0, K [P]
+  double initial_pressure = 101325.0;  ///< p0, Pa [A]
 };
 
-/// Temperature (K) on the adiabat at pressure p >= p0 (Pa): T0 (p/p0)^((gamma-1)/gamma). Below p0 it stays at T0, as the
-/// gap does not open below its initial state.
+/// Temperature (K) on the adiabat at pressure p >= p0 (Pa): T0 (p/p0)^((gamma-1)/gamma). Below p0 it stays at
+/// T0, as the gap does not open below its initial state.
 double adiabatic_temperature(const AirParameters& air, double pressure);
 
 }  // namespace launchsafe::materials

@@ -7,22 +7,22 @@
 namespace launchsafe::materials {
 
 struct JohnsonCookParameters {
-  double a = 792e6;                    ///< A, Pa [P]
-  double b = 510e6;                    ///< B, Pa [P]
-  double n = 0.26;                     ///< hardening exponent [P]
-  double c = 0.014;                    ///< rate sensitivity [P]
-  double m = 1.03;                     ///< thermal softening exponent [P]
-  double reference_rate = 1.0;         ///< 1/s [A]
-  double room_temperature = 298.0;     ///< K [A]
-  double melting_temperature = 1793.0; ///< K [P]
-  double shear_modulus = 80e9;         ///< G, Pa [L]
-  double specific_heat = 460.0;        ///< J/(kg K) [P]
-  double taylor_quinney = 0.9;         ///< share of the plastic work that becomes heat [A]
-  double conductivity = 38.0;          ///< W/(m K) [L]
+  double a = 792e6;                     ///< A, Pa [P]
+  double b = 510e6;                     ///< B, Pa [P]
+  double n = 0.26;                      ///< hardening exponent [P]
+  double c = 0.014;                     ///< rate sensitivity [P]
+  double m = 1.03;                      ///< thermal softening exponent [P]
+  double reference_rate = 1.0;          ///< 1/s [A]
+  double room_temperature = 298.0;      ///< K [A]
+  double melting_temperature = 1793.0;  ///< K [P]
+  double shear_modulus = 80e9;          ///< G, Pa [L]
+  double specific_heat = 460.0;         ///< J/(kg K) [P]
+  double taylor_quinney = 0.9;          ///< share of the plastic work that becomes heat [A]
+  double conductivity = 38.0;           ///< W/(m K) [L]
 };
 
-/// Flow stress (Pa) at plastic strain >= 0, plastic strain rate (1/s) and temperature (K). Below the reference rate
-/// the rate factor is 1; at and above melting the flow stress is 0.
+/// Flow stress (Pa) at plastic strain >= 0, plastic strain rate (1/s) and temperature (K). Below the
+/// reference rate the rate factor is 1; at and above melting the flow stress is 0.
 template <class Real>
 Real johnson_cook_flow_stress(const JohnsonCookParameters& k, Real plastic_strain, Real plastic_rate,
                               Real temperature) {
@@ -31,31 +31,31 @@ Real johnson_cook_flow_stress(const JohnsonCookParameters& k, Real plastic_strai
   using math::min;
   using math::pow;
   using math::select;
-  const Real homologous = min(max((temperature - Real(k.room_temperature)) /
-                                      Real(k.melting_temperature - k.room_temperature),
-                                  Real(0.0)),
-                              Real(1.0));
+  const Real homologous =
+      min(max((temperature - Real(k.room_temperature)) / Real(k.melting_temperature - k.room_temperature),
+              Real(0.0)),
+          Real(1.0));
   const Real softening = Real(1.0) - pow(homologous, Real(k.m));
-  const Real rate_factor =
-      Real(1.0) + Real(k.c) * log(max(plastic_rate / Real(k.reference_rate), Real(1.0)));
+  const Real rate_factor = Real(1.0) + Real(k.c) * log(max(plastic_rate / Real(k.reference_rate), Real(1.0)));
   return (Real(k.a) + Real(k.b) * pow(plastic_strain, Real(k.n))) * rate_factor * softening;
 }
 
 template <class Real>
 struct JohnsonCookReturn {
-  math::Deviator<Real> stress;   ///< Pa
-  Real plastic_strain_increment; ///< 1
-  Real plastic_work;             ///< J/m3 of current volume
+  math::Deviator<Real> stress;    ///< Pa
+  Real plastic_strain_increment;  ///< 1
+  Real plastic_work;              ///< J/m3 of current volume
 };
 
 /// Radial return of a trial deviator: finds the plastic strain increment d >= 0 with
-/// q_trial - 3 G d = flow_stress(strain + d, d/dt, T). The left side falls and the right side rises with d, so the
-/// root is unique and lies in [0, q_trial/(3G)]; it is found by bisection-guarded secant steps, to
+/// q_trial - 3 G d = flow_stress(strain + d, d/dt, T). The left side falls and the right side rises with d,
+/// so the root is unique and lies in [0, q_trial/(3G)]; it is found by bisection-guarded secant steps, to
 /// 1e-9 of q_trial. Explicit in the temperature, which changes by far less than the yield stress in one step.
 template <class Real>
 [[gnu::noinline]]  // rare beside the elastic step, which stays small without it
-JohnsonCookReturn<Real> johnson_cook_return(const JohnsonCookParameters& k, math::Deviator<Real> trial,
-                                            Real plastic_strain, Real temperature, Real dt) {
+JohnsonCookReturn<Real>
+johnson_cook_return(const JohnsonCookParameters& k, math::Deviator<Real> trial, Real plastic_strain,
+                    Real temperature, Real dt) {
   using math::any;
   using math::max;
   using math::min;
@@ -86,7 +86,8 @@ JohnsonCookReturn<Real> johnson_cook_return(const JohnsonCookParameters& k, math
     high = select(open & !still_yields, d, high);
     f_high = select(open & !still_yields, f, f_high);
   }
-  const Real increment = select(yields, low + (high - low) * f_low / max(f_low - f_high, Real(1e-300)), Real(0.0));
+  const Real increment =
+      select(yields, low + (high - low) * f_low / max(f_low - f_high, Real(1e-300)), Real(0.0));
   const Real remaining = q - three_g * increment;
   const Real scale = select(yields, remaining / max(q, Real(1e-300)), Real(1.0));
   return {scale * trial, increment, increment * remaining};

@@ -5,14 +5,15 @@
 
 namespace launchsafe::materials {
 
-/// p = A (1 - w/(R1 V)) exp(-R1 V) + B (1 - w/(R2 V)) exp(-R2 V) + w E/V; V relative volume, E per initial volume.
+/// p = A (1 - w/(R1 V)) exp(-R1 V) + B (1 - w/(R2 V)) exp(-R2 V) + w E/V; V relative volume, E per initial
+/// volume.
 struct JwlParameters {
-  double a = 778.1e11;             ///< A, Pa [P]
-  double b = -5.031e9;             ///< B, Pa [P]
-  double r1 = 11.3;                ///< R1 [P]
-  double r2 = 1.13;                ///< R2 [P]
-  double omega = 0.8938;           ///< w [P]
-  double initial_density = 1717.0; ///< kg/m3 [P]
+  double a = 778.1e11;                 ///< A, Pa [P]
+  double b = -5.031e9;                 ///< B, Pa [P]
+  double r1 = 11.3;                    ///< R1 [P]
+  double r2 = 1.13;                    ///< R2 [P]
+  double omega = 0.8938;               ///< w [P]
+  double initial_density = 1717.0;     ///< kg/m3 [P]
   double initial_energy = -6.11861e8;  ///< E(V = 1), J per m3 of initial volume; makes p(V = 1) vanish [D]
 };
 
@@ -30,16 +31,16 @@ Real jwl_cold_pressure(const JwlParameters& m, Real v) {
          Real(m.b) * (Real(1.0) - Real(m.omega / m.r2) * inverse_v) * exp(Real(-m.r2) * v);
 }
 
-/// Energy E (J per m3 of initial volume) at V and temperature T (K) with rho0 Cv = `heat_capacity` (J/(m3 K)):
-/// A/R1 exp(-R1 V) + B/R2 exp(-R2 V) + rho0 Cv T. With it the energy form and the temperature form
-/// p = A exp(-R1 V) + B exp(-R2 V) + w rho0 Cv T/V are one law. Unreacted Composition B: 2.487e6 J/(m3 K) [L].
+/// Energy E (J per m3 of initial volume) at V and temperature T (K) with rho0 Cv = `heat_capacity` (J/(m3
+/// K)): A/R1 exp(-R1 V) + B/R2 exp(-R2 V) + rho0 Cv T. With it the energy form and the temperature form p = A
+/// exp(-R1 V) + B exp(-R2 V) + w rho0 Cv T/V are one law. Unreacted Composition B: 2.487e6 J/(m3 K) [L].
 double jwl_energy_at_temperature(const JwlParameters& m, double v, double heat_capacity, double temperature);
 
 /// Relative volume V_CJ = 1 - P_CJ/(rho0 D^2) behind a detonation of velocity D (m/s) and pressure P_CJ (Pa).
 double chapman_jouguet_volume(const JwlParameters& m, double velocity, double pressure);
 
-/// Energy E0 (J/m3) of the products' law before detonation, Eq. 34: E_CJ - 1/2 P_CJ (1 - V_CJ), with E_CJ from the law
-/// itself at (V_CJ, P_CJ).
+/// Energy E0 (J/m3) of the products' law before detonation, Eq. 34: E_CJ - 1/2 P_CJ (1 - V_CJ), with E_CJ
+/// from the law itself at (V_CJ, P_CJ).
 double chapman_jouguet_initial_energy(const JwlParameters& m, double velocity, double pressure);
 
 /// Pressure (Pa, compression positive) at relative volume V > 0 and energy E (J per m3 of initial volume).

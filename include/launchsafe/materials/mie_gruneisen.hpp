@@ -6,12 +6,12 @@
 namespace launchsafe::materials {
 
 struct MieGruneisenParameters {
-  double density = 7830.0;       ///< rho0, kg/m3 [P]
-  double sound_speed = 4610.0;   ///< c0, m/s [P]
-  double slope = 1.73;           ///< s [P]
-  double gruneisen = 1.67;       ///< Gamma at rho0; Gamma rho is constant [P]
-  /// Largest compression mu as a fraction of the Hugoniot pole 1/(s - 1). Beyond it the law has no meaning: the
-  /// pressure is continued at the bound's value and the state is reported (`mie_gruneisen_is_valid`).
+  double density = 7830.0;      ///< rho0, kg/m3 [P]
+  double sound_speed = 4610.0;  ///< c0, m/s [P]
+  double slope = 1.73;          ///< s [P]
+  double gruneisen = 1.67;      ///< Gamma at rho0; Gamma rho is constant [P]
+  /// Largest compression mu as a fraction of the Hugoniot pole 1/(s - 1). Beyond it the law has no meaning:
+  /// the pressure is continued at the bound's value and the state is reported (`mie_gruneisen_is_valid`).
   double pole_fraction = 0.9;
 };
 
@@ -62,11 +62,11 @@ struct MieGruneisenState {
   Real energy;    ///< J/kg
 };
 
-/// Change from (p0, e0, mu0) to mu1 with de = -1/2 (p0 + p1) dv + heat, v = 1/rho; linear in e, solved exactly.
-/// `heat` (J/kg) is what the step dissipated, plastic work for steel.
+/// Change from (p0, e0, mu0) to mu1 with de = -1/2 (p0 + p1) dv + heat, v = 1/rho; linear in e, solved
+/// exactly. `heat` (J/kg) is what the step dissipated, plastic work for steel.
 template <class Real>
-MieGruneisenState<Real> mie_gruneisen_compress(const MieGruneisenParameters& m, Real mu0, Real p0, Real energy0,
-                                               Real mu1, Real heat) {
+MieGruneisenState<Real> mie_gruneisen_compress(const MieGruneisenParameters& m, Real mu0, Real p0,
+                                               Real energy0, Real mu1, Real heat) {
   using math::select;
   const Real dv = (mu0 - mu1) / (Real(m.density) * (Real(1.0) + mu0) * (Real(1.0) + mu1));
   const Real hugoniot = hugoniot_pressure(m, mu1);
@@ -95,7 +95,8 @@ Real mie_gruneisen_bulk_modulus(const MieGruneisenParameters& m, Real mu, Real p
       (hugoniot_slope * x / one_plus + hugoniot / (one_plus * one_plus)) / Real(2.0 * m.density);
   const Real gamma_rho = Real(m.gruneisen * m.density);
   // de/drho|_s = p/rho^2, and mu = rho/rho0 - 1.
-  const Real compressed = one_plus * (hugoniot_slope - gamma_rho * energy_slope) + Real(m.gruneisen) * pressure / one_plus;
+  const Real compressed =
+      one_plus * (hugoniot_slope - gamma_rho * energy_slope) + Real(m.gruneisen) * pressure / one_plus;
   return select(mu < Real(0.0), (Real(1.0) + mu) * Real(modulus), compressed);
 }
 

@@ -1,19 +1,19 @@
 // Skin temperatures of the charge bottom for one gap, integrated on a bottom trace (model section 6).
 #pragma once
 
+#include "launchsafe/scene/scene.hpp"
+#include "launchsafe/trace/bottom_trace.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "launchsafe/scene/scene.hpp"
-#include "launchsafe/trace/bottom_trace.hpp"
 
 namespace launchsafe::surface {
 
 enum class IgnitionCause { trigger, arrhenius };  ///< T1 reached by outside heating, or self-heating ran away
 
 struct Ignition {
-  double time = 0;        ///< s
+  double time = 0;  ///< s
   std::size_t station = 0;
   IgnitionCause cause = IgnitionCause::trigger;
   double chemical_share = 0;  ///< share of the heating rate at T1 that is Arrhenius heat
@@ -21,21 +21,21 @@ struct Ignition {
 
 /// The skin of one gap over the whole launch.
 struct SkinHistory {
-  double gap = 0;                          ///< m
-  std::vector<double> time;                ///< s, those of the trace
-  std::vector<double> air_temperature;     ///< K
-  std::vector<double> temperature;         ///< K, [sample * stations + station]
-  std::optional<Ignition> ignition;        ///< the first over all observation stations
-  std::optional<Ignition> ignition_anywhere; ///< the first over all stations
-  double energy_residual = 0;              ///< J/m2, relative to the heat exchanged; only for AirModel::balance
+  double gap = 0;                             ///< m
+  std::vector<double> time;                   ///< s, those of the trace
+  std::vector<double> air_temperature;        ///< K
+  std::vector<double> temperature;            ///< K, [sample * stations + station]
+  std::optional<Ignition> ignition;           ///< the first over all observation stations
+  std::optional<Ignition> ignition_anywhere;  ///< the first over all stations
+  double energy_residual = 0;  ///< J/m2, relative to the heat exchanged; only for AirModel::balance
 };
 
 /// All that the skin equation needs from a scene.
 struct SkinModel {
   scene::Surface surface;
   materials::KineticsParameters kinetics;
-  double charge_density = 1717.0;   ///< kg/m3
-  double specific_heat = 1780.0;    ///< J/(kg K)
+  double charge_density = 1717.0;      ///< kg/m3
+  double specific_heat = 1780.0;       ///< J/(kg K)
   double initial_temperature = 300.0;  ///< K
   double relative_tolerance = 1e-8;    ///< of the time integration
 };
@@ -44,17 +44,19 @@ SkinModel skin_model(const scene::Scene& scene);
 /// kappa h = rho_a0 h c_a/(rho h_ex c), dimensionless; h is the gap in m.
 double heat_capacity_ratio(const SkinModel& model, double gap);
 
-/// Integrates dT/dt = (kappa h/tau_ex)(T_air - T) + friction/(rho c) + (Q Z/c)(1 - lambda) exp(-(E/R)/T) at every
-/// station. The exchange is stiff for small tau_ex and the reaction runs away: an L-stable Rosenbrock method with
-/// step control follows both. At T1 the station ignites and goes to T2; from there only the exchange acts.
+/// Integrates dT/dt = (kappa h/tau_ex)(T_air - T) + friction/(rho c) + (Q Z/c)(1 - lambda) exp(-(E/R)/T) at
+/// every station. The exchange is stiff for small tau_ex and the reaction runs away: an L-stable Rosenbrock
+/// method with step control follows both. At T1 the station ignites and goes to T2; from there only the
+/// exchange acts.
 SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap);
 
-/// The same equation for one station over one interval, for the coupled run and for tests: temperature after `dt`
-/// with the air at a temperature that goes linearly from `air_begin` to `air_end` and `friction_heating` K/s.
+/// The same equation for one station over one interval, for the coupled run and for tests: temperature after
+/// `dt` with the air at a temperature that goes linearly from `air_begin` to `air_end` and `friction_heating`
+/// K/s.
 struct SkinPoint {
-  double temperature = 300.0;   ///< K
+  double temperature = 300.0;  ///< K
   bool ignited = false;
-  double ignition_time = 0;     ///< s after the begin of the interval in which it ignited
+  double ignition_time = 0;  ///< s after the begin of the interval in which it ignited
   double chemical_share = 0;
 };
 SkinPoint advance_skin(const SkinModel& model, double gap, SkinPoint point, double dt, double air_begin,
@@ -62,8 +64,8 @@ SkinPoint advance_skin(const SkinModel& model, double gap, SkinPoint point, doub
 
 /// Highest temperature and where it was.
 struct Maximum {
-  double temperature = 0;   ///< K
-  double time = 0;          ///< s
+  double temperature = 0;  ///< K
+  double time = 0;         ///< s
   std::size_t station = 0;
 };
 Maximum maximum_at_observation_points(const SkinHistory& history, const trace::BottomTrace& trace);

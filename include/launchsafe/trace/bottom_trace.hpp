@@ -10,34 +10,35 @@ namespace launchsafe::trace {
 
 /// A radial place on the charge bottom at which skin temperatures are integrated.
 struct Station {
-  std::string name;    ///< "G1".. for observation points, "row 0".. for the particles of the bottom row
-  double x = 0, r = 0; ///< initial position, m
-  double area = 0;     ///< share of the bottom, m2; 0 for observation points, which are interpolated
+  std::string name;     ///< "G1".. for observation points, "row 0".. for the particles of the bottom row
+  double x = 0, r = 0;  ///< initial position, m
+  double area = 0;      ///< share of the bottom, m2; 0 for observation points, which are interpolated
   bool observation = false;
 };
 
 /// Friction closures whose heat a trace carries, in this order (see scene::FrictionClosure).
 inline constexpr std::size_t traced_closures = 2;  // literal, inelastic
 
-/// Samples at increasing times, the first at t = 0. Friction is kept as energy since the start, so thinning the trace
-/// loses none of it; pressure as the value and as the mean over the interval that ends at the sample.
+/// Samples at increasing times, the first at t = 0. Friction is kept as energy since the start, so thinning
+/// the trace loses none of it; pressure as the value and as the mean over the interval that ends at the
+/// sample.
 struct BottomTrace {
   std::vector<Station> stations;
-  std::vector<double> time;                ///< s
-  std::vector<double> chamber_pressure;    ///< Pa
-  std::vector<double> bottom_pressure;     ///< Pa, area mean of the axial compression over the bottom row
+  std::vector<double> time;                   ///< s
+  std::vector<double> chamber_pressure;       ///< Pa
+  std::vector<double> bottom_pressure;        ///< Pa, area mean of the axial compression over the bottom row
   std::vector<double> mean_chamber_pressure;  ///< Pa, over the interval ending here (first entry: the value)
   std::vector<double> mean_bottom_pressure;   ///< Pa, likewise
-  std::vector<double> steps;               ///< time steps taken since the start
-  /// friction[closure][sample * stations + station]: friction energy since the start, J per m3 of charge, with
-  /// localisation 1 (bulk).
+  std::vector<double> steps;                  ///< time steps taken since the start
+  /// friction[closure][sample * stations + station]: friction energy since the start, J per m3 of charge,
+  /// with localisation 1 (bulk).
   std::array<std::vector<double>, traced_closures> friction;
 
   std::size_t samples() const { return time.size(); }
 };
 
-/// Every second sample (the last one kept), with interval means combined by their lengths: what a trace twice as
-/// coarse would have held. Used to bound the sampling error.
+/// Every second sample (the last one kept), with interval means combined by their lengths: what a trace twice
+/// as coarse would have held. Used to bound the sampling error.
 BottomTrace thinned(const BottomTrace& trace);
 
 /// Value at time t by linear interpolation between samples; held constant outside. NaN for a NaN time,
