@@ -1,0 +1,135 @@
+// Sensitivity of an output to uncertain inputs: variance-based (Sobol) indices on Saltelli's design, and
+// elementary effects (Morris). A design says at which points of the unit cube the caller evaluates the model,
+// in any order and wherever he likes; the estimates follow from the outputs, NaN where an evaluation failed.
+#pragma once
+
+#include "launchsafe/math/sampling.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace launchsafe::math {
+
+/// An estimate with the interval that holds the true value at the level asked for; all NaN without an
+/// estimate, the interval alone where only the estimate exists.
+struct Estimate {
+  double value, lower, upper;
+};
+
+/// Two independent samples A and B of the inputs and, for each input i, the block AB_i: A with column i taken
+/// from B (Saltelli et al., Comput. Phys. Commun. 181, 2010). The evaluations are numbered row by row, so
+/// that the first evaluations of an unfinished study are whole rows: A, B, AB_0, AB_1, ... of row 0, of row
+/// 1, ...
+struct SaltelliDesign {
+  static constexpr std::size_t block_a = 0;
+  static constexpr std::size_t block_b = 1;
+  static constexpr std::size_t block_ab(std::size_t input) { return 2 + input; }
+
+  std::size_t rows = 0;
+  std::size_t inputs = 0;
+  std::vector<double> a, b;  ///< points in the open unit cube, row by row
+
+  std::size_t blocks() const { return inputs + 2; }
+  std::size_t evaluations() const { return rows * blocks(); }
+  /// Number of the evaluation of a block in a row.
+  std::size_t index(std::size_t block, std::size_t row) const { return row * blocks() + block; }
+  /// The point of the unit cube to evaluate for a block in a row, and for an evaluation by its number.
+  std::vector<double> point(std::size_t block, std::size_t row) const;
+  std::vector<double> point(std::size_t evaluation) const;
+};
+
+/// Column i of A and of B are columns 2i and 2i + 1 of one design of 2*inputs dimensions, so that a further
+/// input leaves the others' points as they are; on test functions this also gave Sobol's sequence errors 0.87
+/// times those with A and B from the two halves of the columns. With scrambled_sobol take a power of two
+/// rows, and 256 or more: with fewer a few pairs of its dimensions are correlated, which can double the error
+/// of an index against independent points. A longer design of the same seed then starts with the shorter.
+SaltelliDesign saltelli_design(Design design, std::size_t rows, std::size_t inputs, std::uint64_t seed);
+
+struct SobolOptions {
+  enum class FirstOrder {
+    saltelli,  ///< mean of f_B (f_AB - f_A): exact zero for an input without effect, best for weak inputs
+    jansen     ///< variance - mean of (f_B - f_AB)^2/2: best for an input that carries most of the variance
+  };
+
+  FirstOrder first_order = FirstOrder::saltelli;
+  double level = 0.95;            ///< confidence of the intervals, in (0, 1)
+  std::size_t resamples = 1000;   ///< of the bootstrap, at least 1
+  std::uint64_t seed = 0;         ///< of the bootstrap
+  std::size_t minimum_rows = 16;  ///< no indices from fewer rows
+};
+
+/// Shares of the variance of the output, of one input.
+struct InputIndices {
+  Estimate first;  ///< by the input alone; may fall below 0 by chance
+  Estimate total;  ///< with all its interactions; never below 0
+};
+
+struct SobolIndices {
+  double mean = 0;            ///< of the output over A and B, its unit
+  double variance = 0;        ///< of the output over A and B, its unit squared
+  std::size_t rows_used = 0;  ///< those whose evaluations are all finite
+  std::size_t rows_left_out = 0;
+  std::vector<InputIndices> inputs;  ///< in the order of the design; all NaN where there is a reason
+  std::string reason;                ///< why there are no indices; empty where there are
+};
+
+/// First-order (Saltelli 2010 or Jansen 1999) and total-order (Jansen 1999) indices from the outputs in the
+/// order of the design's evaluations, any number of whole rows. A row in which an output is not finite is
+/// left out whole: where failures depend on the inputs, the indices are those of the inputs that do not fail.
+/// The intervals come from a bootstrap over the rows. For test functions (Ishigami's, Sobol's G, a linear
+/// one) those at 95 % held the true index of independent rows 92 to 96 times in 100 from 128 rows on, at
+/// least 88 times with 32 and 83 with 16; for a lognormal output, with its heavy tail, 88 to 94 times at any
+/// number. A Latin hypercube does as well or better. Sobol's sequence is mostly near 100 from 256 rows on,
+/// since resampling does not see its balance, but with fewer can miss the index of a weak input most of the
+/// time.
+SobolIndices sobol_indices(std::size_t inputs, const std::vector<double>& outputs,
+                           const SobolOptions& options = {});
+
+/// Trajectories through a grid of the unit cube in which one input after the other moves by one step, up or
+/// down (Morris, Technometrics 33, 1991). The evaluations are numbered trajectory by trajectory.
+struct MorrisDesign {
+  std::size_t trajectories = 0;
+  std::size_t levels = 0;  ///< of the grid 0, 1/(levels - 1), ..., 1
+  std::size_t inputs = 0;
+  std::vector<double> points;        ///< in the unit cube with its boundary, by evaluation, then input
+  std::vector<std::size_t> changed;  ///< input that step k of trajectory t moves: changed[t*inputs + k]
+
+  /// Length of every step in unit-cube coordinates.
+  double step() const { return static_cast<double>(levels) / (2.0 * static_cast<double>(levels - 1)); }
+  std::size_t evaluations() const { return trajectories * (inputs + 1); }
+  /// Number of the evaluation after `steps` steps of a trajectory.
+  std::size_t index(std::size_t trajectory, std::size_t steps) const {
+    return trajectory * (inputs + 1) + steps;
+  }
+  std::vector<double> point(std::size_t evaluation) const;
+};
+
+/// `levels` must be even and at least 2. Start, directions and order are random, and every level is as likely
+/// as any other. Points lie on the boundary of the cube: a distribution that reaches to infinity must be cut
+/// off before it is used here.
+MorrisDesign morris_design(std::size_t trajectories, std::size_t levels, std::size_t inputs,
+                           std::uint64_t seed);
+
+struct MorrisOptions {
+  double level = 0.95;           ///< confidence of the interval, in (0, 1)
+  std::size_t resamples = 1000;  ///< of the bootstrap, at least 1
+  std::uint64_t seed = 0;        ///< of the bootstrap
+};
+
+/// Statistics of the elementary effects (f(after) - f(before))/(change of the input in the unit cube) of one
+/// input, in units of the output: the change over the whole range of an input that acts linearly.
+struct MorrisEffects {
+  double mu = 0;            ///< mean
+  Estimate mu_star{};       ///< mean of the absolute values; its interval wants six effects to hold its level
+  double sigma = 0;         ///< standard deviation; NaN with fewer than two effects
+  std::size_t effects = 0;  ///< that the statistics rest on; all NaN with none
+};
+
+/// Effects of every input from the outputs in the order of the design's evaluations. An output that is not
+/// finite takes away the one or two elementary effects that it is part of, and no more.
+std::vector<MorrisEffects> morris_effects(const MorrisDesign& design, const std::vector<double>& outputs,
+                                          const MorrisOptions& options = {});
+
+}  // namespace launchsafe::math

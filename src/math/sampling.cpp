@@ -1,0 +1,223 @@
+#include "launchsafe/math/sampling.hpp"
+
+#include <boost/math/constants/constants.hpp>
+#include <boost/math/special_functions/erf.hpp>
+#include <boost/random/sobol.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace launchsafe::math {
+
+namespace {
+
+constexpr double root_half = boost::math::constants::one_div_root_two<double>();
+
+/// Probabilities of the standard normal below and above z.
+double normal_below(double z) { return 0.5 * std::erfc(-z * root_half); }
+double normal_above(double z) { return 0.5 * std::erfc(z * root_half); }
+
+/// Density of the standard normal.
+double normal_density(double z) {
+  return boost::math::constants::one_div_root_two_pi<double>() * std::exp(-0.5 * z * z);
+}
+
+/// Probability of the standard normal between a <= b, without cancellation of numbers near 1.
+double normal_between(double a, double b) {
+  if (a >= 0.0) return normal_above(a) - normal_above(b);
+  if (b <= 0.0) return normal_below(b) - normal_below(a);
+  return 0.5 * (std::erf(b * root_half) - std::erf(a * root_half));
+}
+
+/// z with the probability p in [0, 0.5] below it.
+double lower_normal_quantile(double p) {
+  constexpr double smallest = std::numeric_limits<double>::min();
+  return -boost::math::erfc_inv(2.0 * std::max(p, smallest)) / root_half;
+}
+
+/// The ends of a normal in deviations from its centre.
+struct StandardEnds {
+  double lower, upper;
+};
+
+double standardised(const Distribution& distribution, double x) {
+  return (x - distribution.centre) / distribution.deviation;
+}
+
+StandardEnds standard_ends(const Distribution& distribution) {
+  return {standardised(distribution, distribution.lower), standardised(distribution, distribution.upper)};
+}
+
+double normal_quantile(const Distribution& distribution, double u) {
+  const StandardEnds ends = standard_ends(distribution);
+  const double inside = normal_between(ends.lower, ends.upper);
+  const double below = normal_below(ends.lower) + u * inside;
+  const double above = normal_above(ends.upper) + (1.0 - u) * inside;
+  // The smaller probability is the one that is known to its last digits.
+  const double z = below < above ? lower_normal_quantile(below) : -lower_normal_quantile(above);
+  return distribution.centre + distribution.deviation * z;
+}
+
+double normal_mean(const Distribution& distribution) {
+  const StandardEnds ends = standard_ends(distribution);
+  const double shift =
+      (normal_density(ends.lower) - normal_density(ends.upper)) / normal_between(ends.lower, ends.upper);
+  return distribution.centre + distribution.deviation * shift;
+}
+
+/// ln(x/lower), also close to the lower end.
+double log_ratio(const Distribution& distribution, double x) {
+  return std::log1p((x - distribution.lower) / distribution.lower);
+}
+
+/// (bits + 1/2)/2^52 of the 52 leading bits: never 0 and never 1, and exact.
+double open_unit(std::uint64_t word) { return (static_cast<double>(word >> 12) + 0.5) * 0x1p-52; }
+
+/// Owen's nested uniform scramble of the 32 digits of a number: each bit is flipped or not by a hash of the
+/// bits above it. These, with a leading one, number the nodes of a binary tree. Below the 32 bits the leaf's
+/// own hash goes on (Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences", 1995).
+std::uint64_t nested_scramble(std::uint32_t digits, std::uint64_t key) {
+  const std::uint64_t leaf = (std::uint64_t{1} << 32) | digits;
+  std::uint64_t flips = 0;
+  for (int bit = 31; bit >= 0; --bit) flips = (flips << 1) | (hashed(key, leaf >> (bit + 1)) >> 63);
+  return ((digits ^ flips) << 32) | (hashed(key, leaf) >> 32);
+}
+
+void fill_monte_carlo(std::vector<double>& values, std::size_t dimensions, std::uint64_t seed) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    values[k] = open_unit(hashed(hashed(seed, k % dimensions), k / dimensions));
+  }
+}
+
+void fill_latin_hypercube(std::vector<double>& values, std::size_t dimensions, std::uint64_t seed) {
+  const std::size_t points = values.size() / dimensions;
+  std::vector<std::uint32_t> cells(points);
+  for (std::size_t dimension = 0; dimension < dimensions; ++dimension) {
+    SplitMix64 random(hashed(seed, dimension));
+    std::iota(cells.begin(), cells.end(), 0u);
+    for (std::size_t i = points; i > 1; --i) {  // Fisher and Yates
+      std::swap(cells[i - 1], cells[random.below(static_cast<std::uint32_t>(i))]);
+    }
+    for (std::size_t i = 0; i < points; ++i) {
+      // 20 bits and a half: with a cell number of 32 bits the sum is exact and stays below the next cell.
+      const double offset = (static_cast<double>(random.next() >> 44) + 0.5) * 0x1p-20;
+      values[i * dimensions + dimension] = (cells[i] + offset) / static_cast<double>(points);
+    }
+  }
+}
+
+void fill_scrambled_sobol(std::vector<double>& values, std::size_t dimensions, std::uint64_t seed) {
+  boost::random::sobol_engine<std::uint32_t, 32> sequence(dimensions);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const std::uint32_t digits = k < dimensions ? 0u : sequence();  // Boost leaves the origin out
+    values[k] = open_unit(nested_scramble(digits, hashed(seed, k % dimensions)));
+  }
+}
+
+}  // namespace
+
+Distribution Distribution::uniform(double lower, double upper) { return {Kind::uniform, lower, upper, 0, 1}; }
+
+Distribution Distribution::log_uniform(double lower, double upper) {
+  return {Kind::log_uniform, lower, upper, 0, 1};
+}
+
+Distribution Distribution::normal(double centre, double deviation, double lower, double upper) {
+  return {Kind::normal, lower, upper, centre, deviation};
+}
+
+bool is_valid(const Distribution& distribution) {
+  const auto& [kind, lower, upper, centre, deviation] = distribution;
+  if (!(lower < upper)) return false;
+  if (kind == Distribution::Kind::uniform) return std::isfinite(upper - lower);
+  if (kind == Distribution::Kind::log_uniform) return lower > 0.0 && std::isfinite(upper / lower);
+  if (!std::isfinite(centre) || !std::isfinite(deviation) || !(deviation > 0.0)) return false;
+  const StandardEnds ends = standard_ends(distribution);
+  return normal_between(ends.lower, ends.upper) >= 1e-280;
+}
+
+double quantile(const Distribution& distribution, double u) {
+  assert(is_valid(distribution) && u >= 0.0 && u <= 1.0);
+  const double lower = distribution.lower, upper = distribution.upper;
+  if (u <= 0.0) return lower;
+  if (u >= 1.0) return upper;
+  double value = 0.0;
+  switch (distribution.kind) {
+    case Distribution::Kind::uniform:
+      value = (1.0 - u) * lower + u * upper;
+      break;
+    case Distribution::Kind::log_uniform:
+      value = lower * std::exp(u * log_ratio(distribution, upper));
+      break;
+    case Distribution::Kind::normal:
+      value = normal_quantile(distribution, u);
+      break;
+  }
+  return std::clamp(value, lower, upper);
+}
+
+double cumulative(const Distribution& distribution, double x) {
+  assert(is_valid(distribution));
+  const double lower = distribution.lower, upper = distribution.upper;
+  if (x <= lower) return 0.0;
+  if (x >= upper) return 1.0;
+  switch (distribution.kind) {
+    case Distribution::Kind::uniform:
+      return (x - lower) / (upper - lower);
+    case Distribution::Kind::log_uniform:
+      return log_ratio(distribution, x) / log_ratio(distribution, upper);
+    case Distribution::Kind::normal:
+      break;
+  }
+  const StandardEnds ends = standard_ends(distribution);
+  return normal_between(ends.lower, standardised(distribution, x)) / normal_between(ends.lower, ends.upper);
+}
+
+double mean_of(const Distribution& distribution) {
+  assert(is_valid(distribution));
+  const double lower = distribution.lower, upper = distribution.upper;
+  switch (distribution.kind) {
+    case Distribution::Kind::uniform:
+      return std::midpoint(lower, upper);
+    case Distribution::Kind::log_uniform:
+      return std::clamp((upper - lower) / log_ratio(distribution, upper), lower, upper);
+    case Distribution::Kind::normal:
+      break;
+  }
+  return std::clamp(normal_mean(distribution), lower, upper);
+}
+
+std::uint64_t hashed(std::uint64_t key, std::uint64_t n) {
+  std::uint64_t z = key + 0x9e3779b97f4a7c15u * (n + 1);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+std::uint32_t SplitMix64::below(std::uint32_t bound) {
+  return static_cast<std::uint32_t>(((next() >> 32) * bound) >> 32);
+}
+
+std::vector<double> unit_points(Design design, std::size_t points, std::size_t dimensions,
+                                std::uint64_t seed) {
+  assert(points < (std::uint64_t{1} << 32));
+  std::vector<double> values(points * dimensions);
+  if (values.empty()) return values;
+  switch (design) {
+    case Design::monte_carlo:
+      fill_monte_carlo(values, dimensions, seed);
+      break;
+    case Design::latin_hypercube:
+      fill_latin_hypercube(values, dimensions, seed);
+      break;
+    case Design::scrambled_sobol:
+      fill_scrambled_sobol(values, dimensions, seed);
+      break;
+  }
+  return values;
+}
+
+}  // namespace launchsafe::math

@@ -1,0 +1,352 @@
+#include "launchsafe/math/sampling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#ifdef LAUNCHSAFE_HAVE_RAPIDCHECK
+#include <rapidcheck/gtest.h>
+#endif
+
+namespace {
+
+namespace math = launchsafe::math;
+using math::Design;
+using math::Distribution;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Design all_designs[] = {Design::monte_carlo, Design::latin_hypercube, Design::scrambled_sobol};
+
+std::string name_of(Design design) {
+  return design == Design::monte_carlo       ? "monte_carlo"
+         : design == Design::latin_hypercube ? "latin_hypercube"
+                                             : "scrambled_sobol";
+}
+
+/// Values of one column of a design.
+std::vector<double> column(const std::vector<double>& points, std::size_t dimensions, std::size_t which) {
+  std::vector<double> values;
+  for (std::size_t k = which; k < points.size(); k += dimensions) values.push_back(points[k]);
+  return values;
+}
+
+std::size_t cell_of(double value, std::size_t cells) {
+  return static_cast<std::size_t>(value * static_cast<double>(cells));
+}
+
+/// True where each of as many equal intervals as there are values holds one of them.
+bool fills_every_interval(const std::vector<double>& values) {
+  std::vector<int> count(values.size(), 0);
+  for (const double value : values) ++count.at(cell_of(value, values.size()));
+  return std::all_of(count.begin(), count.end(), [](int n) { return n == 1; });
+}
+
+/// True where each elementary rectangle of area 2^-power of the first two columns holds one point.
+bool is_plane_net(const std::vector<double>& points, std::size_t dimensions, unsigned power) {
+  for (unsigned k = 0; k <= power; ++k) {
+    const std::size_t wide = std::size_t{1} << k, high = std::size_t{1} << (power - k);
+    std::vector<int> count(wide * high, 0);
+    for (std::size_t i = 0; i < points.size(); i += dimensions) {
+      ++count.at(cell_of(points[i], wide) * high + cell_of(points[i + 1], high));
+    }
+    if (std::any_of(count.begin(), count.end(), [](int n) { return n != 1; })) return false;
+  }
+  return true;
+}
+
+/// Root mean square error over seeds of the mean of e^x at the points of one dimension.
+double error_of_exponential(Design design, std::size_t points) {
+  constexpr int seeds = 200;
+  double total = 0.0;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    double mean = 0.0;
+    for (const double x : math::unit_points(design, points, 1, seed)) mean += std::exp(x);
+    const double error = mean / static_cast<double>(points) - (std::numbers::e - 1.0);
+    total += error * error;
+  }
+  return std::sqrt(total / seeds);
+}
+
+/// Standard normal distribution and density by the standard library, the tests' own.
+double phi_below(double z) { return 0.5 * (1.0 + std::erf(z / std::numbers::sqrt2)); }
+double phi_density(double z) { return std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi); }
+
+TEST(SplitMix64, GivesThePublishedNumbers) {
+  // Seed 1234567, the check values given with Vigna's splitmix64.c on Rosetta Code.
+  math::SplitMix64 random(1234567);
+  for (const std::uint64_t expected :
+       {6457827717110365317u, 3203168211198807973u, 9817491932198370423u, 4593380528125082431u}) {
+    EXPECT_EQ(random.next(), expected);
+  }
+  EXPECT_EQ(math::hashed(1234567, 4), 16408922859458223821u);
+}
+
+TEST(SplitMix64, WholeNumbersStayBelowTheirBoundAndReachAllValues) {
+  math::SplitMix64 random(1);
+  std::vector<int> count(7, 0);
+  for (int k = 0; k < 7000; ++k) ++count.at(random.below(7));
+  for (const int n : count) EXPECT_NEAR(n, 1000, 150);  // five standard deviations of a binomial
+  EXPECT_EQ(random.below(1), 0u);
+}
+
+TEST(UnitPoints, AreTheSameToTheLastBitEverywhere) {
+  // From a separate implementation in Python's integers; Sobol's with the first rows of new-joe-kuo-6.
+  EXPECT_EQ(math::unit_points(Design::monte_carlo, 2, 2, 7),
+            (std::vector<double>{0x1.7169852efd579p-1, 0x1.04a9fab64223bp-1, 0x1.4ca60bfa671d9p-1,
+                                 0x1.80a58b781afe5p-1}));
+  EXPECT_EQ(math::unit_points(Design::latin_hypercube, 3, 2, 7),
+            (std::vector<double>{0x1.770a155555555p-3, 0x1.3422355555555p-2, 0x1.11ca1aaaaaaabp-1,
+                                 0x1.e6583aaaaaaabp-1, 0x1.90bc3aaaaaaabp-1, 0x1.cb0a200000000p-2}));
+  const auto sobol = math::unit_points(Design::scrambled_sobol, 6, 3, 7);
+  const double first[] = {0x1.b795ef5b2c067p-1, 0x1.955606d88fe0bp-1, 0x1.7c111826e06a5p-1};
+  const double sixth[] = {0x1.a0bf4c0202fc8p-4, 0x1.e0da37f41cd74p-3, 0x1.3615174c183e3p-1};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(sobol[k], first[k]);
+    EXPECT_EQ(sobol[15 + k], sixth[k]);
+  }
+}
+
+TEST(UnitPoints, LieInsideTheOpenCube) {
+  for (const Design design : all_designs) {
+    for (const std::size_t points : {1, 2, 1000}) {
+      const auto values = math::unit_points(design, points, 20, 3);
+      EXPECT_EQ(values.size(), points * 20);
+      EXPECT_GT(*std::min_element(values.begin(), values.end()), 0.0) << name_of(design);
+      EXPECT_LT(*std::max_element(values.begin(), values.end()), 1.0) << name_of(design);
+    }
+    EXPECT_TRUE(math::unit_points(design, 0, 3, 1).empty());
+    EXPECT_TRUE(math::unit_points(design, 3, 0, 1).empty());
+  }
+}
+
+TEST(UnitPoints, DifferBetweenSeedsAndBetweenColumns) {
+  for (const Design design : all_designs) {
+    const auto one = math::unit_points(design, 64, 3, 1), other = math::unit_points(design, 64, 3, 2);
+    EXPECT_EQ(one, math::unit_points(design, 64, 3, 1));
+    for (std::size_t k = 0; k < one.size(); ++k) EXPECT_NE(one[k], other[k]) << name_of(design);
+    EXPECT_NE(column(one, 3, 0), column(one, 3, 1));
+    EXPECT_NE(column(one, 3, 1), column(one, 3, 2));
+  }
+}
+
+TEST(UnitPoints, EachPointIsUniformOverSeeds) {
+  constexpr int seeds = 4000;
+  for (const Design design : all_designs) {
+    std::vector<double> mean(8, 0.0), square(8, 0.0);
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+      const auto values = math::unit_points(design, 4, 2, seed);
+      for (std::size_t k = 0; k < 8; ++k) {
+        mean[k] += values[k] / seeds;
+        square[k] += values[k] * values[k] / seeds;
+      }
+    }
+    for (std::size_t k = 0; k < 8; ++k) {
+      // Four standard errors: sqrt(1/12/4000) of the mean, sqrt(4/45/4000) of the square.
+      EXPECT_NEAR(mean[k], 1.0 / 2.0, 0.0183) << name_of(design);
+      EXPECT_NEAR(square[k], 1.0 / 3.0, 0.0189) << name_of(design);
+    }
+  }
+}
+
+TEST(UnitPoints, LongerDesignsStartWithTheShorterOnes) {
+  for (const Design design : {Design::monte_carlo, Design::scrambled_sobol}) {
+    auto longer = math::unit_points(design, 200, 5, 11);
+    longer.resize(500);
+    EXPECT_EQ(longer, math::unit_points(design, 100, 5, 11)) << name_of(design);
+  }
+}
+
+TEST(LatinHypercube, HasOnePointInEveryIntervalOfEachCoordinate) {
+  for (const std::size_t points : {1, 7, 100, 1001}) {
+    const auto values = math::unit_points(Design::latin_hypercube, points, 6, 5);
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_TRUE(fills_every_interval(column(values, 6, k)));
+  }
+}
+
+TEST(LatinHypercube, PairsCoordinatesAtRandom) {
+  constexpr std::size_t points = 4096;
+  const auto values = math::unit_points(Design::latin_hypercube, points, 2, 5);
+  double correlation = 0.0;
+  for (std::size_t i = 0; i < points; ++i) correlation += (values[2 * i] - 0.5) * (values[2 * i + 1] - 0.5);
+  EXPECT_NEAR(correlation * 12.0 / points, 0.0, 4.0 / 64.0);  // four standard errors
+}
+
+TEST(ScrambledSobol, HasOnePointInEveryIntervalOfEachCoordinate) {
+  for (unsigned power = 0; power <= 10; ++power) {
+    const auto values = math::unit_points(Design::scrambled_sobol, std::size_t{1} << power, 40, 5);
+    for (std::size_t k = 0; k < 40; ++k) EXPECT_TRUE(fills_every_interval(column(values, 40, k))) << power;
+  }
+}
+
+TEST(ScrambledSobol, FirstTwoCoordinatesAreANet) {
+  for (unsigned power = 0; power <= 10; ++power) {
+    EXPECT_TRUE(
+        is_plane_net(math::unit_points(Design::scrambled_sobol, std::size_t{1} << power, 3, 9), 3, power));
+  }
+  EXPECT_FALSE(is_plane_net(math::unit_points(Design::latin_hypercube, 64, 3, 9), 3, 6));
+}
+
+TEST(ScrambledSobol, IsNestedAndNotAShift) {
+  // In one dimension Owen's scramble is stratified sampling, error N^-3/2, where a random shift of the digits
+  // leaves N^-1: from 64 to 1024 points a factor of 64 against 16.
+  const double coarse = error_of_exponential(Design::scrambled_sobol, 64);
+  const double fine = error_of_exponential(Design::scrambled_sobol, 1024);
+  EXPECT_NEAR(std::log2(coarse / fine) / 4.0, 1.5, 0.1);
+  // The variance within the strata: the mean of (f'/N)^2/12 over N points, f' = e^x.
+  EXPECT_NEAR(fine * std::pow(1024.0, 1.5) / std::sqrt((std::exp(2.0) - 1.0) / 24.0), 1.0, 0.15);
+}
+
+TEST(ScrambledSobol, RefusesMoreDimensionsThanItsTableHas) {
+  EXPECT_EQ(math::unit_points(Design::scrambled_sobol, 1, 3667, 1).size(), 3667u);
+  EXPECT_THROW(math::unit_points(Design::scrambled_sobol, 1, 3668, 1), std::invalid_argument);
+}
+
+TEST(Distribution, QuantilesReachTheEndsExactly) {
+  for (const auto& distribution :
+       {Distribution::uniform(-0.1, 0.7), Distribution::log_uniform(1e-7, 0.3),
+        Distribution::normal(3.0, 0.4, 2.9, 3.3), Distribution::normal(0.0, 1.0, 12.0, 13.0)}) {
+    EXPECT_EQ(math::quantile(distribution, 0.0), distribution.lower);
+    EXPECT_EQ(math::quantile(distribution, 1.0), distribution.upper);
+    EXPECT_EQ(math::cumulative(distribution, distribution.lower), 0.0);
+    EXPECT_EQ(math::cumulative(distribution, distribution.upper), 1.0);
+  }
+  EXPECT_EQ(math::quantile(Distribution::normal(0.0, 1.0), 0.0), -infinity);
+  EXPECT_EQ(math::quantile(Distribution::normal(0.0, 1.0), 1.0), infinity);
+}
+
+TEST(Distribution, UniformAndLogUniformAreTheirFormulas) {
+  EXPECT_NEAR(math::quantile(Distribution::uniform(-2.0, 6.0), 0.25), 0.0, 1e-15);
+  EXPECT_NEAR(math::mean_of(Distribution::uniform(-2.0, 6.0)), 2.0, 1e-15);
+  const auto decades = Distribution::log_uniform(1e-3, 1e3);
+  EXPECT_NEAR(math::quantile(decades, 0.5), 1.0, 1e-14);
+  EXPECT_NEAR(math::quantile(decades, 1.0 / 3.0), 0.1, 1e-15);
+  EXPECT_NEAR(math::cumulative(decades, 10.0), 2.0 / 3.0, 1e-15);
+  EXPECT_NEAR(math::mean_of(decades), (1e3 - 1e-3) / (6.0 * std::numbers::ln10), 1e-11);
+}
+
+TEST(Distribution, NormalAgreesWithTheTables) {
+  const auto standard = Distribution::normal(0.0, 1.0);
+  EXPECT_NEAR(math::quantile(standard, 0.975), 1.959963984540054, 1e-14);
+  EXPECT_NEAR(math::quantile(standard, 0.001), -3.090232306167813, 1e-14);
+  EXPECT_NEAR(math::cumulative(standard, 1.0), 0.841344746068543, 1e-15);
+  EXPECT_NEAR(math::quantile(Distribution::normal(500.0, 20.0), 0.025), 500.0 - 20.0 * 1.959963984540054,
+              1e-12);
+  EXPECT_EQ(math::mean_of(Distribution::normal(500.0, 20.0)), 500.0);
+}
+
+TEST(Distribution, NormalCutOffFollowsFromTheErrorFunction) {
+  const auto cut = Distribution::normal(10.0, 2.0, 8.0, 14.0);  // -1 to 2 deviations
+  const double inside = phi_below(2.0) - phi_below(-1.0);
+  EXPECT_NEAR(math::cumulative(cut, 11.0), (phi_below(0.5) - phi_below(-1.0)) / inside, 1e-15);
+  EXPECT_NEAR(math::quantile(cut, (phi_below(0.5) - phi_below(-1.0)) / inside), 11.0, 1e-14);
+  EXPECT_NEAR(math::mean_of(cut), 10.0 + 2.0 * (phi_density(-1.0) - phi_density(2.0)) / inside, 1e-14);
+  // Half of a normal: mean sqrt(2/pi), median at the three-quarter point of the whole.
+  const auto half = Distribution::normal(0.0, 1.0, 0.0, infinity);
+  EXPECT_NEAR(math::mean_of(half), std::sqrt(2.0 / std::numbers::pi), 1e-15);
+  EXPECT_NEAR(math::quantile(half, 0.5), 0.674489750196082, 1e-14);
+}
+
+TEST(Distribution, NormalCutOffFarFromItsCentreKeepsItsAccuracy) {
+  // Solved with mpmath in 40 digits.
+  const auto far = Distribution::normal(0.0, 1.0, 30.0, infinity);
+  EXPECT_NEAR(math::quantile(far, 0.5), 30.023070467827310753, 1e-13);
+  EXPECT_NEAR(math::quantile(far, 0.999), 30.229130430951398428, 1e-13);
+  EXPECT_NEAR(math::mean_of(far), 30.033259667433677037, 3e-12);
+  EXPECT_NEAR(math::quantile(Distribution::normal(0.0, 1.0, 8.0, 8.5), 0.25), 8.0347258300977717235, 1e-14);
+  EXPECT_NEAR(math::mean_of(Distribution::normal(0.0, 1.0, 8.0, 8.5)), 8.1137359894965232339, 1e-13);
+}
+
+TEST(Distribution, BothTailsOfANormalAreTreatedAlike) {
+  for (const double end : {-3.0, 0.0, 2.0, 9.0, 35.0}) {
+    const auto above = Distribution::normal(0.0, 1.0, end, infinity);
+    const auto below = Distribution::normal(0.0, 1.0, -infinity, -end);
+    for (const double u : {0.0078125, 0.25, 0.5, 0.875}) {
+      EXPECT_DOUBLE_EQ(math::quantile(above, u), -math::quantile(below, 1.0 - u)) << end << ", " << u;
+      const double x = math::quantile(above, u);
+      EXPECT_NEAR(math::cumulative(above, x) + math::cumulative(below, -x), 1.0, 1e-14) << end << ", " << u;
+    }
+  }
+}
+
+TEST(Distribution, QuantileAndCumulativeAreInverse) {
+  for (const auto& distribution :
+       {Distribution::uniform(-3.0, 5.0), Distribution::log_uniform(2e-9, 4e3),
+        Distribution::log_uniform(1000.0, 1000.1), Distribution::normal(1.0, 3.0),
+        Distribution::normal(1.0, 3.0, -infinity, 2.0), Distribution::normal(1.0, 3.0, 0.0, 2.0),
+        Distribution::normal(0.0, 1.0, 20.0, 21.0), Distribution::normal(0.0, 1.0, -infinity, -34.0)}) {
+    double last = -infinity;
+    for (int k = 1; k < 256; ++k) {
+      const double u = k / 256.0, x = math::quantile(distribution, u);
+      // As near as the neighbours of x, and as erfc whose argument z is rounded: z^2 eps, 34 deviations out.
+      const double step = math::cumulative(distribution, std::nextafter(x, infinity)) -
+                          math::cumulative(distribution, std::nextafter(x, -infinity));
+      EXPECT_NEAR(math::cumulative(distribution, x), u, step + 3e-13);
+      EXPECT_GT(x, last);
+      last = x;
+    }
+  }
+}
+
+TEST(Distribution, MeanIsTheIntegralOfTheQuantiles) {
+  for (const auto& distribution :
+       {Distribution::uniform(-3.0, 5.0), Distribution::log_uniform(0.1, 4.0),
+        Distribution::normal(1.0, 3.0, 0.0, 2.0), Distribution::normal(0.0, 1.0, 20.0, 21.0)}) {
+    double total = 0.0;  // midpoint rule
+    for (int k = 0; k < 4096; ++k) total += math::quantile(distribution, (k + 0.5) / 4096.0) / 4096.0;
+    EXPECT_NEAR(math::mean_of(distribution), total, 1e-5);
+  }
+}
+
+TEST(Distribution, KnowsWhatIsNone) {
+  EXPECT_TRUE(math::is_valid(Distribution::uniform(0.0, 1.0)));
+  EXPECT_TRUE(math::is_valid(Distribution::normal(0.0, 1.0, 35.0)));
+  EXPECT_FALSE(math::is_valid(Distribution::uniform(1.0, 1.0)));
+  EXPECT_FALSE(math::is_valid(Distribution::uniform(0.0, infinity)));
+  EXPECT_FALSE(math::is_valid(Distribution::uniform(std::nan(""), 1.0)));
+  EXPECT_FALSE(math::is_valid(Distribution::log_uniform(0.0, 1.0)));
+  EXPECT_FALSE(math::is_valid(Distribution::log_uniform(1.0, infinity)));
+  EXPECT_FALSE(math::is_valid(Distribution::normal(0.0, 0.0)));
+  EXPECT_FALSE(math::is_valid(Distribution::normal(0.0, -1.0)));
+  EXPECT_FALSE(math::is_valid(Distribution::normal(infinity, 1.0)));
+  EXPECT_FALSE(math::is_valid(Distribution::normal(0.0, 1.0, 2.0, 1.0)));
+  EXPECT_FALSE(math::is_valid(Distribution::normal(0.0, 1.0, 40.0)));  // nothing left to draw from
+}
+
+#ifdef LAUNCHSAFE_HAVE_RAPIDCHECK
+
+RC_GTEST_PROP(UnitPoints, OfAnySeedKeepTheirBalance, (std::uint64_t seed)) {
+  const auto dimensions = *rc::gen::inRange<std::size_t>(2, 12);
+  const auto power = *rc::gen::inRange<unsigned>(0, 8);
+  const auto sobol = math::unit_points(Design::scrambled_sobol, std::size_t{1} << power, dimensions, seed);
+  const auto latin = math::unit_points(Design::latin_hypercube, std::size_t{1} << power, dimensions, seed);
+  for (std::size_t k = 0; k < dimensions; ++k) {
+    RC_ASSERT(fills_every_interval(column(sobol, dimensions, k)));
+    RC_ASSERT(fills_every_interval(column(latin, dimensions, k)));
+  }
+  RC_ASSERT(is_plane_net(sobol, dimensions, power));
+}
+
+RC_GTEST_PROP(Distribution, QuantilesOfAnyCutNormalAreOrderedInsideAndInverted, ()) {
+  const double centre = *rc::gen::inRange(-1000, 1000) / 10.0;
+  const double deviation = *rc::gen::inRange(1, 1000) / 10.0;
+  const double lower = *rc::gen::inRange(-3400, 3300) / 100.0;  // in deviations
+  const double width = *rc::gen::inRange(1, 1000) / 100.0;
+  const auto distribution = Distribution::normal(centre, deviation, centre + deviation * lower,
+                                                 centre + deviation * (lower + width));
+  RC_PRE(math::is_valid(distribution));
+  const double u = *rc::gen::inRange(0, 1000) / 1000.0, x = math::quantile(distribution, u);
+  RC_ASSERT(x >= distribution.lower && x <= distribution.upper);
+  RC_ASSERT(math::quantile(distribution, u + 0.001) > x);
+  // The rounding of x counts as much as the density is high there: up to about 34 a deviation.
+  const double rounding = (std::abs(centre) / deviation + 44.0) * 2.3e-16;
+  RC_ASSERT(std::abs(math::cumulative(distribution, x) - u) < 1e-13 + 4.0 * rounding * (34.0 + 1.0 / width));
+}
+
+#endif
+
+}  // namespace
