@@ -1,8 +1,12 @@
 #include "command_line.hpp"
 
+#include "amounts.hpp"
+#include "command_help.hpp"
+#include "shell_words.hpp"
 #include "version_text.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <sstream>
 
@@ -11,50 +15,13 @@ namespace {
 
 constexpr int most_jobs = 4096;
 
-constexpr const char* description =
-    "launchsafe: how thick may the gap under an explosive charge be before a launch can ignite it?\n"
-    "Simulates shells under launch loads by the material point method.";
-
-constexpr const char* footer = R"(
-Examples:
-  launchsafe run studies/scene_155mm.toml -o results
-  launchsafe study studies/critical_gap_155mm.toml -o results --jobs 2
-  launchsafe verify
-  launchsafe explain studies/scene_155mm.toml
-
-Results go to stdout, progress and messages to stderr. Nothing is written but under the folder of --output.
-Exit codes: 0 done, 2 bad usage or input, 3 some cases or checks failed, 4 a verdict is indeterminate,
-70 the machine or the program failed (memory, disk, internal error), 75 interrupted.)";
-
-constexpr const char* run_footer = R"(
-Examples:
-  launchsafe run studies/scene_155mm.toml                print the table, write nothing
-  launchsafe run studies/scene_155mm.toml -o results     write results/scene_155mm.h5 as well
-  launchsafe run studies/scene_155mm.toml --json --quiet > case.json
-
-A file with the result of another input is never overwritten.)";
-
-constexpr const char* study_footer = R"(
-Examples:
-  launchsafe study studies/critical_gap_155mm.toml -o results
-  launchsafe study studies/critical_gap_155mm.toml -o results --jobs 2 --json > study.json)";
-
-constexpr const char* verify_footer = R"(
-Examples:
-  launchsafe verify                      every check
-  launchsafe verify --filter jwl         those with "jwl" in their name)";
-
-constexpr const char* explain_footer = R"(
-Examples:
-  launchsafe explain studies/scene_155mm.toml            physics in and out, particles, steps, time, memory
-  launchsafe explain studies/critical_gap_155mm.toml     the runs that the study needs
-  launchsafe explain --keys                              every key of a scene file)";
-
 /// Everything the options write to while CLI11 parses.
 struct Parsed {
   CommandLine line;
   RunArguments run;
   StudyArguments study;
+  MergeArguments merge;
+  EmitArguments emit;
   VerifyArguments verify;
   ExplainArguments explain;
 };
@@ -75,17 +42,103 @@ CLI::App* add_run(CLI::App& app, Parsed& parsed) {
   return command;
 }
 
+void add_jobs(CLI::App& command, int& jobs, const char* meaning) {
+  command.add_option("-j,--jobs", jobs, meaning)->check(CLI::Range(1, most_jobs))->type_name("N");
+}
+
+/// An option whose text is read by `parse`.
+template <class Parse>
+void add_amount(CLI::App& command, const std::string& name, std::optional<double>& value, Parse parse,
+                const char* allowed, const char* type, const char* meaning) {
+  const auto read = [name, &value, parse, allowed](const std::string& text) {
+    value = parse(text);
+    if (!value) throw CLI::ValidationError(name, fmt::format("found \"{}\"; allowed: {}", text, allowed));
+  };
+  command.add_option_function<std::string>(name, read, meaning)->type_name(type);
+}
+
+void add_limits(CLI::App& command, std::optional<double>& memory, std::optional<double>& time_limit) {
+  add_amount(command, "--memory", memory, parse_size, allowed_sizes, "SIZE",
+             "Memory of all running cases together, such as 8GB; most of what is free unless given");
+  add_amount(command, "--time-limit", time_limit, parse_duration, allowed_durations, "DURATION",
+             "Wall time after which a case is given up, such as 10min");
+}
+
+void add_shard(CLI::App& command, study::Shard& shard) {
+  const auto read = [&shard](const std::string& text) {
+    if (!study::parse_shard(text, shard))
+      throw CLI::ValidationError("--shard", fmt::format("found \"{}\"; allowed: i/N such as 2/4", text));
+  };
+  command
+      .add_option_function<std::string>("--shard", read,
+                                        "Run only part i of N of the mechanical runs; see launchsafe merge")
+      ->type_name("i/N");
+}
+
+void add_update(CLI::App& command, bool& update) {
+  command.add_flag("--update", update,
+                   "Use the stored cases of another study in DIR; its report moves to DIR/earlier-N");
+}
+
 CLI::App* add_study(CLI::App& app, Parsed& parsed) {
-  CLI::App* command = app.add_subcommand("study", "Run a study: many cases, a fit, a verdict for every gap");
-  command->add_option("study", parsed.study.study, "Study file")->required()->type_name("STUDY.toml");
-  command->add_option("-o,--output", parsed.study.output, "Folder for cases, tables and report")
-      ->required()
+  StudyArguments& study = parsed.study;
+  CLI::App* command = app.add_subcommand("study", "Run a study: many cases, a verdict for every gap");
+  command->add_option("study", study.study, "Study file")->required()->type_name("STUDY.toml");
+  command
+      ->add_option("-o,--output", study.output,
+                   "Folder for cases, tables and report; what is stored there is used again")
       ->type_name("DIR");
-  command->add_option("-j,--jobs", parsed.study.jobs, "Threads; as many as there are processors unless given")
-      ->check(CLI::Range(1, most_jobs))
-      ->type_name("N");
+  add_jobs(*command, study.jobs, "Cases at a time; as many as there are processors unless given");
+  add_limits(*command, study.memory, study.time_limit);
+  add_shard(*command, study.shard);
+  command->add_flag("--dry-run", study.dry_run, "Say what would be run and at what cost; write nothing");
+  command->add_flag("--explain", study.explain, "Say of every mechanical run why it runs or is used again");
+  add_update(*command, study.update);
   add_output_options(*command, parsed);
   command->footer(study_footer);
+  return command;
+}
+
+CLI::App* add_merge(CLI::App& app, Parsed& parsed) {
+  MergeArguments& merge = parsed.merge;
+  CLI::App* command = app.add_subcommand("merge", "Make one report of the shards of a study; runs nothing");
+  command->add_option("study", merge.study, "Study file")->required()->type_name("STUDY.toml");
+  command->add_option("-o,--output", merge.output, "Folder for cases, tables and report")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("folder", merge.folders, "Folders of shards; none where they all used DIR")
+      ->type_name("FOLDER...");
+  add_update(*command, merge.update);
+  add_jobs(*command, merge.jobs, "Threads that judge gaps; as many as there are processors unless given");
+  add_output_options(*command, parsed);
+  command->footer(merge_footer);
+  return command;
+}
+
+CLI::App* add_emit(CLI::App& app, Parsed& parsed) {
+  EmitArguments& emit = parsed.emit;
+  CLI::App* command =
+      app.add_subcommand("emit", "Write batch scripts that run a study on a cluster, in shards");
+  command->add_option("engine", emit.engine, "What the scripts are for: slurm")
+      ->required()
+      ->check(CLI::IsMember({"slurm"}))
+      ->type_name("slurm");
+  command->add_option("study", emit.study, "Study file")->required()->type_name("STUDY.toml");
+  command->add_option("-o,--output", emit.output, "Folder for cases, tables and report, seen by all nodes")
+      ->required()
+      ->type_name("DIR");
+  constexpr int most_shards = 10000;
+  command->add_option("--shards", emit.shards, "Number of shards")
+      ->required()
+      ->check(CLI::Range(1, most_shards))
+      ->type_name("N");
+  add_jobs(*command, emit.jobs, "Cases at a time, and processors, of every shard");
+  add_limits(*command, emit.memory, emit.time_limit);
+  command->add_option("--sbatch", emit.sbatch, "A further #SBATCH option, such as --sbatch=--partition=long")
+      ->allow_extra_args(false)
+      ->type_name("TEXT");
+  add_output_options(*command, parsed);
+  command->footer(emit_footer);
   return command;
 }
 
@@ -125,6 +178,8 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
   app.set_version_flag("--version", version_text, "Version, commit, compiler, flags and libraries");
   const CLI::App* run = add_run(app, parsed);
   const CLI::App* study = add_study(app, parsed);
+  const CLI::App* merge = add_merge(app, parsed);
+  const CLI::App* emit = add_emit(app, parsed);
   const CLI::App* verify = add_verify(app, parsed);
   add_explain(app, parsed);
 
@@ -138,10 +193,19 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     line.request = UsageError{error.what()};
     return line;
   }
+  const std::string command = shell_command({arguments, arguments + argument_count});
+  parsed.study.command = command;
+  parsed.merge.command = command;
   if (run->parsed()) {
     line.request = parsed.run;
+  } else if (study->parsed() && parsed.study.output.empty() && !parsed.study.dry_run) {
+    line.request = UsageError{"study: --output is required unless with --dry-run"};
   } else if (study->parsed()) {
     line.request = parsed.study;
+  } else if (merge->parsed()) {
+    line.request = parsed.merge;
+  } else if (emit->parsed()) {
+    line.request = parsed.emit;
   } else if (verify->parsed()) {
     line.request = parsed.verify;
   } else if (parsed.explain.keys != parsed.explain.file.empty()) {

@@ -17,8 +17,8 @@ struct UsageError {
   std::string message;
 };
 
-using Request =
-    std::variant<Information, UsageError, RunArguments, StudyArguments, VerifyArguments, ExplainArguments>;
+using Request = std::variant<Information, UsageError, RunArguments, StudyArguments, MergeArguments,
+                             EmitArguments, VerifyArguments, ExplainArguments>;
 
 struct CommandLine {
   Request request;

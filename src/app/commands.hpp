@@ -2,10 +2,12 @@
 #pragma once
 
 #include "console.hpp"
+#include "launchsafe/study/shard.hpp"
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace launchsafe::app {
 
@@ -17,10 +19,40 @@ ExitCode run_command(const RunArguments& arguments, Console& console);
 
 struct StudyArguments {
   std::filesystem::path study;
-  std::filesystem::path output;  ///< folder of cases, tables and report
-  int jobs = 0;                  ///< threads; 0: as many as there are processors for us
+  std::filesystem::path output;      ///< folder of cases, tables and report; may be empty for a dry run
+  int jobs = 0;                      ///< threads; 0: as many as there are processors for us
+  std::optional<double> memory;      ///< bytes of all running cases together
+  std::optional<double> time_limit;  ///< s of wall time, of one case
+  study::Shard shard;                ///< the part that is ours
+  bool dry_run = false;              ///< say what would be run, and run nothing
+  bool explain = false;              ///< say of every mechanical run why it runs
+  bool update = false;               ///< the folder may hold the results of an earlier study
+  std::string command;               ///< the whole command, to be repeated in a shell
 };
 ExitCode study_command(const StudyArguments& arguments, Console& console);
+/// What `study_command` would run, and at what cost; nothing is written.
+ExitCode dry_run_command(const StudyArguments& arguments, Console& console);
+
+struct MergeArguments {
+  std::filesystem::path study;
+  std::filesystem::path output;                ///< folder of cases, tables and report
+  std::vector<std::filesystem::path> folders;  ///< of shards, to be copied from
+  int jobs = 0;         ///< threads that judge gaps; 0: as many as there are processors
+  bool update = false;  ///< the folder may hold the results of an earlier study
+  std::string command;  ///< the whole command, to be repeated in a shell
+};
+ExitCode merge_command(const MergeArguments& arguments, Console& console);
+
+struct EmitArguments {
+  std::string engine;  ///< what the script is for: "slurm"
+  std::filesystem::path study, output;
+  int shards = 0;
+  int jobs = 0;                      ///< threads of a shard; 0: not given
+  std::optional<double> memory;      ///< bytes, of a shard
+  std::optional<double> time_limit;  ///< s of wall time, of one case
+  std::vector<std::string> sbatch;   ///< further options for every #SBATCH line, such as "--partition=long"
+};
+ExitCode emit_command(const EmitArguments& arguments, Console& console);
 
 struct VerifyArguments {
   std::string filter;  ///< part of a check's group or name, case ignored

@@ -1,11 +1,11 @@
 // launchsafe explain: what would be computed, and at what cost.
 #include "commands.hpp"
 #include "explain_scene.hpp"
-#include "explain_study.hpp"
+#include "foresight_text.hpp"
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/study/read_study.hpp"
-#include "launchsafe/study/scheduler.hpp"
+#include "launchsafe/study/foresight.hpp"
 #include "signals.hpp"
+#include "update_rate.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -52,9 +52,9 @@ ExitCode explain_study(const std::filesystem::path& path, Console& console) {
   if (!file) return refuse(file.error(), console);
   const double update_rate = measured_update_rate(file->cases.front().scene.scene);
   if (stop_requested()) return interrupted(console);
-  const StudyCost cost = cost_of(*file, update_rate, study::available_cores());
-  console.print_text(study_text(*file, cost, update_rate));
-  console.print_json(study_json(*file, cost, update_rate));
+  const study::Foresight foresight = study::foresee(*file, {}, update_rate);
+  console.print_text(foresight_text(*file, foresight, {}));
+  console.print_json(foresight_json(*file, foresight));
   return ExitCode::done;
 }
 

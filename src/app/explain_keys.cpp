@@ -1,11 +1,14 @@
-// Every key of a scene file, from the same descriptions that read it.
+// Every key of a scene file and of a study file, from the same descriptions that read them.
 #include "explain_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/study/read_study.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace launchsafe::app {
 namespace {
@@ -26,22 +29,19 @@ std::string standings() {
   return text;
 }
 
-}  // namespace
-
-std::string keys_text() {
-  std::string text = fmt::format(
-      "Keys of a scene file; a key a.b is written b under [a]. Standing of a default: {}.\n", standings());
-  for (const scene::DocumentedKey& key : scene::describe_keys()) {
+std::string documented(const std::vector<scene::DocumentedKey>& keys) {
+  std::string text;
+  for (const scene::DocumentedKey& key : keys) {
     text += fmt::format("\n{}\n    {}\n    {}\n    {}\n", key.description.name, key.description.sentence,
                         scene::allowed_text(key.description), default_of(key));
   }
   return text;
 }
 
-nlohmann::ordered_json keys_json() {
-  nlohmann::ordered_json keys = nlohmann::ordered_json::array();
-  for (const scene::DocumentedKey& key : scene::describe_keys()) {
-    keys.push_back({{"key", key.description.name},
+nlohmann::ordered_json json_of(const std::vector<scene::DocumentedKey>& keys) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const scene::DocumentedKey& key : keys) {
+    list.push_back({{"key", key.description.name},
                     {"si_unit", scene::si_unit_of(key.description.dimension)},
                     {"allowed", scene::allowed_text(key.description)},
                     {"default", key.default_text},
@@ -49,7 +49,21 @@ nlohmann::ordered_json keys_json() {
                     {"standing", scene::letter_of(key.description.standing)},
                     {"sentence", key.description.sentence}});
   }
-  return {{"keys", keys}};
+  return list;
+}
+
+}  // namespace
+
+std::string keys_text() {
+  return fmt::format(
+             "Keys of a scene file; a key a.b is written b under [a]. Standing of a default: {}.\n{}\n\n",
+             standings(), documented(scene::describe_keys())) +
+         "Study files\n\nA study file also has [set], a table of scene keys with other values.\n" +
+         documented(study::describe_study_keys());
+}
+
+nlohmann::ordered_json keys_json() {
+  return {{"keys", json_of(scene::describe_keys())}, {"study_keys", json_of(study::describe_study_keys())}};
 }
 
 }  // namespace launchsafe::app

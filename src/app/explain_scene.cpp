@@ -1,20 +1,11 @@
 #include "explain_scene.hpp"
 
-#include "launchsafe/run/run_case.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "signals.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <atomic>
-#include <chrono>
-#include <string_view>
-#include <utility>
-
 namespace launchsafe::app {
 namespace {
-
-using namespace std::chrono_literals;
 
 nlohmann::ordered_json term_json(const scene::Term& term) {
   return {{"in", term.in},
@@ -38,18 +29,6 @@ nlohmann::ordered_json physics_json(const scene::Plan& plan) {
 }
 
 }  // namespace
-
-double measured_update_rate(const scene::Scene& scene) {
-  std::atomic<bool> enough{false};
-  const auto start = std::chrono::steady_clock::now();
-  run::RunOptions options;
-  options.stop = &enough;
-  options.progress = [&](double) {
-    if (std::chrono::steady_clock::now() - start > 300ms || stop_requested()) enough = true;
-  };
-  const run::MechanicsResult result = run::run_mechanics(scene, options);
-  return stop_requested() ? 0.0 : result.update_rate();
-}
 
 std::string scene_text(const scene::Scene& scene, double update_rate) {
   return scene::to_text(scene::make_plan(scene), scene, update_rate);

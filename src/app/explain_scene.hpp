@@ -9,10 +9,6 @@
 
 namespace launchsafe::app {
 
-/// Particle updates per second that this program does on this machine with this scene, from the first third
-/// of a second of its run; 0 when the user stops it.
-double measured_update_rate(const scene::Scene& scene);
-
 std::string scene_text(const scene::Scene& scene, double update_rate);
 nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate);
 

@@ -24,6 +24,12 @@ ExitCode perform(const RunArguments& arguments, Console& console) { return run_c
 ExitCode perform(const StudyArguments& arguments, Console& console) {
   return study_command(arguments, console);
 }
+ExitCode perform(const MergeArguments& arguments, Console& console) {
+  return merge_command(arguments, console);
+}
+ExitCode perform(const EmitArguments& arguments, Console& console) {
+  return emit_command(arguments, console);
+}
 ExitCode perform(const VerifyArguments& arguments, Console& console) {
   return verify_command(arguments, console);
 }
@@ -49,7 +55,8 @@ int main(int argument_count, char** arguments) {
     catch_signals();
     return static_cast<int>(perform(parse_command_line(argument_count, arguments)));
   } catch (const std::bad_alloc&) {
-    console.error("out of memory; a coarser numerics.cell_size or fewer --jobs need less");
+    console.error(
+        "out of memory; a coarser numerics.cell_size, fewer --jobs or a smaller --memory need less");
   } catch (const std::exception& error) {
     console.error(fmt::format("internal error: {}", error.what()));
   }

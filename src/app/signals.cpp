@@ -38,6 +38,6 @@ void catch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-const std::atomic<bool>& stop_requested() { return stop_flag(); }
+std::atomic<bool>& stop_requested() { return stop_flag(); }
 
 }  // namespace launchsafe::app

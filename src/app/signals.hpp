@@ -10,7 +10,7 @@ namespace launchsafe::app {
 /// file-size limit becomes an error of the write instead of the program's end.
 void catch_signals();
 
-/// True once the user wants the program to end.
-const std::atomic<bool>& stop_requested();
+/// True once the user wants the program to end. Whoever finds that nothing useful can follow may set it too.
+std::atomic<bool>& stop_requested();
 
 }  // namespace launchsafe::app

@@ -1,15 +1,14 @@
-// launchsafe study: many cases, a fit, a verdict for every gap.
+// launchsafe study: many cases, kept as they end, then tables and an answer.
 #include "commands.hpp"
-#include "launchsafe/report/calibration_report.hpp"
-#include "launchsafe/report/critical_gap_report.hpp"
+#include "foresight_text.hpp"
 #include "launchsafe/report/number.hpp"
-#include "output_folder.hpp"
+#include "launchsafe/study/foresight.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 #include "study_manifest.hpp"
+#include "study_session.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace launchsafe::app {
 namespace {
@@ -21,99 +20,47 @@ std::string progress_line(const study::Progress& progress) {
                      progress.running, 100.0 * progress.fraction, left);
 }
 
-std::string text_of(const report::Table& table) {
-  return table.rows.empty() ? std::string{} : report::to_text(table) + "\n";
+study::StudyOptions options_of(const StudyArguments& arguments, store::CaseStore* store) {
+  study::StudyOptions options;
+  options.jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
+  options.memory_limit = arguments.memory.value_or(options.memory_limit);
+  options.time_limit = arguments.time_limit.value_or(options.time_limit);
+  options.shard = arguments.shard;
+  options.stop = &stop_requested();
+  options.store = store;
+  return options;
 }
 
-std::string text_of(const study::CriticalGapResult& result) {
-  std::string text = text_of(report::verdict_table(result)) + text_of(report::comparison_table(result)) +
-                     text_of(report::critical_gap_table(result));
-  for (const study::CaseOutcome& outcome : result.cases) {
-    if (outcome.fit) text += text_of(report::fit_table(outcome));
-  }
-  return text + text_of(report::run_table(result));
+StudyResult run_with_progress(const study::StudyFile& file, study::StudyOptions options,
+                              const Console& console) {
+  Progress progress(progress_style(console.quiet()));
+  options.progress = [&progress](const study::Progress& state) { progress.show(progress_line(state)); };
+  return run_study(file, options);
 }
 
-std::string text_of(const study::CalibrationResult& result) {
-  std::string text = text_of(report::calibration_table(result)) + text_of(report::convergence_table(result)) +
-                     text_of(report::constants_table(result));
-  if (result.recommendation.row) {
-    text += text_of(report::hold_out_table(result, result.rows[*result.recommendation.row]));
-  }
-  return text;
-}
-
-bool any_indeterminate(const study::CriticalGapResult& result) { return result.any_indeterminate(); }
-bool any_indeterminate(const study::CalibrationResult&) { return false; }
-
-template <class StudyResult>
-ExitCode exit_code_of(const StudyResult& result) {
-  if (result.any_failed()) return ExitCode::cases_failed;
-  return any_indeterminate(result) ? ExitCode::indeterminate : ExitCode::done;
-}
-
-ExitCode report_interruption(const StudyArguments& arguments, const Console& console) {
-  const std::string jobs = arguments.jobs > 0 ? fmt::format(" --jobs {}", arguments.jobs) : "";
-  console.error(fmt::format(
-      "interrupted; nothing of this study was kept; to start it again: launchsafe study {} -o {}{}",
-      arguments.study.string(), arguments.output.string(), jobs));
-  return ExitCode::interrupted;
-}
-
-ExitCode refuse(const std::string& message, const Console& console) {
-  console.error(message);
-  return ExitCode::bad_input;
-}
-
-template <class StudyResult>
-store::Result<report::WrittenFiles> write_results(const StudyResult& result,
-                                                  const std::filesystem::path& folder,
-                                                  store::Manifest manifest) {
-  manifest.wall_time = result.timing.wall_time;
-  if (const auto error = write_study_manifest(folder, manifest)) return *error;
-  return report::write_report(result, folder);
-}
-
-/// Writes and prints what came of a study. The answer is printed too where it could not be written.
-template <class StudyResult>
-ExitCode deliver(const StudyResult& result, const StudyArguments& arguments, const store::Manifest& manifest,
-                 Console& console) {
-  if (result.interrupted) return report_interruption(arguments, console);
-  const auto written = write_results(result, arguments.output, manifest);
-  console.print_text(text_of(result) + report::answer(result) + "\n");
-  console.print_json(report::to_json(result));
-  if (!written) {
-    console.error(written.error().message);
-    return written.error().kind == store::Error::Kind::conflict ? ExitCode::bad_input : ExitCode::failed;
-  }
-  for (const std::string& remark : written->remarks) console.remark(remark);
-  console.remark(fmt::format("wrote {} files to {}", written->files.size() + 1, arguments.output.string()));
-  return exit_code_of(result);
+void explain_runs(const study::StudyFile& file, const study::StudyOptions& options, const Console& console) {
+  constexpr double any_rate = 1.0;
+  const study::Foresight foresight = study::foresee(file, options, any_rate);
+  for (const std::string& line : reason_lines(foresight)) console.remark(line);
 }
 
 }  // namespace
 
 ExitCode study_command(const StudyArguments& arguments, Console& console) {
+  if (arguments.dry_run) return dry_run_command(arguments, console);
   const auto file = study::read_study(arguments.study);
-  if (!file) return refuse(file.error().message(), console);
-  const int jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
-  const store::Manifest manifest = study_manifest(*file, jobs);
-  if (const auto conflict = study_conflict(arguments.output, manifest)) return refuse(*conflict, console);
-  if (const auto obstacle = prepare_output_folder(arguments.output)) return refuse(*obstacle, console);
-
-  Progress progress(progress_style(console.quiet()));
-  study::StudyOptions options;
-  options.jobs = jobs;
-  options.stop = &stop_requested();
-  options.progress = [&progress](const study::Progress& state) { progress.show(progress_line(state)); };
-  if (file->study.kind == study::StudyKind::calibration) {
-    const study::CalibrationResult result = study::run_calibration(*file, options);
-    progress.clear();
-    return deliver(result, arguments, manifest, console);
+  if (!file) {
+    console.error(file.error().message());
+    return ExitCode::bad_input;
   }
-  const study::CriticalGapResult result = study::run_critical_gap(*file, options);
-  progress.clear();
-  return deliver(result, arguments, manifest, console);
+  study::StudyOptions options = options_of(arguments, nullptr);
+  StudySession session({arguments.study, arguments.output, arguments.update, arguments.shard.part(),
+                        arguments.command, study_manifest(*file, options.jobs)},
+                       console);
+  if (const ExitCode code = session.open(); code != ExitCode::done) return code;
+  options.store = &session.store();
+  if (arguments.explain) explain_runs(*file, options, console);
+  return session.conclude(run_with_progress(*file, options, console), *file, options);
 }
 
 }  // namespace launchsafe::app

@@ -1,11 +1,17 @@
 #include "study_manifest.hpp"
 
+#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/sha256.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <chrono>
+#include <optional>
 #include <sstream>
+#include <system_error>
 
 namespace launchsafe::app {
 namespace {
@@ -23,10 +29,20 @@ std::string values_of(const std::string& path) {
   return values.str();
 }
 
-nlohmann::ordered_json json_of(const store::Manifest& manifest) {
+nlohmann::ordered_json files_json(const std::vector<ReportFile>& files) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const ReportFile& file : files)
+    list.push_back(
+        {{"name", file.name}, {"bytes", file.size}, {"modified_ns", file.time}, {"sha256", file.sha256}});
+  return list;
+}
+
+nlohmann::ordered_json json_of(const StudyRecord& record) {
+  const store::Manifest& manifest = record.manifest;
   nlohmann::ordered_json libraries;
   for (const store::LibraryVersion& library : manifest.libraries) libraries[library.name] = library.version;
   return {{"input_sha256", manifest.input_sha256},
+          {"model_version", manifest.model_version},
           {"program_version", manifest.program_version},
           {"commit", manifest.commit},
           {"compiler", manifest.compiler},
@@ -37,37 +53,105 @@ nlohmann::ordered_json json_of(const store::Manifest& manifest) {
           {"threads", manifest.threads},
           {"start_time", manifest.start_time},
           {"wall_time_s", manifest.wall_time},
+          {"files", files_json(record.files)},
+          {"failures_sha256", record.failures},
           {"input", manifest.input_text}};
+}
+
+std::vector<ReportFile> files_from(const nlohmann::json& list) {
+  std::vector<ReportFile> files;
+  for (const auto& each : list) {
+    // A name that leads out of the folder is none of ours.
+    const std::string name = each.value("name", "");
+    if (name.empty() || std::filesystem::path(name).filename() != name) continue;
+    files.push_back({name, each.value("bytes", std::uintmax_t{0}), each.value("modified_ns", std::int64_t{0}),
+                     each.value("sha256", "")});
+  }
+  return files;
+}
+
+/// Throws what the JSON library throws where a value is of another type.
+StudyRecord record_from(const nlohmann::json& object) {
+  StudyRecord record;
+  record.manifest.input_sha256 = object.value("input_sha256", "");
+  record.manifest.model_version = object.value("model_version", 0);
+  record.manifest.program_version = object.value("program_version", "");
+  record.manifest.commit = object.value("commit", "");
+  record.manifest.start_time = object.value("start_time", "");
+  record.files = files_from(object.value("files", nlohmann::json::array()));
+  record.failures = object.value("failures_sha256", "");
+  return record;
+}
+
+/// Size and time alone.
+std::optional<ReportFile> quick_record(const std::filesystem::path& folder, const std::string& name) {
+  std::error_code failed;
+  ReportFile file{name, std::filesystem::file_size(folder / name, failed), 0, {}};
+  if (failed) return std::nullopt;
+  const auto time = std::filesystem::last_write_time(folder / name, failed);
+  if (failed) return std::nullopt;
+  const auto since_epoch = std::chrono::file_clock::to_sys(time).time_since_epoch();
+  file.time = std::chrono::duration_cast<std::chrono::nanoseconds>(since_epoch).count();
+  return file;
+}
+
+std::optional<std::string> digest_of(const std::filesystem::path& path) {
+  const auto bytes = store::read_file(path);
+  if (!bytes) return std::nullopt;
+  return store::sha256(*bytes);
 }
 
 }  // namespace
 
 store::Manifest study_manifest(const study::StudyFile& file, int jobs) {
-  std::string input = values_of(file.file);
-  for (const study::StudyCase& each : file.cases) {
-    input += fmt::format("\n\n# {}\n{}", each.label, scene::to_toml(each.scene.scene));
-  }
-  return store::make_manifest(std::move(input), jobs);
+  return store::make_manifest(fmt::format("# model version {}\n{}\n\n# scene\n{}", run::model_version,
+                                          values_of(file.file), scene::to_toml(file.scene.scene)),
+                              jobs);
 }
 
-std::optional<std::string> study_conflict(const std::filesystem::path& folder,
-                                          const store::Manifest& manifest) {
+bool same_study(const store::Manifest& one, const store::Manifest& other) {
+  return one.input_sha256 == other.input_sha256;
+}
+
+store::Result<StudyRecord> read_study_record(const std::filesystem::path& folder) {
   const auto text = store::read_file(manifest_path(folder));
-  if (!text) {
-    if (text.error().kind == store::Error::Kind::missing) return std::nullopt;
-    return text.error().message;
+  if (!text) return text.error();
+  const store::Error corrupt{store::Error::Kind::corrupt,
+                             fmt::format("{} is no manifest of a study", manifest_path(folder).string())};
+  const auto object = nlohmann::json::parse(*text, nullptr, false);
+  if (!object.is_object()) return corrupt;
+  try {
+    return record_from(object);
+  } catch (const nlohmann::json::exception&) {
+    return corrupt;
   }
-  const auto present = nlohmann::json::parse(*text, nullptr, false);
-  if (present.is_object() && present.value("input_sha256", "") == manifest.input_sha256) return std::nullopt;
-  return fmt::format(
-      "{} holds the results of a different study, and nothing is overwritten; name another folder",
-      folder.string());
 }
 
-store::MaybeError write_study_manifest(const std::filesystem::path& folder, const store::Manifest& manifest) {
+store::MaybeError write_study_record(const std::filesystem::path& folder, const StudyRecord& record) {
   return store::write_file_atomically(
       manifest_path(folder),
-      {json_of(manifest).dump(2, ' ', false, nlohmann::json::error_handler_t::replace), "\n"});
+      {json_of(record).dump(2, ' ', false, nlohmann::json::error_handler_t::replace), "\n"});
+}
+
+std::vector<ReportFile> record_files(const std::filesystem::path& folder,
+                                     const std::vector<std::string>& names) {
+  std::vector<ReportFile> files;
+  for (const std::string& name : names) {
+    auto file = quick_record(folder, name);
+    const auto digest = digest_of(folder / name);
+    if (!file || !digest) continue;
+    file->sha256 = *digest;
+    files.push_back(std::move(*file));
+  }
+  return files;
+}
+
+bool files_unchanged(const std::filesystem::path& folder, const std::vector<ReportFile>& files) {
+  return std::all_of(files.begin(), files.end(), [&](const ReportFile& file) {
+    const auto now = quick_record(folder, file.name);
+    if (!now || now->size != file.size) return false;
+    return now->time == file.time || digest_of(folder / file.name) == file.sha256;
+  });
 }
 
 }  // namespace launchsafe::app

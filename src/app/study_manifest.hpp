@@ -1,25 +1,51 @@
-// Which study a folder holds the results of.
+// Which study a folder holds the results of: its manifest.json.
 #pragma once
 
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/result.hpp"
 #include "launchsafe/study/read_study.hpp"
 
+#include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace launchsafe::app {
 
-/// The manifest of a study: its input is what the study file says, without remarks and in sorted order, and
-/// every scene that follows from it.
+/// A file that a report wrote, as it was then.
+struct ReportFile {
+  std::string name;  ///< in the folder
+  std::uintmax_t size = 0;
+  std::int64_t time = 0;  ///< ns, of the last modification
+  std::string sha256;
+  bool operator==(const ReportFile&) const = default;
+};
+
+/// What manifest.json says.
+struct StudyRecord {
+  store::Manifest manifest;
+  std::vector<ReportFile> files;  ///< none while the study is not finished
+  std::string failures;           ///< digest of what failed, which a report tells too
+};
+
+/// The manifest of a study: its input is the model version, what the study file says, without remarks and in
+/// sorted order, and the scene with what the study sets in it. Every case follows from these.
 store::Manifest study_manifest(const study::StudyFile& file, int jobs);
 
-/// Why the results may not be written into the folder: it holds those of a different study.
-std::optional<std::string> study_conflict(const std::filesystem::path& folder,
-                                          const store::Manifest& manifest);
+/// Whether both ask the same of the same model.
+bool same_study(const store::Manifest& one, const store::Manifest& other);
+
+/// Reads manifest.json. Errors: missing, unreadable, corrupt.
+store::Result<StudyRecord> read_study_record(const std::filesystem::path& folder);
 
 /// Writes manifest.json.
-store::MaybeError write_study_manifest(const std::filesystem::path& folder, const store::Manifest& manifest);
+store::MaybeError write_study_record(const std::filesystem::path& folder, const StudyRecord& record);
+
+/// Files as they are now; those that are not there are left out.
+std::vector<ReportFile> record_files(const std::filesystem::path& folder,
+                                     const std::vector<std::string>& names);
+
+/// Whether every file is as it was recorded. A file of the recorded size and time is trusted.
+bool files_unchanged(const std::filesystem::path& folder, const std::vector<ReportFile>& files);
 
 }  // namespace launchsafe::app

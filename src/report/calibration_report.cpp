@@ -1,6 +1,7 @@
 // Tables, page, JSON and files of a calibration.
 #include "launchsafe/report/calibration_report.hpp"
 
+#include "columns.hpp"
 #include "launchsafe/report/number.hpp"
 #include "study_text.hpp"
 
@@ -16,14 +17,11 @@ using detail::number;
 using Json = nlohmann::ordered_json;
 using study::CalibrationResult, study::CalibrationRow;
 
-Column fixed_column(std::string name, std::string unit, int decimals, std::string key) {
-  return {std::move(name), std::move(unit), Alignment::right, decimals, Notation::fixed, std::move(key)};
-}
-Column significant_column(std::string name, std::string unit, std::string key) {
-  return {std::move(name), std::move(unit), Alignment::right, 6, Notation::significant, std::move(key)};
-}
+using detail::number_column, detail::optional_number, detail::scientific_column;
 
-Cell optional_number(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
+Column significant_column(std::string name, std::string unit, std::string key) {
+  return detail::significant_column(std::move(name), std::move(unit), 6, std::move(key));
+}
 
 std::string remark_of(const CalibrationRow& row) {
   if (!row.failure.empty()) return row.failure;
@@ -49,12 +47,12 @@ Table calibration_table(const CalibrationResult& result) {
                    text_column("kinetics"),
                    significant_column("localisation", "", "localisation"),
                    significant_column("exchange time", "ms", "exchange_time_ms"),
-                   fixed_column("T1", "K", 2, "ignition_temperature_K"),
-                   fixed_column("T1 from", "K", 2, "ignition_lowest_K"),
-                   fixed_column("to", "K", 2, "ignition_highest_K"),
+                   number_column("T1", "K", 2, "ignition_temperature_K"),
+                   number_column("T1 from", "K", 2, "ignition_lowest_K"),
+                   number_column("to", "K", 2, "ignition_highest_K"),
                    text_column("published bracket"),
-                   fixed_column("RMS", "K", 2, "rms_K"),
-                   fixed_column("RMS of spreads", "K", 2, "spread_rms_K"),
+                   number_column("RMS", "K", 2, "rms_K"),
+                   number_column("RMS of spreads", "K", 2, "spread_rms_K"),
                    text_column("remark")};
   for (const CalibrationRow& row : result.rows) {
     const study::CalibratedConstants& fitted = row.calibrated;
@@ -79,9 +77,9 @@ Table hold_out_table(const CalibrationResult& result, const CalibrationRow& row)
                             study::to_string(row.closure), row.kinetics);
   table.columns = {text_column("quantity"),
                    significant_column("gap", "cm", "gap_cm"),
-                   fixed_column("predicted", "", 2, "predicted"),
-                   fixed_column("published", "", 2, "published"),
-                   fixed_column("misfit", "", 2, "misfit"),
+                   number_column("predicted", "", 2, "predicted"),
+                   number_column("published", "", 2, "published"),
+                   number_column("misfit", "", 2, "misfit"),
                    text_column("unit")};
   for (const study::HoldOut& each : row.hold_outs) {
     const double scale = each.in_seconds ? 1e3 : 1.0;
@@ -101,8 +99,8 @@ Table convergence_table(const CalibrationResult& result) {
   Table table;
   table.title = "From the coarsest to the finest mesh";
   table.columns = {text_column("closure"), text_column("kinetics"),
-                   fixed_column("localisation", "%", 1, "localisation_change_percent"),
-                   fixed_column("exchange time", "%", 1, "exchange_time_change_percent")};
+                   number_column("localisation", "%", 1, "localisation_change_percent"),
+                   number_column("exchange time", "%", 1, "exchange_time_change_percent")};
   for (const study::Convergence& each : result.convergence) {
     table.rows.push_back({study::to_string(each.closure), each.kinetics,
                           optional_number(100.0 * each.localisation_change),
@@ -119,7 +117,7 @@ Table constants_table(const CalibrationResult& result) {
   const std::string closure_now = study::to_string(result.study.scene.scene.surface.friction);
   table.title = "Constants the scene should hold";
   table.columns = {text_column("key"), text_column("calibrated"), text_column("in the scene now"),
-                   fixed_column("difference", "%", 2, "difference_percent")};
+                   number_column("difference", "%", 2, "difference_percent")};
   const auto add = [&table](std::string key, double value, double held, double scale, const char* unit) {
     table.rows.push_back({std::move(key), significant(scale * value, 6) + unit,
                           significant(scale * held, 6) + unit, 100.0 * (held - value) / value});
@@ -194,14 +192,12 @@ Json recommendation_json(const CalibrationResult& result) {
 Table run_table(const CalibrationResult& result) {
   Table table;
   table.title = "Runs";
-  table.columns = {text_column("mesh"),
-                   text_column("status"),
-                   {"energy drift", "", Alignment::right, 1, Notation::scientific, {}},
-                   {"updates", "1/s", Alignment::right, 2, Notation::scientific, {}},
+  table.columns = {text_column("mesh"), text_column("status"), scientific_column("energy drift", "", 1, {}),
+                   scientific_column("updates", "1/s", 2, {}),
                    text_column("limiters that acted (particle steps)")};
   for (const study::CalibrationRun& run : result.runs) {
     table.rows.push_back({run.input.label, run.failure.empty() ? "completed" : run.failure,
-                          optional_number(detail::energy_drift(run.mechanics)),
+                          optional_number(run::largest_energy_drift(run.mechanics)),
                           optional_number(run.mechanics.update_rate()),
                           detail::limiters_text(run.mechanics.limiters)});
   }

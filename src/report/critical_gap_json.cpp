@@ -1,6 +1,7 @@
 // A critical-gap study as one JSON object.
 #include "launchsafe/report/critical_gap_report.hpp"
 #include "study_text.hpp"
+#include "verdict_text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -8,22 +9,8 @@ namespace launchsafe::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using detail::number;
+using detail::critical_gap_json, detail::number;
 using study::CaseOutcome;
-
-Json json_of(const study::CriticalGap& gap) {
-  return {{"value_cm", number(100.0 * gap.value)}, {"lower_cm", number(100.0 * gap.lower)},
-          {"upper_cm", number(100.0 * gap.upper)}, {"uncertainty_cm", number(100.0 * gap.uncertainty)},
-          {"kind", study::to_string(gap.kind)},    {"reason", gap.reason}};
-}
-
-Json json_of(const std::optional<study::NamedIgnition>& ignition) {
-  if (!ignition) return nullptr;
-  return {{"cause", study::to_string(ignition->cause)},
-          {"time_ms", number(1e3 * ignition->time)},
-          {"point", ignition->point},
-          {"chemical_share", number(ignition->chemical_share)}};
-}
 
 /// The comparison with the published row; nulls where there is none.
 void add_reference(Json& json, const study::GapVerdict& row) {
@@ -40,22 +27,8 @@ Json json_of(const study::GapVerdict& row, const study::StudyCase& input) {
   Json json{{"gap_cm", number(100.0 * row.gap)},
             {"peak_pressure_MPa", number(1e-6 * input.peak_pressure)},
             {"crack_radius_um", number(1e6 * input.crack_radius)},
-            {"flaw_size_mm", number(1e3 * input.flaw_size)},
-            {"T_max_K", number(row.maximum.temperature)},
-            {"at", row.maximum.point},
-            {"time_ms", number(1e3 * row.maximum.time)},
-            {"T_max_10ms_K", number(row.early.temperature)},
-            {"at_10ms", row.early.point},
-            {"spread_K", number(row.spread)},
-            {"spread_10ms_K", number(row.early_spread)},
-            {"anywhere_K", number(row.anywhere.temperature)},
-            {"anywhere_at", row.anywhere.point},
-            {"margin_K", number(row.margin)},
-            {"uncertainty_K", number(row.uncertainty.total())},
-            {"verdict", study::to_string(row.judgement.verdict)},
-            {"reason", row.judgement.reason},
-            {"ignition", json_of(row.ignition)},
-            {"ignition_anywhere", json_of(row.ignition_anywhere)}};
+            {"flaw_size_mm", number(1e3 * input.flaw_size)}};
+  detail::add_verdict(json, row);
   add_reference(json, row);
   return json;
 }
@@ -103,10 +76,10 @@ Json json_of(const CaseOutcome& outcome) {
   const run::MechanicsResult& run = outcome.result.mechanics;
   Json json{{"case", outcome.input.label},
             {"status", outcome.completed() ? "completed" : outcome.failure},
-            {"energy_drift", number(detail::energy_drift(run))},
+            {"energy_drift", number(run::largest_energy_drift(run))},
             {"updates_per_second", number(run.update_rate())},
-            {"critical_gap", json_of(outcome.critical)},
-            {"critical_gap_anywhere", json_of(outcome.critical_anywhere)},
+            {"critical_gap", critical_gap_json(outcome.critical)},
+            {"critical_gap_anywhere", critical_gap_json(outcome.critical_anywhere)},
             {"confirmations", Json::array()},
             {"fit", json_of(outcome.fit)}};
   for (const study::Confirmation& each : outcome.confirmations)
@@ -119,10 +92,10 @@ Json json_of(const CaseOutcome& outcome) {
 
 /// The critical gap of the whole study: the only case's, or else nothing that one number could say.
 Json overall(const study::CriticalGapResult& result) {
-  if (result.cases.size() == 1) return json_of(result.cases.front().critical);
+  if (result.cases.size() == 1) return critical_gap_json(result.cases.front().critical);
   study::CriticalGap none;
   none.reason = "several cases, each with its own critical gap: see cases";
-  Json json = json_of(none);
+  Json json = critical_gap_json(none);
   json["kind"] = "several";
   return json;
 }

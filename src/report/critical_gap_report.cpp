@@ -2,8 +2,8 @@
 #include "launchsafe/report/critical_gap_report.hpp"
 
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/study/calibration.hpp"
 #include "study_text.hpp"
+#include "verdict_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -37,28 +37,11 @@ std::string answer_of(const CaseOutcome& outcome) {
   return fmt::format("the critical gap is indeterminate: {}.", gap.reason);
 }
 
-std::string friction_remark(const scene::Scene& scene) {
-  return fmt::format(
-      "The friction closure is \"{}\" with a localisation of {}, and the exchange time is {} ms. These two "
-      "and "
-      "the ignition temperature ({} K) are calibrated on three published rows (see "
-      "`studies/calibrate_table8.toml`), so the critical gap of the calibration's own load and defect is a "
-      "fit, "
-      "not a prediction. What is predicted is how it moves with pressure, defect, load shape and design.\n",
-      study::to_string(scene.surface.friction), significant(scene.surface.localisation, 6),
-      significant(1e3 * scene.surface.exchange_time, 6),
-      significant(scene.charge.kinetics.ignition_temperature, 6));
-}
-
 std::string uncertainty_text(const CriticalGapResult& result) {
   std::string text =
       "The uncertainty of a temperature is the sum of the trace's sampling error, the integration error and, "
       "where confirmed, the largest difference between traced and coupled runs";
-  const double numerical = result.study.study.numerical_uncertainty;
-  text += fmt::format(", and {} K for the mesh, {}.", significant(numerical, 3),
-                      result.study.study.numerical_uncertainty_assumed
-                          ? "assumed, as the study states none for these settings"
-                          : "as the study states");
+  text += fmt::format(", and {}.", detail::mesh_uncertainty(result.study.study));
   for (const CaseOutcome& outcome : result.cases) {
     for (const study::Confirmation& each : outcome.confirmations) {
       if (!std::isfinite(each.difference)) continue;
@@ -69,16 +52,12 @@ std::string uncertainty_text(const CriticalGapResult& result) {
   return text + "\n";
 }
 
-bool acted(const run::LimiterCounts& limiters) {
-  return limiters.crack_at_bound + limiters.tension_cutoff + limiters.hugoniot_guard > 0;
-}
-
 /// What every page must say when bounds within the models were reached.
 std::string limiter_remark(const CriticalGapResult& result) {
   std::string text;
   for (const CaseOutcome& outcome : result.cases) {
     const run::LimiterCounts& limiters = outcome.result.mechanics.limiters;
-    if (!acted(limiters)) continue;
+    if (!detail::acted(limiters)) continue;
     text += fmt::format("Limiters acted in {} ({} particle steps); its verdicts rest on them too.\n",
                         outcome.input.label, detail::limiters_text(limiters));
   }
@@ -110,7 +89,7 @@ std::string to_markdown(const CriticalGapResult& result, const std::string& pict
   for (const CaseOutcome& outcome : result.cases) {
     if (outcome.fit) text += to_markdown(fit_table(outcome)) + "\n";
   }
-  text += "## What it rests on\n\n" + friction_remark(result.study.scene.scene) + "\n";
+  text += "## What it rests on\n\n" + detail::friction_remark(result.study) + "\n";
   text += uncertainty_text(result) + "\n";
   if (const std::string remark = limiter_remark(result); !remark.empty()) text += remark + "\n";
   text += "## Setup\n\n" + detail::setup_text(result.study) + "\n";

@@ -1,7 +1,8 @@
 // The tables of a critical-gap study.
+#include "columns.hpp"
 #include "launchsafe/report/critical_gap_report.hpp"
-#include "launchsafe/scene/mesh.hpp"
 #include "study_text.hpp"
+#include "verdict_text.hpp"
 
 #include <fmt/format.h>
 
@@ -13,20 +14,7 @@ namespace {
 
 using study::CaseOutcome, study::CriticalGapResult, study::GapVerdict;
 
-Column number_column(std::string name, std::string unit, int decimals, std::string key) {
-  return {std::move(name), std::move(unit), Alignment::right, decimals, Notation::fixed, std::move(key)};
-}
-Column significant_column(std::string name, std::string unit, int digits, std::string key) {
-  return {std::move(name), std::move(unit), Alignment::right, digits, Notation::significant, std::move(key)};
-}
-Column named_text(std::string name, std::string key) {
-  Column column = text_column(std::move(name));
-  column.key = std::move(key);
-  return column;
-}
-
-/// Nothing for a number that is not there; other than NaN in a result that should have one.
-Cell optional_number(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
+using detail::named_text, detail::number_column, detail::optional_number, detail::significant_column;
 
 std::string standing_of(const GapVerdict& row) {
   if (!row.reference) return {};
@@ -36,12 +24,6 @@ std::string standing_of(const GapVerdict& row) {
 /// Misfit (K) of a calibrated row above which the scene's constants are not those of its calibration.
 constexpr double calibration_slack = 0.5;
 
-std::string ignition_text(const GapVerdict& row) {
-  if (!row.ignition) return {};
-  return fmt::format("{} at {:.2f} ms, {}", study::to_string(row.ignition->cause), 1e3 * row.ignition->time,
-                     row.ignition->point);
-}
-
 }  // namespace
 
 Table verdict_table(const CriticalGapResult& result) {
@@ -50,38 +32,19 @@ Table verdict_table(const CriticalGapResult& result) {
   table.columns = {significant_column("gap", "cm", 6, "gap_cm"),
                    significant_column("p max", "MPa", 6, "peak_pressure_MPa"),
                    significant_column("c(0)", "um", 6, "crack_radius_um"),
-                   significant_column("a", "mm", 6, "flaw_size_mm"),
-                   number_column("T max", "K", 1, "T_max_K"),
-                   named_text("at", "at"),
-                   number_column("time", "ms", 2, "time_ms"),
-                   number_column(fmt::format("T at {:.6g} ms", 1e3 * result.study.study.early_time), "K", 1,
-                                 "T_max_10ms_K"),
-                   number_column("anywhere", "K", 1, "anywhere_K"),
-                   number_column("margin", "K", 2, "margin_K"),
-                   significant_column("uncertainty", "K", 2, "uncertainty_K"),
-                   named_text("verdict", "verdict"),
-                   named_text("reason", "reason"),
-                   named_text("ignition", "ignition")};
+                   significant_column("a", "mm", 6, "flaw_size_mm")};
+  for (Column& column : detail::verdict_columns(result.study.study))
+    table.columns.push_back(std::move(column));
   for (const CaseOutcome& outcome : result.cases) {
     for (const GapVerdict& row : outcome.verdicts) {
-      table.rows.push_back(
-          {100.0 * row.gap, 1e-6 * outcome.input.peak_pressure, 1e6 * outcome.input.crack_radius,
-           1e3 * outcome.input.flaw_size, row.maximum.temperature, row.maximum.point, 1e3 * row.maximum.time,
-           row.early.temperature, row.anywhere.temperature, row.margin, row.uncertainty.total(),
-           study::to_string(row.judgement.verdict), row.judgement.reason, ignition_text(row)});
+      std::vector<Cell> cells{100.0 * row.gap, 1e-6 * outcome.input.peak_pressure,
+                              1e6 * outcome.input.crack_radius, 1e3 * outcome.input.flaw_size};
+      detail::add_verdict_cells(row, cells);
+      table.rows.push_back(std::move(cells));
     }
   }
-  if (result.study.study.numerical_uncertainty_assumed)
-    table.notes.push_back(
-        fmt::format("The uncertainty includes {} K for the mesh, assumed: the study states none that "
-                    "applies to these settings (`numerical_uncertainty`).",
-                    result.study.study.numerical_uncertainty));
-  if (const std::string edges = scene::charge_edges_off_grid(result.study.scene.scene); !edges.empty())
-    table.notes.push_back("The charge lies off the grid lines (" + edges +
-                          "): calibrated constants do not carry over from a grid that fits.");
-  table.notes.push_back(
-      "Verdicts rest on the observation points; \"anywhere\" includes the corner of charge, wall and base, a "
-      "stress singularity whose value grows as the mesh is refined.");
+  table.notes = detail::mesh_notes(result.study);
+  table.notes.push_back(detail::anywhere_note());
   return table;
 }
 
@@ -212,17 +175,17 @@ Table run_table(const CriticalGapResult& result) {
   table.title = "Runs";
   table.columns = {text_column("case"),
                    named_text("status", "status"),
-                   {"energy drift", "", Alignment::right, 1, Notation::scientific, "energy_drift"},
-                   {"steps", "", Alignment::right, 0, Notation::fixed, "steps"},
-                   {"particles", "", Alignment::right, 0, Notation::fixed, "particles"},
-                   {"updates", "1/s", Alignment::right, 2, Notation::scientific, "updates_per_second"},
+                   detail::scientific_column("energy drift", "", 1, "energy_drift"),
+                   detail::count_column("steps", "steps"),
+                   detail::count_column("particles", "particles"),
+                   detail::scientific_column("updates", "1/s", 2, "updates_per_second"),
                    named_text("limiters that acted (particle steps)", "limiters")};
   for (const CaseOutcome& outcome : result.cases) {
     const run::MechanicsResult& run = outcome.result.mechanics;
     table.rows.push_back({outcome.input.label, outcome.completed() ? "completed" : outcome.failure,
-                          optional_number(detail::energy_drift(run)), static_cast<std::int64_t>(run.steps),
-                          static_cast<std::int64_t>(run.particles), optional_number(run.update_rate()),
-                          detail::limiters_text(run.limiters)});
+                          optional_number(run::largest_energy_drift(run)),
+                          static_cast<std::int64_t>(run.steps), static_cast<std::int64_t>(run.particles),
+                          optional_number(run.update_rate()), detail::limiters_text(run.limiters)});
   }
   return table;
 }

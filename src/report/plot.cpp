@@ -1,89 +1,50 @@
 #include "launchsafe/report/plot.hpp"
 
+#include "gnuplot_text.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/store/atomic_file.hpp"
-#include "program.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <string_view>
 
 namespace launchsafe::report {
 namespace {
 
-/// Okabe and Ito's colours, told apart by the colour-blind too; grey for the yellow that white paper
-/// swallows.
-constexpr std::array<std::string_view, 8> palette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                  "#e69f00", "#56b4e9", "#000000", "#7f7f7f"};
-/// gnuplot's filled circle, square, triangle, diamond, triangle down; open circle, square, triangle.
-constexpr std::array<int, 8> point_types{7, 5, 9, 13, 11, 6, 4, 8};
-
-/// A gnuplot string. All ASCII but letters, digits and a few harmless signs goes in as octal escapes, so that
-/// no quote, backslash, backtick or line end is ever seen by gnuplot's scanner.
-std::string quoted(const std::string& text) {
-  constexpr std::string_view harmless = " ,.:;()[]+-=/_<>";
-  std::string result = "\"";
-  for (const char character : text) {
-    const auto byte = static_cast<unsigned char>(character);
-    if (byte < 0x20 || byte == 0x7f) {
-      result += ' ';
-    } else if (byte >= 0x80 || std::isalnum(byte) != 0 ||
-               harmless.find(character) != std::string_view::npos) {
-      result += character;
-    } else {
-      result += fmt::format("\\{:03o}", byte);
-    }
-  }
-  return result + "\"";
-}
-
-bool drawable(double value, Scale scale) {
-  return std::isfinite(value) && (scale == Scale::linear || value > 0);
-}
-
-std::string number(double value, Scale scale) { return drawable(value, scale) ? exact(value) : "NaN"; }
+using detail::Range, detail::coordinate, detail::drawable, detail::quoted, detail::with_limits;
 
 // --- ranges ---
-
-struct Range {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-
-  bool empty() const { return low > high; }
-  bool contains(double value) const { return low <= value && value <= high; }
-  void include(double value, Scale scale) {
-    if (!drawable(value, scale)) return;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-};
-
-/// With air around the data, and a width also where all values are the same.
-Range widened(Range range, Scale scale) {
-  constexpr double share = 0.05;
-  if (scale == Scale::logarithmic) {
-    const double factor = range.high > range.low ? std::pow(range.high / range.low, share) : 2.0;
-    return {range.low / factor, range.high * factor};
-  }
-  const double width = range.high - range.low;
-  const double margin = width > 0 ? share * width : std::max(0.1 * std::abs(range.high), 1e-12);
-  return {range.low - margin, range.high + margin};
-}
-
-Range with_limits(Range range, const Axis& axis) {
-  range = widened(range, axis.scale);
-  if (axis.minimum) range.low = *axis.minimum;
-  if (axis.maximum) range.high = *axis.maximum;
-  return range;
-}
 
 struct Ranges {
   Range x, y;
 };
+
+bool has_intervals(const Series& series) {
+  return series.style == Style::intervals || series.style == Style::horizontal_intervals;
+}
+
+struct Bar {
+  double low, high;
+};
+
+/// Ends of the bar at a point; the point itself where there is none, or where an end has no place.
+Bar bar_of(const Plot& plot, const Series& series, std::size_t point) {
+  const bool along_x = series.style == Style::horizontal_intervals;
+  const double middle = along_x ? series.x[point] : series.y[point];
+  Bar bar{middle, middle};
+  if (has_intervals(series) && point < series.lower.size() && point < series.upper.size())
+    bar = {series.lower[point], series.upper[point]};
+  if (series.style == Style::error_bars && point < series.error.size())
+    bar = {middle - series.error[point], middle + series.error[point]};
+  const Scale scale = along_x ? plot.x.scale : plot.y.scale;
+  if (!drawable(bar.low, scale)) bar.low = middle;
+  if (!drawable(bar.high, scale)) bar.high = middle;
+  return bar;
+}
 
 /// Of all points that can be drawn; empty when there is none. Marker lines and annotations widen it.
 Ranges data_ranges(const Plot& plot) {
@@ -92,9 +53,11 @@ Ranges data_ranges(const Plot& plot) {
     for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
       if (!drawable(series.x[i], plot.x.scale) || !drawable(series.y[i], plot.y.scale)) continue;
       ranges.x.include(series.x[i], plot.x.scale);
-      const double error = i < series.error.size() && std::isfinite(series.error[i]) ? series.error[i] : 0;
-      for (const double y : {series.y[i] - error, series.y[i], series.y[i] + error}) {
-        ranges.y.include(y, plot.y.scale);
+      ranges.y.include(series.y[i], plot.y.scale);
+      const Bar bar = bar_of(plot, series, i);
+      const bool along_x = series.style == Style::horizontal_intervals;
+      for (const double end : {bar.low, bar.high}) {
+        (along_x ? ranges.x : ranges.y).include(end, along_x ? plot.x.scale : plot.y.scale);
       }
     }
   }
@@ -110,11 +73,16 @@ Ranges data_ranges(const Plot& plot) {
 
 // --- commands ---
 
-std::string legend_commands(Legend legend) {
+std::size_t labelled(const Plot& plot) {
+  return static_cast<std::size_t>(std::count_if(plot.series.begin(), plot.series.end(),
+                                                [](const Series& series) { return !series.label.empty(); }));
+}
+
+std::string legend_commands(const Plot& plot) {
   const auto at = [](std::string_view place) {
     return fmt::format("set key {} Left reverse samplen 2.2 spacing 1.25 opaque\n", place);
   };
-  switch (legend) {
+  switch (plot.legend) {
     case Legend::top_left:
       return at("inside top left");
     case Legend::top_right:
@@ -125,17 +93,12 @@ std::string legend_commands(Legend legend) {
       return at("inside bottom right");
     case Legend::right_of_plot:
       return at("outside right top");
+    case Legend::below_plot:
+      return detail::legend_below(plot.height, labelled(plot), 0.5);
     case Legend::none:
       break;
   }
   return "unset key\n";
-}
-
-std::string axis_commands(const std::string& name, const Axis& axis, const Range& range) {
-  std::string text = fmt::format("set {}label {}\nset {}range [{}:{}]\n", name, quoted(axis.label), name,
-                                 exact(range.low), exact(range.high));
-  if (axis.scale == Scale::logarithmic) text += fmt::format("set logscale {}\n", name);
-  return text;
 }
 
 std::string line_commands(const Plot& plot, const Ranges& ranges) {
@@ -163,22 +126,30 @@ std::string line_commands(const Plot& plot, const Ranges& ranges) {
   return text;
 }
 
+/// x, y, and the ends of the bar of styles that have one.
 std::string data_block(const Plot& plot, std::size_t index) {
   const Series& series = plot.series[index];
+  const Scale bar_scale = series.style == Style::horizontal_intervals ? plot.x.scale : plot.y.scale;
   std::string text = fmt::format("$series{} << END_OF_DATA\n", index);
   for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
-    const double error = i < series.error.size() ? series.error[i] : 0;
-    text += fmt::format("{} {} {}\n", number(series.x[i], plot.x.scale), number(series.y[i], plot.y.scale),
-                        number(error, Scale::linear));
+    const Bar bar = bar_of(plot, series, i);
+    text += fmt::format("{} {} {} {}\n", coordinate(series.x[i], plot.x.scale),
+                        coordinate(series.y[i], plot.y.scale), coordinate(bar.low, bar_scale),
+                        coordinate(bar.high, bar_scale));
   }
   return text + "END_OF_DATA\n";
 }
 
+/// The sign of a series' points: its own, or one of eight that go with the colours.
+Mark mark_of(const Series& series, std::size_t look) {
+  return series.mark.value_or(static_cast<Mark>(look % 8));
+}
+
 std::string style_of(const Series& series, std::size_t index) {
-  const std::size_t look =
-      (series.colour ? static_cast<std::size_t>(std::abs(*series.colour)) : index) % palette.size();
-  const std::string colour = fmt::format("linecolor rgb '{}'", palette[look]);
-  const std::string points = fmt::format("pointtype {} pointsize 0.7", point_types[look]);
+  const std::size_t look = series.colour ? static_cast<std::size_t>(std::abs(*series.colour)) : index;
+  const std::string colour = fmt::format("linecolor rgb '{}'", detail::palette_colour(look));
+  const std::string points =
+      fmt::format("pointtype {} pointsize 0.7", detail::point_type(mark_of(series, look)));
   switch (series.style) {
     case Style::line:
       return fmt::format("with lines linewidth 2 {}", colour);
@@ -187,7 +158,10 @@ std::string style_of(const Series& series, std::size_t index) {
     case Style::points:
       return fmt::format("with points {} {}", points, colour);
     case Style::error_bars:
+    case Style::intervals:
       return fmt::format("with yerrorbars linewidth 1.5 {} {}", points, colour);
+    case Style::horizontal_intervals:
+      return fmt::format("with xerrorbars linewidth 1.5 {} {}", points, colour);
     case Style::steps:
       return fmt::format("with steps linewidth 2 {}", colour);
     case Style::line_and_points:
@@ -195,6 +169,8 @@ std::string style_of(const Series& series, std::size_t index) {
   }
   return fmt::format("with linespoints linewidth 2 {} {}", points, colour);
 }
+
+bool has_bars(const Series& series) { return series.style == Style::error_bars || has_intervals(series); }
 
 bool has_points(const Series& series) { return !series.x.empty() && !series.y.empty(); }
 
@@ -205,7 +181,7 @@ std::string plot_command(const Plot& plot) {
     if (!has_points(series)) continue;
     const std::string title = series.label.empty() ? "notitle" : "title " + quoted(series.label);
     text += fmt::format("{}$series{} using {} {} {}", text.empty() ? "plot " : ", \\\n     ", i,
-                        series.style == Style::error_bars ? "1:2:3" : "1:2", style_of(series, i), title);
+                        has_bars(series) ? "1:2:3:4" : "1:2", style_of(series, i), title);
   }
   return text + "\n";
 }
@@ -218,6 +194,10 @@ store::MaybeError unfit(const Plot& plot) {
     if (series.x.size() != series.y.size()) return failed("a series has as many x as y: " + series.label);
     if (series.style == Style::error_bars && series.error.size() != series.y.size()) {
       return failed("a series has an error for every point: " + series.label);
+    }
+    if (has_intervals(series) &&
+        (series.lower.size() != series.y.size() || series.upper.size() != series.y.size())) {
+      return failed("a series has an interval for every point: " + series.label);
     }
   }
   if (data_ranges(plot).x.empty()) return failed("it has no points");
@@ -235,17 +215,10 @@ store::MaybeError unfit(const Plot& plot) {
 std::string to_gnuplot(const Plot& plot) {
   const Ranges data = data_ranges(plot);
   const Ranges ranges{with_limits(data.x, plot.x), with_limits(data.y, plot.y)};
-  std::string text = fmt::format(
-      "set encoding utf8\n"
-      "set terminal svg size {},{} noenhanced font 'sans-serif,14' background rgb '#ffffff' rounded\n"
-      "set border 3 linewidth 1 linecolor rgb '#444444'\n"
-      "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
-      "set grid linewidth 0.7 dashtype 1 linecolor rgb '#dddddd'\n"
-      "set title {} font ',16'\n",
-      plot.width, plot.height, quoted(plot.title));
-  text += legend_commands(plot.legend);
-  text += axis_commands("x", plot.x, ranges.x);
-  text += axis_commands("y", plot.y, ranges.y);
+  std::string text = detail::page_commands(plot.width, plot.height, plot.title);
+  text += legend_commands(plot);
+  text += detail::axis_commands("x", plot.x, ranges.x);
+  text += detail::axis_commands("y", plot.y, ranges.y);
   text += line_commands(plot, ranges);
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     if (has_points(plot.series[i])) text += data_block(plot, i);
@@ -255,14 +228,7 @@ std::string to_gnuplot(const Plot& plot) {
 
 store::Result<std::string> to_svg(const Plot& plot, const std::string& program) {
   if (const store::MaybeError error = unfit(plot)) return *error;
-  // --default-settings: the user's own start-up file must not change a report.
-  auto run = run_program(program, {"--default-settings", "-"}, to_gnuplot(plot));
-  if (!run) return run.error();
-  if (!run->succeeded || run->output.find("</svg>") == std::string::npos) {
-    return store::Error{store::Error::Kind::failed,
-                        fmt::format("{} could not draw '{}': {}", program, plot.title, run->errors)};
-  }
-  return run->output;
+  return detail::drawn(program, to_gnuplot(plot), plot.title);
 }
 
 store::MaybeError write_svg(const Plot& plot, const std::filesystem::path& path) {

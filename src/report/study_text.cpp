@@ -5,15 +5,34 @@
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/sha256.hpp"
+#include "shown_key.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 
 namespace launchsafe::report::detail {
+namespace {
+
+/// The scene keys that a study varies, each with its values.
+std::vector<std::pair<std::string, std::string>> varied_keys(const study::Study& study) {
+  std::vector<std::pair<std::string, std::string>> keys;
+  for (const study::Axis& axis : study.axes)
+    keys.emplace_back(axis.key.name, values_text(shown(axis), axis.values));
+  for (const study::UncertainInput& input : study.inputs)
+    keys.emplace_back(input.key.name, distribution_text(shown(input), input.distribution));
+  return keys;
+}
+
+}  // namespace
+
+bool varies(const study::Study& study, const std::string& key) {
+  const auto named = [&key](const auto& each) { return each.key.name == key; };
+  return std::any_of(study.axes.begin(), study.axes.end(), named) ||
+         std::any_of(study.inputs.begin(), study.inputs.end(), named);
+}
 
 std::string study_file_name(const study::StudyFile& study) {
   const std::filesystem::path path(study.file);
@@ -28,26 +47,29 @@ std::string setup_text(const study::StudyFile& study) {
   std::string text = fmt::format("- Study `{}`, scene `{}`", study_file_name(study), study.study.scene);
   for (const auto& [key, value] : study.overrides) text += fmt::format(", with `{}` = {}", key, value);
   text += "\n";
-  const std::vector<std::string> shown{"symmetry",
-                                       "frame",
-                                       "barrel",
-                                       "load.peak",
-                                       "load.duration",
-                                       "numerics.cell_size",
-                                       "numerics.inertial_scaling",
-                                       "numerics.damping_time",
-                                       "charge.crack_radius",
-                                       "charge.flaw_size",
-                                       "gap.pressure",
-                                       "gap.air",
-                                       "gap.exchange",
-                                       "gap.exchange_time",
-                                       "friction.closure",
-                                       "friction.localisation",
-                                       "kinetics.set",
-                                       "kinetics.ignition_temperature"};
+  for (const auto& [key, values] : varied_keys(study.study))
+    text += fmt::format("- `{}` is varied: {}\n", key, values);
+  const std::vector<std::string> shown_keys{"symmetry",
+                                            "frame",
+                                            "barrel",
+                                            "load.peak",
+                                            "load.duration",
+                                            "numerics.cell_size",
+                                            "numerics.inertial_scaling",
+                                            "numerics.damping_time",
+                                            "charge.crack_radius",
+                                            "charge.flaw_size",
+                                            "gap.pressure",
+                                            "gap.air",
+                                            "gap.exchange",
+                                            "gap.exchange_time",
+                                            "friction.closure",
+                                            "friction.localisation",
+                                            "kinetics.set",
+                                            "kinetics.ignition_temperature"};
   for (const scene::ListedKey& key : scene::list_keys(study.scene)) {
-    if (std::find(shown.begin(), shown.end(), key.name) == shown.end()) continue;
+    if (std::find(shown_keys.begin(), shown_keys.end(), key.name) == shown_keys.end()) continue;
+    if (varies(study.study, key.name)) continue;
     text += fmt::format("- `{}` = {}\n", key.name, key.value);
   }
   return text;
@@ -68,17 +90,6 @@ nlohmann::ordered_json timing_json(const study::Timing& timing) {
           {"particle_updates", number(timing.particle_updates)},
           {"run_s", number(timing.run_time)},
           {"updates_per_second", number(timing.updates_per_second())}};
-}
-
-double energy_drift(const run::MechanicsResult& mechanics) {
-  // Against the largest energy of the whole run: in its first moments all energies are next to nothing.
-  double largest = std::numeric_limits<double>::quiet_NaN(), scale = 0;
-  for (const run::MonitorSample& sample : mechanics.monitor) scale = std::max(scale, sample.energy.scale());
-  for (const run::MonitorSample& sample : mechanics.monitor) {
-    const double drift = std::abs(sample.energy.drift()) * sample.energy.scale() / scale;
-    if (!(drift <= largest)) largest = drift;
-  }
-  return largest;
 }
 
 std::string limiters_text(const run::LimiterCounts& limiters) {

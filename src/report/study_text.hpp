@@ -20,14 +20,14 @@ namespace launchsafe::report::detail {
 std::string study_file_name(const study::StudyFile& study);
 /// The command that remakes a report.
 std::string remaking_command(const study::StudyFile& study);
-/// What was simulated, as Markdown list items: scene, overrides, load, mesh, surface constants.
+/// What was simulated, as Markdown list items: scene, overrides, what is varied, load, mesh, surface
+/// constants.
 std::string setup_text(const study::StudyFile& study);
+/// Whether a study varies the scene key of that name.
+bool varies(const study::Study& study, const std::string& key);
 /// Runs, update rate and wall time in one sentence.
 std::string timing_text(const study::Timing& timing);
 nlohmann::ordered_json timing_json(const study::Timing& timing);
-/// Largest absolute energy drift over the monitor's history, as a share of the run's largest energy; NaN
-/// without one.
-double energy_drift(const run::MechanicsResult& mechanics);
 /// "crack bound 12, tension cut-off 3", or "none".
 std::string limiters_text(const run::LimiterCounts& limiters);
 /// A number, or null where it is not finite.

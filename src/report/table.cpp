@@ -118,22 +118,24 @@ std::string markdown_rule(const std::vector<std::size_t>& widths, const std::vec
   return line + "\n";
 }
 
-std::string csv_quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos && !text.starts_with(' ') && !text.ends_with(' '))
-    return text;
-  std::string quoted = "\"";
-  for (const char character : text) {
-    if (character == '"') quoted += '"';
-    quoted += character;
+void append_csv(std::string& csv, const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos && !text.starts_with(' ') && !text.ends_with(' ')) {
+    csv += text;
+    return;
   }
-  return quoted + "\"";
+  csv += '"';
+  for (const char character : text) {
+    if (character == '"') csv += '"';
+    csv += character;
+  }
+  csv += '"';
 }
 
-std::string csv_cell(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return csv_quoted(*text);
-  if (const auto* number = std::get_if<double>(&cell)) return exact(*number);
-  if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
-  return {};
+/// Written in place: tables of a hundred thousand rows go through here.
+void append_csv(std::string& csv, const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) append_csv(csv, *text);
+  if (const auto* number = std::get_if<double>(&cell)) csv += exact(*number);
+  if (const auto* count = std::get_if<std::int64_t>(&cell)) csv += std::to_string(*count);
 }
 
 nlohmann::ordered_json json_cell(const Cell& cell) {
@@ -210,15 +212,21 @@ std::string to_markdown(const Table& table) {
 }
 
 std::string to_csv(const Table& table) {
-  std::string text;
+  std::string csv;
   const auto keys = keys_of(table);
-  for (std::size_t i = 0; i < keys.size(); ++i) text += (i > 0 ? "," : "") + csv_quoted(keys[i]);
-  text += "\r\n";
-  for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < keys.size(); ++i) text += (i > 0 ? "," : "") + csv_cell(cell_at(row, i));
-    text += "\r\n";
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (i > 0) csv += ',';
+    append_csv(csv, keys[i]);
   }
-  return text;
+  csv += "\r\n";
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      if (i > 0) csv += ',';
+      append_csv(csv, cell_at(row, i));
+    }
+    csv += "\r\n";
+  }
+  return csv;
 }
 
 nlohmann::ordered_json to_json(const Table& table) {

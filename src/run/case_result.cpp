@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace launchsafe::run {
 
@@ -19,6 +20,8 @@ std::string to_string(RunStatus status) {
       return "particles left the grid";
     case RunStatus::interrupted:
       return "interrupted";
+    case RunStatus::timed_out:
+      return "timed out";
   }
   return "unknown";
 }
@@ -30,6 +33,16 @@ double EnergyBalance::scale() const {
 
 double EnergyBalance::drift() const {
   return (kinetic + internal + damping - external - body_force) / scale();
+}
+
+double largest_energy_drift(const MechanicsResult& mechanics) {
+  double largest = std::numeric_limits<double>::quiet_NaN(), scale = 0;
+  for (const MonitorSample& sample : mechanics.monitor) scale = std::max(scale, sample.energy.scale());
+  for (const MonitorSample& sample : mechanics.monitor) {
+    const double drift = std::abs(sample.energy.drift()) * sample.energy.scale() / scale;
+    if (!(drift <= largest)) largest = drift;
+  }
+  return largest;
 }
 
 }  // namespace launchsafe::run

@@ -163,6 +163,8 @@ class Runner {
     if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed))
       return stop(
           {RunStatus::interrupted, fmt::format("stopped at t = {:.6g} ms", 1e3 * simulation_.time())});
+    if (seconds_since(start_) > options_.time_limit)
+      return stop({RunStatus::timed_out, fmt::format("not done after {:.3g} s", options_.time_limit)});
     if (std::isfinite(time_step) && time_step < collapse_share * first_step)
       return stop({RunStatus::time_step_collapse,
                    fmt::format("at t = {:.6g} ms: the stable time step fell from {:.3g} s to {:.3g} s",

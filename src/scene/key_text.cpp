@@ -1,9 +1,9 @@
 // How keys and their values are written, for people and for programs.
-#include "launchsafe/scene/toml_reader.hpp"
+#include "key_text.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 namespace launchsafe::scene {
@@ -28,6 +28,26 @@ std::string limits_text(const KeyDescription& key) {
 std::string first_unit(Dimension dimension) {
   const auto units = units_of(dimension);
   return units.empty() ? std::string{} : " " + units.front();
+}
+
+void append_number(fmt::memory_buffer& text, double number, std::string_view unit) {
+  if (unit.empty()) {
+    fmt::format_to(std::back_inserter(text), "{}", number);
+  } else {
+    fmt::format_to(std::back_inserter(text), "\"{} {}\"", number, unit);
+  }
+}
+
+/// As toml++ writes it, which is in single quotes wherever nothing needs an escape.
+void append_string(fmt::memory_buffer& text, const std::string& string) {
+  const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\'' && c != '\\'; };
+  if (!string.empty() && std::all_of(string.begin(), string.end(), is_plain)) {
+    fmt::format_to(std::back_inserter(text), "'{}'", string);
+    return;
+  }
+  std::ostringstream stream;
+  stream << toml::value<std::string>(string);
+  append(text, stream.str());
 }
 
 }  // namespace
@@ -114,27 +134,28 @@ std::string format_value(const KeyDescription& key, const Value& value) {
   return joined;
 }
 
-std::string exact_toml(const KeyDescription& key, const Value& value) {
-  const bool plain = units_of(key.dimension).empty();
-  if (const auto* number = std::get_if<double>(&value)) {
-    return plain ? exact_quantity(*number, key.dimension)
-                 : '"' + exact_quantity(*number, key.dimension) + '"';
-  }
-  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-  if (const auto* text = std::get_if<std::string>(&value)) {
-    std::ostringstream stream;
-    stream << toml::value<std::string>(*text);
-    return stream.str();
-  }
+void append_exact_toml(fmt::memory_buffer& text, const KeyDescription& key, const Value& value) {
+  const std::string_view unit = si_unit_of(key.dimension);
+  if (const auto* number = std::get_if<double>(&value)) return append_number(text, *number, unit);
+  if (const auto* flag = std::get_if<bool>(&value)) return append(text, *flag ? "true" : "false");
+  if (const auto* string = std::get_if<std::string>(&value)) return append_string(text, *string);
   const auto& numbers = std::get<std::vector<double>>(value);
-  if (numbers.empty()) return "[]";
-  const bool range = key.kind == KeyKind::range;
-  std::string joined;
-  for (const double number : numbers) {
-    if (!joined.empty()) joined += range ? " to " : ", ";
-    joined += fmt::format("{}", number);
+  if (numbers.empty()) return append(text, "[]");
+  const std::string_view separator = key.kind == KeyKind::range ? " to " : ", ";
+  append(text, "\"");
+  for (const double& number : numbers) {
+    if (&number != numbers.data()) append(text, separator);
+    fmt::format_to(std::back_inserter(text), "{}", number);
   }
-  return fmt::format("\"{}{}{}\"", joined, plain ? "" : " ", si_unit_of(key.dimension));
+  append(text, unit.empty() ? "" : " ");
+  append(text, unit);
+  append(text, "\"");
+}
+
+std::string exact_toml(const KeyDescription& key, const Value& value) {
+  fmt::memory_buffer text;
+  append_exact_toml(text, key, value);
+  return fmt::to_string(text);
 }
 
 }  // namespace launchsafe::scene

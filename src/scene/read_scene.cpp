@@ -1,5 +1,6 @@
 #include "launchsafe/scene/read_scene.hpp"
 
+#include "key_text.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 
 #include <fmt/format.h>
@@ -60,8 +61,15 @@ std::optional<InputError> read_curve_file(SceneFile& file) {
   return std::nullopt;
 }
 
-/// The scene from its bodies, its points and the given keys, applied in the order of their declaration.
-std::optional<InputError> rebuild(SceneFile& file) {
+/// Takes over a curve that was read from the same file before.
+void keep_curve(Scene& scene, Load&& read) {
+  scene.load.curve_time = std::move(read.curve_time);
+  scene.load.curve_pressure = std::move(read.curve_pressure);
+}
+
+/// The scene from its bodies, its points and the given keys, applied in the order of their declaration. The
+/// file of a measured curve is read unless the scene has it already.
+std::optional<InputError> rebuild(SceneFile& file, bool has_curve) {
   Scene fresh;
   fresh.bodies = std::move(file.scene.bodies);
   fresh.output.observation_points = std::move(file.scene.output.observation_points);
@@ -69,8 +77,12 @@ std::optional<InputError> rebuild(SceneFile& file) {
     const auto given = file.given.find(key.name);
     if (given != file.given.end()) key.set(fresh, given->second.value);
   }
-  file.scene = std::move(fresh);
-  if (auto error = read_curve_file(file)) return error;
+  std::swap(file.scene, fresh);
+  if (has_curve && !file.scene.load.curve_file.empty()) {
+    keep_curve(file.scene, std::move(fresh.load));
+  } else if (auto error = read_curve_file(file)) {
+    return error;
+  }
   return validate(file);
 }
 
@@ -133,7 +145,7 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
                                scene.output.observation_points, file.places)) {
     return *error;
   }
-  if (auto error = rebuild(file)) return *error;
+  if (auto error = rebuild(file, false)) return *error;
   return file;
 }
 
@@ -165,7 +177,7 @@ Expected<SceneFile> with_key(const SceneFile& file, const std::string& name, con
     for (const std::string& overridden : overridden_by(name)) changed.given.erase(overridden);
     changed.given[name] = {place, value};
   }
-  if (auto error = rebuild(changed)) return *error;
+  if (auto error = rebuild(changed, name != "load.curve")) return *error;
   return changed;
 }
 
@@ -193,34 +205,39 @@ std::vector<ListedKey> list_keys(const SceneFile& file) {
 namespace {
 
 template <class Owner>
-std::string inline_table(const std::vector<Key<Owner>>& keys, const Owner& owner) {
-  std::string text;
-  for (const Key<Owner>& key : keys) {
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key.name, exact_toml(key, key.get(owner)));
+void append_inline_tables(fmt::memory_buffer& text, std::string_view name,
+                          const std::vector<Key<Owner>>& keys, const std::vector<Owner>& owners) {
+  append(text, name);
+  append(text, " = [\n");
+  for (const Owner& owner : owners) {
+    std::string_view before = "  { ";
+    for (const Key<Owner>& key : keys) {
+      append(text, before);
+      append(text, key.name);
+      append(text, " = ");
+      append_exact_toml(text, key, key.get(owner));
+      before = ", ";
+    }
+    append(text, " },\n");
   }
-  return "{ " + text + " }";
-}
-
-template <class Owner>
-std::string inline_tables(const std::string& name, const std::vector<Key<Owner>>& keys,
-                          const std::vector<Owner>& owners) {
-  std::string text = name + " = [\n";
-  for (const Owner& owner : owners) text += "  " + inline_table(keys, owner) + ",\n";
-  return text + "]\n";
+  append(text, "]\n");
 }
 
 }  // namespace
 
 std::string to_toml(const Scene& scene) {
-  std::string text;
+  fmt::memory_buffer text;
   for (const Key<Scene>& key : scene_keys()) {
     // The points of a measured curve are written; the file they came from need not exist any more.
     if (key.name == "load.curve") continue;
-    text += fmt::format("{} = {}\n", key.name, exact_toml(key, key.get(scene)));
+    append(text, key.name);
+    append(text, " = ");
+    append_exact_toml(text, key, key.get(scene));
+    append(text, "\n");
   }
-  text += inline_tables("body", body_keys(), scene.bodies);
-  text += inline_tables("observation_point", observation_point_keys(), scene.output.observation_points);
-  return text;
+  append_inline_tables(text, "body", body_keys(), scene.bodies);
+  append_inline_tables(text, "observation_point", observation_point_keys(), scene.output.observation_points);
+  return fmt::to_string(text);
 }
 
 }  // namespace launchsafe::scene

@@ -1,38 +1,18 @@
 #include "launchsafe/store/atomic_file.hpp"
 
+#include "posix_file.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <random>
-#include <system_error>
 
 namespace launchsafe::store {
 namespace {
-
-std::string reason(int error_number) { return std::generic_category().message(error_number); }
-
-/// An open file descriptor; closed at the end of its scope.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  int number() const { return number_; }
-  bool is_open() const { return number_ >= 0; }
-  /// False with errno set when closing reports a write error.
-  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
-
- private:
-  int number_;
-};
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
@@ -42,20 +22,6 @@ std::filesystem::path temporary_name(const std::filesystem::path& path) {
   std::random_device random;
   const std::uint64_t number = std::uint64_t{random()} << 32 | random();
   return folder_of(path) / fmt::format(".{}.{:016x}{}", path.filename().string(), number, partial_suffix);
-}
-
-bool write_all(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    if (written == 0) {
-      errno = ENOSPC;
-      return false;
-    }
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
 }
 
 /// False with errno set.
@@ -71,21 +37,7 @@ bool write_synced(const std::filesystem::path& path, std::initializer_list<std::
 /// False with errno set; EEXIST when the target exists and must not be replaced.
 bool publish(const std::filesystem::path& from, const std::filesystem::path& to, IfExists if_exists) {
   if (if_exists == IfExists::replace) return ::rename(from.c_str(), to.c_str()) == 0;
-  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
-  if (errno != EINVAL && errno != ENOSYS) return false;
-  // A file system without RENAME_NOREPLACE: a hard link fails on an existing target too.
-  return ::link(from.c_str(), to.c_str()) == 0 && ::unlink(from.c_str()) == 0;
-}
-
-/// So that the new name survives a power cut. Some network file systems cannot sync a folder; theirs is no
-/// failure.
-bool sync_folder(const std::filesystem::path& folder) {
-  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  return descriptor.is_open() && (::fsync(descriptor.number()) == 0 || errno == EINVAL || errno == ENOTSUP);
-}
-
-Error write_error(const std::filesystem::path& path, int error_number) {
-  return {Error::Kind::write_failed, fmt::format("cannot write {}: {}", path.string(), reason(error_number))};
+  return rename_to_free_name(from, to);
 }
 
 }  // namespace
@@ -110,7 +62,7 @@ Result<std::string> read_file(const std::filesystem::path& path) {
   const auto failure = [&path](int error_number) {
     const bool missing = error_number == ENOENT || error_number == ENOTDIR;
     return Error{missing ? Error::Kind::missing : Error::Kind::unreadable,
-                 fmt::format("cannot read {}: {}", path.string(), reason(error_number))};
+                 fmt::format("cannot read {}: {}", path.string(), system_reason(error_number))};
   };
   // O_NONBLOCK so that a named pipe is refused below rather than waited for.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));

@@ -1,4 +1,4 @@
-// Where everything is in a case file. Each function serves writing and reading: `Archive` is Hdf5Writer with
+// Where everything is in a case file. Each function serves writing and reading: `Archive` is Hdf5Output with
 // const values, or Hdf5Reader with values to fill.
 #pragma once
 
@@ -29,6 +29,7 @@ inline constexpr std::array run_status_names{
     Named{run::RunStatus::time_step_collapse, "time_step_collapse"},
     Named{run::RunStatus::particles_left_grid, "particles_left_grid"},
     Named{run::RunStatus::interrupted, "interrupted"},
+    Named{run::RunStatus::timed_out, "timed_out"},
 };
 inline constexpr std::array ignition_cause_names{
     Named{surface::IgnitionCause::trigger, "trigger"},
@@ -71,6 +72,7 @@ void column(Archive& archive, const std::string& name, Rows& rows, Member member
   using Stored = std::conditional_t<std::is_integral_v<Value>, std::int64_t, Value>;
   std::vector<Stored> values;
   if constexpr (!Archive::reading) {
+    values.reserve(rows.size());
     for (const auto& row : rows) values.push_back(static_cast<Stored>(std::invoke(member, row)));
     archive.array(name, values, label);
   } else {
@@ -123,11 +125,21 @@ void plane_vectors(Archive& archive, const std::string& name, Values& along, Val
   }
 }
 
+/// Files of the first days lack it.
+template <class Archive, class Number>
+void lay_out_model_version(Archive& archive, Number& version) {
+  if constexpr (Archive::reading) {
+    if (!archive.has("model_version")) return;
+  }
+  integer(archive, "model_version", version, {"1", "version of the model; others give other numbers"});
+}
+
 template <class Archive, class Value>
 void lay_out_manifest(Archive& archive, Value& manifest) {
   archive.group("manifest", "Where this result came from", [&] {
     archive.value("input", manifest.input_text, {"none", "all that determines the case"});
     archive.value("input_sha256", manifest.input_sha256, {"none", "SHA-256 of the input"});
+    lay_out_model_version(archive, manifest.model_version);
     archive.value("program_version", manifest.program_version, {"none", "version of launchsafe"});
     archive.value("commit", manifest.commit, {"none", "commit that the program was built from"});
     archive.value("compiler", manifest.compiler, {"none", "compiler of the program"});

@@ -58,4 +58,14 @@ std::string path_of(const std::vector<std::string>& groups, const std::string& n
   return name.empty() && !path.empty() ? path : path + "/" + name;
 }
 
+Hdf5Step group_step(const std::string& name, const std::string& description) {
+  return {{.name = name, .label = {"group", description}, .element_size = 0}, 0};
+}
+
+Hdf5Step attribute_step(const std::string& name, const std::string& text) {
+  return {{.name = name, .label = {"attribute", text}, .element_size = 0}, 0};
+}
+
+Hdf5Step end_step() { return {{.name = "", .label = {"end", ""}, .element_size = 0}, 0}; }
+
 }  // namespace launchsafe::store

@@ -34,6 +34,11 @@ Hdf5Id text_type(std::size_t bytes);
 /// "/trace/stations" of the names of nested groups, and the dataset in the last.
 std::string path_of(const std::vector<std::string>& groups, const std::string& name);
 
+/// What is no dataset, as steps that are told from datasets by their size.
+Hdf5Step group_step(const std::string& name, const std::string& description);
+Hdf5Step attribute_step(const std::string& name, const std::string& text);
+Hdf5Step end_step();
+
 template <class T>
 hid_t memory_type() {
   if constexpr (std::same_as<T, double>) return H5T_NATIVE_DOUBLE;

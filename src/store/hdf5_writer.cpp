@@ -2,25 +2,23 @@
 #include "launchsafe/store/hdf5.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace launchsafe::store {
 namespace {
 
-bool write_text_attribute(hid_t object, const std::string& name, const std::string& text) {
-  const Hdf5Id type = text_type(std::max<std::size_t>(1, text.size()));
-  const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
-  if (!type.valid() || !space.valid()) return false;
-  const Hdf5Id attribute(H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose);
-  const std::string padded = text.empty() ? std::string(1, '\0') : text;
-  return attribute.valid() && H5Awrite(attribute.get(), type.get(), padded.data()) >= 0;
+Hdf5Id space_of(const Hdf5Dataset& set) {
+  if (set.rank == 0) return {H5Screate(H5S_SCALAR), H5Sclose};
+  const std::array<hsize_t, 2> extent{set.extent[0], set.extent[1]};
+  return {H5Screate_simple(set.rank, extent.data(), nullptr), H5Sclose};
 }
 
 }  // namespace
 
 Hdf5Writer::Hdf5Writer() {
   silence_hdf5();
+  group_creation_ = untimed(H5P_GROUP_CREATE);
+  dataset_creation_ = untimed(H5P_DATASET_CREATE);
+  scalar_ = {H5Screate(H5S_SCALAR), H5Sclose};
   const Hdf5Id access = memory_access();
   if (access.valid())
     file_ = {H5Fcreate(unique_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose};
@@ -28,109 +26,86 @@ Hdf5Writer::Hdf5Writer() {
   if (groups_.empty() || !groups_.back().valid()) fail("cannot begin an HDF5 file: " + hdf5_reason());
 }
 
-void Hdf5Writer::fail(const std::string& what) {
-  if (!error_) error_ = Error{Error::Kind::failed, what};
+hid_t Hdf5Writer::text_type_of(std::size_t bytes) {
+  Hdf5Id& type = text_types_[bytes];
+  if (!type.valid()) type = text_type(bytes);
+  return type.get();
+}
+
+hid_t Hdf5Writer::type_of(const Hdf5Dataset& set) {
+  switch (set.kind) {
+    case Hdf5Dataset::Kind::real:
+      return memory_type<double>();
+    case Hdf5Dataset::Kind::signed_integer:
+      return memory_type<std::int64_t>();
+    case Hdf5Dataset::Kind::unsigned_integer:
+      return memory_type<std::uint64_t>();
+    case Hdf5Dataset::Kind::text:
+      return text_type_of(set.element_size);
+  }
+  return H5I_INVALID_HID;
+}
+
+bool Hdf5Writer::write_text_attribute(hid_t object, const std::string& name, const std::string& text) {
+  const hid_t type = text_type_of(std::max<std::size_t>(1, text.size()));
+  const Hdf5Id attribute(H5Acreate2(object, name.c_str(), type, scalar_.get(), H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
+  // The library reads one byte of an empty text, which has one: the zero at its end.
+  return attribute.valid() && H5Awrite(attribute.get(), type, text.c_str()) >= 0;
 }
 
 bool Hdf5Writer::enter(const std::string& name, const std::string& description) {
-  if (failed()) return false;
-  const Hdf5Id creation = untimed(H5P_GROUP_CREATE);
-  Hdf5Id group(H5Gcreate2(groups_.back().get(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
-               H5Gclose);
+  Hdf5Id group(
+      H5Gcreate2(groups_.back().get(), name.c_str(), H5P_DEFAULT, group_creation_.get(), H5P_DEFAULT),
+      H5Gclose);
   if (!group.valid() || !write_text_attribute(group.get(), "description", description)) {
-    fail(path_of(names_, name) + ": " + hdf5_reason());
+    fail(path_to(name) + ": " + hdf5_reason());
     return false;
   }
   groups_.push_back(std::move(group));
-  names_.push_back(name);
+  steps_.push_back(group_step(name, description));
   return true;
 }
 
 void Hdf5Writer::leave() {
   groups_.pop_back();
-  names_.pop_back();
+  steps_.push_back(end_step());
 }
 
-void Hdf5Writer::attribute(const std::string& name, const std::string& text) {
-  if (!failed() && !write_text_attribute(groups_.back().get(), name, text)) {
-    fail(path_of(names_, name) + ": " + hdf5_reason());
+void Hdf5Writer::put_attribute(const std::string& name, const std::string& text) {
+  if (!write_text_attribute(groups_.back().get(), name, text)) {
+    return fail(path_to(name) + ": " + hdf5_reason());
   }
+  steps_.push_back(attribute_step(name, text));
 }
 
-void Hdf5Writer::dataset(const std::string& name, hid_t type, const std::vector<hsize_t>& dimensions,
-                         const void* data, const Label& label) {
-  if (failed()) return;
-  if (label.units.empty() || label.description.empty())
-    return fail(path_of(names_, name) + " lacks its units");
-  const Hdf5Id space(dimensions.empty()
-                         ? H5Screate(H5S_SCALAR)
-                         : H5Screate_simple(static_cast<int>(dimensions.size()), dimensions.data(), nullptr),
-                     H5Sclose);
-  const Hdf5Id creation = untimed(H5P_DATASET_CREATE);
-  const Hdf5Id set(H5Dcreate2(groups_.back().get(), name.c_str(), type, space.get(), H5P_DEFAULT,
-                              creation.get(), H5P_DEFAULT),
-                   H5Dclose);
-  const bool empty = std::find(dimensions.begin(), dimensions.end(), hsize_t{0}) != dimensions.end();
-  if (!set.valid() || (!empty && H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) ||
-      !write_text_attribute(set.get(), "units", label.units) ||
-      !write_text_attribute(set.get(), "description", label.description)) {
-    fail(path_of(names_, name) + ": " + hdf5_reason());
+void Hdf5Writer::put_dataset(const Hdf5Dataset& set, const void* data) {
+  const hid_t type = type_of(set);
+  const Hdf5Id space = space_of(set);
+  const Hdf5Id id(H5Dcreate2(groups_.back().get(), set.name.c_str(), type, space.get(), H5P_DEFAULT,
+                             dataset_creation_.get(), H5P_DEFAULT),
+                  H5Dclose);
+  const bool empty = set.bytes() == 0;
+  if (!id.valid() || (!empty && H5Dwrite(id.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) ||
+      !write_text_attribute(id.get(), "units", set.label.units) ||
+      !write_text_attribute(id.get(), "description", set.label.description)) {
+    return fail(path_to(set.name) + ": " + hdf5_reason());
   }
+  const haddr_t offset = empty ? 0 : H5Dget_offset(id.get());
+  if (offset == HADDR_UNDEF) return fail(path_to(set.name) + ": " + hdf5_reason());
+  steps_.push_back({set, static_cast<std::size_t>(offset)});
 }
 
-void Hdf5Writer::value(const std::string& name, double value, const Label& label) {
-  dataset(name, memory_type<double>(), {}, &value, label);
-}
-
-void Hdf5Writer::value(const std::string& name, std::int64_t value, const Label& label) {
-  dataset(name, memory_type<std::int64_t>(), {}, &value, label);
-}
-
-void Hdf5Writer::value(const std::string& name, std::uint64_t value, const Label& label) {
-  dataset(name, memory_type<std::uint64_t>(), {}, &value, label);
-}
-
-void Hdf5Writer::value(const std::string& name, const std::string& value, const Label& label) {
-  const Hdf5Id type = text_type(std::max<std::size_t>(1, value.size()));
-  const std::string padded = value.empty() ? std::string(1, '\0') : value;
-  dataset(name, type.get(), {}, padded.data(), label);
-}
-
-void Hdf5Writer::array(const std::string& name, const std::vector<double>& values, const Label& label) {
-  dataset(name, memory_type<double>(), {values.size()}, values.data(), label);
-}
-
-void Hdf5Writer::array(const std::string& name, const std::vector<std::int64_t>& values, const Label& label) {
-  dataset(name, memory_type<std::int64_t>(), {values.size()}, values.data(), label);
-}
-
-void Hdf5Writer::array(const std::string& name, const std::vector<std::string>& values, const Label& label) {
-  std::size_t longest = 1;
-  for (const std::string& text : values) longest = std::max(longest, text.size());
-  std::string padded(longest * values.size(), '\0');
-  for (std::size_t i = 0; i < values.size(); ++i) values[i].copy(padded.data() + i * longest, longest);
-  dataset(name, text_type(longest).get(), {values.size()}, padded.data(), label);
-}
-
-void Hdf5Writer::table(const std::string& name, const std::vector<double>& values, Shape shape,
-                       const Label& label) {
-  if (!values.empty() && values.size() != shape.rows * shape.columns) {
-    return fail(path_of(names_, name) + " has " + std::to_string(values.size()) + " values, not " +
-                std::to_string(shape.rows) + " x " + std::to_string(shape.columns));
-  }
-  dataset(name, memory_type<double>(), {values.empty() ? 0 : shape.rows, shape.columns}, values.data(),
-          label);
-}
-
-Result<std::string> Hdf5Writer::finish() {
+Result<std::string> Hdf5Writer::finish(std::size_t room_in_front) {
   if (!failed() && H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0)
     fail("cannot finish the HDF5 file: " + hdf5_reason());
-  if (failed()) return *error_;
+  if (failed()) return *error();
   const ssize_t size = H5Fget_file_image(file_.get(), nullptr, 0);
-  std::string image(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
-  if (size <= 0 || H5Fget_file_image(file_.get(), image.data(), image.size()) != size) {
+  const std::size_t bytes = size > 0 ? static_cast<std::size_t>(size) : 0;
+  std::string image(room_in_front + bytes, '\0');
+  if (size <= 0 || H5Fget_file_image(file_.get(), image.data() + room_in_front, bytes) != size) {
     fail("cannot finish the HDF5 file: " + hdf5_reason());
-    return *error_;
+    return *error();
   }
   return image;
 }

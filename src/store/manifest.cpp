@@ -20,6 +20,7 @@
 #include <CLI/Version.hpp>
 #endif
 
+#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/version.hpp"
 
@@ -32,11 +33,6 @@ std::string hdf5_version() {
   unsigned major = 0, minor = 0, release = 0;
   if (H5get_libversion(&major, &minor, &release) < 0) return "unknown";
   return fmt::format("{}.{}.{}", major, minor, release);
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
 }  // namespace
@@ -59,12 +55,18 @@ std::vector<LibraryVersion> library_versions() {
   };
 }
 
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 Manifest make_manifest(std::string input_text, int threads) {
   Manifest manifest;
   manifest.input_sha256 = sha256(input_text);
   manifest.input_text = std::move(input_text);
+  manifest.model_version = run::model_version;
   manifest.program_version = version::number;
   manifest.commit = version::commit;
   manifest.compiler = version::compiler;

@@ -57,20 +57,30 @@ std::vector<NamedKinetics> kinetics_of(const StudyFile& study) {
 
 void run_meshes(CalibrationResult& result, const StudyOptions& options) {
   ProgressTracker tracker(options.progress);
+  const std::vector<bool> ours = detail::cases_of_shard(result.study, options.shard);
   std::vector<Task> tasks;
-  for (CalibrationRun& run : result.runs) {
-    const scene::Scene& scene = run.input.scene.scene;
-    tasks.push_back({detail::cost_of(scene), [&](const auto& report_share) {
-                       run.start_time = store::utc_now();
-                       run.mechanics =
-                           options.runners.mechanics(scene, detail::run_options(options, report_share));
-                     }});
+  std::vector<CalibrationRun*> running;
+  for (std::size_t i = 0; i < result.runs.size(); ++i) {
+    CalibrationRun& run = result.runs[i];
+    if (!ours[i]) {
+      run.failure = foreign_shard;
+      continue;
+    }
+    const detail::NeededRun needed{&run.input.scene.scene, run.input.label, std::nullopt};
+    running.push_back(&run);
+    tasks.push_back(detail::task_of(needed, options, [&, needed](const auto& report_share) {
+      run.start_time = store::utc_now();
+      detail::ObtainedRun obtained = detail::obtain(needed, options, report_share);
+      run.reused = obtained.reused;
+      run.mechanics = std::move(obtained.result.mechanics);
+    }));
     tracker.expect(1, tasks.back().cost);
   }
-  const auto outcomes = run_tasks(tasks, options.jobs, tracker, options.stop);
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    result.runs[i].failure = detail::failure_of(result.runs[i].mechanics, outcomes[i]);
-    detail::add_run(result.timing, result.runs[i].mechanics, outcomes[i]);
+  const auto outcomes = run_tasks(tasks, detail::resources_of(options), tracker, options.stop);
+  for (std::size_t task = 0; task < tasks.size(); ++task) {
+    CalibrationRun& run = *running[task];
+    run.failure = detail::failure_of(run.mechanics, outcomes[task]);
+    detail::add_run(result.timing, run.mechanics, run.reused, outcomes[task]);
   }
 }
 
@@ -227,7 +237,7 @@ CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& op
   }
   compare_meshes(result, kinetics);
   if (!result.rows.empty()) recommend(result);
-  result.interrupted = options.stop != nullptr && options.stop->load();
+  result.interrupted = detail::stop_requested(options);
   result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

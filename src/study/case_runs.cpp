@@ -1,6 +1,10 @@
 #include "case_runs.hpp"
 
+#include "launchsafe/run/model_version.hpp"
+#include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/scene/plan.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +14,94 @@ namespace launchsafe::study {
 Runners simulation_runners() { return {run::run_mechanics, run::run_coupled}; }
 
 namespace detail {
+namespace {
+
+run::CaseResult compute(const NeededRun& needed, const StudyOptions& options,
+                        const std::function<void(double)>& report_share) {
+  const scene::Scene scene = scene_of(needed);
+  const run::RunOptions run_options{options.stop, options.time_limit, report_share};
+  if (needed.coupled_gap) return options.runners.coupled(scene, *needed.coupled_gap, run_options);
+  run::CaseResult result;
+  result.mechanics = options.runners.mechanics(scene, run_options);
+  return result;
+}
+
+store::JournalEntry entry_for(const NeededRun& needed, const store::CaseIdentity& identity) {
+  store::JournalEntry entry;
+  entry.hash = identity.hash();
+  entry.label = needed.label;
+  entry.model_version = run::model_version;
+  entry.predicted_updates = cost_of(*needed.scene);
+  return entry;
+}
+
+void keep(const NeededRun& needed, const store::CaseIdentity& identity, const run::CaseResult& result,
+          const StudyOptions& options) {
+  store::JournalEntry entry = entry_for(needed, identity);
+  entry.wall_time = result.mechanics.wall_time;
+  switch (result.mechanics.status) {
+    case run::RunStatus::interrupted:
+      entry.state = store::CaseState::interrupted;
+      break;
+    case run::RunStatus::timed_out:
+      entry.state = store::CaseState::timed_out;
+      entry.time_limit = options.time_limit;
+      break;
+    default:
+      return options.store->save(identity, scene_of(needed), result, std::move(entry));
+  }
+  entry.reason = result.mechanics.reason;
+  options.store->note(std::move(entry));
+}
+
+/// A result that says that the time limit stopped it before, and would again.
+std::optional<run::CaseResult> timed_out_before(const store::CaseIdentity& identity,
+                                                const StudyOptions& options) {
+  const auto entry = options.store->last_entry(identity.hash());
+  if (!entry || entry->state != store::CaseState::timed_out || !(options.time_limit <= entry->time_limit))
+    return std::nullopt;
+  run::CaseResult result;
+  result.mechanics.status = run::RunStatus::timed_out;
+  result.mechanics.reason = entry->reason;
+  return result;
+}
+
+}  // namespace
+
+scene::Scene scene_of(const NeededRun& needed) {
+  if (!needed.coupled_gap) return scene::mechanical_part(*needed.scene);
+  scene::Scene scene = *needed.scene;
+  scene.title.clear();
+  scene.surface.gaps = {*needed.coupled_gap};
+  return scene;
+}
+
+store::CaseIdentity identity_of(const NeededRun& needed) {
+  return store::CaseIdentity(fmt::format("# model version {}, {}\n{}", run::model_version,
+                                         needed.coupled_gap ? "coupled run" : "mechanics",
+                                         scene::to_toml(scene_of(needed))));
+}
+
+ObtainedRun obtain(const NeededRun& needed, const StudyOptions& options,
+                   const std::function<void(double)>& report_share) {
+  if (options.store == nullptr) return {compute(needed, options, report_share), false};
+  const store::CaseIdentity identity = identity_of(needed);
+  if (options.store->holds(identity.hash())) {
+    if (auto stored = options.store->load(identity.hash())) return {std::move(*stored), true};
+  }
+  if (auto before = timed_out_before(identity, options)) return {std::move(*before), true};
+  try {
+    ObtainedRun run{compute(needed, options, report_share), false};
+    keep(needed, identity, run.result, options);
+    return run;
+  } catch (const std::exception& error) {
+    store::JournalEntry entry = entry_for(needed, identity);
+    entry.state = store::CaseState::failed;
+    entry.reason = error.what();
+    options.store->note(std::move(entry));
+    throw;
+  }
+}
 
 double cost_of(const scene::Scene& scene) {
   const scene::Plan plan = scene::make_plan(scene);
@@ -17,9 +109,27 @@ double cost_of(const scene::Scene& scene) {
   return std::isfinite(cost) ? std::max(cost, 1.0) : 1.0;
 }
 
-run::RunOptions run_options(const StudyOptions& options, const std::function<void(double)>& report_share) {
-  return {options.stop, report_share};
+double memory_of(const scene::Scene& scene) {
+  // The trace keeps two friction histories a station, with a station for every particle of the bottom row.
+  const double samples = scene.load.duration / scene.output.trace_interval;
+  const double row = extent_of(scene, scene::BodyMaterial::charge).r_end / scene.numerics.cell_size *
+                     scene.numerics.particles_per_cell;
+  const double stations = static_cast<double>(scene.output.observation_points.size()) + row;
+  const double histories = 8.0 * samples * (6.0 + stations * trace::traced_closures);
+  // While it is stored, a result exists a few times: as it is, as the image of its file, and being written.
+  constexpr double copies = 4.0;
+  return scene::make_plan(scene).memory + copies * histories;
 }
+
+Task task_of(const NeededRun& needed, const StudyOptions& options,
+             std::function<void(const std::function<void(double)>&)> work) {
+  constexpr double reading_share = 1e-3;
+  const bool stored = options.store != nullptr && options.store->holds(identity_of(needed).hash());
+  const double cost = cost_of(*needed.scene);
+  return {stored ? reading_share * cost : cost, std::move(work), memory_of(*needed.scene)};
+}
+
+Resources resources_of(const StudyOptions& options) { return {options.jobs, options.memory_limit}; }
 
 std::string failure_of(const run::MechanicsResult& mechanics, const TaskOutcome& outcome) {
   if (!outcome.started) return "not run: the study was interrupted before";
@@ -28,14 +138,28 @@ std::string failure_of(const run::MechanicsResult& mechanics, const TaskOutcome&
   return run::to_string(mechanics.status) + (mechanics.reason.empty() ? "" : ": " + mechanics.reason);
 }
 
-void add_run(Timing& timing, const run::MechanicsResult& mechanics, const TaskOutcome& outcome) {
-  if (!outcome.started) return;
+void add_run(Timing& timing, const run::MechanicsResult& mechanics, bool reused, const TaskOutcome& outcome) {
+  if (!outcome.started || !outcome.failure.empty()) return;
+  if (reused) {
+    ++timing.reused;
+    return;
+  }
   ++timing.runs;
   timing.particle_updates += static_cast<double>(mechanics.steps) * static_cast<double>(mechanics.particles);
   timing.run_time += mechanics.wall_time;
 }
 
+std::vector<bool> cases_of_shard(const StudyFile& study, const Shard& shard) {
+  std::vector<double> costs;
+  for (const StudyCase& input : study.cases) costs.push_back(cost_of(input.scene.scene));
+  std::vector<bool> ours;
+  for (const int each : shards_of(costs, shard.count)) ours.push_back(each == shard.index);
+  return ours;
+}
+
 int jobs_of(const StudyOptions& options) { return options.jobs > 0 ? options.jobs : available_cores(); }
+
+bool stop_requested(const StudyOptions& options) { return options.stop != nullptr && options.stop->load(); }
 
 }  // namespace detail
 }  // namespace launchsafe::study

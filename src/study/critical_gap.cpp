@@ -4,6 +4,8 @@
 #include "gap_analysis.hpp"
 #include "launchsafe/store/manifest.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -41,32 +43,56 @@ bool CriticalGapResult::any_indeterminate() const {
 
 namespace {
 
-/// The mechanics of every case, each with its traced gaps.
-void run_mechanics(CriticalGapResult& result, const StudyOptions& options, ProgressTracker& tracker) {
+detail::NeededRun mechanics_of(const CaseOutcome& outcome) {
+  return {&outcome.input.scene.scene, outcome.input.label, std::nullopt};
+}
+
+detail::NeededRun coupled_of(const CaseOutcome& outcome, double gap) {
+  return {&outcome.input.scene.scene,
+          fmt::format("{}, coupled at {:.6g} cm", outcome.input.label, 100.0 * gap), gap};
+}
+
+/// A case without a run: rows without numbers, and the reason.
+void give_up(const Study& study, CaseOutcome& outcome, std::string failure) {
+  // Whatever was left half done is thrown away.
+  const CaseOutcome broken = std::move(outcome);
+  outcome = CaseOutcome{};
+  outcome.input = broken.input;
+  outcome.start_time = broken.start_time;
+  outcome.failure = std::move(failure);
+  detail::find_critical_gaps(study, outcome);
+  detail::evaluate_gaps(study, outcome);
+}
+
+/// The mechanics of every case of our shard, each with its traced gaps.
+void run_mechanics(CriticalGapResult& result, const std::vector<bool>& ours, const StudyOptions& options,
+                   ProgressTracker& tracker) {
   std::vector<Task> tasks;
-  for (CaseOutcome& outcome : result.cases) {
-    tasks.push_back({detail::cost_of(outcome.input.scene.scene), [&](const auto& report_share) {
-                       outcome.start_time = store::utc_now();
-                       outcome.result.mechanics = options.runners.mechanics(
-                           outcome.input.scene.scene, detail::run_options(options, report_share));
-                       outcome.failure = detail::failure_of(outcome.result.mechanics, {true, {}});
-                       detail::find_critical_gaps(result.study.study, outcome);
-                       detail::evaluate_gaps(result.study.study, outcome);
-                     }});
-  }
-  const auto outcomes = run_tasks(tasks, options.jobs, tracker, options.stop);
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < result.cases.size(); ++i) {
     CaseOutcome& outcome = result.cases[i];
-    detail::add_run(result.timing, outcome.result.mechanics, outcomes[i]);
-    if (outcomes[i].started && outcomes[i].failure.empty()) continue;
-    // Whatever was left half done is thrown away: rows without numbers, and the reason.
-    const CaseOutcome broken = std::move(outcome);
-    outcome = CaseOutcome{};
-    outcome.input = broken.input;
-    outcome.start_time = broken.start_time;
-    outcome.failure = detail::failure_of(outcome.result.mechanics, outcomes[i]);
-    detail::find_critical_gaps(result.study.study, outcome);
-    detail::evaluate_gaps(result.study.study, outcome);
+    if (!ours[i]) {
+      give_up(result.study.study, outcome, foreign_shard);
+      continue;
+    }
+    indices.push_back(i);
+    tasks.push_back(detail::task_of(mechanics_of(outcome), options, [&](const auto& report_share) {
+      outcome.start_time = store::utc_now();
+      detail::ObtainedRun run = detail::obtain(mechanics_of(outcome), options, report_share);
+      outcome.reused = run.reused;
+      outcome.result.mechanics = std::move(run.result.mechanics);
+      outcome.failure = detail::failure_of(outcome.result.mechanics, {true, {}});
+      detail::find_critical_gaps(result.study.study, outcome);
+      detail::evaluate_gaps(result.study.study, outcome);
+    }));
+    tracker.expect(1, tasks.back().cost);
+  }
+  const auto outcomes = run_tasks(tasks, detail::resources_of(options), tracker, options.stop);
+  for (std::size_t task = 0; task < tasks.size(); ++task) {
+    CaseOutcome& outcome = result.cases[indices[task]];
+    detail::add_run(result.timing, outcome.result.mechanics, outcome.reused, outcomes[task]);
+    if (outcomes[task].started && outcomes[task].failure.empty()) continue;
+    give_up(result.study.study, outcome, detail::failure_of(outcome.result.mechanics, outcomes[task]));
   }
 }
 
@@ -78,11 +104,12 @@ Confirmation expectation(double gap, bool ignition) {
 }
 
 Confirmation confirm(const CaseOutcome& outcome, double gap, const StudyOptions& options,
-                     const std::function<void(double)>& report_share, run::MechanicsResult& mechanics,
+                     const std::function<void(double)>& report_share, detail::ObtainedRun& run,
                      bool expected) {
   const scene::Scene& scene = outcome.input.scene.scene;
-  run::CaseResult coupled = options.runners.coupled(scene, gap, detail::run_options(options, report_share));
-  mechanics = std::move(coupled.mechanics);
+  run = detail::obtain(coupled_of(outcome, gap), options, report_share);
+  const run::CaseResult& coupled = run.result;
+  const run::MechanicsResult& mechanics = coupled.mechanics;
   Confirmation confirmation = expectation(gap, expected);
   confirmation.ran = true;
   confirmation.wall_time = mechanics.wall_time;
@@ -105,7 +132,7 @@ Confirmation confirm(const CaseOutcome& outcome, double gap, const StudyOptions&
 struct Planned {
   CaseOutcome* outcome;
   std::size_t side;
-  run::MechanicsResult mechanics = {};
+  detail::ObtainedRun run = {};
 };
 
 std::vector<Planned> plan_confirmations(CriticalGapResult& result) {
@@ -124,15 +151,15 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
   std::vector<Planned> planned = plan_confirmations(result);
   std::vector<Task> tasks;
   for (Planned& each : planned) {
-    tasks.push_back({detail::cost_of(each.outcome->input.scene.scene), [&](const auto& report_share) {
-                       Confirmation& place = each.outcome->confirmations[each.side];
-                       place = confirm(*each.outcome, place.gap, options, report_share, each.mechanics,
-                                       place.expected_ignition);
-                     }});
+    Confirmation& place = each.outcome->confirmations[each.side];
+    tasks.push_back(
+        detail::task_of(coupled_of(*each.outcome, place.gap), options, [&](const auto& report_share) {
+          place = confirm(*each.outcome, place.gap, options, report_share, each.run, place.expected_ignition);
+        }));
   }
-  const auto outcomes = run_tasks(tasks, options.jobs, tracker, options.stop);
+  const auto outcomes = run_tasks(tasks, detail::resources_of(options), tracker, options.stop);
   for (std::size_t i = 0; i < planned.size(); ++i) {
-    detail::add_run(result.timing, planned[i].mechanics, outcomes[i]);
+    detail::add_run(result.timing, planned[i].run.result.mechanics, planned[i].run.reused, outcomes[i]);
     Confirmation& confirmation = planned[i].outcome->confirmations[planned[i].side];
     if (outcomes[i].started && outcomes[i].failure.empty()) continue;
     confirmation.ran = true;
@@ -161,14 +188,14 @@ CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& o
   result.study = study;
   result.timing.jobs = detail::jobs_of(options);
   ProgressTracker tracker(options.progress);
-  for (const StudyCase& input : study.cases) {
+  const std::vector<bool> ours = detail::cases_of_shard(study, options.shard);
+  for (std::size_t i = 0; i < study.cases.size(); ++i) {
     CaseOutcome outcome;
-    outcome.input = input;
+    outcome.input = study.cases[i];
     result.cases.push_back(std::move(outcome));
-    tracker.expect(1, detail::cost_of(input.scene.scene));
   }
   if (study.study.confirm) expect_confirmations(result, tracker, true);
-  run_mechanics(result, options, tracker);
+  run_mechanics(result, ours, options, tracker);
   if (study.study.confirm) {
     expect_confirmations(result, tracker, false);
     run_confirmations(result, options, tracker);
@@ -177,7 +204,7 @@ CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& o
     detail::apply_confirmations(study.study, outcome);
     detail::conclude(study.study, outcome);
   }
-  result.interrupted = options.stop != nullptr && options.stop->load();
+  result.interrupted = detail::stop_requested(options);
   result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 namespace launchsafe::study::detail {
 namespace {
@@ -130,10 +132,17 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
     return;
   }
   const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
+  // Both searches scan the same gaps; one integration answers for both.
+  std::map<double, std::array<GapState, 2>> known;
   const auto search = [&](bool anywhere) {
     return find_critical_gap(
         [&](double gap) {
-          return state_of(surface::integrate_skin(model, outcome.result.mechanics.trace, gap), anywhere);
+          auto [found, is_new] = known.try_emplace(gap);
+          if (is_new) {
+            const auto history = surface::integrate_skin(model, outcome.result.mechanics.trace, gap);
+            found->second = {state_of(history, false), state_of(history, true)};
+          }
+          return found->second[anywhere ? 1 : 0];
         },
         largest_gap(study), study.tolerance);
   };

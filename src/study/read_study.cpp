@@ -1,7 +1,9 @@
 #include "launchsafe/study/read_study.hpp"
 
+#include "changed_scene.hpp"
 #include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/study/calibration.hpp"
+#include "study_axes.hpp"
+#include "study_cases.hpp"
 #include "study_keys.hpp"
 
 #include <fmt/format.h>
@@ -13,17 +15,8 @@
 namespace launchsafe::study {
 namespace {
 
-using scene::Dimension, scene::InputError, scene::Place, scene::SceneFile, scene::Value;
-using Fault = std::optional<InputError>;
-
-Place place_of_key(const StudyFile& study, const std::string& key) {
-  const auto found = study.places.find(key);
-  return found == study.places.end() ? Place{study.file} : found->second;
-}
-
-InputError fault_at(const StudyFile& study, const std::string& key, std::string found, std::string allowed) {
-  return scene::error_at(place_of_key(study, key), key, std::move(found), std::move(allowed));
-}
+using detail::Fault, detail::fault_at, detail::place_of_key, detail::check_twice;
+using scene::Dimension, scene::InputError, scene::Place;
 
 Fault read_references(const toml::table& root, StudyFile& study) {
   const toml::node* node = root.get("reference");
@@ -35,11 +28,7 @@ Fault read_references(const toml::table& root, StudyFile& study) {
   for (const toml::node& element : *node->as_array()) {
     Reference reference;
     auto read = scene::read_table(*element.as_table(), detail::reference_keys(), {}, study.file, reference);
-    if (!read) {
-      InputError error = read.error();
-      error.key = "reference." + error.key;
-      return error;
-    }
+    if (!read) return detail::in_table(read.error(), "reference");
     const std::size_t index = study.study.references.size();
     for (auto& [key, place] : *read) study.places[fmt::format("reference.{}.{}", index, key)] = place;
     study.study.references.push_back(std::move(reference));
@@ -64,27 +53,22 @@ Fault read_scene_of(StudyFile& study, const std::filesystem::path& folder) {
 }
 
 /// One override of [set], and those of the tables in it.
-Fault apply_override(const toml::node& node, const std::string& name, StudyFile& study) {
+Fault apply_override(const toml::node& node, const std::string& name, StudyFile& study,
+                     detail::ChangedScene& scene) {
   const Place place = scene::place_of(node, study.file);
   if (const toml::table* table = node.as_table()) {
     for (const auto& [key, inner] : *table) {
       const std::string dotted = name.empty() ? std::string(key.str()) : name + "." + std::string(key.str());
-      if (Fault fault = apply_override(inner, dotted, study)) return fault;
+      if (Fault fault = apply_override(inner, dotted, study, scene)) return fault;
     }
     return std::nullopt;
   }
-  const auto in_set = [&name](InputError error) {
-    if (error.key == name) error.key = "set." + name;
-    return error;
-  };
   const auto key = scene::describe_key(study.scene, name, place);
-  if (!key) return in_set(key.error());
+  if (!key) return detail::in_table(key.error(), "set");
   const auto value = scene::read_value(node, *key, study.file);
-  if (!value) return in_set(value.error());
-  auto changed = scene::with_key(study.scene, name, *value, place);
-  if (!changed) return in_set(changed.error());
-  study.scene = std::move(*changed);
+  if (!value) return detail::in_table(value.error(), "set");
   study.overrides[name] = scene::format_value(*key, *value);
+  scene.apply({name, *value, study.overrides[name], "set." + name, place});
   return std::nullopt;
 }
 
@@ -95,32 +79,73 @@ Fault apply_overrides(const toml::table& root, StudyFile& study) {
     return scene::error_at(scene::place_of(*node, study.file), "set", scene::found_text(*node),
                            "a table, written [set], of scene keys");
   }
-  return apply_override(*node, "", study);
+  detail::ChangedScene scene(study.scene);
+  if (Fault fault = apply_override(*node, "", study, scene)) return fault;
+  if (!scene.complete()) return scene.error();
+  study.scene = scene.take();
+  return std::nullopt;
 }
 
-/// Keys of the other kind, which would silently do nothing.
-Fault check_kinds(const StudyFile& study) {
-  const std::string kind = to_string(study.study.kind);
+/// The tables that are read apart from the keys, as far as the file has them.
+void note_tables(const toml::table& root, StudyFile& study) {
+  for (const char* name : {"reference", "axes", "input"}) {
+    if (const toml::node* node = root.get(name)) study.places[name] = scene::place_of(*node, study.file);
+  }
+}
+
+/// The earliest key given for which `foreign` holds; nullptr if there is none.
+template <class Foreign>
+const std::pair<const std::string, Place>* first_foreign(const StudyFile& study, Foreign foreign) {
   const std::pair<const std::string, Place>* first = nullptr;
   for (const auto& given : study.places) {
-    const std::string of = detail::kind_of_key(given.first);
-    if (of.empty() || of == kind) continue;
-    if (!first || given.second.line < first->second.line) first = &given;
+    if (foreign(given.first) && (!first || given.second.line < first->second.line)) first = &given;
   }
-  if (!first) return std::nullopt;
-  return scene::error_at(first->second, first->first,
-                         "a key of kind \"" + detail::kind_of_key(first->first) + '"',
-                         "keys of kind \"" + kind + '"');
+  return first;
 }
 
-Fault check_twice(const StudyFile& study, const std::string& key, Dimension dimension,
-                  std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto twice = std::adjacent_find(values.begin(), values.end(), [](double a, double b) {
-    return b - a <= 1e-9 * std::max(std::abs(b), 1e-6);
+/// What to write for a key of kind critical-gap in a study of another kind; empty if there is nothing like
+/// it.
+std::string same_in_kind(const std::string& key, StudyKind kind) {
+  if (kind == StudyKind::sensitivity) return key == "gaps" ? "gap" : "";
+  if (kind == StudyKind::critical_gap && key == "gap") return "gaps";
+  if (kind != StudyKind::sweep) return {};
+  if (key == "gaps" || key == "gap") return "gap in [axes]";
+  if (key == "peak_pressures") return "peak_pressure in [axes]";
+  if (key == "crack_radii") return "crack_radius in [axes]";
+  if (key == "flaw_sizes") return "flaw_size in [axes]";
+  return {};
+}
+
+/// Keys of other kinds, which would silently do nothing.
+Fault check_kinds(const StudyFile& study) {
+  const StudyKind kind = study.study.kind;
+  const auto* first = first_foreign(study, [kind](const std::string& key) {
+    const auto kinds = detail::kinds_of_key(key);
+    return !kinds.empty() && std::find(kinds.begin(), kinds.end(), kind) == kinds.end();
   });
-  if (twice == values.end()) return std::nullopt;
-  return fault_at(study, key, scene::format_quantity(*twice, dimension) + " twice", "each value once");
+  if (!first) return std::nullopt;
+  std::vector<std::string> kinds;
+  for (const StudyKind each : detail::kinds_of_key(first->first)) kinds.push_back(to_string(each));
+  return fault_at(study, first->first, "a key of kind " + scene::quoted_list(kinds),
+                  "keys of kind \"" + to_string(kind) + '"', same_in_kind(first->first, kind));
+}
+
+/// Keys of the other method, likewise, and what the limits of single keys do not say.
+Fault check_method(const StudyFile& study) {
+  const Study& s = study.study;
+  if (s.kind != StudyKind::sensitivity) return std::nullopt;
+  const auto* first = first_foreign(study, [&s](const std::string& key) {
+    const auto method = detail::method_of_key(key);
+    return method && *method != s.method;
+  });
+  if (first) {
+    return fault_at(study, first->first,
+                    "a key of method \"" + to_string(*detail::method_of_key(first->first)) + '"',
+                    "keys of method \"" + to_string(s.method) + '"');
+  }
+  if (s.levels % 2 == 0) return std::nullopt;
+  return fault_at(study, "levels", fmt::format("{}", s.levels), "an even number of levels",
+                  fmt::format("{}", s.levels + 1));
 }
 
 Fault check_lists(const StudyFile& study) {
@@ -172,57 +197,16 @@ Fault check_scene(const StudyFile& study) {
   return std::nullopt;
 }
 
-/// A scene key varied by a list of the study; no values: as in the scene.
-struct Axis {
-  std::string list;  ///< key of the study
-  std::string key;   ///< key of the scene
-  std::vector<double> values;
-};
+bool is_numerics(const std::string& key) { return key.starts_with("numerics."); }
 
-Fault add_cases(StudyFile& study, const std::vector<Axis>& axes, std::size_t depth, const SceneFile& scene) {
-  if (depth == axes.size()) {
-    const scene::Scene& s = scene.scene;
-    StudyCase made{"",
-                   scene::PressureHistory(s.load).peak(),
-                   s.charge.cracks.initial_crack_radius,
-                   s.charge.cracks.flaw_size,
-                   s.numerics.cell_size,
-                   true,
-                   scene};
-    made.label = study.study.kind == StudyKind::calibration
-                     ? fmt::format("{:.6g} mm", 1e3 * made.cell_size)
-                     : fmt::format("{:.6g} MPa, {:.6g} um, {:.6g} mm", 1e-6 * made.peak_pressure,
-                                   1e6 * made.crack_radius, 1e3 * made.flaw_size);
-    const scene::Scene& own = study.scene.scene;
-    made.own_conditions = made.peak_pressure == own.load.peak &&
-                          made.crack_radius == own.charge.cracks.initial_crack_radius &&
-                          made.flaw_size == own.charge.cracks.flaw_size;
-    study.cases.push_back(std::move(made));
-    return std::nullopt;
-  }
-  const Axis& axis = axes[depth];
-  if (axis.values.empty()) return add_cases(study, axes, depth + 1, scene);
-  for (const double value : axis.values) {
-    const auto changed = scene::with_key(scene, axis.key, Value(value), place_of_key(study, axis.list));
-    if (!changed) return changed.error();
-    if (Fault fault = add_cases(study, axes, depth + 1, *changed)) return fault;
-  }
-  return std::nullopt;
-}
-
-Fault make_cases(StudyFile& study) {
-  Study& s = study.study;
-  if (s.kind == StudyKind::calibration) {
-    if (auto targets = calibration_targets(study); !targets) return targets.error();
-    return add_cases(study, {{"meshes", "numerics.cell_size", s.meshes}}, 0, study.scene);
-  }
-  if (s.gaps.empty()) s.gaps = study.scene.scene.surface.gaps;
-  if (s.gaps.empty()) return fault_at(study, "gaps", "no gap", "at least one gap, in the study or its scene");
-  return add_cases(study,
-                   {{"peak_pressures", "load.peak", s.peak_pressures},
-                    {"crack_radii", "charge.crack_radius", s.crack_radii},
-                    {"flaw_sizes", "charge.flaw_size", s.flaw_sizes}},
-                   0, study.scene);
+/// Whether any case has other numerics than the scene as it was written.
+bool has_other_numerics(const StudyFile& study) {
+  const auto varies = [](const auto& each) { return is_numerics(each.key.name); };
+  const Study& s = study.study;
+  return std::any_of(study.overrides.begin(), study.overrides.end(),
+                     [](const auto& each) { return is_numerics(each.first); }) ||
+         std::any_of(s.axes.begin(), s.axes.end(), varies) ||
+         std::any_of(s.inputs.begin(), s.inputs.end(), varies);
 }
 
 /// A stated uncertainty belongs to the scene's own numerics on a grid that runs along the charge's edges.
@@ -230,13 +214,22 @@ Fault make_cases(StudyFile& study) {
 /// strength of silence.
 void settle_numerical_uncertainty(StudyFile& study) {
   Study& s = study.study;
-  const bool other_numerics =
-      std::any_of(study.overrides.begin(), study.overrides.end(),
-                  [](const auto& each) { return each.first.starts_with("numerics."); });
   const bool unstated = !std::isfinite(s.numerical_uncertainty);
-  if (!unstated && !other_numerics && scene::charge_edges_off_grid(study.scene.scene).empty()) return;
+  if (!unstated && !has_other_numerics(study) && scene::charge_edges_off_grid(study.scene.scene).empty())
+    return;
   s.numerical_uncertainty_assumed = unstated || s.numerical_uncertainty < assumed_numerical_uncertainty;
   if (s.numerical_uncertainty_assumed) s.numerical_uncertainty = assumed_numerical_uncertainty;
+}
+
+/// The axes of a sweep, or the inputs of a sensitivity study.
+Fault read_what_varies(const toml::table& root, StudyFile& study) {
+  if (study.study.kind == StudyKind::sweep) {
+    if (Fault fault = detail::read_axes(root, study)) return fault;
+  }
+  if (study.study.kind == StudyKind::sensitivity) {
+    if (Fault fault = detail::read_inputs(root, study)) return fault;
+  }
+  return detail::check_load_axes(study);
 }
 
 }  // namespace
@@ -246,18 +239,22 @@ scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesys
   if (!table) return table.error();
   StudyFile study;
   study.file = path.string();
-  auto read = scene::read_table(*table, detail::study_keys(), {"set", "reference"}, study.file, study.study);
+  auto read = scene::read_table(*table, detail::study_keys(), {"set", "reference", "axes", "input"},
+                                study.file, study.study);
   if (!read) return read.error();
   study.places = std::move(*read);
+  note_tables(*table, study);
   if (Fault fault = check_kinds(study)) return *fault;
+  if (Fault fault = check_method(study)) return *fault;
   if (Fault fault = read_references(*table, study)) return *fault;
   if (Fault fault = check_lists(study)) return *fault;
   if (Fault fault = check_references(study)) return *fault;
   if (Fault fault = read_scene_of(study, path.parent_path())) return *fault;
   if (Fault fault = apply_overrides(*table, study)) return *fault;
   if (Fault fault = check_scene(study)) return *fault;
+  if (Fault fault = read_what_varies(*table, study)) return *fault;
   settle_numerical_uncertainty(study);
-  if (Fault fault = make_cases(study)) return *fault;
+  if (Fault fault = detail::make_cases(study)) return *fault;
   if (study.study.title.empty()) study.study.title = study.scene.scene.title;
   return study;
 }

@@ -1,12 +1,17 @@
 #include "launchsafe/study/scheduler.hpp"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <algorithm>
+#include <condition_variable>
 #include <exception>
+#include <iterator>
 #include <numeric>
+#include <optional>
+#include <stdexcept>
 
 namespace launchsafe::study {
 
@@ -74,24 +79,86 @@ void perform(const Task& task, TaskOutcome& outcome, ProgressTracker& tracker) {
   tracker.finished();
 }
 
+/// The tasks that wait, the most costly first, and the memory that is left for them.
+class Queue {
+ public:
+  Queue(const std::vector<Task>& tasks, double memory) : tasks_(tasks), limit_(memory), free_(memory) {
+    waiting_.resize(tasks.size());
+    std::iota(waiting_.begin(), waiting_.end(), std::size_t{0});
+    // Reversed: the back is taken first, and taking it is cheap.
+    std::stable_sort(waiting_.begin(), waiting_.end(), [&tasks](std::size_t a, std::size_t b) {
+      return tasks[a].cost != tasks[b].cost ? tasks[a].cost < tasks[b].cost : a > b;
+    });
+  }
+
+  /// The next task that fits, its memory taken; waits for one to fit. Nothing when none is left or `stop` is
+  /// set.
+  std::optional<std::size_t> take(const std::atomic<bool>* stop) {
+    std::unique_lock lock(mutex_);
+    while (!waiting_.empty() && !(stop != nullptr && stop->load(std::memory_order_relaxed))) {
+      // One that never fits is taken at once: `perform` refuses it.
+      const auto fits = [this](std::size_t task) {
+        return tasks_[task].memory <= free_ || tasks_[task].memory > limit_;
+      };
+      const auto found = std::find_if(waiting_.rbegin(), waiting_.rend(), fits);
+      if (found != waiting_.rend()) {
+        const std::size_t task = *found;
+        waiting_.erase(std::next(found).base());
+        if (!too_large(task)) free_ -= tasks_[task].memory;
+        return task;
+      }
+      // With a time limit, since a signal handler that sets `stop` cannot notify.
+      changed_.wait_for(lock, std::chrono::milliseconds(100));
+    }
+    return std::nullopt;
+  }
+
+  void give_back(std::size_t task) {
+    if (too_large(task)) return;
+    const std::lock_guard lock(mutex_);
+    free_ += tasks_[task].memory;
+    changed_.notify_all();
+  }
+
+  bool too_large(std::size_t task) const { return tasks_[task].memory > limit_; }
+
+ private:
+  const std::vector<Task>& tasks_;
+  double limit_, free_;
+  std::vector<std::size_t> waiting_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+};
+
+/// For one that does not fit even alone.
+Task refusal(const Task& task, double limit) {
+  return {
+      task.cost,
+      [needs = task.memory, limit](const auto&) {
+        throw std::runtime_error(fmt::format("it needs about {:.3g} GB of memory, and the limit is {:.3g} GB",
+                                             1e-9 * needs, 1e-9 * limit));
+      },
+      0.0};
+}
+
 }  // namespace
 
-std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, int jobs, ProgressTracker& tracker,
-                                   const std::atomic<bool>* stop) {
+std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, const Resources& resources,
+                                   ProgressTracker& tracker, const std::atomic<bool>* stop) {
   std::vector<TaskOutcome> outcomes(tasks.size());
-  std::vector<std::size_t> order(tasks.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return tasks[a].cost > tasks[b].cost; });
-  std::atomic<std::size_t> next{0};
+  constexpr double usable_share = 0.9;
+  const double memory =
+      resources.memory_limit > 0 ? resources.memory_limit : usable_share * available_memory();
+  Queue queue(tasks, memory);
   const auto pull = [&] {
-    for (std::size_t at = next++; at < order.size(); at = next++) {
-      if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
-      perform(tasks[order[at]], outcomes[order[at]], tracker);
+    while (const auto task = queue.take(stop)) {
+      perform(queue.too_large(*task) ? refusal(tasks[*task], memory) : tasks[*task], outcomes[*task],
+              tracker);
+      queue.give_back(*task);
     }
   };
   const int most = static_cast<int>(std::min<std::size_t>(std::max<std::size_t>(tasks.size(), 1), 1024));
-  const int pullers = std::clamp(jobs > 0 ? jobs : available_cores(), 1, most);
+  const int pullers = std::clamp(resources.jobs > 0 ? resources.jobs : available_cores(), 1, most);
   // TBB by itself starts no more threads than there are cores; the caller may want more.
   const auto parallelism = tbb::global_control::max_allowed_parallelism;
   const tbb::global_control allowed(parallelism, std::max(static_cast<std::size_t>(pullers),

@@ -1,28 +1,34 @@
 #include "study_keys.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace launchsafe::study {
 
 std::string to_string(StudyKind kind) {
-  return kind == StudyKind::critical_gap ? "critical-gap" : "calibration";
-}
-
-std::vector<scene::KeyDescription> describe_study_keys() {
-  std::vector<scene::KeyDescription> described;
-  for (const auto& key : detail::study_keys()) described.push_back(key);
-  for (const auto& key : detail::reference_keys()) {
-    described.push_back(key);
-    described.back().name = "reference." + key.name;
+  switch (kind) {
+    case StudyKind::critical_gap:
+      return "critical-gap";
+    case StudyKind::calibration:
+      return "calibration";
+    case StudyKind::sweep:
+      return "sweep";
+    case StudyKind::sensitivity:
+      return "sensitivity";
   }
-  return described;
+  return {};
 }
 
 namespace detail {
 namespace {
 
-using scene::above_to, scene::at_least, scene::between;
+using scene::above, scene::above_to, scene::any_number, scene::at_least, scene::between;
 using scene::Dimension, scene::Key, scene::Standing;
+using enum StudyKind;
+
+/// Whole numbers that a double holds exactly.
+constexpr double largest_seed = 9007199254740992.0;
 
 Key<Study> study_list(std::string name, Dimension dimension, scene::Limits limits, std::string sentence,
                       std::vector<double> Study::*member) {
@@ -31,8 +37,9 @@ Key<Study> study_list(std::string name, Dimension dimension, scene::Limits limit
       std::move(sentence), [member](auto& s) -> auto& { return s.*member; });
 }
 
+template <class Number>
 Key<Study> study_number(std::string name, Dimension dimension, scene::Limits limits, std::string sentence,
-                        double Study::*member) {
+                        Number Study::*member) {
   return scene::number_key<Study>(
       std::move(name), dimension, limits, Standing::assumed,
       std::move(sentence), [member](auto& s) -> auto& { return s.*member; });
@@ -42,7 +49,10 @@ std::vector<Key<Study>> common_keys() {
   return {
       scene::required(scene::word_key<Study, StudyKind>(
           "kind", Standing::input, "What is asked.",
-          {{"critical-gap", StudyKind::critical_gap}, {"calibration", StudyKind::calibration}},
+          {{to_string(critical_gap), critical_gap},
+           {to_string(calibration), calibration},
+           {to_string(sweep), sweep},
+           {to_string(sensitivity), sensitivity}},
           [](auto& s) -> auto& { return s.kind; })),
       scene::text_key<Study>(
           "title", Standing::input, "What this study is, for reports; the scene's title where there is none.",
@@ -53,7 +63,7 @@ std::vector<Key<Study>> common_keys() {
       study_number("early_time", Dimension::time, above_to(0, 1),
                    "An instant at which temperatures are listed and compared too.", &Study::early_time),
       scene::number_key<Study>(
-          "reference_line.slope", Dimension::number, scene::any_number(), Standing::paper,
+          "reference_line.slope", Dimension::number, any_number(), Standing::paper,
           "Slope of a published line of maximum temperature against gap, K per cm.",
           [](auto& s) -> auto& { return s.reference_line.slope; }),
       scene::number_key<Study>(
@@ -74,13 +84,19 @@ std::vector<Key<Study>> critical_gap_keys() {
                  &Study::crack_radii),
       study_list("flaw_sizes", Dimension::length, between(0, 0.01),
                  "Flaw sizes a, each a mechanical run; the scene's if absent.", &Study::flaw_sizes),
+      scene::flag_key<Study>(
+          "confirm", Standing::assumed, "Complete coupled runs on both sides of the bracket.",
+          [](auto& s) -> auto& { return s.confirm; }),
+  };
+}
+
+/// Of every kind that judges gaps and seeks the critical one.
+std::vector<Key<Study>> judging_keys() {
+  return {
       study_number("tolerance", Dimension::length, between(1e-9, 1e-3),
                    "Largest width of the bracket of the critical gap.", &Study::tolerance),
       study_number("largest_gap", Dimension::length, above_to(0, 0.01),
                    "Where the search for the critical gap ends.", &Study::largest_gap),
-      scene::flag_key<Study>(
-          "confirm", Standing::assumed, "Complete coupled runs on both sides of the bracket.",
-          [](auto& s) -> auto& { return s.confirm; }),
       study_number("numerical_uncertainty", Dimension::temperature, between(0, 1000),
                    "Uncertainty of the maximum temperature from the mesh, from a mesh study.",
                    &Study::numerical_uncertainty),
@@ -100,6 +116,63 @@ std::vector<Key<Study>> calibration_keys() {
           "Published bracket of the ignition temperature, a check on the calibrated one.",
           [](auto& s) -> auto& { return s.ignition_lowest; },
           [](auto& s) -> auto& { return s.ignition_highest; }),
+  };
+}
+
+/// The one gap of a sensitivity study.
+Key<Study> one_gap_key() {
+  Key<Study> key{{.name = "gap",
+                  .dimension = Dimension::length,
+                  .limits = between(0, 0.01),
+                  .sentence = "The gap at which temperatures are compared; the scene's if it has one alone."},
+                 {},
+                 {}};
+  key.set = [](Study& study, const scene::Value& value) { study.gaps = {std::get<double>(value)}; };
+  key.get = [](const Study& study) {
+    return scene::Value(study.gaps.empty() ? not_a_number : study.gaps[0]);
+  };
+  return key;
+}
+
+std::vector<Key<Study>> sensitivity_keys() {
+  return {
+      scene::word_key<Study, SensitivityMethod>(
+          "method", Standing::assumed, "Indices of Sobol, or the elementary effects of Morris.",
+          {{to_string(SensitivityMethod::sobol), SensitivityMethod::sobol},
+           {to_string(SensitivityMethod::morris), SensitivityMethod::morris}},
+          [](auto& s) -> auto& { return s.method; }),
+      one_gap_key(),
+      study_number("seed", Dimension::count, between(0, largest_seed),
+                   "Seed of the design and of the bootstrap.", &Study::seed),
+      study_number("resamples", Dimension::count, between(1, 1e6), "Resamples of the bootstrap.",
+                   &Study::resamples),
+      study_number("confidence", Dimension::number, between(0.5, 0.999), "Confidence of the intervals.",
+                   &Study::confidence),
+  };
+}
+
+std::vector<Key<Study>> sobol_keys() {
+  return {
+      scene::word_key<Study, math::Design>(
+          "design", Standing::assumed,
+          "How the samples are laid out; a power of two of them is best "
+          "for scrambled-sobol.",
+          {{"scrambled-sobol", math::Design::scrambled_sobol},
+           {"latin-hypercube", math::Design::latin_hypercube},
+           {"monte-carlo", math::Design::monte_carlo}},
+          [](auto& s) -> auto& { return s.design; }),
+      study_number("samples", Dimension::count, between(2, 1e6),
+                   "Samples N of the inputs, each (inputs + 2) mechanical runs.", &Study::samples),
+  };
+}
+
+std::vector<Key<Study>> morris_keys() {
+  return {
+      study_number("trajectories", Dimension::count, between(2, 1e6),
+                   "Trajectories through the inputs, each (inputs + 1) mechanical runs.",
+                   &Study::trajectories),
+      study_number("levels", Dimension::count, between(2, 1000), "Levels of every input, an even number.",
+                   &Study::levels),
   };
 }
 
@@ -136,15 +209,26 @@ std::vector<Key<Reference>> make_reference_keys() {
   };
 }
 
-template <class Owner>
-bool has_key(const std::vector<Key<Owner>>& keys, const std::string& name) {
-  return scene::find_key(keys, name) != nullptr;
+/// Keys, and the kinds that they belong to; no kinds: to all.
+struct KeyGroup {
+  std::vector<StudyKind> kinds;
+  std::vector<Key<Study>> keys;
+};
+
+const std::vector<KeyGroup>& key_groups() {
+  static const std::vector<KeyGroup> groups{{{}, common_keys()},
+                                            {{critical_gap}, critical_gap_keys()},
+                                            {{critical_gap, sweep, sensitivity}, judging_keys()},
+                                            {{calibration}, calibration_keys()},
+                                            {{sensitivity}, sensitivity_keys()},
+                                            {{sensitivity}, sobol_keys()},
+                                            {{sensitivity}, morris_keys()}};
+  return groups;
 }
 
 std::vector<Key<Study>> all_study_keys() {
-  std::vector<Key<Study>> keys = common_keys();
-  for (auto& more : {critical_gap_keys(), calibration_keys()})
-    keys.insert(keys.end(), more.begin(), more.end());
+  std::vector<Key<Study>> keys;
+  for (const KeyGroup& group : key_groups()) keys.insert(keys.end(), group.keys.begin(), group.keys.end());
   return keys;
 }
 
@@ -160,10 +244,61 @@ const std::vector<Key<Reference>>& reference_keys() {
   return keys;
 }
 
-std::string kind_of_key(const std::string& name) {
-  if (has_key(critical_gap_keys(), name)) return "critical-gap";
-  if (has_key(calibration_keys(), name)) return "calibration";
+std::string to_string(math::Distribution::Kind kind) {
+  switch (kind) {
+    case math::Distribution::Kind::uniform:
+      return "uniform";
+    case math::Distribution::Kind::log_uniform:
+      return "log-uniform";
+    case math::Distribution::Kind::normal:
+      return "normal";
+  }
   return {};
+}
+
+std::vector<Key<InputText>> input_keys(const scene::KeyDescription& scene_key) {
+  using Kind = math::Distribution::Kind;
+  const Dimension dimension = scene_key.dimension;
+  return {
+      scene::required(scene::text_key<InputText>(
+          "key", Standing::input,
+          "What is uncertain: peak_pressure, crack_radius, flaw_size, or a scene key that takes one number.",
+          [](auto& i) -> auto& { return i.name; })),
+      scene::required(scene::word_key<InputText, Kind>(
+          "distribution", Standing::input, "How its values are distributed.",
+          {{to_string(Kind::uniform), Kind::uniform},
+           {to_string(Kind::log_uniform), Kind::log_uniform},
+           {to_string(Kind::normal), Kind::normal}},
+          [](auto& i) -> auto& { return i.kind; })),
+      scene::range_key<InputText>(
+          "range", dimension, scene_key.limits, Standing::input,
+          "Least and greatest value, in a unit of the key; of a normal, where it is cut off.",
+          [](auto& i) -> auto& { return i.lower; }, [](auto& i) -> auto& { return i.upper; }),
+      scene::number_key<InputText>(
+          "mean", dimension, any_number(), Standing::input,
+          "Mean of a normal before it is cut off, in a unit of the key.",
+          [](auto& i) -> auto& { return i.mean; }),
+      scene::number_key<InputText>(
+          "deviation", dimension, above(0), Standing::input,
+          "Standard deviation of a normal before it is cut off, in a unit of the key.",
+          [](auto& i) -> auto& { return i.deviation; }),
+  };
+}
+
+std::vector<StudyKind> kinds_of_key(const std::string& name) {
+  if (name == "axes") return {sweep};
+  if (name == "input") return {sensitivity};
+  if (name == "reference") return {critical_gap, calibration, sweep};
+  for (const KeyGroup& group : key_groups()) {
+    if (scene::find_key(group.keys, name)) return group.kinds;
+  }
+  return {};
+}
+
+std::optional<SensitivityMethod> method_of_key(const std::string& name) {
+  if (scene::find_key(sobol_keys(), name)) return SensitivityMethod::sobol;
+  if (scene::find_key(morris_keys(), name)) return SensitivityMethod::morris;
+  return std::nullopt;
 }
 
 }  // namespace detail

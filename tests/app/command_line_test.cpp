@@ -26,8 +26,14 @@ TEST_F(CommandLineProgram, VersionNamesCommitCompilerFlagsAndLibraries) {
 }
 
 TEST_F(CommandLineProgram, EveryHelpHasExamples) {
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {"--help"}, {"run", "--help"}, {"study", "--help"}, {"verify", "--help"}, {"explain", "--help"}}) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"--help"},
+                                             {"run", "--help"},
+                                             {"study", "--help"},
+                                             {"merge", "--help"},
+                                             {"emit", "--help"},
+                                             {"verify", "--help"},
+                                             {"explain", "--help"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.code, 0);
     EXPECT_TRUE(outcome.err.empty()) << outcome.err;
@@ -37,8 +43,8 @@ TEST_F(CommandLineProgram, EveryHelpHasExamples) {
 
 TEST_F(CommandLineProgram, TheFirstHelpNamesEverySubcommandAndExitCode) {
   const std::string help = run({"--help"}).out;
-  for (const char* part : {"run ", "study ", "verify ", "explain ", "0 done", "2 bad", "3 some",
-                           "4 a verdict", "70 ", "75 interrupted"}) {
+  for (const char* part : {"run ", "study ", "merge ", "emit ", "verify ", "explain ", "0 done", "2 bad",
+                           "3 some", "4 a verdict", "70 ", "75 interrupted"}) {
     EXPECT_NE(help.find(part), std::string::npos) << part;
   }
 }
@@ -54,6 +60,11 @@ TEST_F(CommandLineProgram, SenselessCommandLinesAreBadUsage) {
                                              {"study", "study.toml"},
                                              {"study", "study.toml", "-o", "out", "--jobs", "0"},
                                              {"study", "study.toml", "-o", "out", "--jobs", "two"},
+                                             {"study", "study.toml", "-o", "out", "--memory", "much"},
+                                             {"study", "study.toml", "-o", "out", "--time-limit", "0s"},
+                                             {"merge", "study.toml"},
+                                             {"emit", "cluster", "study.toml", "-o", "out", "--shards", "3"},
+                                             {"emit", "slurm", "study.toml", "-o", "out"},
                                              {"explain"},
                                              {"explain", "scene.toml", "--keys"},
                                              {"verify", "--quiet", "--filter", "no check has this name"}}) {

@@ -12,9 +12,11 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace launchsafe::app {
@@ -76,6 +78,11 @@ inline std::string with(std::string text, const std::string& from, const std::st
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
+/// A launch that takes a tenth of a second or two.
+inline std::string brief_scene() {
+  return with(with(tiny_scene, "0.05 ms", "0.1 ms"), "\"5 mm\"", "\"1 mm\"");
+}
+
 /// A launch that takes minutes: no test waits for its end.
 inline std::string long_scene() {
   return with(with(tiny_scene, "0.05 ms", "500 ms"), "\"5 mm\"", "\"0.5 mm\"");
@@ -109,9 +116,16 @@ class Program : public testing::TemporaryFolder {
   }
   bool exists(const std::string& name) const { return std::filesystem::exists(folder() / name); }
 
+  /// What the next children do before they become the program: limits, for example.
+  void before_start(std::function<void()> preparation) { preparation_ = std::move(preparation); }
+
   /// Starts the program with the test's folder as its working directory.
   void start(std::vector<std::string> arguments, int error_descriptor = -1) {
     arguments.insert(arguments.begin(), LAUNCHSAFE_PROGRAM);
+    start_program(arguments, error_descriptor);
+  }
+  /// Starts another program.
+  void start_program(std::vector<std::string> arguments, int error_descriptor = -1) {
     start_time_ = std::chrono::steady_clock::now();
     child_ = ::fork();
     if (child_ == 0) become(arguments, error_descriptor);
@@ -126,8 +140,8 @@ class Program : public testing::TemporaryFolder {
     EXPECT_EQ(::waitpid(child_, &status, 0), child_);
     if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_time_).count();
-    outcome.out = read("stdout.txt");
-    outcome.err = read("stderr.txt");
+    outcome.out = read(output_file("stdout"));
+    outcome.err = read(output_file("stderr"));
     return outcome;
   }
 
@@ -136,13 +150,33 @@ class Program : public testing::TemporaryFolder {
     return wait();
   }
 
+  /// A command as a person would type it.
+  Outcome run_in_shell(const std::string& command) {
+    start_program({"/bin/sh", "-c", command});
+    return wait();
+  }
+
+  /// Runs the program while another is running.
+  Outcome run_beside(const std::vector<std::string>& arguments) {
+    const auto child = std::exchange(child_, -1);
+    const auto start_time = start_time_;
+    output_mark_ = "_beside";
+    const Outcome outcome = run(arguments);
+    output_mark_.clear();
+    child_ = child;
+    start_time_ = start_time;
+    return outcome;
+  }
+
  private:
   [[noreturn]] void become(std::vector<std::string>& arguments, int error_descriptor) const {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(signal, SIG_DFL);
     if (::chdir(folder().c_str()) != 0) ::_exit(126);
+    if (preparation_) preparation_();
     constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
-    ::dup2(::open("stdout.txt", flags, 0600), STDOUT_FILENO);
-    ::dup2(error_descriptor >= 0 ? error_descriptor : ::open("stderr.txt", flags, 0600), STDERR_FILENO);
+    ::dup2(::open(output_file("stdout").c_str(), flags, 0600), STDOUT_FILENO);
+    const std::string errors = output_file("stderr");
+    ::dup2(error_descriptor >= 0 ? error_descriptor : ::open(errors.c_str(), flags, 0600), STDERR_FILENO);
     std::vector<char*> pointers;
     for (std::string& argument : arguments) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
@@ -150,7 +184,11 @@ class Program : public testing::TemporaryFolder {
     ::_exit(127);
   }
 
+  std::string output_file(const std::string& stream) const { return stream + output_mark_ + ".txt"; }
+
   pid_t child_ = -1;
+  std::string output_mark_;
+  std::function<void()> preparation_;
   std::chrono::steady_clock::time_point start_time_;
 };
 

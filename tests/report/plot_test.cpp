@@ -74,12 +74,14 @@ TEST_F(DrawnPlot, LeavesOutWhatCannotBeDrawn) {
 
 TEST_F(DrawnPlot, HasEveryStyle) {
   Plot plot = sample();
-  for (const Style style :
-       {Style::line, Style::dashed_line, Style::points, Style::error_bars, Style::steps}) {
+  for (const Style style : {Style::line, Style::dashed_line, Style::points, Style::error_bars, Style::steps,
+                            Style::intervals, Style::horizontal_intervals}) {
     plot.series.push_back({"style", {0, 0.02}, {400, 500}, style, {5, 10}});
+    plot.series.back().lower = {0, 0.01};
+    plot.series.back().upper = {500, 600};
   }
-  for (const Legend legend :
-       {Legend::top_right, Legend::bottom_left, Legend::bottom_right, Legend::right_of_plot, Legend::none}) {
+  for (const Legend legend : {Legend::top_right, Legend::bottom_left, Legend::bottom_right,
+                              Legend::right_of_plot, Legend::below_plot, Legend::none}) {
     plot.legend = legend;
     const auto svg = to_svg(plot);
     ASSERT_TRUE(svg) << svg.error().message;
@@ -133,6 +135,37 @@ TEST(Plot, ErrorBarsNeedTheirErrors) {
   Plot plot = sample();
   plot.series[0].style = Style::error_bars;
   EXPECT_FALSE(to_svg(plot));
+}
+
+TEST(Plot, IntervalsNeedTheirEnds) {
+  Plot plot = sample();
+  plot.series[0].style = Style::intervals;
+  plot.series[0].lower = {1, 2, 3, 4};
+  EXPECT_FALSE(to_svg(plot));
+}
+
+TEST(Plot, IntervalsWidenTheRangeAndAreDrawnAsTheyAre) {
+  Plot plot = sample();
+  plot.series = {{"one", {1, 2}, {10, 20}, Style::horizontal_intervals}};
+  plot.series[0].lower = {-4, std::numeric_limits<double>::quiet_NaN()};
+  plot.series[0].upper = {6, 3};
+  const std::string text = to_gnuplot(plot);
+  EXPECT_NE(text.find("set xrange [-4.5:6.5]"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 10 -4 6\n2 20 2 3\n"), std::string::npos) << "an end that is missing is the point";
+  EXPECT_NE(text.find("with xerrorbars"), std::string::npos);
+}
+
+TEST(Plot, TicsCanBeNamed) {
+  Plot plot = sample();
+  plot.x.tics = {{0.01, "one"}, {0.02, "it's \"two\""}};
+  EXPECT_NE(to_gnuplot(plot).find("set xtics (\"one\" 0.01, \"it\\047s \\042two\\042\" 0.02)"),
+            std::string::npos);
+}
+
+TEST(Plot, ASeriesMayChooseItsMark) {
+  Plot plot = sample();
+  plot.series[0].mark = Mark::down_triangle;
+  EXPECT_NE(to_gnuplot(plot).find("pointtype 11"), std::string::npos);
 }
 
 TEST(Plot, NothingToDrawIsAnError) {

@@ -180,7 +180,7 @@ TEST(CriticalGapStudy, AnEmptyOrBrokenTraceIsIndeterminate) {
 }
 
 TEST(CriticalGapStudy, StoppedBeforeItBeganNothingIsSafe) {
-  const std::atomic<bool> stop{true};
+  std::atomic<bool> stop{true};
   StudyOptions options = synthetic_options();
   options.stop = &stop;
   const CriticalGapResult result =

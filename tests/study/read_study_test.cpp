@@ -84,7 +84,7 @@ TEST(ReadStudy, FaultsNameFileLineKeyFoundAndAllowed) {
   expect_error("tolerance = \"0 cm\"", "tolerance", "0 cm");
   expect_error("numerical_uncertainty = \"-2 K\"", "numerical_uncertainty", "-2");
   expect_error("confirm = \"yes\"", "confirm", "yes");
-  expect_error("gap = \"0.01 cm\"", "gap", "unknown key", "gaps");
+  expect_error("gap = \"0.01 cm\"", "gap", "kind \"sensitivity\"", "critical-gap");
   expect_error("meshes = \"1 mm\"", "meshes", "kind \"calibration\"", "critical-gap");
   expect_error("early_time = \"1 s\"", "early_time", "1 s", "18 ms");
   expect_error("reference_line.slope = 2702.1", "reference_line.slope", "without an intercept");

@@ -21,7 +21,7 @@ TEST(Scheduler, StartsTheMostCostlyFirst) {
   for (const int cost : {2, 5, 1, 4, 3})
     tasks.push_back(task_of(cost, [&order, cost] { order.push_back(cost); }));
   ProgressTracker tracker({});
-  run_tasks(tasks, 1, tracker);
+  run_tasks(tasks, {1}, tracker);
   EXPECT_EQ(order, (std::vector<int>{5, 4, 3, 2, 1}));
 }
 
@@ -36,7 +36,7 @@ TEST(Scheduler, AFailureIsThatTasksAlone) {
     }));
   }
   ProgressTracker tracker({});
-  const auto outcomes = run_tasks(tasks, 2, tracker);
+  const auto outcomes = run_tasks(tasks, {2}, tracker);
   EXPECT_EQ(done, 6);
   EXPECT_EQ(outcomes[3].failure, "broken");
   EXPECT_EQ(outcomes[5].failure, "an unknown exception");
@@ -58,7 +58,7 @@ TEST(Scheduler, NeverRunsMoreThanTheJobsAskedFor) {
       }));
     }
     ProgressTracker tracker({});
-    run_tasks(tasks, jobs, tracker);
+    run_tasks(tasks, {jobs}, tracker);
     EXPECT_LE(most, jobs);
   }
 }
@@ -68,7 +68,7 @@ TEST(Scheduler, StartsNothingAfterTheStopFlag) {
   std::vector<Task> tasks;
   for (int i = 0; i < 4; ++i) tasks.push_back(task_of(4 - i, [&stop, i] { stop = i == 1; }));
   ProgressTracker tracker({});
-  const auto outcomes = run_tasks(tasks, 1, tracker, &stop);
+  const auto outcomes = run_tasks(tasks, {1}, tracker, &stop);
   EXPECT_TRUE(outcomes[0].started);
   EXPECT_TRUE(outcomes[1].started);
   EXPECT_FALSE(outcomes[2].started);
@@ -86,7 +86,7 @@ TEST(Scheduler, ReportsProgressThatEndsAtOne) {
                      }});
     tracker.expect(1, tasks.back().cost);
   }
-  run_tasks(tasks, 1, tracker);
+  run_tasks(tasks, {1}, tracker);
   ASSERT_FALSE(reports.empty());
   EXPECT_TRUE(std::is_sorted(reports.begin() + 3, reports.end(),
                              [](const Progress& a, const Progress& b) { return a.fraction < b.fraction; }));
@@ -99,7 +99,55 @@ TEST(Scheduler, ReportsProgressThatEndsAtOne) {
 
 TEST(Scheduler, RunsNothingForNoTasks) {
   ProgressTracker tracker({});
-  EXPECT_TRUE(run_tasks({}, 4, tracker).empty());
+  EXPECT_TRUE(run_tasks({}, {4}, tracker).empty());
+}
+
+/// Tasks that record how much memory they and those beside them take.
+struct MemoryUse {
+  std::mutex mutex;
+  double now = 0, most = 0;
+  std::vector<Task> tasks;
+
+  void add(double cost, double memory) {
+    tasks.push_back({cost,
+                     [this, memory](const std::function<void(double)>&) {
+                       {
+                         const std::lock_guard lock(mutex);
+                         now += memory;
+                         most = std::max(most, now);
+                       }
+                       std::this_thread::sleep_for(std::chrono::milliseconds(3));
+                       const std::lock_guard lock(mutex);
+                       now -= memory;
+                     },
+                     memory});
+  }
+};
+
+TEST(Scheduler, NeverTakesMoreThanTheMemoryLimit) {
+  MemoryUse use;
+  for (int i = 0; i < 20; ++i) use.add(1 + i % 3, 1.0 + i % 4);
+  ProgressTracker tracker({});
+  const auto outcomes = run_tasks(use.tasks, {4, 5.0}, tracker);
+  for (const TaskOutcome& outcome : outcomes) EXPECT_TRUE(outcome.started && outcome.failure.empty());
+  EXPECT_LE(use.most, 5.0);
+  EXPECT_GT(use.most, 4.0);  // several at a time all the same
+}
+
+TEST(Scheduler, RefusesATaskThatIsTooLargeEvenAlone) {
+  MemoryUse use;
+  use.add(2, 9e9);
+  use.add(1, 1e9);
+  ProgressTracker tracker({});
+  const auto outcomes = run_tasks(use.tasks, {2, 5e9}, tracker);
+  EXPECT_EQ(outcomes[0].failure, "it needs about 9 GB of memory, and the limit is 5 GB");
+  EXPECT_TRUE(outcomes[1].failure.empty());
+  EXPECT_EQ(use.most, 1e9);
+}
+
+TEST(Scheduler, FindsMemoryThatIsAvailable) {
+  EXPECT_GT(available_memory(), 1e6);
+  EXPECT_LT(available_memory(), 1e15);  // this machine says what it has
 }
 
 TEST(Scheduler, FindsAtLeastOneCore) { EXPECT_GE(available_cores(), 1); }

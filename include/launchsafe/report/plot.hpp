@@ -12,13 +12,41 @@ namespace launchsafe::report {
 
 enum class Scale { linear, logarithmic };
 
+/// A place on an axis with a word of its own.
+struct Tic {
+  double at = 0;
+  std::string label;
+};
+
 struct Axis {
   std::string label;  ///< with its unit: "gap [cm]"
   Scale scale = Scale::linear;
   std::optional<double> minimum = {}, maximum = {};  ///< from the data where absent
+  std::vector<Tic> tics = {};                        ///< made of the range where empty
 };
 
-enum class Style { line, dashed_line, points, line_and_points, error_bars, steps };
+enum class Style {
+  line,
+  dashed_line,
+  points,
+  line_and_points,
+  error_bars,            ///< points with y - error to y + error
+  intervals,             ///< points with bars along y from `lower` to `upper`
+  horizontal_intervals,  ///< points with bars along x from `lower` to `upper`
+  steps
+};
+
+enum class Mark {
+  circle,
+  square,
+  up_triangle,
+  diamond,
+  down_triangle,
+  open_circle,
+  open_square,
+  open_triangle,
+  cross
+};
 
 struct Series {
   std::string label;  ///< not in the legend when empty
@@ -26,6 +54,8 @@ struct Series {
   Style style = Style::line_and_points;
   std::vector<double> error = {};  ///< half length of the bars; only for Style::error_bars
   std::optional<int> colour = {};  ///< index into the palette of eight; the series' own number where absent
+  std::optional<Mark> mark = {};   ///< goes with the colour where absent
+  std::vector<double> lower = {}, upper = {};  ///< ends of the bars; only for the two styles of intervals
 };
 
 /// A dashed grey line across the whole picture.
@@ -39,7 +69,7 @@ struct Annotation {
   std::string text;
 };
 
-enum class Legend { top_left, top_right, bottom_left, bottom_right, right_of_plot, none };
+enum class Legend { top_left, top_right, bottom_left, bottom_right, right_of_plot, below_plot, none };
 
 struct Plot {
   std::string title;

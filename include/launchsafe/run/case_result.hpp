@@ -18,7 +18,8 @@ enum class RunStatus {
   energy_drift,
   time_step_collapse,
   particles_left_grid,
-  interrupted
+  interrupted,
+  timed_out
 };
 std::string to_string(RunStatus status);
 
@@ -76,6 +77,10 @@ struct MechanicsResult {
   std::vector<Snapshot> snapshots;
   LimiterCounts limiters;
 };
+
+/// Largest absolute energy drift over the monitor's history, as a share of the run's largest energy (in the
+/// first moments all energies are next to nothing); NaN without one.
+double largest_energy_drift(const MechanicsResult& mechanics);
 
 /// One gap of a case.
 struct GapResult {

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 
 namespace launchsafe::run {
 
@@ -14,6 +15,8 @@ namespace launchsafe::run {
 struct RunOptions {
   /// Set from another thread (or a signal handler) to stop: the run ends within a few steps as `interrupted`.
   const std::atomic<bool>* stop = nullptr;
+  /// s of wall time after which the run ends as `timed_out`.
+  double time_limit = std::numeric_limits<double>::infinity();
   /// Called a few times a second of wall time from the running thread with the share done, 0..1.
   std::function<void(double)> progress;
 };

@@ -1,5 +1,5 @@
 // Trees of labelled values in HDF5, written to and read from memory: disk errors never meet the library,
-// whose failed closes cannot be undone. `Hdf5Writer` and `Hdf5Reader` have the same member functions, so that
+// whose failed closes cannot be undone. `Hdf5Output` and `Hdf5Reader` have the same member functions, so that
 // one description of a layout serves both. The first error sticks; what follows it does nothing.
 #pragma once
 
@@ -7,8 +7,10 @@
 
 #include <hdf5.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +22,7 @@ namespace launchsafe::store {
 struct Label {
   std::string units;
   std::string description;
+  bool operator==(const Label&) const = default;
 };
 
 /// An HDF5 identifier, closed at the end of its scope.
@@ -52,17 +55,38 @@ struct Shape {
   std::size_t rows = 0, columns = 0;
 };
 
-class Hdf5Writer {
+/// A dataset on its way into a file: `extent[0]` to `extent[rank - 1]` elements of `element_size` bytes.
+struct Hdf5Dataset {
+  enum class Kind { real, signed_integer, unsigned_integer, text };
+
+  std::string name;
+  Label label;
+  Kind kind = Kind::real;
+  std::size_t element_size = 0;
+  int rank = 0;
+  std::array<std::size_t, 2> extent{1, 1};
+
+  std::size_t bytes() const { return element_size * extent[0] * extent[1]; }
+  bool operator==(const Hdf5Dataset&) const = default;
+};
+
+/// Takes a tree; what becomes of it is the heirs' business.
+class Hdf5Output {
  public:
   static constexpr bool reading = false;
 
-  Hdf5Writer();
+  Hdf5Output() = default;
+  Hdf5Output(const Hdf5Output&) = delete;
+  Hdf5Output& operator=(const Hdf5Output&) = delete;
+  virtual ~Hdf5Output() = default;
 
   /// Runs `body` inside a new group.
   template <class Body>
   void group(const std::string& name, const std::string& description, Body&& body) {
-    if (!enter(name, description)) return;
+    if (failed() || !enter(name, description)) return;
+    names_.push_back(name);
     body();
+    names_.pop_back();
     leave();
   }
 
@@ -84,20 +108,59 @@ class Hdf5Writer {
   /// Ends the writing with an error of the caller's own.
   void fail(const std::string& what);
   bool failed() const { return error_.has_value(); }
+  /// The first error, of kind failed.
+  const MaybeError& error() const { return error_; }
 
-  /// The file's bytes. Errors: failed, also when any call before failed.
-  Result<std::string> finish();
+ protected:
+  /// The names of the groups we are in, and a last one: "/trace/stations".
+  std::string path_to(const std::string& name) const;
 
  private:
-  bool enter(const std::string& name, const std::string& description);
-  void leave();
-  void dataset(const std::string& name, hid_t type, const std::vector<hsize_t>& dimensions, const void* data,
-               const Label& label);
+  virtual bool enter(const std::string& name, const std::string& description) = 0;
+  virtual void leave() = 0;
+  virtual void put_attribute(const std::string& name, const std::string& text) = 0;
+  virtual void put_dataset(const Hdf5Dataset& set, const void* data) = 0;
 
-  Hdf5Id file_;
-  std::vector<Hdf5Id> groups_;
+  void put(const Hdf5Dataset& set, const void* data);
+
   std::vector<std::string> names_;
   MaybeError error_;
+};
+
+/// Something that an `Hdf5Output` was told, and where its data begin in the file.
+struct Hdf5Step {
+  Hdf5Dataset set;         ///< for a group or an attribute only the name and, as description, the text
+  std::size_t offset = 0;  ///< bytes, of what has data
+};
+
+/// Writes by the HDF5 library.
+class Hdf5Writer : public Hdf5Output {
+ public:
+  Hdf5Writer();
+
+  /// The file's bytes after `room_in_front` zeros for the caller's use. Errors: failed, also when any call
+  /// before failed.
+  Result<std::string> finish(std::size_t room_in_front = 0);
+
+  /// All that was written, in order; the offsets count from the beginning of the HDF5 file.
+  const std::vector<Hdf5Step>& steps() const { return steps_; }
+
+ private:
+  bool enter(const std::string& name, const std::string& description) override;
+  void leave() override;
+  void put_attribute(const std::string& name, const std::string& text) override;
+  void put_dataset(const Hdf5Dataset& set, const void* data) override;
+
+  bool write_text_attribute(hid_t object, const std::string& name, const std::string& text);
+  hid_t type_of(const Hdf5Dataset& set);
+  hid_t text_type_of(std::size_t bytes);
+
+  // What many objects of a file have in common is made once: that is a good part of the library's time.
+  Hdf5Id group_creation_, dataset_creation_, scalar_;
+  std::map<std::size_t, Hdf5Id> text_types_;
+  Hdf5Id file_;
+  std::vector<Hdf5Id> groups_;
+  std::vector<Hdf5Step> steps_;
 };
 
 class Hdf5Reader {

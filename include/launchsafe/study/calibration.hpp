@@ -90,6 +90,7 @@ struct CalibrationRun {
   run::MechanicsResult mechanics;
   std::string failure;
   std::string start_time;  ///< UTC
+  bool reused = false;     ///< the mechanics were stored
 };
 
 /// What the evidence says.

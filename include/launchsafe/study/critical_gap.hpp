@@ -67,6 +67,7 @@ struct CaseOutcome {
   run::CaseResult result;         ///< mechanics, and a skin history for every gap
   std::string failure;            ///< why every verdict is indeterminate; empty for a completed run
   std::string start_time;         ///< UTC
+  bool reused = false;            ///< the mechanics were stored
   CriticalGap critical;           ///< at the observation points
   CriticalGap critical_anywhere;  ///< if ignition anywhere on the bottom counted
   std::vector<Confirmation> confirmations;

@@ -2,10 +2,14 @@
 #pragma once
 
 #include "launchsafe/run/run_case.hpp"
+#include "launchsafe/store/case_store.hpp"
 #include "launchsafe/study/scheduler.hpp"
+#include "launchsafe/study/shard.hpp"
 
 #include <atomic>
 #include <functional>
+#include <limits>
+#include <string>
 
 namespace launchsafe::study {
 
@@ -18,18 +22,24 @@ struct Runners {
 Runners simulation_runners();
 
 struct StudyOptions {
-  int jobs = 0;  ///< cases at a time; <= 0: available_cores()
+  int jobs = 0;             ///< cases at a time; <= 0: available_cores()
+  double memory_limit = 0;  ///< bytes of all running cases together; <= 0: most of what is available
+  double time_limit = std::numeric_limits<double>::infinity();  ///< s of wall time, of one case
+  Shard shard;  ///< the part of the mechanical runs that is ours; the others are not run
   /// Set from elsewhere (a signal handler) to stop: running cases end as interrupted, waiting ones do not
-  /// start.
-  const std::atomic<bool>* stop = nullptr;
+  /// start. The study sets it itself when its store can no longer be written.
+  std::atomic<bool>* stop = nullptr;
   ProgressCallback progress;
   Runners runners = simulation_runners();
+  /// Where results are kept and taken from; none: nothing is kept.
+  store::CaseStore* store = nullptr;
 };
 
 /// What a study cost.
 struct Timing {
-  double wall_time = 0;         ///< s, of the whole study
-  std::size_t runs = 0;         ///< mechanical runs that were started
+  double wall_time = 0;    ///< s, of the whole study
+  std::size_t runs = 0;    ///< mechanical runs that were started
+  std::size_t reused = 0;  ///< mechanical runs whose stored result, or the answer drawn from it, was used
   double particle_updates = 0;  ///< of all runs
   double run_time = 0;          ///< s, sum of the runs' wall times
   int jobs = 1;                 ///< cases at a time

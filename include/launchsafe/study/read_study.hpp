@@ -1,8 +1,11 @@
 // A study from a file: what is asked of a scene, read and validated before anything is computed.
 #pragma once
 
+#include "launchsafe/math/sampling.hpp"
 #include "launchsafe/scene/read_scene.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -15,8 +18,29 @@ namespace launchsafe::study {
 
 inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-enum class StudyKind { critical_gap, calibration };
+enum class StudyKind { critical_gap, calibration, sweep, sensitivity };
 std::string to_string(StudyKind kind);
+
+/// A scene key varied by a study.
+struct Axis {
+  std::string name;            ///< as the user wrote it: "peak_pressure" or "load.exponent"
+  scene::KeyDescription key;   ///< of the scene key
+  std::vector<double> values;  ///< SI; those of a sweep, in the order written
+};
+
+/// An axis of a sensitivity study: a scene key that is not known exactly.
+struct UncertainInput {
+  std::string name;  ///< as of Axis
+  scene::KeyDescription key;
+  math::Distribution distribution;  ///< SI
+};
+
+/// How a sensitivity study asks.
+enum class SensitivityMethod {
+  sobol,  ///< first- and total-order indices (Saltelli 2010, Jansen 1999): samples x (inputs + 2) evaluations
+  morris  ///< elementary effects (Morris 1991): trajectories x (inputs + 1) evaluations, a cheap first look
+};
+std::string to_string(SensitivityMethod method);
 
 /// A row of published results to compare with; what it does not say is NaN or empty.
 struct Reference {
@@ -49,8 +73,10 @@ struct Study {
   std::vector<Reference> references;
   ReferenceLine reference_line;
 
+  // every kind that judges gaps
+  std::vector<double> gaps;  ///< m; those of the scene where the file has none; one for kind sensitivity
+
   // kind critical-gap
-  std::vector<double> gaps;            ///< m; those of the scene where the file has none
   std::vector<double> peak_pressures;  ///< Pa; empty: the scene's
   std::vector<double> crack_radii;     ///< m, c(0); empty: the scene's
   std::vector<double> flaw_sizes;      ///< m, a; empty: the scene's
@@ -67,6 +93,20 @@ struct Study {
   bool compare_kinetics = false;           ///< calibrate with every named kinetics, not only the scene's
   double ignition_lowest = not_a_number;   ///< K, published bracket of the ignition temperature
   double ignition_highest = not_a_number;  ///< K
+
+  // kind sweep
+  std::vector<Axis> axes;  ///< all but the gap, in the order written
+
+  // kind sensitivity
+  SensitivityMethod method = SensitivityMethod::sobol;
+  std::vector<UncertainInput> inputs;
+  math::Design design = math::Design::latin_hypercube;
+  int samples = 64;        ///< N: rows of the matrices A and B
+  int trajectories = 10;   ///< of Morris
+  int levels = 4;          ///< of Morris, even
+  std::uint64_t seed = 1;  ///< of design and bootstrap
+  int resamples = 1000;    ///< of the bootstrap
+  double confidence = 0.95;
 };
 
 /// One mechanical run of a study: a complete, valid scene.
@@ -77,6 +117,8 @@ struct StudyCase {
   double flaw_size = 0;        ///< m
   double cell_size = 0;        ///< m
   bool own_conditions = true;  ///< the load and defect of the study's scene, which the references belong to
+  /// SI; of Study::axes or Study::inputs, in their order; empty for the other kinds
+  std::vector<double> coordinates;
   scene::SceneFile scene;
 };
 
@@ -91,7 +133,9 @@ struct StudyFile {
   std::map<std::string, scene::Place> places;    ///< of every key the user gave
   std::map<std::string, std::string> overrides;  ///< [set]: scene key, value as people read it
   scene::SceneFile scene;                        ///< with the overrides
-  std::vector<StudyCase> cases;  ///< pressures x crack radii x flaw sizes, the last fastest; or the meshes
+  /// critical-gap: pressures x crack radii x flaw sizes, the last fastest; calibration: the meshes; sweep:
+  /// the axes, the last fastest; sensitivity: the evaluations of the design, in its order.
+  std::vector<StudyCase> cases;
 };
 
 /// Reads and validates a study file and its scene. Nothing is computed. Never throws.
@@ -99,7 +143,8 @@ scene::Expected<StudyFile> read_study(const std::filesystem::path& file);
 /// The same from text; `file` is named in errors, and the scene is sought from its folder.
 scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& file);
 
-/// The keys of a study file and of one [[reference]], for documentation.
-std::vector<scene::KeyDescription> describe_study_keys();
+/// The keys of a study file and of its tables, "reference.gap" being that of one [[reference]], for
+/// documentation. Sentences end with the kinds that a key belongs to, unless it belongs to all.
+std::vector<scene::DocumentedKey> describe_study_keys();
 
 }  // namespace launchsafe::study

@@ -44,10 +44,15 @@ class ProgressTracker {
   double cost_ = 0, cost_done_ = 0;
 };
 
+/// Bytes that this process may take without swapping: what the machine has free, and what the memory limit of
+/// its control groups leaves. Infinity where neither can be read.
+double available_memory();
+
 /// One task. `work` gets a function to report the share done (0..1) with.
 struct Task {
   double cost = 1;  ///< relative, > 0
   std::function<void(const std::function<void(double)>& report_share)> work;
+  double memory = 0;  ///< bytes while it runs
 };
 
 /// What became of one task.
@@ -56,10 +61,16 @@ struct TaskOutcome {
   std::string failure;   ///< what an exception said; empty when all went well
 };
 
-/// Runs all tasks with at most `jobs` at a time (<= 0: available_cores()), the most costly first. Never
-/// throws for a task's exception. Once `stop` is set no further task starts. Outcomes are in the order of the
-/// tasks.
-std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, int jobs, ProgressTracker& tracker,
-                                   const std::atomic<bool>* stop = nullptr);
+/// What tasks run on.
+struct Resources {
+  int jobs = 0;             ///< tasks at a time; <= 0: available_cores()
+  double memory_limit = 0;  ///< bytes of all running tasks together; <= 0: nine tenths of available_memory()
+};
+
+/// Runs all tasks, the most costly first. A task that would not fit into the memory limit beside those that
+/// run waits, and less costly ones that fit go first; one that is too large even alone fails. Never throws
+/// for a task's exception. Once `stop` is set no further task starts. Outcomes are in the order of the tasks.
+std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, const Resources& resources,
+                                   ProgressTracker& tracker, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace launchsafe::study

@@ -1,0 +1,47 @@
+// A sweep as tables, a page, JSON and contour pictures. Nothing in them differs between two runs of the same
+// study: no times, rates, dates or hosts.
+#pragma once
+
+#include "launchsafe/report/contour.hpp"
+#include "launchsafe/report/table.hpp"
+#include "launchsafe/report/written_files.hpp"
+#include "launchsafe/study/sweep.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::report {
+
+/// The answer in a few lines: values and bounds, the smallest critical gap and where it is, verdicts,
+/// failures.
+std::string answer(const study::SweepResult& result);
+
+/// A row for every case: its coordinates, critical gap and run. A bound is text, never a number among values.
+Table critical_gap_table(const study::SweepResult& result);
+/// A row for every gap of every case, for other programs.
+Table verdict_table(const study::SweepResult& result);
+/// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
+Table verdict_matrix(const study::SweepResult& result);
+
+/// One object: axes, counts, and cases with their verdicts.
+nlohmann::ordered_json to_json(const study::SweepResult& result);
+
+/// Critical gap over the axes that have several values.
+struct SweepPictures {
+  std::vector<Contour> maps;         ///< over the first two of them, one for each combination of the others
+  std::optional<Plot> curve;         ///< where there is only one
+  std::vector<std::string> remarks;  ///< combinations that have no picture
+};
+SweepPictures pictures(const study::SweepResult& result);
+
+/// The page; `pictures` are the names of the pictures' files.
+std::string to_markdown(const study::SweepResult& result, const std::vector<std::string>& pictures);
+
+/// Writes critical_gaps.csv, critical_gaps.md, verdicts.csv, critical_gap.svg (critical_gap_2.svg, ...),
+/// report.md and study.json into a folder, which is made. Errors: conflict, write_failed.
+store::Result<WrittenFiles> write_report(const study::SweepResult& result,
+                                         const std::filesystem::path& folder);
+
+}  // namespace launchsafe::report

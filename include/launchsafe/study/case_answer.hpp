@@ -1,0 +1,51 @@
+// What a study wants to know of one case: all that tables need, and no histories.
+#pragma once
+
+#include "launchsafe/study/critical_gap.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+/// How the mechanical run behind an answer went.
+struct RunSummary {
+  run::RunStatus status = run::RunStatus::completed;
+  std::uint64_t steps = 0, particles = 0;
+  double energy_drift = not_a_number;  ///< largest over the run, share of the largest energy
+  run::LimiterCounts limiters;
+};
+
+/// One case with its gaps. A case that failed has indeterminate verdicts, no numbers, and the reason.
+struct CaseAnswer {
+  std::string failure;               ///< why every verdict is indeterminate; empty for a completed run
+  RunSummary run;                    ///< of a case that ran
+  CriticalGap critical;              ///< at the observation points
+  CriticalGap critical_anywhere;     ///< if ignition anywhere on the bottom counted
+  std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps
+  std::vector<double>
+      heated_temperature;  ///< K, of every gap: T max at the observation points of a skin that
+                           ///< air and friction heat and that neither reacts nor is triggered
+  bool completed() const { return failure.empty(); }
+};
+
+/// Draws the answer from a mechanical run.
+CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::MechanicsResult& mechanics);
+/// The answer of a case without a result.
+CaseAnswer failed_answer(const Study& study, const StudyCase& input, std::string failure);
+
+/// One line of JSON that reads back to exactly the same answer; not finite numbers become NaN.
+std::string to_json_line(const CaseAnswer& answer);
+/// Nothing for a text that is no answer.
+std::optional<CaseAnswer> answer_from_json(const std::string& line);
+
+/// How an answer came about in this run of the study.
+enum class AnswerSource {
+  computed,    ///< the mechanics ran
+  from_trace,  ///< on a stored mechanical run
+  stored,      ///< the answer itself was stored
+  missing      ///< there is none: interrupted, of another shard, or failed
+};
+
+}  // namespace launchsafe::study

@@ -1,0 +1,42 @@
+// What a study would do, before it does it: which mechanical runs it needs, which of them are stored, what
+// the rest will cost.
+#pragma once
+
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/read_study.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+/// One mechanical run, with the cases of the study that share it.
+struct ForeseenRun {
+  std::string label;  ///< of the first of its cases
+  std::string hash;   ///< names its file in the store
+  std::size_t cases = 0;
+  std::int64_t particles = 0, steps = 0;
+  double memory = 0;  ///< bytes
+  double time = 0;    ///< s on a core, predicted; 0 for a stored one
+  int shard = 1;
+  bool stored = false;    ///< its result is there
+  bool answered = false;  ///< and so are the answers of all its cases
+  bool given_up = false;  ///< it was timed out, which is its row of the study until the limit is raised
+  std::string why;        ///< why it is used again or has to run
+};
+
+struct Foresight {
+  std::vector<ForeseenRun> runs;  ///< those of the shard asked for
+  std::size_t confirmations = 0;  ///< coupled runs that may follow, at most
+  double update_rate = 0;         ///< particle updates per second on a core that the prediction rests on
+  std::size_t learned_from = 0;   ///< runs in the journal that the rate was learned from; 0: measured now
+  double time = 0;                ///< s of wall time, of all that is to run
+  double memory = 0;              ///< bytes, of the cases that will run side by side
+  int jobs = 1;
+};
+
+/// `update_rate` (particle updates per second on a core) is used where the journal knows no better.
+Foresight foresee(const StudyFile& study, const StudyOptions& options, double update_rate);
+
+}  // namespace launchsafe::study

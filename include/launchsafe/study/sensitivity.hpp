@@ -1,0 +1,49 @@
+// The study of kind sensitivity: which inputs the answer depends on, with intervals.
+#pragma once
+
+#include "launchsafe/math/sensitivity.hpp"
+#include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/read_study.hpp"
+
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+/// One output of a case as a number.
+enum class SensitivityOutput {
+  maximum_temperature,  ///< K, CaseAnswer::heated_temperature at the study's gap: without reaction it is
+                        ///< continuous in the inputs, and the same as T max where nothing ignites
+  critical_gap,         ///< m
+  margin                ///< K, ignition temperature minus that maximum temperature
+};
+std::string to_string(SensitivityOutput output);  ///< "T_max", "critical_gap", "margin"
+
+/// What an output depends on.
+struct OutputSensitivity {
+  SensitivityOutput output;
+  std::vector<double> values;  ///< of every evaluation; NaN where there is none
+  std::size_t missing = 0;  ///< evaluations without a number: failed runs, or a critical gap that is a bound
+  std::size_t bounds = 0;   ///< of these, critical gaps that are bounds
+  double mean = not_a_number, deviation = not_a_number;  ///< over the evaluations that sample the inputs
+  math::SobolIndices sobol;                              ///< for the method sobol
+  std::vector<math::MorrisEffects> morris;               ///< of every input, for the method morris
+  /// Why there are no indices; empty where there are. Rows with a missing number are left out; where a
+  /// critical gap is a bound none are given, since leaving those rows out would bias the rest.
+  std::string reason;
+};
+
+struct SensitivityResult {
+  StudyFile study;
+  std::vector<CaseAnswer> answers;  ///< one for each of StudyFile::cases
+  std::vector<OutputSensitivity> outputs;
+  Timing timing;
+  bool interrupted = false;
+  bool any_failed() const;
+  bool any_indeterminate() const;
+};
+
+SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& options = {});
+
+}  // namespace launchsafe::study

@@ -1,0 +1,71 @@
+// The words of --help.
+#pragma once
+
+namespace launchsafe::app {
+
+inline constexpr const char* description =
+    "launchsafe: how thick may the gap under an explosive charge be before a launch can ignite it?\n"
+    "Simulates shells under launch loads by the material point method.";
+
+inline constexpr const char* footer = R"(
+Examples:
+  launchsafe run studies/scene_155mm.toml -o results
+  launchsafe study studies/critical_gap_155mm.toml -o results --jobs 2
+  launchsafe merge sweep.toml -o results shard-1 shard-2
+  launchsafe emit slurm sweep.toml -o results --shards 20
+  launchsafe verify
+  launchsafe explain studies/scene_155mm.toml
+
+Results go to stdout, progress and messages to stderr. Nothing is written but under the folder of --output.
+Exit codes: 0 done, 2 bad usage or input, 3 some cases or checks failed, 4 a verdict is indeterminate,
+70 the machine or the program failed (memory, disk, internal error), 75 interrupted.)";
+
+inline constexpr const char* run_footer = R"(
+Examples:
+  launchsafe run studies/scene_155mm.toml                print the table, write nothing
+  launchsafe run studies/scene_155mm.toml -o results     write results/scene_155mm.h5 as well
+  launchsafe run studies/scene_155mm.toml --json --quiet > case.json
+
+A file with the result of another input is never overwritten.)";
+
+inline constexpr const char* study_footer = R"(
+Examples:
+  launchsafe study studies/critical_gap_155mm.toml -o results
+  launchsafe study studies/critical_gap_155mm.toml -o results --jobs 2 --json > study.json
+  launchsafe study sweep.toml --dry-run                      the runs it needs, and their cost
+  launchsafe study sweep.toml -o results --memory 8GB --time-limit 30min
+  launchsafe study sweep.toml -o results --explain           why each run runs
+  launchsafe study sweep.toml -o results --update            after a change of the study
+  launchsafe study sweep.toml -o results --shard 2/4         one of four processes; then launchsafe merge
+
+Every mechanical run is kept in DIR as soon as it ends: after an interruption, a kill or a full disk the same
+command goes on where it was. What did not change is not computed again.)";
+
+inline constexpr const char* merge_footer = R"(
+Examples:
+  launchsafe merge sweep.toml -o results                     shards that all used results
+  launchsafe merge sweep.toml -o results shard-1 shard-2     shards with folders of their own
+
+The report is the one that a single `launchsafe study` writes. Where runs are missing they are listed, and there
+is no report.)";
+
+inline constexpr const char* emit_footer = R"(
+Examples:
+  launchsafe emit slurm sweep.toml -o results --shards 20 --jobs 4 --memory 8GB
+  launchsafe emit slurm sweep.toml -o results --shards 20 --sbatch=--partition=long
+  sh results/slurm/submit.sh                                 submits an array job, and a merge that waits for it
+
+The scripts are written to results/slurm. --memory is what each shard asks Slurm for.)";
+
+inline constexpr const char* verify_footer = R"(
+Examples:
+  launchsafe verify                      every check
+  launchsafe verify --filter jwl         those with "jwl" in their name)";
+
+inline constexpr const char* explain_footer = R"(
+Examples:
+  launchsafe explain studies/scene_155mm.toml            physics in and out, particles, steps, time, memory
+  launchsafe explain studies/critical_gap_155mm.toml     the runs that the study needs
+  launchsafe explain --keys                              every key of a scene file)";
+
+}  // namespace launchsafe::app

@@ -1,0 +1,80 @@
+// launchsafe study --dry-run: what a study would run, and at what cost.
+#include "commands.hpp"
+#include "foresight_text.hpp"
+#include "launchsafe/run/model_version.hpp"
+#include "launchsafe/study/foresight.hpp"
+#include "signals.hpp"
+#include "study_folder.hpp"
+#include "study_manifest.hpp"
+#include "update_rate.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <memory>
+
+namespace launchsafe::app {
+namespace {
+
+/// Whether runs of the past tell how fast this machine is.
+bool knows_rate(const store::CaseStore* store) {
+  if (store == nullptr) return false;
+  const std::vector<store::JournalEntry> entries = store->entries();
+  return std::any_of(entries.begin(), entries.end(), [](const store::JournalEntry& entry) {
+    return entry.state == store::CaseState::done && entry.wall_time > 0 && entry.predicted_updates > 0;
+  });
+}
+
+/// The store in the study's folder, or nullptr where there is none; it is not made.
+store::Result<std::unique_ptr<store::CaseStore>> store_for(const StudyArguments& arguments,
+                                                           const Console& console) {
+  if (arguments.output.empty() || !holds_store(arguments.output)) return std::unique_ptr<store::CaseStore>{};
+  auto store = store::CaseStore::open(arguments.output, {arguments.shard.part(), run::model_version, {}});
+  if (!store) return store;
+  for (const std::string& remark : (*store)->remarks()) console.remark(remark);
+  return store;
+}
+
+/// Says so where the study itself would refuse the folder.
+void remark_obstacle(const study::StudyFile& file, const StudyArguments& arguments, const Console& console) {
+  if (arguments.output.empty()) return;
+  if (const auto obstacle = obstacle_in_folder(arguments.output, study_manifest(file, 1), arguments.update))
+    console.remark(*obstacle);
+}
+
+study::StudyOptions options_of(const StudyArguments& arguments, store::CaseStore* store) {
+  study::StudyOptions options;
+  options.jobs = arguments.jobs;
+  options.memory_limit = arguments.memory.value_or(options.memory_limit);
+  options.shard = arguments.shard;
+  options.store = store;
+  return options;
+}
+
+}  // namespace
+
+ExitCode dry_run_command(const StudyArguments& arguments, Console& console) {
+  const auto file = study::read_study(arguments.study);
+  if (!file) {
+    console.error(file.error().message());
+    return ExitCode::bad_input;
+  }
+  remark_obstacle(*file, arguments, console);
+  const auto store = store_for(arguments, console);
+  if (!store) {
+    console.error(store.error().message);
+    return store.error().kind == store::Error::Kind::conflict ? ExitCode::bad_input : ExitCode::failed;
+  }
+  const double update_rate =
+      knows_rate(store->get()) ? 0.0 : measured_update_rate(file->cases.front().scene.scene);
+  if (stop_requested()) {
+    console.error("interrupted while measuring the speed of this machine; there is nothing to keep");
+    return ExitCode::interrupted;
+  }
+  const study::Foresight foresight = study::foresee(*file, options_of(arguments, store->get()), update_rate);
+  console.print_text(foresight_text(*file, foresight, arguments.output));
+  console.print_json(foresight_json(*file, foresight));
+  return ExitCode::done;
+}
+
+}  // namespace launchsafe::app

@@ -1,0 +1,215 @@
+// launchsafe emit: scripts that run a study elsewhere.
+#include "commands.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/study/foresight.hpp"
+#include "output_folder.hpp"
+#include "shell_words.hpp"
+#include "slurm_script.hpp"
+#include "study_folder.hpp"
+#include "study_manifest.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <system_error>
+
+namespace launchsafe::app {
+namespace {
+
+using std::filesystem::path;
+
+/// Particle updates per second on a core that a cluster is trusted to do. A third of a good machine's; no
+/// measurement, as the machine that submits is not the one that computes, and scripts stay what they were.
+constexpr double cautious_update_rate = 1e7;
+
+/// What the most demanding of a study's shards takes.
+struct ShardNeeds {
+  double time = 0;       ///< s of wall time
+  double memory = 0;     ///< bytes
+  std::size_t idle = 0;  ///< shards that have nothing to do
+};
+
+/// Wall time of runs that start on the next free core, the longest first.
+double time_on(const std::vector<double>& times, int cores) {
+  const std::vector<int> core_of_run = study::shards_of(times, cores);
+  std::vector<double> ends(static_cast<std::size_t>(cores), 0.0);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    ends[static_cast<std::size_t>(core_of_run[i] - 1)] += times[i];
+  return *std::max_element(ends.begin(), ends.end());
+}
+
+double sum_of_largest(std::vector<double> values, int count) {
+  std::sort(values.begin(), values.end(), std::greater<>());
+  values.resize(std::min(values.size(), static_cast<std::size_t>(count)));
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// A run takes as long again for every coupled run that may confirm it.
+std::vector<double> times_of(const study::Foresight& whole) {
+  const double runs = static_cast<double>(std::max<std::size_t>(1, whole.runs.size()));
+  const double repeats = 1.0 + static_cast<double>(whole.confirmations) / runs;
+  std::vector<double> times;
+  for (const study::ForeseenRun& run : whole.runs) times.push_back(repeats * run.time);
+  return times;
+}
+
+/// `whole` foresees the whole study with nothing stored.
+ShardNeeds needs_of(const study::Foresight& whole, int shards, int jobs) {
+  const std::vector<double> times = times_of(whole);
+  const std::vector<int> shard_of_run = study::shards_of(times, shards);
+  ShardNeeds needs;
+  for (int shard = 1; shard <= shards; ++shard) {
+    std::vector<double> own_times, own_memories;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      if (shard_of_run[i] != shard) continue;
+      own_times.push_back(times[i]);
+      own_memories.push_back(whole.runs[i].memory);
+    }
+    needs.time = std::max(needs.time, time_on(own_times, jobs));
+    needs.memory = std::max(needs.memory, sum_of_largest(own_memories, jobs));
+    if (own_times.empty()) ++needs.idle;
+  }
+  return needs;
+}
+
+/// Without "." and "..", unless taking those out leads elsewhere (behind a symbolic link).
+path absolute_path(const path& given) {
+  std::error_code failed;
+  const path absolute = std::filesystem::absolute(given, failed);
+  path tidy = absolute.lexically_normal();
+  if (!tidy.has_filename()) tidy = tidy.parent_path();
+  const bool elsewhere =
+      std::filesystem::exists(absolute, failed) && !std::filesystem::equivalent(absolute, tidy, failed);
+  return elsewhere ? absolute : tidy;
+}
+
+path own_program() {
+  std::error_code failed;
+  return std::filesystem::read_symlink("/proc/self/exe", failed);
+}
+
+/// What the scripts need to know; the predictions come on top.
+SlurmStudy slurm_study(const EmitArguments& arguments, const study::StudyFile& file) {
+  SlurmStudy study;
+  study.program = own_program();
+  study.study = absolute_path(arguments.study);
+  study.output = absolute_path(arguments.output);
+  study.cases = file.cases.size();
+  study.shards = arguments.shards;
+  study.jobs = std::max(1, arguments.jobs);
+  study.update_rate = cautious_update_rate;
+  study.memory_limit = arguments.memory;
+  study.time_limit = arguments.time_limit;
+  study.sbatch = arguments.sbatch;
+  return study;
+}
+
+ShardNeeds foresee_needs(const study::StudyFile& file, const SlurmStudy& study) {
+  study::StudyOptions options;
+  options.jobs = study.jobs;
+  return needs_of(study::foresee(file, options, study.update_rate), study.shards, study.jobs);
+}
+
+ExitCode refuse(const std::string& message, const Console& console) {
+  console.error(message);
+  return ExitCode::bad_input;
+}
+
+/// Why the scripts may not be written: something else is there.
+std::optional<std::string> obstacle_in(const path& folder, const std::vector<SlurmScript>& scripts) {
+  for (const SlurmScript& script : scripts) {
+    const auto present = store::read_file(folder / script.name);
+    if (present && *present == script.text) continue;
+    if (!present && present.error().kind == store::Error::Kind::missing) continue;
+    if (!present) return present.error().message;
+    return fmt::format(
+        "{} is there with another content, and nothing is overwritten; move it away or name "
+        "another folder",
+        (folder / script.name).string());
+  }
+  return std::nullopt;
+}
+
+/// Those that are there already are as they should be.
+store::MaybeError write_scripts(const path& folder, const std::vector<SlurmScript>& scripts) {
+  for (const SlurmScript& script : scripts) {
+    const path target = folder / script.name;
+    if (std::filesystem::exists(target)) continue;
+    if (auto error = store::write_file_atomically(target, {script.text}, store::IfExists::refuse))
+      return error;
+  }
+  using std::filesystem::perms;
+  std::error_code failed;  // submit.sh can be given to a shell all the same
+  std::filesystem::permissions(folder / submit_name,
+                               perms::owner_exec | perms::group_exec | perms::others_exec,
+                               std::filesystem::perm_options::add, failed);
+  return {};
+}
+
+std::string counted(long count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// With the folder as the user named it.
+void print(const SlurmStudy& study, const ShardNeeds& needs, const path& folder,
+           const std::vector<SlurmScript>& scripts, Console& console) {
+  const SlurmRequest request = request_of(study);
+  const std::string command = shell_command({"sh", (folder / submit_name).string()});
+  std::string list;
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  for (const SlurmScript& script : scripts) {
+    const std::string name = (folder / script.name).string();
+    list += name + "\n";
+    files.push_back(name);
+  }
+  console.print_text(fmt::format(
+      "{}\n{}; each asks for {}, {} MiB and {} min; the slowest is predicted to take {}\nto submit: {}\n",
+      list, counted(study.shards, "shard"), counted(study.jobs, "core"), request.mebibytes, request.minutes,
+      predicted_time(study), command));
+  console.print_json({{"files", files},
+                      {"submit", command},
+                      {"shards", study.shards},
+                      {"jobs", study.jobs},
+                      {"memory_MiB", request.mebibytes},
+                      {"time_s", 60 * request.minutes},
+                      {"predicted_time_s", study.time},
+                      {"predicted_memory_bytes", study.memory}});
+  if (needs.idle > 0) {
+    console.remark(fmt::format("{} of the {} shards will have nothing to do", needs.idle, study.shards));
+  }
+}
+
+}  // namespace
+
+ExitCode emit_command(const EmitArguments& arguments, Console& console) {
+  if (arguments.engine != "slurm") {
+    return refuse(fmt::format("emit: found {}; allowed: slurm", arguments.engine), console);
+  }
+  const auto file = study::read_study(arguments.study);
+  if (!file) return refuse(file.error().message(), console);
+  SlurmStudy study = slurm_study(arguments, *file);
+  if (const auto fault = fault_of(study)) return refuse(*fault, console);
+  const store::Manifest manifest = study_manifest(*file, study.jobs);
+  if (const auto obstacle = obstacle_in_folder(study.output, manifest, false))
+    return refuse(*obstacle, console);
+  const ShardNeeds needs = foresee_needs(*file, study);
+  study.time = needs.time;
+  study.memory = needs.memory;
+
+  const path folder = slurm_folder(arguments.output);
+  const std::vector<SlurmScript> scripts = slurm_scripts(study);
+  if (const auto obstacle = obstacle_in(folder, scripts)) return refuse(*obstacle, console);
+  if (const auto obstacle = prepare_output_folder(folder)) return refuse(*obstacle, console);
+  if (const auto error = write_scripts(folder, scripts)) {
+    console.error(error->message);
+    return ExitCode::failed;
+  }
+  print(study, needs, folder, scripts, console);
+  return ExitCode::done;
+}
+
+}  // namespace launchsafe::app

@@ -1,0 +1,92 @@
+// launchsafe merge: the shards of a study as one.
+#include "commands.hpp"
+#include "launchsafe/run/model_version.hpp"
+#include "launchsafe/study/foresight.hpp"
+#include "signals.hpp"
+#include "study_manifest.hpp"
+#include "study_session.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace launchsafe::app {
+namespace {
+
+/// Whatever is not stored is not there: a merge never simulates.
+study::Runners absent_runners() {
+  const std::runtime_error absent("no shard has it");
+  return {[absent](const scene::Scene&, const run::RunOptions&) -> run::MechanicsResult { throw absent; },
+          [absent](const scene::Scene&, double, const run::RunOptions&) -> run::CaseResult { throw absent; }};
+}
+
+ExitCode exit_code_of(const store::Error& error) {
+  const bool folder_is_wrong =
+      error.kind == store::Error::Kind::conflict || error.kind == store::Error::Kind::missing;
+  return folder_is_wrong ? ExitCode::bad_input : ExitCode::failed;
+}
+
+ExitCode import_folders(const std::vector<std::filesystem::path>& folders, StudySession& session,
+                        const Console& console) {
+  for (const std::filesystem::path& folder : folders) {
+    const auto imported = session.store().import_from(folder);
+    session.print_remarks();
+    if (!imported) {
+      console.error(imported.error().message);
+      return exit_code_of(imported.error());
+    }
+    console.remark(fmt::format("{}: copied {} cases and {} answers, {} cases were there already",
+                               folder.string(), imported->cases, imported->answers, imported->already_there));
+  }
+  return ExitCode::done;
+}
+
+/// Names the mechanical runs that no shard has stored.
+std::size_t list_missing(const study::Foresight& foresight, Console& console) {
+  nlohmann::ordered_json missing = nlohmann::ordered_json::array();
+  for (const study::ForeseenRun& run : foresight.runs) {
+    if (run.stored || run.given_up) continue;
+    console.print_text(fmt::format("missing: {}: {}\n", run.label, run.why));
+    missing.push_back({{"mechanical_run", run.label}, {"why", run.why}});
+  }
+  if (!missing.empty()) console.print_json({{"missing", missing}});
+  return missing.size();
+}
+
+}  // namespace
+
+ExitCode merge_command(const MergeArguments& arguments, Console& console) {
+  const auto file = study::read_study(arguments.study);
+  if (!file) {
+    console.error(file.error().message());
+    return ExitCode::bad_input;
+  }
+  study::StudyOptions options;
+  options.jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
+  options.stop = &stop_requested();
+  options.runners = absent_runners();
+  options.time_limit = 0.0;  // what was timed out stays so, whatever the limit was
+  StudySession session({arguments.study,
+                        arguments.output,
+                        arguments.update,
+                        {},
+                        arguments.command,
+                        study_manifest(*file, options.jobs)},
+                       console);
+  if (const ExitCode code = session.open(); code != ExitCode::done) return code;
+  if (const ExitCode code = import_folders(arguments.folders, session, console); code != ExitCode::done)
+    return code;
+  options.store = &session.store();
+  constexpr double any_rate = 1.0;
+  const study::Foresight foresight = study::foresee(*file, options, any_rate);
+  if (const std::size_t missing = list_missing(foresight, console); missing > 0) {
+    console.error(fmt::format("{} of {} mechanical runs are missing; there is no report", missing,
+                              foresight.runs.size()));
+    return ExitCode::cases_failed;
+  }
+  return session.conclude(run_study(*file, options), *file, options);
+}
+
+}  // namespace launchsafe::app

@@ -1,0 +1,31 @@
+// The folder of a study: whether it may be used, and what becomes of an earlier study's report in it.
+#pragma once
+
+#include "launchsafe/store/manifest.hpp"
+#include "launchsafe/store/result.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace launchsafe::app {
+
+/// Whether the folder holds cases that a study stored.
+bool holds_store(const std::filesystem::path& folder);
+
+/// Why the results of a study may not go into the folder: it holds those of a different study and `update` is
+/// not set, or files of somebody else that the report would overwrite. Nothing is changed.
+std::optional<std::string> obstacle_in_folder(const std::filesystem::path& folder,
+                                              const store::Manifest& manifest, bool update);
+
+/// Removes what killed processes left of report files that they were writing; while no other process is at
+/// work in the folder.
+void remove_leftovers(const std::filesystem::path& folder);
+
+/// Makes the folder that of the study, once its store is ours alone: moves the report of an earlier study to
+/// `earlier-N` and writes manifest.json, unless it is there. Returns where the report went, empty if nowhere.
+/// Errors: write_failed.
+store::Result<std::filesystem::path> take_folder(const std::filesystem::path& folder,
+                                                 const store::Manifest& manifest);
+
+}  // namespace launchsafe::app

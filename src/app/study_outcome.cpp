@@ -1,0 +1,152 @@
+#include "study_outcome.hpp"
+
+#include "launchsafe/report/calibration_report.hpp"
+#include "launchsafe/report/critical_gap_report.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/sensitivity_report.hpp"
+#include "launchsafe/report/sweep_report.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace launchsafe::app {
+namespace {
+
+/// Of a long table on a terminal.
+constexpr std::size_t most_rows = 60;
+
+std::string text_of(const report::Table& table) {
+  return table.rows.empty() ? std::string{} : report::to_text(table) + "\n";
+}
+
+/// The beginning of a table, and where all of it is.
+std::string beginning_of(report::Table table, const std::filesystem::path& file) {
+  const std::size_t rows = table.rows.size();
+  if (rows <= most_rows) return text_of(table);
+  table.rows.resize(most_rows);
+  return report::to_text(table) +
+         fmt::format("\nThese are {} of {} rows; all are in {}\n\n", most_rows, rows, file.string());
+}
+
+std::string tables_of(const study::CriticalGapResult& result, const std::filesystem::path&) {
+  std::string text = text_of(report::verdict_table(result)) + text_of(report::comparison_table(result)) +
+                     text_of(report::critical_gap_table(result));
+  for (const study::CaseOutcome& outcome : result.cases) {
+    if (outcome.fit) text += text_of(report::fit_table(outcome));
+  }
+  return text + text_of(report::run_table(result));
+}
+
+std::string tables_of(const study::CalibrationResult& result, const std::filesystem::path&) {
+  std::string text = text_of(report::calibration_table(result)) + text_of(report::convergence_table(result)) +
+                     text_of(report::constants_table(result));
+  if (result.recommendation.row) {
+    text += text_of(report::hold_out_table(result, result.rows[*result.recommendation.row]));
+  }
+  return text;
+}
+
+std::string tables_of(const study::SweepResult& result, const std::filesystem::path& folder) {
+  return beginning_of(report::critical_gap_table(result), folder / "critical_gaps.csv") +
+         beginning_of(report::verdict_matrix(result), folder / "verdicts.csv");
+}
+
+std::string tables_of(const study::SensitivityResult& result, const std::filesystem::path&) {
+  return text_of(report::sensitivity_table(result));
+}
+
+void add_failure(std::vector<Failure>& failures, const std::string& label, const std::string& reason) {
+  if (!reason.empty() && reason != study::foreign_shard) failures.push_back({label, reason});
+}
+
+std::vector<Failure> failures_in(const study::CriticalGapResult& result) {
+  std::vector<Failure> failures;
+  for (const study::CaseOutcome& outcome : result.cases) {
+    add_failure(failures, outcome.input.label, outcome.failure);
+    for (const study::Confirmation& each : outcome.confirmations)
+      add_failure(failures, fmt::format("{}, coupled at {:.6g} cm", outcome.input.label, 100.0 * each.gap),
+                  each.failure);
+  }
+  return failures;
+}
+
+std::vector<Failure> failures_in(const study::CalibrationResult& result) {
+  std::vector<Failure> failures;
+  for (const study::CalibrationRun& run : result.runs) add_failure(failures, run.input.label, run.failure);
+  return failures;
+}
+
+/// For the kinds that have an answer for every case.
+template <class Result>
+std::vector<Failure> failures_in(const Result& result) {
+  std::vector<Failure> failures;
+  for (std::size_t i = 0; i < result.answers.size(); ++i)
+    add_failure(failures, result.study.cases[i].label, result.answers[i].failure);
+  return failures;
+}
+
+bool is_indeterminate(const study::CalibrationResult&) { return false; }
+template <class Result>
+bool is_indeterminate(const Result& result) {
+  return result.any_indeterminate();
+}
+
+}  // namespace
+
+StudyResult run_study(const study::StudyFile& file, const study::StudyOptions& options) {
+  switch (file.study.kind) {
+    case study::StudyKind::critical_gap:
+      return study::run_critical_gap(file, options);
+    case study::StudyKind::calibration:
+      return study::run_calibration(file, options);
+    case study::StudyKind::sweep:
+      return study::run_sweep(file, options);
+    case study::StudyKind::sensitivity:
+      break;
+  }
+  return study::run_sensitivity(file, options);
+}
+
+bool interrupted(const StudyResult& result) {
+  return std::visit([](const auto& each) { return each.interrupted; }, result);
+}
+
+const study::Timing& timing_of(const StudyResult& result) {
+  return std::visit([](const auto& each) -> const study::Timing& { return each.timing; }, result);
+}
+
+bool any_indeterminate(const StudyResult& result) {
+  return std::visit([](const auto& each) { return is_indeterminate(each); }, result);
+}
+
+std::vector<Failure> failures_of(const StudyResult& result) {
+  return std::visit([](const auto& each) { return failures_in(each); }, result);
+}
+
+std::string stdout_text(const StudyResult& result, const std::filesystem::path& folder) {
+  return std::visit([&](const auto& each) { return tables_of(each, folder) + report::answer(each) + "\n"; },
+                    result);
+}
+
+nlohmann::ordered_json to_json(const StudyResult& result) {
+  return std::visit([](const auto& each) { return report::to_json(each); }, result);
+}
+
+store::Result<report::WrittenFiles> write_report(const StudyResult& result,
+                                                 const std::filesystem::path& folder) {
+  return std::visit([&](const auto& each) { return report::write_report(each, folder); }, result);
+}
+
+std::string timing_text(const study::Timing& timing) {
+  std::string text = fmt::format("re-used {} mechanical run{}, ran {}", timing.reused,
+                                 timing.reused == 1 ? "" : "s", timing.runs);
+  if (timing.run_time > 0)
+    text += fmt::format(" at {} particle updates per second and core",
+                        report::scientific(timing.updates_per_second(), 2));
+  return text + fmt::format("; {} of wall time with {} job{}", report::duration(timing.wall_time),
+                            timing.jobs, timing.jobs == 1 ? "" : "s");
+}
+
+}  // namespace launchsafe::app

@@ -1,0 +1,46 @@
+// What came of a study of any kind, in the words of the command line.
+#pragma once
+
+#include "launchsafe/report/written_files.hpp"
+#include "launchsafe/store/result.hpp"
+#include "launchsafe/study/calibration.hpp"
+#include "launchsafe/study/critical_gap.hpp"
+#include "launchsafe/study/sensitivity.hpp"
+#include "launchsafe/study/sweep.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace launchsafe::app {
+
+using StudyResult = std::variant<study::CriticalGapResult, study::CalibrationResult, study::SweepResult,
+                                 study::SensitivityResult>;
+
+/// Runs a study as its kind asks.
+StudyResult run_study(const study::StudyFile& file, const study::StudyOptions& options);
+
+bool interrupted(const StudyResult& result);
+const study::Timing& timing_of(const StudyResult& result);
+bool any_indeterminate(const StudyResult& result);
+
+/// A case that came to nothing.
+struct Failure {
+  std::string label, reason;
+};
+/// In the order of the cases; without those that another shard runs.
+std::vector<Failure> failures_of(const StudyResult& result);
+
+/// Tables and answer for people. Of long tables the beginning, then where the rest is.
+std::string stdout_text(const StudyResult& result, const std::filesystem::path& folder);
+nlohmann::ordered_json to_json(const StudyResult& result);
+store::Result<report::WrittenFiles> write_report(const StudyResult& result,
+                                                 const std::filesystem::path& folder);
+
+/// "ran 12 mechanical runs, re-used 3; ...": runs, rate, wall time.
+std::string timing_text(const study::Timing& timing);
+
+}  // namespace launchsafe::app

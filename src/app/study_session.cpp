@@ -1,0 +1,189 @@
+#include "study_session.hpp"
+
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/study/foresight.hpp"
+#include "output_folder.hpp"
+#include "shell_words.hpp"
+#include "signals.hpp"
+#include "study_folder.hpp"
+#include "study_manifest.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <future>
+
+namespace launchsafe::app {
+namespace {
+
+constexpr std::size_t most_failures_named = 20;
+
+std::string digest_of(const std::vector<Failure>& failures) {
+  std::string text;
+  for (const Failure& failure : failures) text += failure.label + "\n" + failure.reason + "\n";
+  return store::sha256(text);
+}
+
+std::string runs(std::size_t count) {
+  return fmt::format("{} mechanical run{}", count, count == 1 ? "" : "s");
+}
+
+/// The names that a report gave, and those of the files that it put beside them.
+std::vector<std::string> all_names(const std::filesystem::path& folder, std::vector<std::string> names) {
+  const std::size_t count = names.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::filesystem::path name(names[i]);
+    const std::string beside = std::filesystem::path(name).replace_extension(".xdmf");
+    if (name.extension() == ".h5" && std::filesystem::exists(folder / beside)) names.push_back(beside);
+  }
+  return names;
+}
+
+/// Whether the report in the folder says what a new one would. A study's results follow from its input, but
+/// for what failed.
+bool report_stands(const std::filesystem::path& folder, const StudyRecord& record,
+                   const store::Manifest& manifest, const std::string& failures) {
+  return !record.files.empty() && same_study(record.manifest, manifest) &&
+         record.manifest.program_version == manifest.program_version &&
+         record.manifest.commit == manifest.commit && record.failures == failures &&
+         files_unchanged(folder, record.files);
+}
+
+ExitCode exit_code_of(const std::vector<Failure>& failures, bool indeterminate) {
+  if (!failures.empty()) return ExitCode::cases_failed;
+  return indeterminate ? ExitCode::indeterminate : ExitCode::done;
+}
+
+nlohmann::ordered_json shard_json(const StudyResult& result, const study::Shard& shard,
+                                  const std::vector<Failure>& failures) {
+  nlohmann::ordered_json failed = nlohmann::ordered_json::array();
+  for (const Failure& failure : failures)
+    failed.push_back({{"case", failure.label}, {"reason", failure.reason}});
+  return {{"shard", shard.index},
+          {"shards", shard.count},
+          {"mechanical_runs", timing_of(result).runs},
+          {"reused", timing_of(result).reused},
+          {"wall_s", timing_of(result).wall_time},
+          {"failed", failed}};
+}
+
+}  // namespace
+
+StudySession::StudySession(SessionRequest request, Console& console)
+    : request_(std::move(request)), console_(console) {}
+
+ExitCode StudySession::refuse(const store::Error& error) {
+  console_.error(error.message);
+  return error.kind == store::Error::Kind::conflict ? ExitCode::bad_input : ExitCode::failed;
+}
+
+ExitCode StudySession::open() {
+  auto obstacle = obstacle_in_folder(request_.folder, request_.manifest, request_.update);
+  if (!obstacle) obstacle = prepare_output_folder(request_.folder);
+  if (obstacle) return refuse({store::Error::Kind::conflict, *obstacle});
+  store::StoreOptions options;
+  options.part = request_.part;
+  options.model_version = request_.manifest.model_version;
+  options.on_failure = [](const store::Error&) { stop_requested() = true; };
+  auto opened = store::CaseStore::open(request_.folder, options);
+  if (!opened) return refuse(opened.error());
+  store_ = std::move(*opened);
+  print_remarks();
+  // Until the lock was ours somebody else may have been at work here.
+  if (const auto late = obstacle_in_folder(request_.folder, request_.manifest, request_.update))
+    return refuse({store::Error::Kind::conflict, *late});
+  if (request_.part.empty()) remove_leftovers(request_.folder);
+  const auto moved = take_folder(request_.folder, request_.manifest);
+  if (!moved) return refuse(moved.error());
+  if (!moved->empty()) console_.remark(fmt::format("the earlier report moved to {}", moved->string()));
+  return ExitCode::done;
+}
+
+bool StudySession::kept() {
+  const auto error = store_->flush();
+  print_remarks();
+  if (!error) return true;
+  console_.error(
+      fmt::format("{}; the study ended, what was stored before is kept; once there is room, go on with: {}",
+                  error->message, request_.command));
+  return false;
+}
+
+void StudySession::print_remarks() {
+  const std::vector<std::string> remarks = store_->remarks();
+  for (; remarks_printed_ < remarks.size(); ++remarks_printed_) console_.remark(remarks[remarks_printed_]);
+}
+
+ExitCode StudySession::report_interruption(const study::StudyFile& file, const study::StudyOptions& options) {
+  // Counting takes its time where there are many cases, and so does the disk.
+  constexpr double any_rate = 1.0;
+  auto counting = std::async(std::launch::async, [&] { return study::foresee(file, options, any_rate); });
+  const bool all_kept = kept();
+  const study::Foresight foresight = counting.get();
+  if (!all_kept) return ExitCode::failed;
+  const auto stored = std::count_if(foresight.runs.begin(), foresight.runs.end(),
+                                    [](const study::ForeseenRun& run) { return run.stored; });
+  console_.error(fmt::format("interrupted; {} of {} are kept in {}; to go on: {}", stored,
+                             runs(foresight.runs.size()), request_.folder.string(), request_.command));
+  return ExitCode::interrupted;
+}
+
+void StudySession::print_failures(const std::vector<Failure>& failures) const {
+  const std::size_t named = std::min(failures.size(), most_failures_named);
+  for (std::size_t i = 0; i < named; ++i)
+    console_.error(fmt::format("{}: {}", failures[i].label, failures[i].reason));
+  if (named < failures.size())
+    console_.error(fmt::format("and {} more cases failed", failures.size() - named));
+}
+
+ExitCode StudySession::conclude(const StudyResult& result, const study::StudyFile& file,
+                                const study::StudyOptions& options) {
+  if (interrupted(result)) return report_interruption(file, options);
+  if (!kept()) return ExitCode::failed;
+  return options.shard.whole() ? deliver_whole(result) : deliver_shard(result, options.shard);
+}
+
+ExitCode StudySession::deliver_shard(const StudyResult& result, const study::Shard& shard) {
+  const std::vector<Failure> failures = failures_of(result);
+  console_.print_json(shard_json(result, shard, failures));
+  print_failures(failures);
+  console_.remark(timing_text(timing_of(result)));
+  console_.remark(fmt::format(
+      "shard {}/{} is done{}; once all are: {} (then the folders of shards that have one of their own)",
+      shard.index, shard.count, failures.empty() ? "" : fmt::format(", {} failed", failures.size()),
+      shell_command({"launchsafe", "merge", request_.study.string(), "-o", request_.folder.string()})));
+  return exit_code_of(failures, false);
+}
+
+ExitCode StudySession::deliver_whole(const StudyResult& result) {
+  const std::vector<Failure> failures = failures_of(result);
+  console_.print_text(stdout_text(result, request_.folder));
+  if (console_.json()) console_.print_json(to_json(result));
+  print_failures(failures);
+  console_.remark(timing_text(timing_of(result)));
+  const ExitCode written = write_files(result, failures);
+  return written == ExitCode::done ? exit_code_of(failures, any_indeterminate(result)) : written;
+}
+
+ExitCode StudySession::write_files(const StudyResult& result, const std::vector<Failure>& failures) {
+  const std::string digest = digest_of(failures);
+  const auto present = read_study_record(request_.folder);
+  if (timing_of(result).runs == 0 && present &&
+      report_stands(request_.folder, *present, request_.manifest, digest)) {
+    console_.remark(fmt::format("the report in {} stands as it is", request_.folder.string()));
+    return ExitCode::done;
+  }
+  const auto written = write_report(result, request_.folder);
+  if (!written) return refuse(written.error());
+  for (const std::string& remark : written->remarks) console_.remark(remark);
+  StudyRecord record{request_.manifest, {}, digest};
+  record.manifest.wall_time = timing_of(result).wall_time;
+  record.files = record_files(request_.folder, all_names(request_.folder, written->files));
+  if (const auto error = write_study_record(request_.folder, record)) return refuse(*error);
+  console_.remark(fmt::format("wrote {} files to {}", written->files.size() + 1, request_.folder.string()));
+  return ExitCode::done;
+}
+
+}  // namespace launchsafe::app

@@ -1,0 +1,60 @@
+// What `study` and `merge` share: the folder with its store, and the delivery of what came of the study.
+#pragma once
+
+#include "commands.hpp"
+#include "launchsafe/store/case_store.hpp"
+#include "launchsafe/store/manifest.hpp"
+#include "study_outcome.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace launchsafe::app {
+
+/// How a study uses its folder.
+struct SessionRequest {
+  std::filesystem::path study;  ///< file
+  std::filesystem::path folder;
+  bool update = false;  ///< the folder may hold the results of an earlier study
+  std::string part;     ///< of a shard
+  std::string command;  ///< to be repeated after an interruption
+  store::Manifest manifest;
+};
+
+/// A study's folder while it is ours, from before the runs to the report.
+class StudySession {
+ public:
+  StudySession(SessionRequest request, Console& console);
+
+  /// Takes the folder and opens its store. Anything but `done` is the end; then the reason was printed, and
+  /// unless the machine failed nothing was written.
+  ExitCode open();
+  /// Where results are kept; only once open.
+  store::CaseStore& store() { return *store_; }
+
+  /// What the store has to say since the last call.
+  void print_remarks();
+
+  /// Keeps what is to be kept and says what came of the study: what an interruption left, what a shard did,
+  /// or report, tables and answer of the whole.
+  ExitCode conclude(const StudyResult& result, const study::StudyFile& file,
+                    const study::StudyOptions& options);
+
+ private:
+  ExitCode refuse(const store::Error& error);
+  /// Whether all that was to be kept is on disk; prints why not.
+  bool kept();
+  ExitCode report_interruption(const study::StudyFile& file, const study::StudyOptions& options);
+  ExitCode deliver_shard(const StudyResult& result, const study::Shard& shard);
+  ExitCode deliver_whole(const StudyResult& result);
+  ExitCode write_files(const StudyResult& result, const std::vector<Failure>& failures);
+  void print_failures(const std::vector<Failure>& failures) const;
+
+  SessionRequest request_;
+  Console& console_;
+  std::unique_ptr<store::CaseStore> store_;
+  std::size_t remarks_printed_ = 0;
+};
+
+}  // namespace launchsafe::app

@@ -1,0 +1,211 @@
+// The answer, the page and the files of a sensitivity study.
+#include "launchsafe/report/sensitivity_report.hpp"
+
+#include "columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "sensitivity_text.hpp"
+#include "shown_key.hpp"
+#include "study_text.hpp"
+#include "sweep_text.hpp"
+#include "verdict_text.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::report {
+namespace {
+
+using study::OutputSensitivity, study::SensitivityMethod, study::SensitivityResult;
+
+/// Below this share of the variance with all interactions an input does not matter.
+constexpr double negligible_share = 0.05;
+/// Evaluations on the page; the file has all.
+constexpr std::size_t most_rows = 200;
+
+std::string joined(const std::vector<std::string>& names) {
+  if (names.size() < 2) return names.empty() ? std::string{} : names.front();
+  const std::vector<std::string> first(names.begin(), names.end() - 1);
+  return fmt::format("{} and {}", fmt::join(first, ", "), names.back());
+}
+
+/// "0.52 [0.4, 0.63]", or "12 K [9, 15]".
+std::string estimate_text(const math::Estimate& estimate, double scale, const std::string& unit) {
+  return fmt::format("{}{} [{}, {}]", significant(scale * estimate.value, 3), unit.empty() ? "" : " " + unit,
+                     significant(scale * estimate.lower, 3), significant(scale * estimate.upper, 3));
+}
+
+/// What is said of one output.
+class OutputAnswer {
+ public:
+  OutputAnswer(const SensitivityResult& result, const OutputSensitivity& output)
+      : result_(result),
+        output_(output),
+        sobol_(result.study.study.method == SensitivityMethod::sobol),
+        shown_(detail::shown(output.output)),
+        keys_(detail::shown_inputs(result.study.study)),
+        importance_(detail::importance_of(result, output)) {
+    importance_.resize(keys_.size(), {study::not_a_number, study::not_a_number, study::not_a_number});
+  }
+
+  std::string text() const {
+    std::string what = shown_.phrase;
+    if (what.starts_with('t')) what.front() = 'T';
+    if (const std::string reason = detail::reason_of(result_, output_); !reason.empty())
+      return fmt::format("{}: no indices, {}.", what, reason);
+    const auto groups = detail::ranked(importance_);
+    return fmt::format("{}: by {}, {}.{}{}", what, sobol_ ? "total order" : "mu*", ranking(groups),
+                       untold(groups), negligible());
+  }
+
+ private:
+  /// "A (0.6 [0.5, 0.7]), then B (...) and C (...)".
+  std::string ranking(const std::vector<std::vector<std::size_t>>& groups) const {
+    std::string text;
+    for (const auto& group : groups) {
+      std::vector<std::string> names;
+      for (const std::size_t input : group) names.push_back(named(input));
+      text += (text.empty() ? "" : ", then ") + joined(names);
+    }
+    return text;
+  }
+
+  std::string named(std::size_t input) const {
+    return fmt::format("{} ({})", keys_[input].name,
+                       sobol_ ? estimate_text(importance_[input], 1.0, "")
+                              : estimate_text(importance_[input], shown_.scale, shown_.unit));
+  }
+
+  std::string size() const {
+    return fmt::format("N = {} {}", detail::size_of(result_.study.study),
+                       detail::size_noun(result_.study.study));
+  }
+
+  /// What the intervals do not tell apart.
+  std::string untold(const std::vector<std::vector<std::size_t>>& groups) const {
+    if (groups.size() == 1 && keys_.size() > 1) {
+      return fmt::format(" {} are too few to tell which matters more: the intervals overlap.", size());
+    }
+    std::vector<std::string> open;
+    for (const auto& group : groups) {
+      if (group.size() < 2) continue;
+      std::vector<std::string> names;
+      for (const std::size_t input : group) names.push_back(keys_[input].name);
+      open.push_back(joined(names));
+    }
+    if (open.empty()) return {};
+    return fmt::format(" {} do not tell {} apart.", size(), fmt::join(open, ", nor "));
+  }
+
+  /// Inputs whose whole interval is small. For effects there is no such scale but the largest of them.
+  std::string negligible() const {
+    double scale = 1.0;
+    if (!sobol_) {
+      scale = 0;
+      for (const math::Estimate& each : importance_)
+        if (std::isfinite(each.value)) scale = std::max(scale, each.value);
+    }
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      if (importance_[i].upper < negligible_share * scale) names.push_back(keys_[i].name);
+    }
+    if (names.empty()) return {};
+    return fmt::format(" Below {}% of {}, and so without influence here: {}.", 100.0 * negligible_share,
+                       sobol_ ? "the variance" : "the largest effect", joined(names));
+  }
+
+  const SensitivityResult& result_;
+  const OutputSensitivity& output_;
+  bool sobol_;
+  detail::ShownOutput shown_;
+  std::vector<detail::ShownKey> keys_;
+  std::vector<math::Estimate> importance_;
+};
+
+std::string share_failed(const SensitivityResult& result) {
+  const std::size_t all = result.answers.size(), failed = detail::counts_of(result.answers).failed;
+  if (failed == 0) return fmt::format("All {} evaluations completed.", all);
+  return fmt::format("Failed: {} of {} evaluations ({:.1f}%): {}.", failed, all,
+                     100.0 * static_cast<double>(failed) / static_cast<double>(all),
+                     detail::failures_list({}, result.study, result.answers));
+}
+
+std::string picture_name(const OutputSensitivity& output) {
+  return "sensitivity_" + detail::shown(output.output).key + ".svg";
+}
+
+/// Draws the picture of every output that has indices; a missing gnuplot is a remark.
+store::MaybeError write_pictures(const SensitivityResult& result, const std::filesystem::path& folder,
+                                 WrittenFiles& written, std::vector<std::string>& names) {
+  for (const OutputSensitivity& output : result.outputs) {
+    names.emplace_back();
+    if (!detail::has_indices(result, output)) continue;
+    const std::string name = picture_name(output);
+    const auto error = write_svg(sensitivity_plot(result, output), folder / name);
+    if (error && error->kind == store::Error::Kind::write_failed) return error;
+    if (error) {
+      written.remarks.push_back("no picture: " + error->message);
+      continue;
+    }
+    names.back() = name;
+    written.files.push_back(name);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string answer(const SensitivityResult& result) {
+  std::vector<std::string> lines;
+  for (const OutputSensitivity& output : result.outputs) lines.push_back(OutputAnswer(result, output).text());
+  if (result.outputs.empty()) lines.emplace_back("There are no indices: the study did not come to its end.");
+  lines.push_back(share_failed(result));
+  lines.push_back(detail::limited_text(detail::counts_of(result.answers), "evaluation"));
+  for (std::string& note : detail::mesh_notes(result.study)) lines.push_back(std::move(note));
+  if (result.interrupted) lines.emplace_back("The study was interrupted.");
+  std::erase(lines, "");
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+std::string to_markdown(const SensitivityResult& result, const std::vector<std::string>& pictures) {
+  std::string text = fmt::format("# {}\n\n{}\n\n    {}\n\n", result.study.study.title, answer(result),
+                                 detail::remaking_command(result.study));
+  for (std::size_t i = 0; i < result.outputs.size(); ++i) {
+    text += to_markdown(sensitivity_table(result, result.outputs[i])) + "\n";
+    if (i < pictures.size() && !pictures[i].empty())
+      text += fmt::format("![sensitivity of {}]({})\n\n", detail::shown(result.outputs[i].output).name,
+                          pictures[i]);
+  }
+  text += "## What it rests on\n\n" + detail::friction_remark(result.study) + "\n";
+  text +=
+      "The indices are those of these distributions: another range of an input gives it another share. Bound "
+      "critical gaps have no number, and where there are any no indices are given.\n\n";
+  text += "## Setup\n\n" + detail::setup_text(result.study) + "\n";
+  text += to_markdown(detail::first_rows(evaluation_table(result), most_rows, "evaluations.csv"));
+  return text;
+}
+
+store::Result<WrittenFiles> write_report(const SensitivityResult& result,
+                                         const std::filesystem::path& folder) {
+  WrittenFiles written;
+  if (auto error = detail::write_texts(folder,
+                                       {{"sensitivity.csv", to_csv(sensitivity_table(result))},
+                                        {"evaluations.csv", to_csv(evaluation_table(result))}},
+                                       written)) {
+    return *error;
+  }
+  std::vector<std::string> names;
+  if (auto error = write_pictures(result, folder, written, names)) return *error;
+  std::string page = to_markdown(result, names);
+  if (!written.remarks.empty())
+    page += "\nNot all pictures are here: gnuplot was not found or failed when this page was made.\n";
+  if (auto error = detail::write_texts(
+          folder, {{"report.md", page}, {"study.json", to_json(result).dump(2) + "\n"}}, written)) {
+    return *error;
+  }
+  return written;
+}
+
+}  // namespace launchsafe::report

@@ -1,0 +1,175 @@
+// The tables of a sensitivity study.
+#include "columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/sensitivity_report.hpp"
+#include "sensitivity_text.hpp"
+#include "shown_key.hpp"
+#include "study_text.hpp"
+#include "sweep_text.hpp"
+#include "verdict_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::report {
+namespace {
+
+using detail::append, detail::count_column, detail::named_text, detail::number_column,
+    detail::optional_number, detail::significant_column;
+using study::OutputSensitivity, study::SensitivityMethod, study::SensitivityResult;
+
+std::vector<Column> index_columns() {
+  return {number_column("S1", "", 3, "S1"),       number_column("from", "", 3, "S1_low"),
+          number_column("to", "", 3, "S1_high"),  number_column("ST", "", 3, "ST"),
+          number_column("from", "", 3, "ST_low"), number_column("to", "", 3, "ST_high"),
+          count_column("rows used", "used"),      count_column("of", "of")};
+}
+
+/// `unit` is empty where it stands in a column of its own.
+std::vector<Column> effect_columns(const std::string& unit) {
+  return {significant_column("mu", unit, 4, "mu"),
+          significant_column("mu*", unit, 4, "mu_star"),
+          significant_column("from", unit, 4, "mu_star_low"),
+          significant_column("to", unit, 4, "mu_star_high"),
+          significant_column("sigma", unit, 4, "sigma"),
+          count_column("effects used", "used"),
+          count_column("of", "of")};
+}
+
+void add_estimate(const math::Estimate& estimate, double scale, std::vector<Cell>& cells) {
+  for (const double value : {estimate.value, estimate.lower, estimate.upper})
+    cells.push_back(optional_number(scale * value));
+}
+
+void add_index_cells(const OutputSensitivity& output, std::size_t input, std::vector<Cell>& cells) {
+  const math::SobolIndices& indices = output.sobol;
+  add_estimate(indices.inputs[input].first, 1.0, cells);
+  add_estimate(indices.inputs[input].total, 1.0, cells);
+  cells.emplace_back(static_cast<std::int64_t>(indices.rows_used));
+  cells.emplace_back(static_cast<std::int64_t>(indices.rows_used + indices.rows_left_out));
+}
+
+void add_effect_cells(const SensitivityResult& result, const OutputSensitivity& output, std::size_t input,
+                      std::vector<Cell>& cells) {
+  const math::MorrisEffects& effects = output.morris[input];
+  const double scale = detail::shown(output.output).scale;
+  cells.push_back(optional_number(scale * effects.mu));
+  add_estimate(effects.mu_star, scale, cells);
+  cells.push_back(optional_number(scale * effects.sigma));
+  cells.emplace_back(static_cast<std::int64_t>(effects.effects));
+  cells.emplace_back(static_cast<std::int64_t>(result.study.study.trajectories));
+}
+
+/// Input and distribution, and the numbers where there are any.
+std::vector<Cell> cells_of(const SensitivityResult& result, const OutputSensitivity& output,
+                           std::size_t input) {
+  const study::UncertainInput& each = result.study.study.inputs[input];
+  const detail::ShownKey key = detail::shown(each);
+  std::vector<Cell> cells{key.name, detail::distribution_text(key, each.distribution)};
+  if (!detail::has_indices(result, output)) return cells;
+  const bool sobol = result.study.study.method == SensitivityMethod::sobol;
+  if (input >= (sobol ? output.sobol.inputs.size() : output.morris.size())) return cells;
+  if (sobol) {
+    add_index_cells(output, input, cells);
+  } else {
+    add_effect_cells(result, output, input, cells);
+  }
+  return cells;
+}
+
+std::string heated_note() {
+  return "T max is that of the skin at the observation points which air and friction heat, without reaction: "
+         "the same as T max of the verdicts where nothing ignites.";
+}
+
+std::string missing_note(const OutputSensitivity& output) {
+  return fmt::format("{} of {} evaluations have no number here{}.", output.missing, output.values.size(),
+                     output.bounds > 0 ? fmt::format(", {} of them bounds", output.bounds) : std::string{});
+}
+
+std::string spread_note(const OutputSensitivity& output) {
+  const detail::ShownOutput shown = detail::shown(output.output);
+  return fmt::format("Mean {0} {2}, standard deviation {1} {2} over the evaluations that sample the inputs.",
+                     significant(shown.scale * output.mean, 4),
+                     significant(shown.scale * output.deviation, 3), shown.unit);
+}
+
+std::vector<std::string> notes_of(const SensitivityResult& result, const OutputSensitivity& output) {
+  std::vector<std::string> notes;
+  if (const std::string reason = detail::reason_of(result, output); !reason.empty())
+    notes.push_back("No indices: " + reason + ".");
+  if (std::isfinite(output.mean)) notes.push_back(spread_note(output));
+  if (output.missing > 0) notes.push_back(missing_note(output));
+  notes.push_back(detail::method_text(result));
+  if (output.output != study::SensitivityOutput::critical_gap) notes.push_back(heated_note());
+  return notes;
+}
+
+}  // namespace
+
+Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity& output) {
+  const bool sobol = result.study.study.method == SensitivityMethod::sobol;
+  const detail::ShownOutput shown = detail::shown(output.output);
+  Table table;
+  table.title = "Sensitivity of " + shown.phrase + detail::at_gap(result.study.study, output.output);
+  table.columns = {named_text("input", "input"), named_text("distribution", "distribution")};
+  append(table.columns, sobol ? index_columns() : effect_columns(shown.unit));
+  for (std::size_t i = 0; i < result.study.study.inputs.size(); ++i)
+    table.rows.push_back(cells_of(result, output, i));
+  table.notes = notes_of(result, output);
+  return table;
+}
+
+Table sensitivity_table(const SensitivityResult& result) {
+  const bool sobol = result.study.study.method == SensitivityMethod::sobol;
+  Table table;
+  table.title = "Sensitivity";
+  table.columns = {named_text("output", "output"), named_text("unit", "unit"), named_text("reason", "reason"),
+                   named_text("input", "input"), named_text("distribution", "distribution")};
+  append(table.columns, sobol ? index_columns() : effect_columns(""));
+  for (const OutputSensitivity& output : result.outputs) {
+    const detail::ShownOutput shown = detail::shown(output.output);
+    for (std::size_t i = 0; i < result.study.study.inputs.size(); ++i) {
+      std::vector<Cell> cells{shown.key, sobol ? std::string{} : shown.unit,
+                              detail::reason_of(result, output)};
+      for (Cell& cell : cells_of(result, output, i)) cells.push_back(std::move(cell));
+      table.rows.push_back(std::move(cells));
+    }
+  }
+  table.notes = {detail::method_text(result)};
+  return table;
+}
+
+Table evaluation_table(const SensitivityResult& result) {
+  const auto keys = detail::shown_inputs(result.study.study);
+  Table table;
+  table.title = "Evaluations";
+  table.columns = {count_column("number", "number"), named_text("evaluation", "evaluation")};
+  for (const detail::ShownKey& key : keys) table.columns.push_back(key.column());
+  for (const OutputSensitivity& output : result.outputs) {
+    const detail::ShownOutput shown = detail::shown(output.output);
+    table.columns.push_back(significant_column(shown.name, shown.unit, 6, shown.key + "_" + shown.unit));
+  }
+  append(table.columns, {named_text("critical gap", "critical_gap_reads_as"), named_text("run", "status"),
+                         named_text("failure", "failure")});
+  for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) {
+    const study::StudyCase& input = result.study.cases[i];
+    const study::CaseAnswer& answer = result.answers[i];
+    std::vector<Cell> cells{static_cast<std::int64_t>(i + 1), input.label};
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      cells.push_back(k < input.coordinates.size() ? Cell(keys[k].value(input.coordinates[k])) : Cell());
+    for (const OutputSensitivity& output : result.outputs)
+      cells.push_back(i < output.values.size()
+                          ? optional_number(detail::shown(output.output).scale * output.values[i])
+                          : Cell());
+    cells.emplace_back(detail::reads_as(answer.critical));
+    cells.emplace_back(detail::status_of(answer));
+    cells.emplace_back(answer.failure);
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+}  // namespace launchsafe::report

@@ -1,0 +1,195 @@
+#include "shown_key.hpp"
+
+#include "launchsafe/report/number.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::report::detail {
+namespace {
+
+/// The double nearest to the shortest decimal of a value times ten to the power.
+double shifted(double value, int power) {
+  if (!std::isfinite(value) || value == 0.0 || power == 0) return value;
+  char text[48];
+  char* const end = std::to_chars(text, text + 32, value, std::chars_format::scientific).ptr;
+  char* const letter = std::find(text, end, 'e');
+  int exponent = 0;
+  std::from_chars(letter[1] == '+' ? letter + 2 : letter + 1, end, exponent);
+  const char* const stop = std::to_chars(letter + 1, text + sizeof text, exponent + power).ptr;
+  double result = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(text, stop, result);
+  return result;
+}
+
+/// The unit of a text such as "18 ms" or "1780 J/(kg K)".
+std::string unit_of(const std::string& quantity) {
+  const std::size_t blank = quantity.find(' ');
+  return blank == std::string::npos ? std::string{} : quantity.substr(blank + 1);
+}
+
+/// Whether a unit is used for one of these quantities, or is a tenth of one that is: 1 mm is also 0.1 cm.
+bool suits(const std::string& unit, const std::vector<std::string>& used, scene::Dimension dimension) {
+  const double size = scene::in_unit(1.0, dimension, unit);  // pieces in one SI unit
+  return std::any_of(used.begin(), used.end(), [&](const std::string& each) {
+    return each == unit || std::lround(1e3 * size / scene::in_unit(1.0, dimension, each)) == 10'000;
+  });
+}
+
+/// The units to choose from: those that people use for single values, in the order of `units_of`.
+std::vector<std::string> candidate_units(const std::vector<double>& si_values, scene::Dimension dimension) {
+  std::vector<std::string> used, all_used, candidates;
+  for (const double value : si_values) used.push_back(unit_of(scene::format_quantity(value, dimension)));
+  for (int power = -12; power <= 15; ++power)
+    all_used.push_back(unit_of(scene::format_quantity(std::pow(10.0, power), dimension)));
+  for (const std::string& unit : scene::units_of(dimension)) {
+    const bool common = std::find(all_used.begin(), all_used.end(), unit) != all_used.end();
+    if (common && suits(unit, used, dimension)) candidates.push_back(unit);
+  }
+  return candidates;
+}
+
+/// What makes a number long: decimals and the zero before them; digits beyond three before the point count
+/// three times.
+std::size_t clutter(double value) {
+  const std::string text = significant(std::abs(value), 6);
+  if (text.find('e') != std::string::npos) return 2 * text.size();
+  const std::size_t whole = std::min(text.find('.'), text.size());
+  const std::size_t leading_zero = text.starts_with('0') && text.size() > 1 ? 1 : 0;
+  return text.size() - whole + leading_zero + (whole > 3 ? 3 * (whole - 3) : 0);
+}
+
+/// Letters, digits and single underscores: "J/(kg K)" becomes "J_per_kg_K".
+std::string key_text(const std::string& text) {
+  std::string result;
+  for (const char character : text) {
+    if (std::isalnum(static_cast<unsigned char>(character)) != 0) {
+      result += character;
+    } else {
+      if (!result.empty() && result.back() != '_') result += '_';
+      if (character == '/') result += "per_";
+    }
+  }
+  result.resize(result.find_last_not_of('_') + 1);
+  return result;
+}
+
+ShownKey shown(const std::string& name, const scene::KeyDescription& key,
+               const std::vector<double>& si_values) {
+  ShownKey result;
+  result.name = name;
+  // An alias such as peak_pressure is words; a dotted name is shown as it is to be written.
+  if (name.find('.') == std::string::npos) std::replace(result.name.begin(), result.name.end(), '_', ' ');
+  result.dimension = key.dimension;
+  result.scene_key = key.name;
+  result.unit = unit_for(si_values, key.dimension);
+  result.key = name;
+  std::replace(result.key.begin(), result.key.end(), '.', '_');
+  if (!result.unit.empty()) result.key += "_" + key_text(result.unit);
+  return result;
+}
+
+std::vector<double> marks_of(const math::Distribution& distribution) {
+  std::vector<double> values;
+  for (const double value : {distribution.lower, distribution.upper}) {
+    if (std::isfinite(value)) values.push_back(value);
+  }
+  if (distribution.kind == math::Distribution::Kind::normal) values.push_back(distribution.centre);
+  return values;
+}
+
+}  // namespace
+
+double as_written(double si_value, scene::Dimension dimension, std::string_view unit) {
+  if (unit.empty()) return si_value;
+  return shifted(si_value, static_cast<int>(std::lround(std::log10(scene::in_unit(1.0, dimension, unit)))));
+}
+
+std::string unit_for(const std::vector<double>& si_values, scene::Dimension dimension) {
+  std::string best;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  std::size_t place = 0;  // the units come in the order of their use
+  for (const std::string& unit : candidate_units(si_values, dimension)) {
+    std::size_t total = place++;
+    for (const double value : si_values) total += clutter(as_written(value, dimension, unit));
+    if (total >= least) continue;
+    least = total;
+    best = unit;
+  }
+  return best;
+}
+
+std::string ShownKey::text(double si_value) const {
+  return significant(value(si_value), 6) + (unit.empty() ? "" : " " + unit);
+}
+
+std::string ShownKey::heading() const { return unit.empty() ? name : name + " [" + unit + "]"; }
+
+Column ShownKey::column() const { return {name, unit, Alignment::right, 6, Notation::significant, key}; }
+
+ShownKey shown(const study::Axis& axis) { return shown(axis.name, axis.key, axis.values); }
+
+ShownKey shown(const study::UncertainInput& input) {
+  return shown(input.name, input.key, marks_of(input.distribution));
+}
+
+std::vector<ShownKey> shown_axes(const study::Study& study) {
+  std::vector<ShownKey> keys;
+  for (const study::Axis& axis : study.axes) keys.push_back(shown(axis));
+  return keys;
+}
+
+std::vector<ShownKey> shown_inputs(const study::Study& study) {
+  std::vector<ShownKey> keys;
+  for (const study::UncertainInput& input : study.inputs) keys.push_back(shown(input));
+  return keys;
+}
+
+std::string values_text(const ShownKey& key, const std::vector<double>& si_values) {
+  constexpr std::size_t most = 12;
+  const std::string unit = key.unit.empty() ? "" : " " + key.unit;
+  if (si_values.size() > most) {
+    const auto [low, high] = std::minmax_element(si_values.begin(), si_values.end());
+    return fmt::format("{} values from {} to {}{}", si_values.size(), significant(key.value(*low), 6),
+                       significant(key.value(*high), 6), unit);
+  }
+  std::string text;
+  for (const double value : si_values) text += (text.empty() ? "" : ", ") + significant(key.value(value), 6);
+  return text + unit;
+}
+
+std::string distribution_text(const ShownKey& key, const math::Distribution& distribution) {
+  const auto number = [&key](double si_value) { return significant(key.value(si_value), 6); };
+  const std::string unit = key.unit.empty() ? "" : " " + key.unit;
+  if (distribution.kind != math::Distribution::Kind::normal) {
+    const bool uniform = distribution.kind == math::Distribution::Kind::uniform;
+    return fmt::format("{} from {} to {}{}", uniform ? "uniform" : "log-uniform", number(distribution.lower),
+                       number(distribution.upper), unit);
+  }
+  std::string text =
+      fmt::format("normal, {} +- {}{}", number(distribution.centre), number(distribution.deviation), unit);
+  const bool below = std::isfinite(distribution.lower), above = std::isfinite(distribution.upper);
+  if (below && above)
+    return text + fmt::format(", cut off at {} and {}{}", number(distribution.lower),
+                              number(distribution.upper), unit);
+  if (below) text += fmt::format(", cut off below {}{}", number(distribution.lower), unit);
+  if (above) text += fmt::format(", cut off above {}{}", number(distribution.upper), unit);
+  return text;
+}
+
+std::string place_text(const std::vector<ShownKey>& keys, const std::vector<double>& coordinates) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(keys.size(), coordinates.size()); ++i) {
+    // A pure number says nothing without its name.
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", keys[i].unit.empty() ? keys[i].name + " " : "",
+                        keys[i].text(coordinates[i]));
+  }
+  return text;
+}
+
+}  // namespace launchsafe::report::detail

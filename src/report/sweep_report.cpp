@@ -1,0 +1,217 @@
+// The answer, the page and the files of a sweep.
+#include "launchsafe/report/sweep_report.hpp"
+
+#include "columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "study_text.hpp"
+#include "sweep_text.hpp"
+#include "verdict_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace launchsafe::report {
+namespace {
+
+using detail::counted, detail::ShownKey;
+using study::SweepResult;
+
+/// Rows of a table on the page; the files have all.
+constexpr std::size_t most_rows = 200;
+/// Gaps in the matrix on the page.
+constexpr std::size_t most_gaps = 30;
+
+/// "6 gaps from 0 to 0.04 cm".
+std::string gaps_text(const std::vector<double>& gaps) {
+  if (gaps.empty()) return "no gap";
+  const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
+  if (gaps.size() == 1) return "the gap " + detail::centimetres(*least);
+  return fmt::format("{} gaps from {:.6g} to {}", gaps.size(), detail::in_centimetres(*least),
+                     detail::centimetres(*most));
+}
+
+/// What was swept.
+std::string extent_text(const SweepResult& result, const std::vector<ShownKey>& keys) {
+  const study::Study& study = result.study.study;
+  std::string axes;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    axes += fmt::format("{}{} ({})",
+                        axes.empty()          ? " over "
+                        : i + 1 < keys.size() ? ", "
+                                              : " and ",
+                        keys[i].name, detail::values_text(keys[i], study.axes[i].values));
+  }
+  return fmt::format("{}{}, each judged at {}.", counted(result.answers.size(), "case"), axes,
+                     gaps_text(study.gaps));
+}
+
+/// The largest gap that the searches which met no ignition came to, m.
+double end_of_search(const SweepResult& result) {
+  double end = study::not_a_number;
+  for (const study::CaseAnswer& answer : result.answers) {
+    if (answer.critical.kind == study::CriticalGapKind::all_safe && !(answer.critical.lower >= end))
+      end = answer.critical.lower;
+  }
+  return end;
+}
+
+std::string kinds_text(const SweepResult& result, const detail::SweepCounts& counts) {
+  std::string text = fmt::format("The critical gap is a value in {}", counted(counts.values, "case"));
+  if (counts.all_safe > 0)
+    text += fmt::format(", more than {} (the end of the search: a bound) in {}",
+                        detail::centimetres(end_of_search(result)), counted(counts.all_safe, "case"));
+  if (counts.all_ignite > 0)
+    text += fmt::format(", below every gap (ignition even at the smallest: a bound) in {}",
+                        counted(counts.all_ignite, "case"));
+  if (counts.indeterminate > 0)
+    text += fmt::format(", indeterminate in {}", counted(counts.indeterminate, "case"));
+  return text + ".";
+}
+
+/// The case with the smallest critical gap that is a value.
+std::optional<std::size_t> smallest(const SweepResult& result) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const double value = detail::value_of(result.answers[i].critical);
+    if (!std::isfinite(value)) continue;
+    if (!best || value < result.answers[*best].critical.value) best = i;
+  }
+  return best;
+}
+
+/// The cases that ignite at every gap: their critical gap is below every value.
+std::vector<std::size_t> without_safe_gap(const SweepResult& result) {
+  std::vector<std::size_t> cases;
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    if (result.answers[i].critical.kind == study::CriticalGapKind::all_ignite) cases.push_back(i);
+  }
+  return cases;
+}
+
+std::string case_name(const SweepResult& result, const std::vector<ShownKey>& keys, std::size_t i) {
+  return i < result.study.cases.size() ? detail::name_of(keys, result.study.cases[i]) : std::string{};
+}
+
+std::string smallest_text(const SweepResult& result, const std::vector<ShownKey>& keys) {
+  std::string text;
+  if (const auto best = smallest(result)) {
+    const study::CriticalGap& gap = result.answers[*best].critical;
+    const std::string error = std::isfinite(gap.uncertainty)
+                                  ? fmt::format(" +- {} cm", significant(100.0 * gap.uncertainty, 2))
+                                  : std::string{};
+    text = fmt::format("The smallest value is {} cm{}, at {}.", significant(100.0 * gap.value, 6), error,
+                       case_name(result, keys, *best));
+  }
+  const std::vector<std::size_t> none = without_safe_gap(result);
+  if (none.empty()) return text;
+  const std::string others =
+      none.size() > 1 ? " and " + counted(none.size() - 1, "other case") : std::string{};
+  return text + fmt::format("{}No gap is safe at {}{}.", text.empty() ? "" : " ",
+                            case_name(result, keys, none.front()), others);
+}
+
+std::string failures_text(const SweepResult& result, const std::vector<ShownKey>& keys, std::size_t failed) {
+  if (failed == 0) return {};
+  return fmt::format("{} failed and {} indeterminate: {}.", counted(failed, "case"),
+                     failed == 1 ? "is" : "are", detail::failures_list(keys, result.study, result.answers));
+}
+
+std::string uncertainty_text(const study::Study& study) {
+  return fmt::format(
+      "The uncertainty of a temperature is the sum of the trace's sampling error, the integration error, and "
+      "{}. Verdicts and critical gaps rest on the traces of the mechanical runs; no coupled runs confirm "
+      "them "
+      "(those of a study of kind critical-gap do).\n",
+      detail::mesh_uncertainty(study));
+}
+
+std::string matrix_text(const SweepResult& result) {
+  const std::size_t gaps = result.study.study.gaps.size();
+  if (gaps > most_gaps) {
+    return fmt::format("The verdicts at {} gaps are too many for a table on this page: see `verdicts.csv`.\n",
+                       gaps);
+  }
+  return to_markdown(detail::first_rows(verdict_matrix(result), most_rows, "verdicts.csv"));
+}
+
+/// Draws all pictures into a folder; a missing gnuplot is a remark.
+store::MaybeError write_pictures(const SweepPictures& pictures, const std::filesystem::path& folder,
+                                 WrittenFiles& written, std::vector<std::string>& names) {
+  const std::size_t count = pictures.maps.size() + (pictures.curve ? 1 : 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string name = i == 0 ? "critical_gap.svg" : fmt::format("critical_gap_{}.svg", i + 1);
+    auto error = i < pictures.maps.size() ? write_svg(pictures.maps[i], folder / name)
+                                          : write_svg(*pictures.curve, folder / name);
+    if (error && error->kind == store::Error::Kind::write_failed) return error;
+    if (error) {
+      written.remarks.push_back("no picture: " + error->message);
+      return {};
+    }
+    names.push_back(name);
+    written.files.push_back(name);
+  }
+  written.remarks.insert(written.remarks.end(), pictures.remarks.begin(), pictures.remarks.end());
+  return {};
+}
+
+}  // namespace
+
+std::string answer(const SweepResult& result) {
+  const auto keys = detail::shown_axes(result.study.study);
+  const detail::SweepCounts counts = detail::counts_of(result.answers);
+  std::vector<std::string> lines{extent_text(result, keys),
+                                 kinds_text(result, counts),
+                                 smallest_text(result, keys),
+                                 fmt::format("Verdicts: {} SAFE, {} UNSAFE, {} INDETERMINATE.", counts.safe,
+                                             counts.unsafe, counts.undecided),
+                                 failures_text(result, keys, counts.failed),
+                                 detail::limited_text(counts, "case")};
+  for (std::string& note : detail::mesh_notes(result.study)) lines.push_back(std::move(note));
+  if (result.interrupted)
+    lines.emplace_back("The study was interrupted: cases without a run are indeterminate.");
+  std::erase(lines, "");
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+std::string to_markdown(const SweepResult& result, const std::vector<std::string>& pictures) {
+  const study::Study& study = result.study.study;
+  std::string text = fmt::format("# {}\n\n{}\n\n    {}\n\n", study.title, answer(result),
+                                 detail::remaking_command(result.study));
+  text += to_markdown(detail::first_rows(critical_gap_table(result), most_rows, "critical_gaps.csv")) + "\n";
+  for (const std::string& picture : pictures) text += fmt::format("![critical gap]({})\n\n", picture);
+  text += matrix_text(result) + "\n";
+  text += "## What it rests on\n\n" + detail::friction_remark(result.study) + "\n";
+  text += uncertainty_text(study) + "\n" + detail::anywhere_note() + "\n\n";
+  text += "## Setup\n\n" + detail::setup_text(result.study);
+  return text;
+}
+
+store::Result<WrittenFiles> write_report(const SweepResult& result, const std::filesystem::path& folder) {
+  WrittenFiles written;
+  Table gaps = critical_gap_table(result);
+  for (std::string& note : detail::mesh_notes(result.study)) gaps.notes.push_back(std::move(note));
+  if (auto error = detail::write_texts(folder,
+                                       {{"critical_gaps.csv", to_csv(gaps)},
+                                        {"critical_gaps.md", to_markdown(gaps)},
+                                        {"verdicts.csv", to_csv(verdict_table(result))}},
+                                       written)) {
+    return *error;
+  }
+  std::vector<std::string> names;
+  const SweepPictures drawn = pictures(result);
+  if (auto error = write_pictures(drawn, folder, written, names)) return *error;
+  std::string page = to_markdown(result, names);
+  for (const std::string& remark : drawn.remarks) page += "\n" + remark + "\n";
+  if (names.empty() && (drawn.curve || !drawn.maps.empty()))
+    page += "\nThere is no picture: gnuplot was not found or failed when this page was made.\n";
+  if (auto error = detail::write_texts(
+          folder, {{"report.md", page}, {"study.json", detail::json_text(result)}}, written)) {
+    return *error;
+  }
+  return written;
+}
+
+}  // namespace launchsafe::report

@@ -1,0 +1,171 @@
+#include "verdict_text.hpp"
+
+#include "columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/study/calibration.hpp"
+#include "study_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace launchsafe::report::detail {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string ignition_text(const study::GapVerdict& row) {
+  if (!row.ignition) return {};
+  return fmt::format("{} at {:.2f} ms, {}", study::to_string(row.ignition->cause), 1e3 * row.ignition->time,
+                     row.ignition->point);
+}
+
+Json json_of(const std::optional<study::NamedIgnition>& ignition) {
+  if (!ignition) return nullptr;
+  return {{"cause", study::to_string(ignition->cause)},
+          {"time_ms", number(1e3 * ignition->time)},
+          {"point", ignition->point},
+          {"chemical_share", number(ignition->chemical_share)}};
+}
+
+/// The charge off the grid lines, in the scene of a study or in those of its cases, which may have meshes and
+/// bodies of their own.
+std::string off_grid_note(const study::StudyFile& study) {
+  constexpr const char* meaning = "calibrated constants do not carry over from a grid that fits.";
+  if (study.study.axes.empty() && study.study.inputs.empty()) {
+    const std::string edges = scene::charge_edges_off_grid(study.scene.scene);
+    return edges.empty() ? "" : fmt::format("The charge lies off the grid lines ({}): {}", edges, meaning);
+  }
+  std::size_t count = 0;
+  std::string first;
+  for (const study::StudyCase& each : study.cases) {
+    const std::string edges = scene::charge_edges_off_grid(each.scene.scene);
+    if (edges.empty()) continue;
+    if (count++ == 0) first = each.label.empty() ? edges : each.label + ": " + edges;
+  }
+  if (count == 0) return {};
+  return fmt::format("The charge lies off the grid lines in {} of {} cases ({}{}): {}", count,
+                     study.cases.size(), count > 1 ? "the first is " : "", first, meaning);
+}
+
+}  // namespace
+
+std::vector<Column> verdict_columns(const study::Study& study) {
+  return {number_column("T max", "K", 1, "T_max_K"),
+          named_text("at", "at"),
+          number_column("time", "ms", 2, "time_ms"),
+          number_column(fmt::format("T at {:.6g} ms", 1e3 * study.early_time), "K", 1, "T_max_10ms_K"),
+          number_column("anywhere", "K", 1, "anywhere_K"),
+          number_column("margin", "K", 2, "margin_K"),
+          significant_column("uncertainty", "K", 2, "uncertainty_K"),
+          named_text("verdict", "verdict"),
+          named_text("reason", "reason"),
+          named_text("ignition", "ignition")};
+}
+
+void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells) {
+  cells.emplace_back(row.maximum.temperature);
+  cells.emplace_back(row.maximum.point);
+  cells.emplace_back(1e3 * row.maximum.time);
+  cells.emplace_back(row.early.temperature);
+  cells.emplace_back(row.anywhere.temperature);
+  cells.emplace_back(row.margin);
+  cells.emplace_back(row.uncertainty.total());
+  cells.emplace_back(study::to_string(row.judgement.verdict));
+  cells.emplace_back(row.judgement.reason);
+  cells.emplace_back(ignition_text(row));
+}
+
+std::vector<std::string> mesh_notes(const study::StudyFile& study) {
+  std::vector<std::string> notes;
+  if (study.study.numerical_uncertainty_assumed) {
+    notes.push_back(
+        fmt::format("The uncertainty includes {} K for the mesh, assumed: the study states none that "
+                    "applies to these settings (`numerical_uncertainty`).",
+                    study.study.numerical_uncertainty));
+  }
+  if (std::string note = off_grid_note(study); !note.empty()) notes.push_back(std::move(note));
+  return notes;
+}
+
+std::string anywhere_note() {
+  return "Verdicts rest on the observation points; \"anywhere\" includes the corner of charge, wall and "
+         "base, "
+         "a stress singularity whose value grows as the mesh is refined.";
+}
+
+void add_verdict(Json& json, const study::GapVerdict& row) {
+  json["T_max_K"] = number(row.maximum.temperature);
+  json["at"] = row.maximum.point;
+  json["time_ms"] = number(1e3 * row.maximum.time);
+  json["T_max_10ms_K"] = number(row.early.temperature);
+  json["at_10ms"] = row.early.point;
+  json["spread_K"] = number(row.spread);
+  json["spread_10ms_K"] = number(row.early_spread);
+  json["anywhere_K"] = number(row.anywhere.temperature);
+  json["anywhere_at"] = row.anywhere.point;
+  json["margin_K"] = number(row.margin);
+  json["uncertainty_K"] = number(row.uncertainty.total());
+  json["verdict"] = study::to_string(row.judgement.verdict);
+  json["reason"] = row.judgement.reason;
+  json["ignition"] = json_of(row.ignition);
+  json["ignition_anywhere"] = json_of(row.ignition_anywhere);
+}
+
+Json critical_gap_json(const study::CriticalGap& gap) {
+  return {{"value_cm", number(100.0 * value_of(gap))}, {"lower_cm", number(100.0 * gap.lower)},
+          {"upper_cm", number(100.0 * gap.upper)},     {"uncertainty_cm", number(100.0 * gap.uncertainty)},
+          {"kind", study::to_string(gap.kind)},        {"reason", gap.reason}};
+}
+
+double value_of(const study::CriticalGap& gap) {
+  return gap.kind == study::CriticalGapKind::value ? gap.value : study::not_a_number;
+}
+
+std::string reads_as(const study::CriticalGap& gap) {
+  switch (gap.kind) {
+    case study::CriticalGapKind::value:
+      return significant(100.0 * gap.value, 3) + " cm";
+    case study::CriticalGapKind::all_safe:
+      return "> " + centimetres(gap.lower);
+    case study::CriticalGapKind::all_ignite:
+      return gap.upper > 0 ? "< " + centimetres(gap.upper) : "ignites without a gap";
+    case study::CriticalGapKind::indeterminate:
+      break;
+  }
+  return "indeterminate";
+}
+
+std::string friction_remark(const study::StudyFile& study) {
+  const scene::Scene& scene = study.scene.scene;
+  std::string text = fmt::format(
+      "The friction closure is \"{}\" with a localisation of {}, and the exchange time is {} ms. These two "
+      "and "
+      "the ignition temperature ({} K) are calibrated on three published rows (see "
+      "`studies/calibrate_table8.toml`), so the critical gap of the calibration's own load and defect is a "
+      "fit, "
+      "not a prediction. What is predicted is how it moves with pressure, defect, load shape and design.\n",
+      study::to_string(scene.surface.friction), significant(scene.surface.localisation, 6),
+      significant(1e3 * scene.surface.exchange_time, 6),
+      significant(scene.charge.kinetics.ignition_temperature, 6));
+  std::string varied;
+  for (const char* key : {"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"}) {
+    if (varies(study.study, key)) varied += fmt::format("{}`{}`", varied.empty() ? "" : ", ", key);
+  }
+  if (!varied.empty()) text += fmt::format("The study varies {} around these.\n", varied);
+  return text;
+}
+
+std::string mesh_uncertainty(const study::Study& study) {
+  return fmt::format("{} K for the mesh, {}", significant(study.numerical_uncertainty, 3),
+                     study.numerical_uncertainty_assumed
+                         ? "assumed, as the study states none for these settings"
+                         : "as the study states");
+}
+
+bool acted(const run::LimiterCounts& limiters) {
+  return limiters.crack_at_bound + limiters.tension_cutoff + limiters.hugoniot_guard > 0;
+}
+
+}  // namespace launchsafe::report::detail

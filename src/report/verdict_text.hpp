@@ -1,0 +1,43 @@
+// Verdicts and critical gaps as cells, JSON and sentences, the same in every study that judges gaps.
+#pragma once
+
+#include "launchsafe/report/table.hpp"
+#include "launchsafe/study/critical_gap.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace launchsafe::report::detail {
+
+/// From T max to ignition: what is known of one gap of one case.
+std::vector<Column> verdict_columns(const study::Study& study);
+/// The cells under them, put behind those that a row already has.
+void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells);
+
+/// What every table of verdicts must say: an assumed uncertainty, a charge off the grid lines.
+std::vector<std::string> mesh_notes(const study::StudyFile& study);
+/// What the column "anywhere" means.
+std::string anywhere_note();
+
+/// The members of a verdict's object from "T_max_K" to "ignition_anywhere".
+void add_verdict(nlohmann::ordered_json& json, const study::GapVerdict& row);
+/// value, bracket, uncertainty, kind and reason; what is no value is null.
+nlohmann::ordered_json critical_gap_json(const study::CriticalGap& gap);
+
+/// The value in m, NaN for anything that is none: a bound never passes for a value.
+double value_of(const study::CriticalGap& gap);
+/// "0.0395 cm", "> 0.1 cm", "ignites without a gap", "indeterminate".
+std::string reads_as(const study::CriticalGap& gap);
+
+/// On what the absolute value of a critical gap rests.
+std::string friction_remark(const study::StudyFile& study);
+
+/// "1.2 K for the mesh, as the study states": the last part of the uncertainty of a temperature.
+std::string mesh_uncertainty(const study::Study& study);
+
+/// Whether any limiter acted.
+bool acted(const run::LimiterCounts& limiters);
+
+}  // namespace launchsafe::report::detail

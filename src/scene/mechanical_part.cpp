@@ -1,0 +1,97 @@
+#include "launchsafe/scene/mechanical_part.hpp"
+
+#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::scene {
+namespace {
+
+/// Numbers of the load that a measured curve takes the place of.
+Load without_unused(Load load) {
+  load.curve_file.clear();
+  if (load.curve_time.empty()) return load;
+  const Load usual;
+  load.base = usual.base;
+  load.peak_time = usual.peak_time;
+  load.exponent = usual.exponent;
+  if (!load.rescale_to_peak) load.peak = usual.peak;
+  return load;
+}
+
+/// The bottom pressure of a trace never falls below the air's initial pressure. The closure heats the bulk of
+/// the charge.
+Surface surface_part(const Surface& surface, bool temperatures_matter) {
+  Surface part;
+  part.air.initial_pressure = surface.air.initial_pressure;
+  if (temperatures_matter) part.friction = surface.friction;
+  return part;
+}
+
+Switch decided(const Term& term) { return term.in ? Switch::on : Switch::off; }
+
+/// The plan's decisions instead of what they rest on.
+void settle_physics(const Plan& plan, Physics& physics) {
+  const Physics usual;
+  physics.conduction = decided(plan.conduction);
+  physics.bulk_reaction = decided(plan.bulk_reaction);
+  physics.conduction_bound = usual.conduction_bound;
+  physics.reaction_bound = usual.reaction_bound;
+}
+
+bool is_negative_zero(double number) { return number == 0.0 && std::signbit(number); }
+
+void clear_sign(double& number) {
+  if (is_negative_zero(number)) number = 0.0;
+}
+
+template <class Owner>
+void clear_signs_of_zeros(const std::vector<Key<Owner>>& keys, Owner& owner) {
+  for (const Key<Owner>& key : keys) {
+    if (key.kind == KeyKind::text || key.kind == KeyKind::word || key.kind == KeyKind::flag) continue;
+    Value value = key.get(owner);
+    if (auto* number = std::get_if<double>(&value)) {
+      if (is_negative_zero(*number)) key.set(owner, Value(0.0));
+    } else {
+      auto& numbers = std::get<std::vector<double>>(value);
+      if (std::none_of(numbers.begin(), numbers.end(), is_negative_zero)) continue;
+      for (double& each : numbers) clear_sign(each);
+      key.set(owner, value);
+    }
+  }
+}
+
+void clear_signs_of_zeros(Scene& scene) {
+  clear_signs_of_zeros(scene_keys(), scene);
+  for (Body& body : scene.bodies) clear_signs_of_zeros(body_keys(), body);
+  for (ObservationPoint& point : scene.output.observation_points)
+    clear_signs_of_zeros(observation_point_keys(), point);
+}
+
+}  // namespace
+
+Scene mechanical_part(const Scene& scene) {
+  const Plan plan = make_plan(scene);
+  // Temperatures of the charge act on the mechanics only through conduction into the steel, and are stored in
+  // snapshots.
+  const bool temperatures_matter =
+      plan.conduction.in || plan.bulk_reaction.in || !scene.output.snapshot_times.empty();
+  const Charge usual;
+  Scene part = scene;
+  part.title.clear();
+  part.load = without_unused(std::move(part.load));
+  part.surface = surface_part(scene.surface, temperatures_matter);
+  if (!temperatures_matter) part.charge.specific_heat = usual.specific_heat;
+  if (!plan.bulk_reaction.in) part.charge.kinetics = usual.kinetics;
+  if (!plan.conduction.in) {
+    part.charge.conductivity = usual.conductivity;
+    part.steel.strength.conductivity = Steel{}.strength.conductivity;
+  }
+  settle_physics(plan, part.physics);
+  clear_signs_of_zeros(part);
+  return part;
+}
+
+}  // namespace launchsafe::scene

@@ -1,0 +1,252 @@
+#include "launchsafe/store/case_store.hpp"
+
+#include "case_store_content.hpp"
+#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/sha256.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+
+namespace launchsafe::store {
+namespace {
+
+constexpr std::size_t hash_digits = 32;
+
+/// What every case of this program has in common; what differs between equal runs is left out.
+Manifest common_manifest() {
+  Manifest manifest = make_manifest("", 1);
+  manifest.host.clear();
+  manifest.start_time.clear();
+  return manifest;
+}
+
+bool belongs_to(const Manifest& manifest, const std::string& hash) {
+  return !hash.empty() && manifest.input_sha256.starts_with(hash);
+}
+
+Error of_file(const std::filesystem::path& path, const Error& error) {
+  return {error.kind, fmt::format("{}: {}", path.string(), error.message)};
+}
+
+Error of_another_case(const std::filesystem::path& path) {
+  return {Error::Kind::corrupt, fmt::format("{}: it is the result of another case", path.string())};
+}
+
+MaybeError make_folder(const std::filesystem::path& folder) {
+  std::error_code status;
+  const bool is_new = std::filesystem::create_directories(folder, status);
+  if (is_new) sync_folder((folder / "..").lexically_normal());
+  if (!status) return {};
+  return Error{Error::Kind::write_failed,
+               fmt::format("cannot make the folder {}: {}", folder.string(), status.message())};
+}
+
+}  // namespace
+
+CaseIdentity::CaseIdentity(std::string input)
+    : input_(std::move(input)), hash_(sha256(input_).substr(0, hash_digits)) {}
+
+Result<CheckedFile> read_checked(const std::filesystem::path& path, const std::string& hash) {
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  Result<Manifest> manifest = manifest_of(*bytes);
+  if (!manifest) return of_file(path, manifest.error());
+  if (!belongs_to(*manifest, hash)) return of_another_case(path);
+  return CheckedFile{std::move(*bytes), std::move(*manifest)};
+}
+
+// --- the content ---
+
+CaseStore::Content::Content(StoreLock taken, StoreNames all_names, const StoreOptions& chosen)
+    : lock(std::move(taken)),
+      names(std::move(all_names)),
+      options(chosen),
+      manifest(common_manifest()),
+      host(host_name()),
+      writer(names, {[this](const JournalEntry& entry) { index.stored(entry); },
+                     [this](const JournalEntry& entry) { index.dropped(entry); },
+                     [this](const Error& error) {
+                       if (options.on_failure) options.on_failure(error);
+                     }}) {}
+
+bool CaseStore::Content::adopt(const std::string& hash) {
+  const std::filesystem::path path = names.case_file(hash);
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return false;
+  const Result<CheckedFile> file = read_checked(path, hash);
+  if (!file) {
+    if (file.error().kind == Error::Kind::corrupt) set_aside(hash, file.error());
+    if (file.error().kind == Error::Kind::unreadable) index.remark(file.error().message);
+    return false;
+  }
+  JournalEntry entry = index.last_entry(hash).value_or(JournalEntry{});
+  if (entry.state != CaseState::done || entry.hash.empty()) {
+    entry.hash = hash;
+    entry.state = CaseState::done;
+    entry.reason.clear();
+    entry.wall_time = 0;  // whatever took it was another attempt
+    entry.host = host;
+    entry.end_time = utc_now();
+  }
+  entry.model_version = file->manifest.model_version;
+  entry.file_size = size_of(status);
+  entry.file_time = time_of(status);
+  put_entry(std::move(entry));
+  return true;
+}
+
+Error CaseStore::Content::set_aside(const std::string& hash, const Error& damage) {
+  const std::filesystem::path path = names.case_file(hash);
+  // While no file gets its name, the one that is there now is looked at once more: it may be a new one.
+  const std::lock_guard naming(writer.naming());
+  const Result<CheckedFile> again = read_checked(path, hash);
+  if (again || again.error().kind != Error::Kind::corrupt) return damage;
+  std::filesystem::path aside;
+  for (int number = 1;; ++number) {
+    aside = names.cases() / fmt::format("{}.damaged-{}", hash, number);
+    if (rename_to_free_name(path, aside)) break;
+    if (errno == EEXIST) continue;
+    index.remark(fmt::format("{}, and it cannot be set aside: {}", damage.message, system_reason(errno)));
+    return damage;
+  }
+  index.remark(fmt::format("{}; it was set aside as {}", damage.message, aside.filename().string()));
+  return damage;
+}
+
+void CaseStore::Content::put_case(std::string bytes, JournalEntry entry) {
+  if (writer.failed()) return;
+  entry.file_size = 0;
+  entry.file_time = 0;
+  index.take(entry, true);
+  writer.put({std::move(bytes), std::move(entry), {}});
+}
+
+void CaseStore::Content::put_entry(JournalEntry entry) {
+  if (writer.failed()) return;
+  index.take(entry, false);
+  writer.put({{}, std::move(entry), {}});
+}
+
+void CaseStore::Content::fill_in(JournalEntry& entry) const {
+  if (entry.model_version == 0) entry.model_version = options.model_version;
+  entry.host = host;
+  entry.end_time = utc_now();
+}
+
+void CaseStore::Content::remove_leftovers() {
+  if (!lock.enforced()) return;
+  // A part excludes whole studies and others of its own name.
+  const std::string of_part = fmt::format(".{}-", options.part), of_whole = StoreNames{}.mark();
+  std::error_code status;
+  for (const std::string& name : list_folder(names.cases(), status)) {
+    if (!name.starts_with(".") || !name.ends_with(partial_suffix)) continue;
+    const bool ours = options.part.empty() || name.find(of_part) != std::string::npos ||
+                      name.find("." + of_whole + "-") != std::string::npos;
+    if (ours) std::filesystem::remove(names.cases() / name, status);
+  }
+}
+
+// --- the store ---
+
+Result<std::unique_ptr<CaseStore>> CaseStore::open(const std::filesystem::path& folder,
+                                                   const StoreOptions& options) {
+  StoreNames names{folder, options.part};
+  for (const std::filesystem::path& each : {folder, names.cases()}) {
+    if (const MaybeError error = make_folder(each)) return *error;
+  }
+  Result<StoreLock> lock = StoreLock::take(folder, options.part);
+  if (!lock) return lock.error();
+  auto content = std::make_unique<Content>(std::move(*lock), std::move(names), options);
+  if (!content->lock.enforced())
+    content->index.remark(
+        fmt::format("the file system of {} knows no locks: make sure that no second process writes there",
+                    folder.string()));
+  if (const MaybeError error = content->index.read(folder)) return *error;
+  content->remove_leftovers();
+  return std::unique_ptr<CaseStore>(new CaseStore(std::move(content)));
+}
+
+CaseStore::CaseStore(std::unique_ptr<Content> content) : content_(std::move(content)) {}
+CaseStore::~CaseStore() = default;
+
+std::optional<JournalEntry> CaseStore::last_entry(const std::string& hash) const {
+  return content_->index.last_entry(hash);
+}
+
+std::vector<JournalEntry> CaseStore::entries() const { return content_->index.entries(); }
+
+bool CaseStore::holds(const std::string& hash) {
+  if (content_->index.is_pending(hash)) return true;
+  struct stat status {};
+  if (::stat(content_->names.case_file(hash).c_str(), &status) != 0) return false;
+  const std::optional<JournalEntry> entry = content_->index.last_entry(hash);
+  const bool trusted = entry && entry->state == CaseState::done && entry->file_size == size_of(status) &&
+                       entry->file_time == time_of(status);
+  return trusted || content_->adopt(hash);
+}
+
+Result<run::CaseResult> CaseStore::load(const std::string& hash) {
+  if (content_->index.is_pending(hash)) content_->writer.flush();
+  const std::filesystem::path path = content_->names.case_file(hash);
+  const Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  Result<StoredCase> stored = case_of(*bytes);
+  if (!stored) return content_->set_aside(hash, of_file(path, stored.error()));
+  if (!belongs_to(stored->manifest, hash)) return content_->set_aside(hash, of_another_case(path));
+  const std::optional<JournalEntry> entry = content_->index.last_entry(hash);
+  if (entry && entry->state == CaseState::done) stored->result.mechanics.wall_time = entry->wall_time;
+  return std::move(stored->result);
+}
+
+Result<std::string> CaseStore::input_of(const std::string& hash) const {
+  if (content_->index.is_pending(hash)) content_->writer.flush();
+  Result<CheckedFile> file = read_checked(content_->names.case_file(hash), hash);
+  if (file) return std::move(file->manifest.input_text);
+  if (file.error().kind != Error::Kind::corrupt) return file.error();
+  return content_->set_aside(hash, file.error());
+}
+
+void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, run::CaseResult result,
+                     JournalEntry entry) {
+  if (content_->writer.failed()) return;
+  entry.hash = identity.hash();
+  entry.state = CaseState::done;
+  content_->fill_in(entry);
+  Manifest manifest = content_->manifest;
+  manifest.input_text = identity.input();
+  manifest.input_sha256 = sha256(identity.input());
+  manifest.model_version = entry.model_version;
+  if (entry.wall_time == 0) entry.wall_time = result.mechanics.wall_time;
+  result.mechanics.wall_time = 0;
+  Result<std::string> bytes = case_bytes(scene, result, manifest, &content_->molds);
+  if (!bytes) {
+    return content_->writer.fail(of_file(content_->names.case_file(entry.hash), bytes.error()));
+  }
+  content_->put_case(std::move(*bytes), std::move(entry));
+}
+
+void CaseStore::note(JournalEntry entry) {
+  content_->fill_in(entry);
+  content_->put_entry(std::move(entry));
+}
+
+std::optional<std::string> CaseStore::answer(const std::string& key) const {
+  return content_->index.answer(key);
+}
+
+void CaseStore::save_answer(const std::string& key, const std::string& text) {
+  if (content_->writer.failed()) return;
+  if (text.find('\n') != std::string::npos)
+    return content_->writer.fail({Error::Kind::failed, fmt::format("the answer {} is not one line", key)});
+  content_->index.take_answer(key, text);
+  content_->writer.put({{}, {}, answer_line(key, text)});
+}
+
+MaybeError CaseStore::flush() { return content_->writer.flush(); }
+
+std::vector<std::string> CaseStore::remarks() const { return content_->index.remarks(); }
+
+const std::filesystem::path& CaseStore::folder() const { return content_->names.folder; }
+
+}  // namespace launchsafe::store

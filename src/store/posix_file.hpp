@@ -1,0 +1,68 @@
+// Files by descriptor: what the standard library's streams cannot say, such as when bytes are on disk.
+#pragma once
+
+#include "launchsafe/store/result.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace launchsafe::store {
+
+/// An open file; closed at the end of its scope.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  int number() const { return number_; }
+  bool is_open() const { return number_ >= 0; }
+  /// False with errno set when closing reports a write error.
+  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
+
+ private:
+  int number_ = -1;
+};
+
+/// The system's words for an errno value.
+std::string system_reason(int error_number);
+
+/// "cannot write PATH: REASON", of kind write_failed.
+Error write_error(const std::filesystem::path& path, int error_number);
+
+/// Writes all of it, however many calls that takes. False with errno set.
+bool write_all(int file, std::string_view bytes);
+
+/// Bytes.
+inline std::uint64_t size_of(const struct stat& status) { return static_cast<std::uint64_t>(status.st_size); }
+
+/// Modification time, ns since the epoch.
+inline std::int64_t time_of(const struct stat& status) {
+  return std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
+}
+
+/// So that new names in the folder survive a power cut. False with errno set. Some network file systems
+/// cannot sync a folder; theirs is no failure.
+bool sync_folder(const std::filesystem::path& folder);
+
+/// The names of what is in a folder, sorted, so that nothing depends on the file system's order.
+std::vector<std::string> list_folder(const std::filesystem::path& folder, std::error_code& status);
+
+/// Renames, never over something that is there: then false with errno EEXIST. False with errno set otherwise.
+bool rename_to_free_name(const std::filesystem::path& from, const std::filesystem::path& to);
+
+}  // namespace launchsafe::store

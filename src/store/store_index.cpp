@@ -1,0 +1,155 @@
+#include "store_index.hpp"
+
+#include "launchsafe/store/atomic_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace launchsafe::store {
+namespace {
+
+bool is_of_a_part(const std::string& name, std::string_view stem) {
+  return name == fmt::format("{}.jsonl", stem) ||
+         (name.starts_with(fmt::format("{}.", stem)) && name.ends_with(".jsonl"));
+}
+
+/// Between journals of different parts the time decides; of equal ones the result counts.
+bool is_newer(const JournalEntry& entry, const JournalEntry& known) {
+  if (entry.end_time != known.end_time) return entry.end_time > known.end_time;
+  return entry.state == CaseState::done || known.state != CaseState::done;
+}
+
+std::string ignored_remark(const std::filesystem::path& file, std::size_t lines) {
+  return fmt::format("{}: {} damaged line{} ignored", file.string(), lines, lines == 1 ? " was" : "s were");
+}
+
+}  // namespace
+
+MaybeError StoreIndex::read(const std::filesystem::path& folder) {
+  std::error_code status;
+  const std::vector<std::string> names = list_folder(folder, status);
+  if (status)
+    return Error{Error::Kind::unreadable,
+                 fmt::format("cannot read {}: {}", folder.string(), status.message())};
+  for (const std::string& name : names) {
+    const std::filesystem::path file = folder / name;
+    const bool journal = is_of_a_part(name, "journal");
+    if (!journal && !is_of_a_part(name, "answers")) continue;
+    Result<std::string> text = read_file(file);
+    if (!text) return text.error();
+    if (journal)
+      read_journal(file, *text);
+    else
+      read_answers(file, std::move(*text));
+  }
+  return {};
+}
+
+void StoreIndex::read_journal(const std::filesystem::path& file, std::string_view text) {
+  // Within a file the order counts, whatever the clock said.
+  std::unordered_map<std::string, JournalEntry> newest;
+  const std::size_t ignored = for_each_line(text, [&newest](std::string_view line) {
+    std::optional<JournalEntry> entry = journal_entry(line);
+    if (entry) newest.insert_or_assign(entry->hash, std::move(*entry));
+    return entry.has_value();
+  });
+  const std::lock_guard lock(mutex_);
+  if (ignored > 0) remarks_.push_back(ignored_remark(file, ignored));
+  for (auto& [hash, entry] : newest) {
+    const auto [known, is_first] = records_.try_emplace(hash);
+    if (is_first || is_newer(entry, known->second.entry)) known->second.entry = std::move(entry);
+  }
+}
+
+void StoreIndex::read_answers(const std::filesystem::path& file, std::string text) {
+  const std::lock_guard lock(mutex_);
+  texts_.push_back(std::move(text));
+  const std::size_t ignored = for_each_line(texts_.back(), [this](std::string_view line) {
+    const std::optional<AnswerLine> answer = parse_answer_line(line);
+    if (answer) answers_.insert_or_assign(answer->key, answer->text);
+    return answer.has_value();
+  });
+  if (ignored > 0) remarks_.push_back(ignored_remark(file, ignored));
+}
+
+std::optional<JournalEntry> StoreIndex::last_entry(const std::string& hash) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = records_.find(hash);
+  if (found == records_.end()) return {};
+  return found->second.entry;
+}
+
+std::vector<JournalEntry> StoreIndex::entries() const {
+  std::vector<JournalEntry> entries;
+  {
+    const std::lock_guard lock(mutex_);
+    entries.reserve(records_.size());
+    for (const auto& [hash, record] : records_) entries.push_back(record.entry);
+  }
+  std::sort(entries.begin(), entries.end(),
+            [](const JournalEntry& a, const JournalEntry& b) { return a.hash < b.hash; });
+  return entries;
+}
+
+bool StoreIndex::is_pending(const std::string& hash) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = records_.find(hash);
+  return found != records_.end() && found->second.pending > 0;
+}
+
+void StoreIndex::take(const JournalEntry& entry, bool pending) {
+  const std::lock_guard lock(mutex_);
+  Record& record = records_[entry.hash];
+  record.entry = entry;
+  if (pending) ++record.pending;
+}
+
+void StoreIndex::stored(const JournalEntry& entry) {
+  const std::lock_guard lock(mutex_);
+  const auto found = records_.find(entry.hash);
+  if (found == records_.end() || found->second.pending == 0) return;
+  --found->second.pending;
+  found->second.entry.file_size = entry.file_size;
+  found->second.entry.file_time = entry.file_time;
+}
+
+void StoreIndex::dropped(const JournalEntry& entry) {
+  const std::lock_guard lock(mutex_);
+  const auto found = records_.find(entry.hash);
+  if (found == records_.end() || found->second.pending == 0) return;
+  if (--found->second.pending == 0 && found->second.entry.file_size == 0) records_.erase(found);
+}
+
+std::optional<std::string> StoreIndex::answer(const std::string& key) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = answers_.find(key);
+  if (found == answers_.end()) return {};
+  return std::string(found->second);
+}
+
+void StoreIndex::take_answer(const std::string& key, const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  const std::string_view stored = texts_.emplace_back(key + text);
+  answers_.insert_or_assign(stored.substr(0, key.size()), stored.substr(key.size()));
+}
+
+std::vector<AnswerLine> StoreIndex::answers() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<AnswerLine> lines;
+  lines.reserve(answers_.size());
+  for (const auto& [key, text] : answers_) lines.push_back({key, text});
+  return lines;
+}
+
+std::vector<std::string> StoreIndex::remarks() const {
+  const std::lock_guard lock(mutex_);
+  return remarks_;
+}
+
+void StoreIndex::remark(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  if (std::find(remarks_.begin(), remarks_.end(), text) == remarks_.end()) remarks_.push_back(text);
+}
+
+}  // namespace launchsafe::store

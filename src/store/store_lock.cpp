@@ -1,0 +1,106 @@
+#include "store_lock.hpp"
+
+#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/manifest.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+
+#include <cerrno>
+#include <csignal>
+#include <sstream>
+#include <vector>
+
+namespace launchsafe::store {
+namespace {
+
+/// "HOST process PID since TIME".
+std::string own_name() { return fmt::format("{} process {} since {}\n", host_name(), ::getpid(), utc_now()); }
+
+/// Whether an owner's text is left over from a process of this machine that has ended. A kill leaves it.
+bool has_ended(const std::string& owner) {
+  std::istringstream words(owner);
+  std::string host, word;
+  int process = 0;
+  if (!(words >> host >> word >> process)) return true;
+  return host == host_name() && process > 0 && ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+/// The living owner that a lock file names; empty when it names none.
+std::string owner_in(const std::filesystem::path& file) {
+  const Result<std::string> text = read_file(file);
+  if (!text || has_ended(*text)) return {};
+  return text->substr(0, text->find('\n'));
+}
+
+/// Who keeps us out of the lock file of this name, for the message: `lock` itself names only a whole study.
+std::string owners(const std::filesystem::path& folder, const std::string& wanted) {
+  std::vector<std::string> found;
+  std::error_code status;
+  for (const std::string& name : list_folder(folder, status)) {
+    if (name != wanted && !(wanted == "lock" && name.starts_with("lock."))) continue;
+    if (const std::string owner = owner_in(folder / name); !owner.empty()) found.push_back(owner);
+  }
+  return found.empty() ? "another process" : fmt::format("{}", fmt::join(found, " and "));
+}
+
+enum class Outcome { taken, held, unsupported, failed };
+
+/// One attempt; failed with errno set.
+Outcome try_lock(int file, int operation) {
+  while (::flock(file, operation | LOCK_NB) != 0) {
+    if (errno == EINTR) continue;
+    if (errno == EWOULDBLOCK) return Outcome::held;
+    const bool unsupported = errno == ENOLCK || errno == ENOTSUP || errno == EOPNOTSUPP || errno == ENOSYS;
+    return unsupported ? Outcome::unsupported : Outcome::failed;
+  }
+  return Outcome::taken;
+}
+
+Descriptor open_lock(const std::filesystem::path& file) {
+  return Descriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+}
+
+/// The text helps people alone, so a failure to write it is none of the lock.
+void name_owner(const Descriptor& file) {
+  if (::ftruncate(file.number(), 0) == 0) write_all(file.number(), own_name());
+}
+
+}  // namespace
+
+Result<StoreLock> StoreLock::take(const std::filesystem::path& folder, const std::string& part) {
+  StoreLock lock;
+  const auto acquire = [&](Descriptor& file, const std::string& name, int operation) -> MaybeError {
+    Descriptor opened = open_lock(folder / name);
+    if (!opened.is_open()) return write_error(folder / name, errno);
+    switch (try_lock(opened.number(), operation)) {
+      case Outcome::held:
+        return Error{Error::Kind::conflict,
+                     fmt::format("{} is in use by {}", folder.string(), owners(folder, name))};
+      case Outcome::failed:
+        return write_error(folder / name, errno);
+      case Outcome::unsupported:
+        lock.enforced_ = false;
+        break;
+      case Outcome::taken:
+        break;
+    }
+    file = std::move(opened);
+    return {};
+  };
+  if (const MaybeError error = acquire(lock.whole_, "lock", part.empty() ? LOCK_EX : LOCK_SH)) return *error;
+  if (!part.empty()) {
+    if (const MaybeError error = acquire(lock.part_, "lock." + part, LOCK_EX)) return *error;
+  }
+  name_owner(part.empty() ? lock.whole_ : lock.part_);
+  return lock;
+}
+
+StoreLock::~StoreLock() {
+  const Descriptor& named = part_.is_open() ? part_ : whole_;
+  // Emptied before it is released, so that the next owner's name is never wiped out.
+  if (named.is_open() && ::ftruncate(named.number(), 0) != 0) return;
+}
+
+}  // namespace launchsafe::store

@@ -1,0 +1,204 @@
+#include "answer_cases.hpp"
+
+#include "case_runs.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <iterator>
+#include <optional>
+#include <unordered_map>
+
+namespace launchsafe::study::detail {
+namespace {
+
+NeededRun needed_by(const StudyCase& input) { return {&input.scene.scene, input.label, std::nullopt}; }
+
+/// What of a study influences an answer, as text.
+std::string analysis_text(const Study& study) {
+  // Raised by hand when answers to the same question change.
+  constexpr int answer_version = 1;
+  std::string text =
+      fmt::format("# answer {}\n{} {} {} {} {} {} {}\n", answer_version, fmt::join(study.gaps, ","),
+                  study.tolerance, study.largest_gap, study.numerical_uncertainty, study.early_time,
+                  study.reference_line.slope, study.reference_line.intercept);
+  for (const Reference& row : study.references)
+    text += fmt::format("{} {} {}\n", row.gap, row.maximum_temperature, row.calibrated);
+  return text;
+}
+
+/// References are not stored: they are the study's.
+void attach_references(const StudyFile& study, const StudyCase& input, CaseAnswer& answer) {
+  if (!input.own_conditions) return;
+  for (GapVerdict& row : answer.verdicts) {
+    for (const Reference& reference : study.study.references) {
+      if (std::abs(reference.gap - row.gap) <= 1e-9) row.reference = reference;
+    }
+  }
+}
+
+/// The stored answer to a case, if it is there and fits the study.
+std::optional<CaseAnswer> stored_answer(const StudyFile& study, std::size_t index, const std::string& key,
+                                        const StudyOptions& options) {
+  if (options.store == nullptr) return std::nullopt;
+  const auto line = options.store->answer(key);
+  if (!line) return std::nullopt;
+  auto answer = answer_from_json(*line);
+  if (!answer || answer->verdicts.size() != study.study.gaps.size()) return std::nullopt;
+  attach_references(study, study.cases[index], *answer);
+  return answer;
+}
+
+class Answering {
+ public:
+  Answering(const StudyFile& study, const StudyOptions& options, Timing& timing)
+      : study_(study),
+        options_(options),
+        timing_(timing),
+        runs_(mechanical_runs(study, options.shard.count)),
+        keys_(answer_keys(study)),
+        answers_(study.cases.size()),
+        tracker_(options.progress) {}
+
+  std::vector<CaseAnswer> answer_all() {
+    fetch_stored();
+    run_missing();
+    for (std::size_t i = 0; i < answers_.size(); ++i) {
+      if (!answers_[i]) answers_[i] = failed_answer(study_.study, study_.cases[i], foreign_shard);
+    }
+    std::vector<CaseAnswer> result;
+    for (auto& answer : answers_) result.push_back(std::move(*answer));
+    return result;
+  }
+
+ private:
+  bool is_ours(const MechanicalRun& run) const { return run.shard == options_.shard.index; }
+
+  void fetch_stored() {
+    if (options_.store == nullptr) return;
+    tbb::parallel_for(std::size_t{0}, runs_.size(), [this](std::size_t i) {
+      const MechanicalRun& run = runs_[i];
+      // A damaged result is computed again, also where its answers are known.
+      if (!is_ours(run) || !options_.store->holds(run.hash)) return;
+      for (const std::size_t each : run.cases)
+        answers_[each] = stored_answer(study_, each, keys_[each], options_);
+    });
+  }
+
+  std::vector<std::size_t> open_cases(const MechanicalRun& run) const {
+    std::vector<std::size_t> open;
+    for (const std::size_t each : run.cases) {
+      if (!answers_[each]) open.push_back(each);
+    }
+    return open;
+  }
+
+  void run_missing() {
+    std::vector<Task> tasks;
+    std::vector<std::vector<std::size_t>> open;
+    for (const MechanicalRun& run : runs_) {
+      if (!is_ours(run)) continue;
+      open.push_back(open_cases(run));
+      if (open.back().empty()) {
+        open.pop_back();
+        ++timing_.reused;
+      }
+    }
+    std::vector<ObtainedRun> obtained(open.size());
+    for (std::size_t task = 0; task < open.size(); ++task) {
+      tasks.push_back(task_of(
+          needed_by(study_.cases[open[task].front()]), options_,
+          [&, task](const auto& report_share) { obtained[task] = answer_group(open[task], report_share); }));
+      tracker_.expect(1, tasks.back().cost);
+    }
+    const auto outcomes = run_tasks(tasks, resources_of(options_), tracker_, options_.stop);
+    for (std::size_t task = 0; task < tasks.size(); ++task) {
+      add_run(timing_, obtained[task].result.mechanics, obtained[task].reused, outcomes[task]);
+      if (outcomes[task].started && outcomes[task].failure.empty()) continue;
+      const std::string failure = failure_of({}, outcomes[task]);
+      for (const std::size_t each : open[task]) {
+        if (!answers_[each]) answers_[each] = failed_answer(study_.study, study_.cases[each], failure);
+      }
+    }
+  }
+
+  /// Runs the mechanics or takes them from the store, and draws the answers. What is returned is for the
+  /// account alone: its histories are gone.
+  ObtainedRun answer_group(const std::vector<std::size_t>& cases,
+                           const std::function<void(double)>& report_share) {
+    ObtainedRun run = obtain(needed_by(study_.cases[cases.front()]), options_, report_share);
+    run::MechanicsResult& mechanics = run.result.mechanics;
+    for (const std::size_t each : cases) {
+      if (stop_requested(options_)) throw std::runtime_error("interrupted before its gaps were judged");
+      const StudyCase& input = study_.cases[each];
+      CaseAnswer answer = was_cut_off(mechanics) ? cut_off_answer(input, mechanics)
+                                                 : answer_of(study_.study, input, mechanics);
+      if (!was_cut_off(mechanics) && options_.store != nullptr)
+        options_.store->save_answer(keys_[each], to_json_line(answer));
+      attach_references(study_, input, answer);
+      answers_[each] = std::move(answer);
+    }
+    mechanics.trace = {};
+    mechanics.monitor.clear();
+    return run;
+  }
+
+  /// How far a run came that was cut off depends on the machine, and is no part of the result.
+  static bool was_cut_off(const run::MechanicsResult& mechanics) {
+    return mechanics.status == run::RunStatus::interrupted || mechanics.status == run::RunStatus::timed_out;
+  }
+  CaseAnswer cut_off_answer(const StudyCase& input, const run::MechanicsResult& mechanics) const {
+    CaseAnswer answer = failed_answer(study_.study, input, failure_of(mechanics, {true, {}}));
+    answer.run.status = mechanics.status;
+    return answer;
+  }
+
+  const StudyFile& study_;
+  const StudyOptions& options_;
+  Timing& timing_;
+  std::vector<MechanicalRun> runs_;
+  std::vector<std::string> keys_;
+  std::vector<std::optional<CaseAnswer>> answers_;
+  ProgressTracker tracker_;
+};
+
+}  // namespace
+
+std::vector<MechanicalRun> mechanical_runs(const StudyFile& study, int shards) {
+  std::vector<std::string> hashes(study.cases.size());
+  tbb::parallel_for(std::size_t{0}, hashes.size(),
+                    [&](std::size_t i) { hashes[i] = identity_of(needed_by(study.cases[i])).hash(); });
+  std::vector<MechanicalRun> runs;
+  std::unordered_map<std::string, std::size_t> known;
+  for (std::size_t i = 0; i < hashes.size(); ++i) {
+    const auto [found, is_new] = known.try_emplace(hashes[i], runs.size());
+    if (is_new) runs.push_back({hashes[i], {}, cost_of(study.cases[i].scene.scene), 1});
+    runs[found->second].cases.push_back(i);
+  }
+  std::vector<double> costs;
+  for (const MechanicalRun& run : runs) costs.push_back(run.cost);
+  const std::vector<int> shard = shards_of(costs, shards);
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].shard = shard[i];
+  return runs;
+}
+
+std::vector<std::string> answer_keys(const StudyFile& study) {
+  const std::string analysis = analysis_text(study.study);
+  std::vector<std::string> keys(study.cases.size());
+  tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) {
+    const StudyCase& input = study.cases[i];
+    scene::Scene scene = input.scene.scene;
+    scene.title.clear();
+    scene.surface.gaps = {};
+    keys[i] = store::CaseIdentity(identity_of(needed_by(input)).hash() + analysis +
+                                  (input.own_conditions ? "own\n" : "other\n") + scene::to_toml(scene))
+                  .hash();
+  });
+  return keys;
+}
+
+std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing) {
+  return Answering(study, options, timing).answer_all();
+}
+
+}  // namespace launchsafe::study::detail

@@ -1,0 +1,70 @@
+#include "launchsafe/study/case_answer.hpp"
+
+#include "case_runs.hpp"
+#include "gap_analysis.hpp"
+
+#include <limits>
+
+namespace launchsafe::study {
+namespace {
+
+/// A skin that air and friction heat, and nothing else.
+surface::SkinModel inert(surface::SkinModel model) {
+  constexpr double never = std::numeric_limits<double>::max();
+  model.kinetics.frequency = 0.0;
+  model.kinetics.ignition_temperature = never;
+  model.kinetics.burnt_temperature = never;
+  return model;
+}
+
+double heated_temperature(const CaseOutcome& outcome, double gap) {
+  const trace::BottomTrace& trace = outcome.result.mechanics.trace;
+  const surface::SkinModel model = inert(surface::skin_model(outcome.input.scene.scene));
+  return surface::maximum_at_observation_points(surface::integrate_skin(model, trace, gap), trace)
+      .temperature;
+}
+
+CaseAnswer without_histories(CaseOutcome& outcome) {
+  CaseAnswer answer;
+  answer.failure = std::move(outcome.failure);
+  answer.critical = std::move(outcome.critical);
+  answer.critical_anywhere = std::move(outcome.critical_anywhere);
+  answer.verdicts = std::move(outcome.verdicts);
+  return answer;
+}
+
+}  // namespace
+
+CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::MechanicsResult& mechanics) {
+  CaseOutcome outcome;
+  outcome.input = input;
+  outcome.result.mechanics = mechanics;
+  outcome.failure = detail::failure_of(mechanics, {true, {}});
+  detail::find_critical_gaps(study, outcome);
+  detail::evaluate_gaps(study, outcome);
+  detail::apply_confirmations(study, outcome);
+  detail::conclude(study, outcome);
+  std::vector<double> heated;
+  for (const double gap : study.gaps) {
+    heated.push_back(outcome.completed() ? heated_temperature(outcome, gap) : not_a_number);
+  }
+  CaseAnswer answer = without_histories(outcome);
+  answer.heated_temperature = std::move(heated);
+  answer.run = {mechanics.status, mechanics.steps, mechanics.particles, run::largest_energy_drift(mechanics),
+                mechanics.limiters};
+  return answer;
+}
+
+CaseAnswer failed_answer(const Study& study, const StudyCase& input, std::string failure) {
+  CaseOutcome outcome;
+  outcome.input = input;
+  outcome.failure = std::move(failure);
+  detail::find_critical_gaps(study, outcome);
+  detail::evaluate_gaps(study, outcome);
+  detail::conclude(study, outcome);
+  CaseAnswer answer = without_histories(outcome);
+  answer.heated_temperature.assign(study.gaps.size(), not_a_number);
+  return answer;
+}
+
+}  // namespace launchsafe::study

@@ -1,0 +1,52 @@
+#include "changed_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace launchsafe::study::detail {
+
+void ChangedScene::apply(const Change& change) {
+  if (auto error = try_to(change)) {
+    waiting_.push_back({change, std::move(*error)});
+  } else if (!waiting_.empty()) {
+    retry();
+  }
+}
+
+std::optional<scene::InputError> ChangedScene::try_to(const Change& change) {
+  auto changed = scene::with_key(scene_, change.key, change.value, change.place);
+  if (!changed) return changed.error();
+  scene_ = std::move(*changed);
+  return std::nullopt;
+}
+
+void ChangedScene::retry() {
+  for (bool progress = true; progress && !waiting_.empty();) {
+    progress = false;
+    for (auto each = waiting_.begin(); each != waiting_.end();) {
+      if (auto error = try_to(each->change)) {
+        (each++)->error = std::move(*error);
+      } else {
+        each = waiting_.erase(each);
+        progress = true;
+      }
+    }
+  }
+}
+
+scene::InputError ChangedScene::error() const {
+  const auto& [change, reason] = waiting_.front();
+  scene::InputError error = reason;
+  if (reason.key != change.key) {
+    error.found = fmt::format("{}, with which {} is {}", change.text, reason.key, reason.found);
+    error.allowed = fmt::format("values with which {} is {}", reason.key, reason.allowed);
+  }
+  error.file = change.place.file;
+  error.line = change.place.line;
+  error.column = change.place.column;
+  error.key = change.study_key;
+  return error;
+}
+
+}  // namespace launchsafe::study::detail

@@ -1,0 +1,169 @@
+#include "launchsafe/study/foresight.hpp"
+
+#include "answer_cases.hpp"
+#include "case_runs.hpp"
+#include "launchsafe/scene/plan.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <map>
+#include <queue>
+#include <sstream>
+
+namespace launchsafe::study {
+namespace {
+
+using store::CaseState, store::JournalEntry;
+
+bool draws_answers(StudyKind kind) { return kind == StudyKind::sweep || kind == StudyKind::sensitivity; }
+
+/// The lines of one text that the other does not have, "key = value" each.
+std::vector<std::string> lines_only_in(const std::string& text, const std::string& other) {
+  std::map<std::string, int> counts;
+  std::istringstream others(other), own(text);
+  for (std::string line; std::getline(others, line);) ++counts[line];
+  std::vector<std::string> result;
+  for (std::string line; std::getline(own, line);) {
+    if (--counts[line] < 0) result.push_back(line);
+  }
+  return result;
+}
+
+/// What is different from a stored case of the same label.
+std::string difference(const std::string& input, const JournalEntry& before, store::CaseStore& store) {
+  const auto stored = store.input_of(before.hash);
+  if (!stored) return "never run here";
+  constexpr std::size_t most = 3;
+  std::vector<std::string> changed = lines_only_in(input, *stored);
+  const std::size_t count = changed.size();
+  changed.resize(std::min(count, most));
+  std::string text =
+      fmt::format("other input than the stored case {:.8}: now {}", before.hash, fmt::join(changed, "; "));
+  if (count > most) text += fmt::format("; and {} more", count - most);
+  return text;
+}
+
+/// Why runs have to run, from what the journal says.
+class Reasons {
+ public:
+  explicit Reasons(store::CaseStore* store) : store_(store) {
+    if (store_ == nullptr) return;
+    for (JournalEntry& entry : store_->entries()) {
+      if (entry.state == CaseState::done) by_label_.insert_or_assign(entry.label, std::move(entry));
+    }
+  }
+
+  std::string why_run(const std::string& hash, const StudyCase& input) const {
+    if (store_ == nullptr) return "nothing is stored";
+    if (const auto entry = store_->last_entry(hash)) return why_again(*entry);
+    const auto same_label = by_label_.find(input.label);
+    if (same_label == by_label_.end()) return "never run here";
+    const detail::NeededRun needed{&input.scene.scene, input.label, std::nullopt};
+    return difference(detail::identity_of(needed).input(), same_label->second, *store_);
+  }
+
+ private:
+  static std::string why_again(const JournalEntry& entry) {
+    switch (entry.state) {
+      case CaseState::done:
+        return "its file is gone, or was damaged and set aside";
+      case CaseState::failed:
+        return "failed before: " + entry.reason;
+      case CaseState::timed_out:
+        return "timed out before: " + entry.reason;
+      case CaseState::interrupted:
+        return "interrupted before: " + entry.reason;
+    }
+    return {};
+  }
+
+  store::CaseStore* store_;
+  std::map<std::string, JournalEntry> by_label_;
+};
+
+/// Particle updates per second that the journal's runs came to.
+void learn_rate(Foresight& foresight, const StudyOptions& options) {
+  if (options.store == nullptr) return;
+  double updates = 0, seconds = 0;
+  std::size_t runs = 0;
+  for (const JournalEntry& entry : options.store->entries()) {
+    if (entry.state != CaseState::done || !(entry.wall_time > 0)) continue;
+    updates += entry.predicted_updates;
+    seconds += entry.wall_time;
+    ++runs;
+  }
+  if (runs == 0 || !(updates > 0)) return;
+  foresight.update_rate = updates / seconds;
+  foresight.learned_from = runs;
+}
+
+/// Wall time of runs on several cores, the longest first.
+double time_on(std::vector<double> times, int jobs) {
+  std::sort(times.rbegin(), times.rend());
+  std::priority_queue<double, std::vector<double>, std::greater<>> ends;
+  for (int core = 0; core < jobs; ++core) ends.push(0.0);
+  double last = 0;
+  for (const double time : times) {
+    const double end = ends.top() + time;
+    ends.pop();
+    ends.push(end);
+    last = std::max(last, end);
+  }
+  return last;
+}
+
+}  // namespace
+
+Foresight foresee(const StudyFile& study, const StudyOptions& options, double update_rate) {
+  Foresight foresight;
+  foresight.update_rate = update_rate;
+  learn_rate(foresight, options);
+  const Reasons reasons(options.store);
+  const bool drawn = options.store != nullptr && draws_answers(study.study.kind);
+  const std::vector<std::string> keys = drawn ? detail::answer_keys(study) : std::vector<std::string>{};
+  std::vector<detail::MechanicalRun> ours = detail::mechanical_runs(study, options.shard.count);
+  std::erase_if(ours, [&](const auto& each) { return each.shard != options.shard.index; });
+  foresight.runs.resize(ours.size());
+  tbb::parallel_for(std::size_t{0}, ours.size(), [&](std::size_t i) {
+    ForeseenRun& run = foresight.runs[i];
+    const StudyCase& input = study.cases[ours[i].cases.front()];
+    const scene::Plan plan = scene::make_plan(input.scene.scene);
+    run.label = input.label;
+    run.hash = ours[i].hash;
+    run.cases = ours[i].cases.size();
+    run.particles = plan.particles();
+    run.steps = plan.steps;
+    run.memory = detail::memory_of(input.scene.scene);
+    run.shard = ours[i].shard;
+    run.stored = options.store != nullptr && options.store->holds(run.hash);
+    run.answered = run.stored && std::all_of(ours[i].cases.begin(), ours[i].cases.end(), [&](std::size_t at) {
+                     return !drawn || options.store->answer(keys[at]).has_value();
+                   });
+    if (run.stored) {
+      run.why = run.answered ? "stored" : "stored; its gaps are judged anew";
+    } else {
+      run.why = reasons.why_run(run.hash, input);
+      const auto entry = options.store ? options.store->last_entry(run.hash) : std::nullopt;
+      run.given_up = entry && entry->state == CaseState::timed_out;
+      run.time = ours[i].cost / foresight.update_rate;
+    }
+  });
+  std::vector<double> times, memories;
+  for (const ForeseenRun& run : foresight.runs) {
+    if (run.stored) continue;
+    times.push_back(run.time);
+    memories.push_back(run.memory);
+  }
+  foresight.jobs = std::max(1, std::min(detail::jobs_of(options), static_cast<int>(foresight.runs.size())));
+  if (study.study.kind == StudyKind::critical_gap && study.study.confirm)
+    foresight.confirmations = 2 * foresight.runs.size();
+  foresight.time = time_on(times, foresight.jobs);
+  std::sort(memories.rbegin(), memories.rend());
+  memories.resize(std::min<std::size_t>(memories.size(), static_cast<std::size_t>(foresight.jobs)));
+  for (const double memory : memories) foresight.memory += memory;
+  return foresight;
+}
+
+}  // namespace launchsafe::study

@@ -1,0 +1,134 @@
+#include "launchsafe/study/sensitivity.hpp"
+
+#include "answer_cases.hpp"
+#include "case_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+namespace launchsafe::study {
+
+std::string to_string(SensitivityMethod method) {
+  return method == SensitivityMethod::sobol ? "sobol" : "morris";
+}
+
+std::string to_string(SensitivityOutput output) {
+  switch (output) {
+    case SensitivityOutput::maximum_temperature:
+      return "T_max";
+    case SensitivityOutput::critical_gap:
+      return "critical_gap";
+    case SensitivityOutput::margin:
+      return "margin";
+  }
+  return "";
+}
+
+bool SensitivityResult::any_failed() const {
+  return std::any_of(answers.begin(), answers.end(), [](const auto& each) { return !each.completed(); });
+}
+
+bool SensitivityResult::any_indeterminate() const {
+  return std::any_of(outputs.begin(), outputs.end(), [](const auto& each) { return !each.reason.empty(); });
+}
+
+namespace {
+
+double value_of(SensitivityOutput output, const CaseAnswer& answer, const StudyCase& input) {
+  if (!answer.completed()) return not_a_number;
+  const double heated = answer.heated_temperature.front();
+  switch (output) {
+    case SensitivityOutput::maximum_temperature:
+      return heated;
+    case SensitivityOutput::critical_gap:
+      return answer.critical.value;
+    case SensitivityOutput::margin:
+      return input.scene.scene.charge.kinetics.ignition_temperature - heated;
+  }
+  return not_a_number;
+}
+
+bool is_bound(const CaseAnswer& answer) {
+  return answer.critical.kind == CriticalGapKind::all_safe ||
+         answer.critical.kind == CriticalGapKind::all_ignite;
+}
+
+/// Whether an evaluation is a random sample of the inputs, rather than one made for differences: the blocks A
+/// and B of a Saltelli design, and every point of a Morris design.
+bool samples_inputs(const Study& study, std::size_t evaluation) {
+  return study.method == SensitivityMethod::morris || evaluation % (study.inputs.size() + 2) < 2;
+}
+
+void summarise(const Study& study, OutputSensitivity& output) {
+  std::vector<double> sample;
+  for (std::size_t i = 0; i < output.values.size(); ++i) {
+    if (samples_inputs(study, i) && std::isfinite(output.values[i])) sample.push_back(output.values[i]);
+  }
+  if (sample.size() < 2) return;
+  const auto count = static_cast<double>(sample.size());
+  output.mean = std::accumulate(sample.begin(), sample.end(), 0.0) / count;
+  double squares = 0;
+  for (const double value : sample) squares += (value - output.mean) * (value - output.mean);
+  output.deviation = std::sqrt(squares / (count - 1.0));
+}
+
+void estimate(const Study& study, OutputSensitivity& output) {
+  const auto resamples = static_cast<std::size_t>(study.resamples);
+  if (study.method == SensitivityMethod::morris) {
+    const auto design =
+        math::morris_design(static_cast<std::size_t>(study.trajectories),
+                            static_cast<std::size_t>(study.levels), study.inputs.size(), study.seed);
+    output.morris = math::morris_effects(design, output.values, {study.confidence, resamples, study.seed});
+    return;
+  }
+  math::SobolOptions options;
+  options.level = study.confidence;
+  options.resamples = resamples;
+  options.seed = study.seed;
+  output.sobol = math::sobol_indices(study.inputs.size(), output.values, options);
+  output.reason = output.sobol.reason;
+}
+
+OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOutput which) {
+  OutputSensitivity output;
+  output.output = which;
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const CaseAnswer& answer = result.answers[i];
+    output.values.push_back(value_of(which, answer, result.study.cases[i]));
+    if (std::isfinite(output.values.back())) continue;
+    ++output.missing;
+    if (which == SensitivityOutput::critical_gap && is_bound(answer)) ++output.bounds;
+  }
+  summarise(result.study.study, output);
+  if (output.bounds > 0) {
+    output.reason =
+        fmt::format("{} of {} critical gaps are bounds, not numbers", output.bounds, output.values.size());
+  } else {
+    estimate(result.study.study, output);
+  }
+  return output;
+}
+
+}  // namespace
+
+SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  SensitivityResult result;
+  result.study = study;
+  result.timing.jobs = detail::jobs_of(options);
+  result.answers = detail::answer_cases(study, options, result.timing);
+  result.interrupted = detail::stop_requested(options);
+  if (!result.interrupted) {
+    for (const auto output :
+         {SensitivityOutput::maximum_temperature, SensitivityOutput::critical_gap, SensitivityOutput::margin})
+      result.outputs.push_back(sensitivity_of(result, output));
+  }
+  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace launchsafe::study

@@ -1,0 +1,217 @@
+#include "study_axes.hpp"
+
+#include "launchsafe/scene/scene_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace launchsafe::study::detail {
+namespace {
+
+using scene::InputError, scene::KeyDescription, scene::KeyKind, scene::Place;
+
+/// What a key takes, for a message.
+std::string_view kind_text(KeyKind kind) {
+  switch (kind) {
+    case KeyKind::flag:
+      return "true or false";
+    case KeyKind::word:
+      return "a word";
+    case KeyKind::text:
+      return "a text";
+    case KeyKind::list:
+      return "a list";
+    case KeyKind::range:
+      return "a range";
+    case KeyKind::number:
+      break;
+  }
+  return "a number";
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// The fault of a name that no scene key and no short name has, or of a scene key that takes no number.
+InputError unfit_key(const StudyFile& study, const std::string& name, const std::string& faulty_key,
+                     const Place& place, const std::vector<std::string>& short_names) {
+  const auto any = scene::describe_key(study.scene, name, place);
+  if (any) {
+    return scene::error_at(place, faulty_key, fmt::format("{}, which takes {}", name, kind_text(any->kind)),
+                           "a scene key that takes one number, or " + joined(short_names));
+  }
+  std::vector<std::string> known = short_names;
+  for (const auto& key : scene::scene_keys()) {
+    if (key.kind == KeyKind::number) known.push_back(key.name);
+  }
+  const InputError unknown = scene::unknown_key(place, name, known);
+  const std::string allowed =
+      unknown.allowed.starts_with("in [")
+          ? unknown.allowed
+          : joined(short_names) + ", or a scene key that takes one number, such as load.exponent";
+  return scene::error_at(place, faulty_key, fmt::format("the unknown key \"{}\"", name), allowed,
+                         unknown.suggestion);
+}
+
+/// A key of [axes] by its dotted name.
+struct Leaf {
+  std::string name;
+  const toml::node* node = nullptr;
+};
+
+void collect_leaves(const toml::table& table, const std::string& prefix, std::vector<Leaf>& leaves) {
+  for (const auto& [key, node] : table) {
+    const std::string name = prefix + std::string(key.str());
+    const toml::table* inner = node.as_table();
+    if (inner) {
+      collect_leaves(*inner, name + ".", leaves);
+    } else {
+      leaves.push_back({name, &node});
+    }
+  }
+}
+
+/// toml++ sorts a table by key; people mean the order in which they wrote.
+std::vector<Leaf> leaves_as_written(const toml::table& table) {
+  std::vector<Leaf> leaves;
+  collect_leaves(table, "", leaves);
+  std::stable_sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
+    const auto &first = a.node->source().begin, &second = b.node->source().begin;
+    return std::pair(first.line, first.column) < std::pair(second.line, second.column);
+  });
+  return leaves;
+}
+
+Fault read_gap_axis(const toml::node& node, StudyFile& study) {
+  const std::string key = "axes." + std::string(gap_axis);
+  KeyDescription description = *scene::find_key(scene::scene_keys(), "gap.thickness");
+  description.name = key;
+  const auto value = scene::read_value(node, description, study.file);
+  if (!value) return value.error();
+  study.study.gaps = std::get<std::vector<double>>(*value);
+  return check_twice(study, key, description.dimension, study.study.gaps);
+}
+
+/// A scene key that varies and also stands in [set], or that varies twice.
+Fault check_conflicts(const StudyFile& study, const std::string& key, const Axis& axis) {
+  if (study.overrides.contains(axis.key.name)) {
+    return fault_at(study, key, axis.key.name + ", which [set] fixes",
+                    fmt::format("{} either in [axes] or in [set]", axis.key.name));
+  }
+  for (const Axis& other : study.study.axes) {
+    if (other.key.name != axis.key.name) continue;
+    return fault_at(study, key, fmt::format("{} a second time, after {}", axis.key.name, other.name),
+                    "each scene key once");
+  }
+  return std::nullopt;
+}
+
+Fault read_axis(const Leaf& leaf, StudyFile& study) {
+  const Place place = scene::place_of(*leaf.node, study.file);
+  const std::string key = "axes." + leaf.name;
+  study.places[key] = place;
+  if (leaf.name == gap_axis) return read_gap_axis(*leaf.node, study);
+  if (leaf.name == "gap.thickness") {
+    return fault_at(study, key, "gap.thickness as an axis", "gap, which all gaps of one mechanical run share",
+                    std::string(gap_axis));
+  }
+  const auto description = varied_key(study, leaf.name, key, place, {std::string(gap_axis)});
+  if (!description) return description.error();
+  Axis axis{leaf.name, *description, {}};
+  if (Fault fault = check_conflicts(study, key, axis)) return fault;
+  KeyDescription as_written = *description;
+  as_written.name = key;
+  const auto values = scene::read_values(*leaf.node, as_written, study.file);
+  if (!values) return values.error();
+  for (const scene::Value& value : *values) axis.values.push_back(std::get<double>(value));
+  if (Fault fault = check_twice(study, key, axis.key.dimension, axis.values)) return fault;
+  study.study.axes.push_back(std::move(axis));
+  return std::nullopt;
+}
+
+/// The peak matters under a measured curve that is rescaled to it; the other numbers of the analytic shape
+/// never do.
+Fault check_load_axis(const StudyFile& study, const std::string& key, const std::string& scene_key) {
+  const scene::Load& load = study.scene.scene.load;
+  if (load.curve_time.empty()) return std::nullopt;
+  if (scene_key == "load.peak" && !load.rescale_to_peak) {
+    return fault_at(study, key, "peak pressures for a measured curve that is not rescaled",
+                    "peak pressures with load.rescale_to_peak = true in the scene");
+  }
+  constexpr std::array<std::string_view, 3> of_the_shape{"load.base", "load.peak_time", "load.exponent"};
+  if (std::find(of_the_shape.begin(), of_the_shape.end(), scene_key) == of_the_shape.end())
+    return std::nullopt;
+  return fault_at(study, key, scene_key + ", which a measured curve does not have",
+                  "a scene without a measured curve, or a key that has an effect");
+}
+
+}  // namespace
+
+const std::vector<NamedAxis>& named_axes() {
+  static const std::vector<NamedAxis> axes{{"peak_pressure", "load.peak"},
+                                           {"crack_radius", "charge.crack_radius"},
+                                           {"flaw_size", "charge.flaw_size"}};
+  return axes;
+}
+
+scene::Expected<KeyDescription> varied_key(const StudyFile& study, const std::string& name,
+                                           const std::string& faulty_key, const Place& place,
+                                           std::vector<std::string> other_names) {
+  const auto named = std::find_if(named_axes().begin(), named_axes().end(),
+                                  [&](const NamedAxis& axis) { return axis.name == name; });
+  const std::string& wanted = named == named_axes().end() ? name : named->key;
+  const auto* key = scene::find_key(scene::scene_keys(), wanted);
+  if (!key || key->kind != KeyKind::number) {
+    for (const NamedAxis& axis : named_axes()) other_names.push_back(axis.name);
+    return unfit_key(study, name, faulty_key, place, other_names);
+  }
+  return static_cast<const KeyDescription&>(*key);
+}
+
+double number_in(const scene::Scene& scene, const std::string& key) {
+  return std::get<double>(scene::find_key(scene::scene_keys(), key)->get(scene));
+}
+
+Fault read_axes(const toml::table& root, StudyFile& study) {
+  const toml::node* node = root.get("axes");
+  if (!node) return std::nullopt;
+  const toml::table* table = node->as_table();
+  if (!table) {
+    return scene::error_at(scene::place_of(*node, study.file), "axes", scene::found_text(*node),
+                           "a table, written [axes], of what varies");
+  }
+  for (const Leaf& leaf : leaves_as_written(*table)) {
+    if (Fault fault = read_axis(leaf, study)) return fault;
+  }
+  return std::nullopt;
+}
+
+Fault check_load_axes(const StudyFile& study) {
+  for (const Axis& axis : study.study.axes) {
+    if (Fault fault = check_load_axis(study, "axes." + axis.name, axis.key.name)) return fault;
+  }
+  for (std::size_t i = 0; i < study.study.inputs.size(); ++i) {
+    Fault fault = check_load_axis(study, fmt::format("input.{}.key", i), study.study.inputs[i].key.name);
+    if (!fault) continue;
+    fault->key = "input.key";
+    return fault;
+  }
+  return std::nullopt;
+}
+
+Fault check_twice(const StudyFile& study, const std::string& key, scene::Dimension dimension,
+                  std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto twice = std::adjacent_find(values.begin(), values.end(), [](double a, double b) {
+    return b - a <= 1e-9 * std::max(std::abs(b), 1e-6);
+  });
+  if (twice == values.end()) return std::nullopt;
+  return fault_at(study, key, scene::format_quantity(*twice, dimension) + " twice", "each value once");
+}
+
+}  // namespace launchsafe::study::detail

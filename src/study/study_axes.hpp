@@ -1,0 +1,44 @@
+// The scene keys that a study varies: [axes] of a sweep and [[input]] of a sensitivity study.
+#pragma once
+
+#include "study_faults.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace launchsafe::study::detail {
+
+/// The key of a sweep that stands for the gaps, which share a mechanical run.
+inline constexpr std::string_view gap_axis = "gap";
+
+/// Short names of scene keys that studies vary most, and the scene keys.
+struct NamedAxis {
+  std::string name;
+  std::string key;
+};
+const std::vector<NamedAxis>& named_axes();
+
+/// The scene key behind a short or full name: one that takes one number. Faults name `faulty_key` and, beside
+/// the short names, `other_names`.
+scene::Expected<scene::KeyDescription> varied_key(const StudyFile& study, const std::string& name,
+                                                  const std::string& faulty_key, const scene::Place& place,
+                                                  std::vector<std::string> other_names = {});
+
+/// The value of a scene key that takes one number, SI.
+double number_in(const scene::Scene& scene, const std::string& key);
+
+/// Reads [axes] into Study::axes and Study::gaps. Needs the study's scene and overrides.
+Fault read_axes(const toml::table& root, StudyFile& study);
+
+/// Reads [[input]] into Study::inputs. Needs the study's scene and overrides.
+Fault read_inputs(const toml::table& root, StudyFile& study);
+
+/// Axes and inputs that cannot have an effect: those of the analytic load under a measured curve.
+Fault check_load_axes(const StudyFile& study);
+
+/// A fault where a value (SI) stands twice, but for round-off.
+Fault check_twice(const StudyFile& study, const std::string& key, scene::Dimension dimension,
+                  std::vector<double> values);
+
+}  // namespace launchsafe::study::detail

@@ -1,0 +1,82 @@
+// A case that fails is its row: the others are not affected, and what would fail again is not tried again.
+#include "stored_study.hpp"
+
+namespace launchsafe::app {
+namespace {
+
+class FailingCase : public StoredStudy {
+ protected:
+  void write_study(const std::string& axes) const {
+    write("study.toml", "kind = \"sweep\"\nscene = \"shell.toml\"\nearly_time = \"0.03 ms\"\n[axes]\n" +
+                            axes + "\ngap = \"0, 0.01 cm\"\n");
+  }
+  /// The study's cases by what is printed as JSON.
+  nlohmann::json cases_of(const Outcome& outcome) const {
+    return nlohmann::json::parse(outcome.out)["cases"];
+  }
+};
+
+TEST_F(FailingCase, ADriftOfEnergyIsItsRowAndIsNotComputedAgain) {
+  write_study("peak_pressure = \"50, 60 MPa\"\n\"numerics.energy_drift_limit\" = [1e-6, 0.5]");
+  const Outcome first = run({"study", "study.toml", "-o", "out", "--json"});
+  EXPECT_EQ(first.code, 3);
+  EXPECT_TRUE(first.says("peak_pressure 50 MPa, numerics.energy_drift_limit 1e-06: energy drift: "))
+      << first.err;
+  const auto cases = cases_of(first);
+  ASSERT_EQ(cases.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::string text = cases[i].dump();
+    EXPECT_EQ(text.find("energy drift: ") != std::string::npos, i % 2 == 0) << text;
+    EXPECT_EQ(text.find("\"SAFE\"") == std::string::npos, i % 2 == 0) << text;
+    EXPECT_EQ(text.find("\"INDETERMINATE\"") != std::string::npos, i % 2 == 0) << text;
+  }
+  const Outcome again = run({"study", "study.toml", "-o", "out", "--json"});
+  EXPECT_EQ(again.code, 3);
+  EXPECT_TRUE(again.says("re-used 4 mechanical runs, ran 0")) << again.err;
+  EXPECT_TRUE(again.says("energy drift: ")) << again.err;
+  EXPECT_EQ(again.out, first.out);
+}
+
+TEST_F(FailingCase, ARunawayIsGivenUpAndTriedAgainWithMoreTimeOnly) {
+  write_study("\"load.duration\" = \"0.05, 100 ms\"");
+  const Outcome first = run({"study", "study.toml", "-o", "out", "--time-limit", "200ms"});
+  EXPECT_EQ(first.code, 3);
+  EXPECT_TRUE(first.says("load.duration 100 ms: timed out")) << first.err;
+  EXPECT_FALSE(first.says("load.duration 50 us: ")) << first.err;
+  EXPECT_EQ(done_cases("out").size(), 1u);
+  const Outcome again = run({"study", "study.toml", "-o", "out", "--time-limit", "200ms"});
+  EXPECT_EQ(again.code, 3);
+  EXPECT_TRUE(again.says("ran 0")) << again.err;
+  EXPECT_TRUE(again.says("load.duration 100 ms: timed out")) << again.err;
+  // A shard that gave a case up has a row for it too.
+  EXPECT_EQ(run({"study", "study.toml", "-o", "shard-1", "--time-limit", "200ms", "--shard", "1/2"}).code, 3);
+  EXPECT_EQ(run({"study", "study.toml", "-o", "shard-2", "--time-limit", "200ms", "--shard", "2/2"}).code, 0);
+  EXPECT_EQ(run({"merge", "study.toml", "-o", "merged", "shard-1", "shard-2"}).code, 3);
+  expect_same_results("out", "merged");
+  const Outcome longer = run({"study", "study.toml", "-o", "out", "--time-limit", "5min"});
+  EXPECT_TRUE(longer.says("re-used 1 mechanical run, ran 1 ")) << longer.err;
+  EXPECT_EQ(done_cases("out").size(), 2u);
+}
+
+TEST_F(FailingCase, OneThatNeedsTooMuchMemoryFailsRatherThanSwaps) {
+  write("shell.toml", long_scene());
+  write_study("peak_pressure = \"50, 60 MPa\"");
+  const Outcome outcome = run({"study", "study.toml", "-o", "out", "--memory", "1MB"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_TRUE(outcome.says("memory")) << outcome.err;
+  EXPECT_TRUE(outcome.says("peak_pressure 60 MPa: ")) << outcome.err;
+  EXPECT_LT(outcome.seconds, 10.0);
+}
+
+TEST_F(FailingCase, TwentyAreNamedAndTheRestCounted) {
+  std::string pressures = "50";
+  for (int i = 51; i < 75; ++i) pressures += ", " + std::to_string(i);
+  write_study("peak_pressure = \"" + pressures + " MPa\"");
+  const Outcome outcome = run({"study", "study.toml", "-o", "out", "--memory", "1B", "--quiet"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_EQ(outcome.lines_of_error(), 21) << outcome.err;
+  EXPECT_TRUE(outcome.says("and 5 more cases failed")) << outcome.err;
+}
+
+}  // namespace
+}  // namespace launchsafe::app

@@ -1,0 +1,101 @@
+// A study that is killed at any instant goes on where it was, and comes to the same.
+#include "stored_study.hpp"
+
+#include <algorithm>
+#include <random>
+
+namespace launchsafe::app {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+class KilledStudy : public StoredStudy {
+ protected:
+  void SetUp() override {
+    StoredStudy::SetUp();
+    write("shell.toml", brief_scene());
+  }
+
+  std::vector<std::string> command(const std::string& output) const {
+    return {"study", "study.toml", "-o", output, "--jobs", "2"};
+  }
+
+  /// Whether the study was killed rather than complete before.
+  bool kill_after(double seconds) {
+    start(command("out"));
+    std::this_thread::sleep_for(Seconds(seconds));
+    send(SIGKILL);
+    const Outcome outcome = wait();
+    EXPECT_TRUE(outcome.code == -1 || outcome.code == 0) << outcome.err;
+    return outcome.code == -1;
+  }
+
+  /// No file is half there, no case that was done is lost or was computed twice.
+  void expect_sound(std::set<std::string>& done_before) {
+    std::set<std::string> files;
+    for (const auto& path : whole_cases("out")) files.insert(path.stem());
+    std::set<std::string> done;
+    for (const auto& [hash, times] : done_cases("out")) {
+      EXPECT_EQ(times, 1) << hash;
+      EXPECT_TRUE(files.contains(hash)) << hash;
+      done.insert(hash);
+    }
+    EXPECT_TRUE(std::includes(done.begin(), done.end(), done_before.begin(), done_before.end()));
+    done_before = done;
+  }
+
+  std::mt19937 random_{20261121};
+};
+
+TEST_F(KilledStudy, TwentyTimesAndMoreComesToTheSameAsOneThatWasLeftAlone) {
+  constexpr int least_kills = 20;
+  constexpr std::size_t cases = 12;
+  const Outcome undisturbed = run(command("alone"));
+  ASSERT_EQ(undisturbed.code, 0) << undisturbed.err;
+  const double time_of_a_case = undisturbed.seconds * 2 / cases;
+  std::uniform_real_distribution<double> share(0.0, 1.5);
+  std::set<std::string> done;
+  bool was_half_done = false, is_complete = false;
+  std::string progress;  // cases done after every kill, for people
+  for (int kills = 0; kills < least_kills || !is_complete;) {
+    if (is_complete) {
+      std::filesystem::remove_all(folder() / "out");
+      done.clear();
+    }
+    // More patience with time, so that the end is reached on a busy machine too.
+    const double patience = 1.0 + 0.1 * std::max(0, kills - least_kills);
+    is_complete = !kill_after(patience * share(random_) * time_of_a_case);
+    if (exists("out")) expect_sound(done);
+    if (is_complete) expect_same_results("alone", "out");
+    if (HasFailure()) return;
+    kills += is_complete ? 0 : 1;
+    was_half_done = was_half_done || (!done.empty() && done.size() < cases);
+    progress += std::to_string(done.size()) + " ";
+  }
+  RecordProperty("cases_done", progress);
+  EXPECT_TRUE(was_half_done);
+  EXPECT_EQ(done.size(), cases);
+}
+
+TEST_F(KilledStudy, WhileItsReportIsWrittenHasWholeFilesOnly) {
+  write("shell.toml", tiny_scene);
+  ASSERT_EQ(run(command("alone")).code, 0);
+  ASSERT_EQ(run(command("out")).code, 0);
+  std::filesystem::remove(folder() / "out/report.md");
+  const double seconds = run(command("out")).seconds;
+  std::uniform_real_distribution<double> delay(0.0, 1.2 * seconds);
+  const auto expected = results_in("alone");
+  for (int attempt = 0; attempt < 10; ++attempt) {
+    std::filesystem::remove(folder() / "out/report.md");
+    kill_after(delay(random_));
+    for (const auto& [name, bytes] : results_in("out")) {
+      if (name.front() == '.') continue;
+      EXPECT_TRUE(expected.contains(name) && expected.at(name) == bytes) << name;
+    }
+  }
+  EXPECT_EQ(run(command("out")).code, 0);
+  expect_same_results("alone", "out");
+}
+
+}  // namespace
+}  // namespace launchsafe::app

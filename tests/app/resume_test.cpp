@@ -1,0 +1,140 @@
+// A study that was stopped, or met a full disk, a second process or a damaged file, goes on with what it has.
+#include "stored_study.hpp"
+
+#include <sys/mount.h>
+#include <sys/resource.h>
+
+namespace launchsafe::app {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::vector<std::string> study_into_out{"study", "study.toml", "-o", "out", "--jobs", "2"};
+const std::vector<std::string> study_alone{"study", "study.toml", "-o", "alone", "--jobs", "2"};
+
+class ResumedStudy : public StoredStudy {};
+
+TEST_F(ResumedStudy, AFinishedOneIsNotWrittenAgain) {
+  ASSERT_EQ(run(study_into_out).code, 0);
+  const auto before = std::filesystem::last_write_time(folder() / "out/report.md");
+  const std::string manifest = read("out/manifest.json");
+  const Outcome again = run(study_into_out);
+  EXPECT_EQ(again.code, 0);
+  EXPECT_TRUE(again.says("re-used 12 mechanical runs, ran 0")) << again.err;
+  EXPECT_EQ(std::filesystem::last_write_time(folder() / "out/report.md"), before);
+  EXPECT_EQ(read("out/manifest.json"), manifest);
+}
+
+TEST_F(ResumedStudy, AReportThatWasTouchedIsWrittenAgain) {
+  ASSERT_EQ(run(study_into_out).code, 0);
+  const std::string page = read("out/report.md");
+  write("out/report.md", "mine");
+  std::filesystem::remove(folder() / "out/verdicts.csv");
+  EXPECT_EQ(run(study_into_out).code, 0);
+  EXPECT_EQ(read("out/report.md"), page);
+  EXPECT_TRUE(exists("out/verdicts.csv"));
+}
+
+class StoppedStudy : public StoredStudy, public ::testing::WithParamInterface<int> {};
+
+TEST_P(StoppedStudy, NamesTheCommandThatCompletesIt) {
+  write("shell.toml", brief_scene());
+  write("the study's.toml", sweep_study);
+  const std::string output = "an output";
+  start({"study", "the study's.toml", "-o", output, "--jobs", "2", "--memory=500MB", "--time-limit", "2min"});
+  wait_for_a_case(output);
+  const auto begin = std::chrono::steady_clock::now();
+  send(GetParam());
+  const Outcome stopped = wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 2s);
+  EXPECT_EQ(stopped.code, 75) << stopped.err;
+  EXPECT_TRUE(stopped.out.empty());
+  EXPECT_TRUE(stopped.says(" of 12 mechanical runs are kept in an output; to go on: ")) << stopped.err;
+  const std::string mark = "to go on: ";
+  const std::size_t at = stopped.err.find(mark);
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t done = done_cases(output).size();
+  const Outcome completed = run_in_shell(stopped.err.substr(at + mark.size()));
+  EXPECT_EQ(completed.code, 0) << completed.err;
+  EXPECT_TRUE(completed.says("re-used " + std::to_string(done))) << completed.err;
+  ASSERT_EQ(run({"study", "the study's.toml", "-o", "alone"}).code, 0);
+  expect_same_results("alone", output);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, StoppedStudy, ::testing::Values(SIGINT, SIGTERM),
+                         [](const auto& test) { return test.param == SIGINT ? "Interrupt" : "Terminate"; });
+
+class FullDisk : public StoredStudy {
+ protected:
+  /// The study ends with one message, and goes on where it was once there is space.
+  void expect_end_and_resumption(const std::string& output, const std::function<void()>& make_space) {
+    const std::vector<std::string> command{"study", "study.toml", "-o", output, "--jobs", "2"};
+    const Outcome full = run(command);
+    EXPECT_EQ(full.code, 70) << full.err;
+    EXPECT_EQ(full.lines_of_error(), 1) << full.err;
+    EXPECT_TRUE(full.out.empty());
+    EXPECT_FALSE(exists(output + "/report.md"));
+    const std::size_t kept = whole_cases(output).size();
+    EXPECT_LT(kept, 12u);
+    make_space();
+    const Outcome completed = run(command);
+    EXPECT_EQ(completed.code, 0) << completed.err;
+    EXPECT_TRUE(completed.says("re-used " + std::to_string(kept) + " mechanical run")) << completed.err;
+    ASSERT_EQ(run(study_alone).code, 0);
+    expect_same_results("alone", output);
+  }
+};
+
+TEST_F(FullDisk, AFileThatMayNotGrowEndsTheStudy) {
+  before_start([] {
+    constexpr rlimit small{20'000, 20'000};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+  });
+  expect_end_and_resumption("out", [this] { before_start({}); });
+}
+
+TEST_F(FullDisk, ADiskWithoutSpaceEndsTheStudy) {
+  const std::filesystem::path disk = folder() / "disk";
+  std::filesystem::create_directory(disk);
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=400k") != 0)
+    GTEST_SKIP() << "no file system of our own";
+  expect_end_and_resumption(
+      "disk/out", [&] { ASSERT_EQ(::mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT, "size=40m"), 0); });
+  EXPECT_EQ(::umount2(disk.c_str(), MNT_DETACH), 0);
+}
+
+TEST_F(ResumedStudy, ASecondProcessIsRefusedAndToldWhoIsAtWork) {
+  write("shell.toml", brief_scene());
+  start(study_into_out);
+  wait_for_a_case("out");
+  const Outcome second = run_beside(study_into_out);
+  EXPECT_EQ(second.code, 2) << second.err;
+  EXPECT_EQ(second.lines_of_error(), 1) << second.err;
+  EXPECT_TRUE(second.says("process " + std::to_string(child()) + " ")) << second.err;
+  EXPECT_EQ(wait().code, 0);
+  EXPECT_EQ(done_cases("out").size(), 12u);
+}
+
+TEST_F(ResumedStudy, DamagedCasesAreSetAsideAndComputedAgain) {
+  ASSERT_EQ(run(study_alone).code, 0);
+  ASSERT_EQ(run(study_into_out).code, 0);
+  const auto cases = whole_cases("out");
+  ASSERT_EQ(cases.size(), 12u);
+  std::filesystem::resize_file(cases[2], 10'000);
+  {
+    std::fstream file(cases[7], std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(20'000);
+    file.put('?');
+  }
+  const Outcome again = run(study_into_out);
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(again.says("set aside")) << again.err;
+  EXPECT_TRUE(again.says("re-used 10 mechanical runs, ran 2")) << again.err;
+  for (const std::size_t each : {2u, 7u}) {
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(cases[each]).replace_extension(".damaged-1")));
+  }
+  expect_same_results("alone", "out");
+}
+
+}  // namespace
+}  // namespace launchsafe::app

@@ -1,0 +1,122 @@
+// Studies whose folders are looked into and compared.
+#pragma once
+
+#include "launchsafe/store/case_file.hpp"
+#include "program.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+namespace launchsafe::app {
+
+/// 12 mechanical runs for 24 cases: the last key but the gap is thermal.
+inline const std::string sweep_study = R"(kind = "sweep"
+scene = "shell.toml"
+early_time = "0.03 ms"
+
+[axes]
+peak_pressure = "50, 60, 70, 80 MPa"
+crack_radius = "20, 30, 40 um"
+"gap.exchange_time" = "1, 2 us"
+gap = "0, 0.01, 0.02 cm"
+)";
+
+/// 8 evaluations, each a mechanical run.
+inline const std::string sensitivity_study = R"(kind = "sensitivity"
+scene = "shell.toml"
+early_time = "0.03 ms"
+gap = "0.01 cm"
+samples = 2
+resamples = 100
+
+[[input]]
+key = "peak_pressure"
+distribution = "uniform"
+range = "50 to 80 MPa"
+
+[[input]]
+key = "crack_radius"
+distribution = "uniform"
+range = "20 to 40 um"
+)";
+
+/// Tests of studies that leave a store.
+class StoredStudy : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write("shell.toml", tiny_scene);
+    write("study.toml", sweep_study);
+  }
+
+  /// The result files of a folder: all that must not depend on how the study came about.
+  std::map<std::string, std::string> results_in(const std::string& name) const {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder() / name)) {
+      const std::string file = std::filesystem::relative(entry.path(), folder() / name).string();
+      const bool own = file == "manifest.json" || file.starts_with("journal") ||
+                       file.starts_with("answers") || file.starts_with("lock") ||
+                       file.starts_with("earlier-") || file.find(".damaged-") != std::string::npos;
+      if (entry.is_regular_file() && !own) files[file] = read(name + "/" + file);
+    }
+    return files;
+  }
+
+  /// Compares name by name, so that a failure does not print whole files.
+  void expect_same_results(const std::string& one, const std::string& other) const {
+    const auto expected = results_in(one), found = results_in(other);
+    EXPECT_GT(expected.size(), 5u);
+    std::set<std::string> names;
+    for (const auto& [name, bytes] : expected) names.insert(name);
+    for (const auto& [name, bytes] : found) names.insert(name);
+    for (const std::string& name : names) {
+      const bool in_both = expected.contains(name) && found.contains(name);
+      EXPECT_TRUE(in_both && expected.at(name) == found.at(name)) << name;
+    }
+  }
+
+  /// How often the journals say that each case is done.
+  std::map<std::string, int> done_cases(const std::string& name) const {
+    std::map<std::string, int> done;
+    for (const auto& entry : std::filesystem::directory_iterator(folder() / name)) {
+      if (!entry.path().filename().string().starts_with("journal")) continue;
+      std::istringstream lines(read(name + "/" + entry.path().filename().string()));
+      for (std::string line; std::getline(lines, line);) {
+        const auto object = nlohmann::json::parse(line, nullptr, false);
+        if (object.is_object() && object.value("state", "") == "done") ++done[object.value("case", "")];
+      }
+    }
+    return done;
+  }
+
+  /// The files of whole cases; whatever is there under such a name has to be one.
+  std::vector<std::filesystem::path> whole_cases(const std::string& name) const {
+    std::vector<std::filesystem::path> cases;
+    if (!exists(name + "/cases")) return cases;
+    for (const auto& entry : std::filesystem::directory_iterator(folder() / name / "cases")) {
+      if (entry.path().extension() != ".h5") continue;
+      const auto manifest = store::read_manifest(entry.path());
+      EXPECT_TRUE(manifest) << (manifest ? "" : manifest.error().message);
+      cases.push_back(entry.path());
+    }
+    std::sort(cases.begin(), cases.end());
+    return cases;
+  }
+
+  /// Waits until a case is done, so that what follows meets a study that is running.
+  void wait_for_a_case(const std::string& name) const {
+    using namespace std::chrono_literals;
+    const auto end = std::chrono::steady_clock::now() + 30s;
+    while (std::chrono::steady_clock::now() < end) {
+      if (exists(name) && !done_cases(name).empty()) return;
+      std::this_thread::sleep_for(10ms);
+    }
+    ADD_FAILURE() << "no case was done within 30 s";
+  }
+};
+
+}  // namespace launchsafe::app

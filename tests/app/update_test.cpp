@@ -1,0 +1,110 @@
+// A folder that holds something else already.
+#include "stored_study.hpp"
+
+namespace launchsafe::app {
+namespace {
+
+class ChangedStudy : public StoredStudy {
+ protected:
+  void SetUp() override {
+    StoredStudy::SetUp();
+    first_ = run({"study", "study.toml", "-o", "out"});
+    ASSERT_EQ(first_.code, 0) << first_.err;
+    page_ = read("out/report.md");
+  }
+  Outcome update() { return run({"study", "study.toml", "-o", "out", "--update"}); }
+
+  Outcome first_;
+  std::string page_;
+};
+
+TEST_F(ChangedStudy, IsRefusedAndToldOfUpdate) {
+  write("shell.toml", with(tiny_scene, "50 MPa", "55 MPa"));
+  const auto before = results_in("out");
+  const Outcome refused = run({"study", "study.toml", "-o", "out"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.lines_of_error(), 1) << refused.err;
+  EXPECT_TRUE(refused.says("--update")) << refused.err;
+  EXPECT_TRUE(results_in("out") == before);
+  EXPECT_FALSE(exists("out/earlier-1"));
+}
+
+TEST_F(ChangedStudy, WithOtherThermalInputNeedsNoRun) {
+  write("study.toml", with(sweep_study, "1, 2 us", "1, 3 us"));
+  const Outcome updated = update();
+  EXPECT_EQ(updated.code, 0) << updated.err;
+  EXPECT_TRUE(updated.says("re-used 12 mechanical runs, ran 0")) << updated.err;
+  EXPECT_TRUE(updated.says("out/earlier-1")) << updated.err;
+  EXPECT_EQ(read("out/earlier-1/report.md"), page_);
+  EXPECT_TRUE(exists("out/earlier-1/manifest.json"));
+  EXPECT_TRUE(exists("out/earlier-1/critical_gaps.csv"));
+  EXPECT_FALSE(exists("out/earlier-1/cases"));
+  EXPECT_NE(read("out/report.md"), page_);
+}
+
+TEST_F(ChangedStudy, WithOneMoreValueRunsWhatIsNew) {
+  write("study.toml", with(sweep_study, "70, 80 MPa", "70, 80, 90 MPa"));
+  const Outcome updated = update();
+  EXPECT_EQ(updated.code, 0) << updated.err;
+  EXPECT_TRUE(updated.says("re-used 12 mechanical runs, ran 3 ")) << updated.err;
+  write("study.toml", with(sweep_study, "70, 80 MPa", "70 MPa"));
+  const Outcome fewer = update();
+  EXPECT_TRUE(fewer.says("re-used 9 mechanical runs, ran 0")) << fewer.err;
+  EXPECT_EQ(read("out/earlier-1/report.md"), page_);
+  EXPECT_TRUE(exists("out/earlier-2/report.md"));
+  ASSERT_EQ(run({"study", "study.toml", "-o", "alone"}).code, 0);
+  EXPECT_EQ(read("out/report.md"), read("alone/report.md"));
+}
+
+TEST_F(ChangedStudy, UpdateOfTheSameStudyMovesNothing) {
+  EXPECT_EQ(update().code, 0);
+  EXPECT_FALSE(exists("out/earlier-1"));
+}
+
+TEST_F(ChangedStudy, ExplainsWhyARunRuns) {
+  write("shell.toml", with(tiny_scene, "peak_time = \"0.05 ms\"", "peak_time = \"0.04 ms\""));
+  const Outcome updated = run({"study", "study.toml", "-o", "out", "--update", "--explain"});
+  EXPECT_EQ(updated.code, 0) << updated.err;
+  EXPECT_TRUE(
+      updated.says("peak_pressure 50 MPa, crack_radius 20 um, gap.exchange_time 1 us: to run: other "
+                   "input than the stored case"))
+      << updated.err;
+  const Outcome again = run({"study", "study.toml", "-o", "out", "--explain"});
+  EXPECT_TRUE(again.says("peak_pressure 80 MPa, crack_radius 40 um, gap.exchange_time 1 us: stored"))
+      << again.err;
+}
+
+TEST_F(ChangedStudy, ManyRunsWithOneReasonAreOneLine) {
+  std::string pressures = "50, 60, 70, 80";
+  for (int i = 0; i < 9; ++i) pressures += ", " + std::to_string(100 + i);
+  write("study.toml", with(sweep_study, "50, 60, 70, 80", pressures));
+  const Outcome updated = run({"study", "study.toml", "-o", "out", "--update", "--explain"});
+  EXPECT_TRUE(updated.says("12 runs: stored")) << updated.err;
+  EXPECT_TRUE(updated.says("27 runs: to run: never run here\n")) << updated.err;
+}
+
+class ForeignFolder : public StoredStudy {};
+
+TEST_F(ForeignFolder, FilesOfSomebodyElseAreNotOverwritten) {
+  std::filesystem::create_directory(folder() / "out");
+  write("out/report.md", "mine");
+  for (const bool update : {false, true}) {
+    std::vector<std::string> command{"study", "study.toml", "-o", "out"};
+    if (update) command.emplace_back("--update");
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_TRUE(outcome.says("report.md")) << outcome.err;
+  }
+  EXPECT_EQ(read("out/report.md"), "mine");
+  EXPECT_FALSE(exists("out/cases"));
+}
+
+TEST_F(ForeignFolder, OtherFilesMayBeThere) {
+  std::filesystem::create_directory(folder() / "out");
+  write("out/notes.txt", "mine");
+  EXPECT_EQ(run({"study", "study.toml", "-o", "out"}).code, 0);
+  EXPECT_EQ(read("out/notes.txt"), "mine");
+}
+
+}  // namespace
+}  // namespace launchsafe::app

@@ -1,0 +1,154 @@
+#include "launchsafe/scene/mechanical_part.hpp"
+
+#include "launchsafe/scene/plan.hpp"
+#include "scene/perturbed_scenes.hpp"
+#include "scene/written_scene.hpp"
+
+#include <gtest/gtest.h>
+#ifdef LAUNCHSAFE_HAVE_RAPIDCHECK
+#include <rapidcheck/gtest.h>
+#endif
+
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace launchsafe::scene {
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// The list without some of its names.
+Names without(Names names, const Names& kept) {
+  std::erase_if(names, [&kept](const std::string& name) {
+    return std::find(kept.begin(), kept.end(), name) != kept.end();
+  });
+  return names;
+}
+
+/// What a launch without snapshots, conduction and bulk reaction leaves out.
+const Names most_dropped{"title",
+                         "steel.conductivity",
+                         "charge.specific_heat",
+                         "charge.conductivity",
+                         "kinetics.set",
+                         "kinetics.heat_of_reaction",
+                         "kinetics.frequency",
+                         "kinetics.activation_temperature",
+                         "kinetics.ignition_temperature",
+                         "kinetics.burnt_temperature",
+                         "gap.thickness",
+                         "gap.pressure",
+                         "gap.air",
+                         "gap.exchange",
+                         "gap.skin_thickness",
+                         "gap.exchange_time",
+                         "gap.air_density",
+                         "gap.air_specific_heat",
+                         "gap.air_heat_ratio",
+                         "gap.air_temperature",
+                         "friction.closure",
+                         "friction.localisation",
+                         "physics.conduction_bound",
+                         "physics.reaction_bound"};
+const Names conductivities{"steel.conductivity", "charge.conductivity"};
+const Names of_temperatures{"charge.specific_heat", "friction.closure"};
+const Names of_reaction{"kinetics.set",
+                        "kinetics.heat_of_reaction",
+                        "kinetics.frequency",
+                        "kinetics.activation_temperature",
+                        "kinetics.ignition_temperature",
+                        "kinetics.burnt_temperature"};
+
+/// A key that is new among these is a decision: tests/run/mechanical_part_test.cpp shows whether it is right.
+TEST(MechanicalPart, LeavesOutTheseKeys) {
+  Names under_curve = most_dropped;
+  const Names of_shape{"load.base", "load.peak_time", "load.exponent"};
+  under_curve.insert(under_curve.begin() + 1, of_shape.begin(), of_shape.end());
+  Names under_own_curve = under_curve;
+  under_own_curve.insert(under_own_curve.begin() + 1, "load.peak");
+  const std::map<std::string, Names> expected{
+      {"plain", most_dropped},
+      {"snapshots", without(most_dropped, of_temperatures)},
+      {"conduction", without(without(most_dropped, of_temperatures), conductivities)},
+      {"reaction", without(without(most_dropped, of_temperatures), of_reaction)},
+      {"curve", under_own_curve},
+      {"rescaled curve", under_curve}};
+  for (const NamedScene& scene : quick_scenes())
+    EXPECT_EQ(dropped_keys(scene.file), expected.at(scene.name)) << scene.name;
+}
+
+TEST(MechanicalPart, IsAValidSceneAndItsOwnMechanicalPart) {
+  for (const auto& [name, file] : quick_scenes()) {
+    const Scene part = mechanical_part(file.scene);
+    const auto read = parse_scene(to_toml(part), "part.toml");
+    ASSERT_TRUE(read) << name << ": " << read.error().message();
+    EXPECT_EQ(to_toml(read->scene), to_toml(part)) << name;
+    EXPECT_EQ(to_toml(mechanical_part(part)), to_toml(part)) << name;
+    EXPECT_EQ(make_plan(part).conduction.in, make_plan(file.scene).conduction.in);
+    EXPECT_EQ(make_plan(part).bulk_reaction.in, make_plan(file.scene).bulk_reaction.in);
+  }
+}
+
+TEST(MechanicalPart, StatesWhatThePlanDecides) {
+  const SceneFile automatic = quick_scenes().front().file;
+  const Place place{"test", 1, 1};
+  const auto off = with_key(automatic, "physics.conduction", std::string("off"), place);
+  const auto on = with_key(automatic, "physics.conduction", std::string("on"), place);
+  const auto always = with_key(automatic, "physics.conduction_bound", 0.0, place);
+  EXPECT_EQ(to_toml(mechanical_part(off->scene)), to_toml(mechanical_part(automatic.scene)));
+  EXPECT_EQ(to_toml(mechanical_part(on->scene)), to_toml(mechanical_part(always->scene)));
+  EXPECT_NE(to_toml(mechanical_part(on->scene)), to_toml(mechanical_part(off->scene)));
+}
+
+TEST(MechanicalPart, KnowsACurveByItsValues) {
+  const std::string folder = testing::TempDir();
+  for (const char* name : {"mechanical_part_a.csv", "mechanical_part_b.csv"})
+    std::ofstream(folder + name) << "time_us,pressure_MPa\n0,0\n10,1000\n50,2000\n";
+  const auto with_curve = [](const std::string& load) {
+    const auto file = parse_scene(quick_numerics + load + quick_scene, "scene.toml");
+    EXPECT_TRUE(file) << (file ? "" : file.error().message());
+    return file ? to_toml(mechanical_part(file->scene)) : std::string{};
+  };
+  const std::string written = with_curve(measured_load);
+  EXPECT_EQ(with_curve("load.curve = \"" + folder + "mechanical_part_a.csv\"\n"), written);
+  EXPECT_EQ(with_curve("load.curve = \"" + folder + "mechanical_part_b.csv\"\n"), written);
+}
+
+TEST(MechanicalPart, HasNoNegativeZeros) {
+  Scene scene = quick_scenes().front().file.scene;
+  const std::string part = to_toml(mechanical_part(scene));
+  scene.load.base = -0.0;
+  scene.numerics.damping_time = -0.0;
+  scene.charge.cracks.relaxation_rates[0] = -0.0;
+  scene.bodies[0].x_begin = -0.0;
+  EXPECT_NE(to_toml(scene).find("-0"), std::string::npos);
+  const Scene without_signs = mechanical_part(scene);
+  EXPECT_EQ(to_toml(without_signs), part);
+  EXPECT_FALSE(std::signbit(without_signs.bodies[0].x_begin));
+  EXPECT_FALSE(std::signbit(without_signs.charge.cracks.relaxation_rates[0]));
+}
+
+TEST(MechanicalPart, IsTheSameHoweverTheSceneIsWritten) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const std::string text = written_scene(seed);
+    const auto file = parse_scene(text, "written.toml");
+    ASSERT_TRUE(file) << file.error().message() << "\n" << text;
+    ASSERT_EQ(to_toml(mechanical_part(file->scene)), to_toml(mechanical_part(plainly_written_scene().scene)))
+        << text;
+  }
+}
+
+#ifdef LAUNCHSAFE_HAVE_RAPIDCHECK
+RC_GTEST_PROP(MechanicalPart, IsTheSameHoweverTheSceneIsWrittenAtRandom, (std::uint64_t seed)) {
+  const auto file = parse_scene(written_scene(seed), "written.toml");
+  RC_ASSERT(file.has_value());
+  RC_ASSERT(to_toml(mechanical_part(file->scene)) == to_toml(mechanical_part(plainly_written_scene().scene)));
+}
+#endif
+
+}  // namespace
+}  // namespace launchsafe::scene

@@ -1,0 +1,212 @@
+// What is left of a store when the disk is full or the process is killed.
+#include "child_process.hpp"
+#include "launchsafe/store/atomic_file.hpp"
+#include "same_case.hpp"
+#include "store_fixture.hpp"
+
+#include <sys/mount.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <random>
+#include <thread>
+
+namespace launchsafe::store {
+namespace {
+
+using namespace launchsafe::testing;
+
+class StoreFailure : public StoreFixture {
+ protected:
+  /// Names in the folder of the cases that end so.
+  static std::size_t count_of(const std::filesystem::path& store, const std::string& ending) {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(store / "cases"))
+      count += entry.path().filename().string().ends_with(ending) ? 1 : 0;
+    return count;
+  }
+};
+
+// --- a full disk ---
+
+struct Failures {
+  int calls = 0;
+  StoreOptions options(int model_version) {
+    return {"", model_version, [this](const Error&) { ++calls; }};
+  }
+};
+
+TEST_F(StoreFailure, AFullDiskIsReportedOnceAndSparesWhatWasThere) {
+  fill(2);
+  EXPECT_TRUE(holds_under_file_size_limit(4096, [&] {
+    Failures failures;
+    auto store = CaseStore::open(where(), failures.options(model_version));
+    if (!store) return false;
+    for (int number = 2; number < 6; ++number) save(**store, number);
+    (*store)->save_answer("0a", "later");
+    const MaybeError error = (*store)->flush();
+    save(**store, 6);
+    return error && error->kind == Error::Kind::write_failed && failures.calls == 1 &&
+           error->message.find(file_of(2).string()) != std::string::npos &&
+           (*store)->flush()->message == error->message && !(*store)->holds(identity_of(3).hash()) &&
+           !(*store)->last_entry(identity_of(6).hash()) && (*store)->load(identity_of(1).hash());
+  }));
+  EXPECT_EQ(count_of(where(), ".partial"), 0U);
+  const auto store = opened();
+  EXPECT_EQ(store->entries().size(), 2U);
+  for (int number = 0; number < 2; ++number)
+    expect_same(result_of(number), *store->load(identity_of(number).hash()));
+  EXPECT_FALSE(store->answer("0a"));
+}
+
+TEST_F(StoreFailure, AJournalThatIsFullHurtsNoLineBefore) {
+  constexpr int notes = 100;
+  const auto note_all = [&](CaseStore& store) {
+    for (int number = 0; number < notes; ++number) {
+      JournalEntry entry = entry_of(number);
+      entry.hash = identity_of(number).hash();
+      entry.state = CaseState::failed;
+      store.note(entry);
+      store.flush();
+    }
+  };
+  EXPECT_TRUE(holds_under_file_size_limit(10'000, [&] {
+    Failures failures;
+    auto store = CaseStore::open(where(), failures.options(model_version));
+    if (!store) return false;
+    note_all(**store);
+    return (*store)->flush().has_value() && failures.calls == 1;
+  }));
+  EXPECT_EQ(std::filesystem::file_size(where() / "journal.jsonl"), 10'000U) << "with half a line at its end";
+  std::size_t before = 0;
+  {
+    const auto store = opened();
+    before = store->entries().size();
+    EXPECT_GT(before, 10U);
+    note_all(*store);
+  }
+  EXPECT_EQ(opened()->entries().size(), static_cast<std::size_t>(notes));
+}
+
+/// A file system of a megabyte, where this process may make one.
+class SmallDisk : public StoreFailure {
+ protected:
+  void SetUp() override {
+    StoreFailure::SetUp();
+    std::filesystem::create_directory(disk());
+    if (::mount("none", disk().c_str(), "tmpfs", 0, "size=1m") != 0)
+      GTEST_SKIP() << "no tmpfs can be mounted";
+  }
+  void TearDown() override {
+    ::umount2(disk().c_str(), MNT_DETACH);
+    StoreFailure::TearDown();
+  }
+  std::filesystem::path disk() const { return folder() / "disk"; }
+};
+
+TEST_F(SmallDisk, KeepsAllThatWasWrittenBeforeItWasFull) {
+  constexpr int many = 60;
+  Failures failures;
+  std::size_t kept = 0;
+  {
+    auto store = CaseStore::open(disk() / "study", failures.options(model_version));
+    ASSERT_TRUE(store) << store.error().message;
+    for (int number = 0; number < many; ++number) save(**store, number);
+    const MaybeError error = (*store)->flush();
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->kind, Error::Kind::write_failed);
+    EXPECT_EQ(failures.calls, 1);
+    kept = (*store)->entries().size();
+  }
+  EXPECT_LT(kept, static_cast<std::size_t>(many));
+  EXPECT_EQ(count_of(disk() / "study", ".partial"), 0U);
+  const auto store = opened_at(disk() / "study");
+  ASSERT_NE(store, nullptr) << "it opens on a full disk";
+  std::size_t whole = 0;
+  for (int number = 0; number < many; ++number) {
+    if (!store->holds(identity_of(number).hash())) continue;
+    expect_same(result_of(number), *store->load(identity_of(number).hash()));
+    ++whole;
+  }
+  EXPECT_GE(whole, kept);
+  EXPECT_GT(whole, 2U);
+}
+
+// --- a kill ---
+
+/// Saves and answers until it is killed; says so once the first is on disk.
+[[noreturn]] void work_forever(const std::filesystem::path& folder, int first, int report) {
+  const auto store = CaseStore::open(folder, {"", 7, {}});
+  if (!store) ::_exit(1);
+  for (int number = first;; ++number) {
+    save(**store, number);
+    (*store)->save_answer(identity_of(number).hash(), fmt::format("{{\"number\": {}}}", number));
+    if (number % 3 == 0) (*store)->flush();
+    if (number == first && ((*store)->flush() || ::write(report, "y", 1) != 1)) ::_exit(1);
+  }
+}
+
+/// Starts such a process and kills it after `delay`, counted from its start or from its first result.
+void work_and_be_killed(const std::filesystem::path& folder, int first, std::chrono::microseconds delay,
+                        bool after_a_result) {
+  std::array<int, 2> report{};
+  ASSERT_EQ(::pipe(report.data()), 0);
+  const pid_t child = ::fork();
+  if (child == 0) work_forever(folder, first, report[1]);
+  ::close(report[1]);
+  char sign = 0;
+  if (after_a_result) {
+    EXPECT_EQ(::read(report[0], &sign, 1), 1);
+  }
+  std::this_thread::sleep_for(delay);
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  ::close(report[0]);
+}
+
+TEST_F(StoreFailure, AKillAtAnyInstantLosesOnlyWhatWasInFlight) {
+  constexpr int rounds = 40;
+  std::mt19937 random(1);
+  std::size_t known = 0;
+  for (int round = 0; round < rounds; ++round) {
+    const bool after_a_result = round % 4 != 0;
+    work_and_be_killed(where(), 1000 * round, std::chrono::microseconds(random() % 30'000), after_a_result);
+
+    const auto store = opened();
+    ASSERT_NE(store, nullptr) << "the lock of the dead clears itself";
+    EXPECT_EQ(count_of(where(), ".partial"), 0U) << "half-written files are gone";
+    const std::vector<JournalEntry> entries = store->entries();
+    EXPECT_GE(entries.size(), known + (after_a_result ? 1 : 0)) << "nothing is forgotten";
+    known = entries.size();
+    for (const JournalEntry& entry : entries) {
+      ASSERT_TRUE(std::filesystem::exists(where() / "cases" / (entry.hash + ".h5")));
+      ASSERT_TRUE(store->holds(entry.hash));
+    }
+    for (std::size_t i = 0; i < entries.size(); i += 1 + entries.size() / 5)
+      EXPECT_TRUE(store->load(entries[i].hash));
+  }
+  const auto store = opened();
+  for (const auto& file : std::filesystem::directory_iterator(where() / "cases"))
+    EXPECT_TRUE(store->holds(file.path().stem())) << "a whole file is held, journaled or not";
+  for (const std::string& remark : store->remarks())
+    EXPECT_NE(remark.find("ignored"), std::string::npos) << "at worst lines cut short: " << remark;
+}
+
+TEST_F(StoreFailure, LeftoversOfAPartAreRemovedWhenItIsOpenedAgain) {
+  std::filesystem::create_directories(where() / "cases");
+  const auto leftover = [&](const std::string& mark) {
+    return where() / "cases" / fmt::format(".{}.{}-0123-0.partial", identity_of(1).hash(), mark);
+  };
+  for (const char* mark : {"whole", "1-of-2", "2-of-2"})
+    ASSERT_FALSE(write_file_atomically(leftover(mark), {"half"}));
+  opened("1-of-2");
+  EXPECT_FALSE(std::filesystem::exists(leftover("whole")));
+  EXPECT_FALSE(std::filesystem::exists(leftover("1-of-2")));
+  EXPECT_TRUE(std::filesystem::exists(leftover("2-of-2"))) << "its writer may be alive";
+  opened();
+  EXPECT_FALSE(std::filesystem::exists(leftover("2-of-2")));
+}
+
+}  // namespace
+}  // namespace launchsafe::store

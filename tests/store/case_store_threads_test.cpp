@@ -1,0 +1,88 @@
+// Many threads on one store.
+#include "same_case.hpp"
+#include "store_fixture.hpp"
+
+#include <atomic>
+#include <thread>
+
+namespace launchsafe::store {
+namespace {
+
+using namespace launchsafe::testing;
+using StoreThreads = StoreFixture;
+
+constexpr int threads = 8, cases = 24;
+
+/// Every thread saves every case and asks for what any of them may have saved.
+void use(CaseStore& store, int thread, std::atomic<int>& faults) {
+  for (int step = 0; step < cases; ++step) {
+    const int number = (step * 5 + thread * 3) % cases;
+    const std::string hash = identity_of(number).hash();
+    if (!store.holds(hash)) save(store, number);
+    store.save_answer(hash, std::to_string(number));
+    const auto result = store.load(hash);
+    if (!result || result->mechanics.end_time != number) ++faults;
+    if (store.answer(hash) != std::to_string(number)) ++faults;
+    if (!store.last_entry(hash) || store.entries().empty()) ++faults;
+    if (step % 7 == 0 && store.flush()) ++faults;
+    if (store.input_of(hash).has_value() == false) ++faults;
+  }
+}
+
+TEST_F(StoreThreads, SaveLoadAndAskAtTheSameTime) {
+  std::atomic<int> faults = 0;
+  {
+    const auto store = opened();
+    std::vector<std::thread> team;
+    for (int thread = 0; thread < threads; ++thread)
+      team.emplace_back([&, thread] { use(*store, thread, faults); });
+    for (std::thread& member : team) member.join();
+    EXPECT_EQ(store->remarks(), std::vector<std::string>{});
+  }
+  EXPECT_EQ(faults, 0);
+  const auto store = opened();
+  EXPECT_EQ(store->entries().size(), static_cast<std::size_t>(cases));
+  for (int number = 0; number < cases; ++number) {
+    EXPECT_TRUE(store->holds(identity_of(number).hash()));
+    EXPECT_EQ(store->answer(identity_of(number).hash()), std::to_string(number));
+  }
+}
+
+TEST_F(StoreThreads, ADamagedFileIsSetAsideOnceAndNoNewOneIsLost) {
+  fill(1);
+  const std::string hash = identity_of(0).hash();
+  for (int round = 0; round < 10; ++round) {
+    std::filesystem::resize_file(file_of(0), 100);
+    const auto store = opened();
+    std::vector<std::thread> team;
+    for (int thread = 0; thread < 4; ++thread) {
+      team.emplace_back([&] {
+        if (!store->holds(hash)) save(*store, 0);
+      });
+    }
+    for (std::thread& member : team) member.join();
+    ASSERT_FALSE(store->flush());
+    EXPECT_TRUE(store->holds(hash));
+    EXPECT_TRUE(store->load(hash));
+    EXPECT_TRUE(std::filesystem::exists(where() / "cases" / fmt::format("{}.damaged-{}", hash, round + 1)));
+    EXPECT_FALSE(std::filesystem::exists(where() / "cases" / fmt::format("{}.damaged-{}", hash, round + 2)));
+  }
+}
+
+TEST_F(StoreThreads, MoreThanFitsIntoTheQueueIsWrittenToo) {
+  run::CaseResult large = result_of(0);
+  large.mechanics.trace = {};
+  large.gaps.clear();
+  large.mechanics.snapshots.assign(1, sample_snapshot(0));
+  auto& snapshot = large.mechanics.snapshots.front();
+  snapshot = {};
+  snapshot.body.assign(1'000'000, 0);  // 8 MB
+  const auto store = opened();
+  for (int number = 0; number < 12; ++number)
+    store->save(identity_of(number), sample_scene(), large, entry_of(number));
+  ASSERT_FALSE(store->flush());
+  for (int number = 0; number < 12; ++number) EXPECT_TRUE(store->holds(identity_of(number).hash()));
+}
+
+}  // namespace
+}  // namespace launchsafe::store

@@ -1,0 +1,120 @@
+// Whether two results are the same, bit by bit.
+#pragma once
+
+#include "launchsafe/run/case_result.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace launchsafe::testing {
+
+inline std::vector<std::uint64_t> bits(const std::vector<double>& values) {
+  std::vector<std::uint64_t> result;
+  for (const double value : values) result.push_back(std::bit_cast<std::uint64_t>(value));
+  return result;
+}
+
+inline void expect_same(const trace::BottomTrace& a, const trace::BottomTrace& b) {
+  ASSERT_EQ(a.stations.size(), b.stations.size());
+  for (std::size_t i = 0; i < a.stations.size(); ++i) {
+    EXPECT_EQ(a.stations[i].name, b.stations[i].name);
+    EXPECT_EQ(bits({a.stations[i].x, a.stations[i].r, a.stations[i].area}),
+              bits({b.stations[i].x, b.stations[i].r, b.stations[i].area}));
+    EXPECT_EQ(a.stations[i].observation, b.stations[i].observation);
+  }
+  EXPECT_EQ(bits(a.time), bits(b.time));
+  EXPECT_EQ(bits(a.chamber_pressure), bits(b.chamber_pressure));
+  EXPECT_EQ(bits(a.bottom_pressure), bits(b.bottom_pressure));
+  EXPECT_EQ(bits(a.mean_chamber_pressure), bits(b.mean_chamber_pressure));
+  EXPECT_EQ(bits(a.mean_bottom_pressure), bits(b.mean_bottom_pressure));
+  EXPECT_EQ(bits(a.steps), bits(b.steps));
+  for (std::size_t i = 0; i < trace::traced_closures; ++i)
+    EXPECT_EQ(bits(a.friction[i]), bits(b.friction[i]));
+}
+
+inline std::vector<double> numbers_of(const run::MonitorSample& sample) {
+  const run::EnergyBalance& energy = sample.energy;
+  return {sample.time,
+          sample.time_step,
+          energy.kinetic,
+          energy.internal,
+          energy.external,
+          energy.body_force,
+          energy.damping,
+          energy.plastic,
+          energy.viscous,
+          energy.crack,
+          sample.momentum,
+          sample.largest_plastic_strain,
+          sample.largest_crack_radius};
+}
+
+inline void expect_same(const run::Snapshot& a, const run::Snapshot& b) {
+  EXPECT_EQ(bits({a.time}), bits({b.time}));
+  EXPECT_EQ(a.body, b.body);
+  EXPECT_EQ(bits(a.x), bits(b.x));
+  EXPECT_EQ(bits(a.r), bits(b.r));
+  EXPECT_EQ(bits(a.velocity_x), bits(b.velocity_x));
+  EXPECT_EQ(bits(a.velocity_r), bits(b.velocity_r));
+  EXPECT_EQ(bits(a.density), bits(b.density));
+  EXPECT_EQ(bits(a.pressure), bits(b.pressure));
+  EXPECT_EQ(bits(a.von_mises), bits(b.von_mises));
+  EXPECT_EQ(bits(a.temperature), bits(b.temperature));
+  EXPECT_EQ(bits(a.crack_radius), bits(b.crack_radius));
+  EXPECT_EQ(bits(a.plastic_strain), bits(b.plastic_strain));
+}
+
+inline void expect_same(const run::MechanicsResult& a, const run::MechanicsResult& b) {
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.reason, b.reason);
+  EXPECT_EQ(a.steps, b.steps);
+  EXPECT_EQ(a.particles, b.particles);
+  EXPECT_EQ(bits({a.end_time, a.wall_time, a.mass_steel, a.mass_charge}),
+            bits({b.end_time, b.wall_time, b.mass_steel, b.mass_charge}));
+  EXPECT_EQ(a.limiters.crack_at_bound, b.limiters.crack_at_bound);
+  EXPECT_EQ(a.limiters.tension_cutoff, b.limiters.tension_cutoff);
+  EXPECT_EQ(a.limiters.hugoniot_guard, b.limiters.hugoniot_guard);
+  expect_same(a.trace, b.trace);
+  ASSERT_EQ(a.monitor.size(), b.monitor.size());
+  for (std::size_t i = 0; i < a.monitor.size(); ++i) {
+    EXPECT_EQ(bits(numbers_of(a.monitor[i])), bits(numbers_of(b.monitor[i])));
+  }
+  ASSERT_EQ(a.snapshots.size(), b.snapshots.size());
+  for (std::size_t i = 0; i < a.snapshots.size(); ++i) expect_same(a.snapshots[i], b.snapshots[i]);
+}
+
+inline void expect_same(const std::optional<surface::Ignition>& a,
+                        const std::optional<surface::Ignition>& b) {
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (!a) return;
+  EXPECT_EQ(bits({a->time, a->chemical_share}), bits({b->time, b->chemical_share}));
+  EXPECT_EQ(a->station, b->station);
+  EXPECT_EQ(a->cause, b->cause);
+}
+
+inline void expect_same(const run::GapResult& a, const run::GapResult& b) {
+  EXPECT_EQ(bits({a.gap, a.sampling_error, a.skin.gap, a.skin.energy_residual}),
+            bits({b.gap, b.sampling_error, b.skin.gap, b.skin.energy_residual}));
+  EXPECT_EQ(bits({a.at_points.temperature, a.at_points.time, a.anywhere.temperature, a.anywhere.time}),
+            bits({b.at_points.temperature, b.at_points.time, b.anywhere.temperature, b.anywhere.time}));
+  EXPECT_EQ(a.at_points.station, b.at_points.station);
+  EXPECT_EQ(a.anywhere.station, b.anywhere.station);
+  EXPECT_EQ(a.coupled, b.coupled);
+  EXPECT_EQ(bits(a.skin.time), bits(b.skin.time));
+  EXPECT_EQ(bits(a.skin.air_temperature), bits(b.skin.air_temperature));
+  EXPECT_EQ(bits(a.skin.temperature), bits(b.skin.temperature));
+  expect_same(a.skin.ignition, b.skin.ignition);
+  expect_same(a.skin.ignition_anywhere, b.skin.ignition_anywhere);
+}
+
+inline void expect_same(const run::CaseResult& a, const run::CaseResult& b) {
+  expect_same(a.mechanics, b.mechanics);
+  ASSERT_EQ(a.gaps.size(), b.gaps.size());
+  for (std::size_t i = 0; i < a.gaps.size(); ++i) expect_same(a.gaps[i], b.gaps[i]);
+}
+
+}  // namespace launchsafe::testing

@@ -1,0 +1,105 @@
+#include "launchsafe/study/case_answer.hpp"
+
+#include "study/synthetic_launch.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::study;
+
+StudyFile six_gaps() {
+  return study_of(critical_text + "gaps = \"0, 0.01, 0.02, 0.03, 0.04, 0.05 cm\"\nconfirm = false\n" +
+                  "numerical_uncertainty = \"1 K\"\n" + synthetic_constants);
+}
+
+CaseAnswer answer_to(const StudyFile& study) {
+  const StudyCase& input = study.cases.front();
+  return answer_of(study.study, input, synthetic_mechanics(input.scene.scene));
+}
+
+TEST(CaseAnswer, SaysWhatTheCriticalGapStudySays) {
+  const StudyFile study = six_gaps();
+  const CaseAnswer answer = answer_to(study);
+  const CriticalGapResult whole = run_critical_gap(study, synthetic_options());
+  const CaseOutcome& outcome = whole.cases.front();
+  EXPECT_EQ(answer.critical.kind, CriticalGapKind::value);
+  EXPECT_EQ(answer.critical.value, outcome.critical.value);
+  EXPECT_EQ(answer.critical.uncertainty, outcome.critical.uncertainty);
+  ASSERT_EQ(answer.verdicts.size(), outcome.verdicts.size());
+  for (std::size_t i = 0; i < answer.verdicts.size(); ++i) {
+    EXPECT_EQ(answer.verdicts[i].maximum.temperature, outcome.verdicts[i].maximum.temperature) << i;
+    EXPECT_EQ(answer.verdicts[i].judgement.verdict, outcome.verdicts[i].judgement.verdict) << i;
+    EXPECT_EQ(answer.verdicts[i].judgement.reason, outcome.verdicts[i].judgement.reason) << i;
+  }
+}
+
+// Below ignition the reaction adds less than a kelvin (at 508 K (Q Z/c) exp(-21700/508) is 2 K/ms); above it
+// T max is that of the burning skin, while the heated temperature goes on as a smooth function of the gap.
+TEST(CaseAnswer, HeatedTemperatureIsTMaxWithoutIgnition) {
+  const CaseAnswer answer = answer_to(six_gaps());
+  double last = 0, step = 0;
+  bool ignited = false;
+  for (std::size_t i = 0; i < answer.verdicts.size(); ++i) {
+    const GapVerdict& row = answer.verdicts[i];
+    if (!row.ignition) {
+      EXPECT_NEAR(answer.heated_temperature[i], row.maximum.temperature, 1.0) << i;
+      EXPECT_LE(answer.heated_temperature[i], row.maximum.temperature + 1e-6) << i;
+    }
+    if (i > 1) {
+      EXPECT_NEAR(answer.heated_temperature[i] - last, step, 0.1 * step) << i;
+    }
+    step = answer.heated_temperature[i] - last;
+    last = answer.heated_temperature[i];
+    ignited = ignited || row.ignition;
+  }
+  EXPECT_TRUE(ignited);
+}
+
+TEST(CaseAnswer, ReadsBackFromJsonExactly) {
+  const CaseAnswer answer = answer_to(six_gaps());
+  const std::string line = to_json_line(answer);
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  const auto read = answer_from_json(line);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(to_json_line(*read), line);
+  EXPECT_EQ(read->critical.value, answer.critical.value);
+  EXPECT_EQ(read->critical.kind, answer.critical.kind);
+  EXPECT_EQ(read->critical_anywhere.lower, answer.critical_anywhere.lower);
+  EXPECT_EQ(read->run.steps, answer.run.steps);
+  ASSERT_EQ(read->verdicts.size(), answer.verdicts.size());
+  for (std::size_t i = 0; i < answer.verdicts.size(); ++i) {
+    const GapVerdict &a = answer.verdicts[i], &b = read->verdicts[i];
+    EXPECT_EQ(a.maximum.temperature, b.maximum.temperature);
+    EXPECT_EQ(a.maximum.point, b.maximum.point);
+    EXPECT_EQ(a.uncertainty.total(), b.uncertainty.total());
+    EXPECT_EQ(a.judgement.verdict, b.judgement.verdict);
+    EXPECT_EQ(a.judgement.reason, b.judgement.reason);
+    ASSERT_EQ(a.ignition.has_value(), b.ignition.has_value());
+    if (a.ignition) {
+      EXPECT_EQ(a.ignition->time, b.ignition->time);
+    }
+    EXPECT_EQ(answer.heated_temperature[i], read->heated_temperature[i]);
+  }
+}
+
+TEST(CaseAnswer, NumbersThatAreNotFiniteReadBackAsNotANumber) {
+  const StudyFile study = six_gaps();
+  const CaseAnswer failed = failed_answer(study.study, study.cases.front(), "out of memory");
+  const auto read = answer_from_json(to_json_line(failed));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->failure, "out of memory");
+  EXPECT_EQ(read->critical.kind, CriticalGapKind::indeterminate);
+  EXPECT_TRUE(std::isnan(read->critical.value));
+  for (const GapVerdict& row : read->verdicts) EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
+  for (const double heated : read->heated_temperature) EXPECT_TRUE(std::isnan(heated));
+}
+
+TEST(CaseAnswer, OtherTextIsNoAnswer) {
+  for (const char* text : {"", "{", "[]", "{}", "null", "{\"failure\": 3}"}) {
+    EXPECT_FALSE(answer_from_json(text)) << text;
+  }
+}
+
+}  // namespace
