@@ -45,6 +45,7 @@ void remark_obstacle(const study::StudyFile& file, const StudyArguments& argumen
 study::StudyOptions options_of(const StudyArguments& arguments, store::CaseStore* store) {
   study::StudyOptions options;
   options.jobs = arguments.jobs;
+  options.time_limit = arguments.time_limit.value_or(options.time_limit);
   options.memory_limit = arguments.memory.value_or(options.memory_limit);
   options.shard = arguments.shard;
   options.store = store;

@@ -15,7 +15,9 @@ namespace {
 
 using study::Foresight, study::ForeseenRun;
 
-std::string state_of(const ForeseenRun& run) { return run.stored ? run.why : "to run: " + run.why; }
+std::string state_of(const ForeseenRun& run) {
+  return run.stored || run.given_up ? run.why : "to run: " + run.why;
+}
 
 report::Table run_table(const Foresight& foresight) {
   report::Table table;
@@ -41,14 +43,16 @@ std::size_t cases_in(const Foresight& foresight) {
 }
 
 std::size_t stored_in(const Foresight& foresight) {
-  return static_cast<std::size_t>(std::count_if(foresight.runs.begin(), foresight.runs.end(),
-                                                [](const ForeseenRun& run) { return run.stored; }));
+  return static_cast<std::size_t>(
+      std::count_if(foresight.runs.begin(), foresight.runs.end(),
+                    [](const ForeseenRun& run) { return run.stored || run.given_up; }));
 }
 
 double updates_in(const Foresight& foresight) {
   double updates = 0;
   for (const ForeseenRun& run : foresight.runs) {
-    if (!run.stored) updates += static_cast<double>(run.particles) * static_cast<double>(run.steps);
+    if (!run.stored && !run.given_up)
+      updates += static_cast<double>(run.particles) * static_cast<double>(run.steps);
   }
   return updates;
 }

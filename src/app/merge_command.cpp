@@ -1,6 +1,5 @@
 // launchsafe merge: the shards of a study as one.
 #include "commands.hpp"
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/foresight.hpp"
 #include "signals.hpp"
 #include "study_manifest.hpp"
@@ -9,18 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <stdexcept>
+#include <string>
 
 namespace launchsafe::app {
 namespace {
-
-/// Whatever is not stored is not there: a merge never simulates.
-study::Runners absent_runners() {
-  const std::runtime_error absent("no shard has it");
-  return {[absent](const scene::Scene&, const run::RunOptions&) -> run::MechanicsResult { throw absent; },
-          [absent](const scene::Scene&, double, const run::RunOptions&) -> run::CaseResult { throw absent; }};
-}
 
 ExitCode exit_code_of(const store::Error& error) {
   const bool folder_is_wrong =
@@ -55,6 +46,19 @@ std::size_t list_missing(const study::Foresight& foresight, Console& console) {
   return missing.size();
 }
 
+/// Names the runs that only turned out to be missing when they were asked for: coupled runs, whose gaps
+/// follow from the mechanics, and files that were damaged after they had been looked at.
+std::size_t list_not_stored(const StudyResult& result, Console& console) {
+  nlohmann::ordered_json missing = nlohmann::ordered_json::array();
+  for (const Failure& failure : failures_of(result)) {
+    if (failure.reason.find(study::NotStored::text) == std::string::npos) continue;
+    console.print_text(fmt::format("missing: {}\n", failure.label));
+    missing.push_back({{"run", failure.label}});
+  }
+  if (!missing.empty()) console.print_json({{"missing", missing}});
+  return missing.size();
+}
+
 }  // namespace
 
 ExitCode merge_command(const MergeArguments& arguments, Console& console) {
@@ -66,8 +70,7 @@ ExitCode merge_command(const MergeArguments& arguments, Console& console) {
   study::StudyOptions options;
   options.jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
   options.stop = &stop_requested();
-  options.runners = absent_runners();
-  options.time_limit = 0.0;  // what was timed out stays so, whatever the limit was
+  options.compute = false;
   StudySession session({arguments.study,
                         arguments.output,
                         arguments.update,
@@ -86,7 +89,12 @@ ExitCode merge_command(const MergeArguments& arguments, Console& console) {
                               foresight.runs.size()));
     return ExitCode::cases_failed;
   }
-  return session.conclude(run_study(*file, options), *file, options);
+  const StudyResult result = run_study(*file, options);
+  if (const std::size_t missing = list_not_stored(result, console); missing > 0) {
+    console.error(fmt::format("{} runs are missing; there is no report", missing));
+    return ExitCode::cases_failed;
+  }
+  return session.conclude(result, *file, options);
 }
 
 }  // namespace launchsafe::app

@@ -115,9 +115,16 @@ std::optional<std::string> obstacle_in_folder(const path& folder, const store::M
         folder.string(), folder_for_earlier(folder).string());
   }
   if (record.error().kind != store::Error::Kind::missing) return record.error().message;
-  if (holds_store(folder)) return std::nullopt;
   const std::vector<std::string> foreign = report_names_in(folder);
   if (foreign.empty()) return std::nullopt;
+  if (holds_store(folder)) {
+    if (update) return std::nullopt;
+    return fmt::format(
+        "{} holds a report without its manifest.json, and nothing is overwritten; with --update the report "
+        "moves "
+        "to {} and stored cases are used where they fit",
+        folder.string(), folder_for_earlier(folder).string());
+  }
   return fmt::format(
       "{} holds files that no study of ours left there ({}{}), and nothing is overwritten; name another "
       "folder",
@@ -143,6 +150,9 @@ store::Result<path> take_folder(const path& folder, const store::Manifest& manif
     auto moved = set_earlier_aside(folder, *record);
     if (!moved) return moved.error();
     moved_to = std::move(*moved);
+  } else if (const auto names = report_names_in(folder); !names.empty()) {
+    moved_to = folder_for_earlier(folder);
+    if (auto error = move_files(folder, names, moved_to)) return *error;
   }
   if (auto error = write_study_record(folder, {manifest, {}, {}})) return *error;
   return moved_to;

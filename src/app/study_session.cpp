@@ -180,7 +180,11 @@ ExitCode StudySession::write_files(const StudyResult& result, const std::vector<
   for (const std::string& remark : written->remarks) console_.remark(remark);
   StudyRecord record{request_.manifest, {}, digest};
   record.manifest.wall_time = timing_of(result).wall_time;
-  record.files = record_files(request_.folder, all_names(request_.folder, written->files));
+  // A report that lacks a picture is no finished one: the next time it is written again.
+  const bool complete =
+      std::none_of(written->remarks.begin(), written->remarks.end(),
+                   [](const std::string& remark) { return remark.starts_with("no picture"); });
+  if (complete) record.files = record_files(request_.folder, all_names(request_.folder, written->files));
   if (const auto error = write_study_record(request_.folder, record)) return refuse(*error);
   console_.remark(fmt::format("wrote {} files to {}", written->files.size() + 1, request_.folder.string()));
   return ExitCode::done;

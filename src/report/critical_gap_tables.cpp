@@ -123,7 +123,7 @@ Table critical_gap_table(const CriticalGapResult& result) {
   table.columns = {text_column("case"),
                    named_text("kind", "kind"),
                    significant_column("value", "cm", 6, "value_cm"),
-                   significant_column("safe", "cm", 6, "lower_cm"),
+                   significant_column("no ignition", "cm", 6, "lower_cm"),
                    significant_column("ignites", "cm", 6, "upper_cm"),
                    significant_column("uncertainty", "cm", 2, "uncertainty_cm"),
                    significant_column("anywhere", "cm", 6, "anywhere_cm"),

@@ -66,9 +66,15 @@ pid_t start(const std::string& program, const std::vector<std::string>& argument
   ::posix_spawn_file_actions_adddup2(&actions, input.number(), STDIN_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, output.number(), STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, errors.number(), STDERR_FILENO);
+  // In a group of its own: Ctrl-C is for us, and a picture that is being drawn is finished.
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  ::posix_spawnattr_setpgroup(&attributes, 0);
   pid_t process = -1;
   const int error_number =
-      ::posix_spawnp(&process, program.c_str(), &actions, nullptr, pointers.data(), environ);
+      ::posix_spawnp(&process, program.c_str(), &actions, &attributes, pointers.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
   return error_number == 0 ? process : -error_number;
 }

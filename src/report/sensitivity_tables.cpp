@@ -79,9 +79,12 @@ std::vector<Cell> cells_of(const SensitivityResult& result, const OutputSensitiv
   return cells;
 }
 
-std::string heated_note() {
-  return "T max is that of the skin at the observation points which air and friction heat, without reaction: "
-         "the same as T max of the verdicts where nothing ignites.";
+std::string inert_note() {
+  return "Some evaluations ignite. T max and margin are therefore those of a skin that air and friction heat "
+         "and "
+         "that does not react: the burning skin's T max would jump. What matters to the reaction shows in "
+         "the "
+         "critical gap.";
 }
 
 std::string missing_note(const OutputSensitivity& output) {
@@ -103,7 +106,7 @@ std::vector<std::string> notes_of(const SensitivityResult& result, const OutputS
   if (std::isfinite(output.mean)) notes.push_back(spread_note(output));
   if (output.missing > 0) notes.push_back(missing_note(output));
   notes.push_back(detail::method_text(result));
-  if (output.output != study::SensitivityOutput::critical_gap) notes.push_back(heated_note());
+  if (output.inert) notes.push_back(inert_note());
   return notes;
 }
 

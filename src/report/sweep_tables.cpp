@@ -80,7 +80,7 @@ Table critical_gap_table(const SweepResult& result) {
   table.columns = axis_columns(keys);
   append(table.columns,
          {named_text("kind", "kind"), significant_column("critical gap", "cm", 6, "critical_gap_cm"),
-          named_text("reads as", "reads_as"), significant_column("safe", "cm", 6, "lower_cm"),
+          named_text("reads as", "reads_as"), significant_column("no ignition", "cm", 6, "lower_cm"),
           significant_column("ignites", "cm", 6, "upper_cm"),
           significant_column("uncertainty", "cm", 2, "uncertainty_cm"),
           significant_column("anywhere", "cm", 6, "anywhere_cm")});

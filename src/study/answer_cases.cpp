@@ -1,9 +1,11 @@
 #include "answer_cases.hpp"
 
 #include "case_runs.hpp"
+#include "launchsafe/version.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <iterator>
 #include <optional>
@@ -14,16 +16,17 @@ namespace {
 
 NeededRun needed_by(const StudyCase& input) { return {&input.scene.scene, input.label, std::nullopt}; }
 
-/// What of a study influences an answer, as text.
+/// What of a study influences an answer, as text; and the build, since answers are cheap to draw again, while
+/// one of an older program may be wrong.
 std::string analysis_text(const Study& study) {
-  // Raised by hand when answers to the same question change.
-  constexpr int answer_version = 1;
   std::string text =
-      fmt::format("# answer {}\n{} {} {} {} {} {} {}\n", answer_version, fmt::join(study.gaps, ","),
-                  study.tolerance, study.largest_gap, study.numerical_uncertainty, study.early_time,
-                  study.reference_line.slope, study.reference_line.intercept);
-  for (const Reference& row : study.references)
-    text += fmt::format("{} {} {}\n", row.gap, row.maximum_temperature, row.calibrated);
+      fmt::format("# answer of launchsafe {} {}\n{} {} {} {} {} {} {}\n", version::number, version::commit,
+                  fmt::join(study.gaps, ","), study.tolerance, study.largest_gap, study.numerical_uncertainty,
+                  study.early_time, study.reference_line.slope, study.reference_line.intercept);
+  for (const Reference& row : study.references) {
+    text += fmt::format("{} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.early_temperature,
+                        row.spread, row.early_spread, row.ignition_time, row.calibrated);
+  }
   return text;
 }
 
@@ -115,6 +118,7 @@ class Answering {
     for (std::size_t task = 0; task < tasks.size(); ++task) {
       add_run(timing_, obtained[task].result.mechanics, obtained[task].reused, outcomes[task]);
       if (outcomes[task].started && outcomes[task].failure.empty()) continue;
+      note_refusal(needed_by(study_.cases[open[task].front()]), outcomes[task], options_);
       const std::string failure = failure_of({}, outcomes[task]);
       for (const std::size_t each : open[task]) {
         if (!answers_[each]) answers_[each] = failed_answer(study_.study, study_.cases[each], failure);
@@ -128,19 +132,24 @@ class Answering {
                            const std::function<void(double)>& report_share) {
     ObtainedRun run = obtain(needed_by(study_.cases[cases.front()]), options_, report_share);
     run::MechanicsResult& mechanics = run.result.mechanics;
-    for (const std::size_t each : cases) {
-      if (stop_requested(options_)) throw std::runtime_error("interrupted before its gaps were judged");
-      const StudyCase& input = study_.cases[each];
-      CaseAnswer answer = was_cut_off(mechanics) ? cut_off_answer(input, mechanics)
-                                                 : answer_of(study_.study, input, mechanics);
-      if (!was_cut_off(mechanics) && options_.store != nullptr)
-        options_.store->save_answer(keys_[each], to_json_line(answer));
-      attach_references(study_, input, answer);
-      answers_[each] = std::move(answer);
-    }
+    // Cores that find no further run help here. A thread that waits for them must not start another run.
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) { answer(cases[i], mechanics); });
+    });
     mechanics.trace = {};
     mechanics.monitor.clear();
     return run;
+  }
+
+  void answer(std::size_t index, const run::MechanicsResult& mechanics) {
+    if (stop_requested(options_)) throw std::runtime_error("interrupted before its gaps were judged");
+    const StudyCase& input = study_.cases[index];
+    CaseAnswer answer =
+        was_cut_off(mechanics) ? cut_off_answer(input, mechanics) : answer_of(study_.study, input, mechanics);
+    if (!was_cut_off(mechanics) && options_.store != nullptr)
+      options_.store->save_answer(keys_[index], to_json_line(answer));
+    attach_references(study_, input, answer);
+    answers_[index] = std::move(answer);
   }
 
   /// How far a run came that was cut off depends on the machine, and is no part of the result.

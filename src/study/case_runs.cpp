@@ -58,12 +58,19 @@ void keep(const NeededRun& needed, const store::CaseIdentity& identity, const ru
 std::optional<run::CaseResult> timed_out_before(const store::CaseIdentity& identity,
                                                 const StudyOptions& options) {
   const auto entry = options.store->last_entry(identity.hash());
-  if (!entry || entry->state != store::CaseState::timed_out || !(options.time_limit <= entry->time_limit))
-    return std::nullopt;
+  if (!entry || entry->state != store::CaseState::timed_out) return std::nullopt;
+  if (options.compute && !(options.time_limit <= entry->time_limit)) return std::nullopt;
   run::CaseResult result;
   result.mechanics.status = run::RunStatus::timed_out;
   result.mechanics.reason = entry->reason;
   return result;
+}
+
+/// For a case that may not be computed: what the journal says of it.
+[[noreturn]] void throw_failure_of(const store::CaseIdentity& identity, const StudyOptions& options) {
+  const auto entry = options.store->last_entry(identity.hash());
+  if (entry && entry->state == store::CaseState::failed) throw std::runtime_error(entry->reason);
+  throw NotStored();
 }
 
 }  // namespace
@@ -90,6 +97,7 @@ ObtainedRun obtain(const NeededRun& needed, const StudyOptions& options,
     if (auto stored = options.store->load(identity.hash())) return {std::move(*stored), true};
   }
   if (auto before = timed_out_before(identity, options)) return {std::move(*before), true};
+  if (!options.compute) throw_failure_of(identity, options);
   try {
     ObtainedRun run{compute(needed, options, report_share), false};
     keep(needed, identity, run.result, options);
@@ -104,8 +112,7 @@ ObtainedRun obtain(const NeededRun& needed, const StudyOptions& options,
 }
 
 double cost_of(const scene::Scene& scene) {
-  const scene::Plan plan = scene::make_plan(scene);
-  const double cost = static_cast<double>(plan.steps) * static_cast<double>(plan.particles());
+  const double cost = scene::make_plan(scene).work;
   return std::isfinite(cost) ? std::max(cost, 1.0) : 1.0;
 }
 
@@ -126,7 +133,21 @@ Task task_of(const NeededRun& needed, const StudyOptions& options,
   constexpr double reading_share = 1e-3;
   const bool stored = options.store != nullptr && options.store->holds(identity_of(needed).hash());
   const double cost = cost_of(*needed.scene);
-  return {stored ? reading_share * cost : cost, std::move(work), memory_of(*needed.scene)};
+  if (stored) return {reading_share * cost, std::move(work), 0.0};
+  return {cost, std::move(work), memory_of(*needed.scene)};
+}
+
+void note_refusal(const NeededRun& needed, const TaskOutcome& outcome, const StudyOptions& options) {
+  if (options.store == nullptr || !options.compute || !outcome.started || outcome.failure.empty()) return;
+  const store::CaseIdentity identity = identity_of(needed);
+  const auto before = options.store->last_entry(identity.hash());
+  // What was thrown on the way is in the journal already.
+  if (before && before->state != store::CaseState::timed_out && before->reason == outcome.failure) return;
+  if (before && before->state == store::CaseState::done) return;
+  store::JournalEntry entry = entry_for(needed, identity);
+  entry.state = store::CaseState::failed;
+  entry.reason = outcome.failure;
+  options.store->note(std::move(entry));
 }
 
 Resources resources_of(const StudyOptions& options) { return {options.jobs, options.memory_limit}; }
@@ -141,7 +162,7 @@ std::string failure_of(const run::MechanicsResult& mechanics, const TaskOutcome&
 void add_run(Timing& timing, const run::MechanicsResult& mechanics, bool reused, const TaskOutcome& outcome) {
   if (!outcome.started || !outcome.failure.empty()) return;
   if (reused) {
-    ++timing.reused;
+    if (mechanics.status != run::RunStatus::timed_out) ++timing.reused;
     return;
   }
   ++timing.runs;

@@ -41,6 +41,9 @@ double memory_of(const scene::Scene& scene);
 Task task_of(const NeededRun& needed, const StudyOptions& options,
              std::function<void(const std::function<void(double)>&)> work);
 
+/// Journals a run that failed before it began: one that the memory limit refused.
+void note_refusal(const NeededRun& needed, const TaskOutcome& outcome, const StudyOptions& options);
+
 Resources resources_of(const StudyOptions& options);
 
 /// Why a run is no basis for a verdict; empty for a completed one.

@@ -92,6 +92,7 @@ void run_mechanics(CriticalGapResult& result, const std::vector<bool>& ours, con
     CaseOutcome& outcome = result.cases[indices[task]];
     detail::add_run(result.timing, outcome.result.mechanics, outcome.reused, outcomes[task]);
     if (outcomes[task].started && outcomes[task].failure.empty()) continue;
+    detail::note_refusal(mechanics_of(outcome), outcomes[task], options);
     give_up(result.study.study, outcome, detail::failure_of(outcome.result.mechanics, outcomes[task]));
   }
 }

@@ -83,6 +83,16 @@ class Reasons {
   std::map<std::string, JournalEntry> by_label_;
 };
 
+/// True for a run that would not be tried now: it was timed out under a limit no smaller than today's, or it
+/// failed and nothing may be computed.
+bool is_given_up(const std::string& hash, const StudyOptions& options) {
+  const auto entry = options.store ? options.store->last_entry(hash) : std::nullopt;
+  if (!entry) return false;
+  if (entry->state == CaseState::failed) return !options.compute;
+  return entry->state == CaseState::timed_out &&
+         (!options.compute || options.time_limit <= entry->time_limit);
+}
+
 /// Particle updates per second that the journal's runs came to.
 void learn_rate(Foresight& foresight, const StudyOptions& options) {
   if (options.store == nullptr) return;
@@ -145,14 +155,13 @@ Foresight foresee(const StudyFile& study, const StudyOptions& options, double up
       run.why = run.answered ? "stored" : "stored; its gaps are judged anew";
     } else {
       run.why = reasons.why_run(run.hash, input);
-      const auto entry = options.store ? options.store->last_entry(run.hash) : std::nullopt;
-      run.given_up = entry && entry->state == CaseState::timed_out;
+      run.given_up = is_given_up(run.hash, options);
       run.time = ours[i].cost / foresight.update_rate;
     }
   });
   std::vector<double> times, memories;
   for (const ForeseenRun& run : foresight.runs) {
-    if (run.stored) continue;
+    if (run.stored || run.given_up) continue;
     times.push_back(run.time);
     memories.push_back(run.memory);
   }

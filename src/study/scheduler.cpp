@@ -98,13 +98,17 @@ class Queue {
     while (!waiting_.empty() && !(stop != nullptr && stop->load(std::memory_order_relaxed))) {
       // One that never fits is taken at once: `perform` refuses it.
       const auto fits = [this](std::size_t task) {
-        return tasks_[task].memory <= free_ || tasks_[task].memory > limit_;
+        // Sums of rounded numbers may end a bit short of the limit that they began with.
+        return tasks_[task].memory <= free_ || running_ == 0 || too_large(task);
       };
       const auto found = std::find_if(waiting_.rbegin(), waiting_.rend(), fits);
       if (found != waiting_.rend()) {
         const std::size_t task = *found;
         waiting_.erase(std::next(found).base());
-        if (!too_large(task)) free_ -= tasks_[task].memory;
+        if (!too_large(task)) {
+          free_ -= tasks_[task].memory;
+          ++running_;
+        }
         return task;
       }
       // With a time limit, since a signal handler that sets `stop` cannot notify.
@@ -117,6 +121,7 @@ class Queue {
     if (too_large(task)) return;
     const std::lock_guard lock(mutex_);
     free_ += tasks_[task].memory;
+    --running_;
     changed_.notify_all();
   }
 
@@ -125,6 +130,7 @@ class Queue {
  private:
   const std::vector<Task>& tasks_;
   double limit_, free_;
+  std::size_t running_ = 0;
   std::vector<std::size_t> waiting_;
   std::mutex mutex_;
   std::condition_variable changed_;

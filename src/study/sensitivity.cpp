@@ -38,18 +38,20 @@ bool SensitivityResult::any_indeterminate() const {
 
 namespace {
 
-double value_of(SensitivityOutput output, const CaseAnswer& answer, const StudyCase& input) {
+double value_of(const OutputSensitivity& of, const CaseAnswer& answer, const StudyCase& input) {
   if (!answer.completed()) return not_a_number;
-  const double heated = answer.heated_temperature.front();
-  switch (output) {
-    case SensitivityOutput::maximum_temperature:
-      return heated;
-    case SensitivityOutput::critical_gap:
-      return answer.critical.value;
-    case SensitivityOutput::margin:
-      return input.scene.scene.charge.kinetics.ignition_temperature - heated;
-  }
-  return not_a_number;
+  if (of.output == SensitivityOutput::critical_gap) return answer.critical.value;
+  const double temperature =
+      of.inert ? answer.heated_temperature.front() : answer.verdicts.front().maximum.temperature;
+  return of.output == SensitivityOutput::margin
+             ? input.scene.scene.charge.kinetics.ignition_temperature - temperature
+             : temperature;
+}
+
+bool any_ignites(const SensitivityResult& result) {
+  return std::any_of(result.answers.begin(), result.answers.end(), [](const CaseAnswer& answer) {
+    return !answer.verdicts.empty() && answer.verdicts.front().ignition.has_value();
+  });
 }
 
 bool is_bound(const CaseAnswer& answer) {
@@ -96,9 +98,10 @@ void estimate(const Study& study, OutputSensitivity& output) {
 OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOutput which) {
   OutputSensitivity output;
   output.output = which;
+  output.inert = which != SensitivityOutput::critical_gap && any_ignites(result);
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const CaseAnswer& answer = result.answers[i];
-    output.values.push_back(value_of(which, answer, result.study.cases[i]));
+    output.values.push_back(value_of(output, answer, result.study.cases[i]));
     if (std::isfinite(output.values.back())) continue;
     ++output.missing;
     if (which == SensitivityOutput::critical_gap && is_bound(answer)) ++output.bounds;

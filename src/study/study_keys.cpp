@@ -144,7 +144,7 @@ std::vector<Key<Study>> sensitivity_keys() {
       one_gap_key(),
       study_number("seed", Dimension::count, between(0, largest_seed),
                    "Seed of the design and of the bootstrap.", &Study::seed),
-      study_number("resamples", Dimension::count, between(1, 1e6), "Resamples of the bootstrap.",
+      study_number("resamples", Dimension::count, between(100, 1e6), "Resamples of the bootstrap.",
                    &Study::resamples),
       study_number("confidence", Dimension::number, between(0.5, 0.999), "Confidence of the intervals.",
                    &Study::confidence),

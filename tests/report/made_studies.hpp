@@ -5,6 +5,7 @@
 #include "launchsafe/study/sweep.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -25,8 +26,7 @@ inline std::string content_of(const std::filesystem::path& file) {
 /// A folder of its own, gone with the test.
 struct Folder {
   std::filesystem::path path =
-      std::filesystem::temp_directory_path() /
-      ("launchsafe_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+      std::filesystem::temp_directory_path() / ("launchsafe_" + std::to_string(::getpid()));
   Folder() { std::filesystem::remove_all(path); }
   ~Folder() { std::filesystem::remove_all(path); }
   Folder(const Folder&) = delete;

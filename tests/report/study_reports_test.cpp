@@ -5,6 +5,7 @@
 #include "study/synthetic_launch.hpp"
 
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -34,8 +35,7 @@ std::string content_of(const std::filesystem::path& file) {
 /// A folder of its own, gone with the test.
 struct Folder {
   std::filesystem::path path =
-      std::filesystem::temp_directory_path() /
-      ("launchsafe_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+      std::filesystem::temp_directory_path() / ("launchsafe_" + std::to_string(::getpid()));
   Folder() { std::filesystem::remove_all(path); }
   ~Folder() { std::filesystem::remove_all(path); }
 };

@@ -94,9 +94,10 @@ TEST(Sensitivity, MorrisEffectsOfALinearMarginAreItsRanges) {
   const SensitivityResult result = run_sensitivity(study, counted.options);
   const OutputSensitivity& margin = output_of(result, SensitivityOutput::margin);
   ASSERT_EQ(margin.morris.size(), 3u);
-  EXPECT_NEAR(margin.morris[0].mu, -77.4, 1e-3);
-  EXPECT_NEAR(margin.morris[0].mu_star.value, 77.4, 1e-3);
-  EXPECT_NEAR(margin.morris[0].sigma, 0.0, 1e-3);
+  // At 455 K the reaction adds some millikelvin: (Q Z/c) exp(-21700/455) = 13 K/s.
+  EXPECT_NEAR(margin.morris[0].mu, -77.4, 0.02);
+  EXPECT_NEAR(margin.morris[0].mu_star.value, 77.4, 0.02);
+  EXPECT_NEAR(margin.morris[0].sigma, 0.0, 0.02);
   EXPECT_NEAR(margin.morris[1].mu, 20.0, 1e-6);
   EXPECT_NEAR(margin.morris[2].mu_star.value, 0.0, 1e-6);
 }

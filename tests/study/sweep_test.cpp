@@ -205,6 +205,45 @@ TEST_F(StoredSweep, JudgesNewThermalValuesOnStoredRuns) {
   EXPECT_EQ(lines_of(result), lines_of(run_sweep(study_of(sweep_text(other)), unstored.options())));
 }
 
+// A row that the constants were calibrated on and that is missed costs 60 K of uncertainty; whether it counts
+// as missed hangs on whether it ignited in the reference.
+TEST_F(StoredSweep, NeverUsesAnAnswerThatOtherReferencesLedTo) {
+  const auto with_reference = [](const std::string& more) {
+    return study_of(sweep_text("gap = \"0, 0.02 cm\"\n") +
+                    "[[reference]]\ngap = \"0 cm\"\nmaximum_temperature = \"416.1 K\"\ncalibrated = true\n" +
+                    more);
+  };
+  const StudyFile met = with_reference(""), ignited = with_reference("ignition_time = \"17 ms\"\n");
+  Counting first, second, fresh;
+  run(met, first);
+  const SweepResult stored = run(ignited, second);
+  EXPECT_EQ(second.runs(), 0);
+  EXPECT_EQ(lines_of(stored), lines_of(run_sweep(ignited, fresh.options())));
+  EXPECT_NE(lines_of(stored), lines_of(run_sweep(met, fresh.options())));
+}
+
+TEST_F(StoredSweep, WhereNothingMayBeComputedOnlyWhatIsStoredCounts) {
+  const StudyFile study = study_of(sweep_text("gap = \"0 cm\"\npeak_pressure = \"400, 496, 550 MPa\"\n"));
+  Counting first, second;
+  first.outcome = [](const scene::Scene& scene) {
+    if (scene.load.peak == 400e6) throw std::bad_alloc();
+    return synthetic_mechanics(scene);
+  };
+  run(study_of(sweep_text("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n")), first);
+  auto store = store::CaseStore::open(folder() / "results", {"", run::model_version, {}});
+  StudyOptions options = second.options();
+  options.store = store->get();
+  options.compute = false;
+  const SweepResult result = run_sweep(study, options);
+  EXPECT_EQ(second.runs(), 0);
+  EXPECT_EQ(result.answers[0].failure, "the run failed: std::bad_alloc");  // as it would say by itself
+  EXPECT_TRUE(result.answers[1].completed());
+  EXPECT_NE(result.answers[2].failure.find(NotStored::text), std::string::npos);
+  EXPECT_FALSE((*store)->flush());
+  // Nothing was journaled that did not happen.
+  EXPECT_EQ((*store)->entries().size(), 2u);
+}
+
 TEST_F(StoredSweep, ComputesADamagedCaseAgain) {
   const StudyFile study = study_of(sweep_text(two_by_two_by_two));
   Counting first, second;
@@ -281,6 +320,7 @@ TEST_F(StoredSweep, ForeseesWhatHasToRunAndWhy) {
   for (const ForeseenRun& each : before.runs) {
     EXPECT_EQ(each.cases, 2u);
     EXPECT_FALSE(each.stored);
+    // Cracks this small do not divide the steps.
     EXPECT_DOUBLE_EQ(each.time, static_cast<double>(each.particles * each.steps) / 1e6);
     sum += each.time;
   }

@@ -38,7 +38,10 @@ struct Plan {
   std::int64_t cells = 0;  ///< of the fitted grid over the shell at rest
   double time_step = 0;    ///< s, at rest: CFL h/c_L, times sqrt(inertial_scaling)
   std::int64_t steps = 0;  ///< duration over time_step; compression stiffens, so a run takes some more
-  double memory = 0;       ///< bytes of particles and grid, estimated
+  /// Particle updates that the run is worth: steps times particles, and more where the crack law divides its
+  /// steps.
+  double work = 0;
+  double memory = 0;  ///< bytes of particles and grid, estimated
 };
 
 /// Longitudinal sound speed at rest (m/s) of a material of the scene.

@@ -22,7 +22,7 @@ struct ForeseenRun {
   int shard = 1;
   bool stored = false;    ///< its result is there
   bool answered = false;  ///< and so are the answers of all its cases
-  bool given_up = false;  ///< it was timed out, which is its row of the study until the limit is raised
+  bool given_up = false;  ///< it was timed out, or failed and may not be computed: that is its row
   std::string why;        ///< why it is used again or has to run
 };
 

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 namespace launchsafe::study {
@@ -21,6 +22,12 @@ struct Runners {
 /// run::run_mechanics and run::run_coupled.
 Runners simulation_runners();
 
+/// A run that may not be computed is not there. Its text is part of the failure of the case.
+struct NotStored : std::runtime_error {
+  static constexpr const char* text = "it is not stored";
+  NotStored() : std::runtime_error(text) {}
+};
+
 struct StudyOptions {
   int jobs = 0;             ///< cases at a time; <= 0: available_cores()
   double memory_limit = 0;  ///< bytes of all running cases together; <= 0: most of what is available
@@ -31,6 +38,7 @@ struct StudyOptions {
   std::atomic<bool>* stop = nullptr;
   ProgressCallback progress;
   Runners runners = simulation_runners();
+  bool compute = true;  ///< false: only what is stored counts, and a run that is not stored throws NotStored
   /// Where results are kept and taken from; none: nothing is kept.
   store::CaseStore* store = nullptr;
 };

@@ -13,8 +13,7 @@ namespace launchsafe::study {
 
 /// One output of a case as a number.
 enum class SensitivityOutput {
-  maximum_temperature,  ///< K, CaseAnswer::heated_temperature at the study's gap: without reaction it is
-                        ///< continuous in the inputs, and the same as T max where nothing ignites
+  maximum_temperature,  ///< K, T max of the verdict at the study's gap; see OutputSensitivity::inert
   critical_gap,         ///< m
   margin                ///< K, ignition temperature minus that maximum temperature
 };
@@ -23,6 +22,10 @@ std::string to_string(SensitivityOutput output);  ///< "T_max", "critical_gap", 
 /// What an output depends on.
 struct OutputSensitivity {
   SensitivityOutput output;
+  /// Temperature and margin are those of a skin that does not react, CaseAnswer::heated_temperature: so where
+  /// any evaluation ignites, since T max then jumps to that of the burning skin. Kinetics do not show in
+  /// them.
+  bool inert = false;
   std::vector<double> values;  ///< of every evaluation; NaN where there is none
   std::size_t missing = 0;  ///< evaluations without a number: failed runs, or a critical gap that is a bound
   std::size_t bounds = 0;   ///< of these, critical gaps that are bounds
