@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 
 namespace {
 
@@ -202,11 +202,17 @@ TEST(SkinHistory, FortyStationsOnAThousandSamplesTakeMilliseconds) {
   for (const auto air : {scene::AirModel::reservoir, scene::AirModel::balance}) {
     SkinModel model = plain_model();
     model.surface.air_model = air;
-    double best = 1.0;  // of three, as the machine may be busy
+    // Processor time, the best of three, as the machine may be busy with other things.
+    const auto now = [] {
+      timespec time{};
+      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+      return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    };
+    double best = 1.0;
     for (int run = 0; run < 3; ++run) {
-      const auto begin = std::chrono::steady_clock::now();
+      const double begin = now();
       integrate_skin(model, trace, 4e-4);
-      best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+      best = std::min(best, now() - begin);
     }
     RecordProperty(air == scene::AirModel::balance ? "balance_ms" : "reservoir_ms",
                    std::to_string(1e3 * best));
