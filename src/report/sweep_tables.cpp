@@ -70,14 +70,20 @@ std::string verdict_mark(study::Verdict verdict) {
   return verdict == study::Verdict::indeterminate ? "INDET." : study::to_string(verdict);
 }
 
+/// A table whose rows begin with the values of the axes.
+Table table_by_axes(std::string title, const std::vector<detail::ShownKey>& keys) {
+  Table table;
+  table.title = std::move(title);
+  table.columns = axis_columns(keys);
+  return table;
+}
+
 }  // namespace
 
 Table critical_gap_table(const SweepResult& result) {
   const auto keys = detail::shown_axes(result.study.study);
   const std::vector<double>& gaps = result.study.study.gaps;
-  Table table;
-  table.title = "Critical gaps";
-  table.columns = axis_columns(keys);
+  Table table = table_by_axes("Critical gaps", keys);
   append(table.columns,
          {named_text("kind", "kind"), significant_column("critical gap", "cm", 6, "critical_gap_cm"),
           named_text("reads as", "reads_as"), significant_column("no ignition", "cm", 6, "lower_cm"),
@@ -132,9 +138,7 @@ Table verdict_table(const SweepResult& result) {
 Table verdict_matrix(const SweepResult& result) {
   const auto keys = detail::shown_axes(result.study.study);
   const std::vector<double>& gaps = result.study.study.gaps;
-  Table table;
-  table.title = "Verdicts by gap";
-  table.columns = axis_columns(keys);
+  Table table = table_by_axes("Verdicts by gap", keys);
   for (const double gap : gaps) {
     table.columns.push_back(
         named_text(detail::centimetres(gap), fmt::format("gap_{:.6g}_cm", detail::in_centimetres(gap))));

@@ -1,12 +1,12 @@
 #include "answer_cases.hpp"
 
-#include "case_runs.hpp"
 #include "launchsafe/version.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <iterator>
 #include <optional>
 #include <unordered_map>
@@ -208,6 +208,11 @@ std::vector<std::string> answer_keys(const StudyFile& study) {
 
 std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing) {
   return Answering(study, options, timing).answer_all();
+}
+
+bool any_failed(const std::vector<CaseAnswer>& answers) {
+  return std::any_of(answers.begin(), answers.end(),
+                     [](const CaseAnswer& each) { return !each.completed(); });
 }
 
 }  // namespace launchsafe::study::detail

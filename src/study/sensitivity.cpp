@@ -1,12 +1,10 @@
 #include "launchsafe/study/sensitivity.hpp"
 
 #include "answer_cases.hpp"
-#include "case_runs.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -28,9 +26,7 @@ std::string to_string(SensitivityOutput output) {
   return "";
 }
 
-bool SensitivityResult::any_failed() const {
-  return std::any_of(answers.begin(), answers.end(), [](const auto& each) { return !each.completed(); });
-}
+bool SensitivityResult::any_failed() const { return detail::any_failed(answers); }
 
 bool SensitivityResult::any_indeterminate() const {
   return std::any_of(outputs.begin(), outputs.end(), [](const auto& each) { return !each.reason.empty(); });
@@ -119,19 +115,11 @@ OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOut
 }  // namespace
 
 SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  SensitivityResult result;
-  result.study = study;
-  result.timing.jobs = detail::jobs_of(options);
-  result.answers = detail::answer_cases(study, options, result.timing);
-  result.interrupted = detail::stop_requested(options);
-  if (!result.interrupted) {
+  return detail::run_answering<SensitivityResult>(study, options, [](SensitivityResult& result) {
     for (const auto output :
          {SensitivityOutput::maximum_temperature, SensitivityOutput::critical_gap, SensitivityOutput::margin})
       result.outputs.push_back(sensitivity_of(result, output));
-  }
-  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
+  });
 }
 
 }  // namespace launchsafe::study

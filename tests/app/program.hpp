@@ -1,6 +1,7 @@
 // The real program, started as a user would, with its output in files.
 #pragma once
 
+#include "small_shell.hpp"
 #include "store/temporary_folder.hpp"
 
 #include <fcntl.h>
@@ -40,36 +41,8 @@ energy_drift_limit = 0.5
 
 [output]
 trace_interval = "5 us"
-
-[[body]]
-name = "cup"
-material = "steel"
-x = "0 to 1 cm"
-r = "0 to 2 cm"
-
-[[body]]
-name = "filling"
-material = "charge"
-x = "1 to 4 cm"
-r = "0 to 1.5 cm"
-
-[[body]]
-name = "wall"
-material = "steel"
-x = "1 to 4 cm"
-r = "1.5 to 2 cm"
-
-[[body]]
-name = "base"
-material = "steel"
-x = "4 to 5 cm"
-r = "0 to 2 cm"
-
-[[observation_point]]
-name = "G1"
-x = "3.9 cm"
-r = "1 cm"
-)";
+)" + testing::small_shell + testing::small_shell_base +
+                                      testing::small_shell_point;
 
 /// The text with its first `from` replaced by `to`.
 inline std::string with(std::string text, const std::string& from, const std::string& to) {

@@ -276,7 +276,7 @@ done
 unset "${!SLURM@}" "${!SBATCH@}"
 trap clean_up EXIT
 trap 'exit 130' INT TERM HUP
-folder=$(mktemp -d -t launchsafe-slurm.XXXXXX)
+folder=$(mktemp -d)
 chmod 711 "$folder"  # munge wants its socket's folder to be open to all
 mkdir "$folder/cancelled"
 start_slurm

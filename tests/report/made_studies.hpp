@@ -3,9 +3,9 @@
 
 #include "launchsafe/study/sensitivity.hpp"
 #include "launchsafe/study/sweep.hpp"
+#include "report/report_folder.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -17,21 +17,6 @@
 #include <vector>
 
 namespace launchsafe::report {
-
-inline std::string content_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// A folder of its own, gone with the test.
-struct Folder {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("launchsafe_" + std::to_string(::getpid()));
-  Folder() { std::filesystem::remove_all(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-};
 
 /// The shipped 155 mm scene as a study without cases.
 inline study::StudyFile bare_study(study::StudyKind kind, std::vector<double> gaps) {

@@ -2,20 +2,20 @@
 #include "launchsafe/report/calibration_report.hpp"
 #include "launchsafe/report/critical_gap_report.hpp"
 #include "launchsafe/store/case_file.hpp"
+#include "report/report_folder.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 namespace {
 
 using namespace launchsafe;
 using namespace launchsafe::study;
+using report::content_of, report::Folder;
 
 const std::string text = critical_text +
                          "title = \"A test\"\ngaps = \"0, 0.03, 0.06 cm\"\n"
@@ -26,19 +26,6 @@ const std::string text = critical_text +
 CriticalGapResult one_case() {
   return run_critical_gap(study_of(text + synthetic_constants), synthetic_options());
 }
-
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// A folder of its own, gone with the test.
-struct Folder {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("launchsafe_" + std::to_string(::getpid()));
-  Folder() { std::filesystem::remove_all(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
 
 TEST(CriticalGapReport, JsonHasTheKeysThatOtherProgramsReadFrom) {
   const auto json = report::to_json(one_case());

@@ -105,7 +105,7 @@ TEST(MechanicalPart, StatesWhatThePlanDecides) {
 }
 
 TEST(MechanicalPart, KnowsACurveByItsValues) {
-  const std::string folder = testing::TempDir();
+  const std::string folder = ::testing::TempDir();
   for (const char* name : {"mechanical_part_a.csv", "mechanical_part_b.csv"})
     std::ofstream(folder + name) << "time_us,pressure_MPa\n0,0\n10,1000\n50,2000\n";
   const auto with_curve = [](const std::string& load) {

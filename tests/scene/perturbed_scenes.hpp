@@ -4,6 +4,7 @@
 #include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
+#include "small_shell.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,36 +22,8 @@ thickness = "0, 0.01 cm"
 
 [charge]
 crack_radius = "100 um"
-
-[[body]]
-name = "cup"
-material = "steel"
-x = "0 to 1 cm"
-r = "0 to 2 cm"
-
-[[body]]
-name = "filling"
-material = "charge"
-x = "1 to 4 cm"
-r = "0 to 1.5 cm"
-
-[[body]]
-name = "wall"
-material = "steel"
-x = "1 to 4 cm"
-r = "1.5 to 2 cm"
-
-[[body]]
-name = "base"
-material = "steel"
-x = "4 to 5 cm"
-r = "0 to 2 cm"
-
-[[observation_point]]
-name = "G1"
-x = "3.9 cm"
-r = "1 cm"
-)";
+)" + testing::small_shell + testing::small_shell_base +
+                                       testing::small_shell_point;
 inline const std::string quick_numerics =
     "numerics.cell_size = \"5 mm\"\nnumerics.energy_drift_limit = 0.5\noutput.trace_interval = \"5 us\"\n"
     "load.duration = \"50 us\"\nphysics.reaction_bound = \"1e30 K\"\n";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "launchsafe/scene/read_scene.hpp"
+#include "small_shell.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,30 +18,7 @@ duration = "1 ms"
 
 [gap]
 thickness = "0, 0.01 cm"
-
-[[body]]
-name = "cup"
-material = "steel"
-x = "0 to 1 cm"
-r = "0 to 2 cm"
-
-[[body]]
-name = "filling"
-material = "charge"
-x = "1 to 4 cm"
-r = "0 to 1.5 cm"
-
-[[body]]
-name = "wall"
-material = "steel"
-x = "1 to 4 cm"
-r = "1.5 to 2 cm"
-
-[[observation_point]]
-name = "G1"
-x = "3.9 cm"
-r = "1 cm"
-)";
+)" + testing::small_shell + testing::small_shell_point;
 
 /// The text with its first `from` replaced by `to`.
 inline std::string with(std::string text, std::string_view from, std::string_view to) {

@@ -231,7 +231,7 @@ TEST(ReadSensitivity, AValueThatTheSceneCannotHaveNamesTheInput) {
 }
 
 TEST(ReadSensitivity, TheAnalyticLoadIsNotUncertainUnderAMeasuredCurve) {
-  const std::string file = testing::TempDir() + "read_sensitivity_curve.csv";
+  const std::string file = ::testing::TempDir() + "read_sensitivity_curve.csv";
   std::ofstream(file) << "time_ms,pressure_MPa\n0,0\n5,400\n18,0\n";
   expect_error_in(start + exponent + "[set]\nload.curve = \"" + file + "\"\n",
                   {5, "input.key", "which a measured curve does not have"});
@@ -244,7 +244,7 @@ TEST(ReadSensitivity, TenThousandEvaluationsAreReadInHalfASecond) {
   EXPECT_EQ(file.cases.size(), 10240u);
   RecordProperty("milliseconds", static_cast<int>(1e3 * seconds));
 #ifdef NDEBUG
-  EXPECT_LT(seconds, 2 * 0.5) << "processor time; 0.5 s are aimed at";
+  EXPECT_LT(seconds, 0.5) << "processor time";
 #endif
 }
 

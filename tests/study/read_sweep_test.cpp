@@ -199,7 +199,7 @@ TEST(ReadSweep, KeysOfOtherKindsAreErrors) {
 }
 
 TEST(ReadSweep, TheAnalyticLoadDoesNotVaryUnderAMeasuredCurve) {
-  const std::string file = testing::TempDir() + "read_sweep_curve.csv";
+  const std::string file = ::testing::TempDir() + "read_sweep_curve.csv";
   std::ofstream(file) << "time_ms,pressure_MPa\n0,0\n5,400\n18,0\n";
   const std::string curve = "[set]\nload.curve = \"" + file + "\"\n";
   expect_error_in(sweep_text + "peak_pressure = \"400 MPa\"\n" + curve,
@@ -228,7 +228,7 @@ TEST(ReadSweep, TenThousandCasesAreReadInAQuarterOfASecond) {
   EXPECT_EQ(study.cases.size(), 10000u);
   RecordProperty("milliseconds", static_cast<int>(1e3 * seconds));
 #ifdef NDEBUG
-  EXPECT_LT(seconds, 2 * 0.25) << "processor time; 0.25 s are aimed at";
+  EXPECT_LT(seconds, 0.25) << "processor time";
 #endif
 }
 

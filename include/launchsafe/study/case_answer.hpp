@@ -40,12 +40,4 @@ std::string to_json_line(const CaseAnswer& answer);
 /// Nothing for a text that is no answer.
 std::optional<CaseAnswer> answer_from_json(const std::string& line);
 
-/// How an answer came about in this run of the study.
-enum class AnswerSource {
-  computed,    ///< the mechanics ran
-  from_trace,  ///< on a stored mechanical run
-  stored,      ///< the answer itself was stored
-  missing      ///< there is none: interrupted, of another shard, or failed
-};
-
 }  // namespace launchsafe::study
