@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 namespace launchsafe::run {
@@ -23,6 +24,13 @@ constexpr std::uint64_t monitor_samples = 500;
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Processor time (s) that the calling thread has used.
+double thread_processor_time() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 /// Skin temperatures advanced with the mechanics, for one gap.
@@ -106,6 +114,7 @@ class Runner {
 
   MechanicsResult run() {
     const FlushDenormals flush;
+    const double processor_start = thread_processor_time();
     const double duration = simulation_.scene().load.duration;
     const double first_step = simulation_.stable_time_step();
     double time_step = first_step;
@@ -125,6 +134,7 @@ class Runner {
     result_.end_time = simulation_.time();
     result_.limiters = count_limited(simulation_);
     result_.wall_time = seconds_since(start_);
+    result_.processor_time = thread_processor_time() - processor_start;
     result_.trace = recorder_.take();
     return std::move(result_);
   }

@@ -85,7 +85,7 @@ bool CaseStore::Content::adopt(const std::string& hash) {
     entry.hash = hash;
     entry.state = CaseState::done;
     entry.reason.clear();
-    entry.wall_time = 0;  // whatever took it was another attempt
+    entry.wall_time = entry.processor_time = 0;  // whatever took them was another attempt
     entry.host = host;
     entry.end_time = utc_now();
   }
@@ -195,7 +195,10 @@ Result<run::CaseResult> CaseStore::load(const std::string& hash) {
   if (!stored) return content_->set_aside(hash, of_file(path, stored.error()));
   if (!belongs_to(stored->manifest, hash)) return content_->set_aside(hash, of_another_case(path));
   const std::optional<JournalEntry> entry = content_->index.last_entry(hash);
-  if (entry && entry->state == CaseState::done) stored->result.mechanics.wall_time = entry->wall_time;
+  if (entry && entry->state == CaseState::done) {
+    stored->result.mechanics.wall_time = entry->wall_time;
+    stored->result.mechanics.processor_time = entry->processor_time;
+  }
   return std::move(stored->result);
 }
 
@@ -217,7 +220,10 @@ void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, ru
   manifest.input_text = identity.input();
   manifest.input_sha256 = sha256(identity.input());
   manifest.model_version = entry.model_version;
-  if (entry.wall_time == 0) entry.wall_time = result.mechanics.wall_time;
+  if (entry.wall_time == 0) {
+    entry.wall_time = result.mechanics.wall_time;
+    entry.processor_time = result.mechanics.processor_time;
+  }
   result.mechanics.wall_time = 0;
   Result<std::string> bytes = case_bytes(scene, result, manifest, &content_->molds);
   if (!bytes) {

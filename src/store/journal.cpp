@@ -73,6 +73,7 @@ class EntryReader : public nlohmann::json_sax<nlohmann::json> {
  private:
   bool real(double number) {
     if (key_ == "wall_time_s") entry.wall_time = number;
+    if (key_ == "processor_time_s") entry.processor_time = number;
     if (key_ == "predicted_updates") entry.predicted_updates = number;
     if (key_ == "time_limit_s") entry.time_limit = number;
     return true;
@@ -109,6 +110,7 @@ std::string journal_line(const JournalEntry& entry) {
   if (!entry.reason.empty()) line["reason"] = entry.reason;
   line["model_version"] = entry.model_version;
   line["wall_time_s"] = number(entry.wall_time);
+  line["processor_time_s"] = number(entry.processor_time);
   line["predicted_updates"] = number(entry.predicted_updates);
   if (entry.state == CaseState::timed_out) line["time_limit_s"] = number(entry.time_limit);
   line["host"] = entry.host;

@@ -39,6 +39,7 @@ void keep(const NeededRun& needed, const store::CaseIdentity& identity, const ru
           const StudyOptions& options) {
   store::JournalEntry entry = entry_for(needed, identity);
   entry.wall_time = result.mechanics.wall_time;
+  entry.processor_time = result.mechanics.processor_time;
   switch (result.mechanics.status) {
     case run::RunStatus::interrupted:
       entry.state = store::CaseState::interrupted;

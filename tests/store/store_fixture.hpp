@@ -27,6 +27,7 @@ inline store::JournalEntry entry_of(int number) {
   store::JournalEntry entry;
   entry.label = fmt::format("case {}", number);
   entry.wall_time = 61.5;
+  entry.processor_time = 60.25;
   entry.predicted_updates = 1e9;
   return entry;
 }

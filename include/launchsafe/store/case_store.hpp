@@ -49,6 +49,7 @@ struct JournalEntry {
   std::string reason;  ///< why it is not done
   int model_version = 0;
   double wall_time = 0;          ///< s, of the run
+  double processor_time = 0;     ///< s, of the run; 0 where an older program did not note it
   double predicted_updates = 0;  ///< particle updates that the plan foresaw, from which cost models learn
   double time_limit = 0;         ///< s, of a case that was timed out
   std::string host;
