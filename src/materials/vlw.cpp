@@ -9,10 +9,30 @@ namespace {
 
 constexpr double cubic_centimetre = 1e-6;  // m3
 
-VirialState state_of(double compressibility, double ideal_pressure) {
-  const bool valid = compressibility > 0.0 && ideal_pressure > 0.0;
-  return {compressibility,
-          valid ? compressibility * ideal_pressure : std::numeric_limits<double>::quiet_NaN(), valid};
+/// Z at x = b0/V and d(Z/V)/d(1/V), which is the isothermal dp/drho over that of the ideal gas.
+struct Series {
+  double compressibility = 1.0, stiffness = 1.0;
+};
+
+Series series_of(const LennardJones& gas, double temperature, double molar_volume, int terms) {
+  const double reduced = temperature / gas.temperature;
+  const double second = reduced_second_virial(reduced);
+  const double x = gas.covolume / molar_volume;
+  double higher = 0.0, higher_slope = 0.0;
+  for (int n = 3; n <= terms; ++n) {
+    const double term = std::pow(n - 2.0, -n) * std::pow(x, n - 1);
+    higher += term;
+    higher_slope += n * term;
+  }
+  const double factor = second / std::pow(reduced, 0.25);
+  return {1.0 + second * x + factor * higher, 1.0 + 2.0 * second * x + factor * higher_slope};
+}
+
+VirialState state_of(const Series& series, double ideal_pressure) {
+  const double pressure = series.compressibility * ideal_pressure;
+  const bool valid = series.compressibility > 0.0 && series.stiffness > 0.0 && ideal_pressure > 0.0 &&
+                     std::isfinite(pressure);
+  return {series.compressibility, valid ? pressure : std::numeric_limits<double>::quiet_NaN(), valid};
 }
 
 }  // namespace
@@ -47,16 +67,11 @@ double reduced_second_virial(double reduced_temperature) {
 }
 
 double virial_compressibility(const LennardJones& gas, double temperature, double molar_volume, int terms) {
-  const double reduced = temperature / gas.temperature;
-  const double second = reduced_second_virial(reduced);
-  const double x = gas.covolume / molar_volume;
-  double higher = 0.0;
-  for (int n = 3; n <= terms; ++n) higher += std::pow(n - 2.0, -n) * std::pow(x, n - 1);
-  return 1.0 + second * x + second / std::pow(reduced, 0.25) * higher;
+  return series_of(gas, temperature, molar_volume, terms).compressibility;
 }
 
 VirialState virial_state(const LennardJones& gas, double temperature, double molar_volume, int terms) {
-  return state_of(virial_compressibility(gas, temperature, molar_volume, terms),
+  return state_of(series_of(gas, temperature, molar_volume, terms),
                   gas_constant * temperature / molar_volume);
 }
 
@@ -65,12 +80,13 @@ VirialState virial_state(const std::vector<GasComponent>& mixture, double temper
   double amount = 0.0;  // mol/kg
   for (const GasComponent& component : mixture) amount += component.amount;
   const double molar_volume = 1.0 / (density * amount);
-  double compressibility = 0.0;
+  Series mixed{0.0, 0.0};
   for (const GasComponent& component : mixture) {
-    compressibility += component.amount / amount *
-                       virial_compressibility(component.potential, temperature, molar_volume, terms);
+    const Series series = series_of(component.potential, temperature, molar_volume, terms);
+    mixed.compressibility += component.amount / amount * series.compressibility;
+    mixed.stiffness += component.amount / amount * series.stiffness;
   }
-  return state_of(compressibility, gas_constant * temperature / molar_volume);
+  return state_of(mixed, gas_constant * temperature / molar_volume);
 }
 
 }  // namespace launchsafe::materials

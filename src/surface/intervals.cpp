@@ -31,7 +31,9 @@ LinearAir linear_air(const materials::AirParameters& air, const IntervalPressure
   const double at_mean = materials::adiabatic_temperature(air, pressure.mean);
   // Mean of T(p) over a nearly linear p: T(mean) + T''(mean) (p1 - p0)^2/24, with T'' = a (a - 1) T/p^2.
   const double a = (air.heat_ratio - 1.0) / air.heat_ratio;
-  const double spread = (pressure.end - pressure.begin) / pressure.mean;
+  // Below the initial pressure the temperature is constant, and a mean of 0 has no relative spread.
+  const double spread =
+      pressure.mean > air.initial_pressure ? (pressure.end - pressure.begin) / pressure.mean : 0.0;
   const double curved = at_mean * (1.0 + a * (a - 1.0) * spread * spread / 24.0);
   const double mean = curved < air.initial_temperature ? air.initial_temperature : curved;
   // Not steeper than keeps both ends at or above the initial temperature.

@@ -65,6 +65,7 @@ class PhaseEquation {
       return {temperature - temperature, 0.0};  // 0, or NaN for NaN
     const double inverse = 1.0 / temperature;
     const double rate = scale_ * prefactor_ * std::exp(-kinetics_.activation_temperature * inverse);
+    if (!(rate > 0.0)) return {rate, 0.0};  // near 0 K, where 1/T^2 is infinite and the rate is not
     const double slope = rate * kinetics_.activation_temperature * inverse * inverse;
     if (phase_ == Phase::solid) return {rate, slope};
     const double span = kinetics_.burnt_temperature - kinetics_.ignition_temperature;
@@ -113,7 +114,8 @@ Arrival follow(const PhaseEquation& equation, Arrival start, double end, double 
     const bool last = h >= end - at.time;
     if (last) h = end - at.time;
     const auto step = equation.step(at.time, at.temperature, h);
-    const double share = step.error / (tolerance * at.temperature);
+    // Without an error any tolerance is kept, also that of a temperature next to 0 K.
+    const double share = step.error <= 0.0 ? 0.0 : step.error / (tolerance * at.temperature);
     // An infinite or undefined result counts as a rejection.
     const bool accepted = share <= 1.0 && std::isfinite(step.temperature);
     const double factor = std::isfinite(share) ? 0.9 * std::pow(std::max(share, 1e-8), -0.25) : 0.1;

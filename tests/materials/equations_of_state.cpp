@@ -60,6 +60,44 @@ TEST(Jwl, ChapmanJouguetStateGivesTheProductsEnergy) {
   EXPECT_NEAR(chapman_jouguet_initial_energy(m, 7980.0, 29.5e9) / 8.5e9, 1.0, 5e-3);
 }
 
+TEST(Jwl, LargeStepGoesAlongTheIsentrope) {
+  // p = A e^(-R1 V) + B e^(-R2 V) + C V^(-1-w) and its integral; one step, where the mean of two pressures
+  // gave a negative one.
+  for (const JwlParameters& m : {unreacted_composition_b(), composition_b_products()}) {
+    const auto cold = [&](double v) {
+      return m.a / m.r1 * std::exp(-m.r1 * v) + m.b / m.r2 * std::exp(-m.r2 * v);
+    };
+    for (const double v : {0.3, 0.35, 0.9, 1.5, 5.0}) {
+      const double energy = cold(v) + (m.initial_energy - cold(1.0)) * std::pow(v, -m.omega);
+      const double pressure0 = jwl_pressure(m, 1.0, m.initial_energy);
+      const auto state = jwl_compress(m, 1.0, pressure0, m.initial_energy, v);
+      EXPECT_NEAR(state.energy / energy, 1.0, 1e-12) << v;
+      EXPECT_NEAR(state.pressure / jwl_pressure(m, v, energy), 1.0, 1e-10) << v;
+    }
+  }
+}
+
+TEST(Jwl, LargeStepOfOneLaneLeavesTheOthersAlone) {
+  using launchsafe::math::Pack;
+  const JwlParameters m = unreacted_composition_b();
+  Pack v1(0.999);
+  v1.set(3, 0.3);
+  const auto state = jwl_compress(m, Pack(1.0), Pack(0.0), Pack(m.initial_energy), v1);
+  const auto small = jwl_compress(m, Pack(1.0), Pack(0.0), Pack(m.initial_energy), Pack(0.999));
+  EXPECT_EQ(state.pressure[0], small.pressure[0]);
+  EXPECT_EQ(state.energy[7], small.energy[7]);
+  const auto large = jwl_compress(m, 1.0, 0.0, m.initial_energy, 0.3);
+  EXPECT_NEAR(state.pressure[3] / large.pressure, 1.0, 1e-12);
+}
+
+TEST(Jwl, VolumeThatIsNoneGivesNoPressure) {
+  const JwlParameters m = unreacted_composition_b();
+  for (const double v : {0.0, -0.3, -5.0, std::nan("")}) {
+    EXPECT_TRUE(std::isnan(jwl_compress(m, 1.0, 0.0, m.initial_energy, v).pressure)) << v;
+    EXPECT_TRUE(std::isnan(jwl_compress(m, 1.0, 0.0, m.initial_energy, v).energy)) << v;
+  }
+}
+
 TEST(MieGruneisen, BulkModulusIsTheSlopeOfTheAdiabat) {
   const MieGruneisenParameters m;
   for (const double mu : {0.0, 0.01, 0.1, 0.3}) {
@@ -88,6 +126,41 @@ TEST(MieGruneisen, IsGuardedAtThePoleAndSaysSo) {
   EXPECT_FALSE(mie_gruneisen_is_valid(m, 1.01 * bound));
   EXPECT_FALSE(mie_gruneisen_is_valid(m, std::nan("")));
   EXPECT_EQ(hugoniot_pressure(m, 2.0 * bound), hugoniot_pressure(m, bound));
+}
+
+TEST(MieGruneisen, DensityThatIsNoneIsNotValid) {
+  const MieGruneisenParameters m;
+  for (const double mu : {-1.0, -2.0, -HUGE_VAL}) {
+    EXPECT_FALSE(mie_gruneisen_is_valid(m, mu)) << mu;
+    EXPECT_TRUE(std::isnan(mie_gruneisen_compress(m, 0.0, 0.0, 0.0, mu, 0.0).pressure)) << mu;
+  }
+  EXPECT_TRUE(mie_gruneisen_is_valid(m, -0.999));
+}
+
+TEST(MieGruneisen, LargeStepIsThatOfManySmallOnes) {
+  // From a tenfold volume to double density, where one mean of two pressures changed the sign of the energy.
+  // A part of 0.5 % crosses the jump of the law at mu = 0, where the pressure begins to feel the heat.
+  const MieGruneisenParameters m;
+  const double mu0 = -0.9, mu1 = 1.0, pressure0 = mie_gruneisen_pressure(m, mu0, 0.0);
+  MieGruneisenState<double> fine{pressure0, 0.0};
+  constexpr int steps = 100000;
+  for (int k = 0; k < steps; ++k) {
+    const auto mu = [&](int step) {
+      return (1.0 + mu0) * std::pow((1.0 + mu1) / (1.0 + mu0), double(step) / steps) - 1.0;
+    };
+    fine = mie_gruneisen_compress(m, mu(k), fine.pressure, fine.energy, mu(k + 1), 0.0);
+  }
+  const auto once = mie_gruneisen_compress(m, mu0, pressure0, 0.0, mu1, 0.0);
+  EXPECT_NEAR(once.energy / fine.energy, 1.0, 1e-2);
+  EXPECT_NEAR(once.pressure / fine.pressure, 1.0, 1e-2);
+}
+
+TEST(MieGruneisen, HeatOfALargeStepIsNotLost) {
+  // At constant density all of it becomes energy; a large step takes it in by its parts, which do work too.
+  const MieGruneisenParameters m;
+  const auto cold = mie_gruneisen_compress(m, 0.0, 0.0, 0.0, -0.5, 0.0);
+  const auto warm = mie_gruneisen_compress(m, 0.0, 0.0, 0.0, -0.5, 1000.0);
+  EXPECT_NEAR(warm.energy - cold.energy, 1000.0, 1e-6);  // in tension the pressure does not feel it
 }
 
 TEST(MieGruneisen, HeatRaisesThePressureOnlyInCompression) {
@@ -128,6 +201,17 @@ TEST(VirialGas, NegativeCompressibilityIsAReportedLimit) {
   EXPECT_LT(state.compressibility, 0.0);
   EXPECT_FALSE(state.valid);
   EXPECT_TRUE(std::isnan(state.pressure));
+}
+
+TEST(VirialGas, PressureThatFallsOnCompressionIsAReportedLimit) {
+  // The products at 300 K: Z is still 0.075 at 300 kg/m3, but the pressure is below that at 100 kg/m3.
+  const auto gases = composition_b_gas();
+  const VirialState thin = virial_state(gases, 300.0, 100.0), dense = virial_state(gases, 300.0, 300.0);
+  EXPECT_TRUE(thin.valid);
+  EXPECT_GT(dense.compressibility, 0.0);
+  EXPECT_LT(dense.compressibility * 300.0, thin.compressibility * 100.0);
+  EXPECT_FALSE(dense.valid);
+  EXPECT_TRUE(std::isnan(dense.pressure));
 }
 
 TEST(VirialGas, MixtureIsLinearInTheMoleFractions) {

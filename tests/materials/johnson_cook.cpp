@@ -68,6 +68,24 @@ TEST(JohnsonCookReturn, MoltenSteelBearsNoShear) {
   EXPECT_LE(math::von_mises(result.stress), 1.0);
 }
 
+TEST(JohnsonCookReturn, MoltenSteelTakesNoWork) {
+  // q - 3 G (q/(3 G)) may round to less than nothing; the work must not.
+  const JohnsonCookParameters k;
+  for (int n = 1; n <= 1000; ++n) {
+    const auto result = johnson_cook_return(k, Deviator<double>{0.0, 0.0, 1e6 * n}, 0.0, 1793.0, 1e-7);
+    EXPECT_GE(result.plastic_work, 0.0) << n;
+    EXPECT_GE(result.stress.rx, 0.0) << n;
+  }
+}
+
+TEST(JohnsonCookReturn, UnknownStrengthIsNotElastic) {
+  // Before, a temperature or plastic strain that was not a number let any trial stress pass.
+  const JohnsonCookParameters k;
+  const Deviator<double> trial{0.0, 0.0, 1e10};
+  EXPECT_TRUE(std::isnan(johnson_cook_return(k, trial, 0.0, std::nan(""), 1e-7).stress.rx));
+  EXPECT_TRUE(std::isnan(johnson_cook_return(k, trial, std::nan(""), 300.0, 1e-7).plastic_work));
+}
+
 TEST(JohnsonCookReturn, NotANumberComesOutAsNotANumber) {
   const JohnsonCookParameters k;
   const auto result = johnson_cook_return(k, Deviator<double>{std::nan(""), 0.0, 0.0}, 0.0, 300.0, 1e-7);

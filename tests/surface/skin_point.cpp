@@ -93,6 +93,16 @@ TEST(SkinPerStep, OneCallIsOnePrintedStep) {
   EXPECT_NEAR(point.temperature, 300.0 + ratio * 1200.0, 1e-10);  // Eq. 42
 }
 
+TEST(SkinFailure, NextToAbsoluteZeroItIsStillATemperature) {
+  // 1/T^2 is infinite there and the rate 0; their product must not stop the integration.
+  const SkinModel model = plain_model();
+  for (const double temperature : {4.9e-324, 1e-310, 1e-200, 1e-5}) {
+    const double gap = 4e-4, rate = heat_capacity_ratio(model, gap) / model.surface.exchange_time;
+    const SkinPoint point = advance_skin(model, gap, {temperature}, 1e-5, 300.0, 300.0, 0.0);
+    EXPECT_NEAR(point.temperature / (-300.0 * std::expm1(-rate * 1e-5) + temperature), 1.0, 1e-7);
+  }
+}
+
 TEST(SkinFailure, NotANumberStaysSoAndDoesNotIgnite) {
   const SkinModel model = plain_model();
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();

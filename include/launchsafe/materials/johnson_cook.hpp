@@ -4,6 +4,8 @@
 #include "launchsafe/math/deviator.hpp"
 #include "launchsafe/math/pack.hpp"
 
+#include <limits>
+
 namespace launchsafe::materials {
 
 struct JohnsonCookParameters {
@@ -51,6 +53,7 @@ struct JohnsonCookReturn {
 /// q_trial - 3 G d = flow_stress(strain + d, d/dt, T). The left side falls and the right side rises with d,
 /// so the root is unique and lies in [0, q_trial/(3G)]; it is found by bisection-guarded secant steps, to
 /// 1e-9 of q_trial. Explicit in the temperature, which changes by far less than the yield stress in one step.
+/// NaN where stress, strain or temperature is: steel of unknown strength is not elastic.
 template <class Real>
 [[gnu::noinline]]  // rare beside the elastic step, which stays small without it
 JohnsonCookReturn<Real>
@@ -68,7 +71,8 @@ johnson_cook_return(const JohnsonCookParameters& k, math::Deviator<Real> trial, 
   Real low(0.0), high = q / three_g;
   Real f_low = excess(low);
   const auto yields = f_low > Real(0.0);
-  if (!any(yields)) return {trial, Real(0.0), Real(0.0)};
+  const auto known = (f_low > Real(0.0)) | (f_low <= Real(0.0));  // false where anything is not a number
+  if (!any(yields | !known)) return {trial, Real(0.0), Real(0.0)};
   Real f_high = excess(high);
   Real d(0.0);
   for (int iteration = 0; iteration < 60; ++iteration) {
@@ -88,9 +92,12 @@ johnson_cook_return(const JohnsonCookParameters& k, math::Deviator<Real> trial, 
   }
   const Real increment =
       select(yields, low + (high - low) * f_low / max(f_low - f_high, Real(1e-300)), Real(0.0));
-  const Real remaining = q - three_g * increment;
+  // Of molten steel nothing remains, and round-off must not leave less than nothing.
+  const Real remaining = max(q - three_g * increment, Real(0.0));
   const Real scale = select(yields, remaining / max(q, Real(1e-300)), Real(1.0));
-  return {scale * trial, increment, increment * remaining};
+  const Real unknown(std::numeric_limits<double>::quiet_NaN());
+  return {select(known, scale, unknown) * trial, select(known, increment, unknown),
+          select(known, increment * remaining, unknown)};
 }
 
 }  // namespace launchsafe::materials

@@ -264,6 +264,15 @@ inline constexpr double largest_coupling = 0.3;
 inline constexpr double largest_crack_relaxation = 2.0;
 inline constexpr double coupling_share_of_substep = 0.7;
 
+/// So many of the shortest relaxation times after the begin of a step, what relaxes fastest follows the rest,
+/// and a sub-step may be a share of the time since the begin: the number of sub-steps then goes with the
+/// logarithm of dt/tau, not with dt/tau itself, which has no bound (tau = 1 ps, dt = 0.1 ms: 1e8). Relaxation
+/// that is still going on at the time t has a time scale of about t, of which the share resolves it.
+inline constexpr double settled_relaxations = 64.0;
+inline constexpr double share_of_settled = 0.02;
+/// No sub-step is shorter than this share of the step, so that the time left falls in round-off too.
+inline constexpr double shortest_share = 1e-9;
+
 /// True where a step of x = dt/tau is beyond those bounds.
 template <class Real>
 auto couples_too_strongly(double x, Real q) {
@@ -285,8 +294,8 @@ Real longest_coupled_step(Real q) {
 }
 
 /// Heun sub-steps with their own length in every lane, until the whole step is done. Growth is geometric and
-/// bounded and a sub-step never shorter than a share of the shortest relaxation time, so their number is
-/// bounded too.
+/// bounded, and a sub-step never shorter than a share of the shortest relaxation time or, later, of the time
+/// since the begin, so their number is bounded too.
 template <class Real>
 [[gnu::noinline, gnu::cold]]  // keeps the step that is not divided small enough to stay in registers
 void substep(const ViscoScramParameters& m, ViscoScramState<Real>& state, math::Deviator<Real> de,
@@ -304,11 +313,15 @@ void substep(const ViscoScramParameters& m, ViscoScramState<Real>& state, math::
         select(speed0 > Real(0.0), Real(growth_per_substep) * c0 / max(speed0, Real(1e-300)), remaining);
     const Real relaxation_limit =
         Real(coupling_share_of_substep / max(fastest_rate, 1e-100)) * longest_coupled_step(q0);
-    const Real limit = min(growth_limit, relaxation_limit);
+    const Real elapsed = Real(dt) - remaining;
+    const auto settled = elapsed * Real(fastest_rate) > Real(settled_relaxations);
+    const Real graded =
+        select(settled, max(relaxation_limit, Real(share_of_settled) * elapsed), relaxation_limit);
+    const Real limit = max(min(growth_limit, graded), Real(shortest_share * dt));
     const auto last = remaining <= limit * Real(1.0 + 1e-9);
     const Real h = select(last, remaining, limit);
     // A lane that is done steps over a negligible length with no strain, which leaves it as it is.
-    const Real length = max(h, Real(1e-9 * dt));
+    const Real length = max(h, Real(shortest_share * dt));
     const auto active = remaining > Real(0.0);
     const auto step = relaxation(m, length);
     const math::Deviator<Real> part = (h * Real(1.0 / dt)) * de;

@@ -30,12 +30,13 @@ struct GasComponent {
 /// Products of Composition B per kg, carbon as a solid: N2 10.645, H2O 13.097, CO2 6.705 mol [D].
 std::vector<GasComponent> composition_b_gas();
 
-/// What the series says of a state. Where it is not valid (Z <= 0, or the state itself is no state) the
-/// pressure is NaN, so that it cannot be used by mistake.
+/// What the series says of a state. Where it is not valid the pressure is NaN, so that it cannot be used by
+/// mistake: Z <= 0, or a pressure that falls on compression (below the critical temperature that sets in
+/// before Z = 0, and no gas is like that: it condenses), or a state that is none.
 struct VirialState {
   double compressibility = 0;  ///< Z = p V/(R T); kept also where it is not positive, to be reported
   double pressure = 0;         ///< Pa
-  bool valid = false;          ///< Z > 0
+  bool valid = false;          ///< Z > 0 and dp/drho > 0 at constant temperature
 };
 
 /// Reduced second virial coefficient of the Lennard-Jones potential at T* = T/theta > 0, summed until the
