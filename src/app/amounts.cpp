@@ -32,6 +32,8 @@ constexpr std::array<UnitFactor, 14> size_units{{{"", 1},
 constexpr std::array<UnitFactor, 6> duration_units{
     {{"", 1}, {"ms", 1e-3}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}};
 
+constexpr std::array<UnitFactor, 2> temperature_units{{{"", 1}, {"k", 1}}};
+
 /// The unit's own letters, without the blanks around them.
 std::string unit_in(std::string_view text) {
   std::string unit;
@@ -61,5 +63,9 @@ std::optional<double> parse_size(std::string_view text) {
 }
 
 std::optional<double> parse_duration(std::string_view text) { return parse_amount(text, duration_units); }
+
+std::optional<double> parse_temperature(std::string_view text) {
+  return parse_amount(text, temperature_units);
+}
 
 }  // namespace launchsafe::app

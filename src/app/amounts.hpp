@@ -1,4 +1,4 @@
-// Amounts on the command line: sizes of memory, and durations.
+// Amounts on the command line: sizes of memory, durations, temperatures.
 #pragma once
 
 #include <optional>
@@ -16,5 +16,9 @@ inline constexpr const char* allowed_sizes = "a size such as 500MB, 8GB, 1.5GiB 
 /// zero.
 std::optional<double> parse_duration(std::string_view text);
 inline constexpr const char* allowed_durations = "a duration such as 90s, 10min, 2h or 1d";
+
+/// K: "2K", "0.5 K", "2". Nothing for any other text, and for what is not more than zero.
+std::optional<double> parse_temperature(std::string_view text);
+inline constexpr const char* allowed_temperatures = "a temperature difference such as 2K or 0.5K";
 
 }  // namespace launchsafe::app

@@ -36,6 +36,8 @@ Examples:
   launchsafe study sweep.toml -o results --memory 8GB --time-limit 30min
   launchsafe study sweep.toml -o results --explain           why each run runs
   launchsafe study sweep.toml -o results --update            after a change of the study
+  launchsafe study studies/critical_gap_155mm.toml -o results --tolerance 5K
+                                                             the cheapest numerics that know T max to 5 K
   launchsafe study sweep.toml -o results --shard 2/4         one of four processes; then launchsafe merge
 
 Every mechanical run is kept in DIR as soon as it ends: after an interruption, a kill or a full disk the same
@@ -60,7 +62,9 @@ The scripts are written to results/slurm. --memory is what each shard asks Slurm
 inline constexpr const char* verify_footer = R"(
 Examples:
   launchsafe verify                      every check
-  launchsafe verify --filter jwl         those with "jwl" in their name)";
+  launchsafe verify --filter jwl         those with "jwl" in their name
+  launchsafe verify --error-against-time             error, order and processor time over step and mesh
+  launchsafe verify --error-against-time -o parts    parts/parts.md, .csv and .svg as well)";
 
 inline constexpr const char* explain_footer = R"(
 Examples:

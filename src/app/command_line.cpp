@@ -75,6 +75,11 @@ void add_shard(CLI::App& command, study::Shard& shard) {
       ->type_name("i/N");
 }
 
+void add_tolerance(CLI::App& command, std::optional<double>& tolerance) {
+  add_amount(command, "--tolerance", tolerance, parse_temperature, allowed_temperatures, "KELVIN",
+             "Use the cheapest setting of the study's accuracy record that knows T max to this, such as 2K");
+}
+
 void add_update(CLI::App& command, bool& update) {
   command.add_flag("--update", update,
                    "Use the stored cases of another study in DIR; its report moves to DIR/earlier-N");
@@ -91,6 +96,7 @@ CLI::App* add_study(CLI::App& app, Parsed& parsed) {
   add_jobs(*command, study.jobs, "Cases at a time; as many as there are processors unless given");
   add_limits(*command, study.memory, study.time_limit);
   add_shard(*command, study.shard);
+  add_tolerance(*command, study.tolerance);
   command->add_flag("--dry-run", study.dry_run, "Say what would be run and at what cost; write nothing");
   command->add_flag("--explain", study.explain, "Say of every mechanical run why it runs or is used again");
   add_update(*command, study.update);
@@ -109,6 +115,7 @@ CLI::App* add_merge(CLI::App& app, Parsed& parsed) {
   command->add_option("folder", merge.folders, "Folders of shards; none where they all used DIR")
       ->type_name("FOLDER...");
   add_update(*command, merge.update);
+  add_tolerance(*command, merge.tolerance);
   add_jobs(*command, merge.jobs, "Threads that judge gaps; as many as there are processors unless given");
   add_output_options(*command, parsed);
   command->footer(merge_footer);
@@ -146,6 +153,14 @@ CLI::App* add_verify(CLI::App& app, Parsed& parsed) {
   CLI::App* command = app.add_subcommand("verify", "Compare the program with closed-form solutions");
   command->add_option("--filter", parsed.verify.filter, "Only checks with this in their name, case ignored")
       ->type_name("TEXT");
+  CLI::Option* table = command->add_flag(
+      "--error-against-time", parsed.verify.error_against_time,
+      "Error against processor time of the parts with exact solutions, over step, tolerance and mesh");
+  command
+      ->add_option("-o,--output", parsed.verify.output,
+                   "Folder for parts.md, parts.csv and parts.svg of --error-against-time")
+      ->needs(table)
+      ->type_name("DIR");
   add_output_options(*command, parsed);
   command->footer(verify_footer);
   return command;

@@ -24,6 +24,7 @@ struct StudyArguments {
   std::optional<double> memory;      ///< bytes of all running cases together
   std::optional<double> time_limit;  ///< s of wall time, of one case
   study::Shard shard;                ///< the part that is ours
+  std::optional<double> tolerance;   ///< K, of T max; picks a setting from the study's accuracy record
   bool dry_run = false;              ///< say what would be run, and run nothing
   bool explain = false;              ///< say of every mechanical run why it runs
   bool update = false;               ///< the folder may hold the results of an earlier study
@@ -37,6 +38,7 @@ struct MergeArguments {
   std::filesystem::path study;
   std::filesystem::path output;                ///< folder of cases, tables and report
   std::vector<std::filesystem::path> folders;  ///< of shards, to be copied from
+  std::optional<double> tolerance;             ///< K, as of StudyArguments
   int jobs = 0;         ///< threads that judge gaps; 0: as many as there are processors
   bool update = false;  ///< the folder may hold the results of an earlier study
   std::string command;  ///< the whole command, to be repeated in a shell
@@ -55,7 +57,9 @@ struct EmitArguments {
 ExitCode emit_command(const EmitArguments& arguments, Console& console);
 
 struct VerifyArguments {
-  std::string filter;  ///< part of a check's group or name, case ignored
+  std::string filter;                           ///< part of a check's group or name, case ignored
+  bool error_against_time = false;              ///< tabulate errors against processor time instead
+  std::optional<std::filesystem::path> output;  ///< folder of that table; none: nothing is written
 };
 ExitCode verify_command(const VerifyArguments& arguments, Console& console);
 

@@ -55,7 +55,7 @@ study::StudyOptions options_of(const StudyArguments& arguments, store::CaseStore
 }  // namespace
 
 ExitCode dry_run_command(const StudyArguments& arguments, Console& console) {
-  const auto file = study::read_study(arguments.study);
+  const auto file = study::read_study(arguments.study, {arguments.tolerance});
   if (!file) {
     console.error(file.error().message());
     return ExitCode::bad_input;

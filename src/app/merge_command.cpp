@@ -62,7 +62,7 @@ std::size_t list_not_stored(const StudyResult& result, Console& console) {
 }  // namespace
 
 ExitCode merge_command(const MergeArguments& arguments, Console& console) {
-  const auto file = study::read_study(arguments.study);
+  const auto file = study::read_study(arguments.study, {arguments.tolerance});
   if (!file) {
     console.error(file.error().message());
     return ExitCode::bad_input;

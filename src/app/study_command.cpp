@@ -48,11 +48,12 @@ void explain_runs(const study::StudyFile& file, const study::StudyOptions& optio
 
 ExitCode study_command(const StudyArguments& arguments, Console& console) {
   if (arguments.dry_run) return dry_run_command(arguments, console);
-  const auto file = study::read_study(arguments.study);
+  const auto file = study::read_study(arguments.study, {arguments.tolerance});
   if (!file) {
     console.error(file.error().message());
     return ExitCode::bad_input;
   }
+  if (!file->chosen_setting.empty()) console.remark("setting: " + file->chosen_setting);
   study::StudyOptions options = options_of(arguments, nullptr);
   StudySession session({arguments.study, arguments.output, arguments.update, arguments.shard.part(),
                         arguments.command, study_manifest(*file, options.jobs)},

@@ -101,12 +101,30 @@ std::optional<std::string> digest_of(const std::filesystem::path& path) {
   return store::sha256(*bytes);
 }
 
+/// What a study took from its accuracy record: another record is another input.
+std::string recorded_uncertainties(const study::StudyFile& file) {
+  if (file.study.accuracy.empty()) return {};
+  std::string text = "\n\n# numerical uncertainties from the accuracy record, K\n";
+  for (const study::StudyCase& each : file.cases)
+    text += fmt::format("{} at a rise of {}\n", each.numerical_uncertainty, each.rise_of_uncertainty);
+  return text;
+}
+
+/// The cases of a stability study may come from scenes of their own.
+std::string scenes_of_cases(const study::StudyFile& file) {
+  if (file.study.kind != study::StudyKind::stability) return {};
+  std::string text;
+  for (const study::StudyCase& each : file.cases) text += scene::to_toml(each.scene.scene);
+  return "\n\n# SHA-256 of the scenes of all cases\n" + store::sha256(text) + "\n";
+}
+
 }  // namespace
 
 store::Manifest study_manifest(const study::StudyFile& file, int jobs) {
-  return store::make_manifest(fmt::format("# model version {}\n{}\n\n# scene\n{}", run::model_version,
-                                          values_of(file.file), scene::to_toml(file.scene.scene)),
-                              jobs);
+  return store::make_manifest(
+      fmt::format("# model version {}\n{}\n\n# scene\n{}{}{}", run::model_version, values_of(file.file),
+                  scene::to_toml(file.scene.scene), recorded_uncertainties(file), scenes_of_cases(file)),
+      jobs);
 }
 
 bool same_study(const store::Manifest& one, const store::Manifest& other) {

@@ -1,9 +1,11 @@
 #include "study_outcome.hpp"
 
+#include "launchsafe/report/accuracy_report.hpp"
 #include "launchsafe/report/calibration_report.hpp"
 #include "launchsafe/report/critical_gap_report.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/sensitivity_report.hpp"
+#include "launchsafe/report/stability_report.hpp"
 #include "launchsafe/report/sweep_report.hpp"
 
 #include <fmt/format.h>
@@ -57,6 +59,15 @@ std::string tables_of(const study::SensitivityResult& result, const std::filesys
   return text_of(report::sensitivity_table(result));
 }
 
+std::string tables_of(const study::AccuracyResult& result, const std::filesystem::path&) {
+  return text_of(report::setting_table(result)) + text_of(report::reference_table(result)) +
+         text_of(report::time_table(result));
+}
+
+std::string tables_of(const study::StabilityResult& result, const std::filesystem::path&) {
+  return text_of(report::stability_summary(result));
+}
+
 void add_failure(std::vector<Failure>& failures, const std::string& label, const std::string& reason) {
   if (!reason.empty() && reason != study::foreign_shard) failures.push_back({label, reason});
 }
@@ -78,6 +89,21 @@ std::vector<Failure> failures_in(const study::CalibrationResult& result) {
   return failures;
 }
 
+/// A hard case that is WRONG is the worst that can come of a study.
+std::vector<Failure> failures_in(const study::StabilityResult& result) {
+  std::vector<Failure> failures;
+  for (const study::HardRow& row : result.rows) {
+    const std::string label = row.group + ": " + row.name;
+    if (!row.computed()) add_failure(failures, label, row.failure);
+    if (row.is_wrong()) add_failure(failures, label, "WRONG: " + row.finding.text);
+    if (row.computed() && !row.is_wrong() && !row.is_as_expected())
+      add_failure(failures, label,
+                  fmt::format("{}, which is not what the study expects: {}", to_string(row.finding.outcome),
+                              row.finding.text));
+  }
+  return failures;
+}
+
 /// For the kinds that have an answer for every case.
 template <class Result>
 std::vector<Failure> failures_in(const Result& result) {
@@ -88,6 +114,8 @@ std::vector<Failure> failures_in(const Result& result) {
 }
 
 bool is_indeterminate(const study::CalibrationResult&) { return false; }
+/// What comes of its cases is not what they are for.
+bool is_indeterminate(const study::StabilityResult&) { return false; }
 template <class Result>
 bool is_indeterminate(const Result& result) {
   return result.any_indeterminate();
@@ -104,9 +132,13 @@ StudyResult run_study(const study::StudyFile& file, const study::StudyOptions& o
     case study::StudyKind::sweep:
       return study::run_sweep(file, options);
     case study::StudyKind::sensitivity:
+      return study::run_sensitivity(file, options);
+    case study::StudyKind::accuracy:
+      return study::run_accuracy(file, options);
+    case study::StudyKind::stability:
       break;
   }
-  return study::run_sensitivity(file, options);
+  return study::run_stability(file, options);
 }
 
 bool interrupted(const StudyResult& result) {

@@ -3,9 +3,11 @@
 
 #include "launchsafe/report/written_files.hpp"
 #include "launchsafe/store/result.hpp"
+#include "launchsafe/study/accuracy.hpp"
 #include "launchsafe/study/calibration.hpp"
 #include "launchsafe/study/critical_gap.hpp"
 #include "launchsafe/study/sensitivity.hpp"
+#include "launchsafe/study/stability.hpp"
 #include "launchsafe/study/sweep.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -18,7 +20,7 @@
 namespace launchsafe::app {
 
 using StudyResult = std::variant<study::CriticalGapResult, study::CalibrationResult, study::SweepResult,
-                                 study::SensitivityResult>;
+                                 study::SensitivityResult, study::AccuracyResult, study::StabilityResult>;
 
 /// Runs a study as its kind asks.
 StudyResult run_study(const study::StudyFile& file, const study::StudyOptions& options);

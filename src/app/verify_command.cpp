@@ -1,11 +1,14 @@
 // launchsafe verify: numbers the program must reproduce.
 #include "commands.hpp"
+#include "error_table.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/verify/material_checks.hpp"
 #include "launchsafe/verify/mechanics_checks.hpp"
 #include "launchsafe/verify/surface_checks.hpp"
+#include "output_folder.hpp"
 #include "progress.hpp"
+#include "shell_words.hpp"
 #include "signals.hpp"
 
 #include <fmt/format.h>
@@ -14,10 +17,13 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <future>
 #include <iterator>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace launchsafe::app {
@@ -46,35 +52,48 @@ Checks all_checks(Progress& progress) {
   return checks;
 }
 
-/// Every check. Ends the program where the user wants it to stop.
-Checks all_checks_unless_stopped(const Console& console) {
+/// What `compute(progress)` gives. Ends the program where the user wants it to stop.
+template <class Compute>
+std::invoke_result_t<Compute, Progress&> unless_stopped(const Console& console, const char* lost,
+                                                        const Compute& compute) {
   Progress progress(progress_style(console.quiet()));
-  auto checks = std::async(std::launch::async, [&progress] { return all_checks(progress); });
-  while (checks.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+  auto result = std::async(std::launch::async, [&] { return compute(progress); });
+  for (bool ready = false; !ready;) {
+    ready = result.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready;
     if (!stop_requested()) continue;
+    // Whatever is ready now may have been cut short by the same wish.
     progress.clear();
-    console.error("interrupted; no check was printed, and there is nothing to keep");
-    // A check that is being computed cannot be stopped and would be waited for.
+    console.error(fmt::format("interrupted; no {} was printed, and there is nothing to keep", lost));
+    // What is being computed cannot be stopped and would be waited for.
     std::quick_exit(static_cast<int>(ExitCode::interrupted));
   }
-  return checks.get();
+  return result.get();
 }
 
-Checks matching(const Checks& checks, const std::string& filter) {
+std::string group_of(const verify::Check& check) { return check.group; }
+std::string group_of(const verify::ErrorSeries& series) { return series.part; }
+std::string name_of(const verify::Check& check) { return check.group + ": " + check.name; }
+std::string name_of(const verify::ErrorSeries& series) { return series.part + ": " + series.quantity; }
+
+template <class Item>
+std::vector<Item> matching(const std::vector<Item>& items, const std::string& filter) {
   const std::string wanted = lower_case(filter);
-  Checks found;
-  std::copy_if(checks.begin(), checks.end(), std::back_inserter(found), [&](const verify::Check& check) {
-    return lower_case(check.group + ": " + check.name).find(wanted) != std::string::npos;
-  });
+  std::vector<Item> found;
+  std::copy_if(items.begin(), items.end(), std::back_inserter(found),
+               [&](const Item& item) { return lower_case(name_of(item)).find(wanted) != std::string::npos; });
   return found;
 }
 
-std::string groups_of(const Checks& checks) {
+template <class Item>
+ExitCode refuse_filter(const std::vector<Item>& items, const std::string& filter, const Console& console) {
   std::vector<std::string> groups;
-  for (const verify::Check& check : checks) {
-    if (std::find(groups.begin(), groups.end(), check.group) == groups.end()) groups.push_back(check.group);
+  for (const Item& item : items) {
+    if (std::find(groups.begin(), groups.end(), group_of(item)) == groups.end())
+      groups.push_back(group_of(item));
   }
-  return fmt::format("{}", fmt::join(groups, ", "));
+  console.error(fmt::format("--filter: found \"{}\", which no check has in its name; groups of checks: {}",
+                            filter, fmt::join(groups, ", ")));
+  return ExitCode::bad_input;
 }
 
 /// Relative measures carry no unit.
@@ -121,21 +140,81 @@ nlohmann::ordered_json json_of(const Checks& checks, std::int64_t failed) {
   return object;
 }
 
-}  // namespace
-
-ExitCode verify_command(const VerifyArguments& arguments, Console& console) {
-  const Checks all = all_checks_unless_stopped(console);
+ExitCode compare_with_expected(const VerifyArguments& arguments, Console& console) {
+  const Checks all = unless_stopped(console, "check", all_checks);
   const Checks checks = matching(all, arguments.filter);
-  if (checks.empty()) {
-    console.error(fmt::format("--filter: found \"{}\", which no check has in its name; groups of checks: {}",
-                              arguments.filter, groups_of(all)));
-    return ExitCode::bad_input;
-  }
+  if (checks.empty()) return refuse_filter(all, arguments.filter, console);
   const std::int64_t failed =
       std::count_if(checks.begin(), checks.end(), [](const verify::Check& check) { return !check.pass(); });
   console.print_text(report::to_text(table_of(checks, failed)));
   console.print_json(json_of(checks, failed));
   return failed == 0 ? ExitCode::done : ExitCode::cases_failed;
+}
+
+std::vector<MeasuredSeries> measured(const std::vector<verify::ErrorSeries>& all, Progress& progress) {
+  std::vector<MeasuredSeries> results;
+  for (const verify::ErrorSeries& series : all) {
+    if (stop_requested()) break;
+    progress.show("measuring: " + name_of(series));
+    results.push_back({series, series.compute()});
+  }
+  return results;
+}
+
+/// Names the settings whose computation failed.
+std::int64_t report_failures(const std::vector<MeasuredSeries>& results, const Console& console) {
+  std::int64_t failed = 0;
+  for (const MeasuredSeries& each : results) {
+    for (const verify::PartSetting& row : each.settings) {
+      if (std::isfinite(row.error)) continue;
+      ++failed;
+      console.error(fmt::format("{}, {}: the computation failed", name_of(each.series), row.setting));
+    }
+  }
+  return failed;
+}
+
+/// The command that makes the table again, on any machine.
+std::string remaking_command(const VerifyArguments& arguments) {
+  return std::string("launchsafe verify --error-against-time") +
+         (arguments.filter.empty() ? "" : " --filter " + shell_quoted(arguments.filter)) +
+         (arguments.output ? " -o DIR" : "");
+}
+
+ExitCode tabulate_errors(const VerifyArguments& arguments, Console& console) {
+  const std::vector<verify::ErrorSeries> all = verify::error_series();
+  const std::vector<verify::ErrorSeries> wanted = matching(all, arguments.filter);
+  if (wanted.empty()) return refuse_filter(all, arguments.filter, console);
+  if (arguments.output) {
+    if (const auto obstacle = prepare_output_folder(*arguments.output)) {
+      console.error(*obstacle);
+      return ExitCode::bad_input;
+    }
+  }
+  const auto results =
+      unless_stopped(console, "error", [&](Progress& progress) { return measured(wanted, progress); });
+  const std::string command = remaking_command(arguments);
+  console.print_text(error_table_text(results, command));
+  console.print_json(error_table_json(results, command));
+  const std::int64_t failed = report_failures(results, console);
+  if (arguments.output) {
+    const auto written = write_error_table(results, command, *arguments.output);
+    if (!written) {
+      console.error(written.error().message);
+      return ExitCode::failed;
+    }
+    for (const std::string& remark : written->remarks) console.remark(remark);
+    console.remark(
+        fmt::format("wrote {} to {}", fmt::join(written->files, ", "), arguments.output->string()));
+  }
+  return failed == 0 ? ExitCode::done : ExitCode::cases_failed;
+}
+
+}  // namespace
+
+ExitCode verify_command(const VerifyArguments& arguments, Console& console) {
+  return arguments.error_against_time ? tabulate_errors(arguments, console)
+                                      : compare_with_expected(arguments, console);
 }
 
 }  // namespace launchsafe::app

@@ -38,10 +38,7 @@ std::string answer_of(const CaseOutcome& outcome) {
 }
 
 std::string uncertainty_text(const CriticalGapResult& result) {
-  std::string text =
-      "The uncertainty of a temperature is the sum of the trace's sampling error, the integration error and, "
-      "where confirmed, the largest difference between traced and coupled runs";
-  text += fmt::format(", and {}.", detail::mesh_uncertainty(result.study.study));
+  std::string text = detail::uncertainty_remark(result.study);
   for (const CaseOutcome& outcome : result.cases) {
     for (const study::Confirmation& each : outcome.confirmations) {
       if (!std::isfinite(each.difference)) continue;

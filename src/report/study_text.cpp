@@ -47,6 +47,8 @@ std::string setup_text(const study::StudyFile& study) {
   std::string text = fmt::format("- Study `{}`, scene `{}`", study_file_name(study), study.study.scene);
   for (const auto& [key, value] : study.overrides) text += fmt::format(", with `{}` = {}", key, value);
   text += "\n";
+  if (!study.chosen_setting.empty())
+    text += fmt::format("- Setting picked from `{}`: {}\n", study.study.accuracy, study.chosen_setting);
   for (const auto& [key, values] : varied_keys(study.study))
     text += fmt::format("- `{}` is varied: {}\n", key, values);
   const std::vector<std::string> shown_keys{"symmetry",
@@ -93,13 +95,7 @@ nlohmann::ordered_json timing_json(const study::Timing& timing) {
 }
 
 std::string limiters_text(const run::LimiterCounts& limiters) {
-  std::string text;
-  const auto add = [&text](const char* name, std::uint64_t count) {
-    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
-  };
-  add("crack bound", limiters.crack_at_bound);
-  add("tension cut-off", limiters.tension_cutoff);
-  add("Hugoniot guard", limiters.hugoniot_guard);
+  const std::string text = run::to_string(limiters);
   return text.empty() ? "none" : text;
 }
 

@@ -119,13 +119,11 @@ std::string failures_text(const SweepResult& result, const std::vector<ShownKey>
                      failed == 1 ? "is" : "are", detail::failures_list(keys, result.study, result.answers));
 }
 
-std::string uncertainty_text(const study::Study& study) {
-  return fmt::format(
-      "The uncertainty of a temperature is the sum of the trace's sampling error, the integration error, and "
-      "{}. Verdicts and critical gaps rest on the traces of the mechanical runs; no coupled runs confirm "
-      "them "
-      "(those of a study of kind critical-gap do).\n",
-      detail::mesh_uncertainty(study));
+std::string uncertainty_text(const study::StudyFile& study) {
+  return detail::uncertainty_remark(study) +
+         " Verdicts and critical gaps rest on the traces of the mechanical runs; no coupled runs confirm "
+         "them "
+         "(those of a study of kind critical-gap do).\n";
 }
 
 std::string matrix_text(const SweepResult& result) {
@@ -184,7 +182,7 @@ std::string to_markdown(const SweepResult& result, const std::vector<std::string
   for (const std::string& picture : pictures) text += fmt::format("![critical gap]({})\n\n", picture);
   text += matrix_text(result) + "\n";
   text += "## What it rests on\n\n" + detail::friction_remark(result.study) + "\n";
-  text += uncertainty_text(study) + "\n" + detail::anywhere_note() + "\n\n";
+  text += uncertainty_text(result.study) + "\n" + detail::anywhere_note() + "\n\n";
   text += "## Setup\n\n" + detail::setup_text(result.study);
   return text;
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace launchsafe::report::detail {
 namespace {
@@ -157,11 +158,20 @@ std::string friction_remark(const study::StudyFile& study) {
   return text;
 }
 
-std::string mesh_uncertainty(const study::Study& study) {
-  return fmt::format("{} K for the mesh, {}", significant(study.numerical_uncertainty, 3),
-                     study.numerical_uncertainty_assumed
-                         ? "assumed, as the study states none for these settings"
-                         : "as the study states");
+std::string uncertainty_remark(const study::StudyFile& study) {
+  const auto part = [](const char* name, double value, const char* otherwise) {
+    return std::isfinite(value) ? fmt::format("{} ({} K, as the study states)", name, significant(value, 3))
+                                : fmt::format("{} ({})", name, otherwise);
+  };
+  return fmt::format(
+      "The uncertainty of a margin is that of the computation, combined as the root of the sum of squares "
+      "(ASME V&V 20) with {} and {}. That of the computation is the sum of the trace's sampling error, the "
+      "integration error, where confirmed the largest difference between traced and coupled runs, and {} K "
+      "for mesh, step and scaling, {}.",
+      part("that of the fitted constants", study.study.fit_uncertainty, "not stated, not counted"),
+      part("that of the inputs", study.study.input_uncertainty,
+           "not stated: the launch counts as exactly known"),
+      significant(study.study.numerical_uncertainty, 3), study.uncertainty_source);
 }
 
 bool acted(const run::LimiterCounts& limiters) {

@@ -34,8 +34,8 @@ std::string reads_as(const study::CriticalGap& gap);
 /// On what the absolute value of a critical gap rests.
 std::string friction_remark(const study::StudyFile& study);
 
-/// "1.2 K for the mesh, as the study states": the last part of the uncertainty of a temperature.
-std::string mesh_uncertainty(const study::Study& study);
+/// What the uncertainty of a margin is made of, as a sentence.
+std::string uncertainty_remark(const study::StudyFile& study);
 
 /// Whether any limiter acted.
 bool acted(const run::LimiterCounts& limiters);

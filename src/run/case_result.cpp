@@ -1,5 +1,7 @@
 #include "launchsafe/run/case_result.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,6 +26,17 @@ std::string to_string(RunStatus status) {
       return "timed out";
   }
   return "unknown";
+}
+
+std::string to_string(const LimiterCounts& limiters) {
+  std::string text;
+  const auto add = [&text](const char* name, std::uint64_t count) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
+  };
+  add("crack bound", limiters.crack_at_bound);
+  add("tension cut-off", limiters.tension_cutoff);
+  add("Hugoniot guard", limiters.hugoniot_guard);
+  return text;
 }
 
 double EnergyBalance::scale() const {

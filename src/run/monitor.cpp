@@ -1,6 +1,6 @@
 #include "monitor.hpp"
 
-#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/run/stable_factor.hpp"
 
 #include <fmt/format.h>
 
@@ -112,35 +112,23 @@ LimiterCounts count_limited(const mpm::Simulation& simulation) {
   return counts;
 }
 
-double least_judged_energy(const scene::Scene& scene) {
-  const double pressure = 0.01 * scene::PressureHistory(scene.load).peak();
-  double energy = 0.0;
-  for (const auto material : {scene::BodyMaterial::steel, scene::BodyMaterial::charge}) {
-    if (!scene::has_material(scene, material)) continue;
-    const double speed = scene::longitudinal_speed(scene, material);
-    const double density =
-        material == scene::BodyMaterial::steel ? scene.steel.eos.density : scene.charge.eos.initial_density;
-    energy +=
-        0.5 * pressure * pressure * scene::mass_of(scene, material) / (density * density * speed * speed);
-  }
-  return energy;
-}
-
 std::optional<Stop> reason_to_stop(const mpm::Simulation& simulation, const EnergyBalance& energy,
                                    double largest_energy, double drift_limit) {
   const std::string when = fmt::format("at t = {:.6g} ms", 1e3 * simulation.time());
+  const auto stop = [&](RunStatus status, const std::string& what) {
+    return Stop{status, when + ": " + what + step_remark(simulation.scene())};
+  };
   if (simulation.events().off_grid > 0.0)
-    return Stop{RunStatus::particles_left_grid,
-                fmt::format("{}: particles left the grid ({:.0f} particle-steps)", when,
-                            simulation.events().off_grid)};
+    return stop(RunStatus::particles_left_grid,
+                fmt::format("particles left the grid ({:.0f} particle-steps)", simulation.events().off_grid));
   if (!std::isfinite(energy.kinetic + energy.internal + energy.external))
-    return Stop{RunStatus::non_finite, fmt::format("{}: the computation is no longer finite, {}", when,
-                                                   first_broken_particle(simulation))};
+    return stop(RunStatus::non_finite,
+                "the computation is no longer finite, " + first_broken_particle(simulation));
   const double drift = energy.drift() * energy.scale() / largest_energy;
   if (std::abs(drift) > drift_limit)
-    return Stop{RunStatus::energy_drift,
-                fmt::format("{}: energy drift {:.3g} % of {:.4g} J is past the limit {:.3g} %", when,
-                            100.0 * drift, largest_energy, 100.0 * drift_limit)};
+    return stop(RunStatus::energy_drift,
+                fmt::format("energy drift {:.3g} % of {:.4g} J is past the limit {:.3g} %", 100.0 * drift,
+                            largest_energy, 100.0 * drift_limit));
   return std::nullopt;
 }
 

@@ -20,10 +20,6 @@ struct Stop {
   std::string reason;
 };
 
-/// Elastic energy (J) that the bodies would hold under a hundredth of the load's peak: drift is not judged on
-/// less, where it would be the first cells' share in the first steps.
-double least_judged_energy(const scene::Scene& scene);
-
 /// Why the run has to stop now, if it has to. `largest_energy` is the largest energy scale seen so far (J):
 /// drift is measured against it, so that the small energies of unloading do not magnify round-off.
 std::optional<Stop> reason_to_stop(const mpm::Simulation& simulation, const EnergyBalance& energy,

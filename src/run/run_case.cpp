@@ -2,6 +2,8 @@
 
 #include "bulk_heat.hpp"
 #include "flush_denormals.hpp"
+#include "launchsafe/run/judged_energy.hpp"
+#include "launchsafe/run/stable_factor.hpp"
 #include "monitor.hpp"
 #include "trace_recorder.hpp"
 
@@ -176,9 +178,10 @@ class Runner {
     if (seconds_since(start_) > options_.time_limit)
       return stop({RunStatus::timed_out, fmt::format("not done after {:.3g} s", options_.time_limit)});
     if (std::isfinite(time_step) && time_step < collapse_share * first_step)
-      return stop({RunStatus::time_step_collapse,
-                   fmt::format("at t = {:.6g} ms: the stable time step fell from {:.3g} s to {:.3g} s",
-                               1e3 * simulation_.time(), first_step, time_step)});
+      return stop(
+          {RunStatus::time_step_collapse,
+           fmt::format("at t = {:.6g} ms: the stable time step fell from {:.3g} s to {:.3g} s{}",
+                       1e3 * simulation_.time(), first_step, time_step, step_remark(simulation_.scene()))});
     check_energy(energy_of(simulation_));
     if (options_.progress && seconds_since(last_report_) > 0.25) {
       last_report_ = Clock::now();

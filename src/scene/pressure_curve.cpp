@@ -97,9 +97,10 @@ std::optional<InputError> add_point(const std::vector<std::string>& cells, const
   const auto pressure =
       read_cell(cells[header.pressure_column], header.pressure_unit, Dimension::pressure, place);
   if (!pressure) return pressure.error();
-  if (*pressure < 0.0) {
+  if (*pressure < 0.0 || *pressure > largest_load) {
     return error_at(place, "pressure", cells[header.pressure_column] + " " + header.pressure_unit,
-                    "a pressure of at least 0 " + header.pressure_unit);
+                    fmt::format("a pressure of at least 0 {}, at most {}", header.pressure_unit,
+                                format_quantity(largest_load, Dimension::pressure)));
   }
   if (!curve.time.empty() && !(*time > curve.time.back())) {
     return error_at(place, "time", cells[header.time_column] + " " + header.time_unit,

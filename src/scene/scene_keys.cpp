@@ -1,5 +1,6 @@
 #include "launchsafe/scene/scene_keys.hpp"
 
+#include "launchsafe/scene/pressure_curve.hpp"
 #include "material_keys.hpp"
 
 #include <iterator>
@@ -74,7 +75,7 @@ Keys load_keys() {
           "Times of a measured curve written in the scene itself, increasing.",
           [](auto& s) -> auto& { return s.load.curve_time; })),
       may_be_empty(list_key<Scene>(
-          "load.curve_pressure", Dimension::pressure, between(0, 10e9), Standing::assumed,
+          "load.curve_pressure", Dimension::pressure, between(0, largest_load), Standing::assumed,
           "Pressures of a measured curve written in the scene itself.",
           [](auto& s) -> auto& { return s.load.curve_pressure; })),
       flag_key<Scene>(
@@ -154,8 +155,8 @@ Keys numerics_keys() {
           "Particles per cell in each direction.",
           [](auto& s) -> auto& { return s.numerics.particles_per_cell; }),
       number_key<Scene>(
-          "numerics.time_step_factor", Dimension::number, above_to(0, 1), Standing::assumed,
-          "Time step over the time sound takes through a cell (CFL).",
+          "numerics.time_step_factor", Dimension::number, above_to(0, 2), Standing::assumed,
+          "Time step over the time sound takes through a cell (CFL); steps are stable up to some 0.6.",
           [](auto& s) -> auto& { return s.numerics.time_step_factor; }),
       number_key<Scene>(
           "numerics.inertial_scaling", Dimension::number, between(1, 1e4), Standing::assumed,

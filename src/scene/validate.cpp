@@ -124,6 +124,51 @@ Fault check_cell_size(const SceneFile& file) {
                   fmt::format("at most {} for this body", centimetres(largest)));
 }
 
+/// Whether a peak was given that the measured curve makes useless. A study that gives a scene a curve
+/// replaces its peak.
+bool has_useless_peak(const SceneFile& file) {
+  const auto peak = file.given.find("load.peak"), curve = file.given.find("load.curve");
+  if (peak == file.given.end()) return false;
+  const bool replaced = curve != file.given.end() && curve->second.place.file != file.file &&
+                        peak->second.place.file == file.file;
+  return !replaced;
+}
+
+/// A measured curve beside a peak that would silently do nothing, and one that ends too early. A scene
+/// written back has its curve's points rather than their file, and every key: its peak is no sign of a
+/// mistake.
+Fault check_curve_use(const SceneFile& file) {
+  const Load& load = file.scene.load;
+  if (load.curve_time.empty()) return std::nullopt;
+  if (!load.curve_file.empty() && !load.rescale_to_peak && has_useless_peak(file)) {
+    return fault_at(file, "load.peak",
+                    format_quantity(load.peak, Dimension::pressure) +
+                        " beside a measured curve, which has a peak of its own",
+                    "load.curve alone, or both with load.rescale_to_peak = true");
+  }
+  if (load.curve_time.back() < load.duration * (1.0 - 1e-9)) {
+    const char* key = load.curve_file.empty() ? "load.curve_time" : "load.curve";
+    return fault_at(file, key,
+                    "a curve that ends at " + format_quantity(load.curve_time.back(), Dimension::time),
+                    "a curve that lasts until the end of the launch, " +
+                        format_quantity(load.duration, Dimension::time) + ", or a shorter load.duration");
+  }
+  return std::nullopt;
+}
+
+/// A curve of next to nothing has no shape that could be scaled.
+Fault check_rescaling(const SceneFile& file) {
+  constexpr double least_peak = 1.0;  // Pa
+  const Load& load = file.scene.load;
+  if (load.curve_pressure.empty() || !load.rescale_to_peak) return std::nullopt;
+  const double measured = *std::max_element(load.curve_pressure.begin(), load.curve_pressure.end());
+  if (measured >= least_peak) return std::nullopt;
+  return fault_at(file, "load.rescale_to_peak",
+                  fmt::format("true with a curve whose largest pressure is {}",
+                              format_quantity(measured, Dimension::pressure)),
+                  "a curve that reaches " + format_quantity(least_peak, Dimension::pressure));
+}
+
 Fault check_load(const SceneFile& file) {
   const Load& load = file.scene.load;
   if (load.curve_time.size() != load.curve_pressure.size()) {
@@ -143,6 +188,8 @@ Fault check_load(const SceneFile& file) {
                                 format_quantity(*std::next(late), Dimension::time)),
                     "times in increasing order");
   }
+  if (Fault fault = check_curve_use(file)) return fault;
+  if (Fault fault = check_rescaling(file)) return fault;
   if (times.empty() && load.rescale_to_peak) {
     return fault_at(file, "load.rescale_to_peak", "true without a measured curve",
                     "true together with load.curve");

@@ -19,10 +19,10 @@ NeededRun needed_by(const StudyCase& input) { return {&input.scene.scene, input.
 /// What of a study influences an answer, as text; and the build, since answers are cheap to draw again, while
 /// one of an older program may be wrong.
 std::string analysis_text(const Study& study) {
-  std::string text =
-      fmt::format("# answer of launchsafe {} {}\n{} {} {} {} {} {} {}\n", version::number, version::commit,
-                  fmt::join(study.gaps, ","), study.tolerance, study.largest_gap, study.numerical_uncertainty,
-                  study.early_time, study.reference_line.slope, study.reference_line.intercept);
+  std::string text = fmt::format(
+      "# answer of launchsafe {} {}\n{} {} {} {} {} {} {} {}\n", version::number, version::commit,
+      fmt::join(study.gaps, ","), study.tolerance, study.largest_gap, study.fit_uncertainty,
+      study.input_uncertainty, study.early_time, study.reference_line.slope, study.reference_line.intercept);
   for (const Reference& row : study.references) {
     text += fmt::format("{} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.early_temperature,
                         row.spread, row.early_spread, row.ignition_time, row.calibrated);
@@ -199,8 +199,10 @@ std::vector<std::string> answer_keys(const StudyFile& study) {
     scene::Scene scene = input.scene.scene;
     scene.title.clear();
     scene.surface.gaps = {};
-    keys[i] = store::CaseIdentity(identity_of(needed_by(input)).hash() + analysis +
-                                  (input.own_conditions ? "own\n" : "other\n") + scene::to_toml(scene))
+    keys[i] = store::CaseIdentity(
+                  identity_of(needed_by(input)).hash() + analysis + (input.own_conditions ? "own" : "other") +
+                  fmt::format(" {} {}\n", input.numerical_uncertainty, input.rise_of_uncertainty) +
+                  scene::to_toml(scene))
                   .hash();
   });
   return keys;

@@ -49,7 +49,7 @@ json json_of(const GapVerdict& row) {
           {"spread", {row.spread, row.early_spread}},
           {"anywhere", json_of(row.anywhere)},
           {"margin", row.margin},
-          {"uncertainty", {u.sampling, u.integration, u.coupling, u.numerical}},
+          {"uncertainty", {u.sampling, u.integration, u.coupling, u.numerical, u.fit, u.input}},
           {"ignition", json_of(row.ignition)},
           {"ignition_anywhere", json_of(row.ignition_anywhere)},
           {"verdict", static_cast<int>(row.judgement.verdict)},
@@ -65,7 +65,8 @@ GapVerdict verdict_of(const json& value) {
   row.anywhere = peak_of(value.at("anywhere"));
   row.margin = number_of(value.at("margin"));
   const json& u = value.at("uncertainty");
-  row.uncertainty = {number_of(u.at(0)), number_of(u.at(1)), number_of(u.at(2)), number_of(u.at(3))};
+  row.uncertainty = {number_of(u.at(0)), number_of(u.at(1)), number_of(u.at(2)),
+                     number_of(u.at(3)), number_of(u.at(4)), number_of(u.at(5))};
   row.ignition = ignition_of(value.at("ignition"));
   row.ignition_anywhere = ignition_of(value.at("ignition_anywhere"));
   row.judgement = {static_cast<Verdict>(value.at("verdict").get<int>()),

@@ -1,4 +1,5 @@
 // The keys of a study file as documentation.
+#include "hard_launches.hpp"
 #include "study_axes.hpp"
 #include "study_keys.hpp"
 
@@ -69,6 +70,7 @@ std::vector<DocumentedKey> describe_study_keys() {
   document(documented, detail::reference_keys(), "reference");
   document_axes(documented);
   document(documented, detail::input_keys({}), "input");
+  document(documented, detail::hard_launch_keys(), "case");
   return documented;
 }
 

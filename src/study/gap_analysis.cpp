@@ -1,5 +1,7 @@
 #include "gap_analysis.hpp"
 
+#include "launchsafe/run/doubts.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -59,6 +61,17 @@ const Reference* reference_for(const Study& study, double gap) {
   return nullptr;
 }
 
+/// What the study and its accuracy record say of the uncertainty of a temperature (K). Errors grow with the
+/// rise.
+void add_stated(const Study& study, const CaseOutcome& outcome, double temperature,
+                Uncertainty& uncertainty) {
+  const double rise = temperature - outcome.input.scene.scene.initial_temperature;
+  const double hotter = rise / outcome.input.rise_of_uncertainty;
+  uncertainty.numerical = outcome.input.numerical_uncertainty * (hotter > 1.0 ? hotter : 1.0);
+  uncertainty.fit = std::isfinite(study.fit_uncertainty) ? study.fit_uncertainty : 0.0;
+  uncertainty.input = std::isfinite(study.input_uncertainty) ? study.input_uncertainty : 0.0;
+}
+
 GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const run::GapResult& gap) {
   const scene::Scene& scene = outcome.input.scene.scene;
   const BottomTrace& trace = outcome.result.mechanics.trace;
@@ -74,7 +87,7 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const run::Gap
   row.ignition_anywhere = named(gap.skin.ignition_anywhere, trace);
   row.uncertainty.sampling = gap.sampling_error;
   row.uncertainty.integration = integration_error(surface::skin_model(scene), trace, gap);
-  row.uncertainty.numerical = study.numerical_uncertainty;
+  add_stated(study, outcome, gap.at_points.temperature, row.uncertainty);
   return row;
 }
 
@@ -84,7 +97,7 @@ Uncertainty uncertainty_at(const Study& study, const CaseOutcome& outcome, const
   uncertainty.sampling = gap.sampling_error;
   uncertainty.integration =
       integration_error(surface::skin_model(outcome.input.scene.scene), outcome.result.mechanics.trace, gap);
-  uncertainty.numerical = study.numerical_uncertainty;
+  add_stated(study, outcome, gap.at_points.temperature, uncertainty);
   for (const Confirmation& confirmation : outcome.confirmations) {
     if (std::isfinite(confirmation.difference))
       uncertainty.coupling = std::max(uncertainty.coupling, std::abs(confirmation.difference));
@@ -124,11 +137,20 @@ std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
          (confirmation.expected_ignition ? "do" : "do not");
 }
 
+/// All doubts about a completed run as one clause.
+std::string doubt_of(const CaseOutcome& outcome) {
+  if (!outcome.completed()) return {};
+  return fmt::format("{}",
+                     fmt::join(run::doubts_of(outcome.input.scene.scene, outcome.result.mechanics), "; "));
+}
+
 }  // namespace
 
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
-  if (!outcome.completed()) {
-    outcome.critical = outcome.critical_anywhere = indeterminate(outcome.failure);
+  const std::string doubt = doubt_of(outcome);
+  if (!outcome.completed() || !doubt.empty()) {
+    outcome.critical = outcome.critical_anywhere =
+        indeterminate(outcome.completed() ? "the run is in doubt: " + doubt : outcome.failure);
     return;
   }
   const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
@@ -195,13 +217,15 @@ void conclude(const Study& study, CaseOutcome& outcome) {
       coupling = std::max(coupling, std::abs(confirmation.difference));
   }
   const bool foreign = misses_calibrated_rows(outcome);
+  const std::string doubt = doubt_of(outcome);
+  const std::string limited = run::to_string(outcome.result.mechanics.limiters);
   std::vector<double> gaps, temperatures;
   for (GapVerdict& row : outcome.verdicts) {
     row.uncertainty.coupling = coupling;
     if (foreign)
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
     row.judgement = judge({outcome.completed(), outcome.failure, row.ignition.has_value(), row.gap,
-                           row.maximum.temperature, row.margin, row.uncertainty.total()},
+                           row.maximum.temperature, row.margin, row.uncertainty.total(), doubt, limited},
                           outcome.critical);
     if (!row.ignition && row.ignition_anywhere)
       row.judgement.reason +=

@@ -1,10 +1,12 @@
 #include "launchsafe/study/read_study.hpp"
 
 #include "changed_scene.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "hard_launches.hpp"
 #include "study_axes.hpp"
 #include "study_cases.hpp"
 #include "study_keys.hpp"
+#include "study_settings.hpp"
+#include "study_uncertainty.hpp"
 
 #include <fmt/format.h>
 
@@ -88,7 +90,7 @@ Fault apply_overrides(const toml::table& root, StudyFile& study) {
 
 /// The tables that are read apart from the keys, as far as the file has them.
 void note_tables(const toml::table& root, StudyFile& study) {
-  for (const char* name : {"reference", "axes", "input"}) {
+  for (const char* name : {"reference", "axes", "input", "settings", "case"}) {
     if (const toml::node* node = root.get(name)) study.places[name] = scene::place_of(*node, study.file);
   }
 }
@@ -189,36 +191,13 @@ Fault check_scene(const StudyFile& study) {
     return fault_at(study, "peak_pressures", "peak pressures for a measured curve that is not rescaled",
                     "peak pressures with load.rescale_to_peak = true in the scene");
   }
-  if (study.study.early_time > scene.load.duration) {
+  // The launches of a stability study last differently long.
+  if (study.study.kind != StudyKind::stability && study.study.early_time > scene.load.duration) {
     return fault_at(
         study, "early_time", scene::format_quantity(study.study.early_time, Dimension::time),
         "a time within the load's duration, " + scene::format_quantity(scene.load.duration, Dimension::time));
   }
   return std::nullopt;
-}
-
-bool is_numerics(const std::string& key) { return key.starts_with("numerics."); }
-
-/// Whether any case has other numerics than the scene as it was written.
-bool has_other_numerics(const StudyFile& study) {
-  const auto varies = [](const auto& each) { return is_numerics(each.key.name); };
-  const Study& s = study.study;
-  return std::any_of(study.overrides.begin(), study.overrides.end(),
-                     [](const auto& each) { return is_numerics(each.first); }) ||
-         std::any_of(s.axes.begin(), s.axes.end(), varies) ||
-         std::any_of(s.inputs.begin(), s.inputs.end(), varies);
-}
-
-/// A stated uncertainty belongs to the scene's own numerics on a grid that runs along the charge's edges.
-/// Without one, or elsewhere, nothing is known, and a large one is assumed, so that no verdict is SAFE on the
-/// strength of silence.
-void settle_numerical_uncertainty(StudyFile& study) {
-  Study& s = study.study;
-  const bool unstated = !std::isfinite(s.numerical_uncertainty);
-  if (!unstated && !has_other_numerics(study) && scene::charge_edges_off_grid(study.scene.scene).empty())
-    return;
-  s.numerical_uncertainty_assumed = unstated || s.numerical_uncertainty < assumed_numerical_uncertainty;
-  if (s.numerical_uncertainty_assumed) s.numerical_uncertainty = assumed_numerical_uncertainty;
 }
 
 /// The axes of a sweep, or the inputs of a sensitivity study.
@@ -229,18 +208,24 @@ Fault read_what_varies(const toml::table& root, StudyFile& study) {
   if (study.study.kind == StudyKind::sensitivity) {
     if (Fault fault = detail::read_inputs(root, study)) return fault;
   }
+  if (study.study.kind == StudyKind::accuracy) {
+    if (Fault fault = detail::read_settings(root, study)) return fault;
+  }
   return detail::check_load_axes(study);
 }
 
 }  // namespace
 
-scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& path) {
+scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& path,
+                                       const StudyRequest& request) {
   const auto table = scene::parse_toml(text, path.string());
   if (!table) return table.error();
   StudyFile study;
   study.file = path.string();
-  auto read = scene::read_table(*table, detail::study_keys(), {"set", "reference", "axes", "input"},
-                                study.file, study.study);
+  study.most_cases = request.most_cases;
+  auto read =
+      scene::read_table(*table, detail::study_keys(),
+                        {"set", "reference", "axes", "input", "settings", "case"}, study.file, study.study);
   if (!read) return read.error();
   study.places = std::move(*read);
   note_tables(*table, study);
@@ -251,18 +236,26 @@ scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesys
   if (Fault fault = check_references(study)) return *fault;
   if (Fault fault = read_scene_of(study, path.parent_path())) return *fault;
   if (Fault fault = apply_overrides(*table, study)) return *fault;
+  const auto record = detail::read_record(study, path.parent_path());
+  if (!record) return record.error();
+  const double tolerance = request.tolerance.value_or(study.study.setting_tolerance);
+  if (std::isfinite(tolerance)) {
+    if (Fault fault = detail::choose_setting(study, *record, tolerance)) return *fault;
+  }
   if (Fault fault = check_scene(study)) return *fault;
   if (Fault fault = read_what_varies(*table, study)) return *fault;
-  settle_numerical_uncertainty(study);
   if (Fault fault = detail::make_cases(study)) return *fault;
+  if (Fault fault = detail::read_hard_launches(*table, study, path.parent_path())) return *fault;
+  // A stability study states what each of its cases is judged with.
+  if (study.study.kind != StudyKind::stability) detail::settle_uncertainty(study, *record);
   if (study.study.title.empty()) study.study.title = study.scene.scene.title;
   return study;
 }
 
-scene::Expected<StudyFile> read_study(const std::filesystem::path& file) {
+scene::Expected<StudyFile> read_study(const std::filesystem::path& file, const StudyRequest& request) {
   const auto text = scene::read_text_file(file);
   if (!text) return text.error();
-  return parse_study(*text, file);
+  return parse_study(*text, file, request);
 }
 
 }  // namespace launchsafe::study

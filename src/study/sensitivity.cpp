@@ -10,10 +10,6 @@
 
 namespace launchsafe::study {
 
-std::string to_string(SensitivityMethod method) {
-  return method == SensitivityMethod::sobol ? "sobol" : "morris";
-}
-
 std::string to_string(SensitivityOutput output) {
   switch (output) {
     case SensitivityOutput::maximum_temperature:

@@ -58,12 +58,6 @@ InputError unfit_key(const StudyFile& study, const std::string& name, const std:
                          unknown.suggestion);
 }
 
-/// A key of [axes] by its dotted name.
-struct Leaf {
-  std::string name;
-  const toml::node* node = nullptr;
-};
-
 void collect_leaves(const toml::table& table, const std::string& prefix, std::vector<Leaf>& leaves) {
   for (const auto& [key, node] : table) {
     const std::string name = prefix + std::string(key.str());
@@ -74,17 +68,6 @@ void collect_leaves(const toml::table& table, const std::string& prefix, std::ve
       leaves.push_back({name, &node});
     }
   }
-}
-
-/// toml++ sorts a table by key; people mean the order in which they wrote.
-std::vector<Leaf> leaves_as_written(const toml::table& table) {
-  std::vector<Leaf> leaves;
-  collect_leaves(table, "", leaves);
-  std::stable_sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
-    const auto &first = a.node->source().begin, &second = b.node->source().begin;
-    return std::pair(first.line, first.column) < std::pair(second.line, second.column);
-  });
-  return leaves;
 }
 
 Fault read_gap_axis(const toml::node& node, StudyFile& study) {
@@ -151,6 +134,16 @@ Fault check_load_axis(const StudyFile& study, const std::string& key, const std:
 }
 
 }  // namespace
+
+std::vector<Leaf> leaves_as_written(const toml::table& table) {
+  std::vector<Leaf> leaves;
+  collect_leaves(table, "", leaves);
+  std::stable_sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
+    const auto &first = a.node->source().begin, &second = b.node->source().begin;
+    return std::pair(first.line, first.column) < std::pair(second.line, second.column);
+  });
+  return leaves;
+}
 
 const std::vector<NamedAxis>& named_axes() {
   static const std::vector<NamedAxis> axes{{"peak_pressure", "load.peak"},

@@ -9,6 +9,14 @@
 
 namespace launchsafe::study::detail {
 
+/// A key of a table by its dotted name.
+struct Leaf {
+  std::string name;
+  const toml::node* node = nullptr;
+};
+/// All keys of a table and of the tables in it, as people wrote them: toml++ sorts a table by key.
+std::vector<Leaf> leaves_as_written(const toml::table& table);
+
 /// The key of a sweep that stands for the gaps, which share a mechanical run.
 inline constexpr std::string_view gap_axis = "gap";
 

@@ -4,6 +4,7 @@
 #include "launchsafe/math/sensitivity.hpp"
 #include "launchsafe/study/calibration.hpp"
 #include "study_axes.hpp"
+#include "study_settings.hpp"
 
 #include <fmt/format.h>
 
@@ -153,9 +154,9 @@ class FactorialBuilder {
 };
 
 Fault check_count(const StudyFile& study, const std::string& key, double count, const std::string& what) {
-  if (count <= static_cast<double>(largest_case_count)) return std::nullopt;
+  if (count <= static_cast<double>(study.most_cases)) return std::nullopt;
   return fault_at(study, key, fmt::format("{:.0f} mechanical runs, {}", count, what),
-                  fmt::format("at most {} mechanical runs", largest_case_count));
+                  fmt::format("at most {} mechanical runs", study.most_cases));
 }
 
 Fault make_factorial(StudyFile& study) {
@@ -308,6 +309,8 @@ Fault make_cases(StudyFile& study) {
     return make_factorial(study);
   }
   if (Fault fault = settle_gaps(study)) return fault;
+  if (study.study.kind == StudyKind::accuracy) return make_accuracy_cases(study);
+  if (study.study.kind == StudyKind::stability) return std::nullopt;  // each has a scene of its own
   if (study.study.kind != StudyKind::sensitivity) return make_factorial(study);
   return study.study.method == SensitivityMethod::sobol ? make_saltelli(study) : make_morris(study);
 }

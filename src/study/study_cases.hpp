@@ -7,9 +7,6 @@
 
 namespace launchsafe::study::detail {
 
-/// Largest number of cases of a study.
-inline constexpr std::size_t largest_case_count = 1'000'000;
-
 /// Fills StudyFile::cases, every one of them through scene::with_key. Needs everything else of the study.
 Fault make_cases(StudyFile& study);
 

@@ -16,8 +16,16 @@ std::string to_string(StudyKind kind) {
       return "sweep";
     case StudyKind::sensitivity:
       return "sensitivity";
+    case StudyKind::accuracy:
+      return "accuracy";
+    case StudyKind::stability:
+      return "stability";
   }
   return {};
+}
+
+std::string to_string(SensitivityMethod method) {
+  return method == SensitivityMethod::sobol ? "sobol" : "morris";
 }
 
 namespace detail {
@@ -52,7 +60,9 @@ std::vector<Key<Study>> common_keys() {
           {{to_string(critical_gap), critical_gap},
            {to_string(calibration), calibration},
            {to_string(sweep), sweep},
-           {to_string(sensitivity), sensitivity}},
+           {to_string(sensitivity), sensitivity},
+           {to_string(accuracy), accuracy},
+           {to_string(stability), stability}},
           [](auto& s) -> auto& { return s.kind; })),
       scene::text_key<Study>(
           "title", Standing::input, "What this study is, for reports; the scene's title where there is none.",
@@ -72,10 +82,13 @@ std::vector<Key<Study>> common_keys() {
   };
 }
 
+std::vector<Key<Study>> gaps_keys() {
+  return {study_list("gaps", Dimension::length, between(0, 0.01),
+                     "Gaps to judge; those of the scene if absent.", &Study::gaps)};
+}
+
 std::vector<Key<Study>> critical_gap_keys() {
   return {
-      study_list("gaps", Dimension::length, between(0, 0.01), "Gaps to judge; those of the scene if absent.",
-                 &Study::gaps),
       study_list("peak_pressures", Dimension::pressure, above_to(0, 10e9),
                  "Peak chamber pressures, each a mechanical run; the scene's if absent.",
                  &Study::peak_pressures),
@@ -116,6 +129,47 @@ std::vector<Key<Study>> calibration_keys() {
           "Published bracket of the ignition temperature, a check on the calibrated one.",
           [](auto& s) -> auto& { return s.ignition_lowest; },
           [](auto& s) -> auto& { return s.ignition_highest; }),
+  };
+}
+
+std::vector<Key<Study>> accuracy_keys() {
+  return {
+      study_list("reference_cell_sizes", Dimension::length, between(1e-5, 1),
+                 "Cell sizes of at least three grids, each fitting the charge, that the reference is "
+                 "extrapolated from.",
+                 &Study::reference_cell_sizes),
+      study_list("times", Dimension::time, between(0, 1), "Instants at which temperatures are compared too.",
+                 &Study::times),
+  };
+}
+
+std::vector<Key<Study>> stability_keys() {
+  return {scene::flag_key<Study>(
+      "laws", Standing::assumed, "The laws by themselves at stiff and extreme arguments, before the cases.",
+      [](auto& s) -> auto& { return s.laws; })};
+}
+
+/// What the uncertainty of a verdict is made of, besides the mesh.
+std::vector<Key<Study>> uncertainty_keys() {
+  return {
+      scene::text_key<Study>(
+          "accuracy", Standing::input,
+          "Path of the record of an accuracy study, accuracy.json, from the study file's folder; it gives "
+          "the "
+          "numerical uncertainty of every setting in it.",
+          [](auto& s) -> auto& { return s.accuracy; }),
+      study_number(
+          "setting_tolerance", Dimension::temperature, above_to(0, 1000),
+          "Replaces the scene's numerics by the cheapest setting of the record that knows the maximum "
+          "temperature to this; on the command line --tolerance.",
+          &Study::setting_tolerance),
+      study_number("fit_uncertainty", Dimension::temperature, between(0, 1000),
+                   "Uncertainty of the margin from the calibrated constants; not counted if absent.",
+                   &Study::fit_uncertainty),
+      study_number("input_uncertainty", Dimension::temperature, between(0, 1000),
+                   "Uncertainty of the maximum temperature from what is not known of the launch (see kind "
+                   "sensitivity); not counted if absent.",
+                   &Study::input_uncertainty),
   };
 }
 
@@ -216,13 +270,18 @@ struct KeyGroup {
 };
 
 const std::vector<KeyGroup>& key_groups() {
-  static const std::vector<KeyGroup> groups{{{}, common_keys()},
-                                            {{critical_gap}, critical_gap_keys()},
-                                            {{critical_gap, sweep, sensitivity}, judging_keys()},
-                                            {{calibration}, calibration_keys()},
-                                            {{sensitivity}, sensitivity_keys()},
-                                            {{sensitivity}, sobol_keys()},
-                                            {{sensitivity}, morris_keys()}};
+  static const std::vector<KeyGroup> groups{
+      {{}, common_keys()},
+      {{critical_gap, accuracy, stability}, gaps_keys()},
+      {{critical_gap}, critical_gap_keys()},
+      {{critical_gap, sweep, sensitivity, accuracy, stability}, judging_keys()},
+      {{critical_gap, sweep, sensitivity}, uncertainty_keys()},
+      {{calibration}, calibration_keys()},
+      {{accuracy}, accuracy_keys()},
+      {{stability}, stability_keys()},
+      {{sensitivity}, sensitivity_keys()},
+      {{sensitivity}, sobol_keys()},
+      {{sensitivity}, morris_keys()}};
   return groups;
 }
 
@@ -288,6 +347,8 @@ std::vector<Key<InputText>> input_keys(const scene::KeyDescription& scene_key) {
 std::vector<StudyKind> kinds_of_key(const std::string& name) {
   if (name == "axes") return {sweep};
   if (name == "input") return {sensitivity};
+  if (name == "settings") return {accuracy};
+  if (name == "case") return {stability};
   if (name == "reference") return {critical_gap, calibration, sweep};
   for (const KeyGroup& group : key_groups()) {
     if (scene::find_key(group.keys, name)) return group.kinds;

@@ -45,18 +45,25 @@ Judgement judge_distance(const Evidence& evidence, const CriticalGap& critical) 
           fmt::format("margin {:.3g} K over uncertainty {:.2g} K", evidence.margin, evidence.uncertainty)};
 }
 
-}  // namespace
-
-Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
-  if (!evidence.completed)
-    return indeterminate(evidence.failure.empty() ? "the run failed" : evidence.failure);
-  if (!std::isfinite(evidence.maximum_temperature)) return indeterminate("the temperature is not a number");
+Judgement judge_sound(const Evidence& evidence, const CriticalGap& critical) {
   if (evidence.ignited) return {Verdict::unsafe, "ignition"};
   if (!(evidence.margin > evidence.uncertainty)) {
     return indeterminate(fmt::format("margin {:.3g} K within the uncertainty, {:.2g} K", evidence.margin,
                                      evidence.uncertainty));
   }
   return judge_distance(evidence, critical);
+}
+
+}  // namespace
+
+Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
+  if (!evidence.completed)
+    return indeterminate(evidence.failure.empty() ? "the run failed" : evidence.failure);
+  if (!std::isfinite(evidence.maximum_temperature)) return indeterminate("the temperature is not a number");
+  if (!evidence.doubt.empty()) return indeterminate("the run is in doubt: " + evidence.doubt);
+  Judgement judgement = judge_sound(evidence, critical);
+  if (!evidence.limited.empty()) judgement.reason += "; limiters acted: " + evidence.limited;
+  return judgement;
 }
 
 }  // namespace launchsafe::study

@@ -11,11 +11,9 @@ namespace {
 
 constexpr double micrometre = 1e-6, duration = 1e-3;
 
-/// A strip of charge 0.1 mm long, eleven diffusion lengths of 1 ms, in cells of 0.5 um; its base is the half
-/// space's face.
-scene::Scene strip() {
-  scene::Scene scene =
-      block(scene::BodyMaterial::charge, 100.0 * micrometre, 0.5 * micrometre, 0.5 * micrometre);
+/// A strip of charge 0.1 mm long, eleven diffusion lengths of 1 ms; its base is the half space's face.
+scene::Scene strip(double cell) {
+  scene::Scene scene = block(scene::BodyMaterial::charge, 100.0 * micrometre, cell, cell);
   scene.symmetry = scene::Symmetry::plane_strain;
   return scene;
 }
@@ -55,9 +53,29 @@ void make_checkered(mpm::Simulation& simulation) {
 
 }  // namespace
 
+double half_space_error(double cell, int steps) {
+  mpm::Simulation simulation(strip(cell));
+  mpm::Conduction conduction(simulation);
+  const double initial = simulation.scene().initial_temperature;
+  conduction.hold_base(initial + 1.0);
+  conduct(conduction, simulation, duration, steps);
+  const scene::Charge& charge = simulation.scene().charge;
+  const double diffusivity = charge.conductivity / (charge.eos.initial_density * charge.specific_heat);
+  const mpm::Kinematics& p = simulation.charges()[0].kinematics;
+  const double face = p.lattice.x_begin + p.lattice.columns * p.lattice.spacing_x;
+  double difference = 0.0, scale = 0.0;
+  for (int i = 0; i < p.lattice.columns; ++i) {
+    const double exact = std::erfc((face - p.lattice.x_of(i)) / (2.0 * std::sqrt(diffusivity * duration)));
+    const double rise = p.temperature[p.lattice.slot(i, 0)] - initial;
+    difference += (rise - exact) * (rise - exact);
+    scale += exact * exact;
+  }
+  return std::sqrt(difference / scale);
+}
+
 Checks semi_infinite_conduction() {
   const std::string group = "conduction", half_space = "Carslaw & Jaeger, half space";
-  mpm::Simulation simulation(strip());
+  mpm::Simulation simulation(strip(0.5 * micrometre));
   mpm::Conduction conduction(simulation);
   conduction.hold_base(simulation.scene().initial_temperature + 1.0);
   conduct(conduction, simulation, duration, 1000);
@@ -74,7 +92,7 @@ Checks semi_infinite_conduction() {
 }
 
 Checks conduction_under_flux() {
-  mpm::Simulation simulation(strip());
+  mpm::Simulation simulation(strip(0.5 * micrometre));
   mpm::Conduction conduction(simulation);
   conduction.heat_base(1e6);
   conduct(conduction, simulation, duration, 1000);

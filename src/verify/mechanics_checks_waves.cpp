@@ -42,10 +42,27 @@ struct Misfit {
   double relative() const { return std::sqrt(difference / scale); }
 };
 
-/// Relative L2 errors of a travelling pulse.
-struct WaveError {
-  double velocity = 0, stress = 0;
-};
+/// Place of the pulse, the centre of its momentum, m from the nose.
+double centre_of_momentum(const mpm::Simulation& simulation) {
+  double moment = 0.0, momentum = 0.0;
+  simulation.for_each_body([&](const mpm::Kinematics& p) {
+    for (std::size_t i = 0; i < p.mass.size(); ++i) {
+      momentum += p.mass[i] * p.velocity_x[i];
+      moment += p.mass[i] * p.velocity_x[i] * p.x[i];
+    }
+  });
+  return moment / momentum;
+}
+
+/// Speed of the pulse between two times at which it is whole and inside.
+double speed_of_pulse(mpm::Simulation& simulation, double begin, double end) {
+  run_to(simulation, begin);
+  const double from = centre_of_momentum(simulation);
+  run_to(simulation, end);
+  return (from - centre_of_momentum(simulation)) / (end - begin);
+}
+
+}  // namespace
 
 /// A pulse enters a strip of 1 m in a rigid barrel, where only the longitudinal wave can run:
 /// v = -p(t - (L - X)/c)/(rho c), sigma = -p(t - (L - X)/c). After a step the velocity is that of its middle.
@@ -76,28 +93,6 @@ WaveError longitudinal_error(int cells) {
   }
   return {velocity.relative(), stress.relative()};
 }
-
-/// Place of the pulse, the centre of its momentum, m from the nose.
-double centre_of_momentum(const mpm::Simulation& simulation) {
-  double moment = 0.0, momentum = 0.0;
-  simulation.for_each_body([&](const mpm::Kinematics& p) {
-    for (std::size_t i = 0; i < p.mass.size(); ++i) {
-      momentum += p.mass[i] * p.velocity_x[i];
-      moment += p.mass[i] * p.velocity_x[i] * p.x[i];
-    }
-  });
-  return moment / momentum;
-}
-
-/// Speed of the pulse between two times at which it is whole and inside.
-double speed_of_pulse(mpm::Simulation& simulation, double begin, double end) {
-  run_to(simulation, begin);
-  const double from = centre_of_momentum(simulation);
-  run_to(simulation, end);
-  return (from - centre_of_momentum(simulation)) / (end - begin);
-}
-
-}  // namespace
 
 Checks longitudinal_pulse() {
   Checks checks;

@@ -25,6 +25,30 @@ Checks conduction_under_flux();
 Checks conduction_keeps_heat();
 Checks conduction_in_long_steps();
 
+// The simulations behind some of them, whose mesh and step the table of error against run time varies.
+
+/// Relative L2 errors of a travelling pulse.
+struct WaveError {
+  double velocity = 0, stress = 0;
+};
+/// Of a pulse in a strip of 1 m that is divided into `cells`, when its front has travelled 0.9 m.
+WaveError longitudinal_error(int cells);
+
+/// Relative L2 error of the temperature rise in a half space whose face is held 1 K hotter, after 1 ms, in
+/// cells of `cell` (m) and `steps` equal steps.
+double half_space_error(double cell, int steps);
+
+/// What a uniform stress in balance may not do to a block in flight.
+struct FlightDrift {
+  double momentum = 0;  ///< relative
+  double kinetic = 0;   ///< relative
+  double stress = 0;    ///< largest axial stress over the pressure
+  double work = 0;      ///< of the stress, over the kinetic energy
+  double place = 0;     ///< of the centre of mass, over the way flown
+};
+/// A block of 50 mm flies `way` (m) through cells of `cell` (m) at 500 m/s.
+FlightDrift drift_in_flight(double cell, double way);
+
 /// The 155 mm shell of model section 1.
 scene::Scene shell_155(double cell_size);
 /// A cylinder or strip of one material.

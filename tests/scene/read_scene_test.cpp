@@ -44,7 +44,7 @@ TEST(ReadScene, WrittenSceneReadsBackToTheSame) {
   ASSERT_TRUE(file);
   file->scene.surface.localisation = 1.0 / 3.0;
   file->scene.title = "a \"quoted\" title\nof two lines";
-  file->scene.load.curve_time = {0.0, 1e-3, 0.0021};
+  file->scene.load.curve_time = {0.0, 1e-3, 0.018};
   file->scene.load.curve_pressure = {1e5, 1e8, 2e8 / 3.0};
   file->scene.output.snapshot_times = {0.0, 5e-3};
   file->scene.charge.cracks.face_friction = 0.0;
@@ -171,6 +171,19 @@ TEST(ReadScene, InertialScalingNeedsTheCoMovingFrame) {
   expect_error(error_of(text), 2, "numerics.inertial_scaling", "4 in the lab frame", "co-moving");
 }
 
+TEST(ReadScene, ACurveInTheSceneMustLastUntilTheEnd) {
+  const auto text =
+      "load.curve_time = \"0, 0.5 ms\"\nload.curve_pressure = \"0, 300 MPa\"\nload.duration = \"1 ms\"\n" +
+      with(small_scene, "[load]\nduration = \"1 ms\"\n", "");
+  expect_error(error_of(text), 1, "load.curve_time", "ends at 0.5 ms", "until the end of the launch");
+}
+
+TEST(ReadScene, TimeStepsBeyondTheStableOnesAreAllowedUpToTwice) {
+  EXPECT_TRUE(parse_scene("numerics.time_step_factor = 2\n" + small_scene, "shell.toml"));
+  expect_error(error_of("numerics.time_step_factor = 2.1\n" + small_scene), 1, "numerics.time_step_factor",
+               "2.1", "to 2");
+}
+
 TEST(ReadScene, SnapshotsMustLieWithinTheLaunch) {
   const auto text = "output.snapshots = \"0, 2 ms\"\n" + small_scene;
   expect_error(error_of(text), 1, "output.snapshots", "2 ms", "1 ms");
@@ -226,6 +239,30 @@ TEST_F(CurveFile, ThatIsMissingIsNamedWithItsKey) {
   EXPECT_EQ(file.error().key, "load.curve");
   EXPECT_NE(file.error().found.find("\"gunn.csv\", which does not exist"), std::string::npos);
   EXPECT_NE(file.error().suggestion.find("gun.csv"), std::string::npos);
+}
+
+TEST_F(CurveFile, WhosePeakWouldBeIgnoredIsRefused) {
+  write("gun.csv", "time_ms,pressure_MPa\n0,0.1\n0.5,300\n1,10\n");
+  const std::string text = with(small_scene, "[load]", "[load]\ncurve = \"gun.csv\"\npeak = \"400 MPa\"");
+  const auto file = read_scene(write("shell.toml", text));
+  ASSERT_FALSE(file);
+  EXPECT_EQ(file.error().line, 3);
+  EXPECT_EQ(file.error().key, "load.peak");
+  EXPECT_NE(file.error().found.find("a peak of its own"), std::string::npos) << file.error().message();
+  const auto scaled = read_scene(write("shell.toml", with(text, "[load]", "[load]\nrescale_to_peak = true")));
+  ASSERT_TRUE(scaled) << scaled.error().message();
+  EXPECT_EQ(PressureHistory(scaled->scene.load).peak(), 4e8);
+}
+
+TEST_F(CurveFile, ThatEndsBeforeTheLaunchIsRefused) {
+  write("gun.csv", "time_ms,pressure_MPa\n0,0.1\n0.5,300\n0.9,10\n");
+  const std::string text = with(small_scene, "[load]", "[load]\ncurve = \"gun.csv\"");
+  const auto file = read_scene(write("shell.toml", text));
+  ASSERT_FALSE(file);
+  EXPECT_EQ(file.error().line, 2);
+  EXPECT_EQ(file.error().key, "load.curve");
+  EXPECT_NE(file.error().found.find("ends at 0.9 ms"), std::string::npos) << file.error().message();
+  EXPECT_TRUE(read_scene(write("shell.toml", with(text, "\"1 ms\"", "\"0.9 ms\""))));
 }
 
 TEST_F(CurveFile, ThatIsFaultyIsNamedWithItsOwnLine) {

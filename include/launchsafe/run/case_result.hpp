@@ -63,6 +63,9 @@ struct LimiterCounts {
   std::uint64_t hugoniot_guard = 0;  ///< the guard of the Hugoniot pole acted
 };
 
+/// "crack bound 12, tension cut-off 3"; empty where none acted.
+std::string to_string(const LimiterCounts& limiters);
+
 struct MechanicsResult {
   RunStatus status = RunStatus::completed;
   std::string reason;   ///< when and where, if not completed

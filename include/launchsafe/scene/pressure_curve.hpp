@@ -9,9 +9,12 @@
 
 namespace launchsafe::scene {
 
+/// Pa; no load may be larger, whether it comes from a file or stands in a scene.
+inline constexpr double largest_load = 10e9;
+
 struct PressureCurve {
   std::vector<double> time;      ///< s, increasing
-  std::vector<double> pressure;  ///< Pa, at least 0
+  std::vector<double> pressure;  ///< Pa, 0 to `largest_load`
 };
 
 /// Reads at least two points under a header such as "time_ms,pressure_MPa" or "time (ms), pressure (MPa)".

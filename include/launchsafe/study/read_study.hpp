@@ -4,7 +4,9 @@
 #include "launchsafe/math/sampling.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/verify/hard_case.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -18,7 +20,7 @@ namespace launchsafe::study {
 
 inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-enum class StudyKind { critical_gap, calibration, sweep, sensitivity };
+enum class StudyKind { critical_gap, calibration, sweep, sensitivity, accuracy, stability };
 std::string to_string(StudyKind kind);
 
 /// A scene key varied by a study.
@@ -33,6 +35,26 @@ struct UncertainInput {
   std::string name;  ///< as of Axis
   scene::KeyDescription key;
   math::Distribution distribution;  ///< SI
+};
+
+/// A scene key with the values that it takes in one [[settings]] of an accuracy study.
+struct SettingsAxis {
+  scene::KeyDescription key;
+  std::vector<scene::Value> values;
+};
+
+/// One [[case]] of a stability study: a launch that is extreme, or whose computation is, and what must hold.
+struct HardLaunch {
+  std::string group, name;
+  std::string must_hold;                  ///< a sentence
+  std::vector<verify::Outcome> expected;  ///< acceptable ones; empty: anything but WRONG
+  /// Steps within which a broken computation must be caught; 0: any number.
+  std::uint64_t caught_within = 0;
+  std::vector<double> gaps;             ///< m, to judge; all on one run
+  std::optional<std::size_t> run;       ///< of StudyFile::cases; none for a case of the reader
+  std::optional<std::size_t> against;   ///< of StudyFile::cases: a safe computation of the same launch
+  std::string must_refuse;              ///< a case of the reader: what its message must say; else empty
+  std::string refusal;                  ///< what the reader said; empty where it took the scene
 };
 
 /// How a sensitivity study asks.
@@ -84,7 +106,7 @@ struct Study {
   double largest_gap = 1e-3;           ///< m, where the search for the critical gap ends
   bool confirm = true;                 ///< complete coupled runs on both sides of the bracket
   /// K, of the maximum temperature, from a mesh study. `assumed_numerical_uncertainty` where the file states
-  /// none, or states one that does not apply (see `settle_numerical_uncertainty`).
+  /// none, or states one that does not apply; of several cases with settings of their own the largest.
   double numerical_uncertainty = not_a_number;
   bool numerical_uncertainty_assumed = false;
 
@@ -107,7 +129,26 @@ struct Study {
   std::uint64_t seed = 1;  ///< of design and bootstrap
   int resamples = 1000;    ///< of the bootstrap
   double confidence = 0.95;
+
+  // kind accuracy
+  std::vector<double> reference_cell_sizes;         ///< m, finest first once read; at least three
+  std::vector<std::vector<SettingsAxis>> settings;  ///< every combination within each
+  std::vector<double> times;                        ///< s, at which temperatures are compared too
+
+  // kind stability
+  bool laws = true;  ///< the laws by themselves too (verify::hard_laws)
+
+  // kinds that may use the record of an accuracy study
+  std::string accuracy;  ///< path of the record from the study file's folder; empty: none
+  double setting_tolerance =
+      not_a_number;                       ///< K, of T max; picks a setting from the record; NaN: the scene's
+  double fit_uncertainty = not_a_number;  ///< K, of the calibrated constants; NaN: not stated
+  double input_uncertainty = not_a_number;  ///< K, of T max by what is not known of the launch; NaN: likewise
 };
+
+/// K. By so much was T max of the 155 mm shell seen to move between meshes of 1 to 10 mm with one set of
+/// constants.
+inline constexpr double assumed_numerical_uncertainty = 60.0;
 
 /// One mechanical run of a study: a complete, valid scene.
 struct StudyCase {
@@ -119,12 +160,15 @@ struct StudyCase {
   bool own_conditions = true;  ///< the load and defect of the study's scene, which the references belong to
   /// SI; of Study::axes or Study::inputs, in their order; empty for the other kinds
   std::vector<double> coordinates;
+  double numerical_uncertainty = assumed_numerical_uncertainty;  ///< K, of T max with these numerics
+  /// K; the rise of T max above the initial temperature for which that was found; NaN where it holds for any.
+  /// Hotter skins have proportionally larger errors.
+  double rise_of_uncertainty = not_a_number;
   scene::SceneFile scene;
 };
 
-/// K. By so much was T max of the 155 mm shell seen to move between meshes of 1 to 10 mm with one set of
-/// constants.
-inline constexpr double assumed_numerical_uncertainty = 60.0;
+/// Largest number of cases of a study.
+inline constexpr std::size_t largest_case_count = 1'000'000;
 
 /// A valid study with its scene and its cases.
 struct StudyFile {
@@ -133,15 +177,28 @@ struct StudyFile {
   std::map<std::string, scene::Place> places;    ///< of every key the user gave
   std::map<std::string, std::string> overrides;  ///< [set]: scene key, value as people read it
   scene::SceneFile scene;                        ///< with the overrides
+  std::string uncertainty_source;                ///< where the numerical uncertainty comes from, a clause
+  std::string chosen_setting;  ///< what a tolerance picked from an accuracy record, for people; else empty
   /// critical-gap: pressures x crack radii x flaw sizes, the last fastest; calibration: the meshes; sweep:
   /// the axes, the last fastest; sensitivity: the evaluations of the design, in its order.
   std::vector<StudyCase> cases;
+  std::size_t most_cases = largest_case_count;  ///< a study with more is refused
+  std::vector<HardLaunch> launches;  ///< kind stability, in the order written; their runs are among the cases
+};
+
+/// What the command line adds to a study file.
+struct StudyRequest {
+  /// K; the cheapest setting of the study's accuracy record whose T max is known to that replaces the
+  /// scene's.
+  std::optional<double> tolerance;
+  std::size_t most_cases = largest_case_count;  ///< a study with more is refused; each takes some 10 kB
 };
 
 /// Reads and validates a study file and its scene. Nothing is computed. Never throws.
-scene::Expected<StudyFile> read_study(const std::filesystem::path& file);
+scene::Expected<StudyFile> read_study(const std::filesystem::path& file, const StudyRequest& request = {});
 /// The same from text; `file` is named in errors, and the scene is sought from its folder.
-scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& file);
+scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& file,
+                                       const StudyRequest& request = {});
 
 /// The keys of a study file and of its tables, "reference.gap" being that of one [[reference]], for
 /// documentation. Sentences end with the kinds that a key belongs to, unless it belongs to all.

@@ -3,6 +3,7 @@
 
 #include "launchsafe/study/bracket.hpp"
 
+#include <cmath>
 #include <string>
 
 namespace launchsafe::study {
@@ -10,14 +11,18 @@ namespace launchsafe::study {
 enum class Verdict { safe, unsafe, indeterminate };
 std::string to_string(Verdict verdict);
 
-/// Uncertainty of a maximum temperature, K, part by part.
+/// Uncertainty of the margin of a maximum temperature to ignition, K with about 95 %, part by part.
 struct Uncertainty {
   double sampling = 0;     ///< against a trace with half the samples
   double integration = 0;  ///< against a tolerance ten times wider
   double coupling = 0;     ///< largest difference between traced and coupled runs, where confirmed
-  double numerical = 0;    ///< of the mesh, as stated in the study
-  /// The sum: the parts are bounds, not deviations.
-  double total() const { return sampling + integration + coupling + numerical; }
+  double numerical = 0;    ///< of mesh, step and scaling: from an accuracy study, stated, or assumed
+  double fit = 0;          ///< of the calibrated constants, as stated
+  double input = 0;        ///< of what is not known of the launch, as stated
+  /// Of the computation itself: the sum, since the parts are bounds and have common causes.
+  double computed() const { return sampling + integration + coupling + numerical; }
+  /// The root of the sum of squares of the independent parts, as ASME V&V 20 combines them.
+  double total() const { return std::sqrt(computed() * computed() + fit * fit + input * input); }
 };
 
 /// All that a verdict rests on.
@@ -29,6 +34,8 @@ struct Evidence {
   double maximum_temperature = 0;  ///< K, at the observation points
   double margin = 0;               ///< K, ignition temperature minus maximum temperature
   double uncertainty = 0;          ///< K
+  std::string doubt = {};    ///< why a completed run is no basis (see run::doubts_of); empty for a sound one
+  std::string limited = {};  ///< limiters that acted, for people; empty where none did
 };
 
 struct Judgement {
@@ -37,7 +44,8 @@ struct Judgement {
 };
 
 /// Unsafe: ignition. Safe: none, the margin exceeds the uncertainty, and so does the distance to the critical
-/// gap. Indeterminate: everything else; a failed or undefined computation never is anything else.
+/// gap. Indeterminate: everything else; a failed, doubtful or undefined computation never is anything else. A
+/// verdict on a run in which limiters acted says so.
 Judgement judge(const Evidence& evidence, const CriticalGap& critical);
 
 }  // namespace launchsafe::study

@@ -1,0 +1,74 @@
+// The study of kind stability: a matrix of hard cases, and what became of each.
+#pragma once
+
+#include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/read_study.hpp"
+#include "launchsafe/verify/hard_case.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+/// What every computation that completed must fulfil, each as a sentence about how it does not; none for a
+/// sound one. Finite numbers, masses to round-off, the balance of momentum (in the co-moving frame none; in
+/// the lab's the impulse of the load), energy drift within the scene's limit, dissipation and friction heat
+/// that never fall, and no skin colder than charge and air were at first, whose pressure never falls below
+/// the initial one.
+std::vector<std::string> violations_of(const scene::Scene& scene, const run::MechanicsResult& mechanics,
+                                       const std::vector<double>& gaps);
+
+/// One gap of a hard launch beside the safe computation of the same launch.
+struct HardGap {
+  double gap = 0;                        ///< m
+  double temperature = not_a_number;     ///< K, T max at the observation points
+  double heated = not_a_number;          ///< K, the same of a skin that neither reacts nor is triggered
+  double heated_against = not_a_number;  ///< K, of the safe computation; NaN without one
+  double ignition = not_a_number;        ///< K, ignition temperature
+  double uncertainty = not_a_number;     ///< K
+  Judgement judgement;
+  /// K, of `heated` from the safe computation, both up to ignition: beyond it they say the same. NaN without
+  /// a safe computation.
+  double deviation() const {
+    return (heated > ignition ? ignition : heated) - (heated_against > ignition ? ignition : heated_against);
+  }
+  bool deviates() const { return deviation() > uncertainty || deviation() < -uncertainty; }
+};
+
+/// A row of the matrix.
+struct HardRow {
+  std::string group, name, must_hold;
+  verify::Finding finding;
+  std::vector<verify::Outcome> expected;  ///< empty: anything but WRONG
+  std::string failure;                    ///< why it was not computed at all; empty where it was
+  bool ran = false;                       ///< a launch: the members below tell of its run
+  RunSummary run;
+  double end_time = not_a_number;       ///< s, reached
+  std::vector<std::string> violations;  ///< of invariants
+  std::vector<std::string> doubts;
+  std::vector<HardGap> gaps;
+
+  bool computed() const { return failure.empty(); }
+  bool is_wrong() const { return computed() && finding.outcome == verify::Outcome::wrong; }
+  /// Neither WRONG nor other than what the study expects.
+  bool is_as_expected() const;
+};
+
+struct StabilityResult {
+  StudyFile study;
+  std::vector<HardRow> rows;  ///< laws first, then the cases as written
+  Timing timing;
+  bool interrupted = false;
+  std::size_t count(verify::Outcome outcome) const;  ///< rows that were computed and came out so
+  std::size_t wrong() const { return count(verify::Outcome::wrong); }
+  std::size_t unexpected() const;  ///< computed, not WRONG, and yet not what the study expects
+  std::size_t failed() const;      ///< not computed
+};
+
+/// Runs a study of kind stability. A case that breaks is its row. Laws are computed with the whole study
+/// only, not with a shard of it. Apart from the timing the result depends on the study alone.
+StabilityResult run_stability(const StudyFile& study, const StudyOptions& options = {});
+
+}  // namespace launchsafe::study

@@ -1,0 +1,224 @@
+#include "error_table.hpp"
+
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/plot.hpp"
+#include "launchsafe/report/table.hpp"
+#include "launchsafe/store/atomic_file.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace launchsafe::app {
+namespace {
+
+using verify::ErrorSeries, verify::PartSetting;
+
+const char* const title = "Error against processor time of the parts with exact solutions";
+
+report::Column significant_column(std::string name, std::string unit, int digits) {
+  return {.name = std::move(name),
+          .unit = std::move(unit),
+          .decimals = digits,
+          .notation = report::Notation::significant};
+}
+
+/// "1", "exact", or nothing where no order is to be expected.
+report::Cell expected_order(const ErrorSeries& series) {
+  if (std::isnan(series.order)) return std::string("none");
+  if (std::isinf(series.order)) return std::string("exact");
+  return report::significant(series.order, 3);
+}
+
+report::Cell order_cell(double order) {
+  return std::isnan(order) ? report::Cell{} : report::Cell{report::fixed(order, 2)};
+}
+
+std::string amount(double value, const std::string& unit) {
+  const std::string number = report::significant(value, 3);
+  return unit.empty() ? number : number + " " + unit;
+}
+
+report::Table settings_table(const std::vector<MeasuredSeries>& measured) {
+  report::Table table;
+  table.title = title;
+  table.columns = {report::text_column("part"),    report::text_column("error of"),
+                   report::text_column("setting"), {.name = "error", .unit = ""},
+                   {.name = "order", .unit = ""},  significant_column("processor time", "s", 3)};
+  for (const MeasuredSeries& each : measured) {
+    for (const PartSetting& row : each.settings) {
+      table.rows.push_back({row.part, row.quantity, row.setting, amount(row.error, row.error_unit),
+                            order_cell(row.order), row.processor_time});
+    }
+  }
+  table.notes = {
+      "Errors without a unit are relative. The order is that of the error in the step, cell or tolerance, "
+      "from one "
+      "setting to the next; where the error is of round-off there is none.",
+      "Processor time is that of one unit of work, named below: the least of three measurements."};
+  return table;
+}
+
+report::Table series_table(const std::vector<MeasuredSeries>& measured) {
+  report::Table table;
+  table.title = "What was measured";
+  table.columns = {report::text_column("part"),           report::text_column("error of"),
+                   report::text_column("against"),        report::text_column("processor time of"),
+                   report::text_column("order expected"), report::text_column("because")};
+  for (const MeasuredSeries& each : measured) {
+    const ErrorSeries& series = each.series;
+    table.rows.push_back(
+        {series.part, series.quantity, series.reference, series.work, expected_order(series), series.theory});
+  }
+  return table;
+}
+
+/// Everything in one table, for programs.
+report::Table whole_table(const std::vector<MeasuredSeries>& measured) {
+  report::Table table;
+  table.columns = {report::text_column("part"),
+                   report::text_column("quantity"),
+                   report::text_column("setting"),
+                   significant_column("size", "", 9),
+                   significant_column("error", "", 9),
+                   report::text_column("error unit"),
+                   significant_column("order", "", 9),
+                   significant_column("order expected", "", 9),
+                   significant_column("processor time", "s", 9),
+                   report::text_column("work"),
+                   report::text_column("reference")};
+  for (const MeasuredSeries& each : measured) {
+    for (const PartSetting& row : each.settings) {
+      table.rows.push_back({row.part, row.quantity, row.setting, row.size, row.error, row.error_unit,
+                            row.order, each.series.order, row.processor_time, each.series.work,
+                            each.series.reference});
+    }
+  }
+  return table;
+}
+
+bool is_exact(const MeasuredSeries& each) {
+  return std::all_of(each.settings.begin(), each.settings.end(),
+                     [&](const PartSetting& row) { return row.error <= each.series.round_off; });
+}
+
+/// Exact parts are left out: round-off against time shows nothing. One colour a part, one mark a quantity of
+/// it.
+report::Plot plot_of(const std::vector<MeasuredSeries>& measured) {
+  report::Plot plot;
+  plot.title = title;
+  plot.x = {.label = "processor time of one unit of work",
+            .scale = report::Scale::logarithmic,
+            .tics = {{1e-7, "0.1 us"},
+                     {1e-6, "1 us"},
+                     {1e-5, "10 us"},
+                     {1e-4, "0.1 ms"},
+                     {1e-3, "1 ms"},
+                     {1e-2, "10 ms"},
+                     {1e-1, "0.1 s"},
+                     {1.0, "1 s"}}};
+  plot.y = {.label = "error [relative, or K where it says so]", .scale = report::Scale::logarithmic};
+  plot.legend = report::Legend::right_of_plot;
+  plot.width = 1350;
+  plot.height = 640;
+  constexpr report::Mark marks[] = {report::Mark::circle, report::Mark::square, report::Mark::up_triangle,
+                                    report::Mark::diamond};
+  std::string part;
+  int colour = -1;
+  std::size_t mark = 0;
+  for (const MeasuredSeries& each : measured) {
+    if (is_exact(each)) continue;
+    mark = each.series.part == part ? mark + 1 : 0;
+    if (each.series.part != part) ++colour;
+    part = each.series.part;
+    const std::string unit = each.series.error_unit.empty() ? "" : " [" + each.series.error_unit + "]";
+    report::Series line{part + ": " + each.series.quantity + unit, {}, {}};
+    line.colour = colour;
+    line.mark = marks[mark % std::size(marks)];
+    for (const PartSetting& row : each.settings) {
+      line.x.push_back(row.processor_time);
+      line.y.push_back(row.error);
+    }
+    plot.series.push_back(std::move(line));
+  }
+  return plot;
+}
+
+std::string page_of(const std::vector<MeasuredSeries>& measured, const std::string& command,
+                    const std::string& picture) {
+  std::string page =
+      fmt::format("# {}\n\nMade by `{}`. Times are of the machine that ran it.\n\n", title, command);
+  if (!picture.empty()) page += fmt::format("![Error against processor time]({})\n\n", picture);
+  report::Table settings = settings_table(measured), series = series_table(measured);
+  settings.title = "Settings";
+  if (!picture.empty()) series.notes.push_back("The picture leaves out what is exact at every setting.");
+  return page + report::to_markdown(settings) + "\n" + report::to_markdown(series);
+}
+
+}  // namespace
+
+std::string error_table_text(const std::vector<MeasuredSeries>& measured, const std::string& command) {
+  return report::to_text(settings_table(measured)) + "\n" + report::to_text(series_table(measured)) +
+         "\nmade by: " + command + "\n";
+}
+
+nlohmann::ordered_json error_table_json(const std::vector<MeasuredSeries>& measured,
+                                        const std::string& command) {
+  const auto number = [](double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+  };
+  nlohmann::ordered_json object{{"command", command}, {"series", nlohmann::ordered_json::array()}};
+  for (const MeasuredSeries& each : measured) {
+    const ErrorSeries& series = each.series;
+    nlohmann::ordered_json settings = nlohmann::ordered_json::array();
+    for (const PartSetting& row : each.settings) {
+      settings.push_back({{"setting", row.setting},
+                          {"size", row.size},
+                          {"error", number(row.error)},
+                          {"order", number(row.order)},
+                          {"processor_time_s", row.processor_time}});
+    }
+    object["series"].push_back({{"part", series.part},
+                                {"quantity", series.quantity},
+                                {"error_unit", series.error_unit},
+                                {"work", series.work},
+                                {"reference", series.reference},
+                                {"theory", series.theory},
+                                {"order_expected", number(series.order)},
+                                {"exact", std::isinf(series.order)},
+                                {"round_off", series.round_off},
+                                {"settings", settings}});
+  }
+  return object;
+}
+
+store::Result<report::WrittenFiles> write_error_table(const std::vector<MeasuredSeries>& measured,
+                                                      const std::string& command,
+                                                      const std::filesystem::path& folder) {
+  report::WrittenFiles written;
+  std::string picture = "parts.svg";
+  const report::Plot plot = plot_of(measured);
+  if (plot.series.empty()) {
+    written.remarks.push_back("no picture: every part asked for is exact at every setting");
+    picture.clear();
+  } else if (auto error = report::write_svg(plot, folder / picture)) {
+    if (error->kind == store::Error::Kind::write_failed) return *error;
+    written.remarks.push_back("no picture: " + error->message);
+    picture.clear();
+  } else {
+    written.files.push_back(picture);
+  }
+  const std::pair<const char*, std::string> texts[] = {{"parts.csv", report::to_csv(whole_table(measured))},
+                                                       {"parts.md", page_of(measured, command, picture)}};
+  for (const auto& [name, text] : texts) {
+    if (auto error = store::write_file_atomically(folder / name, {text})) return *error;
+    written.files.push_back(name);
+  }
+  return written;
+}
+
+}  // namespace launchsafe::app

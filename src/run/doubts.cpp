@@ -1,0 +1,187 @@
+#include "launchsafe/run/doubts.hpp"
+
+#include "launchsafe/scene/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::run {
+namespace {
+
+using scene::Scene;
+using Doubts = std::vector<std::string>;
+
+/// Kinetic energy that only the scaling of the inertia makes, as a share of the internal energy. Measured on
+/// the 155 mm shell (cells of 2.5 mm, gap 0.02 cm): factor 16, share 0.0024, T max 3.9 K too high; 100,
+/// 0.020, 12 K; 200, 0.047, 34 K; 300, 0.065, ignition instead of 467.7 K; 10000, 0.55, 35 K too low.
+constexpr double largest_scaled_share = 0.03;
+
+/// The sampling error is the difference to a trace with half the samples. On the 155 mm shell (0.03 cm) a
+/// single interval errs by 19 K and finds no difference at all; two err by 5 K, four by 0.6 K, eight by less
+/// than 0.01 K, and from two on the difference is larger than the error.
+constexpr std::size_t fewest_intervals = 8;
+
+/// Crack radius over flaw size: beyond it the crack strain, (c/a)^3, is a thousand times the matrix's.
+constexpr double largest_crack_over_flaw = 10.0;
+/// Crack radius over cell: cracks are smeared over a cell, and larger ones belong to neighbours too.
+constexpr double largest_crack_over_cell = 5.0;
+
+/// Rise of the load over its last hundredth, as a share of the peak, from which it was still on its way.
+constexpr double least_rise_at_end = 1e-3;
+
+/// Share of the way from room temperature to melting up to which steel heated by its own plastic work is
+/// believed.
+constexpr double largest_homologous_temperature = 0.9;
+
+bool is_finite(const EnergyBalance& energy) {
+  return std::isfinite(energy.kinetic + energy.internal + energy.external + energy.body_force +
+                       energy.damping + energy.plastic + energy.viscous + energy.crack);
+}
+
+bool is_finite(const MonitorSample& sample) {
+  return is_finite(sample.energy) && std::isfinite(sample.time + sample.largest_plastic_strain +
+                                                   sample.largest_crack_radius + sample.momentum);
+}
+
+/// Largest of one number over the monitor's history; NaN wins.
+template <class Number>
+double largest(const MechanicsResult& mechanics, Number number) {
+  double most = 0;
+  for (const MonitorSample& sample : mechanics.monitor) {
+    const double value = number(sample);
+    if (!(value <= most)) most = value;
+  }
+  return most;
+}
+
+void doubt_history(const MechanicsResult& mechanics, Doubts& doubts) {
+  if (mechanics.monitor.size() < 2) {
+    doubts.emplace_back("the run has no monitor history, so that its stability is not known");
+    return;
+  }
+  const auto broken = std::find_if_not(mechanics.monitor.begin(), mechanics.monitor.end(),
+                                       [](const MonitorSample& sample) { return is_finite(sample); });
+  if (broken != mechanics.monitor.end()) {
+    doubts.push_back(fmt::format("the monitor history is not finite from sample {} on",
+                                 broken - mechanics.monitor.begin()));
+  }
+}
+
+void doubt_inertia(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
+  const double scaling = scene.numerics.inertial_scaling;
+  if (!(scaling > 1.0) || mechanics.monitor.empty()) return;
+  const double internal = largest(mechanics, [](const auto& sample) { return sample.energy.internal; });
+  const double kinetic = largest(mechanics, [](const auto& sample) { return sample.energy.kinetic; });
+  const double share = internal > 0.0 ? (1.0 - 1.0 / scaling) * kinetic / internal : 0.0;
+  if (share <= largest_scaled_share) return;
+  doubts.push_back(fmt::format(
+      "inertia scaled by {:.6g} matters: the kinetic energy that it makes reaches {:.3g} % of the internal "
+      "energy, more than {:.3g} %",
+      scaling, 100.0 * share, 100.0 * largest_scaled_share));
+}
+
+void doubt_load(const Scene& scene, Doubts& doubts) {
+  const scene::PressureHistory load(scene.load);
+  const double duration = scene.load.duration, peak = load.peak(), end = load.at(duration);
+  const double rise = end - load.at(0.99 * duration);
+  if (!(peak > 0.0) || !(rise > least_rise_at_end * peak) || end < 0.99 * peak) return;
+  doubts.push_back(
+      fmt::format("the load still rises at its end, {:.6g} ms, where it is {:.4g} MPa: the launch is cut off "
+                  "before its peak",
+                  1e3 * duration, 1e-6 * end));
+}
+
+void doubt_samples(const MechanicsResult& mechanics, Doubts& doubts) {
+  const std::size_t samples = mechanics.trace.samples();
+  if (samples > fewest_intervals) return;
+  doubts.push_back(fmt::format(
+      "the trace has {} samples: the sampling error is found by leaving out every other one, which "
+      "takes {} or more (output.trace_interval of an eighth of the launch)",
+      samples, fewest_intervals + 1));
+}
+
+void doubt_cracks(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
+  const double flaw = scene.charge.cracks.flaw_size, cell = scene.numerics.cell_size;
+  const double crack = largest(mechanics, [](const auto& sample) { return sample.largest_crack_radius; });
+  if (!(flaw > 0.0) || !(crack > 0.0)) return;
+  const scene::Extent charge = scene::extent_of(scene, scene::BodyMaterial::charge);
+  const double room = std::min(charge.x_end - charge.x_begin, charge.r_end);
+  const auto doubt = [&](const std::string& against) {
+    doubts.push_back(
+        fmt::format("the crack radius reaches {:.4g} mm, {}, where cracks are no matter of a "
+                    "continuum law",
+                    1e3 * crack, against));
+  };
+  if (crack > largest_crack_over_flaw * flaw) doubt(fmt::format("{:.3g} flaw sizes", crack / flaw));
+  if (crack > largest_crack_over_cell * cell) doubt(fmt::format("{:.3g} cells", crack / cell));
+  if (crack > room) doubt(fmt::format("more than the charge measures, {:.4g} mm", 1e3 * room));
+}
+
+/// Highest bulk temperature (K) of the charge's bottom under friction heat with factor 1.
+double bulk_temperature(const Scene& scene, const trace::BottomTrace& trace) {
+  const auto closure = static_cast<std::size_t>(scene.surface.friction);
+  double most = 0;
+  if (closure < trace.friction.size()) {
+    for (const double energy : trace.friction[closure]) most = std::max(most, energy);
+  }
+  return scene.initial_temperature + most / (scene.charge.eos.initial_density * scene.charge.specific_heat);
+}
+
+void doubt_charge(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
+  if (scene::make_plan(scene).bulk_reaction.in) return;
+  const double temperature = bulk_temperature(scene, mechanics.trace);
+  const double ignition = scene.charge.kinetics.ignition_temperature;
+  if (temperature < ignition) return;
+  doubts.push_back(
+      fmt::format("friction heats the bulk of the charge to {:.4g} K, above ignition at {:.4g} K, while its "
+                  "reaction is left out",
+                  temperature, ignition));
+}
+
+/// Temperature (K) of steel after a plastic strain without conduction, by steps of the strain. The rate is
+/// one at which launches strain; it enters as a logarithm.
+double heated_steel(const Scene& scene, double plastic_strain) {
+  constexpr double rate = 1e3;  // 1/s
+  constexpr int steps = 200;
+  const materials::JohnsonCookParameters& steel = scene.steel.strength;
+  double temperature = scene.initial_temperature;
+  for (int step = 0; step < steps; ++step) {
+    const double strain = plastic_strain * (step + 0.5) / steps;
+    const double flow = materials::johnson_cook_flow_stress(steel, strain, rate, temperature);
+    temperature += steel.taylor_quinney * flow * plastic_strain / steps /
+                   (scene.steel.eos.density * steel.specific_heat);
+  }
+  return temperature;
+}
+
+void doubt_steel(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
+  if (!scene::has_material(scene, scene::BodyMaterial::steel)) return;
+  const double strain = largest(mechanics, [](const auto& sample) { return sample.largest_plastic_strain; });
+  const materials::JohnsonCookParameters& steel = scene.steel.strength;
+  const double temperature = heated_steel(scene, strain);
+  const double share =
+      (temperature - steel.room_temperature) / (steel.melting_temperature - steel.room_temperature);
+  if (!(share > largest_homologous_temperature)) return;
+  doubts.push_back(fmt::format("a plastic strain of {:.3g} heats the steel to {:.4g} K; it melts at {:.4g} K",
+                               strain, temperature, steel.melting_temperature));
+}
+
+}  // namespace
+
+std::vector<std::string> doubts_of(const Scene& scene, const MechanicsResult& mechanics) {
+  Doubts doubts;
+  doubt_history(mechanics, doubts);
+  doubt_inertia(scene, mechanics, doubts);
+  doubt_load(scene, doubts);
+  doubt_samples(mechanics, doubts);
+  if (scene::has_material(scene, scene::BodyMaterial::charge)) {
+    doubt_cracks(scene, mechanics, doubts);
+    doubt_charge(scene, mechanics, doubts);
+  }
+  doubt_steel(scene, mechanics, doubts);
+  return doubts;
+}
+
+}  // namespace launchsafe::run

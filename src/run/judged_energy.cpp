@@ -1,0 +1,33 @@
+#include "launchsafe/run/judged_energy.hpp"
+
+#include "launchsafe/scene/plan.hpp"
+
+#include <algorithm>
+
+namespace launchsafe::run {
+namespace {
+
+/// Pa. A hundredth of an atmosphere: it heats nothing.
+constexpr double least_pressure = 1e3;
+
+}  // namespace
+
+double least_judged_energy(const scene::Scene& scene) {
+  const double pressure = std::max(0.01 * scene::PressureHistory(scene.load).peak(), least_pressure);
+  double energy = 0.0;
+  for (const auto material : {scene::BodyMaterial::steel, scene::BodyMaterial::charge}) {
+    if (!scene::has_material(scene, material)) continue;
+    const double speed = scene::longitudinal_speed(scene, material);
+    const double density =
+        material == scene::BodyMaterial::steel ? scene.steel.eos.density : scene.charge.eos.initial_density;
+    energy +=
+        0.5 * pressure * pressure * scene::mass_of(scene, material) / (density * density * speed * speed);
+  }
+  return energy;
+}
+
+double least_judged_impulse(const scene::Scene& scene) {
+  return least_pressure * scene::base_area(scene) * scene.load.duration;
+}
+
+}  // namespace launchsafe::run

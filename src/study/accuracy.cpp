@@ -1,0 +1,218 @@
+#include "launchsafe/study/accuracy.hpp"
+
+#include "answer_cases.hpp"
+#include "case_runs.hpp"
+#include "launchsafe/run/doubts.hpp"
+#include "launchsafe/run/model_version.hpp"
+#include "launchsafe/scene/mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace launchsafe::study {
+
+bool AccuracyResult::any_failed() const { return detail::any_failed(answers); }
+
+bool AccuracyResult::any_indeterminate() const {
+  return !reference || std::any_of(reference->temperature.begin(), reference->temperature.end(),
+                                   [](const ReferenceValue& value) { return !value.limit.justified; });
+}
+
+namespace {
+
+/// Why a run is no basis for numbers, doubts included; empty for a sound one.
+std::string failure_of(const StudyCase& input, const run::MechanicsResult& mechanics) {
+  if (std::string failure = detail::failure_of(mechanics, {true, {}}); !failure.empty()) return failure;
+  const auto doubts = run::doubts_of(input.scene.scene, mechanics);
+  return doubts.empty() ? std::string{} : fmt::format("in doubt: {}", fmt::join(doubts, "; "));
+}
+
+std::vector<double> temperatures_at_times(const Study& study, const StudyCase& input,
+                                          const trace::BottomTrace& trace) {
+  std::vector<double> temperatures;
+  if (study.times.empty()) return temperatures;
+  const auto skin =
+      surface::integrate_skin(surface::skin_model(input.scene.scene), trace, study.gaps.front());
+  for (const double time : study.times)
+    temperatures.push_back(surface::maximum_at_time(skin, trace, time).temperature);
+  return temperatures;
+}
+
+AccuracyMeasurement measure(const Study& study, const StudyCase& input, const CaseAnswer& answer,
+                            const run::MechanicsResult& mechanics) {
+  AccuracyMeasurement measured;
+  measured.failure = failure_of(input, mechanics);
+  const scene::Mesh mesh = scene::fit_mesh(input.scene.scene);
+  measured.cell = std::sqrt(mesh.dx * mesh.dr);
+  measured.wall_time = mechanics.wall_time;
+  measured.processor_time = mechanics.processor_time > 0 ? mechanics.processor_time : mechanics.wall_time;
+  measured.particle_steps = static_cast<double>(mechanics.particles) * static_cast<double>(mechanics.steps);
+  measured.memory = detail::memory_of(input.scene.scene);
+  measured.energy_drift = answer.run.energy_drift;
+  if (!measured.failure.empty()) return measured;
+  for (const GapVerdict& row : answer.verdicts) {
+    measured.temperature.push_back(row.maximum.temperature);
+    measured.ignites.push_back(row.ignition.has_value());
+    measured.ignition_time.push_back(row.ignition ? row.ignition->time : not_a_number);
+  }
+  measured.heated = answer.heated_temperature;
+  measured.at_times = temperatures_at_times(study, input, mechanics.trace);
+  measured.critical = answer.critical;
+  measured.bottom = {mechanics.trace.time, mechanics.trace.bottom_pressure};
+  measured.peak_pressure =
+      *std::max_element(measured.bottom.pressure.begin(), measured.bottom.pressure.end());
+  return measured;
+}
+
+/// Runs, one for all cases that share one, and what was measured on them.
+class Measuring {
+ public:
+  Measuring(AccuracyResult& result, const StudyOptions& options) : result_(result), options_(options) {}
+
+  void run() {
+    const StudyFile& study = result_.study;
+    result_.answers.resize(study.cases.size());
+    result_.measured.resize(study.cases.size());
+    std::vector<detail::MechanicalRun> runs = detail::mechanical_runs(study, options_.shard.count);
+    for (const auto& each : runs) {
+      if (each.shard != options_.shard.index) give_up(each, foreign_shard);
+    }
+    std::erase_if(runs, [this](const auto& each) { return each.shard != options_.shard.index; });
+    ProgressTracker tracker(options_.progress);
+    std::vector<Task> tasks;
+    std::vector<detail::ObtainedRun> obtained(runs.size());
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      tasks.push_back(detail::task_of(needed_by(runs[i]), options_, [&, i](const auto& report_share) {
+        obtained[i] = detail::obtain(needed_by(runs[i]), options_, report_share);
+        draw(runs[i], obtained[i].result.mechanics);
+        obtained[i].result.mechanics.trace = {};
+      }));
+      tracker.expect(1, tasks.back().cost);
+    }
+    const auto outcomes = run_tasks(tasks, detail::resources_of(options_), tracker, options_.stop);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      detail::add_run(result_.timing, obtained[i].result.mechanics, obtained[i].reused, outcomes[i]);
+      if (outcomes[i].started && outcomes[i].failure.empty()) continue;
+      detail::note_refusal(needed_by(runs[i]), outcomes[i], options_);
+      give_up(runs[i], detail::failure_of({}, outcomes[i]));
+    }
+  }
+
+ private:
+  detail::NeededRun needed_by(const detail::MechanicalRun& run) const {
+    const StudyCase& input = result_.study.cases[run.cases.front()];
+    return {&input.scene.scene, input.label, std::nullopt};
+  }
+  void draw(const detail::MechanicalRun& run, const run::MechanicsResult& mechanics) {
+    for (const std::size_t each : run.cases) {
+      const StudyCase& input = result_.study.cases[each];
+      result_.answers[each] = answer_of(result_.study.study, input, mechanics);
+      result_.measured[each] = measure(result_.study.study, input, result_.answers[each], mechanics);
+    }
+  }
+  void give_up(const detail::MechanicalRun& run, const std::string& failure) {
+    for (const std::size_t each : run.cases) {
+      result_.answers[each] = failed_answer(result_.study.study, result_.study.cases[each], failure);
+      result_.measured[each].failure = failure;
+    }
+  }
+
+  AccuracyResult& result_;
+  const StudyOptions& options_;
+};
+
+/// A gap at which any sound setting of the same model ignites is compared by a skin that does not react:
+/// after ignition T max is that of the flame.
+std::vector<bool> inert_gaps(const AccuracyResult& result, const std::vector<bool>& other_model) {
+  std::vector<bool> inert(result.study.study.gaps.size(), false);
+  for (std::size_t i = 0; i < result.measured.size(); ++i) {
+    const AccuracyMeasurement& measured = result.measured[i];
+    if (other_model[i] || !measured.failure.empty()) continue;
+    for (std::size_t gap = 0; gap < inert.size(); ++gap) inert[gap] = inert[gap] || measured.ignites[gap];
+  }
+  return inert;
+}
+
+/// Whether a case differs from the study's scene in more than a setting.
+bool is_other_model(const scene::Scene& scene, const scene::Scene& own) {
+  scene::Scene same = scene;
+  for (const auto& key : scene::scene_keys()) {
+    if (belongs_to_setting(key.name)) key.set(same, key.get(own));
+  }
+  return scene::to_toml(same) != scene::to_toml(own);
+}
+
+/// Largest T max above the initial temperature over the gaps that were compared, on the scene's own setting.
+double compared_rise(const AccuracyResult& result, const AccuracyRow& row) {
+  double rise = 0.0;
+  for (std::size_t gap = 0; gap < result.study.study.gaps.size(); ++gap) {
+    const double temperature =
+        result.reference->inert[gap] ? row.measured.heated[gap] : row.measured.temperature[gap];
+    rise = std::max(rise, temperature - result.study.scene.scene.initial_temperature);
+  }
+  return rise;
+}
+
+AccuracyRecord record_of(const AccuracyResult& result) {
+  const scene::Scene& scene = result.study.scene.scene;
+  AccuracyRecord record;
+  record.title = result.study.study.title;
+  record.model_version = run::model_version;
+  record.shell = shell_of(scene);
+  record.peak_pressure = scene::PressureHistory(scene.load).peak();
+  for (const AccuracyRow& row : result.rows) {
+    if (!row.sound() || row.other_model) continue;
+    if (row.baseline) record.rise = compared_rise(result, row);
+    const StudyCase& input = result.study.cases[row.index];
+    record.settings.push_back({input.label, setting_of(input.scene.scene), row.temperature_bound,
+                               row.critical_gap_bound, row.measured.processor_time});
+  }
+  return record;
+}
+
+void compare(AccuracyResult& result) {
+  const StudyFile& study = result.study;
+  const std::size_t meshes = study.study.reference_cell_sizes.size();
+  for (std::size_t i = 0; i < meshes; ++i) {
+    if (result.measured[i].failure.empty()) continue;
+    result.no_reference =
+        fmt::format("the reference mesh {} {}", study.cases[i].label, result.measured[i].failure);
+    return;
+  }
+  std::vector<bool> other_model;
+  for (const StudyCase& each : study.cases)
+    other_model.push_back(is_other_model(each.scene.scene, study.scene.scene));
+  const auto first = result.measured.begin();
+  result.reference = reference_of({first, first + static_cast<std::ptrdiff_t>(meshes)},
+                                  study.study.gaps.size(), inert_gaps(result, other_model));
+  const Setting own = setting_of(study.scene.scene);
+  for (std::size_t i = 0; i < study.cases.size(); ++i) {
+    AccuracyRow row = row_against(*result.reference, result.measured[i]);
+    row.index = i;
+    row.reference = i < meshes;
+    row.other_model = other_model[i];
+    row.baseline = !row.other_model && same_setting(setting_of(study.cases[i].scene.scene), own);
+    result.rows.push_back(std::move(row));
+  }
+  mark_front(result.rows);
+  result.record = record_of(result);
+}
+
+}  // namespace
+
+AccuracyResult run_accuracy(const StudyFile& study, const StudyOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  AccuracyResult result;
+  result.study = study;
+  result.timing.jobs = detail::jobs_of(options);
+  Measuring(result, options).run();
+  result.interrupted = detail::stop_requested(options);
+  if (!result.interrupted && options.shard.whole()) compare(result);
+  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace launchsafe::study

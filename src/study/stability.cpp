@@ -1,0 +1,164 @@
+#include "launchsafe/study/stability.hpp"
+
+#include "answer_cases.hpp"
+#include "case_runs.hpp"
+#include "launchsafe/run/doubts.hpp"
+#include "stability_judge.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace launchsafe::study {
+
+using verify::Outcome;
+
+bool HardRow::is_as_expected() const {
+  if (!computed() || is_wrong()) return false;
+  return expected.empty() || std::find(expected.begin(), expected.end(), finding.outcome) != expected.end();
+}
+
+std::size_t StabilityResult::count(Outcome outcome) const {
+  return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [outcome](const HardRow& row) {
+    return row.computed() && row.finding.outcome == outcome;
+  }));
+}
+
+std::size_t StabilityResult::unexpected() const {
+  return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [](const HardRow& row) {
+    return row.computed() && !row.is_wrong() && !row.is_as_expected();
+  }));
+}
+
+std::size_t StabilityResult::failed() const {
+  return static_cast<std::size_t>(
+      std::count_if(rows.begin(), rows.end(), [](const HardRow& row) { return !row.computed(); }));
+}
+
+namespace {
+
+detail::NeededRun needed_by(const StudyCase& input) {
+  return {&input.scene.scene, input.label, std::nullopt};
+}
+
+/// Gaps that are asked of a case of the study, by itself or as the safe computation of another.
+std::vector<double> gaps_of(const StudyFile& study, std::size_t index) {
+  for (const HardLaunch& launch : study.launches) {
+    if (launch.run == index || launch.against == index) return launch.gaps;
+  }
+  return study.study.gaps;
+}
+
+/// What one run says of a case: all that judging needs, and no histories.
+detail::LaunchRecord record_of(const StudyFile& study, std::size_t index,
+                               const run::MechanicsResult& mechanics) {
+  const StudyCase& input = study.cases[index];
+  Study judged = study.study;
+  judged.gaps = gaps_of(study, index);
+  detail::LaunchRecord record;
+  record.reason = mechanics.reason;
+  record.end_time = mechanics.end_time;
+  record.ignition_temperature = input.scene.scene.charge.kinetics.ignition_temperature;
+  if (mechanics.status == run::RunStatus::interrupted || mechanics.status == run::RunStatus::timed_out) {
+    // How far it came depends on the machine, and says nothing of the computation.
+    record.failure = detail::failure_of(mechanics, {true, {}});
+    return record;
+  }
+  record.answer = answer_of(judged, input, mechanics);
+  if (mechanics.status != run::RunStatus::completed) return record;
+  record.violations = violations_of(input.scene.scene, mechanics, judged.gaps);
+  record.doubts = run::doubts_of(input.scene.scene, mechanics);
+  return record;
+}
+
+/// The records of all cases of our shard.
+class Launching {
+ public:
+  Launching(const StudyFile& study, const StudyOptions& options, Timing& timing)
+      : study_(study), options_(options), timing_(timing), records_(study.cases.size()) {}
+
+  std::vector<detail::LaunchRecord> run_all(ProgressTracker& tracker) {
+    std::vector<detail::MechanicalRun> runs = detail::mechanical_runs(study_, options_.shard.count);
+    for (const detail::MechanicalRun& run : runs) {
+      for (const std::size_t each : run.cases) records_[each].failure = foreign_shard;
+    }
+    std::erase_if(runs, [this](const auto& each) { return each.shard != options_.shard.index; });
+    std::vector<detail::ObtainedRun> obtained(runs.size());
+    std::vector<Task> tasks;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      tasks.push_back(detail::task_of(
+          needed_by(study_.cases[runs[i].cases.front()]), options_,
+          [&, i](const auto& report_share) { obtained[i] = run_one(runs[i], report_share); }));
+      tracker.expect(1, tasks.back().cost);
+    }
+    const auto outcomes = run_tasks(tasks, detail::resources_of(options_), tracker, options_.stop);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      detail::add_run(timing_, obtained[i].result.mechanics, obtained[i].reused, outcomes[i]);
+      if (outcomes[i].started && outcomes[i].failure.empty()) continue;
+      detail::note_refusal(needed_by(study_.cases[runs[i].cases.front()]), outcomes[i], options_);
+      for (const std::size_t each : runs[i].cases)
+        records_[each].failure = detail::failure_of({}, outcomes[i]);
+    }
+    return std::move(records_);
+  }
+
+ private:
+  detail::ObtainedRun run_one(const detail::MechanicalRun& run,
+                              const std::function<void(double)>& report_share) {
+    detail::ObtainedRun obtained =
+        detail::obtain(needed_by(study_.cases[run.cases.front()]), options_, report_share);
+    run::MechanicsResult& mechanics = obtained.result.mechanics;
+    for (const std::size_t each : run.cases) records_[each] = record_of(study_, each, mechanics);
+    mechanics.trace = {};
+    mechanics.monitor.clear();
+    return obtained;
+  }
+
+  const StudyFile& study_;
+  const StudyOptions& options_;
+  Timing& timing_;
+  std::vector<detail::LaunchRecord> records_;
+};
+
+std::vector<HardRow> rows_of_laws(const StudyOptions& options) {
+  const std::vector<verify::HardCase> laws = verify::hard_laws();
+  std::vector<HardRow> rows(laws.size());
+  tbb::task_arena arena(detail::jobs_of(options));
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, laws.size(), [&](std::size_t i) {
+      HardRow& row = rows[i];
+      row.group = laws[i].group;
+      row.name = laws[i].name;
+      row.must_hold = laws[i].must_hold;
+      try {
+        row.finding = laws[i].compute();
+      } catch (const std::exception& error) {
+        row.failure = std::string("the computation failed: ") + error.what();
+      }
+    });
+  });
+  return rows;
+}
+
+}  // namespace
+
+StabilityResult run_stability(const StudyFile& study, const StudyOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  StabilityResult result;
+  result.study = study;
+  result.timing.jobs = detail::jobs_of(options);
+  ProgressTracker tracker(options.progress);
+  const auto records = Launching(study, options, result.timing).run_all(tracker);
+  result.interrupted = detail::stop_requested(options);
+  if (!result.interrupted && options.shard.whole() && study.study.laws) result.rows = rows_of_laws(options);
+  for (const HardLaunch& launch : study.launches)
+    result.rows.push_back(detail::judge_launch(launch, launch.run ? &records[*launch.run] : nullptr,
+                                               launch.against ? &records[*launch.against] : nullptr));
+  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace launchsafe::study

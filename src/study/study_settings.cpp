@@ -1,0 +1,184 @@
+#include "study_settings.hpp"
+
+#include "changed_scene.hpp"
+#include "launchsafe/scene/mesh.hpp"
+#include "study_axes.hpp"
+#include "study_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+namespace launchsafe::study::detail {
+namespace {
+
+using scene::KeyDescription, scene::KeyKind, scene::Place, scene::Value;
+
+constexpr std::size_t least_reference_meshes = 3;
+constexpr const char* cell_size = "numerics.cell_size";
+
+std::string key_in_block(std::size_t block, const std::string& key) {
+  return fmt::format("settings.{}.{}", block, key);
+}
+
+/// People do not number their tables.
+scene::InputError unnumbered(scene::InputError error) {
+  if (!error.key.starts_with("settings.")) return error;
+  error.key = "settings" + error.key.substr(error.key.find('.', std::string_view("settings.").size()));
+  return error;
+}
+
+Fault read_axis(const Leaf& leaf, std::size_t block, StudyFile& study) {
+  const Place place = scene::place_of(*leaf.node, study.file);
+  const std::string key = key_in_block(block, leaf.name);
+  study.places[key] = place;
+  if (leaf.name == "gap.thickness") {
+    return unnumbered(fault_at(study, key, "gap.thickness as a setting",
+                               "numerics keys, frame, friction.closure, ...; the gaps are the study's"));
+  }
+  auto description = scene::describe_key(study.scene, leaf.name, place);
+  if (!description) return in_table(description.error(), "settings");
+  const auto values = scene::read_values(*leaf.node, *description, study.file);
+  if (!values) return in_table(values.error(), "settings");
+  study.study.settings[block].push_back({*description, *values});
+  return std::nullopt;
+}
+
+Fault check_reference_meshes(StudyFile& study) {
+  std::vector<double>& sizes = study.study.reference_cell_sizes;
+  std::sort(sizes.begin(), sizes.end());
+  const std::string key = "reference_cell_sizes";
+  if (Fault fault = check_twice(study, key, scene::Dimension::length, sizes)) return fault;
+  if (sizes.size() >= least_reference_meshes) return std::nullopt;
+  return fault_at(
+      study, key, fmt::format("{} cell sizes", sizes.size()),
+      fmt::format("at least {}, from which the reference is extrapolated", least_reference_meshes));
+}
+
+/// Grids beside the charge's edge converge to something else, and two nominal sizes may be one grid.
+Fault check_reference_grids(const StudyFile& study) {
+  const std::size_t count = study.study.reference_cell_sizes.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string size =
+        scene::format_quantity(study.study.reference_cell_sizes[i], scene::Dimension::length);
+    const scene::Scene& scene = study.cases[i].scene.scene;
+    if (const std::string edges = scene::charge_edges_off_grid(scene); !edges.empty()) {
+      return fault_at(study, "reference_cell_sizes",
+                      fmt::format("{}, whose grid does not run along the charge: {}", size, edges),
+                      "cells that divide the outer radius and the radius of the charge, rounded up a little");
+    }
+    if (i == 0) continue;
+    const scene::Mesh finer = scene::fit_mesh(study.cases[i - 1].scene.scene), mesh = scene::fit_mesh(scene);
+    if (mesh.dr > finer.dr && mesh.dx > finer.dx) continue;
+    return fault_at(study, "reference_cell_sizes",
+                    fmt::format("{}, whose fitted grid is not coarser than the one before it", size),
+                    "cell sizes that make different grids");
+  }
+  return std::nullopt;
+}
+
+/// "cell_size 0.5 cm, inertial_scaling 16".
+std::string label_of(const std::vector<Change>& changes) {
+  std::string label;
+  for (const Change& change : changes) {
+    const std::string name = change.key.substr(change.key.rfind('.') + 1);
+    label += fmt::format("{}{} {}", label.empty() ? "" : ", ", name, change.text);
+  }
+  return label;
+}
+
+/// Makes cases of valid scenes, each once.
+class CaseMaker {
+ public:
+  explicit CaseMaker(StudyFile& study) : study_(study) {}
+
+  Fault add(std::string label, const std::vector<Change>& changes) {
+    ChangedScene scene(study_.scene);
+    for (const Change& change : changes) scene.apply(change);
+    if (!scene.complete()) return unnumbered(scene.error());
+    if (!known_.insert(scene::to_toml(scene.scene().scene)).second) return std::nullopt;
+    StudyCase made;
+    made.scene = scene.take();
+    const scene::Scene& s = made.scene.scene;
+    made.label = std::move(label);
+    made.peak_pressure = scene::PressureHistory(s.load).peak();
+    made.crack_radius = s.charge.cracks.initial_crack_radius;
+    made.flaw_size = s.charge.cracks.flaw_size;
+    made.cell_size = s.numerics.cell_size;
+    study_.cases.push_back(std::move(made));
+    return std::nullopt;
+  }
+
+ private:
+  StudyFile& study_;
+  std::set<std::string> known_;
+};
+
+Change change_of(const StudyFile& study, const KeyDescription& key, const Value& value,
+                 const std::string& study_key) {
+  return {key.name, value, scene::format_value(key, value), study_key, place_of_key(study, study_key)};
+}
+
+/// Every combination of the values of a block, the last key fastest.
+Fault add_block(const StudyFile& study, std::size_t block, std::vector<Change> changes, CaseMaker& maker) {
+  const std::vector<SettingsAxis>& axes = study.study.settings[block];
+  if (changes.size() == axes.size()) return maker.add(label_of(changes), changes);
+  const SettingsAxis& axis = axes[changes.size()];
+  for (const Value& value : axis.values) {
+    std::vector<Change> more = changes;
+    more.push_back(change_of(study, axis.key, value, key_in_block(block, axis.key.name)));
+    if (Fault fault = add_block(study, block, std::move(more), maker)) return fault;
+  }
+  return std::nullopt;
+}
+
+Fault check_count(const StudyFile& study) {
+  double count = 1.0;
+  for (const auto& block : study.study.settings) {
+    double product = 1.0;
+    for (const SettingsAxis& axis : block) product *= static_cast<double>(axis.values.size());
+    count += product;
+  }
+  if (count <= static_cast<double>(study.most_cases)) return std::nullopt;
+  return fault_at(study, "settings", fmt::format("{:.0f} settings", count),
+                  fmt::format("at most {}", study.most_cases));
+}
+
+}  // namespace
+
+Fault read_settings(const toml::table& root, StudyFile& study) {
+  if (Fault fault = check_reference_meshes(study)) return fault;
+  const toml::node* node = root.get("settings");
+  if (!node || (node->is_array() && node->as_array()->empty())) return std::nullopt;
+  if (!node->is_array_of_tables()) {
+    return scene::error_at(scene::place_of(*node, study.file), "settings", scene::found_text(*node),
+                           "tables, each written [[settings]], of scene keys with several values");
+  }
+  for (const toml::node& element : *node->as_array()) {
+    const std::size_t block = study.study.settings.size();
+    study.study.settings.emplace_back();
+    for (const Leaf& leaf : leaves_as_written(*element.as_table())) {
+      if (Fault fault = read_axis(leaf, block, study)) return fault;
+    }
+  }
+  return check_count(study);
+}
+
+Fault make_accuracy_cases(StudyFile& study) {
+  CaseMaker maker(study);
+  const KeyDescription description = *scene::find_key(scene::scene_keys(), cell_size);
+  for (const double size : study.study.reference_cell_sizes) {
+    const Change change = change_of(study, description, size, "reference_cell_sizes");
+    if (Fault fault = maker.add(label_of({change}), {change})) return fault;
+  }
+  if (Fault fault = check_reference_grids(study)) return fault;
+  if (Fault fault = maker.add("as in the scene", {})) return fault;
+  for (std::size_t block = 0; block < study.study.settings.size(); ++block) {
+    if (Fault fault = add_block(study, block, {}, maker)) return fault;
+  }
+  return std::nullopt;
+}
+
+}  // namespace launchsafe::study::detail

@@ -1,0 +1,92 @@
+#include "launchsafe/verify/error_against_time.hpp"
+
+#include "error_against_time_parts.hpp"
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace launchsafe::verify {
+namespace parts {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+/// What a batch of repeated work takes at least, s: a thousand ticks of a clock of microseconds.
+constexpr double shortest_batch = 2e-3;
+constexpr int batches = 3;
+
+/// Processor time (s) that the calling thread has used: other work on the machine does not count.
+double thread_processor_time() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double time_of(const std::function<void()>& work, long repetitions) {
+  const double start = thread_processor_time();
+  for (long k = 0; k < repetitions; ++k) work();
+  return thread_processor_time() - start;
+}
+
+/// Without an order where the finer error is of round-off: what it fell to says nothing about the method.
+double order_between(const PartSetting& coarse, const PartSetting& fine, double round_off) {
+  if (!(fine.error > round_off)) return not_a_number;
+  return std::log(coarse.error / fine.error) / std::log(coarse.size / fine.size);
+}
+
+}  // namespace
+
+double least_processor_time(const std::function<void()>& work) {
+  long repetitions = 1;
+  double batch = time_of(work, repetitions);
+  while (batch < shortest_batch) {
+    const double growth = batch > 0.0 ? std::clamp(1.2 * shortest_batch / batch, 2.0, 100.0) : 100.0;
+    repetitions = std::lround(std::ceil(growth * static_cast<double>(repetitions)));
+    batch = time_of(work, repetitions);
+  }
+  for (int k = 1; k < batches; ++k) batch = std::min(batch, time_of(work, repetitions));
+  return batch / static_cast<double>(repetitions);
+}
+
+std::vector<PartSetting> measured(const ErrorSeries& series, const std::vector<Setting>& settings) {
+  std::vector<PartSetting> rows;
+  for (const Setting& setting : settings) {
+    PartSetting row{series.part,  series.quantity,   setting.text, setting.size,
+                    not_a_number, series.error_unit, not_a_number, not_a_number};
+    row.processor_time = least_processor_time([&] { row.error = std::abs(setting.error()); });
+    if (!rows.empty()) row.order = order_between(rows.back(), row, series.round_off);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+ErrorSeries with_settings(ErrorSeries series, std::function<std::vector<Setting>()> settings) {
+  ErrorSeries whole = series;
+  whole.compute = [series = std::move(series), settings = std::move(settings)] {
+    return measured(series, settings());
+  };
+  return whole;
+}
+
+std::string time_text(double time) {
+  if (time < 0.999e-6) return fmt::format("{:.3g} ns", 1e9 * time);
+  if (time < 0.999e-3) return fmt::format("{:.3g} us", 1e6 * time);
+  return fmt::format("{:.3g} ms", 1e3 * time);
+}
+
+}  // namespace parts
+
+std::vector<ErrorSeries> error_series() {
+  std::vector<ErrorSeries> all;
+  for (const auto& group :
+       {parts::skin_series(), parts::solid_series(), parts::mechanics_series(), parts::shape_series()}) {
+    all.insert(all.end(), group.begin(), group.end());
+  }
+  return all;
+}
+
+}  // namespace launchsafe::verify

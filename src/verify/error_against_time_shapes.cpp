@@ -1,0 +1,137 @@
+// Shape functions: known fields on the grid, read by particles anywhere in it.
+#include "error_against_time_parts.hpp"
+#include "launchsafe/mpm/transfer.hpp"
+#include "mechanics_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+namespace launchsafe::verify::parts {
+namespace {
+
+using math::Pack;
+
+constexpr double length = 0.16, radius = 0.02;  // m, of a block in plane strain
+
+/// A velocity v_x(x, r) and its slope along x.
+struct Field {
+  double (*value)(double x, double r);
+  double (*slope)(double x, double r);
+};
+
+double linear_value(double x, double r) { return 3.0 + 20.0 * x - 70.0 * r; }
+double linear_slope(double, double) { return 20.0; }
+
+constexpr double wave_number = 2.0 * std::numbers::pi / length;
+double wave_value(double x, double) { return std::sin(wave_number * x); }
+double wave_slope(double x, double) { return wave_number * std::cos(wave_number * x); }
+
+/// Errors of what the particles read, root mean square, over that of the exact value.
+struct ReadError {
+  double value = 0, slope = 0;
+};
+
+/// Collects a relative root mean square.
+struct Spread {
+  double difference = 0, scale = 0;
+  void add(double computed, double exact) {
+    difference += (computed - exact) * (computed - exact);
+    scale += exact * exact;
+  }
+  double relative() const { return std::sqrt(difference / scale); }
+};
+
+mpm::Grid grid_with(const Field& field, double cell) {
+  scene::Scene scene = mechanics::block(scene::BodyMaterial::steel, length, radius, cell);
+  scene.symmetry = scene::Symmetry::plane_strain;
+  mpm::Grid grid = mpm::make_grid(scene);
+  for (int j = 0; j < grid.nodes_r; ++j) {
+    for (int i = 0; i < grid.nodes_x; ++i) {
+      const double x = grid.origin_x + i * grid.dx, r = (j - mpm::Grid::radial_padding) * grid.dr;
+      grid.velocity_x[grid.index(i, j)] = field.value(x, r);
+    }
+  }
+  return grid;
+}
+
+/// Numbers in [0, 1) that fill it evenly: multiples of the golden ratio.
+double even_share(int k) {
+  const double golden = k * std::numbers::phi;
+  return golden - std::floor(golden);
+}
+
+constexpr int particles = 4096;
+
+/// 4096 particles of half a cell's length, anywhere in their cells: in eights one cell apart, as in a body,
+/// the same number in every cell along x.
+ReadError read_error(const Field& field, const mpm::Grid& grid) {
+  const double half_x = 0.25 * grid.dx, half_r = 0.25 * grid.dr;
+  const mpm::StencilContext context{grid, grid.origin_x, half_x, half_r, false};
+  constexpr mpm::Mask everyone{mpm::Mask::Lanes{-1, -1, -1, -1, -1, -1, -1, -1}};
+  constexpr int width = static_cast<int>(math::pack_width);
+  const int eights = static_cast<int>(std::lround(length / grid.dx)) / width;
+  Spread value, slope;
+  for (int k = 0; k < particles / width; ++k) {
+    const double begin = grid.dx * (width * (k % eights) + even_share(k / eights));
+    const double r = half_r + (radius - 2.0 * half_r) * even_share(7 * k + 3);
+    Pack x(0.0);
+    for (std::size_t lane = 0; lane < math::pack_width; ++lane)
+      x.set(lane, begin + grid.dx * static_cast<double>(lane));
+    const mpm::Gathered read = mpm::gather(grid, mpm::stencil_of(context, x, Pack(r)), everyone);
+    for (std::size_t lane = 0; lane < math::pack_width; ++lane) {
+      value.add(read.velocity_x[lane], field.value(x[lane], r));
+      slope.add(read.rate_xx[lane], field.slope(x[lane], r));
+    }
+  }
+  return {value.relative(), slope.relative()};
+}
+
+std::vector<Setting> meshes(const Field& field, double ReadError::*error) {
+  std::vector<Setting> settings;
+  for (const double cell : {10e-3, 5e-3, 2.5e-3, 1.25e-3}) {
+    settings.push_back({fmt::format("cell {:g} mm", 1e3 * cell), cell,
+                        [=, grid = grid_with(field, cell)] { return read_error(field, grid).*error; }});
+  }
+  return settings;
+}
+
+}  // namespace
+
+std::vector<ErrorSeries> shape_series() {
+  constexpr double exact = std::numeric_limits<double>::infinity();
+  const Field linear{linear_value, linear_slope}, wave{wave_value, wave_slope};
+  const std::string part = "shape functions", work = "4096 particles read the grid";
+  const std::string reproduced = "exact at any mesh: linear fields are reproduced";
+  const std::string sine = "the sine, root mean square";
+  return {
+      with_settings({part, "value of a linear field", work, "the field", "", reproduced, exact, 1e-13, {}},
+                    [=] { return meshes(linear, &ReadError::value); }),
+      with_settings({part, "slope of a linear field", work, "the field", "", reproduced, exact, 1e-12, {}},
+                    [=] { return meshes(linear, &ReadError::slope); }),
+      with_settings({part,
+                     "value of a sine of 0.16 m",
+                     work,
+                     sine,
+                     "",
+                     "linear interpolation is of second order",
+                     2.0,
+                     1e-13,
+                     {}},
+                    [=] { return meshes(wave, &ReadError::value); }),
+      with_settings({part,
+                     "slope of a sine of 0.16 m",
+                     work,
+                     sine,
+                     "",
+                     "the slope of a linear interpolation is of first order",
+                     1.0,
+                     1e-12,
+                     {}},
+                    [=] { return meshes(wave, &ReadError::slope); })};
+}
+
+}  // namespace launchsafe::verify::parts

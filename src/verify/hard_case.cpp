@@ -1,0 +1,19 @@
+#include "launchsafe/verify/hard_case.hpp"
+
+namespace launchsafe::verify {
+
+std::string to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::held:
+      return "held";
+    case Outcome::degraded:
+      return "degraded";
+    case Outcome::caught:
+      return "caught";
+    case Outcome::wrong:
+      break;
+  }
+  return "WRONG";
+}
+
+}  // namespace launchsafe::verify

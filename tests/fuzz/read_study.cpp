@@ -1,0 +1,64 @@
+// Studies from any bytes. An input is the text of a study and, after lines "%%%%", that of its scene,
+// scene.toml, and that of an accuracy record, accuracy.json. Whatever is read must have cases fit to be
+// computed; whatever is not must say why.
+#include "launchsafe/study/read_study.hpp"
+
+#include "fuzz_input.hpp"
+#include "launchsafe/study/accuracy_record.hpp"
+
+#include <fstream>
+#include <iterator>
+
+namespace {
+
+using namespace launchsafe;
+
+void check_case(const study::StudyCase& each) {
+  const auto fault = scene::validate(each.scene);
+  fuzz::require(!fault, "the scene of a case is valid", fault ? fault->message() : std::string{});
+  const std::string written = scene::to_toml(each.scene.scene);
+  const auto again = scene::parse_scene(written, "written.toml");
+  fuzz::require(again.has_value(), "the scene of a case can be written and read",
+                again ? std::string{} : again.error().message() + "\n" + written);
+  fuzz::require(scene::to_toml(again->scene) == written, "a case is the scene that is written", written);
+  fuzz::require(!each.label.empty(), "a case has a label", written);
+}
+
+void check_study(const study::StudyFile& file) {
+  if (file.study.kind == study::StudyKind::stability) return;  // its cases may be laws without a scene
+  fuzz::require(!file.cases.empty(), "a study has cases");
+  check_case(file.cases.front());
+  check_case(file.cases.back());
+}
+
+void check_record(const std::string& text) {
+  const auto record = study::accuracy_record_from(text);
+  if (!record) return;
+  const std::string written = study::to_json_text(*record);
+  const auto again = study::accuracy_record_from(written);
+  fuzz::require(again.has_value(), "a record can be written and read", written);
+  fuzz::require(study::to_json_text(*again) == written, "what was written is the same record", written);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static fuzz::ScratchFolder folder;
+  static const std::string usual_scene = [] {
+    std::ifstream stream(LAUNCHSAFE_FUZZ_SCENE, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  }();
+  const auto parts = fuzz::parts_of(data, size);
+  folder.write("scene.toml", parts.size() > 1 ? parts[1] : usual_scene);
+  if (parts.size() > 2) {
+    check_record(parts[2]);
+    folder.write("accuracy.json", parts[2]);
+  } else {
+    folder.remove("accuracy.json");
+  }
+  study::StudyRequest request;
+  request.most_cases = 400;  // more only take longer
+  const auto file = study::parse_study(parts[0], folder.path() / "study.toml", request);
+  file ? check_study(*file) : fuzz::require_told(file.error());
+  return 0;
+}

@@ -1,0 +1,167 @@
+#include "launchsafe/run/doubts.hpp"
+
+#include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/read_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::run {
+namespace {
+
+scene::Scene shipped_scene() {
+  return scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
+}
+
+/// A sound run of the shipped scene, made by hand; energies as measured on cells of 2.5 mm.
+MechanicsResult sound_run() {
+  MechanicsResult run;
+  run.end_time = 18e-3;
+  run.trace.stations = {{"G1", 0.6775, 0.0625, 0.0, true}};
+  for (int i = 0; i <= 900; ++i) {
+    run.trace.time.push_back(2e-5 * i);
+    for (auto& friction : run.trace.friction) friction.push_back(180.0 * i);
+  }
+  run.monitor.resize(3);
+  for (MonitorSample& sample : run.monitor) sample.largest_crack_radius = 30e-6;
+  run.monitor[1].energy.internal = 7470.0;
+  run.monitor[1].energy.kinetic = 18.7;
+  run.monitor[2].largest_plastic_strain = 5e-3;
+  return run;
+}
+
+/// That there is one doubt, and that it says `part`.
+void expect_one(const std::vector<std::string>& doubts, const std::string& part) {
+  ASSERT_EQ(doubts.size(), 1u) << (doubts.empty() ? "no doubt" : doubts[1]);
+  EXPECT_NE(doubts[0].find(part), std::string::npos) << doubts[0];
+}
+
+TEST(Doubts, ASoundRunHasNone) {
+  scene::Scene scene = shipped_scene();
+  EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
+  scene.numerics.inertial_scaling = 16.0;
+  EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
+  // The extremes of sweep_pressure_defect.toml.
+  scene.load.peak = 700e6;
+  scene.charge.cracks.initial_crack_radius = 3e-3;
+  MechanicsResult cracked = sound_run();
+  cracked.monitor[2].largest_crack_radius = 3e-3;
+  EXPECT_TRUE(doubts_of(scene, cracked).empty());
+}
+
+/// Kinetic and internal energy as measured at these factors: see doubts.cpp for what they do to T max.
+TEST(Doubts, InertiaScaledUntilItMatters) {
+  struct Measured {
+    double scaling, internal, kinetic;
+    bool doubted;
+  };
+  for (const Measured& each : {Measured{16, 7470, 18.7, false},
+                               {100, 7950, 157, false},
+                               {200, 9649, 459, true},
+                               {1e4, 6340, 3460, true}}) {
+    scene::Scene scene = shipped_scene();
+    scene.numerics.inertial_scaling = each.scaling;
+    MechanicsResult run = sound_run();
+    run.monitor[1].energy.internal = each.internal;
+    run.monitor[2].energy.kinetic = each.kinetic;
+    EXPECT_EQ(!doubts_of(scene, run).empty(), each.doubted) << each.scaling;
+  }
+}
+
+TEST(Doubts, TheInertiaThatAStepLoadMovesIsTrueWhereNothingScalesIt) {
+  MechanicsResult run = sound_run();
+  run.monitor[1].energy.kinetic = 5000.0;
+  EXPECT_TRUE(doubts_of(shipped_scene(), run).empty());
+  scene::Scene scaled = shipped_scene();
+  scaled.numerics.inertial_scaling = 4.0;
+  expect_one(doubts_of(scaled, run), "inertia scaled by 4 matters");
+}
+
+TEST(Doubts, AMissingOrBrokenHistoryIsOne) {
+  MechanicsResult run = sound_run();
+  run.monitor.clear();
+  expect_one(doubts_of(shipped_scene(), run), "no monitor history");
+  run = sound_run();
+  run.monitor[2].momentum = std::numeric_limits<double>::quiet_NaN();
+  expect_one(doubts_of(shipped_scene(), run), "not finite from sample 2");
+}
+
+TEST(Doubts, ALoadThatIsCutOffBeforeItsPeak) {
+  scene::Scene scene = shipped_scene();
+  scene.load.duration = 9e-3;
+  expect_one(doubts_of(scene, sound_run()), "cut off before its peak");
+  scene.load.duration = 11e-3;  // at its peak
+  EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
+  scene.load.curve_time = {0.0, 5e-3, 11e-3};
+  scene.load.curve_pressure = {1e5, 4e8, 4e8};  // a plateau to the end
+  EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
+}
+
+TEST(Doubts, ATraceOfTooFewSamples) {
+  MechanicsResult run = sound_run();
+  run.trace.time = {0.0, 18e-3};
+  expect_one(doubts_of(shipped_scene(), run), "has 2 samples");
+  run.trace.time.resize(9);
+  EXPECT_TRUE(doubts_of(shipped_scene(), run).empty());
+}
+
+/// Where the bound on the samples comes from: one interval finds no difference and errs by 19 K, and from two
+/// on the difference to half the samples is larger than the error.
+TEST(Doubts, FewerSamplesThanTheSamplingErrorNeedsCannotFindIt) {
+  scene::Scene scene = shipped_scene();
+  scene.numerics.cell_size = 10e-3;
+  scene.numerics.inertial_scaling = 16.0;
+  const trace::BottomTrace fine = run_mechanics(scene).trace;
+  const double exact = evaluate_gap(scene, fine, 3e-4).at_points.temperature;
+  trace::BottomTrace coarse = fine;
+  while (coarse.samples() > 2) {
+    coarse = trace::thinned(coarse);
+    const GapResult gap = evaluate_gap(scene, coarse, 3e-4);
+    const double error = std::abs(gap.at_points.temperature - exact);
+    if (coarse.samples() == 2) {
+      EXPECT_GT(error, 10.0);
+      EXPECT_EQ(gap.sampling_error, 0.0);
+    } else {
+      EXPECT_LE(error, gap.sampling_error + 0.01) << coarse.samples();
+    }
+    if (coarse.samples() > 8) {
+      EXPECT_LT(error, 0.5) << coarse.samples();
+    }
+  }
+}
+
+TEST(Doubts, CracksThatNoContinuumLawHolds) {
+  MechanicsResult run = sound_run();
+  run.monitor[1].largest_crack_radius = 10.5e-3;
+  expect_one(doubts_of(shipped_scene(), run), "10.5 flaw sizes");
+  scene::Scene fine = shipped_scene();
+  fine.numerics.cell_size = 0.5e-3;
+  run.monitor[1].largest_crack_radius = 3e-3;
+  expect_one(doubts_of(fine, run), "6 cells");
+  scene::Scene thin = shipped_scene();
+  thin.bodies[1].x_begin = thin.bodies[1].x_end - 2e-3;
+  expect_one(doubts_of(thin, run), "more than the charge measures");
+}
+
+TEST(Doubts, ABulkAboveIgnitionWhoseReactionIsLeftOut) {
+  scene::Scene scene = shipped_scene();
+  MechanicsResult run = sound_run();
+  run.trace.friction[0].back() = 230.0 * 1717.0 * 1780.0;  // J/m3 that heat by 230 K
+  scene.physics.bulk_reaction = scene::Switch::off;
+  expect_one(doubts_of(scene, run), "to 530 K, above ignition");
+  scene.physics.bulk_reaction = scene::Switch::on;
+  EXPECT_TRUE(doubts_of(scene, run).empty());
+}
+
+TEST(Doubts, SteelThatItsPlasticWorkMelts) {
+  MechanicsResult run = sound_run();
+  run.monitor[2].largest_plastic_strain = 0.5;
+  EXPECT_TRUE(doubts_of(shipped_scene(), run).empty());
+  run.monitor[2].largest_plastic_strain = 50.0;
+  expect_one(doubts_of(shipped_scene(), run), "melts at 1793 K");
+}
+
+}  // namespace
+}  // namespace launchsafe::run

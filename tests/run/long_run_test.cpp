@@ -1,0 +1,174 @@
+// Hundreds of thousands of steps: what drifts, whether they repeat, and what tiny numbers cost.
+#include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/scene/read_scene.hpp"
+#include "small_shell.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+namespace launchsafe::run {
+namespace {
+
+constexpr int pulses = 10;
+
+/// The small shell on a mesh of some three hundred particles, for so many steps. Two particles a cell: with
+/// one the nodal forces of a bonded shell have a part that no particle feels, whose work is lost and not
+/// booked. The load is over after the first `pulse` of them.
+scene::Scene shell_for(double steps, double pulse, const std::string& keys) {
+  const std::string text =
+      "numerics.cell_size = \"5 mm\"\nnumerics.particles_per_cell = 2\nload.base = \"0 Pa\"\n" + keys +
+      testing::small_shell + testing::small_shell_base + testing::small_shell_point;
+  const auto file = scene::parse_scene(text, "long.toml");
+  EXPECT_TRUE(file) << (file ? "" : file.error().message());
+  scene::Scene scene = file.value().scene;
+  const double step = scene::make_plan(scene).time_step;
+  scene.load.duration = steps * step;
+  scene.load.peak_time = 0.2 * pulse * step;
+  scene.output.trace_interval = scene.load.duration / 100.0;
+  return scene;
+}
+
+/// Ten pulses one after the other, without damping. Only the Maxwell elements take energy out,
+/// and that is booked.
+scene::Scene pulsing_shell(double steps) {
+  scene::Scene scene =
+      shell_for(steps, steps, "charge.crack_growth = false\nnumerics.energy_drift_limit = 100\n");
+  for (int i = 0; i <= 2 * pulses; ++i) {
+    scene.load.curve_time.push_back(scene.load.duration * i / (2 * pulses));
+    scene.load.curve_pressure.push_back(i % 2 == 0 ? 0.0 : 20e6);
+  }
+  return scene;
+}
+
+/// Everything dies out: the motion by damping, the stresses by relaxation.
+scene::Scene decaying_shell(double steps) {
+  return shell_for(steps, 500.0,
+                   "load.peak = \"20 MPa\"\nload.exponent = 3\n"
+                   "numerics.damping_time = \"20 us\"\nnumerics.energy_drift_limit = 100\n");
+}
+
+/// Axial momentum over the impulse of the load, the largest of the run.
+double momentum_drift(const scene::Scene& scene, const MechanicsResult& result) {
+  constexpr int intervals = 100000;
+  const scene::PressureHistory load(scene.load);
+  const double end = scene.load.duration;
+  double impulse = 0.0;
+  for (int i = 0; i < intervals; ++i) impulse += load.at(end * (i + 0.5) / intervals) * end / intervals;
+  double largest = 0.0;
+  for (const MonitorSample& sample : result.monitor) largest = std::max(largest, std::abs(sample.momentum));
+  return largest / (impulse * scene::base_area(scene));
+}
+
+/// What the energy balance does not close by at most, over the largest energy that was stored.
+double energy_gap(const MechanicsResult& result) {
+  double gap = 0.0, stored = 0.0;
+  for (const MonitorSample& sample : result.monitor) {
+    gap = std::max(gap, std::abs(sample.energy.drift() * sample.energy.scale()));
+    stored = std::max(stored, sample.energy.internal);
+  }
+  return gap / stored;
+}
+
+/// Largest energy stored in one of the pulses, J.
+double stored_in(const scene::Scene& scene, const MechanicsResult& result, int pulse) {
+  const double length = scene.load.duration / pulses;
+  double stored = 0.0;
+  for (const MonitorSample& sample : result.monitor) {
+    if (sample.time >= pulse * length && sample.time < (pulse + 1) * length)
+      stored = std::max(stored, sample.energy.internal - sample.energy.viscous);
+  }
+  return stored;
+}
+
+bool same(const MechanicsResult& a, const MechanicsResult& b) {
+  if (a.steps != b.steps || a.monitor.size() != b.monitor.size()) return false;
+  for (std::size_t i = 0; i < a.monitor.size(); ++i) {
+    const MonitorSample &x = a.monitor[i], &y = b.monitor[i];
+    if (x.time != y.time || x.momentum != y.momentum || x.energy.kinetic != y.energy.kinetic ||
+        x.energy.internal != y.energy.internal || x.energy.viscous != y.energy.viscous)
+      return false;
+  }
+  return a.trace.time == b.trace.time && a.trace.bottom_pressure == b.trace.bottom_pressure &&
+         a.trace.friction == b.trace.friction;
+}
+
+double seconds_per_step(const MechanicsResult& result) {
+  return result.processor_time / static_cast<double>(result.steps);
+}
+
+void report(const char* what, double value) { std::printf("%s: %.3g\n", what, value); }
+
+void expect_bounded_drift(double steps) {
+  const scene::Scene scene = pulsing_shell(steps);
+  const MechanicsResult result = run_mechanics(scene);
+  ASSERT_EQ(result.status, RunStatus::completed) << result.reason;
+  const double gap = energy_gap(result), momentum = momentum_drift(scene, result);
+  const double first = stored_in(scene, result, 1), last = stored_in(scene, result, pulses - 1);
+  report("steps", static_cast<double>(result.steps));
+  report("energy that is not booked, share of the largest stored", gap);
+  report("momentum drift, share of the impulse", momentum);
+  report("change of the energy stored by a pulse, last against second", last / first - 1.0);
+  report("us of processor time a step", 1e6 * seconds_per_step(result));
+  // Measured: 0.0054 in 1e4 steps, where pulses are short enough to ring a little, and 0.0038 in 1e6.
+  EXPECT_LT(gap, 0.02);
+  // Measured: 5e-9 and 6e-9; see the property test of random scenes for what is lost at light nodes.
+  EXPECT_LT(momentum, 1e-7);
+  EXPECT_NEAR(last, first, 0.01 * first);
+  EXPECT_TRUE(same(result, run_mechanics(scene)));
+}
+
+TEST(LongRun, TenThousandStepsHoldEnergyAndMomentumAndRepeat) { expect_bounded_drift(1e4); }
+
+TEST(LongRunSlow, AMillionStepsHoldEnergyAndMomentumAndRepeat) { expect_bounded_drift(1e6); }
+
+/// After the pulse everything decays, the motion by damping within 50 steps, the stresses by relaxation
+/// within some hundred. What is left is round-off of the densities: about 1e-5 Pa and 1e-13 m/s.
+void expect_no_slower_decayed(double steps) {
+  const MechanicsResult before = run_mechanics(decaying_shell(0.1 * steps));
+  const MechanicsResult whole = run_mechanics(decaying_shell(steps));
+  ASSERT_EQ(whole.status, RunStatus::completed) << whole.reason;
+  const double start = seconds_per_step(before);
+  const double decayed =
+      (whole.processor_time - before.processor_time) / static_cast<double>(whole.steps - before.steps);
+  report("us a step at the start", 1e6 * start);
+  report("us a step after the decay", 1e6 * decayed);
+  EXPECT_LT(decayed, 1.5 * start);
+}
+
+TEST(LongRun, ADecayedStateIsNotSlower) { expect_no_slower_decayed(3e4); }
+
+TEST(LongRunSlow, ADecayedStateIsNotSlower) { expect_no_slower_decayed(1e6); }
+
+// A denormal number costs the processor more than a hundred ordinary ones, so a run flushes them to zero on
+// its thread; progress is reported from there.
+TEST(LongRun, DenormalsAreFlushedWhileItRunsAndOnlyThen) {
+#if defined(__SSE2__)
+  const auto half_of_the_least_normal = [] {
+    volatile double least = std::numeric_limits<double>::min();
+    return least * 0.5;
+  };
+  int reports = 0, flushed = 0;
+  RunOptions options;
+  options.progress = [&](double) {
+    ++reports;
+    flushed += half_of_the_least_normal() == 0.0 ? 1 : 0;
+  };
+  // Progress is told a few times a second.
+  for (double steps = 5e4; reports == 0 && steps < 1e7; steps *= 4.0)
+    run_mechanics(decaying_shell(steps), options);
+  EXPECT_GT(reports, 0);
+  EXPECT_EQ(flushed, reports);
+  EXPECT_GT(half_of_the_least_normal(), 0.0);
+#else
+  GTEST_SKIP() << "only with SSE2 can denormals be flushed";
+#endif
+}
+
+}  // namespace
+}  // namespace launchsafe::run

@@ -1,0 +1,73 @@
+#include "launchsafe/run/stable_factor.hpp"
+
+#include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/read_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace launchsafe::run {
+namespace {
+
+/// Square cells of 2.5 mm along all bodies: particles fill their cells.
+scene::Scene small_shell() {
+  scene::Scene scene =
+      scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/stability/small_shell.toml").value().scene;
+  scene.numerics.cell_size = 2.5e-3;
+  scene.load.duration = 0.4e-3;
+  return scene;
+}
+
+/// 6/L^2 in both directions: see the header.
+TEST(StableFactor, IsTwoOverTheRootOfTwelveForOneParticleASquareCell) {
+  EXPECT_NEAR(proved_time_step_factor(small_shell()), 2.0 / std::sqrt(12.0), 1e-9);
+}
+
+/// Half-length L/4: 2/(L l) + 1/(L (L - l)) = 8 + 4/3 in both directions.
+TEST(StableFactor, IsSmallerForMoreParticlesACell) {
+  scene::Scene scene = small_shell();
+  scene.numerics.particles_per_cell = 2;
+  EXPECT_NEAR(proved_time_step_factor(scene), 2.0 / std::sqrt(2.0 * (8.0 + 4.0 / 3.0)), 1e-9);
+}
+
+/// The measured limit lies above the proved one, as it must, and below that of particles that stay in the
+/// middle of their cells, 1/sqrt(2), since the shell has free faces: the theory is sharp.
+TEST(StableFactor, TheMeasuredLimitLiesBetweenTheTheoriesOfFreeAndFilledCells) {
+  scene::Scene scene = small_shell();
+  double stable = 0.5, broken = 1.0;
+  std::uint64_t slowest = 0;
+  for (int halving = 0; halving < 6; ++halving) {
+    const double factor = 0.5 * (stable + broken);
+    scene.numerics.time_step_factor = factor;
+    const MechanicsResult run = run_mechanics(scene);
+    (run.status == RunStatus::completed ? stable : broken) = factor;
+    if (run.status == RunStatus::completed) continue;
+    slowest = std::max(slowest, run.steps);
+    EXPECT_NE(run.reason.find("time step factor"), std::string::npos) << run.reason;
+  }
+  EXPECT_GE(stable, 2.0 / std::sqrt(12.0));
+  EXPECT_LE(broken, 1.0 / std::sqrt(2.0));
+  EXPECT_LT(slowest, 1500u) << "instability must be caught soon";
+  RecordProperty("measured_limit", std::to_string(0.5 * (stable + broken)));
+}
+
+TEST(StableFactor, AStepWithinItIsNotNamedWhereARunBreaks) {
+  scene::Scene scene = small_shell();
+  EXPECT_TRUE(step_remark(scene).empty());
+  scene.numerics.time_step_factor = 0.8;
+  EXPECT_NE(step_remark(scene).find("0.8 is above 0.577"), std::string::npos) << step_remark(scene);
+}
+
+/// Round-off without a load is no drift.
+TEST(StableFactor, NothingMovesWithoutALoad) {
+  scene::Scene scene = small_shell();
+  scene.load.curve_time = {0.0, scene.load.duration};
+  scene.load.curve_pressure = {0.0, 0.0};
+  const MechanicsResult run = run_mechanics(scene);
+  EXPECT_EQ(run.status, RunStatus::completed) << run.reason;
+  EXPECT_EQ(evaluate_gap(scene, run.trace, 2e-4).at_points.temperature, scene.initial_temperature);
+}
+
+}  // namespace
+}  // namespace launchsafe::run

@@ -1,0 +1,125 @@
+// The verdict's order: more margin never makes a gap less safe, more uncertainty or doubt never safer.
+#include "launchsafe/study/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#ifdef LAUNCHSAFE_HAVE_RAPIDCHECK
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+namespace {
+
+using namespace launchsafe::study;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// How much a verdict allows.
+int rank_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::unsafe:
+      return 0;
+    case Verdict::indeterminate:
+      return 1;
+    case Verdict::safe:
+      return 2;
+  }
+  return -1;
+}
+
+int rank_of(const Evidence& evidence, const CriticalGap& critical) {
+  return rank_of(judge(evidence, critical).verdict);
+}
+
+/// Any sign, from thousandths to hundreds of K; 0 among them.
+double kelvin() { return *rc::gen::inRange(-300000, 300001) / 1000.0; }
+double positive_kelvin() { return *rc::gen::inRange(0, 100001) / 1000.0; }
+double gap() { return *rc::gen::inRange(0, 1001) * 1e-6; }
+
+Evidence any_evidence() {
+  Evidence evidence;
+  evidence.completed = *rc::gen::inRange(0, 8) > 0;
+  evidence.ignited = *rc::gen::inRange(0, 4) == 0;
+  evidence.gap = gap();
+  evidence.margin = kelvin();
+  evidence.maximum_temperature = 525.0 - evidence.margin;
+  evidence.uncertainty = positive_kelvin();
+  evidence.doubt = *rc::gen::element<std::string>("", "", "", "the air was not resolved");
+  evidence.limited = *rc::gen::element<std::string>("", "crack bound 12");
+  return evidence;
+}
+
+CriticalGap any_critical_gap() {
+  CriticalGap critical;
+  critical.kind = *rc::gen::element(CriticalGapKind::value, CriticalGapKind::value, CriticalGapKind::all_safe,
+                                    CriticalGapKind::all_ignite, CriticalGapKind::indeterminate);
+  critical.value = gap();
+  critical.uncertainty = gap() / 10.0;
+  return critical;
+}
+
+RC_GTEST_PROP(VerdictProperty, RisesWithTheMargin, ()) {
+  const CriticalGap critical = any_critical_gap();
+  const Evidence less = any_evidence();
+  Evidence more = less;
+  more.margin += positive_kelvin();
+  more.maximum_temperature = 525.0 - more.margin;
+  RC_ASSERT(rank_of(more, critical) >= rank_of(less, critical));
+}
+
+RC_GTEST_PROP(VerdictProperty, RisesWithTheDistanceToTheCriticalGap, ()) {
+  const Evidence evidence = any_evidence();
+  CriticalGap nearer = any_critical_gap();
+  nearer.kind = CriticalGapKind::value;
+  CriticalGap farther = nearer;
+  farther.value += gap();
+  RC_ASSERT(rank_of(evidence, farther) >= rank_of(evidence, nearer));
+}
+
+RC_GTEST_PROP(VerdictProperty, NeverRisesWithAnUncertainty, ()) {
+  const CriticalGap critical = any_critical_gap();
+  const Evidence evidence = any_evidence();
+  Evidence vaguer = evidence;
+  vaguer.uncertainty += positive_kelvin();
+  RC_ASSERT(rank_of(vaguer, critical) <= rank_of(evidence, critical));
+  CriticalGap wider = critical;
+  wider.uncertainty += gap();
+  RC_ASSERT(rank_of(evidence, wider) <= rank_of(evidence, critical));
+}
+
+RC_GTEST_PROP(VerdictProperty, IsNeverSafeOnAFailureADoubtAnIgnitionOrANumberThatIsNone, ()) {
+  const CriticalGap critical = any_critical_gap();
+  const Evidence sound = any_evidence();
+  Evidence failed = sound, doubted = sound, ignited = sound;
+  failed.completed = false;
+  doubted.doubt = "the grid did not fit";
+  ignited.ignited = true;
+  RC_ASSERT(judge(failed, critical).verdict == Verdict::indeterminate);
+  RC_ASSERT(judge(doubted, critical).verdict == Verdict::indeterminate);
+  RC_ASSERT(judge(ignited, critical).verdict != Verdict::safe);
+  for (double Evidence::*number :
+       {&Evidence::margin, &Evidence::uncertainty, &Evidence::maximum_temperature}) {
+    Evidence undefined = sound;
+    undefined.*number = not_a_number;
+    RC_ASSERT(judge(undefined, critical).verdict != Verdict::safe);
+  }
+  for (double CriticalGap::*number : {&CriticalGap::value, &CriticalGap::uncertainty}) {
+    CriticalGap undefined = critical;
+    undefined.kind = CriticalGapKind::value;
+    undefined.*number = not_a_number;
+    RC_ASSERT(judge(sound, undefined).verdict != Verdict::safe);
+  }
+}
+
+RC_GTEST_PROP(VerdictProperty, AlwaysHasAReasonAndNamesTheLimitersOfASoundRun, ()) {
+  const Evidence evidence = any_evidence();
+  const Judgement judged = judge(evidence, any_critical_gap());
+  RC_ASSERT(!judged.reason.empty());
+  if (evidence.completed && evidence.doubt.empty() && !evidence.limited.empty())
+    RC_ASSERT(judged.reason.find(evidence.limited) != std::string::npos);
+}
+
+}  // namespace
+
+#endif
