@@ -61,7 +61,7 @@ std::string tables_of(const study::SensitivityResult& result, const std::filesys
 
 std::string tables_of(const study::AccuracyResult& result, const std::filesystem::path&) {
   return text_of(report::setting_table(result)) + text_of(report::reference_table(result)) +
-         text_of(report::time_table(result));
+         text_of(report::point_table(result)) + text_of(report::time_table(result));
 }
 
 std::string tables_of(const study::StabilityResult& result, const std::filesystem::path&) {

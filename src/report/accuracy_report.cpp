@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace launchsafe::report {
 namespace {
@@ -31,15 +32,21 @@ std::string label_of(const AccuracyResult& result, const AccuracyRow& row) {
 std::string kelvin(double value) { return significant(value, 2) + " K"; }
 std::string in_cm(double length, int digits) { return significant(100.0 * length, digits) + " cm"; }
 
+const char* limit_text(bool unjustified) {
+  return unjustified ? "that of the finest mesh (no extrapolation is justified)" : "the limit";
+}
+
 /// How wrong the critical gap of the scene as it is may be.
 std::string wrongness(const AccuracyResult& result, const AccuracyRow& own) {
   std::string text = fmt::format(
       "With the setting of the scene, T max is off by at most about {} over the compared gaps; its "
-      "distance from the limit is {}.",
-      kelvin(own.temperature_bound), kelvin(own.largest_temperature_error));
+      "distance from {} is {}.",
+      kelvin(own.temperature_bound), limit_text(result.any_indeterminate()),
+      kelvin(own.largest_temperature_error));
   if (std::isfinite(own.critical_gap_bound)) {
-    text += fmt::format(" Its critical gap, {}, is off by at most about {}; the limit is {} ({} {}).",
+    text += fmt::format(" Its critical gap, {}, is off by at most about {}; {} is {} ({} {}).",
                         in_cm(own.measured.critical.value, 4), in_cm(own.critical_gap_bound, 2),
+                        limit_text(!result.reference->critical_gap.limit.justified),
                         in_cm(result.reference->critical_gap.limit.value, 4),
                         own.critical_gap_error > 0 ? "smaller by" : "larger by",
                         in_cm(std::abs(own.critical_gap_error), 2));
@@ -62,6 +69,30 @@ std::string order_text(const ReferenceValue& value, double scale, const std::str
                      significant(scale * limit.uncertainty, 2), unit, limit.method);
 }
 
+/// Which observation points converge, and which does T max rest on.
+std::string points_text(const AccuracyResult& result) {
+  const study::AccuracyMeasurement& finest = result.rows.front().measured;
+  if (finest.points.empty()) return {};
+  std::size_t hottest = 0, justified = 0;
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (std::size_t i = 0; i < finest.points.size(); ++i) {
+    if (finest.points[i].temperature > finest.points[hottest].temperature) hottest = i;
+    const math::Extrapolation& limit = result.reference->points[i].limit;
+    if (!limit.justified) continue;
+    ++justified;
+    least = std::min(least, limit.uncertainty);
+    most = std::max(most, limit.uncertainty);
+  }
+  std::string text = fmt::format("- T max is that of {}, the hottest of {} observation points. ",
+                                 finest.points[hottest].name, finest.points.size());
+  if (justified == 0) return text + "None of them converges on these meshes.\n";
+  return text + fmt::format("{} of them converge; there the finest mesh is within {} to {} of the limit{}.\n",
+                            justified, kelvin(least), kelvin(most),
+                            result.reference->points[hottest].limit.justified
+                                ? ""
+                                : fmt::format(", and {} is not among them", finest.points[hottest].name));
+}
+
 std::string belief(const AccuracyResult& result) {
   const study::Study& study = result.study.study;
   const study::AccuracyReference& reference = *result.reference;
@@ -81,6 +112,7 @@ std::string belief(const AccuracyResult& result) {
   if (!reference.critical_gap.values.empty())
     text += order_text(reference.critical_gap, 100.0, "critical gap", "cm");
   text += order_text(reference.peak_pressure, 1e-6, "peak pressure of the charge bottom", "MPa");
+  text += points_text(result);
   double drift = 0;
   std::size_t sound = 0;
   for (const AccuracyRow& row : result.rows) {
@@ -184,6 +216,7 @@ std::string to_markdown(const AccuracyResult& result, const std::string& picture
   if (!picture.empty()) text += fmt::format("![error against run time]({})\n\n", picture);
   text += to_markdown(setting_table(result)) + "\n" + to_markdown(reference_table(result)) + "\n";
   if (const Table table = time_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
+  text += to_markdown(point_table(result)) + "\n";
   text +=
       "## Setup\n\n" + detail::setup_text(result.study) + "\n" + detail::timing_text(result.timing) + "\n";
   return text;
@@ -197,6 +230,7 @@ Json to_json(const AccuracyResult& result) {
             {"reference", nullptr},
             {"settings", to_json(setting_table(result))},
             {"times", to_json(time_table(result))},
+            {"points", to_json(point_table(result))},
             {"timing", detail::timing_json(result.timing)}};
   if (!result.reference) return json;
   Json temperatures = Json::array();
@@ -218,6 +252,7 @@ store::Result<WrittenFiles> write_report(const AccuracyResult& result, const std
                                                          {"reference.csv", to_csv(reference_table(result))}};
   if (const Table table = time_table(result); !table.rows.empty())
     texts.emplace_back("times.csv", to_csv(table));
+  if (result.reference) texts.emplace_back("points.csv", to_csv(point_table(result)));
   if (result.reference) texts.emplace_back("accuracy.json", study::to_json_text(result.record));
   if (auto error = detail::write_texts(folder, texts, written)) return *error;
   std::string picture = "error_against_time.svg";

@@ -50,14 +50,12 @@ bool has_ignition_time(const AccuracyResult& result, std::size_t gap) {
   return result.reference && !result.reference->ignition_time[gap].values.empty();
 }
 
-}  // namespace
-
-Table reference_table(const AccuracyResult& result) {
+/// A table of quantities without rows: a column for every reference mesh, then what they tend to.
+Table quantity_table(const AccuracyResult& result, std::string title) {
   Table table;
-  table.title = "What the reference meshes tend to";
+  table.title = std::move(title);
   table.columns = {text_column("quantity"), text_column("unit")};
-  const study::Study& study = result.study.study;
-  for (const double size : study.reference_cell_sizes) {
+  for (const double size : result.study.study.reference_cell_sizes) {
     const std::string name = fmt::format("{:.6g} mm", 1e3 * size);
     table.columns.push_back(
         significant_column(name, "", 7, "cells_" + fmt::format("{:.6g}", 1e3 * size) + "_mm"));
@@ -66,6 +64,14 @@ Table reference_table(const AccuracyResult& result) {
   table.columns.push_back(significant_column("extrapolated", "", 7, "extrapolated"));
   table.columns.push_back(significant_column("uncertainty", "", 2, "uncertainty"));
   table.columns.push_back(named_text("by", "method"));
+  return table;
+}
+
+}  // namespace
+
+Table reference_table(const AccuracyResult& result) {
+  Table table = quantity_table(result, "What the reference meshes tend to");
+  const study::Study& study = result.study.study;
   if (!result.reference) return table;
   const study::AccuracyReference& reference = *result.reference;
   for (std::size_t gap = 0; gap < study.gaps.size(); ++gap) {
@@ -87,6 +93,23 @@ Table reference_table(const AccuracyResult& result) {
       "series it holds the limit of smooth ones always, of those with 2 % noise in their errors in nine of "
       "ten "
       "or more, of noisier ones in eight of ten or more.");
+  return table;
+}
+
+Table point_table(const AccuracyResult& result) {
+  Table table = quantity_table(result, "T max at the observation points");
+  if (!result.reference) return table;
+  const study::AccuracyMeasurement& finest = result.rows.front().measured;
+  for (std::size_t i = 0; i < finest.points.size(); ++i) {
+    add_quantity(
+        table, fmt::format("{}, gap {} cm", finest.points[i].name, gap_text(result.study.study.gaps.front())),
+        "K", 1.0, result.reference->points[i]);
+  }
+  table.notes.push_back(
+      "T max of a study is that of the hottest point. A point beside the corner of charge, wall and base, "
+      "where stresses of the model are singular, need not converge on meshes whose cells are not much "
+      "smaller "
+      "than its distance.");
   return table;
 }
 

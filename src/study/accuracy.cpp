@@ -30,15 +30,21 @@ std::string failure_of(const StudyCase& input, const run::MechanicsResult& mecha
   return doubts.empty() ? std::string{} : fmt::format("in doubt: {}", fmt::join(doubts, "; "));
 }
 
-std::vector<double> temperatures_at_times(const Study& study, const StudyCase& input,
-                                          const trace::BottomTrace& trace) {
-  std::vector<double> temperatures;
-  if (study.times.empty()) return temperatures;
+/// What the skin of the first gap was in detail.
+void add_first_gap(const Study& study, const StudyCase& input, const trace::BottomTrace& trace,
+                   AccuracyMeasurement& measured) {
   const auto skin =
       surface::integrate_skin(surface::skin_model(input.scene.scene), trace, study.gaps.front());
   for (const double time : study.times)
-    temperatures.push_back(surface::maximum_at_time(skin, trace, time).temperature);
-  return temperatures;
+    measured.at_times.push_back(surface::maximum_at_time(skin, trace, time).temperature);
+  const std::size_t stations = trace.stations.size();
+  for (std::size_t station = 0; station < stations; ++station) {
+    if (!trace.stations[station].observation) continue;
+    PointTemperature point{trace.stations[station].name, 0.0};
+    for (std::size_t i = station; i < skin.temperature.size(); i += stations)
+      point.temperature = std::max(point.temperature, skin.temperature[i]);
+    measured.points.push_back(std::move(point));
+  }
 }
 
 AccuracyMeasurement measure(const Study& study, const StudyCase& input, const CaseAnswer& answer,
@@ -59,7 +65,7 @@ AccuracyMeasurement measure(const Study& study, const StudyCase& input, const Ca
     measured.ignition_time.push_back(row.ignition ? row.ignition->time : not_a_number);
   }
   measured.heated = answer.heated_temperature;
-  measured.at_times = temperatures_at_times(study, input, mechanics.trace);
+  add_first_gap(study, input, mechanics.trace, measured);
   measured.critical = answer.critical;
   measured.bottom = {mechanics.trace.time, mechanics.trace.bottom_pressure};
   measured.peak_pressure =

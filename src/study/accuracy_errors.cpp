@@ -82,6 +82,10 @@ AccuracyReference reference_of(const std::vector<AccuracyMeasurement>& meshes, s
     reference.at_times.push_back(
         reference_value(meshes, [i](const AccuracyMeasurement& mesh) { return mesh.at_times[i]; }));
   }
+  for (std::size_t i = 0; i < meshes.front().points.size(); ++i) {
+    reference.points.push_back(
+        reference_value(meshes, [i](const AccuracyMeasurement& mesh) { return mesh.points[i].temperature; }));
+  }
   reference.bottom = meshes.front().bottom;
   return reference;
 }

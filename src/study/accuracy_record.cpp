@@ -47,6 +47,11 @@ double number_from(const ordered_json& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
+/// A bound or a cost; what is below 0 would make verdicts safer than they are.
+bool is_plausible(const RecordedSetting& each) {
+  return !(each.temperature_bound < 0.0 || each.critical_gap_bound < 0.0 || each.processor_time < 0.0);
+}
+
 bool same_value(const scene::Value& a, const scene::Value& b) {
   const auto *first = std::get_if<double>(&a), *second = std::get_if<double>(&b);
   if (!first || !second) return a == b;
@@ -117,6 +122,7 @@ std::optional<AccuracyRecord> accuracy_record_from(const std::string& text) {
     if (object.at("format").get<std::string>() != format_name) return std::nullopt;
     AccuracyRecord record;
     record.title = object.at("title").get<std::string>();
+    if (!object.at("model_version").is_number_integer()) return std::nullopt;
     record.model_version = object.at("model_version").get<int>();
     record.shell = object.at("shell").get<std::string>();
     record.peak_pressure = number_from(object.at("peak_pressure_Pa"));
@@ -126,6 +132,7 @@ std::optional<AccuracyRecord> accuracy_record_from(const std::string& text) {
                                  number_from(each.at("temperature_bound_K")),
                                  number_from(each.at("critical_gap_bound_m")),
                                  number_from(each.at("processor_time_s"))});
+      if (!is_plausible(record.settings.back())) return std::nullopt;
     }
     return record;
   } catch (const ordered_json::exception&) {

@@ -65,6 +65,16 @@ void settle_recorded(StudyFile& study, const AccuracyRecord& record) {
           : fmt::format("from the accuracy record `{}`", s.accuracy);
 }
 
+/// Whether a key may have a value that no scene file's reader has checked.
+bool may_take(const scene::KeyDescription& key, const scene::Value& value) {
+  if (const auto* word = std::get_if<std::string>(&value))
+    return std::find(key.words.begin(), key.words.end(), *word) != key.words.end();
+  const auto* number = std::get_if<double>(&value);
+  if (number == nullptr) return true;
+  const bool whole = key.dimension != scene::Dimension::count || *number == std::round(*number);
+  return std::isfinite(*number) && whole && key.limits.contain(*number);
+}
+
 std::string chosen_text(const RecordedSetting& chosen, double tolerance) {
   return fmt::format("{}: T max within {:.3g} K where {:.3g} K were asked, {:.3g} s of processor time a run",
                      chosen.label, chosen.temperature_bound, tolerance, chosen.processor_time);
@@ -116,7 +126,7 @@ Fault choose_setting(StudyFile& study, const std::optional<AccuracyRecord>& reco
   ChangedScene scene(study.scene);
   for (const auto& [name, value] : chosen->setting) {
     const auto* key = scene::find_key(scene::scene_keys(), name);
-    if (key == nullptr || key->get(study.scene.scene).index() != value.index())
+    if (key == nullptr || !may_take(*key, value) || key->get(study.scene.scene).index() != value.index())
       return fault_at(study, "accuracy", fmt::format("the setting {}, which no scene has", name),
                       "a record of this version of the program");
     scene.apply({name, value, scene::format_value(*key, value), "accuracy", place_of_key(study, "accuracy")});

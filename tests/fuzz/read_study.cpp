@@ -1,11 +1,13 @@
 // Studies from any bytes. An input is the text of a study and, after lines "%%%%", that of its scene,
 // scene.toml, and that of an accuracy record, accuracy.json. Whatever is read must have cases fit to be
-// computed; whatever is not must say why.
+// computed; whatever is not must say why. "@shell" in the record stands for the digest of the scene's shell,
+// which no fuzzer guesses.
 #include "launchsafe/study/read_study.hpp"
 
 #include "fuzz_input.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -22,6 +24,8 @@ void check_case(const study::StudyCase& each) {
                 again ? std::string{} : again.error().message() + "\n" + written);
   fuzz::require(scene::to_toml(again->scene) == written, "a case is the scene that is written", written);
   fuzz::require(!each.label.empty(), "a case has a label", written);
+  fuzz::require(std::isfinite(each.numerical_uncertainty) && each.numerical_uncertainty >= 0.0,
+                "the uncertainty of a case is known", written);
 }
 
 void check_study(const study::StudyFile& file) {
@@ -40,6 +44,14 @@ void check_record(const std::string& text) {
   fuzz::require(study::to_json_text(*again) == written, "what was written is the same record", written);
 }
 
+std::string with_digest(std::string record, const std::string& scene_text) {
+  constexpr std::string_view placeholder = "@shell";
+  const std::size_t at = record.find(placeholder);
+  if (at == std::string::npos) return record;
+  const auto file = scene::parse_scene(scene_text, "scene.toml");
+  return file ? record.replace(at, placeholder.size(), study::shell_of(file->scene)) : record;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -52,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   folder.write("scene.toml", parts.size() > 1 ? parts[1] : usual_scene);
   if (parts.size() > 2) {
     check_record(parts[2]);
-    folder.write("accuracy.json", parts[2]);
+    folder.write("accuracy.json", with_digest(parts[2], parts[1]));
   } else {
     folder.remove("accuracy.json");
   }

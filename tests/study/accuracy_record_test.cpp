@@ -139,6 +139,36 @@ TEST_F(RecordedStudy, RefusesAToleranceThatNothingMeets) {
   EXPECT_FALSE(parse(record_key + "[set]\nnumerics.inertial_scaling = 4\n", {10.0}));
 }
 
+/// A bound below 0 would make every verdict safer than it is.
+TEST_F(RecordedStudy, RefusesARecordWithABoundOrACostBelowZero) {
+  for (double RecordedSetting::*number :
+       {&RecordedSetting::temperature_bound, &RecordedSetting::critical_gap_bound,
+        &RecordedSetting::processor_time}) {
+    AccuracyRecord record = some_record();
+    record.settings[0].*number = -1e-9;
+    EXPECT_FALSE(accuracy_record_from(to_json_text(record)));
+  }
+  AccuracyRecord record = some_record();
+  std::string text = to_json_text(record);
+  text.replace(text.find("\"model_version\": "), 17, "\"model_version\": 1e300, \"x\": ");
+  EXPECT_FALSE(accuracy_record_from(text));
+}
+
+/// No reader of scenes has checked the values of a record.
+TEST_F(RecordedStudy, RefusesASettingThatNoSceneMayHave) {
+  const std::vector<std::pair<std::string, scene::Value>> impossible{{"numerics.cell_size", -1e-3},
+                                                                     {"numerics.particles_per_cell", 1.5},
+                                                                     {"frame", std::string("sideways")}};
+  for (const auto& [key, value] : impossible) {
+    AccuracyRecord record = some_record();
+    record.settings[0].setting[key] = value;
+    std::ofstream(folder() / "accuracy.json") << to_json_text(record);
+    const auto study = parse(record_key, {3.0});
+    ASSERT_FALSE(study) << key;
+    EXPECT_NE(study.error().found.find(key), std::string::npos) << study.error().message();
+  }
+}
+
 TEST_F(RecordedStudy, RefusesWhatIsNoRecord) {
   for (const char* name : {"broken.json", "missing.json"}) {
     const auto study = parse("accuracy = \"" + std::string(name) + "\"\n");

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 
@@ -135,6 +136,24 @@ TEST(SkinHistory, ClosureThatWasNotTracedIsNoVerdict) {
   trace::BottomTrace trace = launch(10, 0, friction_energy);
   trace.friction[0].clear();
   EXPECT_TRUE(std::isnan(maximum_anywhere(integrate_skin(SkinModel{}, trace, 3e-4)).temperature));
+}
+
+// Found by the property test of random scenes: a mean pressure of 0 had a relative spread of 0/0.
+TEST(SkinHistory, NoPressureAtAllLeavesAirAndSkinAsTheyWere) {
+  trace::BottomTrace trace = launch(10, 1, 0.0);
+  for (auto* pressures : {&trace.chamber_pressure, &trace.mean_chamber_pressure})
+    std::fill(pressures->begin(), pressures->end(), 0.0);
+  for (const auto air : {scene::AirModel::reservoir, scene::AirModel::balance}) {
+    SkinModel model = plain_model();
+    model.kinetics.frequency = 0.0;
+    model.surface.air_pressure = scene::AirPressure::chamber;
+    model.surface.air_model = air;
+    for (const double gap : {0.0, 3e-4}) {
+      const SkinHistory history = integrate_skin(model, trace, gap);
+      for (const double temperature : history.temperature) EXPECT_NEAR(temperature, 300.0, 1e-9);
+      for (const double temperature : history.air_temperature) EXPECT_NEAR(temperature, 300.0, 1e-9);
+    }
+  }
 }
 
 TEST(AirBalance, ConservesEnergyToRoundOff) {

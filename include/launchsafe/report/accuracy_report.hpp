@@ -21,6 +21,9 @@ Table setting_table(const study::AccuracyResult& result);
 /// A row for every setting: error of the temperature at Study::times; without rows where there are none.
 Table time_table(const study::AccuracyResult& result);
 
+/// A row for every observation point: T max on the reference meshes, order, limit, uncertainty.
+Table point_table(const study::AccuracyResult& result);
+
 nlohmann::ordered_json to_json(const study::AccuracyResult& result);
 /// Error of T max against processor time, with the front of the settings that no other one beats.
 Plot error_plot(const study::AccuracyResult& result);
@@ -29,8 +32,9 @@ std::string to_markdown(const study::AccuracyResult& result, const std::string& 
 /// One screen: how wrong is the critical gap, why believe it, what would it cost to halve the error.
 std::string summary(const study::AccuracyResult& result);
 
-/// Writes accuracy.csv, reference.csv, times.csv, error_against_time.svg, accuracy.json (the record),
-/// summary.md, report.md and study.json into a folder, which is made. Errors: conflict, write_failed.
+/// Writes accuracy.csv, reference.csv, points.csv, times.csv, error_against_time.svg, accuracy.json (the
+/// record), summary.md, report.md and study.json into a folder, which is made. Errors: conflict,
+/// write_failed.
 store::Result<WrittenFiles> write_report(const study::AccuracyResult& result,
                                          const std::filesystem::path& folder);
 
