@@ -194,7 +194,7 @@ Plot error_plot(const AccuracyResult& result) {
   plot.y = {"largest error of T max [K]", Scale::logarithmic};
   plot.legend = Legend::below_plot;
   Series meshes{"reference meshes", {}, {}, Style::points}, settings{"settings", {}, {}, Style::points},
-      front{"front: none is both cheaper and nearer", {}, {}, Style::steps};
+      front{"front", {}, {}, Style::steps};
   std::vector<std::pair<double, double>> best;
   for (const AccuracyRow& row : result.rows) {
     if (!row.sound() || row.other_model || !(row.largest_temperature_error > 0)) continue;
@@ -207,6 +207,9 @@ Plot error_plot(const AccuracyResult& result) {
       plot.annotations.push_back(
           {time, error, row.baseline ? "as in the scene" : result.study.cases[row.index].label});
   }
+  // Labels stand to the right of their points.
+  constexpr double room_for_labels = 30.0;
+  if (!best.empty()) plot.x.maximum = room_for_labels * std::max_element(best.begin(), best.end())->first;
   std::sort(best.begin(), best.end());
   for (const auto& [time, error] : best) {
     front.x.push_back(time);

@@ -22,7 +22,10 @@ std::string answer_of(const CaseOutcome& outcome) {
     case CriticalGapKind::value: {
       const bool confirmed = !outcome.confirmations.empty();
       return fmt::format(
-          "the critical gap is {}: {} does not ignite, {} does{}{}.", detail::centimetres(gap.value),
+          "the critical gap is {}{}: {} does not ignite, {} does{}{}.", detail::centimetres(gap.value),
+          std::isfinite(gap.uncertainty)
+              ? fmt::format(", uncertain by {} cm", significant(100.0 * gap.uncertainty, 2))
+              : std::string{},
           detail::centimetres(gap.lower), detail::centimetres(gap.upper),
           confirmed ? "; complete coupled runs on both sides agree" : "; not confirmed by coupled runs",
           remark);
