@@ -60,6 +60,7 @@ ExitCode dry_run_command(const StudyArguments& arguments, Console& console) {
     console.error(file.error().message());
     return ExitCode::bad_input;
   }
+  if (!file->chosen_setting.empty()) console.remark("setting: " + file->chosen_setting);
   remark_obstacle(*file, arguments, console);
   const auto store = store_for(arguments, console);
   if (!store) {

@@ -84,7 +84,8 @@ Table reference_table(const AccuracyResult& result) {
   add_quantity(table, "peak pressure of the charge bottom", "MPa", 1e-6, reference.peak_pressure);
   for (std::size_t i = 0; i < reference.at_times.size(); ++i) {
     add_quantity(table,
-                 fmt::format("T at {:.6g} ms, gap {} cm", 1e3 * study.times[i], gap_text(study.gaps.front())),
+                 fmt::format("T without reaction at {:.6g} ms, gap {} cm", 1e3 * study.times[i],
+                             gap_text(study.gaps.front())),
                  "K", 1.0, reference.at_times[i]);
   }
   table.notes.push_back(
@@ -97,7 +98,7 @@ Table reference_table(const AccuracyResult& result) {
 }
 
 Table point_table(const AccuracyResult& result) {
-  Table table = quantity_table(result, "T max at the observation points");
+  Table table = quantity_table(result, "T max at the observation points, without reaction");
   if (!result.reference) return table;
   const study::AccuracyMeasurement& finest = result.rows.front().measured;
   for (std::size_t i = 0; i < finest.points.size(); ++i) {
@@ -168,7 +169,7 @@ Table setting_table(const AccuracyResult& result) {
 Table time_table(const AccuracyResult& result) {
   Table table;
   const study::Study& study = result.study.study;
-  table.title = fmt::format("Error of the highest temperature against time, gap {} cm",
+  table.title = fmt::format("Error of the highest temperature against time, without reaction, gap {} cm",
                             study.gaps.empty() ? "" : gap_text(study.gaps.front()));
   table.columns = {named_text("setting", "setting")};
   for (const double time : study.times) {

@@ -2,6 +2,7 @@
 
 #include "answer_cases.hpp"
 #include "case_runs.hpp"
+#include "gap_analysis.hpp"
 #include "launchsafe/run/doubts.hpp"
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/scene/mesh.hpp"
@@ -30,11 +31,11 @@ std::string failure_of(const StudyCase& input, const run::MechanicsResult& mecha
   return doubts.empty() ? std::string{} : fmt::format("in doubt: {}", fmt::join(doubts, "; "));
 }
 
-/// What the skin of the first gap was in detail.
+/// What the skin of the first gap was in detail; without reaction, since after ignition all are alike.
 void add_first_gap(const Study& study, const StudyCase& input, const trace::BottomTrace& trace,
                    AccuracyMeasurement& measured) {
-  const auto skin =
-      surface::integrate_skin(surface::skin_model(input.scene.scene), trace, study.gaps.front());
+  const auto skin = surface::integrate_skin(detail::without_reaction(surface::skin_model(input.scene.scene)),
+                                            trace, study.gaps.front());
   for (const double time : study.times)
     measured.at_times.push_back(surface::maximum_at_time(skin, trace, time).temperature);
   const std::size_t stations = trace.stations.size();

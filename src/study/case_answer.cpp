@@ -3,23 +3,12 @@
 #include "case_runs.hpp"
 #include "gap_analysis.hpp"
 
-#include <limits>
-
 namespace launchsafe::study {
 namespace {
 
-/// A skin that air and friction heat, and nothing else.
-surface::SkinModel inert(surface::SkinModel model) {
-  constexpr double never = std::numeric_limits<double>::max();
-  model.kinetics.frequency = 0.0;
-  model.kinetics.ignition_temperature = never;
-  model.kinetics.burnt_temperature = never;
-  return model;
-}
-
 double heated_temperature(const CaseOutcome& outcome, double gap) {
   const trace::BottomTrace& trace = outcome.result.mechanics.trace;
-  const surface::SkinModel model = inert(surface::skin_model(outcome.input.scene.scene));
+  const surface::SkinModel model = detail::without_reaction(surface::skin_model(outcome.input.scene.scene));
   return surface::maximum_at_observation_points(surface::integrate_skin(model, trace, gap), trace)
       .temperature;
 }

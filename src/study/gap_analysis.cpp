@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace launchsafe::study::detail {
@@ -145,6 +146,14 @@ std::string doubt_of(const CaseOutcome& outcome) {
 }
 
 }  // namespace
+
+surface::SkinModel without_reaction(surface::SkinModel model) {
+  constexpr double never = std::numeric_limits<double>::max();
+  model.kinetics.frequency = 0.0;
+  model.kinetics.ignition_temperature = never;
+  model.kinetics.burnt_temperature = never;
+  return model;
+}
 
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
   const std::string doubt = doubt_of(outcome);

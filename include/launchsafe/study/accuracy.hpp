@@ -19,7 +19,7 @@ struct PressureTrace {
   std::vector<double> pressure;  ///< Pa
 };
 
-/// T max of one observation point, first gap.
+/// T max of one observation point, first gap, of a skin that does not react.
 struct PointTemperature {
   std::string name;
   double temperature = 0;  ///< K
@@ -27,18 +27,19 @@ struct PointTemperature {
 
 /// What one case came to, without judging it.
 struct AccuracyMeasurement {
-  std::string failure;                   ///< why there are no numbers; empty for a sound run
-  double cell = 0;                       ///< m, sqrt(dx dr) of the fitted grid
-  double processor_time = 0;             ///< s; the wall time where the run did not note it
-  double wall_time = 0;                  ///< s
-  double particle_steps = 0;             ///< particles times steps
-  double memory = 0;                     ///< bytes of particles, grid and histories, as planned
-  double energy_drift = 0;               ///< largest, share of the largest energy
-  std::vector<double> temperature;       ///< K, T max at the observation points for every gap
-  std::vector<double> heated;            ///< K, the same of a skin that does not react
-  std::vector<bool> ignites;             ///< for every gap
-  std::vector<double> ignition_time;     ///< s, for every gap; NaN where it does not ignite
-  std::vector<double> at_times;          ///< K, highest observation point at Study::times, first gap
+  std::string failure;                ///< why there are no numbers; empty for a sound run
+  double cell = 0;                    ///< m, sqrt(dx dr) of the fitted grid
+  double processor_time = 0;          ///< s; the wall time where the run did not note it
+  double wall_time = 0;               ///< s
+  double particle_steps = 0;          ///< particles times steps
+  double memory = 0;                  ///< bytes of particles, grid and histories, as planned
+  double energy_drift = 0;            ///< largest, share of the largest energy
+  std::vector<double> temperature;    ///< K, T max at the observation points for every gap
+  std::vector<double> heated;         ///< K, the same of a skin that does not react
+  std::vector<bool> ignites;          ///< for every gap
+  std::vector<double> ignition_time;  ///< s, for every gap; NaN where it does not ignite
+  std::vector<double>
+      at_times;  ///< K, highest observation point at Study::times, first gap, without reaction
   std::vector<PointTemperature> points;  ///< all observation points
   CriticalGap critical;                  ///< at the observation points
   double peak_pressure = 0;              ///< Pa, largest of the bottom pressure
