@@ -35,9 +35,10 @@ void add_quantity(Table& table, const std::string& name, const std::string& unit
 }
 
 std::string remark_of(const AccuracyRow& row) {
-  if (!row.sound()) return row.measured.failure;
+  if (!row.computed()) return row.measured.failure;
   std::string text;
-  const auto add = [&text](const char* part) { text += (text.empty() ? "" : ", ") + std::string(part); };
+  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (!row.measured.doubt.empty()) add("in doubt: " + row.measured.doubt);
   if (row.baseline) add("the scene as it is");
   if (row.reference) add("reference mesh");
   if (row.on_front) add("front");
@@ -145,14 +146,14 @@ Table setting_table(const AccuracyResult& result) {
     std::vector<Cell> cells{result.study.cases[row.index].label, optional_number(m.processor_time),
                             optional_number(m.wall_time), m.particle_steps, m.memory / 1e6};
     for (std::size_t gap = 0; gap < study.gaps.size(); ++gap)
-      cells.push_back(row.sound() ? optional_number(row.temperature_error[gap]) : Cell());
+      cells.push_back(row.computed() ? optional_number(row.temperature_error[gap]) : Cell());
     for (const double value :
          {row.temperature_bound, 100.0 * m.critical.value, 100.0 * row.critical_gap_error,
           100.0 * row.critical_gap_bound, 100.0 * row.pressure_error, 100.0 * row.peak_pressure_error})
-      cells.push_back(row.sound() ? optional_number(value) : Cell());
+      cells.push_back(row.computed() ? optional_number(value) : Cell());
     for (std::size_t gap = 0; gap < study.gaps.size(); ++gap) {
       if (has_ignition_time(result, gap))
-        cells.push_back(row.sound() ? optional_number(1e3 * row.ignition_time_error[gap]) : Cell());
+        cells.push_back(row.computed() ? optional_number(1e3 * row.ignition_time_error[gap]) : Cell());
     }
     cells.push_back(optional_number(100.0 * m.energy_drift));
     cells.emplace_back(remark_of(row));
@@ -181,7 +182,7 @@ Table time_table(const AccuracyResult& result) {
   for (const AccuracyRow& row : result.rows) {
     std::vector<Cell> cells{result.study.cases[row.index].label};
     for (std::size_t i = 0; i < study.times.size(); ++i)
-      cells.push_back(row.sound() ? optional_number(row.error_at_times[i]) : Cell());
+      cells.push_back(row.computed() ? optional_number(row.error_at_times[i]) : Cell());
     cells.emplace_back(remark_of(row));
     table.rows.push_back(std::move(cells));
   }
@@ -198,7 +199,7 @@ Plot error_plot(const AccuracyResult& result) {
       front{"front", {}, {}, Style::steps};
   std::vector<std::pair<double, double>> best;
   for (const AccuracyRow& row : result.rows) {
-    if (!row.sound() || row.other_model || !(row.largest_temperature_error > 0)) continue;
+    if (!row.computed() || row.other_model || !(row.largest_temperature_error > 0)) continue;
     const double time = row.measured.processor_time, error = row.largest_temperature_error;
     Series& series = row.reference ? meshes : settings;
     series.x.push_back(time);

@@ -24,11 +24,8 @@ bool AccuracyResult::any_indeterminate() const {
 
 namespace {
 
-/// Why a run is no basis for numbers, doubts included; empty for a sound one.
-std::string failure_of(const StudyCase& input, const run::MechanicsResult& mechanics) {
-  if (std::string failure = detail::failure_of(mechanics, {true, {}}); !failure.empty()) return failure;
-  const auto doubts = run::doubts_of(input.scene.scene, mechanics);
-  return doubts.empty() ? std::string{} : fmt::format("in doubt: {}", fmt::join(doubts, "; "));
+std::string doubt_of(const StudyCase& input, const run::MechanicsResult& mechanics) {
+  return fmt::format("{}", fmt::join(run::doubts_of(input.scene.scene, mechanics), "; "));
 }
 
 /// What the skin of the first gap was in detail; without reaction, since after ignition all are alike.
@@ -51,7 +48,7 @@ void add_first_gap(const Study& study, const StudyCase& input, const trace::Bott
 AccuracyMeasurement measure(const Study& study, const StudyCase& input, const CaseAnswer& answer,
                             const run::MechanicsResult& mechanics) {
   AccuracyMeasurement measured;
-  measured.failure = failure_of(input, mechanics);
+  measured.failure = detail::failure_of(mechanics, {true, {}});
   const scene::Mesh mesh = scene::fit_mesh(input.scene.scene);
   measured.cell = std::sqrt(mesh.dx * mesh.dr);
   measured.wall_time = mechanics.wall_time;
@@ -60,6 +57,7 @@ AccuracyMeasurement measure(const Study& study, const StudyCase& input, const Ca
   measured.memory = detail::memory_of(input.scene.scene);
   measured.energy_drift = answer.run.energy_drift;
   if (!measured.failure.empty()) return measured;
+  measured.doubt = doubt_of(input, mechanics);
   for (const GapVerdict& row : answer.verdicts) {
     measured.temperature.push_back(row.maximum.temperature);
     measured.ignites.push_back(row.ignition.has_value());
@@ -137,7 +135,7 @@ std::vector<bool> inert_gaps(const AccuracyResult& result, const std::vector<boo
   std::vector<bool> inert(result.study.study.gaps.size(), false);
   for (std::size_t i = 0; i < result.measured.size(); ++i) {
     const AccuracyMeasurement& measured = result.measured[i];
-    if (other_model[i] || !measured.failure.empty()) continue;
+    if (other_model[i] || !measured.failure.empty() || !measured.doubt.empty()) continue;
     for (std::size_t gap = 0; gap < inert.size(); ++gap) inert[gap] = inert[gap] || measured.ignites[gap];
   }
   return inert;
@@ -184,9 +182,10 @@ void compare(AccuracyResult& result) {
   const StudyFile& study = result.study;
   const std::size_t meshes = study.study.reference_cell_sizes.size();
   for (std::size_t i = 0; i < meshes; ++i) {
-    if (result.measured[i].failure.empty()) continue;
-    result.no_reference =
-        fmt::format("the reference mesh {} {}", study.cases[i].label, result.measured[i].failure);
+    const AccuracyMeasurement& mesh = result.measured[i];
+    if (mesh.failure.empty() && mesh.doubt.empty()) continue;
+    result.no_reference = fmt::format("the reference mesh {} {}", study.cases[i].label,
+                                      mesh.failure.empty() ? "is in doubt: " + mesh.doubt : mesh.failure);
     return;
   }
   std::vector<bool> other_model;

@@ -79,6 +79,20 @@ TEST(Doubts, TheInertiaThatAStepLoadMovesIsTrueWhereNothingScalesIt) {
   expect_one(doubts_of(scaled, run), "inertia scaled by 4 matters");
 }
 
+TEST(Doubts, AFlightThroughAGridAtRest) {
+  scene::Scene scene = shipped_scene();
+  scene.frame = scene::Frame::lab;
+  // 14.1 mm until 6 ms, 2.9 mm until 5 ms: the double integral of p(t) A/m by another program.
+  MechanicsResult run = sound_run();
+  run.end_time = 6e-3;
+  expect_one(doubts_of(scene, run), "5.65 cells");
+  run.end_time = 5e-3;
+  EXPECT_TRUE(doubts_of(scene, run).empty());
+  scene.frame = scene::Frame::co_moving;
+  run.end_time = 18e-3;
+  EXPECT_TRUE(doubts_of(scene, run).empty());
+}
+
 TEST(Doubts, AMissingOrBrokenHistoryIsOne) {
   MechanicsResult run = sound_run();
   run.monitor.clear();

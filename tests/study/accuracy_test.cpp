@@ -154,6 +154,23 @@ TEST(Accuracy, ASettingThatFailsIsARowWithoutNumbers) {
   EXPECT_EQ(cheapest_within(result.record, 1e9)->label, "cell_size 0.5 cm, inertial_scaling 1");
 }
 
+TEST(Accuracy, ASettingInDoubtIsShownWithItsErrorAndNotRecommended) {
+  const AccuracyResult result = result_of([](const scene::Scene& scene) {
+    run::MechanicsResult mechanics = converging(scene);
+    if (scene.numerics.inertial_scaling > 1.0) mechanics.monitor.back().energy.kinetic = 1.0;
+    return mechanics;
+  });
+  ASSERT_TRUE(result.reference);
+  const AccuracyRow& row = row_of(result, "cell_size 0.25 cm, inertial_scaling 16");
+  EXPECT_FALSE(row.measured.doubt.empty());
+  EXPECT_TRUE(row.computed());
+  EXPECT_FALSE(row.sound());
+  EXPECT_NEAR(row.temperature_error[0], 4.0, 0.03);
+  EXPECT_FALSE(row.on_front);
+  for (const RecordedSetting& each : result.record.settings)
+    EXPECT_NE(each.label, result.study.cases[row.index].label);
+}
+
 TEST(RelativeDifference, IsThatOfTheSquares) {
   const PressureTrace one{{0, 1, 2}, {1, 1, 1}}, other{{0, 0.5, 1, 1.5, 2}, {1.1, 1.1, 1.1, 1.1, 1.1}};
   EXPECT_NEAR(relative_difference(other, one), 0.1, 1e-12);

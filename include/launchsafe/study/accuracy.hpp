@@ -27,7 +27,9 @@ struct PointTemperature {
 
 /// What one case came to, without judging it.
 struct AccuracyMeasurement {
-  std::string failure;                ///< why there are no numbers; empty for a sound run
+  std::string failure;  ///< why there are no numbers; empty for a completed run
+  std::string
+      doubt;  ///< why its numbers are no basis for a verdict (see run::doubts_of); empty for a sound run
   double cell = 0;                    ///< m, sqrt(dx dr) of the fitted grid
   double processor_time = 0;          ///< s; the wall time where the run did not note it
   double wall_time = 0;               ///< s
@@ -81,7 +83,8 @@ struct AccuracyRow {
   std::vector<double> ignition_time_error;  ///< s, for every gap
   std::vector<double> error_at_times;       ///< K
   bool on_front = false;                    ///< no other setting is both cheaper and nearer to the reference
-  bool sound() const { return measured.failure.empty(); }
+  bool computed() const { return measured.failure.empty(); }
+  bool sound() const { return computed() && measured.doubt.empty(); }
 };
 
 struct AccuracyResult {
