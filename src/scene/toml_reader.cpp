@@ -169,6 +169,12 @@ std::string found_text(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (node.is_array_of_tables()) return "an array of tables";
   if (node.is_array() && node.as_array()->empty()) return "an empty array";
+  if (const toml::array* array = node.as_array()) {
+    // Not by toml++, which takes a negative logarithm for a length where an element is below 0.1.
+    std::string text;
+    for (const toml::node& element : *array) text += (text.empty() ? "[ " : ", ") + found_text(element);
+    return text + " ]";
+  }
   std::ostringstream stream;
   node.visit([&stream](const auto& concrete) { stream << concrete; });
   return stream.str();

@@ -46,7 +46,7 @@ foreach(reader IN LISTS fuzzed_readers)
   file(MAKE_DIRECTORY "${found}")
   # -timeout, s: a reader that takes so long on an input hangs. -rss_limit_mb: or holds all of it.
   add_test(NAME fuzz.${reader}
-    COMMAND "${fuzz_dir}/tests/fuzz/fuzz_${reader}" -max_total_time=30 -timeout=10 -rss_limit_mb=2048 -max_len=6000
+    COMMAND "${fuzz_dir}/tests/fuzz/fuzz_${reader}" -seed=1 -max_total_time=30 -timeout=10 -rss_limit_mb=2048 -max_len=6000
             -print_final_stats=1 "-dict=${CMAKE_CURRENT_SOURCE_DIR}/fuzz/keys.dict"
             "-artifact_prefix=${fuzz_dir}/failures/${reader}-" "${found}"
             "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${reader}")
