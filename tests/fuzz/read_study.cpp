@@ -45,11 +45,11 @@ void check_record(const std::string& text) {
 }
 
 std::string with_digest(std::string record, const std::string& scene_text) {
-  constexpr std::string_view placeholder = "@shell";
-  const std::size_t at = record.find(placeholder);
+  constexpr std::string_view digest_mark = "@shell";
+  const std::size_t at = record.find(digest_mark);
   if (at == std::string::npos) return record;
   const auto file = scene::parse_scene(scene_text, "scene.toml");
-  return file ? record.replace(at, placeholder.size(), study::shell_of(file->scene)) : record;
+  return file ? record.replace(at, digest_mark.size(), study::shell_of(file->scene)) : record;
 }
 
 }  // namespace

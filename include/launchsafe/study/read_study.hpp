@@ -50,11 +50,11 @@ struct HardLaunch {
   std::vector<verify::Outcome> expected;  ///< acceptable ones; empty: anything but WRONG
   /// Steps within which a broken computation must be caught; 0: any number.
   std::uint64_t caught_within = 0;
-  std::vector<double> gaps;             ///< m, to judge; all on one run
-  std::optional<std::size_t> run;       ///< of StudyFile::cases; none for a case of the reader
-  std::optional<std::size_t> against;   ///< of StudyFile::cases: a safe computation of the same launch
-  std::string must_refuse;              ///< a case of the reader: what its message must say; else empty
-  std::string refusal;                  ///< what the reader said; empty where it took the scene
+  std::vector<double> gaps;            ///< m, to judge; all on one run
+  std::optional<std::size_t> run;      ///< of StudyFile::cases; none for a case of the reader
+  std::optional<std::size_t> against;  ///< of StudyFile::cases: a safe computation of the same launch
+  std::string must_refuse;             ///< a case of the reader: what its message must say; else empty
+  std::string refusal;                 ///< what the reader said; empty where it took the scene
 };
 
 /// How a sensitivity study asks.
