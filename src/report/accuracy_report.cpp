@@ -255,17 +255,9 @@ store::Result<WrittenFiles> write_report(const AccuracyResult& result, const std
   if (result.reference) texts.emplace_back("points.csv", to_csv(point_table(result)));
   if (result.reference) texts.emplace_back("accuracy.json", study::to_json_text(result.record));
   if (auto error = detail::write_texts(folder, texts, written)) return *error;
-  std::string picture = "error_against_time.svg";
-  if (auto error = write_svg(error_plot(result), folder / picture)) {
-    if (error->kind == store::Error::Kind::write_failed) return *error;
-    written.remarks.push_back("no picture: " + error->message);
-    picture.clear();
-  } else {
-    written.files.push_back(picture);
-  }
-  std::string page = to_markdown(result, picture);
-  if (picture.empty())
-    page += "\nThere is no picture: gnuplot was not found or failed when this page was made.\n";
+  const auto picture = detail::write_picture(error_plot(result), folder, "error_against_time.svg", written);
+  if (!picture) return picture.error();
+  const std::string page = to_markdown(result, *picture) + detail::missing_picture_text(*picture);
   if (auto error = detail::write_texts(folder,
                                        {{"report.md", page},
                                         {"summary.md", summary(result)},

@@ -144,17 +144,9 @@ store::Result<WrittenFiles> write_report(const CriticalGapResult& result,
     if (auto error = detail::write_case(folder, outcome.input, outcome.result, outcome.start_time, written))
       return *error;
   }
-  std::string picture = "temperature.svg";
-  if (auto error = write_svg(temperature_plot(result), folder / picture)) {
-    if (error->kind == store::Error::Kind::write_failed) return *error;
-    written.remarks.push_back("no picture: " + error->message);
-    picture.clear();
-  } else {
-    written.files.push_back(picture);
-  }
-  std::string page = to_markdown(result, picture);
-  if (picture.empty())
-    page += "\nThere is no picture: gnuplot was not found or failed when this page was made.\n";
+  const auto picture = detail::write_picture(temperature_plot(result), folder, "temperature.svg", written);
+  if (!picture) return picture.error();
+  const std::string page = to_markdown(result, *picture) + detail::missing_picture_text(*picture);
   if (auto error = detail::write_texts(
           folder, {{"report.md", page}, {"study.json", to_json(result).dump(2) + "\n"}}, written)) {
     return *error;

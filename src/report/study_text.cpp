@@ -126,6 +126,22 @@ store::MaybeError write_case(const std::filesystem::path& folder, const study::S
   return {};
 }
 
+store::Result<std::string> write_picture(const Plot& plot, const std::filesystem::path& folder,
+                                         const std::string& name, WrittenFiles& written) {
+  if (auto error = write_svg(plot, folder / name)) {
+    if (error->kind == store::Error::Kind::write_failed) return *error;
+    written.remarks.push_back("no picture: " + error->message);
+    return std::string{};
+  }
+  written.files.push_back(name);
+  return name;
+}
+
+std::string missing_picture_text(const std::string& picture) {
+  if (!picture.empty()) return {};
+  return "\nThere is no picture: gnuplot was not found or failed when this page was made.\n";
+}
+
 store::MaybeError write_texts(const std::filesystem::path& folder,
                               const std::vector<std::pair<std::string, std::string>>& texts,
                               WrittenFiles& written) {

@@ -1,6 +1,7 @@
 // Text and files that the reports of all studies share.
 #pragma once
 
+#include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/written_files.hpp"
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/store/result.hpp"
@@ -41,6 +42,13 @@ std::string case_file_name(const study::StudyCase& input);
 store::MaybeError write_case(const std::filesystem::path& folder, const study::StudyCase& input,
                              const run::CaseResult& result, const std::string& start_time,
                              WrittenFiles& written);
+
+/// Draws a picture into a folder, which is there. Its name, or nothing where gnuplot is missing, which is a
+/// remark. Errors: write_failed.
+store::Result<std::string> write_picture(const Plot& plot, const std::filesystem::path& folder,
+                                         const std::string& name, WrittenFiles& written);
+/// What a page says that lacks its picture; empty where it has one.
+std::string missing_picture_text(const std::string& picture);
 
 /// Makes a folder and writes texts into it, one file each.
 store::MaybeError write_texts(const std::filesystem::path& folder,
