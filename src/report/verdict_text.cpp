@@ -4,6 +4,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/study/calibration.hpp"
+#include "launchsafe/study/uncertainty_text.hpp"
 #include "study_text.hpp"
 
 #include <fmt/format.h>
@@ -60,6 +61,9 @@ std::vector<Column> verdict_columns(const study::Study& study) {
           number_column("anywhere", "K", 1, "anywhere_K"),
           number_column("margin", "K", 2, "margin_K"),
           significant_column("uncertainty", "K", 2, "uncertainty_K"),
+          significant_column("of computation", "K", 2, "computation_K"),
+          significant_column("of fit", "K", 2, "fit_K"),
+          significant_column("of inputs", "K", 2, "inputs_K"),
           named_text("verdict", "verdict"),
           named_text("reason", "reason"),
           named_text("ignition", "ignition")};
@@ -73,6 +77,9 @@ void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells) {
   cells.emplace_back(row.anywhere.temperature);
   cells.emplace_back(row.margin);
   cells.emplace_back(row.uncertainty.total());
+  cells.emplace_back(row.uncertainty.computed());
+  cells.emplace_back(row.uncertainty.fit);
+  cells.emplace_back(row.uncertainty.input);
   cells.emplace_back(study::to_string(row.judgement.verdict));
   cells.emplace_back(row.judgement.reason);
   cells.emplace_back(ignition_text(row));
@@ -108,6 +115,9 @@ void add_verdict(Json& json, const study::GapVerdict& row) {
   json["anywhere_at"] = row.anywhere.point;
   json["margin_K"] = number(row.margin);
   json["uncertainty_K"] = number(row.uncertainty.total());
+  json["uncertainty_of_computation_K"] = number(row.uncertainty.computed());
+  json["uncertainty_of_fit_K"] = number(row.uncertainty.fit);
+  json["uncertainty_of_inputs_K"] = number(row.uncertainty.input);
   json["verdict"] = study::to_string(row.judgement.verdict);
   json["reason"] = row.judgement.reason;
   json["ignition"] = json_of(row.ignition);
@@ -159,19 +169,15 @@ std::string friction_remark(const study::StudyFile& study) {
 }
 
 std::string uncertainty_remark(const study::StudyFile& study) {
-  const auto part = [](const char* name, double value, const char* otherwise) {
-    return std::isfinite(value) ? fmt::format("{} ({} K, as the study states)", name, significant(value, 3))
-                                : fmt::format("{} ({})", name, otherwise);
-  };
   return fmt::format(
-      "The uncertainty of a margin is that of the computation, combined as the root of the sum of squares "
-      "(ASME V&V 20) with {} and {}. That of the computation is the sum of the trace's sampling error, the "
-      "integration error, where confirmed the largest difference between traced and coupled runs, and {} K "
-      "for mesh, step and scaling, {}.",
-      part("that of the fitted constants", study.study.fit_uncertainty, "not stated, not counted"),
-      part("that of the inputs", study.study.input_uncertainty,
-           "not stated: the launch counts as exactly known"),
-      significant(study.study.numerical_uncertainty, 3), study.uncertainty_source);
+      "The uncertainty of a margin is the root of the sum of squares (ASME V&V 20) of three shares. Of the "
+      "computation: the sum of the trace's sampling error, the integration error, where confirmed the "
+      "largest "
+      "difference between traced and coupled runs, and {} K for mesh, step and scaling, {}. Of the fit: {} "
+      "Of the "
+      "inputs: {}",
+      significant(study.study.numerical_uncertainty, 3), study.uncertainty_source,
+      study::fit_uncertainty_text(study.study), study::input_uncertainty_text(study.study));
 }
 
 bool acted(const run::LimiterCounts& limiters) {

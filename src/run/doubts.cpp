@@ -1,11 +1,13 @@
 #include "launchsafe/run/doubts.hpp"
 
 #include "launchsafe/scene/plan.hpp"
+#include "load_coverage.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace launchsafe::run {
 namespace {
@@ -27,9 +29,6 @@ constexpr std::size_t fewest_intervals = 8;
 constexpr double largest_crack_over_flaw = 10.0;
 /// Crack radius over cell: cracks are smeared over a cell, and larger ones belong to neighbours too.
 constexpr double largest_crack_over_cell = 5.0;
-
-/// Rise of the load over its last hundredth, as a share of the peak, from which it was still on its way.
-constexpr double least_rise_at_end = 1e-3;
 
 /// In the lab's frame particles cross cells, and friction collects the ripple. On the 155 mm shell the false
 /// heat is 1.3, 3.7, 5.5 K after 14 mm, on cells of 5, 2.5, 1.25 mm, and 65, 168, 302 K after 137 mm.
@@ -84,17 +83,6 @@ void doubt_inertia(const Scene& scene, const MechanicsResult& mechanics, Doubts&
       "inertia scaled by {:.6g} matters: the kinetic energy that it makes reaches {:.3g} % of the internal "
       "energy, more than {:.3g} %",
       scaling, 100.0 * share, 100.0 * largest_scaled_share));
-}
-
-void doubt_load(const Scene& scene, Doubts& doubts) {
-  const scene::PressureHistory load(scene.load);
-  const double duration = scene.load.duration, peak = load.peak(), end = load.at(duration);
-  const double rise = end - load.at(0.99 * duration);
-  if (!(peak > 0.0) || !(rise > least_rise_at_end * peak) || end < 0.99 * peak) return;
-  doubts.push_back(
-      fmt::format("the load still rises at its end, {:.6g} ms, where it is {:.4g} MPa: the launch is cut off "
-                  "before its peak",
-                  1e3 * duration, 1e-6 * end));
 }
 
 void doubt_samples(const MechanicsResult& mechanics, Doubts& doubts) {
@@ -203,7 +191,7 @@ std::vector<std::string> doubts_of(const Scene& scene, const MechanicsResult& me
   doubt_history(mechanics, doubts);
   doubt_flight(scene, mechanics, doubts);
   doubt_inertia(scene, mechanics, doubts);
-  doubt_load(scene, doubts);
+  for (std::string& each : uncovered_load(scene.load)) doubts.push_back(std::move(each));
   doubt_samples(mechanics, doubts);
   if (scene::has_material(scene, scene::BodyMaterial::charge)) {
     doubt_cracks(scene, mechanics, doubts);

@@ -128,4 +128,9 @@ double PressureHistory::peak() const {
   return largest;
 }
 
+double PressureHistory::stated_peak() const {
+  if (load_.curve_pressure.empty()) return load_.peak;
+  return scale_ * *std::max_element(load_.curve_pressure.begin(), load_.curve_pressure.end());
+}
+
 }  // namespace launchsafe::scene

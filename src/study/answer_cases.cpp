@@ -1,5 +1,6 @@
 #include "answer_cases.hpp"
 
+#include "case_uncertainty.hpp"
 #include "launchsafe/version.hpp"
 
 #include <fmt/format.h>
@@ -82,10 +83,16 @@ class Answering {
     tbb::parallel_for(std::size_t{0}, runs_.size(), [this](std::size_t i) {
       const MechanicalRun& run = runs_[i];
       // A damaged result is computed again, also where its answers are known.
-      if (!is_ours(run) || !options_.store->holds(run.hash)) return;
+      if (!is_ours(run) || !options_.store->holds(run.hash) || !holds_raised(run)) return;
       for (const std::size_t each : run.cases)
         answers_[each] = stored_answer(study_, each, keys_[each], options_);
     });
+  }
+
+  bool holds_raised(const MechanicalRun& run) const {
+    if (!propagates_spread(study_.study)) return true;
+    const scene::Scene raised = with_raised_load(study_.cases[run.cases.front()].scene.scene);
+    return options_.store->holds(identity_of({&raised, {}, std::nullopt}).hash());
   }
 
   std::vector<std::size_t> open_cases(const MechanicalRun& run) const {
@@ -104,19 +111,23 @@ class Answering {
       open.push_back(open_cases(run));
       if (open.back().empty()) {
         open.pop_back();
-        ++timing_.reused;
+        timing_.reused += propagates_spread(study_.study) ? 2 : 1;
       }
     }
-    std::vector<ObtainedRun> obtained(open.size());
+    std::vector<ObtainedRun> obtained(open.size()), raised(open.size());
+    const bool propagated = propagates_spread(study_.study);
     for (std::size_t task = 0; task < open.size(); ++task) {
-      tasks.push_back(task_of(
-          needed_by(study_.cases[open[task].front()]), options_,
-          [&, task](const auto& report_share) { obtained[task] = answer_group(open[task], report_share); }));
+      tasks.push_back(
+          task_of(needed_by(study_.cases[open[task].front()]), options_, [&, task](const auto& report_share) {
+            obtained[task] = answer_group(open[task], report_share, raised[task]);
+          }));
+      if (propagated) tasks.back().cost *= 2.0;
       tracker_.expect(1, tasks.back().cost);
     }
     const auto outcomes = run_tasks(tasks, resources_of(options_), tracker_, options_.stop);
     for (std::size_t task = 0; task < tasks.size(); ++task) {
       add_run(timing_, obtained[task].result.mechanics, obtained[task].reused, outcomes[task]);
+      if (propagated) add_run(timing_, raised[task].result.mechanics, raised[task].reused, outcomes[task]);
       if (outcomes[task].started && outcomes[task].failure.empty()) continue;
       note_refusal(needed_by(study_.cases[open[task].front()]), outcomes[task], options_);
       const std::string failure = failure_of({}, outcomes[task]);
@@ -129,25 +140,33 @@ class Answering {
   /// Runs the mechanics or takes them from the store, and draws the answers. What is returned is for the
   /// account alone: its histories are gone.
   ObtainedRun answer_group(const std::vector<std::size_t>& cases,
-                           const std::function<void(double)>& report_share) {
+                           const std::function<void(double)>& report_share, ObtainedRun& raised) {
     ObtainedRun run = obtain(needed_by(study_.cases[cases.front()]), options_, report_share);
     run::MechanicsResult& mechanics = run.result.mechanics;
+    std::optional<run::MechanicsResult> raised_mechanics;
+    if (propagates_spread(study_.study) && mechanics.status == run::RunStatus::completed) {
+      raised = obtain_raised(study_.cases[cases.front()], options_);
+      raised_mechanics = raised.result.mechanics;
+      raised.result.mechanics.trace = {};
+    }
     // Cores that find no further run help here. A thread that waits for them must not start another run.
     tbb::this_task_arena::isolate([&] {
-      tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) { answer(cases[i], mechanics); });
+      tbb::parallel_for(std::size_t{0}, cases.size(),
+                        [&](std::size_t i) { answer(cases[i], mechanics, raised_mechanics); });
     });
     mechanics.trace = {};
     mechanics.monitor.clear();
     return run;
   }
 
-  void answer(std::size_t index, const run::MechanicsResult& mechanics) {
+  void answer(std::size_t index, const run::MechanicsResult& mechanics,
+              const std::optional<run::MechanicsResult>& raised) {
     if (stop_requested(options_)) throw std::runtime_error("interrupted before its gaps were judged");
     const StudyCase& input = study_.cases[index];
-    CaseAnswer answer =
-        was_cut_off(mechanics) ? cut_off_answer(input, mechanics) : answer_of(study_.study, input, mechanics);
-    if (!was_cut_off(mechanics) && options_.store != nullptr)
-      options_.store->save_answer(keys_[index], to_json_line(answer));
+    const bool whole = !was_cut_off(mechanics) && !(raised && was_cut_off(*raised));
+    CaseAnswer answer = was_cut_off(mechanics) ? cut_off_answer(input, mechanics)
+                                               : answer_of(study_.study, input, mechanics, raised);
+    if (whole && options_.store != nullptr) options_.store->save_answer(keys_[index], to_json_line(answer));
     attach_references(study_, input, answer);
     answers_[index] = std::move(answer);
   }

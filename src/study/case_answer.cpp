@@ -6,13 +6,6 @@
 namespace launchsafe::study {
 namespace {
 
-double heated_temperature(const CaseOutcome& outcome, double gap) {
-  const trace::BottomTrace& trace = outcome.result.mechanics.trace;
-  const surface::SkinModel model = detail::without_reaction(surface::skin_model(outcome.input.scene.scene));
-  return surface::maximum_at_observation_points(surface::integrate_skin(model, trace, gap), trace)
-      .temperature;
-}
-
 CaseAnswer without_histories(CaseOutcome& outcome) {
   CaseAnswer answer;
   answer.failure = std::move(outcome.failure);
@@ -24,21 +17,20 @@ CaseAnswer without_histories(CaseOutcome& outcome) {
 
 }  // namespace
 
-CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::MechanicsResult& mechanics) {
+CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::MechanicsResult& mechanics,
+                     const std::optional<run::MechanicsResult>& raised) {
   CaseOutcome outcome;
   outcome.input = input;
   outcome.result.mechanics = mechanics;
   outcome.failure = detail::failure_of(mechanics, {true, {}});
+  outcome.raised = raised;
   detail::find_critical_gaps(study, outcome);
   detail::evaluate_gaps(study, outcome);
   detail::apply_confirmations(study, outcome);
   detail::conclude(study, outcome);
-  std::vector<double> heated;
-  for (const double gap : study.gaps) {
-    heated.push_back(outcome.completed() ? heated_temperature(outcome, gap) : not_a_number);
-  }
   CaseAnswer answer = without_histories(outcome);
-  answer.heated_temperature = std::move(heated);
+  for (const GapVerdict& row : answer.verdicts)
+    answer.heated_temperature.push_back(answer.completed() ? row.heated : not_a_number);
   answer.run = {mechanics.status, mechanics.steps, mechanics.particles, run::largest_energy_drift(mechanics),
                 mechanics.limiters};
   return answer;

@@ -1,6 +1,7 @@
 #include "launchsafe/study/critical_gap.hpp"
 
 #include "case_runs.hpp"
+#include "case_uncertainty.hpp"
 #include "gap_analysis.hpp"
 #include "launchsafe/store/manifest.hpp"
 
@@ -69,6 +70,8 @@ void run_mechanics(CriticalGapResult& result, const std::vector<bool>& ours, con
                    ProgressTracker& tracker) {
   std::vector<Task> tasks;
   std::vector<std::size_t> indices;
+  std::vector<detail::ObtainedRun> raised(result.cases.size());
+  const bool propagated = detail::propagates_spread(result.study.study);
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     CaseOutcome& outcome = result.cases[i];
     if (!ours[i]) {
@@ -76,20 +79,29 @@ void run_mechanics(CriticalGapResult& result, const std::vector<bool>& ours, con
       continue;
     }
     indices.push_back(i);
-    tasks.push_back(detail::task_of(mechanics_of(outcome), options, [&](const auto& report_share) {
+    tasks.push_back(detail::task_of(mechanics_of(outcome), options, [&, i](const auto& report_share) {
       outcome.start_time = store::utc_now();
       detail::ObtainedRun run = detail::obtain(mechanics_of(outcome), options, report_share);
       outcome.reused = run.reused;
       outcome.result.mechanics = std::move(run.result.mechanics);
       outcome.failure = detail::failure_of(outcome.result.mechanics, {true, {}});
+      if (propagated && outcome.completed()) {
+        raised[i] = detail::obtain_raised(outcome.input, options);
+        outcome.raised = raised[i].result.mechanics;
+      }
       detail::find_critical_gaps(result.study.study, outcome);
       detail::evaluate_gaps(result.study.study, outcome);
     }));
+    if (propagated) tasks.back().cost *= 2.0;
     tracker.expect(1, tasks.back().cost);
   }
   const auto outcomes = run_tasks(tasks, detail::resources_of(options), tracker, options.stop);
   for (std::size_t task = 0; task < tasks.size(); ++task) {
     CaseOutcome& outcome = result.cases[indices[task]];
+    if (outcome.raised) {
+      const detail::ObtainedRun& run = raised[indices[task]];
+      detail::add_run(result.timing, run.result.mechanics, run.reused, outcomes[task]);
+    }
     detail::add_run(result.timing, outcome.result.mechanics, outcome.reused, outcomes[task]);
     if (outcomes[task].started && outcomes[task].failure.empty()) continue;
     detail::note_refusal(mechanics_of(outcome), outcomes[task], options);

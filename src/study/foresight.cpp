@@ -2,6 +2,7 @@
 
 #include "answer_cases.hpp"
 #include "case_runs.hpp"
+#include "case_uncertainty.hpp"
 #include "launchsafe/scene/plan.hpp"
 
 #include <fmt/format.h>
@@ -55,12 +56,11 @@ class Reasons {
     }
   }
 
-  std::string why_run(const std::string& hash, const StudyCase& input) const {
+  std::string why_run(const std::string& hash, const detail::NeededRun& needed) const {
     if (store_ == nullptr) return "nothing is stored";
     if (const auto entry = store_->last_entry(hash)) return why_again(*entry);
-    const auto same_label = by_label_.find(input.label);
+    const auto same_label = by_label_.find(needed.label);
     if (same_label == by_label_.end()) return "never run here";
-    const detail::NeededRun needed{&input.scene.scene, input.label, std::nullopt};
     return difference(detail::identity_of(needed).input(), same_label->second, *store_);
   }
 
@@ -124,6 +124,30 @@ double time_on(std::vector<double> times, int jobs) {
   return last;
 }
 
+ForeseenRun foresee_run(const detail::NeededRun& needed, const detail::MechanicalRun& mechanical,
+                        bool answered, const StudyOptions& options, const Reasons& reasons,
+                        double update_rate) {
+  const scene::Plan plan = scene::make_plan(*needed.scene);
+  ForeseenRun run;
+  run.label = needed.label;
+  run.hash = mechanical.hash;
+  run.cases = mechanical.cases.size();
+  run.particles = plan.particles();
+  run.steps = plan.steps;
+  run.memory = detail::memory_of(*needed.scene);
+  run.shard = mechanical.shard;
+  run.stored = options.store != nullptr && options.store->holds(run.hash);
+  run.answered = run.stored && answered;
+  if (run.stored) {
+    run.why = run.answered ? "stored" : "stored; its gaps are judged anew";
+    return run;
+  }
+  run.why = reasons.why_run(run.hash, needed);
+  run.given_up = is_given_up(run.hash, options);
+  run.time = mechanical.cost / update_rate;
+  return run;
+}
+
 }  // namespace
 
 Foresight foresee(const StudyFile& study, const StudyOptions& options, double update_rate) {
@@ -135,29 +159,25 @@ Foresight foresee(const StudyFile& study, const StudyOptions& options, double up
   const std::vector<std::string> keys = drawn ? detail::answer_keys(study) : std::vector<std::string>{};
   std::vector<detail::MechanicalRun> ours = detail::mechanical_runs(study, options.shard.count);
   std::erase_if(ours, [&](const auto& each) { return each.shard != options.shard.index; });
-  foresight.runs.resize(ours.size());
+  // Behind each run that of its raised load, where the study needs one.
+  const bool propagated = detail::propagates_spread(study.study);
+  const std::size_t stride = propagated ? 2 : 1;
+  foresight.runs.resize(stride * ours.size());
   tbb::parallel_for(std::size_t{0}, ours.size(), [&](std::size_t i) {
-    ForeseenRun& run = foresight.runs[i];
     const StudyCase& input = study.cases[ours[i].cases.front()];
-    const scene::Plan plan = scene::make_plan(input.scene.scene);
-    run.label = input.label;
-    run.hash = ours[i].hash;
-    run.cases = ours[i].cases.size();
-    run.particles = plan.particles();
-    run.steps = plan.steps;
-    run.memory = detail::memory_of(input.scene.scene);
-    run.shard = ours[i].shard;
-    run.stored = options.store != nullptr && options.store->holds(run.hash);
-    run.answered = run.stored && std::all_of(ours[i].cases.begin(), ours[i].cases.end(), [&](std::size_t at) {
-                     return !drawn || options.store->answer(keys[at]).has_value();
-                   });
-    if (run.stored) {
-      run.why = run.answered ? "stored" : "stored; its gaps are judged anew";
-    } else {
-      run.why = reasons.why_run(run.hash, input);
-      run.given_up = is_given_up(run.hash, options);
-      run.time = ours[i].cost / foresight.update_rate;
-    }
+    const detail::NeededRun needed{&input.scene.scene, input.label, std::nullopt};
+    const bool answered = std::all_of(ours[i].cases.begin(), ours[i].cases.end(), [&](std::size_t at) {
+      return !drawn || options.store->answer(keys[at]).has_value();
+    });
+    foresight.runs[stride * i] =
+        foresee_run(needed, ours[i], answered, options, reasons, foresight.update_rate);
+    if (!propagated) return;
+    const scene::Scene raised = detail::with_raised_load(input.scene.scene);
+    const detail::NeededRun second{&raised, detail::label_of_raised(input), std::nullopt};
+    detail::MechanicalRun run = ours[i];
+    run.hash = detail::identity_of(second).hash();
+    run.cases.clear();
+    foresight.runs[stride * i + 1] = foresee_run(second, run, true, options, reasons, foresight.update_rate);
   });
   std::vector<double> times, memories;
   for (const ForeseenRun& run : foresight.runs) {
@@ -167,7 +187,7 @@ Foresight foresee(const StudyFile& study, const StudyOptions& options, double up
   }
   foresight.jobs = std::max(1, std::min(detail::jobs_of(options), static_cast<int>(foresight.runs.size())));
   if (study.study.kind == StudyKind::critical_gap && study.study.confirm)
-    foresight.confirmations = 2 * foresight.runs.size();
+    foresight.confirmations = 2 * ours.size();
   foresight.time = time_on(times, foresight.jobs);
   std::sort(memories.rbegin(), memories.rend());
   memories.resize(std::min<std::size_t>(memories.size(), static_cast<std::size_t>(foresight.jobs)));

@@ -1,5 +1,6 @@
 #include "gap_analysis.hpp"
 
+#include "case_uncertainty.hpp"
 #include "launchsafe/run/doubts.hpp"
 
 #include <fmt/format.h>
@@ -62,18 +63,51 @@ const Reference* reference_for(const Study& study, double gap) {
   return nullptr;
 }
 
-/// What the study and its accuracy record say of the uncertainty of a temperature (K). Errors grow with the
-/// rise.
-void add_stated(const Study& study, const CaseOutcome& outcome, double temperature,
-                Uncertainty& uncertainty) {
-  const double rise = temperature - outcome.input.scene.scene.initial_temperature;
-  const double hotter = rise / outcome.input.rise_of_uncertainty;
-  uncertainty.numerical = outcome.input.numerical_uncertainty * (hotter > 1.0 ? hotter : 1.0);
-  uncertainty.fit = std::isfinite(study.fit_uncertainty) ? study.fit_uncertainty : 0.0;
-  uncertainty.input = std::isfinite(study.input_uncertainty) ? study.input_uncertainty : 0.0;
+/// T max (K) at the observation points of a skin that air and friction heat and that neither reacts nor is
+/// triggered.
+double heated_temperature(const scene::Scene& scene, const BottomTrace& trace, double gap) {
+  const surface::SkinModel model = without_reaction(surface::skin_model(scene));
+  return surface::maximum_at_observation_points(surface::integrate_skin(model, trace, gap), trace)
+      .temperature;
 }
 
-GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const run::GapResult& gap) {
+/// What the rows of a case have in common.
+struct CaseGround {
+  CalibrationDistance distance;
+  double heated_without_gap = not_a_number;  ///< K
+};
+
+CaseGround ground_of(const CaseOutcome& outcome) {
+  const scene::Scene& scene = outcome.input.scene.scene;
+  return {distance_to_calibration(scene), heated_temperature(scene, outcome.result.mechanics.trace, 0.0)};
+}
+
+/// K by which T max of a gap rises where load and initial temperature are at the hot ends of their assumed
+/// spread together. One that ignites there has no margin left.
+double propagated_share(const CaseOutcome& outcome, const GapVerdict& row) {
+  scene::Scene hot = with_raised_load(outcome.input.scene.scene);
+  hot.initial_temperature += assumed_temperature_spread;
+  hot.surface.air.initial_temperature += assumed_temperature_spread;
+  const BottomTrace& trace = outcome.raised->trace;
+  const double rise = heated_temperature(hot, trace, row.gap) - row.heated;
+  const auto reacting = surface::integrate_skin(surface::skin_model(hot), trace, row.gap);
+  return !row.ignition && reacting.ignition ? std::max(rise, row.margin) : rise;
+}
+
+/// The shares of a row that its study, its accuracy record and the calibration's evidence give. Errors grow
+/// with the rise.
+void add_shares(const Study& study, const CaseOutcome& outcome, const CaseGround& ground, GapVerdict& row) {
+  const double initial = outcome.input.scene.scene.initial_temperature;
+  const double hotter = (row.maximum.temperature - initial) / outcome.input.rise_of_uncertainty;
+  row.uncertainty.numerical = outcome.input.numerical_uncertainty * (hotter > 1.0 ? hotter : 1.0);
+  row.uncertainty.fit = fit_share(
+      study, ground.distance, {ground.heated_without_gap - initial, row.heated - ground.heated_without_gap});
+  row.uncertainty.input =
+      outcome.raised ? propagated_share(outcome, row) : stated_input_share(study, outcome.input);
+}
+
+GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGround& ground,
+                  const run::GapResult& gap) {
   const scene::Scene& scene = outcome.input.scene.scene;
   const BottomTrace& trace = outcome.result.mechanics.trace;
   GapVerdict row;
@@ -84,26 +118,23 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const run::Gap
   row.spread = surface::spread_at_time(gap.skin, trace, scene.load.duration);
   row.early_spread = surface::spread_at_time(gap.skin, trace, study.early_time);
   row.margin = scene.charge.kinetics.ignition_temperature - gap.at_points.temperature;
+  row.heated = heated_temperature(scene, trace, gap.gap);
   row.ignition = named(gap.skin.ignition, trace);
   row.ignition_anywhere = named(gap.skin.ignition_anywhere, trace);
   row.uncertainty.sampling = gap.sampling_error;
   row.uncertainty.integration = integration_error(surface::skin_model(scene), trace, gap);
-  add_stated(study, outcome, gap.at_points.temperature, row.uncertainty);
+  add_shares(study, outcome, ground, row);
   return row;
 }
 
-/// Uncertainty of a temperature just below ignition, K.
-Uncertainty uncertainty_at(const Study& study, const CaseOutcome& outcome, const run::GapResult& gap) {
-  Uncertainty uncertainty;
-  uncertainty.sampling = gap.sampling_error;
-  uncertainty.integration =
-      integration_error(surface::skin_model(outcome.input.scene.scene), outcome.result.mechanics.trace, gap);
-  add_stated(study, outcome, gap.at_points.temperature, uncertainty);
+/// K, the largest difference between traced and coupled runs.
+double coupling_share(const CaseOutcome& outcome) {
+  double coupling = 0;
   for (const Confirmation& confirmation : outcome.confirmations) {
     if (std::isfinite(confirmation.difference))
-      uncertainty.coupling = std::max(uncertainty.coupling, std::abs(confirmation.difference));
+      coupling = std::max(coupling, std::abs(confirmation.difference));
   }
-  return uncertainty;
+  return coupling;
 }
 
 /// Half the bracket, and the temperature uncertainty over the slope of temperature against gap just below it.
@@ -118,7 +149,9 @@ void set_gap_uncertainty(const Study& study, CaseOutcome& outcome) {
   const run::GapResult at_below = run::evaluate_gap(scene, trace, below);
   const double slope =
       (at_lower.at_points.temperature - at_below.at_points.temperature) / (critical.lower - below);
-  const double temperature = uncertainty_at(study, outcome, at_below).total();
+  Uncertainty uncertainty = row_of(study, outcome, ground_of(outcome), at_below).uncertainty;
+  uncertainty.coupling = coupling_share(outcome);
+  const double temperature = uncertainty.total();
   critical.uncertainty = half + (slope > 0 ? temperature / slope : critical.value);
   if (outcome.critical_anywhere.kind == CriticalGapKind::value)
     outcome.critical_anywhere.uncertainty = critical.uncertainty;
@@ -139,10 +172,21 @@ std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
 }
 
 /// All doubts about a completed run as one clause.
-std::string doubt_of(const CaseOutcome& outcome) {
+std::string doubt_of(const Study& study, const CaseOutcome& outcome) {
   if (!outcome.completed()) return {};
-  return fmt::format("{}",
-                     fmt::join(run::doubts_of(outcome.input.scene.scene, outcome.result.mechanics), "; "));
+  const scene::Scene& scene = outcome.input.scene.scene;
+  std::vector<std::string> doubts = run::doubts_of(scene, outcome.result.mechanics);
+  if (gives_verdicts(study)) {
+    if (auto doubt = calibration_doubt(outcome.input, distance_to_calibration(scene)); !doubt.empty())
+      doubts.push_back(std::move(doubt));
+  }
+  if (outcome.raised && outcome.raised->status != run::RunStatus::completed) {
+    doubts.push_back(
+        fmt::format("the run with the load raised by {:.3g} %, for the uncertainty of the inputs: {}{}{}",
+                    100.0 * assumed_load_spread, run::to_string(outcome.raised->status),
+                    outcome.raised->reason.empty() ? "" : ", ", outcome.raised->reason));
+  }
+  return fmt::format("{}", fmt::join(doubts, "; "));
 }
 
 }  // namespace
@@ -156,7 +200,7 @@ surface::SkinModel without_reaction(surface::SkinModel model) {
 }
 
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
-  const std::string doubt = doubt_of(outcome);
+  const std::string doubt = doubt_of(study, outcome);
   if (!outcome.completed() || !doubt.empty()) {
     outcome.critical = outcome.critical_anywhere =
         indeterminate(outcome.completed() ? "the run is in doubt: " + doubt : outcome.failure);
@@ -182,15 +226,17 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
 }
 
 void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
+  const bool has_trace = outcome.result.mechanics.trace.samples() > 0;
+  const CaseGround ground = has_trace ? ground_of(outcome) : CaseGround{};
   for (const double gap : study.gaps) {
-    if (outcome.result.mechanics.trace.samples() == 0) {
+    if (!has_trace) {
       GapVerdict row;
       row.gap = gap;
       outcome.verdicts.push_back(std::move(row));
     } else {
       outcome.result.gaps.push_back(
           run::evaluate_gap(outcome.input.scene.scene, outcome.result.mechanics.trace, gap));
-      outcome.verdicts.push_back(row_of(study, outcome, outcome.result.gaps.back()));
+      outcome.verdicts.push_back(row_of(study, outcome, ground, outcome.result.gaps.back()));
     }
     const Reference* reference = outcome.input.own_conditions ? reference_for(study, gap) : nullptr;
     if (reference != nullptr) outcome.verdicts.back().reference = *reference;
@@ -220,25 +266,28 @@ bool misses_calibrated_rows(const CaseOutcome& outcome) {
 }
 
 void conclude(const Study& study, CaseOutcome& outcome) {
-  double coupling = 0;
-  for (const Confirmation& confirmation : outcome.confirmations) {
-    if (std::isfinite(confirmation.difference))
-      coupling = std::max(coupling, std::abs(confirmation.difference));
-  }
+  const double coupling = coupling_share(outcome);
   const bool foreign = misses_calibrated_rows(outcome);
-  const std::string doubt = doubt_of(outcome);
+  const std::string doubt = doubt_of(study, outcome);
+  const CalibrationDistance distance = distance_to_calibration(outcome.input.scene.scene);
   const std::string limited = run::to_string(outcome.result.mechanics.limiters);
   std::vector<double> gaps, temperatures;
   for (GapVerdict& row : outcome.verdicts) {
     row.uncertainty.coupling = coupling;
     if (foreign)
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
-    row.judgement = judge({outcome.completed(), outcome.failure, row.ignition.has_value(), row.gap,
-                           row.maximum.temperature, row.margin, row.uncertainty.total(), doubt, limited},
-                          outcome.critical);
-    if (!row.ignition && row.ignition_anywhere)
-      row.judgement.reason +=
-          "; the bottom ignites off the observation points, at " + row.ignition_anywhere->point;
+    Evidence evidence{outcome.completed(),
+                      outcome.failure,
+                      row.ignition.has_value(),
+                      row.gap,
+                      row.maximum.temperature,
+                      row.margin,
+                      row.uncertainty.total(),
+                      doubt,
+                      limited};
+    if (row.ignition_anywhere) evidence.ignited_elsewhere = row.ignition_anywhere->point;
+    if (gives_verdicts(study)) evidence.extrapolated = extrapolation_text(outcome.input, distance, row.gap);
+    row.judgement = judge(evidence, outcome.critical);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);
     temperatures.push_back(row.maximum.temperature);

@@ -79,7 +79,7 @@ bool is_condition(const scene::KeyDescription& key) {
 class CaseMaker {
  public:
   explicit CaseMaker(StudyFile& study)
-      : study_(study), own_peak_(scene::PressureHistory(study.scene.scene.load).peak()) {
+      : study_(study), own_peak_(scene::PressureHistory(study.scene.scene.load).stated_peak()) {
     for (const Axis& axis : study.study.axes) add_key(axis.key);
     for (const UncertainInput& input : study.study.inputs) add_key(input.key);
   }
@@ -89,7 +89,8 @@ class CaseMaker {
     const scene::Scene& s = scene.scene;
     const materials::ViscoScramParameters& cracks = s.charge.cracks;
     StudyCase made;
-    made.peak_pressure = scene::PressureHistory(s.load).peak();
+    made.peak_pressure = scene::PressureHistory(s.load).stated_peak();
+    made.pressure_ratio = made.peak_pressure / own_peak_;
     made.crack_radius = cracks.initial_crack_radius;
     made.flaw_size = cracks.flaw_size;
     made.cell_size = s.numerics.cell_size;

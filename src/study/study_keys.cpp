@@ -164,11 +164,14 @@ std::vector<Key<Study>> uncertainty_keys() {
           "temperature to this; on the command line --tolerance.",
           &Study::setting_tolerance),
       study_number("fit_uncertainty", Dimension::temperature, between(0, 1000),
-                   "Uncertainty of the margin from the calibrated constants; not counted if absent.",
+                   "Uncertainty of the margin from the calibrated constants, on the rows that they were "
+                   "fitted to; the "
+                   "largest misfit of the held-out published temperatures if absent.",
                    &Study::fit_uncertainty),
       study_number("input_uncertainty", Dimension::temperature, between(0, 1000),
                    "Uncertainty of the maximum temperature from what is not known of the launch (see kind "
-                   "sensitivity); not counted if absent.",
+                   "sensitivity), for the study's own scene; if absent an assumed spread of load and initial "
+                   "temperature is propagated, which takes a second run for every case.",
                    &Study::input_uncertainty),
   };
 }

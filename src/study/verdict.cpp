@@ -47,6 +47,9 @@ Judgement judge_distance(const Evidence& evidence, const CriticalGap& critical) 
 
 Judgement judge_sound(const Evidence& evidence, const CriticalGap& critical) {
   if (evidence.ignited) return {Verdict::unsafe, "ignition"};
+  if (!evidence.ignited_elsewhere.empty()) {
+    return indeterminate("the bottom ignites off the observation points, at " + evidence.ignited_elsewhere);
+  }
   if (!(evidence.margin > evidence.uncertainty)) {
     return indeterminate(fmt::format("margin {:.3g} K within the uncertainty, {:.2g} K", evidence.margin,
                                      evidence.uncertainty));
@@ -63,6 +66,7 @@ Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
   if (!evidence.doubt.empty()) return indeterminate("the run is in doubt: " + evidence.doubt);
   Judgement judgement = judge_sound(evidence, critical);
   if (!evidence.limited.empty()) judgement.reason += "; limiters acted: " + evidence.limited;
+  if (!evidence.extrapolated.empty()) judgement.reason += "; " + evidence.extrapolated;
   return judgement;
 }
 

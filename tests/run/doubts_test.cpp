@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace launchsafe::run {
 namespace {
@@ -102,15 +105,95 @@ TEST(Doubts, AMissingOrBrokenHistoryIsOne) {
   expect_one(doubts_of(shipped_scene(), run), "not finite from sample 2");
 }
 
-TEST(Doubts, ALoadThatIsCutOffBeforeItsPeak) {
-  scene::Scene scene = shipped_scene();
-  scene.load.duration = 9e-3;
-  expect_one(doubts_of(scene, sound_run()), "cut off before its peak");
-  scene.load.duration = 11e-3;  // at its peak
-  EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
-  scene.load.curve_time = {0.0, 5e-3, 11e-3};
-  scene.load.curve_pressure = {1e5, 4e8, 4e8};  // a plateau to the end
-  EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
+/// A launch that is covered, or the word for what is not.
+struct LoadCase {
+  const char* name;
+  std::function<void(scene::Load&)> change;
+  const char* said;  ///< empty: covered
+};
+
+void measured(scene::Load& load, std::vector<double> milliseconds, std::vector<double> megapascals) {
+  for (double& time : milliseconds) time *= 1e-3;
+  for (double& pressure : megapascals) pressure *= 1e6;
+  load.curve_time = std::move(milliseconds);
+  load.curve_pressure = std::move(megapascals);
+}
+
+TEST(Doubts, ALaunchThatIsNotSimulatedAsItIsStated) {
+  const std::vector<LoadCase> cases{
+      {"as shipped: ends at 18 % of its peak", [](auto&) {}, ""},
+      {"a late peak, passed", [](auto& load) { load.peak_time = 15e-3; }, ""},
+      {"analytic, cut off while it rises", [](auto& load) { load.duration = 9e-3; }, "not covered"},
+      {"analytic, cut off at its peak", [](auto& load) { load.duration = 11e-3; }, "cut off"},
+      {"analytic, the peak long after the end", [](auto& load) { load.peak_time = 0.5; }, "not covered"},
+      {"measured, covered",
+       [](auto& load) {
+         measured(load, {0, 5, 9, 11, 18}, {0.1, 20, 400, 496, 80});
+       },
+       ""},
+      {"measured, with quiet after it",
+       [](auto& load) {
+         measured(load, {0, 5, 9, 11, 17, 20, 50}, {0.1, 20, 400, 496, 80, 2, 0.1});
+       },
+       ""},
+      {"measured, goes on after the end",
+       [](auto& load) {
+         measured(load, {0, 5, 9, 11, 18, 25}, {0.1, 20, 400, 496, 90, 30});
+       },
+       "after the end"},
+      {"measured, 20 ms of quiet before it",
+       [](auto& load) {
+         measured(load, {0, 20, 25, 31, 38}, {0, 0, 20, 496, 80});
+       },
+       "not covered"},
+      {"the same, rescaled",
+       [](auto& load) {
+         measured(load, {0, 20, 25, 31, 38}, {0, 0, 20, 400, 80});
+         load.rescale_to_peak = true;
+       },
+       "not covered"},
+      {"measured, its second and larger hump after the end",
+       [](auto& load) {
+         measured(load, {0, 5, 10, 15, 18, 25, 30}, {0, 50, 200, 50, 40, 450, 10});
+       },
+       "44.4 % of its stated peak"},
+      {"measured, ends as the second hump begins",
+       [](auto& load) {
+         measured(load, {0, 5, 8, 12, 16, 18}, {0, 100, 300, 50, 60, 140});
+       },
+       "still rises"},
+      {"measured, cut at its peak",
+       [](auto& load) {
+         measured(load, {0, 5, 9, 18}, {0.1, 20, 100, 496});
+       },
+       "still rises"},
+      {"measured, a plateau to the end",
+       [](auto& load) {
+         measured(load, {0, 5, 11, 18}, {0.1, 400, 400, 400});
+       },
+       "cut off"},
+      {"measured, begins under load",
+       [](auto& load) {
+         measured(load, {0, 5, 11, 18}, {60, 300, 496, 80});
+       },
+       "begins with"},
+      {"measured, begins before the simulation",
+       [](auto& load) {
+         measured(load, {-6, -3, 0, 5, 11, 18}, {0, 60, 10, 300, 496, 80});
+       },
+       "before the start"},
+  };
+  for (const LoadCase& each : cases) {
+    scene::Scene scene = shipped_scene();
+    each.change(scene.load);
+    const auto doubts = doubts_of(scene, sound_run());
+    if (*each.said == '\0') {
+      EXPECT_TRUE(doubts.empty()) << each.name << ": " << doubts.front();
+      continue;
+    }
+    ASSERT_FALSE(doubts.empty()) << each.name;
+    EXPECT_NE(doubts.front().find(each.said), std::string::npos) << each.name << ": " << doubts.front();
+  }
 }
 
 TEST(Doubts, ATraceOfTooFewSamples) {

@@ -30,8 +30,10 @@ struct CaseAnswer {
   bool completed() const { return failure.empty(); }
 };
 
-/// Draws the answer from a mechanical run.
-CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::MechanicsResult& mechanics);
+/// Draws the answer from a mechanical run. `raised`: the mechanics under a raised load, where the study
+/// states no uncertainty of the inputs.
+CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::MechanicsResult& mechanics,
+                     const std::optional<run::MechanicsResult>& raised = std::nullopt);
 /// The answer of a case without a result.
 CaseAnswer failed_answer(const Study& study, const StudyCase& input, std::string failure);
 

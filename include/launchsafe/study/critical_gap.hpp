@@ -37,6 +37,7 @@ struct GapVerdict {
   double early_spread = not_a_number;  ///< K, at Study::early_time
   Peak anywhere;                       ///< over the whole bottom
   double margin = not_a_number;        ///< K, to the ignition temperature
+  double heated = not_a_number;  ///< K, T max of a skin that air and friction heat and that never reacts
   Uncertainty uncertainty;
   std::optional<NamedIgnition> ignition;           ///< at an observation point
   std::optional<NamedIgnition> ignition_anywhere;  ///< on the whole bottom
@@ -64,10 +65,13 @@ struct Confirmation {
 /// One mechanical case with its gaps.
 struct CaseOutcome {
   StudyCase input;
-  run::CaseResult result;         ///< mechanics, and a skin history for every gap
-  std::string failure;            ///< why every verdict is indeterminate; empty for a completed run
-  std::string start_time;         ///< UTC
-  bool reused = false;            ///< the mechanics were stored
+  run::CaseResult result;  ///< mechanics, and a skin history for every gap
+  std::string failure;     ///< why every verdict is indeterminate; empty for a completed run
+  std::string start_time;  ///< UTC
+  bool reused = false;     ///< the mechanics were stored
+  /// The mechanics under the raised load that shows what the inputs do, where the study states no uncertainty
+  /// of them; empty for the others.
+  std::optional<run::MechanicsResult> raised;
   CriticalGap critical;           ///< at the observation points
   CriticalGap critical_anywhere;  ///< if ignition anywhere on the bottom counted
   std::vector<Confirmation> confirmations;

@@ -11,11 +11,11 @@
 
 namespace launchsafe::study {
 
-/// One mechanical run, with the cases of the study that share it.
+/// One mechanical run, with the cases of the study that share it, or its run with a raised load.
 struct ForeseenRun {
-  std::string label;  ///< of the first of its cases
-  std::string hash;   ///< names its file in the store
-  std::size_t cases = 0;
+  std::string label;      ///< of the first of its cases
+  std::string hash;       ///< names its file in the store
+  std::size_t cases = 0;  ///< 0 for the run with a raised load that belongs to the run before it
   std::int64_t particles = 0, steps = 0;
   double memory = 0;  ///< bytes
   double time = 0;    ///< s on a core, predicted; 0 for a stored one

@@ -141,9 +141,11 @@ struct Study {
   // kinds that may use the record of an accuracy study
   std::string accuracy;  ///< path of the record from the study file's folder; empty: none
   double setting_tolerance =
-      not_a_number;                       ///< K, of T max; picks a setting from the record; NaN: the scene's
-  double fit_uncertainty = not_a_number;  ///< K, of the calibrated constants; NaN: not stated
-  double input_uncertainty = not_a_number;  ///< K, of T max by what is not known of the launch; NaN: likewise
+      not_a_number;  ///< K, of T max; picks a setting from the record; NaN: the scene's
+  /// K, of T max by the calibrated constants on the rows that they were fitted to; NaN: not stated
+  double fit_uncertainty = not_a_number;
+  /// K, of T max by what is not known of the launch, for the study's own scene; NaN: not stated
+  double input_uncertainty = not_a_number;
 };
 
 /// K. By so much was T max of the 155 mm shell seen to move between meshes of 1 to 10 mm with one set of
@@ -164,6 +166,7 @@ struct StudyCase {
   /// K; the rise of T max above the initial temperature for which that was found; NaN where it holds for any.
   /// Hotter skins have proportionally larger errors.
   double rise_of_uncertainty = not_a_number;
+  double pressure_ratio = 1.0;  ///< peak pressure over that of the study's scene
   scene::SceneFile scene;
 };
 

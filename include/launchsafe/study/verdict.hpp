@@ -17,8 +17,8 @@ struct Uncertainty {
   double integration = 0;  ///< against a tolerance ten times wider
   double coupling = 0;     ///< largest difference between traced and coupled runs, where confirmed
   double numerical = 0;    ///< of mesh, step and scaling: from an accuracy study, stated, or assumed
-  double fit = 0;          ///< of the calibrated constants, as stated
-  double input = 0;        ///< of what is not known of the launch, as stated
+  double fit = 0;          ///< of the calibrated constants, carried to this case
+  double input = 0;        ///< of what is not known of the launch
   /// Of the computation itself: the sum, since the parts are bounds and have common causes.
   double computed() const { return sampling + integration + coupling + numerical; }
   /// The root of the sum of squares of the independent parts, as ASME V&V 20 combines them.
@@ -36,6 +36,9 @@ struct Evidence {
   double uncertainty = 0;          ///< K
   std::string doubt = {};    ///< why a completed run is no basis (see run::doubts_of); empty for a sound one
   std::string limited = {};  ///< limiters that acted, for people; empty where none did
+  std::string ignited_elsewhere =
+      {};                         ///< where the bottom ignites off the observation points; empty: nowhere
+  std::string extrapolated = {};  ///< what lies outside the calibration's domain, for people; empty: nothing
 };
 
 struct Judgement {
@@ -43,9 +46,9 @@ struct Judgement {
   std::string reason;
 };
 
-/// Unsafe: ignition. Safe: none, the margin exceeds the uncertainty, and so does the distance to the critical
-/// gap. Indeterminate: everything else; a failed, doubtful or undefined computation never is anything else. A
-/// verdict on a run in which limiters acted says so.
+/// Unsafe: ignition. Safe: none on the whole bottom, the margin exceeds the uncertainty, and so does the
+/// distance to the critical gap. Indeterminate: everything else; a failed, doubtful or undefined computation
+/// never is anything else. A verdict on a run in which limiters acted says so.
 Judgement judge(const Evidence& evidence, const CriticalGap& critical);
 
 }  // namespace launchsafe::study

@@ -1,0 +1,92 @@
+#include "load_coverage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::run {
+namespace {
+
+/// Shares of the stated peak. Heat goes nearly with the square of the pressure: half a per cent is 1 % of it.
+constexpr double least_reached = 0.995;
+/// A launch whose pressure ends this near its peak has not been seen to pass it.
+constexpr double highest_end = 0.98;
+/// Rise over the last parts of the launch from which the load is on its way to somewhere.
+constexpr double least_rise = 0.01;
+/// Pressure before or after the simulated time that is no part of a launch: offset and noise of a gauge.
+constexpr double negligible = 0.01;
+/// A start that the charge would feel as a blow.
+constexpr double highest_start = 0.05;
+
+using scene::Load, scene::PressureHistory;
+
+std::string megapascals(double pressure) { return fmt::format("{:.4g} MPa", 1e-6 * pressure); }
+std::string milliseconds(double time) { return fmt::format("{:.6g} ms", 1e3 * time); }
+
+/// Mean pressure (Pa) of a part of the launch, between two shares of its duration.
+double mean_of(const PressureHistory& history, double duration, double begin, double end) {
+  constexpr int points = 50;
+  double sum = 0;
+  for (int i = 0; i < points; ++i) sum += history.at(duration * (begin + (end - begin) * (i + 0.5) / points));
+  return sum / points;
+}
+
+std::string reaches_its_peak(const Load& load, const PressureHistory& history) {
+  const double stated = history.stated_peak(), reached = history.peak();
+  if (reached >= least_reached * stated) return {};
+  return fmt::format(
+      "the load reaches {} within {}, {:.3g} % of its stated peak, {}: the launch is not covered",
+      megapascals(reached), milliseconds(load.duration), 100.0 * reached / stated, megapascals(stated));
+}
+
+std::string passes_its_peak(const Load& load, const PressureHistory& history) {
+  const double stated = history.stated_peak(), end = history.at(load.duration);
+  // Means, so that the noise of a gauge is no rise.
+  const double before = mean_of(history, load.duration, 0.95, 0.975);
+  const double last = mean_of(history, load.duration, 0.975, 1.0);
+  if (last - before > least_rise * stated) {
+    return fmt::format(
+        "the load still rises at the end of the simulation, {}, where it is {}: the launch is cut "
+        "off",
+        milliseconds(load.duration), megapascals(end));
+  }
+  if (end < highest_end * stated) return {};
+  return fmt::format("the simulation ends at {} with the load at {:.3g} % of its peak: the launch is cut off",
+                     milliseconds(load.duration), 100.0 * end / stated);
+}
+
+std::string begins_at_rest(const PressureHistory& history) {
+  const double stated = history.stated_peak(), start = history.at(0.0);
+  if (start <= highest_start * stated) return {};
+  return fmt::format("the load begins with {}, {:.3g} % of its peak: how it came there is not covered",
+                     megapascals(start), 100.0 * start / stated);
+}
+
+/// What a measured curve has before the start and after the end of the simulation.
+std::string is_whole(const Load& load, const PressureHistory& history) {
+  const double limit = negligible * history.stated_peak();
+  const double end = load.duration * (1.0 + 1e-9);
+  for (const double time : load.curve_time) {
+    if ((time >= 0.0 && time <= end) || !(history.at(time) > limit)) continue;
+    return fmt::format("the measured curve has {} at {}, {} the simulation: the launch is not covered",
+                       megapascals(history.at(time)), milliseconds(time),
+                       time < 0.0 ? "before the start of" : "after the end of");
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> uncovered_load(const Load& load) {
+  const PressureHistory history(load);
+  std::vector<std::string> uncovered;
+  if (history.stated_peak() == 0.0) return uncovered;  // nothing can be missing of no load
+  for (const std::string& each : {reaches_its_peak(load, history), passes_its_peak(load, history),
+                                  begins_at_rest(history), is_whole(load, history)}) {
+    if (!each.empty()) uncovered.push_back(each);
+  }
+  return uncovered;
+}
+
+}  // namespace launchsafe::run

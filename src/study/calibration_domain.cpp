@@ -1,0 +1,172 @@
+#include "launchsafe/study/calibration_domain.hpp"
+
+#include "launchsafe/scene/scene_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace launchsafe::study {
+namespace {
+
+using scene::Scene, scene::Value;
+
+/// What another value of a scene key does to the calibration.
+enum class Role {
+  none,        ///< judged elsewhere, or computes nothing
+  condition,   ///< the launch: the constants' relative errors are carried to its own temperature rises
+  load_shape,  ///< likewise
+  numerics,    ///< another mesh error than the one that the constants absorbed
+  hot_above,   ///< a calibrated constant; a larger one makes a hotter skin or an earlier ignition
+  hot_below,   ///< likewise, a smaller one
+  model        ///< another law, material or constant
+};
+
+struct NamedRole {
+  std::string_view key;
+  Role role;
+};
+
+/// Keys that are not what their table is.
+// clang-format off
+constexpr std::array special_keys{
+    NamedRole{"title", Role::none},
+    NamedRole{"frame", Role::numerics},
+    NamedRole{"initial_temperature", Role::condition},
+    NamedRole{"load.peak", Role::condition},
+    NamedRole{"load.curve", Role::none},               // its points count
+    NamedRole{"charge.crack_radius", Role::condition},
+    NamedRole{"charge.flaw_size", Role::condition},
+    NamedRole{"gap.thickness", Role::none},            // judged row by row
+    NamedRole{"gap.air_density", Role::condition},
+    NamedRole{"gap.air_temperature", Role::condition},
+    NamedRole{"gap.air_pressure", Role::condition},
+    NamedRole{"gap.exchange_time", Role::hot_below},
+    NamedRole{"friction.localisation", Role::hot_above},
+    NamedRole{"kinetics.set", Role::none},             // its numbers count
+    NamedRole{"kinetics.activation_temperature", Role::hot_below},
+    NamedRole{"kinetics.ignition_temperature", Role::hot_below},
+    NamedRole{"numerics.energy_drift_limit", Role::none},
+    NamedRole{"numerics.time_step_factor", Role::none}  // moves T max by less than 0.1 K (reports/accuracy_155mm)
+};
+// clang-format on
+
+Role role_of(std::string_view key) {
+  for (const NamedRole& each : special_keys) {
+    if (each.key == key) return each.role;
+  }
+  if (key.starts_with("load.")) return Role::load_shape;
+  if (key.starts_with("numerics.")) return Role::numerics;
+  if (key.starts_with("output.") || key.starts_with("physics.")) return Role::none;
+  return Role::model;
+}
+
+bool same_number(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+bool same_value(const Value& a, const Value& b) {
+  if (a.index() != b.index()) return false;
+  if (const auto* number = std::get_if<double>(&a)) return same_number(*number, std::get<double>(b));
+  const auto* list = std::get_if<std::vector<double>>(&a);
+  if (list == nullptr) return a == b;
+  const auto& other = std::get<std::vector<double>>(b);
+  return std::equal(list->begin(), list->end(), other.begin(), other.end(), same_number);
+}
+
+/// m; much less than any tolerance of a drawing.
+constexpr double same_place = 1e-6;
+
+bool near(double a, double b) { return std::abs(a - b) <= same_place; }
+
+bool same_body(const scene::Body& a, const scene::Body& b) {
+  return a.material == b.material && near(a.x_begin, b.x_begin) && near(a.x_end, b.x_end) &&
+         near(a.r_begin, b.r_begin) && near(a.r_end, b.r_end);
+}
+
+bool same_shell(const Scene& a, const Scene& b) {
+  return std::is_permutation(a.bodies.begin(), a.bodies.end(), b.bodies.begin(), b.bodies.end(), same_body);
+}
+
+/// T max of the calibration is the hottest of its points; a scene may have more.
+bool has_points_of(const Scene& calibrated, const Scene& scene) {
+  const auto& wanted = calibrated.output.observation_points;
+  const auto& present = scene.output.observation_points;
+  return std::all_of(wanted.begin(), wanted.end(), [&](const auto& point) {
+    return std::any_of(present.begin(), present.end(),
+                       [&](const auto& each) { return near(each.x, point.x) && near(each.r, point.r); });
+  });
+}
+
+std::string name_of_condition(const std::string& key) {
+  if (key == "load.peak") return "peak pressure";
+  if (key == "charge.crack_radius") return "crack radius";
+  if (key == "charge.flaw_size") return "flaw size";
+  if (key == "initial_temperature") return "initial temperature";
+  return key;
+}
+
+void add_difference(CalibrationDistance& distance, const std::string& key, const Value& value,
+                    const Value& calibrated) {
+  const Role role = role_of(key);
+  switch (role) {
+    case Role::none:
+      return;
+    case Role::condition:
+      distance.carried.push_back(name_of_condition(key));
+      return;
+    case Role::load_shape:
+      distance.other_load_shape = true;
+      return;
+    case Role::numerics:
+      distance.other_numerics = true;
+      return;
+    case Role::hot_above:
+    case Role::hot_below: {
+      const bool hotter =
+          (std::get<double>(value) > std::get<double>(calibrated)) == (role == Role::hot_above);
+      (hotter ? distance.carried : distance.unknown).push_back(key);
+      return;
+    }
+    case Role::model:
+      distance.unknown.push_back(key);
+      return;
+  }
+}
+
+}  // namespace
+
+Scene calibration_scene() {
+  using enum scene::BodyMaterial;
+  Scene scene;
+  scene.bodies = {{"nose", steel, 0.0, 0.118, 0.0, 0.0775},
+                  {"charge", charge, 0.118, 0.678, 0.0, 0.065},
+                  {"wall", steel, 0.118, 0.678, 0.065, 0.0775},
+                  {"base", steel, 0.678, 0.74, 0.0, 0.0775}};
+  for (int point = 1; point <= 13; ++point) {
+    scene.output.observation_points.push_back(
+        {fmt::format("G{}", point), 0.6775, 0.0675 - 0.005 * static_cast<double>(point)});
+  }
+  return scene;
+}
+
+CalibrationDistance distance_to_calibration(const Scene& scene) {
+  static const Scene calibrated = calibration_scene();
+  CalibrationDistance distance;
+  if (!same_shell(scene, calibrated)) {
+    distance.unknown.emplace_back("another shell");
+  } else if (!has_points_of(calibrated, scene)) {
+    distance.unknown.emplace_back("observation points are missing");
+  }
+  for (const auto& key : scene::scene_keys()) {
+    const Value value = key.get(scene), wanted = key.get(calibrated);
+    if (!same_value(value, wanted)) add_difference(distance, key.name, value, wanted);
+  }
+  if (distance.other_load_shape) distance.carried.emplace_back("load shape");
+  if (distance.other_numerics) distance.carried.emplace_back("numerics");
+  return distance;
+}
+
+}  // namespace launchsafe::study

@@ -1,0 +1,140 @@
+#include "case_uncertainty.hpp"
+
+#include "launchsafe/study/uncertainty_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::study::detail {
+namespace {
+
+/// What a scene says in its `accept` of using the constants outside of their domain.
+constexpr const char* calibration_key = "calibration";
+
+const scene::Acceptance* acceptance_of_calibration(const StudyCase& input) {
+  const auto& accepted = input.scene.scene.accepted;
+  const auto found = std::find_if(accepted.begin(), accepted.end(),
+                                  [](const auto& each) { return each.key == calibration_key; });
+  return found == accepted.end() ? nullptr : &*found;
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 4;
+  const std::size_t shown = std::min(names.size(), most);
+  std::string text =
+      fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<long>(shown), ", "));
+  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
+}  // namespace
+
+bool gives_verdicts(const Study& study) {
+  return study.kind == StudyKind::critical_gap || study.kind == StudyKind::sweep;
+}
+
+bool propagates_spread(const Study& study) {
+  return gives_verdicts(study) && !std::isfinite(study.input_uncertainty);
+}
+
+std::string label_of_raised(const StudyCase& input) {
+  return fmt::format("{}, load +{:.3g} %", input.label, 100.0 * assumed_load_spread);
+}
+
+ObtainedRun obtain_raised(const StudyCase& input, const StudyOptions& options) {
+  const scene::Scene scene = with_raised_load(input.scene.scene);
+  ObtainedRun run = obtain({&scene, label_of_raised(input), std::nullopt}, options, [](double) {});
+  run.result.mechanics.monitor = {};
+  run.result.mechanics.snapshots = {};
+  return run;
+}
+
+scene::Scene with_raised_load(const scene::Scene& scene) {
+  scene::Scene raised = scene;
+  const double factor = 1.0 + assumed_load_spread;
+  scene::Load& load = raised.load;
+  load.peak *= factor;
+  if (!load.rescale_to_peak) {
+    for (double& pressure : load.curve_pressure) pressure *= factor;
+  }
+  return raised;
+}
+
+double fit_share(const Study& study, const CalibrationDistance& distance, const Rises& rises) {
+  if (!gives_verdicts(study)) return 0.0;
+  const CalibrationEvidence evidence;
+  double fit = std::isfinite(study.fit_uncertainty) ? study.fit_uncertainty : evidence.largest_misfit;
+  if (distance.other_load_shape) fit = std::max(fit, evidence.largest_misfit);
+  const double growth = std::hypot(rises.friction / evidence.friction_rise, rises.air / evidence.air_rise);
+  // Written so that a rise that is not a number leaves none.
+  fit *= growth <= 1.0 ? 1.0 : growth;
+  return distance.other_numerics ? std::hypot(fit, assumed_numerical_uncertainty) : fit;
+}
+
+double stated_input_share(const Study& study, const StudyCase& input) {
+  if (!std::isfinite(study.input_uncertainty)) return 0.0;
+  const double growth = input.pressure_ratio * input.pressure_ratio;
+  return study.input_uncertainty * (growth <= 1.0 ? 1.0 : growth);
+}
+
+std::string calibration_doubt(const StudyCase& input, const CalibrationDistance& distance) {
+  if (distance.unknown.empty() || acceptance_of_calibration(input) != nullptr) return {};
+  return fmt::format(
+      "extrapolated: the constants were calibrated on another launch ({}), and nothing says how wrong they "
+      "are "
+      "here (accept = [{{ key = \"{}\", because = \"...\" }}] in the scene takes them)",
+      list_of(distance.unknown), calibration_key);
+}
+
+std::string extrapolation_text(const StudyCase& input, const CalibrationDistance& distance, double gap) {
+  std::vector<std::string> beyond = distance.unknown;
+  beyond.insert(beyond.end(), distance.carried.begin(), distance.carried.end());
+  if (gap > CalibrationEvidence{}.largest_gap * (1.0 + 1e-9)) beyond.emplace_back("gap");
+  if (beyond.empty()) return {};
+  std::string text = "extrapolated: " + list_of(beyond);
+  const scene::Acceptance* accepted = acceptance_of_calibration(input);
+  if (!distance.unknown.empty() && accepted != nullptr) text += ", accepted because " + accepted->because;
+  return text;
+}
+
+}  // namespace launchsafe::study::detail
+
+namespace launchsafe::study {
+
+std::string fit_uncertainty_text(const Study& study) {
+  const CalibrationEvidence evidence;
+  const std::string base =
+      std::isfinite(study.fit_uncertainty)
+          ? fmt::format("{:.3g} K, as the study states", study.fit_uncertainty)
+          : fmt::format(
+                "{:.3g} K, as the study states none: the largest misfit of the published temperatures that "
+                "nothing was fitted to",
+                evidence.largest_misfit);
+  return fmt::format(
+      "{}, for the rows that the constants were fitted to, where friction heats by {:.4g} K and the air by "
+      "{:.4g} K; "
+      "their relative errors are carried to a case's own heating by friction and air. Under another load "
+      "shape it is "
+      "at least {:.3g} K, and with other numerics {:.3g} K for the mesh error that the constants absorbed "
+      "come in.",
+      base, evidence.friction_rise, evidence.air_rise, evidence.largest_misfit,
+      assumed_numerical_uncertainty);
+}
+
+std::string input_uncertainty_text(const Study& study) {
+  if (std::isfinite(study.input_uncertainty)) {
+    return fmt::format(
+        "{:.3g} K, as the study states for its own scene; at a higher peak it grows with the square of the "
+        "pressure.",
+        study.input_uncertainty);
+  }
+  return fmt::format(
+      "the study states none, so that an assumed spread is propagated: the load {:.3g} % higher, by a run of "
+      "its own, "
+      "and the initial temperature {:.3g} K higher, both together.",
+      100.0 * detail::assumed_load_spread, detail::assumed_temperature_spread);
+}
+
+}  // namespace launchsafe::study

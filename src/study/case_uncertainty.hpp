@@ -1,0 +1,57 @@
+// What a verdict's uncertainty is made of besides the computation itself: the calibrated constants, and what
+// is not known of the launch.
+#pragma once
+
+#include "case_runs.hpp"
+#include "launchsafe/study/calibration_domain.hpp"
+#include "launchsafe/study/critical_gap.hpp"
+
+#include <string>
+
+namespace launchsafe::study::detail {
+
+/// Half widths (about 95 %) that are assumed of a launch of which a study states no input uncertainty: the
+/// chamber pressure from round to round, as in the shipped sensitivity study, and the temperature of the
+/// charge.
+inline constexpr double assumed_load_spread = 0.04;
+inline constexpr double assumed_temperature_spread = 12.0;  ///< K
+
+/// Whether a kind of study says which gaps are safe. A stability study judges the computation alone, and the
+/// others compare numbers.
+bool gives_verdicts(const Study& study);
+
+/// Whether the uncertainty of the inputs is found by propagating the assumed spread, which takes a run with a
+/// raised load beside every case: where verdicts are given and the study states none.
+bool propagates_spread(const Study& study);
+
+/// The same launch with the pressure at the hot end of the assumed spread.
+scene::Scene with_raised_load(const scene::Scene& scene);
+/// "CASE, load +4 %".
+std::string label_of_raised(const StudyCase& input);
+/// Its mechanics without monitor and snapshots, from the store or computed. Throws as `obtain`.
+ObtainedRun obtain_raised(const StudyCase& input, const StudyOptions& options);
+
+/// How far a skin without reaction is heated (K) above the initial temperature: by friction, and by the air
+/// of a gap in addition.
+struct Rises {
+  double friction = 0;
+  double air = 0;
+};
+
+/// K, uncertainty of T max by the calibrated constants: the stated one, or the largest misfit of the held-out
+/// rows. It is that of the rows that the constants were fitted to; their relative errors are carried to the
+/// case's own rises. Another load shape was held out in no row but those at another time, and other numerics
+/// have another mesh error than the constants absorbed: both add to it. 0 for a study without verdicts.
+double fit_share(const Study& study, const CalibrationDistance& distance, const Rises& rises);
+
+/// K, as a study states it for its own scene; heat goes nearly with the square of the pressure, so that it
+/// grows with that.
+double stated_input_share(const Study& study, const StudyCase& input);
+
+/// Why the constants say nothing of a case, for its verdict; empty inside the calibration's domain, where a
+/// rule carries them, and where the scene accepts it.
+std::string calibration_doubt(const StudyCase& input, const CalibrationDistance& distance);
+/// What is extrapolated for a gap (m), for its verdict; empty for nothing.
+std::string extrapolation_text(const StudyCase& input, const CalibrationDistance& distance, double gap);
+
+}  // namespace launchsafe::study::detail

@@ -1,0 +1,115 @@
+#include "launchsafe/study/calibration_domain.hpp"
+
+#include "launchsafe/scene/read_scene.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <string>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::study;
+
+scene::Scene shipped_scene() {
+  return scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
+}
+
+TEST(CalibrationDomain, IsTheShippedScene) {
+  const scene::Scene calibrated = calibration_scene(), shipped = shipped_scene();
+  EXPECT_TRUE(distance_to_calibration(shipped).inside());
+  for (const auto& key : scene::scene_keys()) {
+    if (key.name == "title" || key.name == "gap.thickness") continue;
+    EXPECT_EQ(scene::format_value(key, key.get(calibrated)), scene::format_value(key, key.get(shipped)))
+        << key.name;
+  }
+}
+
+/// The misfit that stands in for a fit uncertainty which nobody stated is that of the shipped calibration.
+TEST(CalibrationDomain, TheLargestMisfitIsThatOfTheReport) {
+  std::ifstream file(LAUNCHSAFE_SOURCE_DIR "/reports/calibrate_table8/hold_outs.csv");
+  ASSERT_TRUE(file);
+  double largest = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with("2.5,literal,comp-b,T ")) continue;
+    std::vector<std::string> cells{""};
+    for (const char letter : line) {
+      if (letter == ',') {
+        cells.emplace_back();
+      } else {
+        cells.back() += letter;
+      }
+    }
+    largest = std::max(largest, std::abs(std::stod(cells.at(7))));
+  }
+  EXPECT_NEAR(CalibrationEvidence{}.largest_misfit, largest, 0.005);
+}
+
+struct Change {
+  const char* name;
+  std::function<void(scene::Scene&)> change;
+  const char* unknown;  ///< what nothing carries over; empty: a rule does
+  const char* carried;  ///< likewise; empty: nothing
+};
+
+TEST(CalibrationDomain, NamesWhatLiesOutside) {
+  const std::vector<Change> changes{
+      {"gaps are judged row by row", [](auto& s) { s.surface.gaps = {1e-3}; }, "", ""},
+      {"more points",
+       [](auto& s) {
+         s.output.observation_points.push_back({"X", 0.6775, 0.03});
+       },
+       "", ""},
+      {"smaller steps", [](auto& s) { s.numerics.time_step_factor = 0.25; }, "", ""},
+      {"a finer trace", [](auto& s) { s.output.trace_interval = 1e-5; }, "", ""},
+      {"pressure", [](auto& s) { s.load.peak = 550e6; }, "", "peak pressure"},
+      {"cracks", [](auto& s) { s.charge.cracks.initial_crack_radius = 1e-4; }, "", "crack radius"},
+      {"cold", [](auto& s) { s.initial_temperature = 250.0; }, "", "initial temperature"},
+      {"load shape", [](auto& s) { s.load.exponent = 17.0; }, "", "load shape"},
+      {"a measured curve",
+       [](auto& s) {
+         s.load.curve_time = {0.0, 9e-3, 18e-3};
+         s.load.curve_pressure = {0.0, 496e6, 1e8};
+       },
+       "", "load shape"},
+      {"mesh", [](auto& s) { s.numerics.cell_size = 5e-3; }, "", "numerics"},
+      {"scaling", [](auto& s) { s.numerics.inertial_scaling = 16.0; }, "", "numerics"},
+      {"frame", [](auto& s) { s.frame = scene::Frame::lab; }, "", "numerics"},
+      {"another calibre", [](auto& s) { s.bodies[2].r_end = s.bodies[0].r_end = s.bodies[3].r_end = 0.06; },
+       "another shell", ""},
+      {"another charge length", [](auto& s) { s.bodies[1].x_begin += 0.01; }, "another shell", ""},
+      {"the hottest point left out",
+       [](auto& s) { s.output.observation_points.erase(s.output.observation_points.begin()); },
+       "observation points are missing", ""},
+      {"explosive", [](auto& s) { s.charge.eos.initial_density = 1800.0; }, "charge.density", ""},
+      {"steel", [](auto& s) { s.steel.strength.a = 1e9; }, "steel.yield_stress", ""},
+      {"closure", [](auto& s) { s.surface.friction = scene::FrictionClosure::inelastic; }, "friction.closure",
+       ""},
+      {"skin", [](auto& s) { s.surface.skin_thickness = 1e-3; }, "gap.skin_thickness", ""},
+      {"barrel", [](auto& s) { s.barrel = scene::Barrel::none; }, "barrel", ""},
+      {"less friction heat", [](auto& s) { s.surface.localisation = 400.0; }, "friction.localisation", ""},
+      {"more friction heat", [](auto& s) { s.surface.localisation = 900.0; }, "", "friction.localisation"},
+      {"slower exchange", [](auto& s) { s.surface.exchange_time = 1e-3; }, "gap.exchange_time", ""},
+      {"later ignition", [](auto& s) { s.charge.kinetics.ignition_temperature = 528.0; },
+       "kinetics.ignition_temperature", ""},
+      {"earlier ignition", [](auto& s) { s.charge.kinetics.ignition_temperature = 500.0; }, "",
+       "kinetics.ignition_temperature"},
+  };
+  for (const Change& each : changes) {
+    scene::Scene scene = shipped_scene();
+    each.change(scene);
+    const CalibrationDistance distance = distance_to_calibration(scene);
+    const auto said = [](const std::vector<std::string>& names) {
+      return names.empty() ? "" : names.front();
+    };
+    EXPECT_EQ(said(distance.unknown), each.unknown) << each.name;
+    EXPECT_EQ(said(distance.carried), each.carried) << each.name;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,172 @@
+// The shares of a verdict's uncertainty, and the doubts of a calibration outside its domain, on a launch in
+// closed form.
+#include "launchsafe/study/calibration_domain.hpp"
+#include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/critical_gap.hpp"
+#include "launchsafe/study/sweep.hpp"
+#include "study/synthetic_launch.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::study;
+
+/// The friction energy that heats by `kelvin` with the calibrated localisation.
+double calibrated_friction(double kelvin) {
+  return kelvin * 1717.0 * 1780.0 / calibration_scene().surface.localisation;
+}
+
+/// A launch that heats by friction in proportion to the square of its peak, 116.1 K at 496 MPa; the air of a
+/// gap comes on top.
+run::MechanicsResult quadratic_launch(const scene::Scene& scene) {
+  const double ratio = scene::PressureHistory(scene.load).stated_peak() / 496e6;
+  run::MechanicsResult result = synthetic_mechanics(scene);
+  result.trace = synthetic_trace(scene.load.peak, calibrated_friction(116.1 * ratio * ratio));
+  // The corner is no hotter than the points here: ignition off the points has a test of its own.
+  for (auto& friction : result.trace.friction) {
+    for (std::size_t i = 3; i < friction.size(); i += 4) friction[i] = friction[i - 2];
+  }
+  return result;
+}
+
+StudyOptions quadratic_options() {
+  StudyOptions options = synthetic_options();
+  options.runners.mechanics = [](const scene::Scene& scene, const run::RunOptions&) {
+    return quadratic_launch(scene);
+  };
+  options.runners.coupled = [](const scene::Scene& scene, double gap, const run::RunOptions&) {
+    run::CaseResult result;
+    result.mechanics = quadratic_launch(scene);
+    result.gaps.push_back(run::evaluate_gap(scene, result.mechanics.trace, gap));
+    return result;
+  };
+  return options;
+}
+
+const std::string no_confirmation = "confirm = false\ngaps = \"0, 0.02 cm\"\n";
+const std::string stated =
+    "numerical_uncertainty = \"1 K\"\nfit_uncertainty = \"2 K\"\ninput_uncertainty = \"3 K\"\n";
+
+GapVerdict first_row(const std::string& text) {
+  const CriticalGapResult result =
+      run_critical_gap(study_of(critical_text + no_confirmation + text), quadratic_options());
+  return result.cases.at(0).verdicts.at(0);
+}
+
+TEST(CaseUncertainty, StatedSharesAreTakenOnTheRowsOfTheCalibration) {
+  const GapVerdict row = first_row(stated);
+  EXPECT_NEAR(row.uncertainty.numerical, 1.0, 1e-9);
+  EXPECT_NEAR(row.uncertainty.fit, 2.0, 2e-3);
+  EXPECT_EQ(row.uncertainty.input, 3.0);
+  EXPECT_EQ(row.judgement.verdict, Verdict::safe) << row.judgement.reason;
+  EXPECT_EQ(row.judgement.reason.find("extrapolated"), std::string::npos) << row.judgement.reason;
+}
+
+TEST(CaseUncertainty, SilenceAboutTheFitCostsTheLargestMisfitOfTheHoldOuts) {
+  const GapVerdict row = first_row("numerical_uncertainty = \"1 K\"\ninput_uncertainty = \"3 K\"\n");
+  EXPECT_NEAR(row.uncertainty.fit, 21.96, 0.01);
+}
+
+/// 4 % of pressure are 8.16 % of the friction heat of 116.1 K; 12 K of initial temperature are 12 K.
+TEST(CaseUncertainty, SilenceAboutTheInputsPropagatesAnAssumedSpread) {
+  std::vector<double> peaks;
+  StudyOptions options = quadratic_options();
+  options.runners.mechanics = [&peaks](const scene::Scene& scene, const run::RunOptions&) {
+    peaks.push_back(scene.load.peak);
+    return quadratic_launch(scene);
+  };
+  const CriticalGapResult result =
+      run_critical_gap(study_of(critical_text + no_confirmation +
+                                "numerical_uncertainty = \"1 K\"\nfit_uncertainty = \"2 K\"\n"),
+                       options);
+  EXPECT_EQ(peaks, (std::vector<double>{496e6, 1.04 * 496e6}));
+  EXPECT_EQ(result.timing.runs, 2u);
+  const GapVerdict& row = result.cases.at(0).verdicts.at(0);
+  EXPECT_NEAR(row.uncertainty.input, 0.0816 * 116.1 + 12.0, 1e-3);
+  EXPECT_GT(result.cases[0].verdicts[1].uncertainty.input, row.uncertainty.input);  // hotter air too
+}
+
+TEST(CaseUncertainty, ARaisedLoadThatCannotBeComputedLeavesNothingSafe) {
+  StudyOptions options = quadratic_options();
+  options.runners.mechanics = [](const scene::Scene& scene, const run::RunOptions&) {
+    run::MechanicsResult result = quadratic_launch(scene);
+    if (scene.load.peak > 500e6) result.status = run::RunStatus::energy_drift;
+    return result;
+  };
+  const CriticalGapResult result = run_critical_gap(study_of(critical_text + no_confirmation), options);
+  for (const GapVerdict& row : result.cases.at(0).verdicts) {
+    EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
+    EXPECT_NE(row.judgement.reason.find("load raised by 4 %: energy drift"), std::string::npos)
+        << row.judgement.reason;
+  }
+}
+
+/// Twice the heating has twice the error: the relative errors of the constants are carried to the case.
+TEST(CaseUncertainty, TheErrorOfTheConstantsGrowsWithTheHeat) {
+  const double pressure = 496.0 * std::sqrt(1.5);
+  const GapVerdict row = first_row(stated + fmt::format("peak_pressures = \"{} MPa\"\n", pressure));
+  EXPECT_NEAR(row.uncertainty.fit, 1.5 * 2.0, 5e-3);
+  EXPECT_NEAR(row.uncertainty.input, 1.5 * 3.0, 1e-6);
+  EXPECT_NE(row.judgement.reason.find("extrapolated: peak pressure"), std::string::npos)
+      << row.judgement.reason;
+  // and never falls below what was stated
+  EXPECT_EQ(first_row(stated + "peak_pressures = \"250 MPa\"\n").uncertainty.fit, 2.0);
+}
+
+TEST(CaseUncertainty, OtherNumericsBringTheMeshErrorOfTheCalibration) {
+  const GapVerdict row = first_row(stated + "[set]\nnumerics.inertial_scaling = 16\n");
+  EXPECT_NEAR(row.uncertainty.fit, std::hypot(2.0, assumed_numerical_uncertainty), 1e-2);
+  EXPECT_NE(row.judgement.reason.find("extrapolated: numerics"), std::string::npos) << row.judgement.reason;
+}
+
+TEST(CaseUncertainty, AnotherLoadShapeKeepsTheLargestMisfit) {
+  const GapVerdict row = first_row(stated + "[set]\nload.exponent = 13\n");
+  EXPECT_NEAR(row.uncertainty.fit, 21.96, 0.02);
+  EXPECT_NE(row.judgement.reason.find("load shape"), std::string::npos) << row.judgement.reason;
+}
+
+/// The constants of the 155 mm shell say nothing of another one, however small its own errors are.
+TEST(CaseUncertainty, AnotherShellIsIndeterminateUnlessItsSceneSaysWhyNot) {
+  for (const std::string change : {"body.charge.r = \"0 to 6 cm\"\nbody.wall.r = \"6 to 7.75 cm\"\n",
+                                   "friction.closure = \"inelastic\"\n", "charge.density = \"1.65 g/cm3\"\n",
+                                   "friction.localisation = 400\n"}) {
+    for (const bool accepted : {false, true}) {
+      StudyFile study = study_of(critical_text + no_confirmation + stated + "[set]\n" + change);
+      ASSERT_EQ(study.cases.size(), 1u);
+      if (accepted) study.cases[0].scene.scene.accepted = {{"calibration", "our own firing trials agree"}};
+      const CriticalGapResult result = run_critical_gap(study, quadratic_options());
+      const GapVerdict& row = result.cases.at(0).verdicts.at(0);
+      EXPECT_NE(row.judgement.reason.find("extrapolated"), std::string::npos) << row.judgement.reason;
+      EXPECT_EQ(row.judgement.verdict, accepted ? Verdict::safe : Verdict::indeterminate)
+          << change << row.judgement.reason;
+      EXPECT_EQ(row.judgement.reason.find("our own firing trials agree") != std::string::npos, accepted);
+    }
+  }
+}
+
+TEST(CaseUncertainty, AStudyWithoutVerdictsNeedsNoSecondRun) {
+  const StudyFile study = study_of(
+      "kind = \"sensitivity\"\nscene = \"scene_155mm.toml\"\ngap = \"0.02 cm\"\nsamples = 16\n"
+      "input = [{ key = \"friction.localisation\", distribution = \"uniform\", range = \"700 to 900\" }]\n");
+  const CaseAnswer answer =
+      answer_of(study.study, study.cases[0], quadratic_launch(study.cases[0].scene.scene));
+  EXPECT_EQ(answer.verdicts.at(0).uncertainty.fit, 0.0);
+  EXPECT_EQ(answer.critical.kind, CriticalGapKind::value) << answer.critical.reason;
+}
+
+TEST(CaseUncertainty, ASweepPropagatesTheSpreadToo) {
+  const std::string text =
+      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = \"1 K\"\nfit_uncertainty = "
+      "\"2 K\"\n"
+      "[axes]\ngap = \"0, 0.02 cm\"\npeak_pressure = \"400, 496 MPa\"\n";
+  const SweepResult result = run_sweep(study_of(text), quadratic_options());
+  EXPECT_EQ(result.timing.runs, 4u);
+  EXPECT_NEAR(result.answers.at(1).verdicts.at(0).uncertainty.input, 0.0816 * 116.1 + 12.0, 1e-3);
+}
+
+}  // namespace
