@@ -1,5 +1,6 @@
 #include "case_uncertainty.hpp"
 
+#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/study/uncertainty_text.hpp"
 
 #include <fmt/format.h>
@@ -10,14 +11,8 @@
 namespace launchsafe::study::detail {
 namespace {
 
-/// What a scene says in its `accept` of using the constants outside of their domain.
-constexpr const char* calibration_key = "calibration";
-
-const scene::Acceptance* acceptance_of_calibration(const StudyCase& input) {
-  const auto& accepted = input.scene.scene.accepted;
-  const auto found = std::find_if(accepted.begin(), accepted.end(),
-                                  [](const auto& each) { return each.key == calibration_key; });
-  return found == accepted.end() ? nullptr : &*found;
+std::string reason_for_calibration(const StudyCase& input) {
+  return scene::reason_for(input.scene.scene.accepted, scene::foreign_calibration);
 }
 
 std::string list_of(const std::vector<std::string>& names) {
@@ -80,12 +75,12 @@ double stated_input_share(const Study& study, const StudyCase& input) {
 }
 
 std::string calibration_doubt(const StudyCase& input, const CalibrationDistance& distance) {
-  if (distance.unknown.empty() || acceptance_of_calibration(input) != nullptr) return {};
+  if (distance.unknown.empty() || !reason_for_calibration(input).empty()) return {};
   return fmt::format(
       "extrapolated: the constants were calibrated on another launch ({}), and nothing says how wrong they "
       "are "
       "here (accept = [{{ key = \"{}\", because = \"...\" }}] in the scene takes them)",
-      list_of(distance.unknown), calibration_key);
+      list_of(distance.unknown), scene::foreign_calibration);
 }
 
 std::string extrapolation_text(const StudyCase& input, const CalibrationDistance& distance, double gap) {
@@ -94,8 +89,8 @@ std::string extrapolation_text(const StudyCase& input, const CalibrationDistance
   if (gap > CalibrationEvidence{}.largest_gap * (1.0 + 1e-9)) beyond.emplace_back("gap");
   if (beyond.empty()) return {};
   std::string text = "extrapolated: " + list_of(beyond);
-  const scene::Acceptance* accepted = acceptance_of_calibration(input);
-  if (!distance.unknown.empty() && accepted != nullptr) text += ", accepted because " + accepted->because;
+  const std::string because = reason_for_calibration(input);
+  if (!distance.unknown.empty() && !because.empty()) text += ", accepted because " + because;
   return text;
 }
 

@@ -171,11 +171,24 @@ std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
          (confirmation.expected_ignition ? "do" : "do not");
 }
 
+/// What is not plausible of a case and of what its study states, where that gives verdicts. No hard case of a
+/// stability study may pass because its input is called implausible.
+std::vector<scene::Implausible> implausible_in(const Study& study, const CaseOutcome& outcome) {
+  if (!gives_verdicts(study)) return {};
+  std::vector<scene::Implausible> values = study.implausible;
+  for (scene::Implausible& each : scene::implausible_values(outcome.input.scene.scene))
+    values.push_back(std::move(each));
+  return values;
+}
+
 /// All doubts about a completed run as one clause.
 std::string doubt_of(const Study& study, const CaseOutcome& outcome) {
   if (!outcome.completed()) return {};
   const scene::Scene& scene = outcome.input.scene.scene;
   std::vector<std::string> doubts = run::doubts_of(scene, outcome.result.mechanics);
+  for (const scene::Implausible& each : implausible_in(study, outcome)) {
+    if (!each.accepted()) doubts.push_back(scene::doubt_text(each));
+  }
   if (gives_verdicts(study)) {
     if (auto doubt = calibration_doubt(outcome.input, distance_to_calibration(scene)); !doubt.empty())
       doubts.push_back(std::move(doubt));
@@ -271,6 +284,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
   const std::string doubt = doubt_of(study, outcome);
   const CalibrationDistance distance = distance_to_calibration(outcome.input.scene.scene);
   const std::string limited = run::to_string(outcome.result.mechanics.limiters);
+  const std::string accepted = scene::accepted_text(implausible_in(study, outcome));
   std::vector<double> gaps, temperatures;
   for (GapVerdict& row : outcome.verdicts) {
     row.uncertainty.coupling = coupling;
@@ -287,6 +301,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
                       limited};
     if (row.ignition_anywhere) evidence.ignited_elsewhere = row.ignition_anywhere->point;
     if (gives_verdicts(study)) evidence.extrapolated = extrapolation_text(outcome.input, distance, row.gap);
+    evidence.accepted = accepted;
     row.judgement = judge(evidence, outcome.critical);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);

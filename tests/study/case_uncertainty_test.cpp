@@ -54,7 +54,7 @@ const std::string stated =
 
 GapVerdict first_row(const std::string& text) {
   const CriticalGapResult result =
-      run_critical_gap(study_of(critical_text + no_confirmation + text), quadratic_options());
+      run_critical_gap(study_of(critical_kind + no_confirmation + text), quadratic_options());
   return result.cases.at(0).verdicts.at(0);
 }
 
@@ -81,7 +81,7 @@ TEST(CaseUncertainty, SilenceAboutTheInputsPropagatesAnAssumedSpread) {
     return quadratic_launch(scene);
   };
   const CriticalGapResult result =
-      run_critical_gap(study_of(critical_text + no_confirmation +
+      run_critical_gap(study_of(critical_kind + no_confirmation +
                                 "numerical_uncertainty = \"1 K\"\nfit_uncertainty = \"2 K\"\n"),
                        options);
   EXPECT_EQ(peaks, (std::vector<double>{496e6, 1.04 * 496e6}));
@@ -98,7 +98,7 @@ TEST(CaseUncertainty, ARaisedLoadThatCannotBeComputedLeavesNothingSafe) {
     if (scene.load.peak > 500e6) result.status = run::RunStatus::energy_drift;
     return result;
   };
-  const CriticalGapResult result = run_critical_gap(study_of(critical_text + no_confirmation), options);
+  const CriticalGapResult result = run_critical_gap(study_of(critical_kind + no_confirmation), options);
   for (const GapVerdict& row : result.cases.at(0).verdicts) {
     EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
     EXPECT_NE(row.judgement.reason.find("load raised by 4 %: energy drift"), std::string::npos)
@@ -136,7 +136,7 @@ TEST(CaseUncertainty, AnotherShellIsIndeterminateUnlessItsSceneSaysWhyNot) {
                                    "friction.closure = \"inelastic\"\n", "charge.density = \"1.65 g/cm3\"\n",
                                    "friction.localisation = 400\n"}) {
     for (const bool accepted : {false, true}) {
-      StudyFile study = study_of(critical_text + no_confirmation + stated + "[set]\n" + change);
+      StudyFile study = study_of(critical_kind + no_confirmation + stated + "[set]\n" + change);
       ASSERT_EQ(study.cases.size(), 1u);
       if (accepted) study.cases[0].scene.scene.accepted = {{"calibration", "our own firing trials agree"}};
       const CriticalGapResult result = run_critical_gap(study, quadratic_options());

@@ -16,7 +16,7 @@ scene::InputError error_of(const std::string& text) {
 /// A study with one more line must fail there.
 void expect_error(const std::string& line, const std::string& key, const std::string& found,
                   const std::string& allowed = "") {
-  const scene::InputError error = error_of(critical_text + line + "\n");
+  const scene::InputError error = error_of(critical_kind + line + "\n");
   EXPECT_NE(error.file.find("some_study.toml"), std::string::npos) << error.message();
   EXPECT_EQ(error.line, 3) << error.message();
   EXPECT_EQ(error.key, key) << error.message();
@@ -42,7 +42,7 @@ TEST(ReadStudy, TheShippedStudiesAreValid) {
 }
 
 TEST(ReadStudy, TakesWhatItDoesNotSayFromTheScene) {
-  const StudyFile study = study_of(critical_text);
+  const StudyFile study = study_of(critical_kind);
   EXPECT_EQ(study.study.gaps, study.scene.scene.surface.gaps);
   ASSERT_EQ(study.cases.size(), 1u);
   EXPECT_EQ(study.cases[0].label, "496 MPa, 30 um, 1 mm");
@@ -51,7 +51,7 @@ TEST(ReadStudy, TakesWhatItDoesNotSayFromTheScene) {
 }
 
 TEST(ReadStudy, MakesTheProductOfPressuresAndDefects) {
-  const StudyFile study = study_of(critical_text +
+  const StudyFile study = study_of(critical_kind +
                                    "peak_pressures = \"400, 500 MPa\"\ncrack_radii = \"10, 30, 100 um\"\n"
                                    "flaw_sizes = \"1, 2 mm\"\n");
   ASSERT_EQ(study.cases.size(), 12u);
@@ -65,7 +65,7 @@ TEST(ReadStudy, MakesTheProductOfPressuresAndDefects) {
 
 TEST(ReadStudy, OverridesSceneKeys) {
   const StudyFile study =
-      study_of(critical_text + "[set]\nnumerics.inertial_scaling = 16\n\"gap.exchange_time\" = \"0.5 ms\"\n");
+      study_of(critical_kind + "[set]\nnumerics.inertial_scaling = 16\n\"gap.exchange_time\" = \"0.5 ms\"\n");
   EXPECT_EQ(study.cases.at(0).scene.scene.numerics.inertial_scaling, 16.0);
   EXPECT_EQ(study.cases.at(0).scene.scene.surface.exchange_time, 5e-4);
   EXPECT_EQ(study.overrides.size(), 2u);
