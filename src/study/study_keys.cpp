@@ -110,7 +110,7 @@ std::vector<Key<Study>> judging_keys() {
                    "Largest width of the bracket of the critical gap.", &Study::tolerance),
       study_number("largest_gap", Dimension::length, above_to(0, 0.01),
                    "Where the search for the critical gap ends.", &Study::largest_gap),
-      study_number("numerical_uncertainty", Dimension::temperature, between(0, 1000),
+      study_number("numerical_uncertainty", Dimension::temperature_difference, between(0, 1000),
                    "Uncertainty of the maximum temperature from the mesh, from a mesh study.",
                    &Study::numerical_uncertainty),
   };
@@ -159,14 +159,14 @@ std::vector<Key<Study>> uncertainty_keys() {
           "numerical uncertainty of every setting in it.",
           [](auto& s) -> auto& { return s.accuracy; }),
       study_number(
-          "setting_tolerance", Dimension::temperature, above_to(0, 1000),
+          "setting_tolerance", Dimension::temperature_difference, above_to(0, 1000),
           "Replaces the scene's numerics by the cheapest setting of the record that knows the maximum "
           "temperature to this; on the command line --tolerance.",
           &Study::setting_tolerance),
-      study_number("fit_uncertainty", Dimension::temperature, between(0, 1000),
+      study_number("fit_uncertainty", Dimension::temperature_difference, between(0, 1000),
                    "Uncertainty of the margin from the calibrated constants; not counted if absent.",
                    &Study::fit_uncertainty),
-      study_number("input_uncertainty", Dimension::temperature, between(0, 1000),
+      study_number("input_uncertainty", Dimension::temperature_difference, between(0, 1000),
                    "Uncertainty of the maximum temperature from what is not known of the launch (see kind "
                    "sensitivity); not counted if absent.",
                    &Study::input_uncertainty),
@@ -250,10 +250,10 @@ std::vector<Key<Reference>> make_reference_keys() {
       scene::text_key<Reference>(
           "early_point", Standing::paper, "Observation point of the highest temperature at early_time.",
           [](auto& r) -> auto& { return r.early_point; }),
-      reference_number("spread", Dimension::temperature,
+      reference_number("spread", Dimension::temperature_difference,
                        "Highest minus lowest observation point at the end of the launch.",
                        &Reference::spread),
-      reference_number("early_spread", Dimension::temperature, "The same at early_time.",
+      reference_number("early_spread", Dimension::temperature_difference, "The same at early_time.",
                        &Reference::early_spread),
       reference_number("ignition_time", Dimension::time, "When it ignited; absent where it did not.",
                        &Reference::ignition_time),
@@ -338,7 +338,7 @@ std::vector<Key<InputText>> input_keys(const scene::KeyDescription& scene_key) {
           "Mean of a normal before it is cut off, in a unit of the key.",
           [](auto& i) -> auto& { return i.mean; }),
       scene::number_key<InputText>(
-          "deviation", dimension, above(0), Standing::input,
+          "deviation", scene::difference_of(dimension), above(0), Standing::input,
           "Standard deviation of a normal before it is cut off, in a unit of the key.",
           [](auto& i) -> auto& { return i.deviation; }),
   };
