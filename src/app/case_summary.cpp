@@ -1,6 +1,7 @@
 #include "case_summary.hpp"
 
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
@@ -109,6 +110,8 @@ std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mec
   text += line("status", mechanics.status == run::RunStatus::completed
                              ? run::to_string(mechanics.status)
                              : fmt::format("{}: {}", run::to_string(mechanics.status), mechanics.reason));
+  if (const std::string measured = scene::measured_load_text(scene.load); !measured.empty())
+    text += line("load", measured);
   text += line("simulated", scene::format_quantity(mechanics.end_time, Dimension::time));
   text += line("mass", fmt::format("steel {:.6g}, charge {:.6g} {}", mechanics.mass_steel,
                                    mechanics.mass_charge, unit));
@@ -158,6 +161,15 @@ nlohmann::ordered_json energy_json(const run::EnergyBalance& energy) {
       {"viscous_j", energy.viscous},       {"crack_j", energy.crack},       {"drift", energy.drift()}};
 }
 
+nlohmann::ordered_json load_json(const scene::Load& load) {
+  const scene::PressureHistory history(load);
+  return {{"peak_pa", history.peak()},
+          {"stated_peak_pa", history.stated_peak()},
+          {"smoothing_s", load.smoothing},
+          {"peak_lost_to_smoothing", scene::peak_lost_to_smoothing(load)},
+          {"roughness", scene::load_roughness(load)}};
+}
+
 }  // namespace
 
 report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result) {
@@ -193,11 +205,9 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result) 
 
 nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResult& result) {
   const run::MechanicsResult& mechanics = result.mechanics;
-  nlohmann::ordered_json object{{"title", scene.title},
-                                {"status", run::to_string(mechanics.status)},
-                                {"reason", mechanics.reason},
-                                {"simulated_s", mechanics.end_time},
-                                {"gaps", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json object{{"title", scene.title},          {"status", run::to_string(mechanics.status)},
+                                {"reason", mechanics.reason},    {"simulated_s", mechanics.end_time},
+                                {"load", load_json(scene.load)}, {"gaps", nlohmann::ordered_json::array()}};
   for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
   if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
   object["limiters"] = {{"crack_at_bound", mechanics.limiters.crack_at_bound},
