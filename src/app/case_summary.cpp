@@ -1,5 +1,6 @@
 #include "case_summary.hpp"
 
+#include "explain_scene.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
@@ -159,15 +160,6 @@ nlohmann::ordered_json energy_json(const run::EnergyBalance& energy) {
       {"kinetic_j", energy.kinetic},       {"internal_j", energy.internal}, {"external_j", energy.external},
       {"body_force_j", energy.body_force}, {"damping_j", energy.damping},   {"plastic_j", energy.plastic},
       {"viscous_j", energy.viscous},       {"crack_j", energy.crack},       {"drift", energy.drift()}};
-}
-
-nlohmann::ordered_json load_json(const scene::Load& load) {
-  const scene::PressureHistory history(load);
-  return {{"peak_pa", history.peak()},
-          {"stated_peak_pa", history.stated_peak()},
-          {"smoothing_s", load.smoothing},
-          {"peak_lost_to_smoothing", scene::peak_lost_to_smoothing(load)},
-          {"roughness", scene::load_roughness(load)}};
 }
 
 }  // namespace

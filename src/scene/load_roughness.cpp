@@ -100,14 +100,15 @@ std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share
 
 std::string roughness_text(const Load& load) {
   const double roughness = load_roughness(load);
-  if (roughness < least_roughness) return {};
-  std::string text = fmt::format("roughness {:.3g}: {} of the elastic friction heat is of its noise",
-                                 roughness, percent(roughness / (1.0 + roughness)));
+  std::string text = fmt::format("roughness {:.4f}", roughness);
+  if (roughness < least_roughness) return text;
+  text += fmt::format(": {} of the elastic friction heat is that of noise",
+                      percent(roughness / (1.0 + roughness)));
   const auto window = suggested_smoothing(load);
   if (!window) return text;
   Load smoothed = load;
   smoothed.smoothing = *window;
-  return text + fmt::format("; load.smoothing = \"{}\" leaves {:.2g} and takes {} from the peak",
+  return text + fmt::format("; load.smoothing = \"{}\" leaves {:.4f} and takes {} from the peak",
                             format_quantity(*window, Dimension::time), load_roughness(smoothed),
                             percent(peak_lost_to_smoothing(smoothed)));
 }
@@ -163,8 +164,8 @@ std::optional<double> suggested_smoothing(const Load& load) {
 
 std::string measured_load_text(const Load& load) {
   if (load.curve_time.empty()) return {};
-  const std::string smoothing = smoothing_text(load), roughness = roughness_text(load);
-  return smoothing + (smoothing.empty() || roughness.empty() ? "" : "; ") + roughness;
+  const std::string smoothing = smoothing_text(load);
+  return smoothing + (smoothing.empty() ? "" : "; ") + roughness_text(load);
 }
 
 }  // namespace launchsafe::scene

@@ -30,8 +30,8 @@ double peak_lost_to_smoothing(const Load& load);
 /// where the curve is not rough or no window helps.
 std::optional<double> suggested_smoothing(const Load& load);
 
-/// What became of a measured curve, for people: roughness and smoothing; empty for the analytic load and
-/// where there is nothing to say.
+/// What is to be known of a measured curve, for people: what smoothing takes from it, and its roughness;
+/// empty for the analytic load.
 std::string measured_load_text(const Load& load);
 
 }  // namespace launchsafe::scene
