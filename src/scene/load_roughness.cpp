@@ -156,7 +156,8 @@ std::optional<double> suggested_smoothing(const Load& load) {
   for (double points = 2.0; points <= 256.0; points *= 2.0) {
     smoothed.smoothing = rounded_up(points * mean_interval(load));
     if (smoothed.smoothing > 0.1 * length) return std::nullopt;
-    if (smoothed.smoothing > load.smoothing && load_roughness(smoothed) < least_roughness)
+    const bool allowed = smoothed.smoothing >= least_smoothing_share * length;
+    if (allowed && smoothed.smoothing > load.smoothing && load_roughness(smoothed) < least_roughness)
       return smoothed.smoothing;
   }
   return std::nullopt;

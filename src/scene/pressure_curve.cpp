@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <string_view>
 
 namespace launchsafe::scene {
@@ -160,6 +161,11 @@ class CurveReader {
       return error_at(place, "pressure", (*cells)[header_.pressure.cell] + " " + header_.pressure.unit,
                       fmt::format("a pressure of at least 0 {}, at most {}", header_.pressure.unit,
                                   format_quantity(largest_load, Dimension::pressure)));
+    }
+    if (std::abs(*time) > largest_curve_time) {
+      return error_at(
+          place, "time", (*cells)[header_.time.cell] + " " + header_.time.unit,
+          fmt::format("a time within {} of the start", format_quantity(largest_curve_time, Dimension::time)));
     }
     if (!curve_.time.empty() && !(*time - curve_.time.back() > least_curve_interval)) {
       return error_at(place, "time", (*cells)[header_.time.cell] + " " + header_.time.unit,

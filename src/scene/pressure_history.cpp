@@ -1,5 +1,6 @@
 // The chamber pressure over time: an analytic shape, or a measured curve, smoothed where the scene asks for
 // it.
+#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/scene.hpp"
 
 // clang-format off
@@ -9,6 +10,7 @@
 // clang-format on
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -39,6 +41,8 @@ class MovingAverage {
  public:
   MovingAverage(std::vector<double> time, std::function<double(double)> curve, double window)
       : time_(std::move(time)), curve_(std::move(curve)), window_(window), impulse_{0.0} {
+    assert(window >= least_smoothing_share * (time_.back() - time_.front()));
+    assert(window <= time_.back() - time_.front());
     for (std::size_t i = 0; i + 1 < time_.size(); ++i)
       impulse_.push_back(impulse_[i] + simpson(time_[i], time_[i + 1]));
   }

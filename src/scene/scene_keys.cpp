@@ -71,8 +71,8 @@ Keys load_keys() {
           "such as time_ms,pressure_MPa; empty for none.",
           [](auto& s) -> auto& { return s.load.curve_file; }),
       may_be_empty(list_key<Scene>(
-          "load.curve_time", Dimension::time, any_number(), Standing::assumed,
-          "Times of a measured curve written in the scene itself, increasing.",
+          "load.curve_time", Dimension::time, between(-largest_curve_time, largest_curve_time),
+          Standing::assumed, "Times of a measured curve written in the scene itself, increasing.",
           [](auto& s) -> auto& { return s.load.curve_time; })),
       may_be_empty(list_key<Scene>(
           "load.curve_pressure", Dimension::pressure, between(0, largest_load), Standing::assumed,

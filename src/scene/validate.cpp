@@ -1,4 +1,5 @@
 // What a scene must satisfy beyond the range of each key, before anything is computed.
+#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
@@ -178,9 +179,11 @@ Fault check_smoothing(const SceneFile& file) {
     return fault_at(file, "load.smoothing", window + " without a measured curve",
                     "a window only together with load.curve");
   const double length = load.curve_time.back() - load.curve_time.front();
-  if (load.smoothing <= length) return std::nullopt;
+  if (load.smoothing >= least_smoothing_share * length && load.smoothing <= length) return std::nullopt;
   return fault_at(file, "load.smoothing", window,
-                  "a window no longer than the measured curve, " + format_quantity(length, Dimension::time));
+                  fmt::format("a window from {} to that of the measured curve, {}, or 0 ms for none",
+                              format_quantity(least_smoothing_share * length, Dimension::time),
+                              format_quantity(length, Dimension::time)));
 }
 
 Fault check_load(const SceneFile& file) {

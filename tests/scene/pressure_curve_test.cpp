@@ -124,6 +124,11 @@ TEST(PressureCurve, PointsThatAreTooNearAreRefused) {
   expect_fault("time_s,pressure_MPa\n0,0\n1e-320,5\n", 3, "time", "1e-320 s", "later than");
 }
 
+TEST(PressureCurve, TimesFarFromTheStartAreRefused) {
+  expect_fault("time_s,pressure_MPa\n0,0\n1e300,5\n", 3, "time", "1e300 s", "within 1e+06 s");
+  expect_fault("time_s,pressure_MPa\n-2e6,0\n1,5\n", 2, "time", "-2e6 s", "within 1e+06 s");
+}
+
 TEST(PressureCurve, OnePointIsRefused) {
   expect_fault("time_ms,pressure_MPa\n0,0.1\n", 2, "time", "1 point", "at least two points");
   expect_fault("time_ms,pressure_MPa\n", 1, "time", "0 points", "at least two points");

@@ -8,6 +8,10 @@
 
 namespace launchsafe::scene {
 
+/// The shortest window of smoothing, as a share of the curve's length: averages over shorter ones would be
+/// round-off, and no curve has points so near to each other.
+inline constexpr double least_smoothing_share = 1e-6;
+
 /// Roughness from which on the friction heat of a load is off by more than a kelvin or so.
 inline constexpr double least_roughness = 0.01;
 

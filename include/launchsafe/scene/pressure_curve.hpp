@@ -13,9 +13,11 @@ namespace launchsafe::scene {
 inline constexpr double largest_load = 10e9;
 /// s; two points of a curve are further apart. No gauge is faster, and slopes stay finite.
 inline constexpr double least_curve_interval = 1e-12;
+/// s; times of a curve lie within this of 0, so that impulses stay finite.
+inline constexpr double largest_curve_time = 1e6;
 
 struct PressureCurve {
-  std::vector<double> time;      ///< s, increasing
+  std::vector<double> time;      ///< s, increasing, up to `largest_curve_time` on either side of 0
   std::vector<double> pressure;  ///< Pa, 0 to `largest_load`
 };
 
