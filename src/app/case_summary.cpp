@@ -1,6 +1,8 @@
 #include "case_summary.hpp"
 
+#include "explain_scene.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
@@ -109,6 +111,8 @@ std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mec
   text += line("status", mechanics.status == run::RunStatus::completed
                              ? run::to_string(mechanics.status)
                              : fmt::format("{}: {}", run::to_string(mechanics.status), mechanics.reason));
+  if (const std::string measured = scene::measured_load_text(scene.load); !measured.empty())
+    text += line("load", measured);
   text += line("simulated", scene::format_quantity(mechanics.end_time, Dimension::time));
   text += line("mass", fmt::format("steel {:.6g}, charge {:.6g} {}", mechanics.mass_steel,
                                    mechanics.mass_charge, unit));
@@ -193,11 +197,9 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result) 
 
 nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResult& result) {
   const run::MechanicsResult& mechanics = result.mechanics;
-  nlohmann::ordered_json object{{"title", scene.title},
-                                {"status", run::to_string(mechanics.status)},
-                                {"reason", mechanics.reason},
-                                {"simulated_s", mechanics.end_time},
-                                {"gaps", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json object{{"title", scene.title},          {"status", run::to_string(mechanics.status)},
+                                {"reason", mechanics.reason},    {"simulated_s", mechanics.end_time},
+                                {"load", load_json(scene.load)}, {"gaps", nlohmann::ordered_json::array()}};
   for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
   if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
   object["limiters"] = {{"crack_at_bound", mechanics.limiters.crack_at_bound},

@@ -1,5 +1,6 @@
 #include "explain_scene.hpp"
 
+#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/plan.hpp"
 
 #include <nlohmann/json.hpp>
@@ -34,9 +35,19 @@ std::string scene_text(const scene::Scene& scene, double update_rate) {
   return scene::to_text(scene::make_plan(scene), scene, update_rate);
 }
 
+nlohmann::ordered_json load_json(const scene::Load& load) {
+  const scene::PressureHistory history(load);
+  return {{"peak_pa", history.peak()},
+          {"stated_peak_pa", history.stated_peak()},
+          {"smoothing_s", load.smoothing},
+          {"peak_lost_to_smoothing", scene::peak_lost_to_smoothing(load)},
+          {"roughness", scene::load_roughness(load)}};
+}
+
 nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate) {
   const scene::Plan plan = scene::make_plan(scene);
   return {{"title", scene.title},
+          {"load", load_json(scene.load)},
           {"physics", physics_json(plan)},
           {"particles", {{"steel", plan.particles_steel}, {"charge", plan.particles_charge}}},
           {"cells", plan.cells},

@@ -12,6 +12,9 @@ namespace launchsafe::app {
 std::string scene_text(const scene::Scene& scene, double update_rate);
 nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate);
 
+/// Peaks, smoothing and roughness of a load, in SI.
+nlohmann::ordered_json load_json(const scene::Load& load);
+
 /// Every key of a scene file.
 std::string keys_text();
 nlohmann::ordered_json keys_json();

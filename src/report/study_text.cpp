@@ -1,6 +1,7 @@
 #include "study_text.hpp"
 
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/manifest.hpp"
@@ -74,6 +75,8 @@ std::string setup_text(const study::StudyFile& study) {
     if (varies(study.study, key.name)) continue;
     text += fmt::format("- `{}` = {}\n", key.name, key.value);
   }
+  if (const std::string measured = scene::measured_load_text(study.scene.scene.load); !measured.empty())
+    text += fmt::format("- The measured pressure curve: {}\n", measured);
   return text;
 }
 

@@ -10,6 +10,8 @@ namespace {
 
 /// Shares of the stated peak. Heat goes nearly with the square of the pressure: half a per cent is 1 % of it.
 constexpr double least_reached = 0.995;
+/// A smoothed curve loses what was noise at its peak; what it loses beyond this was none.
+constexpr double least_reached_smoothed = 0.95;
 /// A launch whose pressure ends this near its peak has not been seen to pass it.
 constexpr double highest_end = 0.98;
 /// Rise over the last parts of the launch from which the load is on its way to somewhere.
@@ -34,7 +36,8 @@ double mean_of(const PressureHistory& history, double duration, double begin, do
 
 std::string reaches_its_peak(const Load& load, const PressureHistory& history) {
   const double stated = history.stated_peak(), reached = history.peak();
-  if (reached >= least_reached * stated) return {};
+  const double least = load.smoothing > 0.0 ? least_reached_smoothed : least_reached;
+  if (reached >= least * stated) return {};
   return fmt::format(
       "the load reaches {} within {}, {:.3g} % of its stated peak, {}: the launch is not covered",
       megapascals(reached), milliseconds(load.duration), 100.0 * reached / stated, megapascals(stated));

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -33,6 +34,11 @@ double thread_processor_time() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::vector<double> sorted(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values;
 }
 
 /// Skin temperatures advanced with the mechanics, for one gap.
@@ -121,6 +127,7 @@ class Runner {
     const double first_step = simulation_.stable_time_step();
     double time_step = first_step;
     take_monitor_sample(time_step);
+    take_due_snapshots();
     while (!finished() && result_.status == RunStatus::completed) {
       if (result_.steps % steps_per_check == 0) {
         time_step = simulation_.stable_time_step();
@@ -158,11 +165,7 @@ class Runner {
       heat_.advance_to(simulation_, time);
       while (next_sample_ <= time) next_sample_ += scene.output.trace_interval;
     }
-    while (next_snapshot_ < scene.output.snapshot_times.size() &&
-           time >= scene.output.snapshot_times[next_snapshot_]) {
-      result_.snapshots.push_back(take_snapshot(simulation_));
-      ++next_snapshot_;
-    }
+    take_due_snapshots();
     if (time >= next_monitor_ && !last) take_monitor_sample(dt);
   }
 
@@ -196,6 +199,15 @@ class Runner {
       stop(*reason);
   }
 
+  /// One for every time that has come; at the end of the launch that is all of them, whatever round-off says.
+  void take_due_snapshots() {
+    while (next_snapshot_ < snapshot_times_.size() &&
+           (simulation_.time() >= snapshot_times_[next_snapshot_] || finished())) {
+      result_.snapshots.push_back(take_snapshot(simulation_));
+      ++next_snapshot_;
+    }
+  }
+
   void stop(const Stop& why) {
     result_.status = why.status;
     result_.reason = why.reason;
@@ -216,6 +228,7 @@ class Runner {
   Clock::time_point start_ = Clock::now(), last_report_ = start_;
   double next_sample_ = simulation_.scene().output.trace_interval;
   double next_monitor_ = 0;
+  std::vector<double> snapshot_times_ = sorted(simulation_.scene().output.snapshot_times);
   std::size_t next_snapshot_ = 0;
   double largest_energy_ = least_judged_energy(simulation_.scene());
 };

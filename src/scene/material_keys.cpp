@@ -256,8 +256,8 @@ Keys kinetics_keys() {
           "Frequency factor Z of the Arrhenius law.",
           [](auto& s) -> auto& { return s.charge.kinetics.frequency; })),
       renaming(number(
-          "kinetics.activation_temperature", Dimension::temperature, above_to(0, 1e6), Standing::calibrated,
-          "Activation energy over the gas constant, E/R.",
+          "kinetics.activation_temperature", Dimension::temperature_difference, above_to(0, 1e6),
+          Standing::calibrated, "Activation energy over the gas constant, E/R.",
           [](auto& s) -> auto& { return s.charge.kinetics.activation_temperature; })),
       number(
           "kinetics.ignition_temperature", Dimension::temperature, above_to(0, 2e3), Standing::calibrated,

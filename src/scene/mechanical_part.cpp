@@ -91,6 +91,7 @@ Scene mechanical_part(const Scene& scene) {
     part.steel.strength.conductivity = Steel{}.strength.conductivity;
   }
   settle_physics(plan, part.physics);
+  std::sort(part.output.snapshot_times.begin(), part.output.snapshot_times.end());
   clear_signs_of_zeros(part);
   return part;
 }

@@ -1,4 +1,5 @@
 // The plan as people read it.
+#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/quantity.hpp"
@@ -42,6 +43,8 @@ std::string load_text(const Scene& scene) {
                                          scene.load.rescale_to_peak ? ", rescaled" : ""));
   text += row("duration", format_quantity(scene.load.duration, Dimension::time));
   text += row("peak", format_quantity(peak, Dimension::pressure));
+  if (const std::string measured = measured_load_text(scene.load); !measured.empty())
+    text += row("measurement", measured);
   text += row("rigid acceleration", fmt::format("{:.6g} m/s2", rigid_acceleration(scene, peak)));
   if (has_material(scene, BodyMaterial::charge)) {
     text += row("setback pressure", format_quantity(setback_pressure(scene), Dimension::pressure));

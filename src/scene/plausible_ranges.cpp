@@ -44,6 +44,9 @@ Keys of_scene_and_load() {
       any("load.curve", "its pressures are judged by load.measured_peak and load.simulated_peak"),
       any("load.curve_time", "the launch that it makes is judged by load.launch_speed"),
       any("load.curve_pressure", "its largest is judged by load.measured_peak and load.simulated_peak"),
+      zero_or_in(
+          "load.smoothing", between(1e-6, 1e-3),
+          "gauges ring and sample within a millisecond, and a longer average takes from the pulse itself"),
       any("load.rescale_to_peak", "the factor is judged by load.rescaling"),
   };
 }

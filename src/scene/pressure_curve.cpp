@@ -1,148 +1,259 @@
 #include "launchsafe/scene/pressure_curve.hpp"
 
+#include "csv_line.hpp"
+#include "input_text.hpp"
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
 #include <fmt/format.h>
 
-#include <sstream>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <string_view>
 
 namespace launchsafe::scene {
 namespace {
 
 constexpr std::string_view allowed_header =
-    "a header that names quantities and units, such as time_ms,pressure_MPa";
+    "a header that names quantities and units, such as time_ms,pressure_MPa or \"Time (ms);Pressure (bar)\"";
 
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\"";
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return std::string(text.substr(begin, text.find_last_not_of(blanks) - begin + 1));
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& letter : result) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return result;
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find_first_of(",;\t", begin), line.size());
-    cells.push_back(trimmed(std::string_view(line).substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return cells;
-}
-
-/// Which column holds what, and in which unit.
-struct Header {
-  std::size_t time_column = 0, pressure_column = 1;
-  std::string time_unit, pressure_unit;
+/// One column of the curve.
+struct Column {
+  std::size_t cell = 0;
+  Dimension dimension = Dimension::time;
+  std::string name;  ///< as in the header, without the unit
+  std::string unit;
 };
 
-/// "pressure (MPa)" or "pressure_MPa" to "MPa".
-std::string unit_in(const std::string& cell) {
-  const std::size_t begin = cell.find_first_of("_([");
-  if (begin == std::string::npos) return {};
-  return trimmed(cell.substr(begin + 1, cell.find_first_of(")]", begin) - begin - 1));
+struct Header {
+  char separator = ',';
+  Column time, pressure;
+};
+
+/// "pressure (MPa)", "pressure_MPa", "p / MPa" or "Pressure in MPa" as name and unit. After the unit's
+/// bracket nothing may follow: it could be a factor.
+Column column_of(const std::string& cell, std::size_t index) {
+  const std::size_t mark = cell.find_first_of("_([/"), word = cell.find(" in ");
+  const std::size_t name_end = std::min(mark, word);
+  Column column;
+  column.cell = index;
+  column.name = without_blanks_around(std::string_view(cell).substr(0, name_end));
+  if (name_end == std::string::npos) return column;
+  std::string_view unit =
+      without_blanks_around(std::string_view(cell).substr(name_end + (word < mark ? 4 : 1)));
+  const char bracket = word < mark ? ' ' : cell[mark];
+  if ((bracket == '(' && unit.ends_with(')')) || (bracket == '[' && unit.ends_with(']')))
+    unit.remove_suffix(1);
+  column.unit = without_blanks_around(unit);
+  return column;
 }
 
-/// The error in a header cell, if its unit is none of the dimension.
-std::optional<InputError> check_unit(const std::string& cell, const std::string& unit, Dimension dimension,
-                                     const Place& place) {
-  if (parse_quantity("1 " + unit, dimension)) return std::nullopt;
-  const auto units = units_of(dimension);
-  return error_at(place, cell.substr(0, cell.find_first_of(" _([")),
-                  unit.empty() ? fmt::format("\"{}\", without a unit", cell)
-                               : fmt::format("\"{}\", with the unknown unit \"{}\"", cell, unit),
-                  fmt::format("a {} in one of the units {}", name_of(dimension), fmt::join(units, ", ")),
-                  nearest_of(unit, units));
-}
-
-Expected<Header> read_header(const std::string& line, const Place& place) {
-  const auto cells = cells_of(line);
-  const auto wrong = [&] {
-    return error_at(place, {}, '"' + trimmed(line) + '"', std::string(allowed_header));
+/// Whether a column's name is the word, whatever its case and the words that follow, or its letter.
+bool is_named(const Column& column, std::string_view word) {
+  const std::string name = lower_case(column.name);
+  if (name == word.substr(0, 1)) return true;
+  const auto may_belong = [](char c) {
+    return c == ' ' || c == '-' || std::isalpha(static_cast<unsigned char>(c)) != 0;
   };
-  if (cells.size() != 2) return wrong();
+  return name.starts_with(word) && std::all_of(name.begin(), name.end(), may_belong);
+}
+
+/// The error of a column whose unit is none of its dimension.
+std::optional<InputError> check_unit(const Column& column, const Place& place) {
+  if (parse_quantity("1 " + column.unit, column.dimension)) return std::nullopt;
+  const auto units = units_of(column.dimension);
+  return error_at(
+      place, name_of(column.dimension),
+      column.unit.empty() ? fmt::format("\"{}\", without a unit", column.name)
+                          : fmt::format("\"{}\" with the unknown unit \"{}\"", column.name, column.unit),
+      fmt::format("a {} in one of the units {}", name_of(column.dimension), fmt::join(units, ", ")),
+      nearest_of(column.unit, units));
+}
+
+Expected<Header> read_header(std::string_view line, const Place& place) {
+  const auto wrong = [&] { return error_at(place, {}, fmt::format("\"{}\"", line), allowed_header); };
   Header header;
-  header.time_column = cells[0].starts_with("time") ? 0 : 1;
-  header.pressure_column = 1 - header.time_column;
-  const std::string& time = cells[header.time_column];
-  const std::string& pressure = cells[header.pressure_column];
-  if (!time.starts_with("time") || !pressure.starts_with("pressure")) return wrong();
-  header.time_unit = unit_in(time);
-  header.pressure_unit = unit_in(pressure);
-  if (const auto error = check_unit(time, header.time_unit, Dimension::time, place)) return *error;
-  if (const auto error = check_unit(pressure, header.pressure_unit, Dimension::pressure, place))
-    return *error;
+  header.separator = separator_of(line);
+  const auto cells = cells_of(line, header.separator);
+  if (!cells || cells->size() != 2) return wrong();
+  header.time = column_of((*cells)[0], 0);
+  header.pressure = column_of((*cells)[1], 1);
+  if (!is_named(header.time, "time")) std::swap(header.time, header.pressure);
+  if (!is_named(header.time, "time") || !is_named(header.pressure, "pressure")) return wrong();
+  header.pressure.dimension = Dimension::pressure;
+  if (auto error = check_unit(header.time, place)) return *error;
+  if (auto error = check_unit(header.pressure, place)) return *error;
   return header;
 }
 
-Expected<double> read_cell(const std::string& cell, const std::string& unit, Dimension dimension,
-                           const Place& place) {
-  const bool plain =
-      cell.find_first_of(" \t") == std::string::npos && parse_quantity(cell, Dimension::number);
-  const auto value = parse_quantity(cell + " " + unit, dimension);
-  if (plain && value) return *value;
-  return error_at(place, dimension == Dimension::time ? "time" : "pressure", fmt::format("\"{}\"", cell),
-                  fmt::format("a finite number of {}", unit));
-}
+/// What marks the decimals of a curve's numbers. A point beside a comma, and a comma that always has three
+/// digits after it, may as well divide thousands.
+class DecimalMark {
+ public:
+  /// The number with a point for its comma, or why that is not sure.
+  Expected<std::string> pointed(std::string number, const std::string& key, const Place& place) {
+    const std::size_t comma = number.find(',');
+    const bool has_comma = comma != std::string::npos;
+    commas_ = commas_ || has_comma;
+    points_ = points_ || number.find('.') != std::string::npos;
+    if (commas_ && points_) {
+      return error_at(place, key,
+                      fmt::format("\"{}\", in a file that has points and commas in its numbers", number),
+                      "one decimal mark, and nothing between thousands");
+    }
+    if (!has_comma) return number;
+    if (!doubtful_ && may_divide_thousands(number, comma)) doubtful_ = {place, key, number};
+    sure_ = sure_ || !may_divide_thousands(number, comma);
+    number[comma] = '.';
+    return number;
+  }
 
-/// Adds one point, which must come later than the last one.
-std::optional<InputError> add_point(const std::vector<std::string>& cells, const Header& header,
-                                    const Place& place, PressureCurve& curve) {
-  if (cells.size() != 2) {
-    return error_at(place, {}, fmt::format("{} values", cells.size()), "two values, a time and a pressure");
+  /// The fault of commas none of which can only be that of decimals.
+  std::optional<InputError> doubt() const {
+    if (sure_ || !doubtful_) return std::nullopt;
+    return error_at(
+        doubtful_->place, doubtful_->key,
+        fmt::format("\"{}\", where the comma may divide thousands", doubtful_->number),
+        "numbers with decimal points, or at least one that shows what the commas are, such as 0,5");
   }
-  const auto time = read_cell(cells[header.time_column], header.time_unit, Dimension::time, place);
-  if (!time) return time.error();
-  const auto pressure =
-      read_cell(cells[header.pressure_column], header.pressure_unit, Dimension::pressure, place);
-  if (!pressure) return pressure.error();
-  if (*pressure < 0.0 || *pressure > largest_load) {
-    return error_at(place, "pressure", cells[header.pressure_column] + " " + header.pressure_unit,
-                    fmt::format("a pressure of at least 0 {}, at most {}", header.pressure_unit,
-                                format_quantity(largest_load, Dimension::pressure)));
+
+ private:
+  struct Doubtful {
+    Place place;
+    std::string key, number;
+  };
+
+  /// "1,250" but not "0,250", "1,25" or "1,250e3".
+  static bool may_divide_thousands(const std::string& number, std::size_t comma) {
+    const std::size_t begin = number.find_first_not_of("+-");
+    return begin < comma && comma - begin <= 3 && number[begin] != '0' && number.size() == comma + 4 &&
+           std::all_of(number.begin() + static_cast<std::ptrdiff_t>(begin), number.end(),
+                       [](char c) { return c == ',' || (c >= '0' && c <= '9'); });
   }
-  if (!curve.time.empty() && !(*time > curve.time.back())) {
-    return error_at(place, "time", cells[header.time_column] + " " + header.time_unit,
-                    fmt::format("times in increasing order, here later than {}",
-                                format_quantity(curve.time.back(), Dimension::time)));
+
+  bool commas_ = false, points_ = false;  ///< seen in any number
+  bool sure_ = false;                     ///< whether a comma was seen that can only be that of decimals
+  std::optional<Doubtful> doubtful_;
+};
+
+/// Reads the points of a curve line by line.
+class CurveReader {
+ public:
+  CurveReader(Header header, PressureCurve& curve) : header_(std::move(header)), curve_(curve) {}
+
+  /// Adds the point of one line, which must come later than the last one.
+  std::optional<InputError> add(std::string_view line, const Place& place) {
+    const auto cells = cells_of(line, header_.separator);
+    if (!cells) return error_at(place, {}, "a quotation mark that does not close its cell", "\"0.5\"");
+    if (cells->size() != 2) return wrong_count(cells->size(), place);
+    const auto time = read_cell(*cells, header_.time, place);
+    if (!time) return time.error();
+    const auto pressure = read_cell(*cells, header_.pressure, place);
+    if (!pressure) return pressure.error();
+    if (*pressure < 0.0 || *pressure > largest_load) {
+      return error_at(place, "pressure", (*cells)[header_.pressure.cell] + " " + header_.pressure.unit,
+                      fmt::format("a pressure of at least 0 {}, at most {}", header_.pressure.unit,
+                                  format_quantity(largest_load, Dimension::pressure)));
+    }
+    if (std::abs(*time) > largest_curve_time) {
+      return error_at(
+          place, "time", (*cells)[header_.time.cell] + " " + header_.time.unit,
+          fmt::format("a time within {} of the start", format_quantity(largest_curve_time, Dimension::time)));
+    }
+    if (!curve_.time.empty() && !(*time - curve_.time.back() > least_curve_interval)) {
+      return error_at(place, "time", (*cells)[header_.time.cell] + " " + header_.time.unit,
+                      fmt::format("times in increasing order, here later than {} by more than {}",
+                                  format_quantity(curve_.time.back(), Dimension::time),
+                                  format_quantity(least_curve_interval, Dimension::time)));
+    }
+    curve_.time.push_back(*time);
+    curve_.pressure.push_back(*pressure);
+    return std::nullopt;
   }
-  curve.time.push_back(*time);
-  curve.pressure.push_back(*pressure);
-  return std::nullopt;
+
+  std::optional<InputError> doubt() const { return decimal_mark_.doubt(); }
+
+ private:
+  InputError wrong_count(std::size_t count, const Place& place) const {
+    const char* separator = header_.separator == ','   ? "a comma"
+                            : header_.separator == ';' ? "a semicolon"
+                                                       : "a tab";
+    const bool decimal_commas = header_.separator == ',' && count > 2;
+    return error_at(
+        place, {}, fmt::format("{} value{}", count, count == 1 ? "" : "s"),
+        fmt::format("two values, a time and a pressure, with {} between them{}", separator,
+                    decimal_commas ? "; where numbers have decimal commas, a semicolon in every line"
+                                   : " as in the header"));
+  }
+
+  Expected<double> read_cell(const std::vector<std::string>& cells, const Column& column,
+                             const Place& place) {
+    const std::string& cell = cells[column.cell];
+    const std::string key(name_of(column.dimension));
+    const auto number = decimal_mark_.pointed(cell, key, place);
+    if (!number) return number.error();
+    const bool plain =
+        number->find_first_of(" \t") == std::string::npos && parse_quantity(*number, Dimension::number);
+    const auto value = parse_quantity(*number + " " + column.unit, column.dimension);
+    if (plain && value) return *value;
+    return error_at(place, key, fmt::format("\"{}\"", cell),
+                    fmt::format("a finite number of {}", column.unit));
+  }
+
+  Header header_;
+  PressureCurve& curve_;
+  DecimalMark decimal_mark_;
+};
+
+std::optional<InputError> check_text(std::string_view text, const std::string& file) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    return error_at({file, 1}, {}, "text in UTF-16", "text in UTF-8");
+  return check_encoding(text, file);
 }
 
 }  // namespace
 
 Expected<PressureCurve> read_pressure_curve(const std::filesystem::path& file) {
-  const auto text = read_text_file(file);
+  const auto text = read_text_file(file, largest_curve);
   if (!text) return text.error();
   return parse_pressure_curve(*text, file.string());
 }
 
 Expected<PressureCurve> parse_pressure_curve(const std::string& text, const std::string& file) {
-  std::istringstream stream(text);
-  std::optional<Header> header;
+  if (auto error = check_text(text, file)) return *error;
+  std::string_view rest = text;
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
   PressureCurve curve;
+  std::optional<CurveReader> reader;
   Place place{file};
-  for (std::string line; std::getline(stream, line);) {
+  while (!rest.empty()) {
     ++place.line;
-    const std::string content = trimmed(line);
+    const std::string_view line = take_line(rest);
+    const std::string_view content = without_blanks_around(line);
     if (content.empty() || content.starts_with('#')) continue;
-    if (!header) {
-      auto read = read_header(line, place);
-      if (!read) return read.error();
-      header = std::move(*read);
-    } else if (const auto error = add_point(cells_of(line), *header, place, curve)) {
+    if (!reader) {
+      auto header = read_header(line, place);
+      if (!header) return header.error();
+      reader.emplace(std::move(*header), curve);
+    } else if (auto error = reader->add(line, place)) {
       return *error;
     }
   }
-  if (!header) return error_at({file, 1}, {}, "no header", std::string(allowed_header));
+  if (!reader) return error_at({file, 1}, {}, "no header", allowed_header);
   if (curve.time.size() < 2) {
     return error_at(place, "time",
                     fmt::format("{} point{}", curve.time.size(), curve.time.size() == 1 ? "" : "s"),
                     "a curve of at least two points");
   }
+  if (auto error = reader->doubt()) return *error;
   return curve;
 }
 

@@ -16,11 +16,28 @@ namespace {
 
 constexpr std::size_t dimension_count = static_cast<std::size_t>(Dimension::toughness) + 1;
 
-/// All units are powers of ten of the SI unit, so a decimal number converts without rounding twice.
+/// Most units are powers of ten of the SI unit, so that a decimal number converts without rounding twice. A
+/// number in any other unit becomes (number + shift) * factor in SI.
 struct Unit {
   std::string_view name;
-  int power;  ///< SI units per unit, as a power of ten
+  int power = 0;          ///< SI units per unit, as a power of ten
+  bool suggested = true;  ///< whether messages name it; the others are spellings of these
+  bool decimal = true;    ///< whether the power says all
+  long double factor = 1, shift = 0;
 };
+
+/// Another spelling of a unit.
+constexpr Unit spelling(std::string_view name, int power) { return {name, power, false}; }
+
+/// A unit that is no power of ten of the SI unit.
+constexpr Unit scale(std::string_view name, long double factor, long double shift = 0,
+                     bool suggested = true) {
+  return {name, 0, suggested, false, factor, shift};
+}
+
+constexpr long double celsius_shift = 273.15L, fahrenheit_shift = 459.67L, fahrenheit_factor = 5.0L / 9.0L;
+/// Pa; pound-force (0.45359237 kg at 9.80665 m/s2) over square inch.
+constexpr long double psi = 0.45359237L * 9.80665L / (0.0254L * 0.0254L);
 
 struct DimensionInfo {
   std::string_view name;
@@ -37,19 +54,49 @@ const DimensionInfo& info_of(Dimension dimension) {
       {"length",
        "\"2.5 mm\"",
        "m",
-       {{"cm", -2}, {"mm", -3}, {"m", 0}, {"um", -6}, {"µm", -6}},
+       {{"cm", -2}, {"mm", -3}, {"m", 0}, {"um", -6}, {"\u00b5m", -6}, spelling("\u03bcm", -6)},
        {{"cm", -2}, {"mm", -3}, {"um", -6}, {"m", 0}}},
       {"time",
        "\"18 ms\"",
        "s",
-       {{"ms", -3}, {"s", 0}, {"us", -6}, {"µs", -6}, {"ns", -9}},
+       {{"ms", -3},
+        {"s", 0},
+        {"us", -6},
+        {"\u00b5s", -6},
+        {"ns", -9},
+        spelling("\u03bcs", -6),
+        spelling("msec", -3),
+        spelling("sec", 0)},
        {{"ms", -3}, {"us", -6}, {"s", 0}, {"ns", -9}}},
       {"pressure",
        "\"496 MPa\"",
        "Pa",
-       {{"MPa", 6}, {"GPa", 9}, {"kPa", 3}, {"Pa", 0}, {"bar", 5}, {"TPa", 12}, {"kbar", 8}, {"Mbar", 11}},
+       {{"MPa", 6},
+        {"GPa", 9},
+        {"kPa", 3},
+        {"Pa", 0},
+        {"bar", 5},
+        {"TPa", 12},
+        {"kbar", 8},
+        {"Mbar", 11},
+        scale("psi", psi),
+        scale("ksi", 1000 * psi),
+        scale("atm", 101325)},
        {{"MPa", 6}, {"GPa", 9}, {"TPa", 12}, {"kPa", 3}, {"Pa", 0}}},
-      {"temperature", "\"300 K\"", "K", {{"K", 0}}, {}},
+      {"temperature",
+       "\"300 K\"",
+       "K",
+       {{"K", 0},
+        scale("\u00b0C", 1, celsius_shift),
+        scale("degC", 1, celsius_shift),
+        scale("\u00b0F", fahrenheit_factor, fahrenheit_shift),
+        scale("degF", fahrenheit_factor, fahrenheit_shift),
+        scale("C", 1, celsius_shift, false),
+        scale("F", fahrenheit_factor, fahrenheit_shift, false),
+        scale("\u2103", 1, celsius_shift, false),
+        scale("\u2109", fahrenheit_factor, fahrenheit_shift, false)},
+       {}},
+      {"temperature difference", "\"5 K\"", "K", {{"K", 0}}, {}},
       {"density", "\"1717 kg/m3\"", "kg/m3", {{"kg/m3", 0}, {"g/cm3", 3}, {"kg/m^3", 0}, {"g/cm^3", 3}}, {}},
       {"speed", "\"300 m/s\"", "m/s", {{"m/s", 0}, {"km/s", 3}, {"mm/us", 3}}, {}},
       {"frequency", "\"7320 1/s\"", "1/s", {{"1/s", 0}, {"1/ms", 3}, {"1/us", 6}}, {}},
@@ -100,7 +147,9 @@ std::optional<Unit> find_unit(Dimension dimension, std::string_view name) {
 }
 
 /// "which is a time", for a unit of another dimension; else "whose unit is unknown".
-std::string kind_of_unit(std::string_view name) {
+std::string kind_of_unit(std::string_view name, Dimension wanted) {
+  if (wanted == Dimension::temperature_difference && find_unit(Dimension::temperature, name))
+    return "which is a temperature; the zero of its scale means nothing to a difference";
   for (std::size_t i = 0; i < dimension_count; ++i) {
     const auto dimension = static_cast<Dimension>(i);
     if (find_unit(dimension, name)) {
@@ -117,6 +166,69 @@ QuantityFault fault(std::string found, Dimension dimension, std::string suggesti
   return {std::move(found), std::move(allowed), std::move(suggestion)};
 }
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Length of the digits that a text begins with.
+std::size_t digits_of(std::string_view text) {
+  return static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_digit) - text.begin());
+}
+
+/// Whether a comma without blanks around it may be meant as anything but the comma of a list: "0,5" and
+/// "1,25e3" may have decimals, "1,000" and "1,250.5" thousands, "1.250,5" both. "0,0.01" and "0.5,1" may not.
+bool is_ambiguous(std::string_view left, std::string_view right) {
+  const std::size_t whole = digits_of(left), decimals = digits_of(right);
+  const bool fraction_may_follow = decimals > 0 && (decimals == right.size() || right[decimals] != '.');
+  const bool may_count_thousands = whole > 0 && whole <= 3 && left[0] != '0';
+  if (whole == left.size()) return fraction_may_follow || (may_count_thousands && decimals == 3);
+  // "1.250": groups of three digits.
+  for (left.remove_prefix(whole); !left.empty(); left.remove_prefix(4))
+    if (left[0] != '.' || digits_of(left.substr(1)) < 3 || (left.size() > 4 && left[4] != '.')) return false;
+  return may_count_thousands && fraction_may_follow;
+}
+
+/// Where the number that ends before a place begins.
+std::size_t begin_of_number(std::string_view text, std::size_t end) {
+  const auto continues = [&](std::size_t i) {
+    const char c = text[i];
+    const bool sign_of_exponent =
+        (c == '-' || c == '+') && i > 0 && (text[i - 1] == 'e' || text[i - 1] == 'E');
+    return is_digit(c) || c == '.' || c == 'e' || c == 'E' || sign_of_exponent;
+  };
+  while (end > 0 && continues(end - 1)) --end;
+  return end;
+}
+
+/// Commas of a list that would silently make two numbers of what was perhaps one.
+std::vector<std::size_t> ambiguous_commas(std::string_view text) {
+  std::vector<std::size_t> found;
+  for (std::size_t comma = text.find(','); comma != std::string_view::npos;
+       comma = text.find(',', comma + 1)) {
+    const std::size_t begin = begin_of_number(text, comma),
+                      end = std::min(text.find_first_not_of("0123456789.eE", comma + 1), text.size());
+    const std::string_view left = text.substr(begin, comma - begin),
+                           right = text.substr(comma + 1, end - comma - 1);
+    if (!left.empty() && is_ambiguous(left, right)) found.push_back(comma);
+  }
+  return found;
+}
+
+std::string with_commas_as(std::string_view replacement, std::string_view text,
+                           const std::vector<std::size_t>& commas) {
+  std::string result;
+  std::size_t begin = 0;
+  for (const std::size_t comma : commas) {
+    result += text.substr(begin, comma - begin);
+    result += replacement;
+    begin = comma + 1;
+  }
+  return result += text.substr(begin);
+}
+
+QuantityFault comma_fault(std::string_view whole, Dimension dimension, std::string suggestion) {
+  return fault(fmt::format("\"{}\", where a comma may be a decimal point or divide thousands", whole),
+               dimension, std::move(suggestion));
+}
+
 /// A number and what follows it, both as written.
 struct Token {
   std::string_view number;
@@ -125,7 +237,7 @@ struct Token {
 
 Expected<Token, QuantityFault> split(std::string_view text, std::string_view whole, Dimension dimension) {
   text = trimmed(text);
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0.0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (status == std::errc::invalid_argument) {
@@ -135,13 +247,19 @@ Expected<Token, QuantityFault> split(std::string_view text, std::string_view who
     return fault(fmt::format("\"{}\", which is not a finite number", whole), dimension);
   }
   const auto length = static_cast<std::size_t>(end - text.data());
-  return Token{text.substr(0, length), trimmed(text.substr(length))};
+  const std::string_view number = text.substr(0, length), rest = text.substr(length);
+  if (rest.size() < 2 || rest[0] != ',' || !is_digit(rest[1])) return Token{number, trimmed(rest)};
+  const bool may_count_thousands =
+      number.find('.') != std::string_view::npos || digits_of(rest.substr(1)) == 3;
+  if (may_count_thousands) return comma_fault(whole, dimension, {});
+  const auto comma = static_cast<std::size_t>(rest.data() - whole.data());
+  return comma_fault(whole, dimension, '"' + with_commas_as(".", whole, {comma}) + '"');
 }
 
 /// The double nearest to `number` times ten to the power.
 double scaled(std::string_view number, int power) {
   const std::size_t e = number.find_first_of("eE");
-  int exponent = 0;
+  long long exponent = 0;
   if (e != std::string_view::npos) {
     std::string_view digits = number.substr(e + 1);
     if (digits.starts_with('+')) digits.remove_prefix(1);
@@ -155,11 +273,19 @@ double scaled(std::string_view number, int power) {
   return value;
 }
 
+/// A number as written to SI.
+double si_value(std::string_view number, const Unit& unit) {
+  if (unit.decimal) return scaled(number, unit.power);
+  long double value = 0;
+  std::from_chars(number.data(), number.data() + number.size(), value);
+  return static_cast<double>((value + unit.shift) * unit.factor);
+}
+
 Expected<double, QuantityFault> convert(const Token& token, std::string_view whole, Dimension dimension) {
   const DimensionInfo& info = info_of(dimension);
   if (info.units.empty()) {
     if (!token.unit.empty())
-      return fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit)), dimension);
+      return fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit, dimension)), dimension);
     return scaled(token.number, 0);
   }
   if (token.unit.empty()) {
@@ -169,10 +295,10 @@ Expected<double, QuantityFault> convert(const Token& token, std::string_view who
   const std::optional<Unit> unit = find_unit(dimension, token.unit);
   if (!unit) {
     const std::string near = nearest_of(token.unit, units_of(dimension));
-    return fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit)), dimension,
+    return fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit, dimension)), dimension,
                  near.empty() ? std::string{} : fmt::format("\"{} {}\"", token.number, near));
   }
-  const double value = scaled(token.number, unit->power);
+  const double value = si_value(token.number, *unit);
   if (!std::isfinite(value))
     return fault(fmt::format("\"{}\", which is not a finite number", whole), dimension);
   return value;
@@ -197,6 +323,10 @@ Expected<std::vector<double>, QuantityFault> convert_all(const std::vector<std::
 
 }  // namespace
 
+Dimension difference_of(Dimension dimension) {
+  return dimension == Dimension::temperature ? Dimension::temperature_difference : dimension;
+}
+
 std::string_view name_of(Dimension dimension) { return info_of(dimension).name; }
 
 std::string_view example_of(Dimension dimension) { return info_of(dimension).example; }
@@ -205,7 +335,8 @@ std::string_view si_unit_of(Dimension dimension) { return info_of(dimension).si_
 
 std::vector<std::string> units_of(Dimension dimension) {
   std::vector<std::string> names;
-  for (const Unit& unit : info_of(dimension).units) names.emplace_back(unit.name);
+  for (const Unit& unit : info_of(dimension).units)
+    if (unit.suggested) names.emplace_back(unit.name);
   return names;
 }
 
@@ -233,6 +364,11 @@ Expected<std::vector<double>, QuantityFault> parse_range(std::string_view text, 
 }
 
 Expected<std::vector<double>, QuantityFault> parse_list(std::string_view text, Dimension dimension) {
+  if (const auto commas = ambiguous_commas(text); !commas.empty()) {
+    const std::string pointed = with_commas_as(".", text, commas), list = with_commas_as(", ", text, commas);
+    const bool may_be_points = parse_list(pointed, dimension).has_value();
+    return comma_fault(text, dimension, may_be_points ? quoted_list({pointed, list}) : quoted_list({list}));
+  }
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
@@ -261,6 +397,7 @@ std::string exact_quantity(double si_value, Dimension dimension) {
 double in_unit(double si_value, Dimension dimension, std::string_view unit_name) {
   const std::optional<Unit> unit = find_unit(dimension, unit_name);
   if (!unit) return std::numeric_limits<double>::quiet_NaN();
+  if (!unit->decimal) return static_cast<double>(si_value / unit->factor - unit->shift);
   const double factor = std::pow(10.0, std::abs(unit->power));
   return unit->power > 0 ? si_value / factor : si_value * factor;
 }

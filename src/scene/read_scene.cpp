@@ -236,6 +236,8 @@ std::string to_toml(const Scene& scene) {
   for (const Key<Scene>& key : scene_keys()) {
     // The points of a measured curve are written; the file they came from need not exist any more.
     if (key.name == "load.curve") continue;
+    // A key that came later than results that are stored: where it does nothing, these stay what they are.
+    if (key.name == "load.smoothing" && scene.load.smoothing == 0.0) continue;
     append(text, key.name);
     append(text, " = ");
     append_exact_toml(text, key, key.get(scene));

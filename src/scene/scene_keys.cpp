@@ -73,8 +73,8 @@ Keys load_keys() {
           "such as time_ms,pressure_MPa; empty for none.",
           [](auto& s) -> auto& { return s.load.curve_file; }),
       may_be_empty(list_key<Scene>(
-          "load.curve_time", Dimension::time, any_number(), Standing::assumed,
-          "Times of a measured curve written in the scene itself, increasing.",
+          "load.curve_time", Dimension::time, between(-largest_curve_time, largest_curve_time),
+          Standing::assumed, "Times of a measured curve written in the scene itself, increasing.",
           [](auto& s) -> auto& { return s.load.curve_time; })),
       may_be_empty(list_key<Scene>(
           "load.curve_pressure", Dimension::pressure, between(0, largest_load), Standing::assumed,
@@ -82,8 +82,13 @@ Keys load_keys() {
           [](auto& s) -> auto& { return s.load.curve_pressure; })),
       flag_key<Scene>(
           "load.rescale_to_peak", Standing::assumed,
-          "Scale the measured curve so that its largest pressure is load.peak.",
+          "Scale the measured curve, after smoothing, so that its largest pressure is load.peak.",
           [](auto& s) -> auto& { return s.load.rescale_to_peak; }),
+      number_key<Scene>(
+          "load.smoothing", Dimension::time, between(0, 1), Standing::assumed,
+          "Window over which a measured curve is averaged against noise, which heats falsely; it takes from "
+          "narrow peaks; \"0 ms\" for none.",
+          [](auto& s) -> auto& { return s.load.smoothing; }),
   };
 }
 
@@ -204,7 +209,7 @@ Keys output_keys() {
           "Diffusion length over cell size below which conduction is left out.",
           [](auto& s) -> auto& { return s.physics.conduction_bound; }),
       number_key<Scene>(
-          "physics.reaction_bound", Dimension::temperature, at_least(0), Standing::assumed,
+          "physics.reaction_bound", Dimension::temperature_difference, at_least(0), Standing::assumed,
           "Self-heating over the run below which the bulk reaction is left out.",
           [](auto& s) -> auto& { return s.physics.reaction_bound; }),
   };

@@ -16,13 +16,12 @@
 
 #include "launchsafe/scene/toml_reader.hpp"
 
+#include "input_text.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
-#include <system_error>
 
 namespace launchsafe::scene {
 namespace {
@@ -133,6 +132,24 @@ Expected<Value> checked_word(const std::string& word, const KeyDescription& key,
   return error_for(place, key, '"' + word + '"', near.empty() ? near : '"' + near + '"');
 }
 
+/// Names of files end at a NUL, wherever it stands.
+Expected<Value> checked_text(const std::string& text, const KeyDescription& key, const Place& place) {
+  if (text.find('\0') == std::string::npos) return Value(text);
+  return error_for(place, key, '"' + text + "\", with a NUL character");
+}
+
+/// More tables of one name than anybody writes; each is compared with all the others.
+std::optional<InputError> check_counts(const toml::table& table, const std::string& file) {
+  constexpr std::size_t most_tables = 10'000;
+  for (const auto& [key, node] : table) {
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->size() <= most_tables || !array->is_array_of_tables()) continue;
+    return error_at(place_of(node, file), key.str(), fmt::format("{} tables", array->size()),
+                    fmt::format("at most {} tables of one name", most_tables));
+  }
+  return std::nullopt;
+}
+
 Expected<Value> checked_number(double number, const std::string& found, const KeyDescription& key,
                                const Place& place) {
   if (const auto error = check_limits({number}, found, key, place)) return *error;
@@ -185,39 +202,24 @@ Place place_of(const toml::node& node, const std::string& file) {
   return {file, static_cast<int>(begin.line), static_cast<int>(begin.column)};
 }
 
-InputError error_at(const Place& place, std::string key, std::string found, std::string allowed,
-                    std::string suggestion) {
-  return {place.file,       place.line,         place.column,         std::move(key),
-          std::move(found), std::move(allowed), std::move(suggestion)};
-}
-
-Expected<std::string> read_text_file(const std::filesystem::path& file) {
-  std::error_code status;
-  const Place place{file.string()};
-  if (!std::filesystem::exists(file, status)) {
-    std::vector<std::string> names;
-    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-    for (const auto& entry : std::filesystem::directory_iterator(folder, status)) {
-      names.push_back(entry.path().filename().string());
-    }
-    std::sort(names.begin(), names.end());
-    const std::string near = nearest_of(file.filename().string(), names);
-    return error_at(place, {}, "no such file", "a file that exists",
-                    near.empty() ? near : '"' + (file.parent_path() / near).string() + '"');
-  }
-  if (std::filesystem::is_directory(file, status)) return error_at(place, {}, "a folder", "a file");
-  // Some of them never end. A pipe does, and may be what the user means.
-  if (std::filesystem::is_character_file(file, status) || std::filesystem::is_block_file(file, status))
-    return error_at(place, {}, "a device", "a file");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(stream), {});
-  if (!stream) return error_at(place, {}, "a file that cannot be read", "a readable file");
-  return text;
+InputError error_at(const Place& place, std::string_view key, std::string_view found,
+                    std::string_view allowed, std::string_view suggestion) {
+  return {place.file,
+          place.line,
+          place.column,
+          quotable(key, longest_quoted),
+          quotable(found, longest_quoted),
+          quotable(allowed, longest_allowed_quoted),
+          quotable(suggestion, longest_quoted)};
 }
 
 Expected<toml::table> parse_toml(std::string_view text, const std::string& file) {
+  if (auto error = check_encoding(text, file)) return *error;
+  if (auto error = check_nesting(text, file)) return *error;
   try {
-    return toml::parse(text, file);
+    toml::table table = toml::parse(text, file);
+    if (auto error = check_counts(table, file)) return *error;
+    return table;
   } catch (const toml::parse_error& error) {
     const auto& begin = error.source().begin;
     const Place place{file, static_cast<int>(begin.line), static_cast<int>(begin.column)};
@@ -254,7 +256,7 @@ Expected<Value> read_value(const toml::node& node, const KeyDescription& key, co
       if (const auto* word = node.as_string()) return checked_word(word->get(), key, place);
       return error_for(place, key, found_text(node));
     case KeyKind::text:
-      if (const auto* text = node.as_string()) return Value(text->get());
+      if (const auto* text = node.as_string()) return checked_text(text->get(), key, place);
       return error_for(place, key, found_text(node));
   }
   return error_for(place, key, found_text(node));
@@ -284,7 +286,7 @@ Expected<Value> parse_value(std::string_view text, const KeyDescription& key, co
     case KeyKind::word:
       return checked_word(written, key, place);
     case KeyKind::text:
-      return Value(written);
+      return checked_text(written, key, place);
   }
   return error_for(place, key, '"' + written + '"');
 }

@@ -1,4 +1,6 @@
 // What a scene must satisfy beyond the range of each key, before anything is computed.
+#include "launchsafe/scene/load_roughness.hpp"
+#include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <fmt/format.h>
@@ -169,6 +171,21 @@ Fault check_rescaling(const SceneFile& file) {
                   "a curve that reaches " + format_quantity(least_peak, Dimension::pressure));
 }
 
+Fault check_smoothing(const SceneFile& file) {
+  const Load& load = file.scene.load;
+  if (!(load.smoothing > 0.0)) return std::nullopt;
+  const std::string window = format_quantity(load.smoothing, Dimension::time);
+  if (load.curve_time.empty())
+    return fault_at(file, "load.smoothing", window + " without a measured curve",
+                    "a window only together with load.curve");
+  const double length = load.curve_time.back() - load.curve_time.front();
+  if (load.smoothing >= least_smoothing_share * length && load.smoothing <= length) return std::nullopt;
+  return fault_at(file, "load.smoothing", window,
+                  fmt::format("a window from {} to that of the measured curve, {}, or 0 ms for none",
+                              format_quantity(least_smoothing_share * length, Dimension::time),
+                              format_quantity(length, Dimension::time)));
+}
+
 Fault check_load(const SceneFile& file) {
   const Load& load = file.scene.load;
   if (load.curve_time.size() != load.curve_pressure.size()) {
@@ -180,13 +197,14 @@ Fault check_load(const SceneFile& file) {
     return fault_at(file, "load.curve_time", "1 point", "a curve of at least two points");
   }
   const auto& times = load.curve_time;
-  const auto late =
-      std::adjacent_find(times.begin(), times.end(), [](double a, double b) { return !(a < b); });
+  const auto late = std::adjacent_find(times.begin(), times.end(),
+                                       [](double a, double b) { return !(b - a > least_curve_interval); });
   if (late != times.end()) {
     return fault_at(file, "load.curve_time",
                     fmt::format("{} followed by {}", format_quantity(*late, Dimension::time),
                                 format_quantity(*std::next(late), Dimension::time)),
-                    "times in increasing order");
+                    "times in increasing order, more than " +
+                        format_quantity(least_curve_interval, Dimension::time) + " apart");
   }
   if (Fault fault = check_curve_use(file)) return fault;
   if (Fault fault = check_rescaling(file)) return fault;
@@ -194,6 +212,7 @@ Fault check_load(const SceneFile& file) {
     return fault_at(file, "load.rescale_to_peak", "true without a measured curve",
                     "true together with load.curve");
   }
+  if (Fault fault = check_smoothing(file)) return fault;
   if (times.empty() && load.base > load.peak) {
     return fault_at(
         file, file.given.contains("load.base") ? "load.base" : "load.peak",
@@ -329,7 +348,12 @@ Fault check_output(const SceneFile& file) {
                     format_quantity(file.scene.output.trace_interval, Dimension::time),
                     "an interval of at most the load's duration, " + until);
   }
-  for (const double time : file.scene.output.snapshot_times) {
+  std::vector<double> times = file.scene.output.snapshot_times;
+  std::sort(times.begin(), times.end());
+  if (const auto twice = std::adjacent_find(times.begin(), times.end()); twice != times.end())
+    return fault_at(file, "output.snapshots", format_quantity(*twice, Dimension::time) + " twice",
+                    "each time once");
+  for (const double time : times) {
     if (time <= duration * (1.0 + 1e-12)) continue;
     return fault_at(file, "output.snapshots", format_quantity(time, Dimension::time),
                     "times from 0 ms to the load's duration, " + until);

@@ -1,6 +1,7 @@
 #include "case_uncertainty.hpp"
 
 #include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/study/uncertainty_text.hpp"
 
 #include <fmt/format.h>
@@ -74,6 +75,12 @@ double stated_input_share(const Study& study, const StudyCase& input) {
   return study.input_uncertainty * (growth <= 1.0 ? 1.0 : growth);
 }
 
+LoadCurveErrors load_curve_errors(const scene::Load& load) {
+  const double roughness = scene::load_roughness(load);
+  const double kept = 1.0 - scene::peak_lost_to_smoothing(load);
+  return {roughness / (1.0 + roughness), 1.0 / (kept * kept) - 1.0};
+}
+
 std::string calibration_doubt(const StudyCase& input, const CalibrationDistance& distance) {
   if (distance.unknown.empty() || !reason_for_calibration(input).empty()) return {};
   return fmt::format(
@@ -100,36 +107,39 @@ namespace launchsafe::study {
 
 std::string fit_uncertainty_text(const Study& study) {
   const CalibrationEvidence evidence;
-  const std::string base =
-      std::isfinite(study.fit_uncertainty)
-          ? fmt::format("{:.3g} K, as the study states", study.fit_uncertainty)
-          : fmt::format(
-                "{:.3g} K, as the study states none: the largest misfit of the published temperatures that "
-                "nothing was fitted to",
-                evidence.largest_misfit);
+  const std::string base = std::isfinite(study.fit_uncertainty)
+                               ? fmt::format("{:.3g} K, as the study states", study.fit_uncertainty)
+                               : fmt::format(
+                                     "{:.3g} K, as the study states none: the largest misfit of the "
+                                     "published temperatures that nothing "
+                                     "was fitted to",
+                                     evidence.largest_misfit);
+  const std::string rows = fmt::format(
+      "for the rows that the constants were fitted to, where friction heats by {:.4g} K and the air by "
+      "{:.4g} K",
+      evidence.friction_rise, evidence.air_rise);
   return fmt::format(
-      "{}, for the rows that the constants were fitted to, where friction heats by {:.4g} K and the air by "
-      "{:.4g} K; "
-      "their relative errors are carried to a case's own heating by friction and air. Under another load "
-      "shape it is "
-      "at least {:.3g} K, and with other numerics {:.3g} K for the mesh error that the constants absorbed "
+      "{}, {}; their relative errors are carried to a case's own heating by friction and air. Under another "
+      "load "
+      "shape it is at least {:.3g} K, and with other numerics {:.3g} K for the mesh error that the constants "
+      "absorbed "
       "come in.",
-      base, evidence.friction_rise, evidence.air_rise, evidence.largest_misfit,
-      assumed_numerical_uncertainty);
+      base, rows, evidence.largest_misfit, assumed_numerical_uncertainty);
 }
 
 std::string input_uncertainty_text(const Study& study) {
-  if (std::isfinite(study.input_uncertainty)) {
-    return fmt::format(
-        "{:.3g} K, as the study states for its own scene; at a higher peak it grows with the square of the "
-        "pressure.",
-        study.input_uncertainty);
-  }
-  return fmt::format(
-      "the study states none, so that an assumed spread is propagated: the load {:.3g} % higher, by a run of "
-      "its own, "
-      "and the initial temperature {:.3g} K higher, both together.",
-      100.0 * detail::assumed_load_spread, detail::assumed_temperature_spread);
+  const std::string spread =
+      std::isfinite(study.input_uncertainty)
+          ? fmt::format(
+                "{:.3g} K, as the study states for its own scene; at a higher peak it grows with the square "
+                "of the pressure",
+                study.input_uncertainty)
+          : fmt::format(
+                "the study states none, so that an assumed spread is propagated: the load {:.3g} % higher, "
+                "by "
+                "a run of its own, and the initial temperature {:.3g} K higher, both together",
+                100.0 * detail::assumed_load_spread, detail::assumed_temperature_spread);
+  return spread + ". The noise of a measured curve and what smoothing took from its peak come on top.";
 }
 
 }  // namespace launchsafe::study

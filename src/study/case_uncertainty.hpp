@@ -48,6 +48,17 @@ double fit_share(const Study& study, const CalibrationDistance& distance, const 
 /// grows with that.
 double stated_input_share(const Study& study, const StudyCase& input);
 
+/// What the measured curve of a load may have wrong, as shares of the rises; 0 for an analytic load.
+struct LoadCurveErrors {
+  double of_friction = 0;  ///< the noise of a gauge heats by friction
+  double of_both =
+      0;  ///< what smoothing took from the peak: heat goes nearly with the square of the pressure
+  double in_kelvin(const Rises& rises) const {
+    return rises.friction * of_friction + (rises.friction + rises.air) * of_both;
+  }
+};
+LoadCurveErrors load_curve_errors(const scene::Load& load);
+
 /// Why the constants say nothing of a case, for its verdict; empty inside the calibration's domain, where a
 /// rule carries them, and where the scene accepts it.
 std::string calibration_doubt(const StudyCase& input, const CalibrationDistance& distance);

@@ -74,12 +74,14 @@ double heated_temperature(const scene::Scene& scene, const BottomTrace& trace, d
 /// What the rows of a case have in common.
 struct CaseGround {
   CalibrationDistance distance;
+  LoadCurveErrors load_curve;
   double heated_without_gap = not_a_number;  ///< K
 };
 
 CaseGround ground_of(const CaseOutcome& outcome) {
   const scene::Scene& scene = outcome.input.scene.scene;
-  return {distance_to_calibration(scene), heated_temperature(scene, outcome.result.mechanics.trace, 0.0)};
+  return {distance_to_calibration(scene), load_curve_errors(scene.load),
+          heated_temperature(scene, outcome.result.mechanics.trace, 0.0)};
 }
 
 /// K by which T max of a gap rises where load and initial temperature are at the hot ends of their assumed
@@ -100,10 +102,11 @@ void add_shares(const Study& study, const CaseOutcome& outcome, const CaseGround
   const double initial = outcome.input.scene.scene.initial_temperature;
   const double hotter = (row.maximum.temperature - initial) / outcome.input.rise_of_uncertainty;
   row.uncertainty.numerical = outcome.input.numerical_uncertainty * (hotter > 1.0 ? hotter : 1.0);
-  row.uncertainty.fit = fit_share(
-      study, ground.distance, {ground.heated_without_gap - initial, row.heated - ground.heated_without_gap});
-  row.uncertainty.input =
+  const Rises rises{ground.heated_without_gap - initial, row.heated - ground.heated_without_gap};
+  row.uncertainty.fit = fit_share(study, ground.distance, rises);
+  const double spread =
       outcome.raised ? propagated_share(outcome, row) : stated_input_share(study, outcome.input);
+  row.uncertainty.input = spread + ground.load_curve.in_kelvin(rises);
 }
 
 GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGround& ground,

@@ -222,7 +222,8 @@ const std::vector<Key<HardLaunchText>>& hard_launch_keys() {
           "Steps within which a broken computation must be caught; 0: any number.",
           [](auto& c) -> auto& { return c.caught_within; }),
       scene::number_key<HardLaunchText>(
-          "numerical_uncertainty", Dimension::temperature, scene::between(0, 1000), Standing::input,
+          "numerical_uncertainty", Dimension::temperature_difference, scene::between(0, 1000),
+          Standing::input,
           "Uncertainty of the maximum temperature with these numerics; the study's if absent.",
           [](auto& c) -> auto& { return c.numerical_uncertainty; }),
   };

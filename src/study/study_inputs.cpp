@@ -131,12 +131,13 @@ Fault check_distribution(const InputReader& reader) {
   }
   if (Fault fault = check_reach(reader)) return fault;
   if (math::is_valid(text.distribution())) return std::nullopt;
-  return reader.fault("range",
-                      fmt::format("{}, where a normal of mean {} and deviation {} has no share",
-                                  range_text(text.lower, text.upper, text.key.dimension),
-                                  scene::format_quantity(text.mean, text.key.dimension),
-                                  scene::format_quantity(text.deviation, text.key.dimension)),
-                      "a range near the mean");
+  return reader.fault(
+      "range",
+      fmt::format("{}, where a normal of mean {} and deviation {} has no share",
+                  range_text(text.lower, text.upper, text.key.dimension),
+                  scene::format_quantity(text.mean, text.key.dimension),
+                  scene::format_quantity(text.deviation, scene::difference_of(text.key.dimension))),
+      "a range near the mean");
 }
 
 Fault read_input(InputReader& reader) {

@@ -55,9 +55,9 @@ Key<Study> study_number(std::string name, Dimension dimension, scene::Limits lim
 
 /// Of a temperature, K.
 Key<Study> stated_uncertainty(std::string name, std::string sentence, double Study::*member) {
-  return plausibly(
-      study_number(std::move(name), Dimension::temperature, between(0, 1000), std::move(sentence), member),
-      between(0.1, 1000), "nothing is known of a launch to a tenth of a kelvin");
+  return plausibly(study_number(std::move(name), Dimension::temperature_difference, between(0, 1000),
+                                std::move(sentence), member),
+                   between(0.1, 1000), "nothing is known of a launch to a tenth of a kelvin");
 }
 
 std::vector<Key<Study>> common_keys() {
@@ -168,7 +168,7 @@ std::vector<Key<Study>> uncertainty_keys() {
           "numerical uncertainty of every setting in it.",
           [](auto& s) -> auto& { return s.accuracy; }),
       study_number(
-          "setting_tolerance", Dimension::temperature, above_to(0, 1000),
+          "setting_tolerance", Dimension::temperature_difference, above_to(0, 1000),
           "Replaces the scene's numerics by the cheapest setting of the record that knows the maximum "
           "temperature to this; on the command line --tolerance.",
           &Study::setting_tolerance),
@@ -263,10 +263,10 @@ std::vector<Key<Reference>> make_reference_keys() {
       scene::text_key<Reference>(
           "early_point", Standing::paper, "Observation point of the highest temperature at early_time.",
           [](auto& r) -> auto& { return r.early_point; }),
-      reference_number("spread", Dimension::temperature,
+      reference_number("spread", Dimension::temperature_difference,
                        "Highest minus lowest observation point at the end of the launch.",
                        &Reference::spread),
-      reference_number("early_spread", Dimension::temperature, "The same at early_time.",
+      reference_number("early_spread", Dimension::temperature_difference, "The same at early_time.",
                        &Reference::early_spread),
       reference_number("ignition_time", Dimension::time, "When it ignited; absent where it did not.",
                        &Reference::ignition_time),
@@ -351,7 +351,7 @@ std::vector<Key<InputText>> input_keys(const scene::KeyDescription& scene_key) {
           "Mean of a normal before it is cut off, in a unit of the key.",
           [](auto& i) -> auto& { return i.mean; }),
       scene::number_key<InputText>(
-          "deviation", dimension, above(0), Standing::input,
+          "deviation", scene::difference_of(dimension), above(0), Standing::input,
           "Standard deviation of a normal before it is cut off, in a unit of the key.",
           [](auto& i) -> auto& { return i.deviation; }),
   };

@@ -100,6 +100,24 @@ TEST(RunMechanics, TakesSnapshotsOfAllParticlesAtTheTimesAskedFor) {
   EXPECT_EQ(result.snapshots[1].x.size(), result.particles);
 }
 
+// Whatever their order; the first is of the state at rest, the last of the end.
+TEST(RunMechanics, TakesSnapshotsFromTheInitialStateToTheFinalOne) {
+  scene::Scene scene = coarse_scene();
+  scene.load.duration = 1e-3;
+  scene.output.snapshot_times = {1e-3, 0.0, 0.5e-3, 0.25e-3};
+  const MechanicsResult result = run_mechanics(scene);
+  ASSERT_EQ(result.snapshots.size(), 4u);
+  EXPECT_EQ(result.snapshots[0].time, 0.0);
+  EXPECT_NEAR(result.snapshots[1].time, 0.25e-3, 1e-5);
+  EXPECT_NEAR(result.snapshots[2].time, 0.5e-3, 1e-5);
+  EXPECT_EQ(result.snapshots[3].time, result.end_time);
+  for (std::size_t i = 0; i < result.particles; ++i) {
+    EXPECT_EQ(result.snapshots[0].velocity_x[i], 0.0);
+    EXPECT_EQ(result.snapshots[0].von_mises[i], 0.0);
+    EXPECT_EQ(result.snapshots[0].temperature[i], 300.0);
+  }
+}
+
 TEST(RunCase, HotterForWiderGapsAndTheSamplingErrorIsSmall) {
   const CaseResult result = run_case(coarse_scene());
   ASSERT_EQ(result.gaps.size(), 6u);

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 namespace launchsafe::scene {
 namespace {
 
@@ -28,6 +32,103 @@ TEST(PressureCurve, ReadsItsUnitsFromTheHeader) {
   }
 }
 
+TEST(PressureCurve, ReadsTheHeadersThatPeopleWrite) {
+  for (const std::string header :
+       {"Time (ms),Pressure (MPa)", "TIME [ms],PRESSURE [MPa]", "t [ms],p [MPa]", "t_ms,p_MPa",
+        "t / ms,p / MPa", "time in ms,pressure in MPa", "\"Time (ms)\",\"Pressure (MPa)\"",
+        "time since ignition (ms),pressure breech (MPa)", "Time(msec),P(MPa)"}) {
+    const auto curve = parse_pressure_curve(header + "\n0,0.1\n5,300\n18,10\n", "gun.csv");
+    ASSERT_TRUE(curve) << curve.error().message();
+    EXPECT_EQ(curve->time, (std::vector<double>{0.0, 5e-3, 18e-3})) << header;
+    EXPECT_EQ(curve->pressure, (std::vector<double>{1e5, 3e8, 1e7})) << header;
+  }
+  for (const std::string header :
+       {"temperature (ms),pressure (MPa)", "time (ms),time (ms)", "pressure (MPa),pressure (MPa)",
+        "time (ms),pressure2 (MPa)", "time (ms),pressure (MPa),strain", "tp (ms),p (MPa)"})
+    EXPECT_FALSE(parse_pressure_curve(header + "\n0,0.1\n5,300\n", "gun.csv")) << header;
+}
+
+TEST(PressureCurve, ReadsTheFilesThatProgramsWrite) {
+  const std::vector<std::string> lines{"time_ms,pressure_MPa", "0,0.1", "5,300", "18,10"};
+  const auto joined = [&](const std::string& end) {
+    std::string text;
+    for (const std::string& line : lines) text += line + end;
+    return text;
+  };
+  const std::string quoted = "\"time_ms\",\"pressure_MPa\"\r\n\"0\",\"0.1\"\r\n\"5\", \"300\" \r\n18,10";
+  for (const std::string& text :
+       {"\xEF\xBB\xBF" + joined("\n"), joined("\r\n"), joined("\r"), joined("\n\n"), joined(" \n"), quoted,
+        std::string("Time (ms);Pressure (MPa)\n0;0,1\n5,0;300\n18;10,0\n"),
+        std::string("Time (ms);Pressure (MPa)\n0;0.1\n5.0;300\n18;10\n"),
+        std::string("time_ms\tpressure_MPa\n0\t0,1\n5\t300\n18\t10\n"),
+        std::string("time_ms,pressure_MPa\n\"0,0\",\"0,1\"\n5,\"300,0\"\n18,10\n")}) {
+    const auto curve = parse_pressure_curve(text, "gun.csv");
+    ASSERT_TRUE(curve) << curve.error().message() << "\n" << text;
+    EXPECT_EQ(curve->time, (std::vector<double>{0.0, 5e-3, 18e-3})) << text;
+    EXPECT_EQ(curve->pressure, (std::vector<double>{1e5, 3e8, 1e7})) << text;
+  }
+}
+
+// psi, ksi and atm by their definitions.
+TEST(PressureCurve, ReadsTheUnitsThatGaugesHave) {
+  const auto peak = [](const std::string& unit, const std::string& value) {
+    const auto curve = parse_pressure_curve("t [ms],p [" + unit + "]\n0,0\n5," + value + "\n", "gun.csv");
+    EXPECT_TRUE(curve) << curve.error().message();
+    return curve ? curve->pressure.back() : 0.0;
+  };
+  EXPECT_NEAR(peak("psi", "72000"), 496.4225251e6, 1.0);
+  EXPECT_NEAR(peak("ksi", "72"), 496.4225251e6, 1.0);
+  EXPECT_EQ(peak("atm", "4000"), 405.3e6);
+  EXPECT_EQ(peak("bar", "4960"), 496e6);
+  EXPECT_EQ(peak("kbar", "4.96"), 496e6);
+}
+
+TEST(PressureCurve, ACommaIsNeverReadAsSomethingElse) {
+  // Decimal commas between commas: too many values, and the message says why.
+  expect_fault("time_ms,pressure_MPa\n0,5,12,3\n1,5,13,3\n", 2, "", "4 values",
+               "decimal commas, a semicolon");
+  expect_fault("time_ms,pressure_MPa\n0,5,12\n1,5,13\n", 2, "", "3 values", "decimal commas, a semicolon");
+  // Another separator than the header's.
+  expect_fault("time_ms;pressure_MPa\n0,5\n1,6\n", 2, "", "1 value", "a semicolon between them");
+  // Points and commas in one file: one of them divides thousands.
+  expect_fault("time_ms;pressure_MPa\n0,5;1.000\n1,5;2.000\n", 2, "pressure", "1.000", "one decimal mark");
+  expect_fault("time_ms;pressure_MPa\n0.5;1\n1.5;2,5\n", 3, "pressure", "2,5", "one decimal mark");
+  expect_fault("time_ms;pressure_Pa\n0;1.000,5\n1;2\n", 2, "pressure", "1.000,5", "one decimal mark");
+  // Nothing shows whether these are thousands.
+  expect_fault("time_ms\tpressure_kPa\n0\t100\n1\t1,250\n2\t12,500\n", 3, "pressure", "divide thousands",
+               "decimal points");
+  expect_fault("time_ms;pressure_Pa\n0;1,000,000\n1;2\n", 2, "pressure", "1,000,000", "a finite number");
+  // These show it.
+  for (const char* rows : {"0;100\n1;1,250\n2;12,5\n", "0,000;1,250\n1,000;2,250\n", "0;1,2500\n1;2,250\n"})
+    EXPECT_TRUE(parse_pressure_curve(std::string("time_ms;pressure_kPa\n") + rows, "gun.csv")) << rows;
+}
+
+TEST(PressureCurve, OtherEncodingsAreAnError) {
+  const std::string text = "time_ms,pressure_MPa\n0,0.1\n5,300\n";
+  std::string wide;
+  for (const char letter : text) wide += std::string{letter, '\0'};
+  expect_fault("\xFF\xFE" + wide, 1, "", "UTF-16", "UTF-8");
+  expect_fault(wide, 1, "", "NUL", "UTF-8");
+  expect_fault("# Druckmesser \xE4\n" + text, 1, "", "0xE4", "UTF-8");
+  expect_fault("time_ms,pressure_MPa\n0,0.1\n5,300" + std::string(3, '\0'), 3, "", "NUL", "UTF-8");
+}
+
+TEST(PressureCurve, BrokenQuotationMarksAreAnError) {
+  expect_fault("time_ms,pressure_MPa\n\"0,0.1\n5,300\n", 2, "", "quotation mark", "0.5");
+  expect_fault("time_ms,pressure_MPa\n\"0\"1,0.1\n5,300\n", 2, "", "quotation mark", "0.5");
+}
+
+// Between points so near to each other a slope would overflow.
+TEST(PressureCurve, PointsThatAreTooNearAreRefused) {
+  expect_fault("time_s,pressure_MPa\n0,0\n1e-13,5\n", 3, "time", "1e-13 s", "later than 0 ms by more than");
+  expect_fault("time_s,pressure_MPa\n0,0\n1e-320,5\n", 3, "time", "1e-320 s", "later than");
+}
+
+TEST(PressureCurve, TimesFarFromTheStartAreRefused) {
+  expect_fault("time_s,pressure_MPa\n0,0\n1e300,5\n", 3, "time", "1e300 s", "within 1e+06 s");
+  expect_fault("time_s,pressure_MPa\n-2e6,0\n1,5\n", 2, "time", "-2e6 s", "within 1e+06 s");
+}
+
 TEST(PressureCurve, OnePointIsRefused) {
   expect_fault("time_ms,pressure_MPa\n0,0.1\n", 2, "time", "1 point", "at least two points");
   expect_fault("time_ms,pressure_MPa\n", 1, "time", "0 points", "at least two points");
@@ -48,7 +149,10 @@ TEST(PressureCurve, WhatIsNoFiniteNumberIsRefused) {
 }
 
 TEST(PressureCurve, UnknownUnitsAreRefused) {
-  expect_fault("time_ms,pressure_psi\n0,1\n1,2\n", 1, "pressure", "unknown unit \"psi\"", "MPa");
+  expect_fault("time_ms,pressure_torr\n0,1\n1,2\n", 1, "pressure", "unknown unit \"torr\"", "MPa");
+  expect_fault("time_ms,pressure (bar(g))\n0,1\n1,2\n", 1, "pressure", "unknown unit \"bar(g)\"", "bar");
+  expect_fault("time_ms,pressure (MPa) x 10\n0,1\n1,2\n", 1, "pressure", "unknown unit", "MPa");
+  expect_fault("time_ms,p [K]\n0,1\n1,2\n", 1, "pressure", "unknown unit \"K\"", "MPa");
   expect_fault("time_min,pressure_MPa\n0,1\n1,2\n", 1, "time", "unknown unit \"min\"", "ms");
   expect_fault("time,pressure\n0,1\n1,2\n", 1, "time", "without a unit", "ms");
 }

@@ -161,7 +161,7 @@ class SceneWriter {
     const bool array = chance();
     const auto& unit = units[pick(units.size())];
     for (const Decimal& each : decimals) {
-      if (!text.empty()) text += "," + blanks();
+      if (!text.empty()) text += ", " + blanks();  // without a blank "1,5" might be a decimal
       text += array ? quantity(each, units) : digits(each, unit.second);
     }
     return array ? "[" + text + "]" : '"' + text + " " + unit.first + '"';

@@ -36,6 +36,19 @@ void expect_line_error(const std::string& line, const ExpectedError& expected) {
   expect_error_in(start + line + "\n" + crack, expected);
 }
 
+// 252 degrees Celsius are 525.15 K, a deviation of 5 degrees Celsius would be one of 278 K.
+TEST(ReadSensitivity, ATemperatureMayBeInCelsiusButItsDeviationMayNot) {
+  const std::string ignition = "key = \"kinetics.ignition_temperature\"\ndistribution = \"normal\"\n";
+  const StudyFile file =
+      study_of(start + input(ignition + "mean = \"252 \u00b0C\"\nrange = \"250 to 254 \u00b0C\"\ndeviation = \"5 K\""));
+  ASSERT_EQ(file.study.inputs.size(), 1u);
+  EXPECT_EQ(file.study.inputs[0].distribution.centre, 525.15);
+  EXPECT_EQ(file.study.inputs[0].distribution.lower, 523.15);
+  EXPECT_EQ(file.study.inputs[0].distribution.deviation, 5.0);
+  expect_input_error(ignition + "mean = \"252 \u00b0C\"\ndeviation = \"5 \u00b0C\"",
+                     {8, "input.deviation", "which is a temperature", "a temperature difference"});
+}
+
 TEST(ReadSensitivity, ReadsInputsAndMethod) {
   const StudyFile file = study_of(start +
                                   "method = \"sobol\"\ndesign = \"latin-hypercube\"\nsamples = 8\nseed = 7\n"

@@ -2,6 +2,7 @@
 // meant.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,7 +21,8 @@ struct InputError {
   std::string allowed;     ///< what may stand there
   std::string suggestion;  ///< what was perhaps meant, ready to be copied
 
-  /// One line: "scene.toml:12:3: charge.crack_radius: found ...; allowed: ...; did you mean ...?"
+  /// One line of limited length: "scene.toml:12:3: charge.crack_radius: found ...; allowed: ...; did you mean
+  /// ...?"
   std::string message() const;
 };
 
@@ -49,8 +51,16 @@ class Expected {
   std::variant<T, Error> content_;
 };
 
+/// Bytes that a message quotes of a part of an InputError. What is allowed may be a list of many keys.
+inline constexpr std::size_t longest_quoted = 240, longest_allowed_quoted = 4000, longest_file_quoted = 1000;
+
+/// A text as a message quotes it: on one line, control characters as escapes; of more than `longest` bytes
+/// the first and the last.
+std::string quotable(std::string_view text, std::size_t longest);
+
 /// The candidate nearest to `word` in letters changed, added, dropped or swapped, case ignored; empty if none
-/// is near (more than a third of the letters differ, and more than two of them).
+/// is near (more than a third of the letters differ, and more than two of them). Words of hundreds of letters
+/// are near to none.
 std::string nearest_of(std::string_view word, const std::vector<std::string>& candidates);
 
 /// `"a", "b" or "c"`.

@@ -9,7 +9,9 @@
 
 namespace launchsafe::scene {
 
-/// What a number measures. `number` is dimensionless, `count` a whole dimensionless number.
+/// What a number measures. `number` is dimensionless, `count` a whole dimensionless number. A `temperature`
+/// is one on a scale, which may be that of Celsius; a `temperature_difference`, such as an uncertainty, is in
+/// K.
 enum class Dimension {
   number,
   count,
@@ -17,6 +19,7 @@ enum class Dimension {
   time,
   pressure,
   temperature,
+  temperature_difference,
   density,
   speed,
   frequency,
@@ -25,6 +28,10 @@ enum class Dimension {
   conductivity,
   toughness
 };
+
+/// What the difference of two quantities measures: of two temperatures, a temperature difference; else the
+/// same.
+Dimension difference_of(Dimension dimension);
 
 /// "length", "temperature", ... for messages.
 std::string_view name_of(Dimension dimension);
@@ -43,14 +50,15 @@ struct QuantityFault {
 };
 
 /// One number and its unit: "2.5 mm". The result is the double nearest to the decimal number in SI: "11.8 cm"
-/// is exactly 0.118.
+/// is exactly 0.118. A comma for a decimal point is a fault.
 Expected<double, QuantityFault> parse_quantity(std::string_view text, Dimension dimension);
 
 /// "0 to 11.8 cm" or "0 cm to 118 mm": two numbers, lower first; a number without a unit takes the next
 /// one's.
 Expected<std::vector<double>, QuantityFault> parse_range(std::string_view text, Dimension dimension);
 
-/// "0, 0.01, 0.02 cm": one or more numbers; a number without a unit takes the next one's.
+/// "0, 0.01, 0.02 cm": one or more numbers; a number without a unit takes the next one's. A comma between
+/// digits without a blank ("0,5", "1,000") is a fault where it may be meant for decimals or thousands.
 Expected<std::vector<double>, QuantityFault> parse_list(std::string_view text, Dimension dimension);
 
 /// For people: six digits in the unit that reads best, such as "0.25 cm", "18 ms", "496 MPa".

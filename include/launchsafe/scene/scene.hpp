@@ -45,7 +45,8 @@ struct Load {
   std::string curve_file;              ///< as the user wrote it
   std::vector<double> curve_time;      ///< s, increasing; empty for the analytic shape
   std::vector<double> curve_pressure;  ///< Pa, one for every time
-  bool rescale_to_peak = false;        ///< scale the measured curve so that its maximum is `peak`
+  bool rescale_to_peak = false;        ///< scale the measured curve, smoothed, so that its maximum is `peak`
+  double smoothing = 0.0;              ///< s; window over which a measured curve is averaged, 0 = as measured
 };
 
 struct Steel {
@@ -148,16 +149,20 @@ bool has_material(const Scene& scene, BodyMaterial material);
 
 /// Chamber pressure (Pa) on the base at time t (s); monotone cubic (PCHIP) through a measured curve of at
 /// least two points at increasing times, held constant outside it. Curves of two or three points are joined
-/// by straight lines.
+/// by straight lines. With `smoothing` it is the moving average of that, centred, over a window no longer
+/// than the curve, whose ends are mirrored: impulse is kept, peaks fall. Only then is it rescaled.
 class PressureHistory {
  public:
   explicit PressureHistory(const Load& load);
   double at(double time) const;
   /// Largest pressure over the load's duration, Pa.
   double peak() const;
-  /// Largest pressure of the whole stated load, Pa, whenever it is reached: `Load::peak`, or the largest of the
-  /// measured curve.
+  /// Largest pressure of the whole load as stated, Pa, whatever the duration: `load.peak` of the analytic
+  /// shape, the largest point of a measured curve before smoothing, in the scale of `at`.
   double stated_peak() const;
+  /// Times from 0 to the duration, both included, at which the curvature of a measured curve changes: what it
+  /// does is seen at these. For the analytic shape only the ends.
+  std::vector<double> marks() const;
 
  private:
   Load load_;

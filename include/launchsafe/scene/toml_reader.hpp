@@ -102,16 +102,21 @@ struct Place {
   int column = 0;
 };
 Place place_of(const toml::node& node, const std::string& file);
-InputError error_at(const Place& place, std::string key, std::string found, std::string allowed,
-                    std::string suggestion = {});
+InputError error_at(const Place& place, std::string_view key, std::string_view found,
+                    std::string_view allowed, std::string_view suggestion = {});
 /// `"abc"`, `12`, `a table`: a TOML value as found, for messages.
 std::string found_text(const toml::node& node);
 
 /// The whole file as a table, or why it cannot be read or is no TOML. Never throws.
 Expected<toml::table> read_toml_file(const std::filesystem::path& file);
 Expected<toml::table> parse_toml(std::string_view text, const std::string& file);
-/// The text of a file, or why it cannot be read, with the nearest name in its folder.
-Expected<std::string> read_text_file(const std::filesystem::path& file);
+
+/// Bytes of the largest scene, study or record that is read, and of the largest pressure curve.
+inline constexpr std::size_t largest_input = std::size_t{16} << 20, largest_curve = std::size_t{64} << 20;
+
+/// The text of a regular file of at most `largest` bytes, or why it cannot be read, with the nearest name in
+/// its folder. Never waits for a pipe or a device.
+Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest = largest_input);
 
 /// One value of a table, checked against its key.
 Expected<Value> read_value(const toml::node& node, const KeyDescription& key, const std::string& file);

@@ -1,0 +1,41 @@
+// How much of a load's going up and down is noise of its measurement, and what smoothing does about it.
+#pragma once
+
+#include "launchsafe/scene/scene.hpp"
+
+#include <optional>
+#include <string>
+
+namespace launchsafe::scene {
+
+/// The shortest window of smoothing, as a share of the curve's length: averages over shorter ones would be
+/// round-off, and no curve has points so near to each other.
+inline constexpr double least_smoothing_share = 1e-6;
+
+/// Roughness from which on the friction heat of a load is off by more than a kelvin or so.
+inline constexpr double least_roughness = 0.01;
+
+/// The integral of p |dp| over the simulated time, of the history that is simulated, over that of the same
+/// curve without noise, minus 1; 0 for the analytic load. Where strain follows pressure, as it does in a
+/// launch, the literal friction closure heats with this integral, so that a share roughness / (1 + roughness)
+/// of the rise is false.
+///
+/// Without noise means without swings that are smaller than six standard deviations of the measured points
+/// about a cubic through their four neighbours, or than a hundredth of the peak: humps and steps that are
+/// larger, or take more points than these, are pressure. A swing that is left out wrongly adds less than
+/// twice the threshold over the peak. Of strong noise the extremes stay in, which makes the roughness
+/// smaller: 5 % of the peak by about a fifth.
+double load_roughness(const Load& load);
+
+/// Share of the largest pressure of a measured curve that its smoothing takes away; 0 without smoothing.
+double peak_lost_to_smoothing(const Load& load);
+
+/// The shortest window (s) of some that leaves a measured curve with less than `least_roughness`; nothing
+/// where the curve is not rough or no window helps.
+std::optional<double> suggested_smoothing(const Load& load);
+
+/// What is to be known of a measured curve, for people: what smoothing takes from it, and its roughness;
+/// empty for the analytic load.
+std::string measured_load_text(const Load& load);
+
+}  // namespace launchsafe::scene

@@ -1,0 +1,139 @@
+#include "input_text.hpp"
+
+#include "launchsafe/scene/toml_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace launchsafe::scene {
+namespace {
+
+/// Scenes and studies need five.
+constexpr std::size_t deepest_nesting = 16;
+
+Place place_at(std::string_view text, std::size_t position, const std::string& file) {
+  const std::string_view before = text.substr(0, position);
+  const std::size_t line_begin = before.rfind('\n') + 1;  // 0 where there is none
+  return {file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+          1 + static_cast<int>(position - line_begin)};
+}
+
+/// Bytes of the UTF-8 character that a text begins with; 0 if it begins with none. By table 3-7 of the
+/// Unicode standard: neither overlong forms nor surrogates nor what is beyond U+10FFFF.
+std::size_t length_of_character(std::string_view text) {
+  const auto byte = [text](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+  };
+  const auto continues = [&](std::size_t i, unsigned lowest = 0x80, unsigned highest = 0xBF) {
+    return byte(i) >= lowest && byte(i) <= highest;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first <= 0xDF) return continues(1) ? 2 : 0;
+  if (first >= 0xE0 && first <= 0xEF) {
+    const bool second = continues(1, first == 0xE0 ? 0xA0 : 0x80, first == 0xED ? 0x9F : 0xBF);
+    return second && continues(2) ? 3 : 0;
+  }
+  if (first >= 0xF0 && first <= 0xF4) {
+    const bool second = continues(1, first == 0xF0 ? 0x90 : 0x80, first == 0xF4 ? 0x8F : 0xBF);
+    return second && continues(2) && continues(3) ? 4 : 0;
+  }
+  return 0;
+}
+
+/// Walks over the texts and comments of TOML, so that what is between them can be counted. It need only be
+/// right up to the first fault of the syntax, where the parser stops.
+class TomlScanner {
+ public:
+  explicit TomlScanner(std::string_view text) : text_(text) {}
+
+  bool done() const { return position_ >= text_.size(); }
+  std::size_t position() const { return position_; }
+
+  /// The next character outside of texts and comments; 0 where one of these was passed over.
+  char next() {
+    const char c = text_[position_++];
+    if (c == '#') {
+      position_ = std::min(text_.find('\n', position_), text_.size());
+    } else if (c == '"' || c == '\'') {
+      pass_text(c);
+    } else {
+      return c;
+    }
+    return 0;
+  }
+
+ private:
+  bool three_quotes(char quote) const {
+    return text_.substr(position_).starts_with(std::string_view(quote == '"' ? "\"\"\"" : "'''"));
+  }
+
+  void pass_text(char quote) {
+    --position_;
+    if (three_quotes(quote)) return pass_long_text(quote);
+    for (++position_; !done(); ++position_) {
+      if (text_[position_] == '\n') return;
+      if (text_[position_] == quote) {
+        ++position_;
+        return;
+      }
+      if (text_[position_] == '\\' && quote == '"') ++position_;
+    }
+  }
+
+  /// Ends at the last three of up to five quotation marks.
+  void pass_long_text(char quote) {
+    for (position_ += 3; !done(); ++position_) {
+      if (three_quotes(quote)) {
+        position_ += 3;
+        for (int more = 0; more < 2 && !done() && text_[position_] == quote; ++more) ++position_;
+        return;
+      }
+      if (text_[position_] == '\\' && quote == '"') ++position_;
+    }
+  }
+
+  std::string_view text_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace
+
+std::optional<InputError> check_encoding(std::string_view text, const std::string& file) {
+  for (std::size_t i = 0; i < text.size();) {
+    if (text[i] == '\0')
+      return error_at(place_at(text, i, file), {}, "a NUL byte, as in UTF-16 or in a file that is no text",
+                      "text in UTF-8");
+    const std::size_t length = length_of_character(text.substr(i, 4));
+    if (length == 0)
+      return error_at(
+          place_at(text, i, file), {},
+          fmt::format("the byte 0x{:02X}, which is no UTF-8", static_cast<unsigned char>(text[i])),
+          "text in UTF-8");
+    i += length;
+  }
+  return std::nullopt;
+}
+
+std::optional<InputError> check_nesting(std::string_view toml, const std::string& file) {
+  TomlScanner scanner(toml);
+  std::size_t open = 0, points = 0;  // brackets, and points since the last character that ends a key
+  while (!scanner.done()) {
+    const char c = scanner.next();
+    if (c == '[' || c == '{') ++open;
+    if ((c == ']' || c == '}') && open > 0) --open;
+    if (c == '.') ++points;
+    if (c == '[' || c == '{' || c == '=' || c == ',' || c == '\n') points = 0;
+    if (std::max(open, points) < deepest_nesting) continue;
+    return error_at(place_at(toml, scanner.position() - 1, file), {},
+                    open >= deepest_nesting ? fmt::format("{} brackets inside each other", open)
+                                            : fmt::format("a key of more than {} parts", points),
+                    fmt::format("tables and arrays nested less than {} deep", deepest_nesting));
+  }
+  return std::nullopt;
+}
+
+}  // namespace launchsafe::scene

@@ -1,0 +1,19 @@
+// Text of input files before it is parsed: what no reader may see, and how much of it a message quotes.
+#pragma once
+
+#include "launchsafe/scene/input_error.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace launchsafe::scene {
+
+/// The first byte of a text that is no UTF-8, or a NUL, with its line.
+std::optional<InputError> check_encoding(std::string_view text, const std::string& file);
+
+/// TOML nested deeper than any scene or study is, which would exhaust the stack of whoever walks through it:
+/// brackets inside each other, or a dotted key of many parts.
+std::optional<InputError> check_nesting(std::string_view toml, const std::string& file);
+
+}  // namespace launchsafe::scene

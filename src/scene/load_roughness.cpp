@@ -1,0 +1,172 @@
+#include "launchsafe/scene/load_roughness.hpp"
+
+#include "launchsafe/scene/quantity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace launchsafe::scene {
+namespace {
+
+/// Swings below this share of the peak are no feature of a launch.
+constexpr double least_swing_share = 0.01;
+/// Swings of noise are smaller than this many of its standard deviations.
+constexpr double deviations_of_a_swing = 6.0;
+
+/// Integral of p |dp| along a way that is monotonic between the given pressures.
+double work_along(const std::vector<double>& pressures) {
+  double work = 0.0;
+  for (std::size_t i = 1; i < pressures.size(); ++i)
+    work += 0.5 * std::abs(pressures[i] * pressures[i] - pressures[i - 1] * pressures[i - 1]);
+  return work;
+}
+
+/// The turning points of a way, its ends included, without those of swings up to `least_swing`.
+std::vector<double> without_small_swings(const std::vector<double>& pressures, double least_swing) {
+  enum class Direction { unknown, up, down };
+  std::vector<double> turns{pressures.front()};
+  Direction direction = Direction::unknown;
+  double high = pressures.front(), low = pressures.front();  // since the last turn
+  for (const double pressure : pressures) {
+    high = std::max(high, pressure);
+    low = std::min(low, pressure);
+    if (direction != Direction::down && high - pressure > least_swing) {
+      if (direction == Direction::up) turns.push_back(high);
+      direction = Direction::down;
+      low = pressure;
+    } else if (direction != Direction::up && pressure - low > least_swing) {
+      if (direction == Direction::down) turns.push_back(low);
+      direction = Direction::up;
+      high = pressure;
+    }
+  }
+  if (direction == Direction::up) turns.push_back(high);
+  if (direction == Direction::down) turns.push_back(low);
+  turns.push_back(pressures.back());
+  return turns;
+}
+
+/// Deviation of a point from the cubic through two neighbours on either side, over what white noise of unit
+/// deviation would make of it.
+double deviation_from_neighbours(const Load& load, std::size_t i) {
+  const std::array<std::size_t, 4> neighbours{i - 2, i - 1, i + 1, i + 2};
+  double expected = 0.0, variance = 1.0;
+  for (const std::size_t j : neighbours) {
+    double weight = 1.0;
+    for (const std::size_t k : neighbours)
+      if (k != j)
+        weight *= (load.curve_time[i] - load.curve_time[k]) / (load.curve_time[j] - load.curve_time[k]);
+    expected += weight * load.curve_pressure[j];
+    variance += weight * weight;
+  }
+  return std::abs(load.curve_pressure[i] - expected) / std::sqrt(variance);
+}
+
+/// Standard deviation of the noise of a measured curve's points, Pa. From the deviation that one point in ten
+/// exceeds, so that a few steps do not count as noise, nor a quiet stretch before the pulse hides it.
+double noise_of(const Load& load) {
+  constexpr double exceeded_by_a_tenth = 1.645;  // standard deviations of a normal distribution
+  std::vector<double> deviations;
+  for (std::size_t i = 2; i + 2 < load.curve_time.size(); ++i)
+    if (load.curve_time[i] >= 0.0 && load.curve_time[i] <= load.duration)
+      deviations.push_back(deviation_from_neighbours(load, i));
+  if (deviations.empty()) return 0.0;
+  const auto ninth = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() * 9 / 10);
+  std::nth_element(deviations.begin(), ninth, deviations.end());
+  return *ninth / exceeded_by_a_tenth;
+}
+
+double mean_interval(const Load& load) {
+  return (load.curve_time.back() - load.curve_time.front()) / static_cast<double>(load.curve_time.size() - 1);
+}
+
+/// Share of the noise of single points that the average over a window has.
+double share_left_by_smoothing(const Load& load) {
+  return 1.0 / std::sqrt(std::max(1.0, load.smoothing / mean_interval(load)));
+}
+
+/// A number with two digits, rounded up.
+double rounded_up(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return std::ceil(value / unit - 1e-9) * unit;
+}
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
+
+std::string roughness_text(const Load& load) {
+  const double roughness = load_roughness(load);
+  std::string text = fmt::format("roughness {:.4f}", roughness);
+  if (roughness < least_roughness) return text;
+  text += fmt::format(": {} of the elastic friction heat is that of noise",
+                      percent(roughness / (1.0 + roughness)));
+  const auto window = suggested_smoothing(load);
+  if (!window) return text;
+  Load smoothed = load;
+  smoothed.smoothing = *window;
+  return text + fmt::format("; load.smoothing = \"{}\" leaves {:.4f} and takes {} from the peak",
+                            format_quantity(*window, Dimension::time), load_roughness(smoothed),
+                            percent(peak_lost_to_smoothing(smoothed)));
+}
+
+std::string smoothing_text(const Load& load) {
+  if (!(load.smoothing > 0.0)) return {};
+  const double before = PressureHistory(load).stated_peak(), lost = peak_lost_to_smoothing(load);
+  return fmt::format("averaged over {}, which takes {} from the peak: {} instead of {}",
+                     format_quantity(load.smoothing, Dimension::time), percent(lost),
+                     format_quantity(before * (1.0 - lost), Dimension::pressure),
+                     format_quantity(before, Dimension::pressure));
+}
+
+}  // namespace
+
+double load_roughness(const Load& load) {
+  if (load.curve_time.size() < 2) return 0.0;
+  const PressureHistory history(load);
+  std::vector<double> pressures;
+  for (const double time : history.marks()) pressures.push_back(history.at(time));
+  const double stated = history.stated_peak();
+  const double scale =
+      stated / std::max(*std::max_element(load.curve_pressure.begin(), load.curve_pressure.end()), 1e-300);
+  const double noise = scale * noise_of(load) * share_left_by_smoothing(load);
+  const double least_swing = std::max(least_swing_share * stated, deviations_of_a_swing * noise);
+  // A load that only swings less than that has a noiseless one that cannot be told from a constant.
+  const double noiseless =
+      std::max(work_along(without_small_swings(pressures, least_swing)), 0.5 * least_swing * least_swing);
+  return noiseless > 0.0 ? std::max(0.0, work_along(pressures) / noiseless - 1.0) : 0.0;
+}
+
+double peak_lost_to_smoothing(const Load& load) {
+  if (load.curve_time.size() < 2 || !(load.smoothing > 0.0)) return 0.0;
+  Load whole = load;
+  whole.duration = load.curve_time.back();
+  const PressureHistory history(whole);
+  const double before = history.stated_peak();
+  return before > 0.0 ? std::max(0.0, 1.0 - history.peak() / before) : 0.0;
+}
+
+std::optional<double> suggested_smoothing(const Load& load) {
+  if (load_roughness(load) < least_roughness) return std::nullopt;
+  const double length = load.curve_time.back() - load.curve_time.front();
+  Load smoothed = load;
+  for (double points = 2.0; points <= 256.0; points *= 2.0) {
+    smoothed.smoothing = rounded_up(points * mean_interval(load));
+    if (smoothed.smoothing > 0.1 * length) return std::nullopt;
+    const bool allowed = smoothed.smoothing >= least_smoothing_share * length;
+    if (allowed && smoothed.smoothing > load.smoothing && load_roughness(smoothed) < least_roughness)
+      return smoothed.smoothing;
+  }
+  return std::nullopt;
+}
+
+std::string measured_load_text(const Load& load) {
+  if (load.curve_time.empty()) return {};
+  const std::string smoothing = smoothing_text(load);
+  return smoothing + (smoothing.empty() ? "" : "; ") + roughness_text(load);
+}
+
+}  // namespace launchsafe::scene

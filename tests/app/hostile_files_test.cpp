@@ -1,0 +1,136 @@
+// Files that would hang, crash or mislead the program that reads them.
+#include "program.hpp"
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <functional>
+#include <ostream>
+
+namespace launchsafe::app {
+namespace {
+
+std::string repeated(const std::string& part, std::size_t times) {
+  std::string text;
+  for (std::size_t i = 0; i < times; ++i) text += part;
+  return text;
+}
+
+struct HostileFile {
+  std::string name;
+  std::string text;                  ///< of the file "input.toml"
+  std::vector<std::string> message;  ///< what the one message names
+  friend void PrintTo(const HostileFile& file, std::ostream* stream) { *stream << file.name; }
+};
+
+class HostileFileProgram : public Program, public ::testing::WithParamInterface<HostileFile> {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    before_start([] {
+      const rlimit small{256 << 10, 256 << 10};
+      ::setrlimit(RLIMIT_STACK, &small);
+    });
+  }
+  void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& message) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments.front() << ": " << outcome.err.substr(0, 1000);
+    EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+    EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
+    EXPECT_LT(outcome.err.size(), 6000u);
+    EXPECT_LT(outcome.seconds, 20.0);
+    for (const std::string& part : message) EXPECT_TRUE(outcome.says(part)) << part << " in " << outcome.err;
+    EXPECT_FALSE(exists("out"));
+  }
+};
+
+TEST_P(HostileFileProgram, IsRefusedWithOneShortMessageAlsoOnASmallStack) {
+  write("input.toml", GetParam().text);
+  expect_refused({"run", "input.toml", "-o", "out"}, GetParam().message);
+  expect_refused({"study", "input.toml", "-o", "out"}, GetParam().message);
+  expect_refused({"explain", "input.toml"}, GetParam().message);
+}
+
+constexpr std::size_t deep = 100'000;
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, HostileFileProgram,
+    ::testing::Values(
+        HostileFile{"OpenArrays", "a = " + repeated("[", deep), {"input.toml:1:", "deep"}},
+        HostileFile{"NestedArrays", "a = " + repeated("[", deep) + repeated("]", deep), {"deep"}},
+        HostileFile{"NestedTables", "a = " + repeated("{a=", deep) + "1" + repeated("}", deep), {"deep"}},
+        HostileFile{"DottedKey", repeated("a.", deep) + "a = 1\n", {"deep"}},
+        HostileFile{"DottedTable", "[" + repeated("a.", deep) + "a]\n", {"deep"}},
+        HostileFile{"DeepestThatIsRead",
+                    "[" + repeated("a.", 15) + "a]\nb = " + repeated("{" + repeated("a.", 15) + "a = ", 14) +
+                        "1" + repeated("}", 14) + "\n",
+                    {"a.a"}},
+        HostileFile{
+            "HugeKey", std::string(1'000'000, 'k') + " = 1\n", {"input.toml:1:", "an unknown key", " ... "}},
+        HostileFile{"HugeWord", "kind = \"" + std::string(1'000'000, 'k') + "\"\n", {"kind"}},
+        HostileFile{"Binary",
+                    std::string("\x7f"
+                                "ELF\0\0\1",
+                                7),
+                    {"NUL", "UTF-8"}},
+        HostileFile{"Latin1", "title = \"Gesch\xfctz\"\n", {"0xFC", "UTF-8"}},
+        HostileFile{"TooLarge", "#" + std::string(std::size_t{16} << 20, ' '), {"16 MiB"}}),
+    [](const auto& test) { return test.param.name; });
+
+TEST_F(HostileFileProgram, WhatIsNoRegularFileIsRefusedAtOnce) {
+  ASSERT_EQ(::mkfifo((folder() / "pipe").c_str(), 0600), 0);
+  std::filesystem::create_directory(folder() / "folder");
+  for (const auto& [file, kind] : {std::pair<std::string, std::string>{"pipe", "a pipe"},
+                                   {"/dev/zero", "a device"},
+                                   {"folder", "a folder"}}) {
+    expect_refused({"run", file, "-o", "out"}, {kind});
+    expect_refused({"study", file, "-o", "out"}, {kind});
+    expect_refused({"explain", file}, {kind});
+    write("scene.toml", with(tiny_scene, "base = \"0 Pa\"\npeak = \"50 MPa\"", "curve = \"" + file + "\""));
+    expect_refused({"run", "scene.toml", "-o", "out"}, {kind});
+    write("study.toml", "kind = \"critical-gap\"\nscene = \"" + file + "\"\n");
+    expect_refused({"study", "study.toml", "-o", "out"}, {kind});
+    write("scene.toml", tiny_scene);
+    write("study.toml", "kind = \"critical-gap\"\nscene = \"scene.toml\"\naccuracy = \"" + file + "\"\n");
+    expect_refused({"study", "study.toml", "-o", "out"}, {"accuracy"});
+  }
+}
+
+class CurveProgram : public Program {
+ protected:
+  /// What explain says of the load, with this text as the curve.
+  Outcome explained(const std::string& curve, const std::string& more = "") {
+    write("curve.csv", curve);
+    write("scene.toml",
+          with(tiny_scene, "base = \"0 Pa\"\npeak = \"50 MPa\"\npeak_time = \"0.05 ms\"\nexponent = 3",
+               "curve = \"curve.csv\"\n" + more));
+    return run({"explain", "scene.toml"});
+  }
+};
+
+TEST_F(CurveProgram, ReadsAByteOrderMarkDecimalCommasAndOtherUnits) {
+  for (const std::string& curve : {"\xEF\xBB\xBFTime (ms);Pressure (MPa)\r\n0;0\r\n0,02;40,5\r\n0,05;10\r\n",
+                                   "time_us,pressure_bar\n0,0\n20,405\n50,100\n",
+                                   "t [ms]\tp [psi]\r0\t0\r0.02\t5874.03\r0.05\t1450.38\r"}) {
+    const Outcome outcome = explained(curve);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("40.5 MPa"), std::string::npos) << outcome.out;
+  }
+  EXPECT_EQ(explained("time_ms,pressure_MPa\n0,0,1,5\n0,05,2,5\n").code, 2);
+}
+
+TEST_F(CurveProgram, SaysWhatIsNoiseAndWhatSmoothingTakes) {
+  std::string curve = "time_us,pressure_MPa\n";
+  for (int i = 0; i <= 50; ++i)
+    curve += std::to_string(i) + "," + std::to_string(40 + (i % 2 == 0 ? 4 : -4) * (i % 3)) + "\n";
+  const Outcome rough = explained(curve);
+  EXPECT_EQ(rough.code, 0) << rough.err;
+  EXPECT_NE(rough.out.find("roughness"), std::string::npos) << rough.out;
+  const Outcome smooth = explained(curve, "smoothing = \"12 us\"");
+  EXPECT_EQ(smooth.code, 0) << smooth.err;
+  EXPECT_NE(smooth.out.find("averaged over 12 us"), std::string::npos) << smooth.out;
+  EXPECT_NE(smooth.out.find("instead of 48 MPa"), std::string::npos) << smooth.out;
+}
+
+}  // namespace
+}  // namespace launchsafe::app

@@ -1,0 +1,136 @@
+#include "launchsafe/scene/load_roughness.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace launchsafe::scene {
+namespace {
+
+constexpr double duration = 18e-3;  // s
+
+/// A curve measured at equal intervals over the launch.
+Load measured(std::size_t points, const std::function<double(double)>& pressure) {
+  Load load;
+  load.duration = duration;
+  for (std::size_t i = 0; i < points; ++i) {
+    load.curve_time.push_back(duration * static_cast<double>(i) / static_cast<double>(points - 1));
+    load.curve_pressure.push_back(pressure(load.curve_time.back()));
+  }
+  return load;
+}
+
+double pulse(double time) {
+  static const PressureHistory shape{Load{}};
+  return shape.at(time);
+}
+
+/// Two humps of 400 and 300 MPa, 3 ms wide (standard deviation 1.3 ms), with a dip between.
+double two_humps(double time) {
+  const auto hump = [time](double peak, double centre) {
+    return peak * std::exp(-0.5 * std::pow((time - centre) / 1.3e-3, 2));
+  };
+  return hump(400e6, 6e-3) + hump(300e6, 12e-3);
+}
+
+double step(double time) { return time < 9e-3 ? 100e6 : 300e6; }
+
+/// The pulse with white noise, a share of its peak, at a rate (1/s).
+Load noisy(double share, double rate) {
+  std::mt19937 generator(7);
+  std::normal_distribution<double> noise(0.0, share * 496e6);
+  return measured(static_cast<std::size_t>(duration * rate) + 1,
+                  [&](double time) { return std::max(0.0, pulse(time) + noise(generator)); });
+}
+
+/// Integral of p |dp| between the points of a curve.
+double work_of(const Load& load) {
+  double work = 0.0;
+  for (std::size_t i = 1; i < load.curve_time.size(); ++i)
+    work += 0.5 * std::abs(std::pow(load.curve_pressure[i], 2) - std::pow(load.curve_pressure[i - 1], 2));
+  return work;
+}
+
+TEST(LoadRoughness, OfTheAnalyticLoadIsNone) {
+  EXPECT_EQ(load_roughness(Load{}), 0.0);
+  EXPECT_EQ(measured_load_text(Load{}), "");
+}
+
+TEST(LoadRoughness, OfASmoothCurveIsNoneHoweverManyPointsItHas) {
+  for (const std::size_t points : {5u, 10u, 20u, 100u, 500u, 2000u}) {
+    EXPECT_LT(load_roughness(measured(points, pulse)), 1e-3) << points;
+    EXPECT_LT(load_roughness(measured(points, step)), 1e-3) << points;
+  }
+  for (const std::size_t points : {20u, 100u, 500u, 2000u})
+    EXPECT_LT(load_roughness(measured(points, two_humps)), 1e-3) << points;
+  EXPECT_EQ(load_roughness(measured(2, [](double) { return 0.0; })), 0.0);
+  EXPECT_EQ(load_roughness(measured(50, [](double) { return 100e6; })), 0.0);
+}
+
+// The estimate against what the noise really adds, which is known here. Extremes of noise that stay in the
+// noiseless curve make the estimate smaller.
+TEST(LoadRoughness, OfANoisyCurveIsAboutWhatTheNoiseAdds) {
+  const double noiseless = work_of(measured(2000, pulse));
+  for (const double rate : {10e3, 50e3}) {
+    for (const auto& [share, least_part] : {std::pair(0.01, 0.9), {0.05, 0.65}}) {
+      const Load load = noisy(share, rate);
+      const double part = (1.0 + load_roughness(load)) * noiseless / work_of(load);
+      EXPECT_GT(part, least_part) << share << " " << rate;
+      EXPECT_LT(part, 1.05) << share << " " << rate;
+    }
+  }
+}
+
+TEST(LoadRoughness, GrowsWithNoiseAndWithItsRate) {
+  EXPECT_GT(load_roughness(noisy(0.01, 10e3)), 0.3);
+  EXPECT_GT(load_roughness(noisy(0.05, 10e3)), 2.0 * load_roughness(noisy(0.01, 10e3)));
+  EXPECT_GT(load_roughness(noisy(0.05, 50e3)), 2.0 * load_roughness(noisy(0.01, 50e3)));
+  EXPECT_GT(load_roughness(noisy(0.01, 50e3)), 2.0 * load_roughness(noisy(0.01, 10e3)));
+}
+
+// Steps of an 8-bit recorder with a range of 600 MPa: the way up and down stays monotonic. With half a step
+// of noise the last digit flickers, which is roughness.
+TEST(LoadRoughness, OfDigitisedValuesIsNoneUnlessTheyFlicker) {
+  constexpr double digit = 600e6 / 256;
+  const auto digitised = [](double pressure) { return digit * std::round(pressure / digit); };
+  EXPECT_LT(load_roughness(measured(900, [&](double time) { return digitised(pulse(time)); })), 1e-3);
+  std::mt19937 generator(3);
+  std::normal_distribution<double> noise(0.0, 0.5 * digit);
+  const auto flickering = [&](double time) {
+    return std::max(0.0, digitised(pulse(time) + noise(generator)));
+  };
+  EXPECT_GT(load_roughness(measured(900, flickering)), 0.1);
+}
+
+TEST(LoadRoughness, CountsOnlyWhatIsSimulated) {
+  Load load = noisy(0.05, 10e3);
+  for (std::size_t i = 0; i < load.curve_time.size(); ++i)
+    if (load.curve_time[i] < 9e-3) load.curve_pressure[i] = pulse(load.curve_time[i]);
+  load.duration = 9e-3;
+  EXPECT_LT(load_roughness(load), 1e-3);
+}
+
+TEST(LoadRoughness, IsTakenAwayBySmoothing) {
+  const Load rough = noisy(0.01, 50e3);
+  double last = load_roughness(rough);
+  for (const double window : {0.1e-3, 0.4e-3, 1.6e-3}) {
+    Load load = rough;
+    load.smoothing = window;
+    EXPECT_LT(load_roughness(load), 0.5 * last) << window;
+    last = load_roughness(load);
+  }
+  const auto suggested = suggested_smoothing(rough);
+  ASSERT_TRUE(suggested);
+  Load load = rough;
+  load.smoothing = *suggested;
+  EXPECT_LT(load_roughness(load), least_roughness);
+  EXPECT_LT(peak_lost_to_smoothing(load), 0.05);
+  EXPECT_NE(measured_load_text(rough).find("load.smoothing = \""), std::string::npos);
+  EXPECT_NE(measured_load_text(load).find("from the peak"), std::string::npos);
+  EXPECT_FALSE(suggested_smoothing(measured(100, pulse)));
+}
+
+}  // namespace
+}  // namespace launchsafe::scene
