@@ -6,7 +6,7 @@ if(LAUNCHSAFE_SANITIZE)
 endif()
 
 set(fuzz_dir "${PROJECT_BINARY_DIR}/fuzz")
-set(fuzzed_readers scene study)
+set(fuzzed_readers scene study accuracy)
 
 # Whether there is a clang++ with its fuzzer's library.
 find_program(LAUNCHSAFE_FUZZ_COMPILER NAMES clang++)
@@ -35,7 +35,7 @@ add_test(NAME fuzz.configure
           "-DCMAKE_CXX_COMPILER=${LAUNCHSAFE_FUZZ_COMPILER}"
           "-DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
-add_test(NAME fuzz.build COMMAND "${CMAKE_COMMAND}" --build "${fuzz_dir}" --parallel 2 --target fuzz_scene fuzz_study)
+add_test(NAME fuzz.build COMMAND "${CMAKE_COMMAND}" --build "${fuzz_dir}" --parallel 2 --target fuzz_scene fuzz_study fuzz_accuracy)
 set_tests_properties(fuzz.configure PROPERTIES FIXTURES_SETUP fuzz_configuration TIMEOUT 120)
 set_tests_properties(fuzz.build PROPERTIES
   FIXTURES_REQUIRED fuzz_configuration FIXTURES_SETUP fuzzers PROCESSORS 2 TIMEOUT 900)
