@@ -2,6 +2,7 @@
 #include "launchsafe/report/accuracy_report.hpp"
 
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
 #include "study_text.hpp"
 #include "verdict_text.hpp"
 
@@ -36,8 +37,24 @@ const char* limit_text(bool unjustified) {
   return unjustified ? "that of the finest mesh (no extrapolation is justified)" : "the limit";
 }
 
+/// Where no error is known: what the reference meshes share and no setting varies.
+std::string unvaried_text(const AccuracyResult& result) {
+  const study::AccuracyRecord& record = result.record;
+  std::string keys;
+  for (const std::string& key : record.unvaried)
+    keys += fmt::format("{}{} = {}", keys.empty() ? "" : ", ", key,
+                        scene::format_value(*scene::find_key(scene::scene_keys(), key),
+                                            record.settings.front().setting.at(key)));
+  return fmt::format(
+      "How wrong T max is, is not known: all reference meshes have {}, and no setting tells what the exact "
+      "value changes. Run the meshes with the exact value, or add [[settings]] that differ from another "
+      "setting in this key alone, at its exact value.",
+      keys);
+}
+
 /// How wrong the critical gap of the scene as it is may be.
 std::string wrongness(const AccuracyResult& result, const AccuracyRow& own) {
+  if (!result.record.unvaried.empty()) return unvaried_text(result);
   std::string text = fmt::format(
       "With the setting of the scene, T max is off by at most about {} over the compared gaps; its "
       "distance from {} is {}.",
@@ -112,6 +129,14 @@ std::string belief(const AccuracyResult& result) {
   if (!reference.critical_gap.values.empty())
     text += order_text(reference.critical_gap, 100.0, "critical gap", "cm");
   text += order_text(reference.peak_pressure, 1e-6, "peak pressure of the charge bottom", "MPa");
+  double inexactness = 0;
+  for (const ReferenceValue& value : reference.temperature)
+    inexactness = std::max(inexactness, value.inexactness);
+  if (inexactness > 0)
+    text += fmt::format(
+        "- The reference meshes share numerics that are not exact; by what settings tell of that, it adds up "
+        "to {} to every bound of T max.\n",
+        kelvin(inexactness));
   text += points_text(result);
   double drift = 0;
   std::size_t sound = 0;
@@ -135,6 +160,7 @@ const AccuracyRow* cheapest(const AccuracyResult& result, double bound) {
 }
 
 std::string halving(const AccuracyResult& result, const AccuracyRow& own) {
+  if (!result.record.unvaried.empty()) return "No error is known that could be halved.";
   const double half = 0.5 * own.temperature_bound;
   if (const AccuracyRow* row = cheapest(result, half)) {
     return fmt::format(
@@ -146,7 +172,7 @@ std::string halving(const AccuracyResult& result, const AccuracyRow& own) {
   }
   double least = 0;
   for (const ReferenceValue& value : result.reference->temperature)
-    least = std::max(least, value.limit.uncertainty);
+    least = std::max(least, value.limit.uncertainty + value.inexactness);
   return fmt::format(
       "No setting here halves the bound: {} of it are the uncertainty of the reference itself, which "
       "finer reference meshes would reduce; cells half as large cost 8 times the processor time in a "

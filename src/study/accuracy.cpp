@@ -150,32 +150,50 @@ bool is_other_model(const scene::Scene& scene, const scene::Scene& own) {
   return scene::to_toml(same) != scene::to_toml(own);
 }
 
-/// Largest T max above the initial temperature over the gaps that were compared, on the scene's own setting.
-double compared_rise(const AccuracyResult& result, const AccuracyRow& row) {
-  double rise = 0.0;
-  for (std::size_t gap = 0; gap < result.study.study.gaps.size(); ++gap) {
-    const double temperature =
-        result.reference->inert[gap] ? row.measured.heated[gap] : row.measured.temperature[gap];
-    rise = std::max(rise, temperature - result.study.scene.scene.initial_temperature);
+/// A setting for the record; nothing where it did not run soundly or has temperatures that nothing has.
+std::optional<RecordedSetting> recorded(const StudyCase& input, const AccuracyMeasurement& measured,
+                                        const std::vector<bool>& inert) {
+  if (!measured.failure.empty() || !measured.doubt.empty()) return std::nullopt;
+  RecordedSetting setting;
+  setting.label = input.label;
+  setting.setting = setting_of(input.scene.scene);
+  setting.cell = measured.cell;
+  for (std::size_t gap = 0; gap < inert.size(); ++gap) {
+    setting.temperature.push_back(compared_temperature(measured, gap, inert[gap]));
+    if (!(setting.temperature.back() <= highest_recorded_temperature)) return std::nullopt;
   }
-  return rise;
+  if (measured.critical.kind == CriticalGapKind::value) setting.critical_gap = measured.critical.value;
+  setting.processor_time = measured.processor_time;
+  return setting;
 }
 
-AccuracyRecord record_of(const AccuracyResult& result) {
+AccuracyRecord record_of(const AccuracyResult& result, const std::vector<bool>& inert,
+                         const std::vector<bool>& other_model) {
   const scene::Scene& scene = result.study.scene.scene;
   AccuracyRecord record;
   record.title = result.study.study.title;
   record.model_version = run::model_version;
   record.shell = shell_of(scene);
-  record.peak_pressure = scene::PressureHistory(scene.load).peak();
-  for (const AccuracyRow& row : result.rows) {
-    if (!row.sound() || row.other_model) continue;
-    if (row.baseline) record.rise = compared_rise(result, row);
-    const StudyCase& input = result.study.cases[row.index];
-    record.settings.push_back({input.label, setting_of(input.scene.scene), row.temperature_bound,
-                               row.critical_gap_bound, row.measured.processor_time});
+  record.initial_temperature = scene.initial_temperature;
+  record.launch = launch_of(scene, result.study.study.gaps);
+  for (std::size_t i = 0; i < result.measured.size(); ++i) {
+    if (other_model[i]) continue;
+    auto setting = recorded(result.study.cases[i], result.measured[i], inert);
+    // 0.25 cm is not always 2.5 mm to the last digit.
+    if (!setting || recorded_setting(record, result.study.cases[i].scene.scene) != nullptr) continue;
+    setting->reference = i < result.study.study.reference_cell_sizes.size();
+    record.settings.push_back(std::move(*setting));
   }
+  find_bounds(record);
   return record;
+}
+
+/// The reference of the rows is that of the record: the limit may be off by what no mesh has exact.
+void add_inexactness(const AccuracyRecord& record, AccuracyReference& reference) {
+  const RecordedReference recorded = reference_of(record);
+  for (std::size_t gap = 0; gap < recorded.temperature.size(); ++gap)
+    reference.temperature[gap].inexactness = recorded.temperature[gap].inexactness;
+  reference.critical_gap.inexactness = recorded.critical_gap.inexactness;
 }
 
 void compare(AccuracyResult& result) {
@@ -192,8 +210,10 @@ void compare(AccuracyResult& result) {
   for (const StudyCase& each : study.cases)
     other_model.push_back(is_other_model(each.scene.scene, study.scene.scene));
   const auto first = result.measured.begin();
-  result.reference = reference_of({first, first + static_cast<std::ptrdiff_t>(meshes)},
-                                  study.study.gaps.size(), inert_gaps(result, other_model));
+  const std::vector<bool> inert = inert_gaps(result, other_model);
+  result.reference = reference_of({first, first + static_cast<std::ptrdiff_t>(meshes)}, inert.size(), inert);
+  result.record = record_of(result, inert, other_model);
+  add_inexactness(result.record, *result.reference);
   const Setting own = setting_of(study.scene.scene);
   for (std::size_t i = 0; i < study.cases.size(); ++i) {
     AccuracyRow row = row_against(*result.reference, result.measured[i]);
@@ -204,7 +224,6 @@ void compare(AccuracyResult& result) {
     result.rows.push_back(std::move(row));
   }
   mark_front(result.rows);
-  result.record = record_of(result);
 }
 
 }  // namespace

@@ -4,48 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace launchsafe::study {
 namespace {
 
-bool all_finite(const std::vector<double>& values) {
-  return !values.empty() &&
-         std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-}
-
-/// The values of one quantity on all meshes; nothing where one of them has none.
+/// One quantity on all meshes.
 template <class Quantity>
-ReferenceValue reference_value(const std::vector<AccuracyMeasurement>& meshes, Quantity quantity) {
-  ReferenceValue value;
-  std::vector<double> sizes;
+ReferenceValue over_meshes(const std::vector<AccuracyMeasurement>& meshes, Quantity quantity) {
+  std::vector<double> values, sizes;
   for (const AccuracyMeasurement& mesh : meshes) {
-    value.values.push_back(quantity(mesh));
+    values.push_back(quantity(mesh));
     sizes.push_back(mesh.cell);
   }
-  if (!all_finite(value.values)) value.values.clear();
-  if (!value.values.empty()) value.limit = math::extrapolate(value.values, sizes);
-  return value;
+  return reference_value(std::move(values), sizes);
 }
-
-double error_against(const ReferenceValue& reference, double value) {
-  return reference.values.empty() ? not_a_number : value - reference.limit.value;
-}
-
-/// The limit lies within the reference's uncertainty of the finest value, and the value so far from that.
-double bound_against(const ReferenceValue& reference, double value) {
-  if (reference.values.empty()) return not_a_number;
-  return std::abs(value - reference.values.front()) + reference.limit.uncertainty;
-}
-
-double temperature_of(const AccuracyMeasurement& measured, std::size_t gap, bool inert) {
-  return inert ? measured.heated[gap] : measured.temperature[gap];
-}
-
-/// The larger of two; NaN, which is no bound, wins.
-double larger(double a, double b) { return std::isnan(a) || std::isnan(b) ? not_a_number : std::max(a, b); }
 
 }  // namespace
+
+double compared_temperature(const AccuracyMeasurement& measured, std::size_t gap, bool inert) {
+  return inert ? measured.heated[gap] : measured.temperature[gap];
+}
 
 double relative_difference(const PressureTrace& p, const PressureTrace& q) {
   if (p.time.size() < 2 || q.time.size() < 2) return not_a_number;
@@ -68,23 +47,24 @@ AccuracyReference reference_of(const std::vector<AccuracyMeasurement>& meshes, s
   AccuracyReference reference;
   reference.inert = inert;
   for (std::size_t gap = 0; gap < gaps; ++gap) {
-    reference.temperature.push_back(reference_value(
-        meshes, [&](const AccuracyMeasurement& mesh) { return temperature_of(mesh, gap, inert[gap]); }));
+    reference.temperature.push_back(over_meshes(meshes, [&](const AccuracyMeasurement& mesh) {
+      return compared_temperature(mesh, gap, inert[gap]);
+    }));
     reference.ignition_time.push_back(
-        reference_value(meshes, [&](const AccuracyMeasurement& mesh) { return mesh.ignition_time[gap]; }));
+        over_meshes(meshes, [&](const AccuracyMeasurement& mesh) { return mesh.ignition_time[gap]; }));
   }
-  reference.critical_gap = reference_value(meshes, [](const AccuracyMeasurement& mesh) {
+  reference.critical_gap = over_meshes(meshes, [](const AccuracyMeasurement& mesh) {
     return mesh.critical.kind == CriticalGapKind::value ? mesh.critical.value : not_a_number;
   });
   reference.peak_pressure =
-      reference_value(meshes, [](const AccuracyMeasurement& mesh) { return mesh.peak_pressure; });
+      over_meshes(meshes, [](const AccuracyMeasurement& mesh) { return mesh.peak_pressure; });
   for (std::size_t i = 0; i < meshes.front().at_times.size(); ++i) {
     reference.at_times.push_back(
-        reference_value(meshes, [i](const AccuracyMeasurement& mesh) { return mesh.at_times[i]; }));
+        over_meshes(meshes, [i](const AccuracyMeasurement& mesh) { return mesh.at_times[i]; }));
   }
   for (std::size_t i = 0; i < meshes.front().points.size(); ++i) {
     reference.points.push_back(
-        reference_value(meshes, [i](const AccuracyMeasurement& mesh) { return mesh.points[i].temperature; }));
+        over_meshes(meshes, [i](const AccuracyMeasurement& mesh) { return mesh.points[i].temperature; }));
   }
   reference.bottom = meshes.front().bottom;
   return reference;
@@ -99,11 +79,12 @@ AccuracyRow row_against(const AccuracyReference& reference, const AccuracyMeasur
   if (!measured.failure.empty()) return row;
   row.largest_temperature_error = row.temperature_bound = 0.0;
   for (std::size_t gap = 0; gap < reference.temperature.size(); ++gap) {
-    const double value = temperature_of(measured, gap, reference.inert[gap]);
+    const double value = compared_temperature(measured, gap, reference.inert[gap]);
     row.temperature_error.push_back(error_against(reference.temperature[gap], value));
     row.largest_temperature_error =
-        larger(row.largest_temperature_error, std::abs(row.temperature_error.back()));
-    row.temperature_bound = larger(row.temperature_bound, bound_against(reference.temperature[gap], value));
+        larger_bound(row.largest_temperature_error, std::abs(row.temperature_error.back()));
+    row.temperature_bound =
+        larger_bound(row.temperature_bound, bound_against(reference.temperature[gap], value));
     row.ignition_time_error.push_back(
         error_against(reference.ignition_time[gap], measured.ignition_time[gap]));
   }

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace launchsafe::study::detail {
 namespace {
@@ -41,43 +43,72 @@ void settle_stated(StudyFile& study) {
   for (StudyCase& each : study.cases) each.numerical_uncertainty = s.numerical_uncertainty;
 }
 
-/// Every case has the bound of its own setting; one that the record does not have, the assumed one.
+/// What a record says of a scene at the gaps that are judged.
+struct Recorded {
+  std::string reason;           ///< why the bound of the record is not enough, a clause; empty where it is
+  double bound = not_a_number;  ///< K, grown to this launch; NaN where the record has none
+  double growth = 1.0;          ///< by which the bound was multiplied
+};
+
+Recorded recorded_for(const AccuracyRecord& record, const scene::Scene& scene,
+                      const std::vector<double>& gaps) {
+  Recorded recorded;
+  recorded.reason = why_foreign(record, scene);
+  if (!recorded.reason.empty()) return recorded;
+  const RecordedSetting* found = recorded_setting(record, scene);
+  if (found == nullptr) {
+    recorded.reason = "it does not have these settings";
+    return recorded;
+  }
+  const Coverage coverage = coverage_of(record.launch, launch_of(scene, gaps));
+  recorded.reason = coverage.reason;
+  recorded.growth = coverage.growth;
+  recorded.bound = found->temperature_bound * coverage.growth;
+  return recorded;
+}
+
+/// "20 of 45 cases: it was made at ...; 4 of 45 cases: ...".
+std::string counted(const std::map<std::string, std::size_t>& reasons, std::size_t cases) {
+  constexpr std::size_t most_named = 3;
+  std::string text;
+  std::size_t named = 0;
+  for (const auto& [reason, count] : reasons) {
+    if (named++ == most_named) return text + "; and so on";
+    if (named > 1) text += "; ";
+    text += cases == 1 ? reason : fmt::format("{} ({} of {} cases)", reason, count, cases);
+  }
+  return text;
+}
+
+/// Every case has the bound of its own setting, grown to its own launch. Where the record says nothing of it,
+/// it has the assumed one, or the grown bound if that is larger. Either grows with the rise of T max no later
+/// than the recorded bound by itself would.
 void settle_recorded(StudyFile& study, const AccuracyRecord& record) {
   Study& s = study.study;
   s.numerical_uncertainty = 0.0;
-  std::string why;
+  std::map<std::string, std::size_t> reasons;
   for (StudyCase& each : study.cases) {
-    const scene::Scene& scene = each.scene.scene;
-    const std::string foreign = why_foreign(record, scene);
-    const RecordedSetting* found = foreign.empty() ? recorded_setting(record, scene) : nullptr;
-    if (found != nullptr && std::isfinite(found->temperature_bound)) {
-      each.numerical_uncertainty = found->temperature_bound;
-      each.rise_of_uncertainty = record.rise;
-    } else {
-      why = foreign.empty() ? "it does not have these settings" : foreign;
-      s.numerical_uncertainty_assumed = true;
+    const Recorded recorded = recorded_for(record, each.scene.scene, s.gaps);
+    const bool known = std::isfinite(recorded.bound);
+    const bool applies = known && recorded.reason.empty();
+    each.numerical_uncertainty = applies ? recorded.bound : assumed_numerical_uncertainty;
+    if (known) {
+      each.numerical_uncertainty = std::max(each.numerical_uncertainty, recorded.bound);
+      each.rise_of_uncertainty = record.rise * recorded.growth * each.numerical_uncertainty / recorded.bound;
     }
+    if (!applies) ++reasons[recorded.reason];
     s.numerical_uncertainty = std::max(s.numerical_uncertainty, each.numerical_uncertainty);
   }
-  study.uncertainty_source =
-      s.numerical_uncertainty_assumed
-          ? fmt::format("assumed where the accuracy record `{}` does not help: {}", s.accuracy, why)
-          : fmt::format("from the accuracy record `{}`", s.accuracy);
+  s.numerical_uncertainty_assumed = !reasons.empty();
+  study.uncertainty_source = reasons.empty()
+                                 ? fmt::format("from the accuracy record `{}`", s.accuracy)
+                                 : fmt::format("assumed where the accuracy record `{}` does not help: {}",
+                                               s.accuracy, counted(reasons, study.cases.size()));
 }
 
-/// Whether a key may have a value that no scene file's reader has checked.
-bool may_take(const scene::KeyDescription& key, const scene::Value& value) {
-  if (const auto* word = std::get_if<std::string>(&value))
-    return std::find(key.words.begin(), key.words.end(), *word) != key.words.end();
-  const auto* number = std::get_if<double>(&value);
-  if (number == nullptr) return true;
-  const bool whole = key.dimension != scene::Dimension::count || *number == std::round(*number);
-  return std::isfinite(*number) && whole && key.limits.contain(*number);
-}
-
-std::string chosen_text(const RecordedSetting& chosen, double tolerance) {
+std::string chosen_text(const RecordedSetting& chosen, double growth, double tolerance) {
   return fmt::format("{}: T max within {:.3g} K where {:.3g} K were asked, {:.3g} s of processor time a run",
-                     chosen.label, chosen.temperature_bound, tolerance, chosen.processor_time);
+                     chosen.label, growth * chosen.temperature_bound, tolerance, chosen.processor_time);
 }
 
 }  // namespace
@@ -96,12 +127,9 @@ scene::Expected<std::optional<AccuracyRecord>> read_record(const StudyFile& stud
                     "the accuracy.json of an accuracy study, by its path from the study file's folder",
                     text.error().suggestion);
   }
-  auto record = accuracy_record_from(*text);
-  if (!record) {
-    return fault_at(study, "accuracy", fmt::format("\"{}\", which is no accuracy record", name),
-                    "the accuracy.json of an accuracy study");
-  }
-  return record;
+  auto record = parse_accuracy_record(*text, (folder / name).string());
+  if (!record) return record.error();
+  return std::optional<AccuracyRecord>(std::move(*record));
 }
 
 Fault choose_setting(StudyFile& study, const std::optional<AccuracyRecord>& record, double tolerance) {
@@ -112,28 +140,30 @@ Fault choose_setting(StudyFile& study, const std::optional<AccuracyRecord>& reco
     return fault_at(study, "set", asked + ", and numerics of the study's own",
                     "a tolerance, or numerics in [set], [axes] or [[input]]");
   }
-  if (const std::string foreign = why_foreign(*record, study.scene.scene); !foreign.empty())
-    return fault_at(study, "accuracy", asked + ", and a record that does not apply: " + foreign,
+  const scene::Scene& own = study.scene.scene;
+  const std::string foreign = why_foreign(*record, own);
+  const Coverage coverage = coverage_of(
+      record->launch, launch_of(own, study.study.gaps.empty() ? own.surface.gaps : study.study.gaps));
+  if (const std::string reason = foreign.empty() ? coverage.reason : foreign; !reason.empty())
+    return fault_at(study, "accuracy", asked + ", and a record that does not apply: " + reason,
                     "the record of an accuracy study on this scene");
-  const RecordedSetting* chosen = cheapest_within(*record, tolerance);
+  const RecordedSetting* chosen = cheapest_within(*record, tolerance / coverage.growth);
   if (chosen == nullptr) {
     const RecordedSetting* best = most_accurate(*record);
     return fault_at(study, "accuracy", asked + ", which no recorded setting meets",
                     best == nullptr ? "a record with settings"
                                     : fmt::format("at least {:.3g} K, the bound of the most accurate one: {}",
-                                                  best->temperature_bound, best->label));
+                                                  best->temperature_bound * coverage.growth, best->label));
   }
   ChangedScene scene(study.scene);
   for (const auto& [name, value] : chosen->setting) {
+    // Reading let nothing else pass than the keys of a setting with values that scenes may have.
     const auto* key = scene::find_key(scene::scene_keys(), name);
-    if (key == nullptr || !may_take(*key, value) || key->get(study.scene.scene).index() != value.index())
-      return fault_at(study, "accuracy", fmt::format("the setting {}, which no scene has", name),
-                      "a record of this version of the program");
     scene.apply({name, value, scene::format_value(*key, value), "accuracy", place_of_key(study, "accuracy")});
   }
   if (!scene.complete()) return scene.error();
   study.scene = scene.take();
-  study.chosen_setting = chosen_text(*chosen, tolerance);
+  study.chosen_setting = chosen_text(*chosen, coverage.growth, tolerance);
   return std::nullopt;
 }
 

@@ -1,11 +1,11 @@
 // The study of kind accuracy: what settings cost, and how wrong the answers are that users decide by.
 #pragma once
 
-#include "launchsafe/math/extrapolation.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/read_study.hpp"
+#include "launchsafe/study/reference_value.hpp"
 
 #include <optional>
 #include <string>
@@ -48,12 +48,6 @@ struct AccuracyMeasurement {
   PressureTrace bottom;
 };
 
-/// Values of the reference meshes, finest first, and what they tend to.
-struct ReferenceValue {
-  std::vector<double> values;
-  math::Extrapolation limit;
-};
-
 struct AccuracyReference {
   std::vector<ReferenceValue> temperature;  ///< K, for every gap
   std::vector<bool> inert;       ///< for every gap: of a skin that does not react, since one ignites
@@ -75,7 +69,7 @@ struct AccuracyRow {
   AccuracyMeasurement measured;
   std::vector<double> temperature_error;    ///< K, for every gap
   double largest_temperature_error = 0;     ///< K, absolute
-  double temperature_bound = 0;             ///< K, largest over the gaps (see math::Extrapolation)
+  double temperature_bound = 0;             ///< K, largest over the gaps (see bound_against)
   double critical_gap_error = 0;            ///< m
   double critical_gap_bound = 0;            ///< m
   double pressure_error = 0;                ///< relative L2 over the launch, against the finest mesh
@@ -101,6 +95,9 @@ struct AccuracyResult {
   bool any_indeterminate()
       const;  ///< there is no reference, or no extrapolation of a temperature is justified
 };
+
+/// T max (K) as settings are compared at a gap: of a skin that does not react where `inert`.
+double compared_temperature(const AccuracyMeasurement& measured, std::size_t gap, bool inert);
 
 /// What the reference meshes, finest first, tend to. All of them must be sound.
 AccuracyReference reference_of(const std::vector<AccuracyMeasurement>& meshes, std::size_t gaps,

@@ -2,8 +2,11 @@
 #pragma once
 
 #include "launchsafe/scene/read_scene.hpp"
+#include "launchsafe/study/recorded_launch.hpp"
+#include "launchsafe/study/reference_value.hpp"
 
-#include <filesystem>
+#include <cstddef>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,40 +23,92 @@ bool belongs_to_setting(const std::string& key);
 /// Equal but for the round-off of units.
 bool same_setting(const Setting& a, const Setting& b);
 
-/// How good one setting is, and what it costs.
+/// What makes the error of a key of a setting go away.
+struct Exactness {
+  /// with_the_cell: the limit of the reference meshes is free of it, as what it stands for shrinks with the
+  /// cells: the cells, the particles, which are a share of one, and the time step, a share of the time that
+  /// sound takes through one. in_each_case: it is measured in every case, as its sampling error.
+  /// at_a_value: a value of the key is exact, and the limit of meshes with another one is off.
+  enum class Kind { with_the_cell, in_each_case, at_a_value };
+  Kind kind = Kind::at_a_value;
+  std::optional<scene::Value> value;  ///< of at_a_value; none where no value is known to be exact
+};
+/// inertial_scaling is exact at 1, damping_time and pic_fraction at 0, the frame where it moves along.
+Exactness exactness_of(const std::string& key);
+
+/// One setting that ran soundly: what came of it, how good it thus is, and what it costs.
 struct RecordedSetting {
   std::string label;
   Setting setting;
-  double temperature_bound = 0;   ///< K, of T max, the largest over the gaps (see math::Extrapolation)
-  double critical_gap_bound = 0;  ///< m, likewise; NaN where there is no critical gap
-  double processor_time = 0;      ///< s
+  bool reference = false;           ///< one of the reference meshes
+  double cell = 0;                  ///< m, sqrt(dx dr) of the fitted grid
+  std::vector<double> temperature;  ///< K, T max for every gap of the launch, as compared
+  double critical_gap = std::numeric_limits<double>::quiet_NaN();  ///< m; NaN where there is none
+  double processor_time = 0;                                       ///< s
+
+  // found by `find_bounds`
+  double temperature_bound = 0;   ///< K, of T max, the largest over the gaps; NaN where it is not known
+  double critical_gap_bound = 0;  ///< m, likewise; NaN also where there is no critical gap
 };
 
-/// A recorded accuracy study.
+/// A recorded accuracy study: its launch, and what every sound setting gave. All bounds follow from that.
 struct AccuracyRecord {
   std::string title;  ///< of the accuracy study
   int model_version = 0;
-  std::string shell;         ///< `shell_of` the scene
-  double peak_pressure = 0;  ///< Pa
-  double rise = 0;           ///< K, of T max above the initial temperature where the bounds were found
-  std::vector<RecordedSetting> settings;
+  std::string shell;               ///< `shell_of` the scene
+  double initial_temperature = 0;  ///< K
+  RecordedLaunch launch;
+  std::vector<RecordedSetting> settings;  ///< the reference meshes first, finest first
+
+  // found by `find_bounds`
+  /// Keys at which the reference meshes are not exact and of which no setting tells what that changes: no
+  /// error of this record is known.
+  std::vector<std::string> unvaried;
+  double rise = 0;  ///< K, of T max above the initial temperature, for which the bounds were found
 };
 
-/// Digest of what the errors of a setting depend on besides the setting and the load: bodies, materials,
-/// symmetry, barrel, friction closure and observation points.
+/// Finds bounds, rise and unvaried keys of a record from what its settings gave. A setting is compared with
+/// the limit of the reference meshes, which differ in the cell size alone and share all other keys with the
+/// scene of the accuracy study. So the comparison tells the error of whatever the setting has otherwise than
+/// the meshes: its cell, a scaling of 16 beside their 1. It tells nothing of what the meshes themselves have
+/// wrong (see Exactness). Where they have a key at another value than the exact one, the limit is off by what
+/// that changes, and so is every bound. That is known where two settings differ in this key alone, one having
+/// the meshes' value and one the exact one: it counts as three times the largest such difference, as for any
+/// limit that two values point to (see math::Extrapolation). Otherwise the key is unvaried and no bound is
+/// known. Needs at least three reference meshes, each setting with as many temperatures as there are gaps.
+void find_bounds(AccuracyRecord& record);
+
+/// The reference of a record, which its meshes tend to.
+struct RecordedReference {
+  std::vector<ReferenceValue> temperature;  ///< K, for every gap
+  ReferenceValue critical_gap;              ///< m; without values where a mesh has none
+};
+RecordedReference reference_of(const AccuracyRecord& record);
+
+/// K; skins of explosives stay below. A setting that gives more is not recorded.
+inline constexpr double highest_recorded_temperature = 5000.0;
+
+/// Digest of what the errors of a setting depend on besides the setting and the launch: bodies, materials,
+/// symmetry, barrel, observation points, the closures of friction, air and exchange, the initial temperature.
 std::string shell_of(const scene::Scene& scene);
 
+/// A record as text, with the SHA-256 of its content.
 std::string to_json_text(const AccuracyRecord& record);
-/// Nothing for a text that is no record.
-std::optional<AccuracyRecord> accuracy_record_from(const std::string& text);
+/// A record from text; `file` is named in errors. Refused is what the program cannot have written: a text
+/// that was edited, so that its content has another digest; keys that are unknown, missing or given twice;
+/// values of another type or beyond any launch; settings that no scene may have; meshes that are no series;
+/// bounds that do not follow from what the settings gave. A record whose temperatures were made up and whose
+/// digest was computed anew is not recognised: a digest guards against mistakes and idle edits, not against
+/// forgers.
+scene::Expected<AccuracyRecord> parse_accuracy_record(const std::string& text, const std::string& file);
 
-/// Why a record says nothing of a scene's shell under this model; empty where it does.
+/// Why a record says nothing of a scene's shell under this model, or of nothing at all; empty where it does.
 std::string why_foreign(const AccuracyRecord& record, const scene::Scene& scene);
 /// The recorded setting of a scene, or nullptr.
 const RecordedSetting* recorded_setting(const AccuracyRecord& record, const scene::Scene& scene);
 /// The cheapest setting whose T max is known to `tolerance` (K), or nullptr.
 const RecordedSetting* cheapest_within(const AccuracyRecord& record, double tolerance);
-/// The setting with the smallest bound, or nullptr for an empty record.
+/// The setting with the smallest bound, or nullptr where none has one.
 const RecordedSetting* most_accurate(const AccuracyRecord& record);
 
 }  // namespace launchsafe::study

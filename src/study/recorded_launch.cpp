@@ -1,0 +1,193 @@
+#include "launchsafe/study/recorded_launch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace launchsafe::study {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// How far a record is carried; argued in the header.
+constexpr double most_pressure = 1.25, most_cracks = 3.0, most_heating = 3.0;
+constexpr double longest = 1.1, steepest = 1.25, most_off_shape = 0.1, most_roughness_added = 0.01;
+/// What is no difference: round-off of units.
+constexpr double round_off = 1e-9;
+
+/// Even instants over the duration and, of a measured curve, its own.
+std::vector<double> instants_of(const scene::Load& load) {
+  constexpr int parts = 4 * (static_cast<int>(shape_instants) - 1);
+  std::vector<double> instants;
+  for (int i = 0; i <= parts; ++i) instants.push_back(load.duration * i / parts);
+  for (const double time : load.curve_time) {
+    if (time > 0.0 && time < load.duration) instants.push_back(time);
+  }
+  std::sort(instants.begin(), instants.end());
+  return instants;
+}
+
+/// s, over the even instants alone: what is shorter is roughness.
+double rise_time_of(const scene::PressureHistory& history, double duration, double peak) {
+  constexpr int parts = 4 * (static_cast<int>(shape_instants) - 1);
+  const double step = duration / parts;
+  double largest = 0.0;
+  for (int i = 0; i < parts; ++i)
+    largest = std::max(largest, history.at(step * (i + 1)) - history.at(step * i));
+  return largest > 0.0 ? std::min(step * peak / largest, duration) : duration;
+}
+
+/// K/(s m). Where the exchange is per step its time constant does not matter.
+double air_heating_of(const scene::Scene& scene, double peak) {
+  const scene::Surface& surface = scene.surface;
+  const scene::Charge& charge = scene.charge;
+  const double share = surface.air.density * surface.air.specific_heat /
+                       (charge.eos.initial_density * charge.specific_heat * surface.skin_thickness);
+  const double rise =
+      materials::adiabatic_temperature(surface.air, std::max(peak, surface.air.initial_pressure)) -
+      surface.air.initial_temperature;
+  return share * rise / (surface.exchange == scene::Exchange::per_step ? 1.0 : surface.exchange_time);
+}
+
+/// Case over record; 1 where both are 0, infinite where the record alone is.
+double ratio_of(double value, double recorded) {
+  if (value <= 0.0) return value == recorded ? 1.0 : 0.0;
+  return recorded > 0.0 ? value / recorded : infinity;
+}
+
+double largest_of(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
+bool has_cracks(const RecordedLaunch& launch) { return launch.crack_radius > 0.0 && launch.flaw_size > 0.0; }
+
+/// In crack radii and in crack radii over flaw sizes, whichever is larger.
+double crack_ratio(const RecordedLaunch& launch, const RecordedLaunch& recorded) {
+  if (!has_cracks(launch)) return 0.0;
+  if (!has_cracks(recorded)) return infinity;
+  const double radii = launch.crack_radius / recorded.crack_radius;
+  return std::max(radii, radii * recorded.flaw_size / launch.flaw_size);
+}
+
+/// Largest difference of two shapes at equal times while both last.
+double shape_difference(const RecordedLaunch& launch, const RecordedLaunch& recorded) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < launch.shape.size(); ++i) {
+    const double time = launch.duration * static_cast<double>(i) / (shape_instants - 1);
+    const double place = std::min(time / recorded.duration, 1.0) * (shape_instants - 1);
+    const std::size_t left = std::min(static_cast<std::size_t>(place), shape_instants - 2);
+    const double share = place - static_cast<double>(left);
+    const double there = (1.0 - share) * recorded.shape[left] + share * recorded.shape[left + 1];
+    largest = std::max(largest, std::abs(launch.shape[i] - there));
+  }
+  return largest;
+}
+
+/// Why another load is not covered, apart from its peak.
+std::string foreign_load(const RecordedLaunch& recorded, const RecordedLaunch& launch) {
+  if (launch.duration > longest * recorded.duration) {
+    return fmt::format("its launch lasts {:.4g} ms, and {:.4g} ms are more than {:g} times that",
+                       1e3 * recorded.duration, 1e3 * launch.duration, longest);
+  }
+  const double off = shape_difference(launch, recorded);
+  if (!(off <= most_off_shape)) {
+    return fmt::format("its load differs in shape by {:.2g} of the peak, more than {:g}", off,
+                       most_off_shape);
+  }
+  if (launch.rise_time * steepest < recorded.rise_time * (1.0 - round_off)) {
+    return fmt::format("its load rises in {:.3g} ms, and {:.3g} ms are less than a part in {:g} of that",
+                       1e3 * recorded.rise_time, 1e3 * launch.rise_time, steepest);
+  }
+  if (!(launch.roughness <= recorded.roughness + most_roughness_added)) {
+    return fmt::format("the roughness of its load is {:.2g}, and {:.2g} is more by over {:g}",
+                       recorded.roughness, launch.roughness, most_roughness_added);
+  }
+  return {};
+}
+
+/// "it was made at 496 MPa, and 700 MPa are more than 1.25 times that".
+std::string beyond(double recorded, double value, const char* unit, const char* what, double most) {
+  return fmt::format("it was made {} {:.4g}{}, and {:.4g}{} is more than {:g} times that", what, recorded,
+                     unit, value, unit, most);
+}
+
+}  // namespace
+
+double roughness_of(const scene::Load& load) {
+  const scene::PressureHistory history(load);
+  const std::vector<double> instants = instants_of(load);
+  double path = 0.0, largest = 0.0;
+  for (std::size_t i = 0; i + 1 < instants.size(); ++i) {
+    // p |dp| between two instants of a monotone piece is half the difference of the squares.
+    const double from = history.at(instants[i]), to = history.at(instants[i + 1]);
+    path += 0.5 * std::abs(to * to - from * from);
+    largest = std::max({largest, from, to});
+  }
+  const double begin = history.at(0.0), end = history.at(load.duration);
+  const double smooth = largest * largest - 0.5 * (begin * begin + end * end);
+  return smooth > 0.0 ? std::max(0.0, path / smooth - 1.0) : 0.0;
+}
+
+RecordedLaunch launch_of(const scene::Scene& scene, std::vector<double> gaps) {
+  const scene::PressureHistory history(scene.load);
+  RecordedLaunch launch;
+  launch.peak_pressure = history.peak();
+  launch.duration = scene.load.duration;
+  for (std::size_t i = 0; i < shape_instants; ++i) {
+    const double time = launch.duration * static_cast<double>(i) / (shape_instants - 1);
+    const double pressure = history.at(time);
+    launch.shape.push_back(launch.peak_pressure > 0.0 ? std::min(pressure / launch.peak_pressure, 1.0) : 0.0);
+  }
+  launch.rise_time = rise_time_of(history, launch.duration, launch.peak_pressure);
+  launch.roughness = roughness_of(scene.load);
+  launch.crack_radius = scene.charge.cracks.initial_crack_radius;
+  launch.flaw_size = scene.charge.cracks.flaw_size;
+  launch.gaps = std::move(gaps);
+  launch.localisation = scene.surface.localisation;
+  launch.air_heating = air_heating_of(scene, launch.peak_pressure);
+  return launch;
+}
+
+Coverage coverage_of(const RecordedLaunch& recorded, const RecordedLaunch& launch) {
+  const double pressure = ratio_of(launch.peak_pressure, recorded.peak_pressure);
+  const double cracks = crack_ratio(launch, recorded);
+  const double friction = ratio_of(launch.localisation, recorded.localisation);
+  const double air = ratio_of(largest_of(launch.gaps) * launch.air_heating,
+                              largest_of(recorded.gaps) * recorded.air_heating);
+  Coverage coverage;
+  const double growth =
+      std::pow(std::max(1.0, pressure), 2) * std::sqrt(std::max(1.0, cracks)) * std::max(1.0, friction);
+  // What grows without bound is not known: the reason says so.
+  if (std::isfinite(growth)) coverage.growth = growth;
+  const double allowed = 1.0 + round_off;
+  if (!(pressure <= most_pressure * allowed)) {
+    coverage.reason = beyond(1e-6 * recorded.peak_pressure, 1e-6 * launch.peak_pressure, " MPa",
+                             "at a peak pressure of", most_pressure);
+  } else if (!(cracks <= most_cracks * allowed)) {
+    coverage.reason =
+        has_cracks(recorded)
+            ? fmt::format(
+                  "it was made with cracks of {:.4g} um in flaws of {:.4g} mm, and {:.4g} um in {:.4g} "
+                  "mm is more than {:g} times as much",
+                  1e6 * recorded.crack_radius, 1e3 * recorded.flaw_size, 1e6 * launch.crack_radius,
+                  1e3 * launch.flaw_size, most_cracks)
+            : "it was made without cracks";
+  } else if (!(friction <= most_heating * allowed)) {
+    coverage.reason = beyond(recorded.localisation, launch.localisation, "",
+                             "with a localisation of the friction of", most_heating);
+  } else if (!(air <= most_heating * allowed)) {
+    coverage.reason = fmt::format(
+        "the air of its largest gap, {:.4g} cm, heats the skin by {:.3g} K/ms, and that of {:.4g} cm by "
+        "{:.3g} K/ms, more than {:g} times that",
+        100.0 * largest_of(recorded.gaps), 1e-3 * largest_of(recorded.gaps) * recorded.air_heating,
+        100.0 * largest_of(launch.gaps), 1e-3 * largest_of(launch.gaps) * launch.air_heating, most_heating);
+  } else {
+    coverage.reason = foreign_load(recorded, launch);
+  }
+  return coverage;
+}
+
+}  // namespace launchsafe::study

@@ -1,0 +1,133 @@
+#include "launchsafe/study/recorded_launch.hpp"
+
+#include "launchsafe/surface/skin.hpp"
+#include "study/made_record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::study;
+
+const std::vector<double> gaps{0.0, 4e-4};
+
+Coverage coverage_of_changed(const std::function<void(scene::Scene&)>& change) {
+  scene::Scene scene = own_scene();
+  change(scene);
+  return coverage_of(launch_of(own_scene(), gaps), launch_of(scene, gaps));
+}
+
+/// The scene's own load as a measured curve at some points, each off by a share of the peak, up and down.
+void measure(scene::Load& load, int points, double noise) {
+  const scene::PressureHistory history(load);
+  std::vector<double> time, pressure;
+  for (int i = 0; i < points; ++i) {
+    const double swing = (i % 2 == 0 ? noise : -noise) * load.peak;
+    time.push_back(load.duration * i / (points - 1));
+    pressure.push_back(std::max(0.0, history.at(time.back()) + swing));
+  }
+  load.curve_time = time;
+  load.curve_pressure = pressure;
+}
+
+TEST(RecordedLaunch, CoversItselfAndAMeasuredCurveOfItsOwnShape) {
+  for (const int points : {40, 200, 1000}) {
+    const Coverage coverage =
+        coverage_of_changed([points](scene::Scene& scene) { measure(scene.load, points, 0.0); });
+    EXPECT_EQ(coverage.reason, "") << points;
+    EXPECT_NEAR(coverage.growth, 1.0, 1e-2) << points;
+  }
+  EXPECT_EQ(coverage_of_changed([](auto&) {}).growth, 1.0);
+}
+
+TEST(RecordedLaunch, DoesNotCoverARoughCurve) {
+  for (const double noise : {0.02, 0.05}) {
+    const Coverage coverage =
+        coverage_of_changed([noise](scene::Scene& scene) { measure(scene.load, 900, noise); });
+    EXPECT_FALSE(coverage.reason.empty()) << noise;
+  }
+}
+
+TEST(RecordedLaunch, RoughnessIsThePathOfTheSquaresBeyondOneRiseAndFall) {
+  EXPECT_NEAR(roughness_of(own_scene().load), 0.0, 1e-3);
+  scene::Load load;
+  load.duration = 1e-3;
+  // 0 to 100, back to 50, up to 100 and down to 0 MPa: int p |dp| is 10^4 and twice (10^4 - 50^2)/2 MPa2 on
+  // the way, which is 0.75 more than the 10^4 of a single hump. Straight lines, so that no swing is rounded
+  // off.
+  load.curve_time = {0.0, 0.25e-3, 0.5e-3, 0.75e-3, 1e-3};
+  load.curve_pressure = {0.0, 100e6, 50e6, 100e6, 0.0};
+  EXPECT_NEAR(roughness_of(load), 0.75, 1e-9);
+}
+
+/// The rate at which compressed air heats a cold skin is that of the surface's own equation.
+TEST(RecordedLaunch, AirHeatsAsItDoesInTheSkin) {
+  const scene::Scene scene = own_scene();
+  const double peak = 496e6, gap = 4e-4;
+  const double air = materials::adiabatic_temperature(scene.surface.air, peak);
+  const double expected = surface::heat_capacity_ratio(surface::skin_model(scene), gap) /
+                          scene.surface.exchange_time * (air - scene.surface.air.initial_temperature);
+  EXPECT_NEAR(gap * launch_of(scene, {gap}).air_heating, expected, 1e-6 * expected);
+}
+
+TEST(RecordedLaunch, GrowsWithWhatDrivesTheErrorsAndNeverShrinks) {
+  const auto growth = [](const std::function<void(scene::Scene&)>& change) {
+    const Coverage coverage = coverage_of_changed(change);
+    EXPECT_EQ(coverage.reason, "");
+    return coverage.growth;
+  };
+  EXPECT_NEAR(growth([](auto& s) { s.load.peak *= 1.1; }), 1.21, 1e-9);
+  EXPECT_NEAR(growth([](auto& s) { s.charge.cracks.initial_crack_radius *= 2.0; }), std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(growth([](auto& s) { s.surface.localisation *= 1.5; }), 1.5, 1e-9);
+  EXPECT_NEAR(growth([](auto& s) {
+                s.load.peak *= 1.1;
+                s.surface.localisation *= 1.5;
+              }),
+              1.815, 1e-9);
+  for (const auto& smaller : std::vector<std::function<void(scene::Scene&)>>{
+           [](auto& s) { s.load.peak *= 0.3; }, [](auto& s) { s.charge.cracks.initial_crack_radius = 0.0; },
+           [](auto& s) { s.surface.localisation = 0.0; }, [](auto& s) { s.charge.cracks.flaw_size *= 10.0; },
+           [](auto& s) { s.load.duration *= 0.8; }})
+    EXPECT_EQ(growth(smaller), 1.0);
+}
+
+TEST(RecordedLaunch, SaysNothingOfWhatTheRecordDoesNotHave) {
+  scene::Scene none = own_scene();
+  none.charge.cracks.initial_crack_radius = 0.0;
+  EXPECT_NE(coverage_of(launch_of(none, gaps), launch_of(own_scene(), gaps)).reason.find("without cracks"),
+            std::string::npos);
+  const Coverage no_gap = coverage_of(launch_of(own_scene(), {0.0}), launch_of(own_scene(), gaps));
+  EXPECT_NE(no_gap.reason.find("gap"), std::string::npos) << no_gap.reason;
+  EXPECT_EQ(no_gap.growth, 1.0);
+  none = own_scene();
+  none.surface.localisation = 0.0;
+  EXPECT_FALSE(coverage_of(launch_of(none, gaps), launch_of(own_scene(), gaps)).reason.empty());
+  EXPECT_EQ(coverage_of(launch_of(own_scene(), gaps), launch_of(own_scene(), {0.0})).reason, "");
+}
+
+TEST(RecordedLaunch, DoesNotCoverAnotherLoad) {
+  const std::vector<std::function<void(scene::Load&)>> others{
+      [](auto& load) { load.duration = 30e-3; }, [](auto& load) { load.peak_time = 6e-3; },
+      [](auto& load) { load.exponent = 100; }, [](auto& load) { load.base = 0.3 * load.peak; },
+      [](auto& load) {
+        // The same pulse 4 ms later.
+        const scene::PressureHistory history(load);
+        scene::Load delayed = load;
+        for (int i = 0; i <= 200; ++i) {
+          const double time = load.duration * i / 200;
+          delayed.curve_time.push_back(time);
+          delayed.curve_pressure.push_back(history.at(std::max(0.0, time - 4e-3)));
+        }
+        load = delayed;
+      }};
+  for (std::size_t i = 0; i < others.size(); ++i)
+    EXPECT_FALSE(coverage_of_changed([&](scene::Scene& s) { others[i](s.load); }).reason.empty()) << i;
+}
+
+}  // namespace
