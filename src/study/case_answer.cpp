@@ -3,6 +3,8 @@
 #include "case_runs.hpp"
 #include "gap_analysis.hpp"
 
+#include <cmath>
+
 namespace launchsafe::study {
 namespace {
 
@@ -54,6 +56,26 @@ CaseAnswer failed_answer(const Study& study, const StudyCase& input, std::string
   CaseAnswer answer = without_histories(outcome);
   answer.heated_temperature.assign(study.gaps.size(), not_a_number);
   return answer;
+}
+
+bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input) {
+  const scene::Scene& scene = input.scene.scene;
+  const double ignition_temperature = scene.charge.kinetics.ignition_temperature;
+  // A step may end a little beyond the duration.
+  const double end = scene.load.duration * (1.0 + 1e-6);
+  const auto is_late = [end](const Peak& peak) { return peak.time > end; };
+  if (answer.verdicts.size() != study.gaps.size()) return false;
+  for (std::size_t i = 0; i < study.gaps.size(); ++i) {
+    const GapVerdict& row = answer.verdicts[i];
+    if (row.gap != study.gaps[i] || is_late(row.maximum) || is_late(row.early) || is_late(row.anywhere))
+      return false;
+    // Both are finite or both are not; the subtraction is the one by which the margin came about.
+    const double margin = ignition_temperature - row.maximum.temperature;
+    if (row.margin != margin && (std::isfinite(row.margin) || std::isfinite(margin))) return false;
+    // Nothing cools a skin below where it began.
+    if (row.maximum.temperature < scene.initial_temperature - 1.0) return false;
+  }
+  return true;
 }
 
 }  // namespace launchsafe::study

@@ -1,6 +1,7 @@
 #include "gap_analysis.hpp"
 
 #include "launchsafe/run/doubts.hpp"
+#include "row_judgement.hpp"
 
 #include <fmt/format.h>
 
@@ -227,18 +228,14 @@ void conclude(const Study& study, CaseOutcome& outcome) {
   }
   const bool foreign = misses_calibrated_rows(outcome);
   const std::string doubt = doubt_of(outcome);
-  const std::string limited = run::to_string(outcome.result.mechanics.limiters);
   std::vector<double> gaps, temperatures;
   for (GapVerdict& row : outcome.verdicts) {
     row.uncertainty.coupling = coupling;
     if (foreign)
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
-    row.judgement = judge({outcome.completed(), outcome.failure, row.ignition.has_value(), row.gap,
-                           row.maximum.temperature, row.margin, row.uncertainty.total(), doubt, limited},
-                          outcome.critical);
-    if (!row.ignition && row.ignition_anywhere)
-      row.judgement.reason +=
-          "; the bottom ignites off the observation points, at " + row.ignition_anywhere->point;
+    Evidence evidence = evidence_of(row, outcome.failure, outcome.result.mechanics.limiters);
+    evidence.doubt = doubt;
+    judge_row(std::move(evidence), outcome.critical, row);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);
     temperatures.push_back(row.maximum.temperature);
