@@ -1,12 +1,12 @@
-# The fuzzers of the readers as tests: clang++ builds them in a configuration of their own, then each runs for half a
-# minute on the seeds of tests/fuzz/corpus and on what earlier runs found. An input that fails is kept in
+# The fuzzers of the readers as tests: clang++ builds them in a configuration of their own, then each runs for a
+# quarter of a minute on the seeds of tests/fuzz/corpus and on what earlier runs found. An input that fails is kept in
 # fuzz/failures of the build folder, and `fuzz/tests/fuzz/fuzz_scene FILE` repeats it.
 if(LAUNCHSAFE_SANITIZE)
   return() # the fuzzers have the same sanitizers; once is enough
 endif()
 
 set(fuzz_dir "${PROJECT_BINARY_DIR}/fuzz")
-set(fuzzed_readers scene study)
+set(fuzzed_readers scene study store)
 
 # Whether there is a clang++ with its fuzzer's library.
 find_program(LAUNCHSAFE_FUZZ_COMPILER NAMES clang++)
@@ -35,7 +35,7 @@ add_test(NAME fuzz.configure
           "-DCMAKE_CXX_COMPILER=${LAUNCHSAFE_FUZZ_COMPILER}"
           "-DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
-add_test(NAME fuzz.build COMMAND "${CMAKE_COMMAND}" --build "${fuzz_dir}" --parallel 2 --target fuzz_scene fuzz_study)
+add_test(NAME fuzz.build COMMAND "${CMAKE_COMMAND}" --build "${fuzz_dir}" --parallel 2 --target fuzz_scene fuzz_study fuzz_store)
 set_tests_properties(fuzz.configure PROPERTIES FIXTURES_SETUP fuzz_configuration TIMEOUT 120)
 set_tests_properties(fuzz.build PROPERTIES
   FIXTURES_REQUIRED fuzz_configuration FIXTURES_SETUP fuzzers PROCESSORS 2 TIMEOUT 900)
@@ -46,7 +46,7 @@ foreach(reader IN LISTS fuzzed_readers)
   file(MAKE_DIRECTORY "${found}")
   # -timeout, s: a reader that takes so long on an input hangs. -rss_limit_mb: or holds all of it.
   add_test(NAME fuzz.${reader}
-    COMMAND "${fuzz_dir}/tests/fuzz/fuzz_${reader}" -seed=1 -max_total_time=30 -timeout=10 -rss_limit_mb=2048 -max_len=6000
+    COMMAND "${fuzz_dir}/tests/fuzz/fuzz_${reader}" -seed=1 -max_total_time=15 -timeout=10 -rss_limit_mb=2048 -max_len=6000
             -print_final_stats=1 "-dict=${CMAKE_CURRENT_SOURCE_DIR}/fuzz/keys.dict"
             "-artifact_prefix=${fuzz_dir}/failures/${reader}-" "${found}"
             "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${reader}")
