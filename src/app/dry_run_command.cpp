@@ -25,20 +25,17 @@ bool knows_rate(const store::CaseStore* store) {
   });
 }
 
-/// The store in the study's folder, or nullptr where there is none; it is not made.
-store::Result<std::unique_ptr<store::CaseStore>> store_for(const StudyArguments& arguments,
-                                                           const Console& console) {
+/// The store in the study's folder, only to be looked at, or nullptr where there is none.
+store::Result<std::unique_ptr<store::CaseStore>> store_for(const StudyArguments& arguments) {
   if (arguments.output.empty() || !holds_store(arguments.output)) return std::unique_ptr<store::CaseStore>{};
-  auto store = store::CaseStore::open(arguments.output, {arguments.shard.part(), run::model_version, {}});
-  if (!store) return store;
-  for (const std::string& remark : (*store)->remarks()) console.remark(remark);
-  return store;
+  return store::CaseStore::open_to_read(arguments.output, run::model_version);
 }
 
 /// Says so where the study itself would refuse the folder.
 void remark_obstacle(const study::StudyFile& file, const StudyArguments& arguments, const Console& console) {
   if (arguments.output.empty()) return;
-  if (const auto obstacle = obstacle_in_folder(arguments.output, study_manifest(file, 1), arguments.update))
+  if (const auto obstacle =
+          obstacle_in_folder(arguments.output, file.study.kind, study_manifest(file, 1), arguments.update))
     console.remark(*obstacle);
 }
 
@@ -62,10 +59,10 @@ ExitCode dry_run_command(const StudyArguments& arguments, Console& console) {
   }
   if (!file->chosen_setting.empty()) console.remark("setting: " + file->chosen_setting);
   remark_obstacle(*file, arguments, console);
-  const auto store = store_for(arguments, console);
+  const auto store = store_for(arguments);
   if (!store) {
     console.error(store.error().message);
-    return store.error().kind == store::Error::Kind::conflict ? ExitCode::bad_input : ExitCode::failed;
+    return ExitCode::failed;
   }
   const double update_rate =
       knows_rate(store->get()) ? 0.0 : measured_update_rate(file->cases.front().scene.scene);
@@ -74,6 +71,9 @@ ExitCode dry_run_command(const StudyArguments& arguments, Console& console) {
     return ExitCode::interrupted;
   }
   const study::Foresight foresight = study::foresee(*file, options_of(arguments, store->get()), update_rate);
+  if (*store) {
+    for (const std::string& remark : (*store)->remarks()) console.remark(remark);
+  }
   console.print_text(foresight_text(*file, foresight, arguments.output));
   console.print_json(foresight_json(*file, foresight));
   return ExitCode::done;

@@ -194,7 +194,7 @@ ExitCode emit_command(const EmitArguments& arguments, Console& console) {
   SlurmStudy study = slurm_study(arguments, *file);
   if (const auto fault = fault_of(study)) return refuse(*fault, console);
   const store::Manifest manifest = study_manifest(*file, study.jobs);
-  if (const auto obstacle = obstacle_in_folder(study.output, manifest, false))
+  if (const auto obstacle = obstacle_in_folder(study.output, file->study.kind, manifest, false))
     return refuse(*obstacle, console);
   const ShardNeeds needs = foresee_needs(*file, study);
   study.time = needs.time;

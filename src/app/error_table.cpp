@@ -3,7 +3,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
-#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/own_files.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,6 +17,8 @@ namespace launchsafe::app {
 namespace {
 
 using verify::ErrorSeries, verify::PartSetting;
+
+constexpr const char *csv_name = "parts.csv", *page_name = "parts.md", *picture_name = "parts.svg";
 
 const char* const title = "Error against processor time of the parts with exact solutions";
 
@@ -196,26 +198,33 @@ nlohmann::ordered_json error_table_json(const std::vector<MeasuredSeries>& measu
   return object;
 }
 
+std::optional<std::string> obstacle_to_error_table(const std::filesystem::path& folder) {
+  for (const char* name : {csv_name, page_name, picture_name}) {
+    if (const auto error = store::obstacle_to_own_file(folder / name)) return error->message;
+  }
+  return std::nullopt;
+}
+
 store::Result<report::WrittenFiles> write_error_table(const std::vector<MeasuredSeries>& measured,
                                                       const std::string& command,
                                                       const std::filesystem::path& folder) {
   report::WrittenFiles written;
-  std::string picture = "parts.svg";
+  std::string picture = picture_name;
   const report::Plot plot = plot_of(measured);
   if (plot.series.empty()) {
     written.remarks.push_back("no picture: every part asked for is exact at every setting");
     picture.clear();
   } else if (auto error = report::write_svg(plot, folder / picture)) {
-    if (error->kind == store::Error::Kind::write_failed) return *error;
+    if (!report::is_of_drawing(*error)) return *error;
     written.remarks.push_back("no picture: " + error->message);
     picture.clear();
   } else {
     written.files.push_back(picture);
   }
-  const std::pair<const char*, std::string> texts[] = {{"parts.csv", report::to_csv(whole_table(measured))},
-                                                       {"parts.md", page_of(measured, command, picture)}};
+  const std::pair<const char*, std::string> texts[] = {{csv_name, report::to_csv(whole_table(measured))},
+                                                       {page_name, page_of(measured, command, picture)}};
   for (const auto& [name, text] : texts) {
-    if (auto error = store::write_file_atomically(folder / name, {text})) return *error;
+    if (auto error = store::write_own_file(folder / name, {text})) return *error;
     written.files.push_back(name);
   }
   return written;

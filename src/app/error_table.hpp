@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ std::string error_table_text(const std::vector<MeasuredSeries>& measured, const 
 
 nlohmann::ordered_json error_table_json(const std::vector<MeasuredSeries>& measured,
                                         const std::string& command);
+
+/// Why the files below may not be written into the folder. Changes nothing.
+std::optional<std::string> obstacle_to_error_table(const std::filesystem::path& folder);
 
 /// Writes parts.md, parts.csv and, where gnuplot is installed, parts.svg.
 store::Result<report::WrittenFiles> write_error_table(const std::vector<MeasuredSeries>& measured,

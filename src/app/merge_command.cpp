@@ -73,6 +73,7 @@ ExitCode merge_command(const MergeArguments& arguments, Console& console) {
   options.compute = false;
   StudySession session({arguments.study,
                         arguments.output,
+                        file->study.kind,
                         arguments.update,
                         {},
                         arguments.command,

@@ -4,6 +4,7 @@
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/case_file.hpp"
+#include "launchsafe/store/own_files.hpp"
 #include "output_folder.hpp"
 #include "plausibility_text.hpp"
 #include "progress.hpp"
@@ -44,8 +45,16 @@ std::optional<std::string> obstacle_at(const std::filesystem::path& path, const 
         "{} holds the result of a different input, and nothing is overwritten; name another folder",
         path.string());
   }
-  if (present.error().kind == store::Error::Kind::missing) return std::nullopt;
+  const bool absent = present.error().kind == store::Error::Kind::missing;
+  // A link that leads nowhere is there, and somebody's.
+  if (absent && !std::filesystem::is_symlink(path)) return std::nullopt;
   return present.error().message + "; it is not overwritten: move it away or name another folder";
+}
+
+/// Likewise for the file that ParaView opens.
+std::optional<std::string> obstacle_to_sidecar(const std::filesystem::path& path) {
+  const auto error = store::obstacle_to_own_file(store::sidecar_of(path));
+  return error ? std::optional(error->message) : std::nullopt;
 }
 
 ExitCode report_interruption(const RunArguments& arguments, const run::MechanicsResult& mechanics,
@@ -77,6 +86,7 @@ ExitCode run_command(const RunArguments& arguments, Console& console) {
   if (arguments.output) {
     target = *arguments.output / arguments.scene.stem().concat(".h5");
     auto obstacle = obstacle_at(target, manifest);
+    if (!obstacle && !scene.output.snapshot_times.empty()) obstacle = obstacle_to_sidecar(target);
     if (!obstacle) obstacle = prepare_output_folder(*arguments.output);
     if (obstacle) {
       console.error(*obstacle);

@@ -55,8 +55,8 @@ ExitCode study_command(const StudyArguments& arguments, Console& console) {
   }
   if (!file->chosen_setting.empty()) console.remark("setting: " + file->chosen_setting);
   study::StudyOptions options = options_of(arguments, nullptr);
-  StudySession session({arguments.study, arguments.output, arguments.update, arguments.shard.part(),
-                        arguments.command, study_manifest(*file, options.jobs)},
+  StudySession session({arguments.study, arguments.output, file->study.kind, arguments.update,
+                        arguments.shard.part(), arguments.command, study_manifest(*file, options.jobs)},
                        console);
   if (const ExitCode code = session.open(); code != ExitCode::done) return code;
   options.store = &session.store();

@@ -1,12 +1,14 @@
 #include "study_folder.hpp"
 
+#include "launchsafe/report/report_names.hpp"
 #include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/case_store.hpp"
+#include "launchsafe/store/own_files.hpp"
 #include "study_manifest.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -15,32 +17,26 @@ namespace launchsafe::app {
 namespace {
 
 using std::filesystem::path;
+using store::FileState;
 
-/// Whether a report of any kind of study gives a file this name.
-bool is_report_name(std::string_view name) {
-  constexpr std::array<std::string_view, 11> names{"report.md",       "study.json",        "verdicts.csv",
-                                                   "verdicts.md",     "temperature.svg",   "calibration.csv",
-                                                   "hold_outs.csv",   "critical_gaps.csv", "critical_gaps.md",
-                                                   "sensitivity.csv", "evaluations.csv"};
-  if (std::find(names.begin(), names.end(), name) != names.end()) return true;
-  const path extension = path(name).extension();
-  if (extension == ".svg") return name.starts_with("critical_gap") || name.starts_with("sensitivity_");
-  return name.starts_with("case_") && (extension == ".h5" || extension == ".xdmf");
+constexpr std::string_view manifest_name = "manifest.json";
+
+/// What is known of the files in the folder, from its own journal and from the record of its report, which
+/// alone knows those of older programs.
+store::Result<store::OwnFiles> own_files(const path& folder, const store::Result<StudyRecord>& record) {
+  auto own = store::OwnFiles::read(folder);
+  if (!own || !record) return own;
+  for (const store::WrittenFile& file : written_files(*record)) own->add(file);
+  return own;
 }
 
-/// "HASH.h5", as a store names its cases.
-bool is_case_name(std::string_view name) {
-  constexpr std::size_t digits = 32;
-  return name.size() == digits + 3 && name.ends_with(".h5") &&
-         name.find_first_not_of("0123456789abcdef") == digits;
-}
-
-std::vector<std::string> report_names_in(const path& folder) {
+/// The names in the folder that a report of this kind would give its files, in alphabetical order.
+std::vector<std::string> report_names_in(const path& folder, study::StudyKind kind) {
   std::vector<std::string> names;
   std::error_code failed;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
-    if (entry.is_directory(failed) || !is_report_name(entry.path().filename().string())) continue;
-    names.push_back(entry.path().filename());
+    const std::string name = entry.path().filename();
+    if (report::may_write(kind, name)) names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -54,10 +50,23 @@ std::vector<std::string> names_of(const StudyRecord& record) {
 
 path earlier_folder(const path& folder, int number) { return folder / fmt::format("earlier-{}", number); }
 
-/// The first that is free, or that a kill left half filled: the manifest goes there last.
-path folder_for_earlier(const path& folder) {
+/// Whether files may go there: nobody made it yet, or a kill left it half filled with what is moved now. The
+/// manifest goes there last.
+bool is_free_for(const path& target, const std::vector<std::string>& names) {
+  std::error_code failed;
+  const auto status = std::filesystem::symlink_status(target, failed);
+  if (!std::filesystem::exists(status)) return true;
+  if (!std::filesystem::is_directory(status)) return false;
+  const std::filesystem::directory_iterator entries(target, failed);
+  return !failed && std::all_of(begin(entries), end(entries), [&](const auto& entry) {
+    const std::string name = entry.path().filename();
+    return name != manifest_name && std::find(names.begin(), names.end(), name) != names.end();
+  });
+}
+
+path folder_for_earlier(const path& folder, const std::vector<std::string>& names) {
   int number = 1;
-  while (std::filesystem::exists(earlier_folder(folder, number) / "manifest.json")) ++number;
+  while (!is_free_for(earlier_folder(folder, number), names)) ++number;
   return earlier_folder(folder, number);
 }
 
@@ -66,28 +75,38 @@ store::MaybeError failed_to(const char* what, const path& target, const std::err
                       fmt::format("cannot {} {}: {}", what, target.string(), error.message())};
 }
 
-store::MaybeError move_files(const path& folder, const std::vector<std::string>& names, const path& target) {
+/// Moves files to where the earlier report goes. Returns where that is, empty where there was nothing to
+/// move.
+store::Result<path> set_earlier_aside(const path& folder, const std::vector<std::string>& names) {
+  if (names.empty()) return path{};
+  const path target = folder_for_earlier(folder, names);
   std::error_code failed;
   std::filesystem::create_directories(target, failed);
-  if (failed) return failed_to("make the folder", target, failed);
+  if (failed) return *failed_to("make the folder", target, failed);
   for (const std::string& name : names) {
+    failed = store::move_to_free_name(folder / name, target / name);
     // Another shard may be moving the same files.
-    std::filesystem::rename(folder / name, target / name, failed);
     if (failed && failed != std::errc::no_such_file_or_directory)
-      return failed_to("move the earlier report to", target / name, failed);
+      return *failed_to("move the earlier report to", target / name, failed);
   }
-  return std::nullopt;
+  return target;
 }
 
-/// Moves the report that an earlier study left. Before the names were recorded they are known by their looks.
-store::Result<path> set_earlier_aside(const path& folder, const StudyRecord& earlier) {
-  std::vector<std::string> names = names_of(earlier);
-  if (names.empty()) names = report_names_in(folder);
-  if (names.empty()) return path{};
-  names.emplace_back("manifest.json");
-  const path target = folder_for_earlier(folder);
-  if (auto error = move_files(folder, names, target)) return *error;
-  return target;
+/// What is moved when another study takes the folder: the files of the record, or, where a report was not
+/// finished, all that is known to be ours.
+std::vector<std::string> names_of_earlier(const store::OwnFiles& own,
+                                          const store::Result<StudyRecord>& record) {
+  std::vector<std::string> names = record ? names_of(*record) : std::vector<std::string>{};
+  if (names.empty()) {
+    names = own.present();
+    std::erase_if(names, [](const std::string& name) { return !report::may_write(name); });
+  }
+  if (!names.empty() && record) names.emplace_back(manifest_name);
+  return names;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  return names.front() + (names.size() > 1 ? fmt::format(" and {} more", names.size() - 1) : "");
 }
 
 }  // namespace
@@ -96,66 +115,79 @@ bool holds_store(const path& folder) {
   std::error_code failed;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
     const std::string name = entry.path().filename();
-    if (name.starts_with("journal") && name.ends_with(".jsonl")) return true;
+    if (name == "journal.jsonl" || (name.starts_with("journal.") && name.ends_with(".jsonl"))) return true;
   }
   for (const auto& entry : std::filesystem::directory_iterator(folder / "cases", failed)) {
-    if (is_case_name(entry.path().filename().string())) return true;
+    const path file = entry.path().filename();
+    if (file.extension() == ".h5" && store::is_case_hash(file.stem().string())) return true;
   }
   return false;
 }
 
-std::optional<std::string> obstacle_in_folder(const path& folder, const store::Manifest& manifest,
-                                              bool update) {
+std::optional<std::string> obstacle_in_folder(const path& folder, study::StudyKind kind,
+                                              const store::Manifest& manifest, bool update) {
   const auto record = read_study_record(folder);
-  if (record) {
-    if (update || same_study(record->manifest, manifest)) return std::nullopt;
-    return fmt::format(
-        "{} holds the results of a different study or model, and nothing is overwritten; with --update the "
-        "report there moves to {} and stored cases are used where they fit; or name another folder",
-        folder.string(), folder_for_earlier(folder).string());
+  if (!record && record.error().kind != store::Error::Kind::missing) {
+    return record.error().message + ", and nothing is overwritten; move it away or name another folder";
   }
-  if (record.error().kind != store::Error::Kind::missing) return record.error().message;
-  const std::vector<std::string> foreign = report_names_in(folder);
-  if (foreign.empty()) return std::nullopt;
-  if (holds_store(folder)) {
-    if (update) return std::nullopt;
+  const auto own = own_files(folder, record);
+  if (!own) return own.error().message;
+  std::vector<std::string> foreign = report_names_in(folder, kind);
+  std::erase_if(foreign, [&](const std::string& name) { return own->state_of(name) != FileState::foreign; });
+  if (!foreign.empty()) {
     return fmt::format(
-        "{} holds a report without its manifest.json, and nothing is overwritten; with --update the report "
-        "moves "
-        "to {} and stored cases are used where they fit",
-        folder.string(), folder_for_earlier(folder).string());
+        "{} holds files that launchsafe did not write ({}), and nothing is overwritten; move them away or "
+        "name "
+        "another folder",
+        folder.string(), listed(foreign));
   }
+  const std::vector<std::string> earlier = names_of_earlier(*own, record);
+  const bool of_this_study = record ? same_study(record->manifest, manifest) : earlier.empty();
+  if (update || of_this_study) return std::nullopt;
   return fmt::format(
-      "{} holds files that no study of ours left there ({}{}), and nothing is overwritten; name another "
-      "folder",
-      folder.string(), foreign.front(),
-      foreign.size() > 1 ? fmt::format(" and {} more", foreign.size() - 1) : "");
+      "{} holds {}, and nothing is overwritten; with --update the report there moves to {} and stored cases "
+      "are used where they fit; or name another folder",
+      folder.string(),
+      record ? "the results of a different study or model" : "a report without its manifest.json",
+      folder_for_earlier(folder, earlier).string());
 }
 
 void remove_leftovers(const path& folder) {
   std::vector<path> leftovers;
   std::error_code failed;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
-    const std::string name = entry.path().filename();
-    if (name.starts_with(".") && name.ends_with(store::partial_suffix) && entry.is_regular_file(failed))
-      leftovers.push_back(entry.path());
-  }
-  for (const path& each : leftovers) std::filesystem::remove(each, failed);
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
+    leftovers.push_back(entry.path());
+  for (const path& each : leftovers) store::remove_leftover(each);
 }
 
 store::Result<path> take_folder(const path& folder, const store::Manifest& manifest) {
-  path moved_to;
-  if (const auto record = read_study_record(folder)) {
+  const auto record = read_study_record(folder);
+  const auto own = own_files(folder, record);
+  if (!own) return own.error();
+  if (record) {
+    // An older program kept no journal of files; its manifest knows them, and it is one.
+    std::vector<store::WrittenFile> files = written_files(*record);
+    if (const auto digest = manifest_digest(folder);
+        digest && own->state_of(std::string(manifest_name)) == FileState::foreign)
+      files.push_back({std::string(manifest_name), *digest});
+    if (auto error = store::note_own_files(folder, files)) return *error;
     if (same_study(record->manifest, manifest)) return path{};
-    auto moved = set_earlier_aside(folder, *record);
-    if (!moved) return moved.error();
-    moved_to = std::move(*moved);
-  } else if (const auto names = report_names_in(folder); !names.empty()) {
-    moved_to = folder_for_earlier(folder);
-    if (auto error = move_files(folder, names, moved_to)) return *error;
   }
-  if (auto error = write_study_record(folder, {manifest, {}, {}})) return *error;
+  auto moved_to = set_earlier_aside(folder, names_of_earlier(*own, record));
+  if (!moved_to) return moved_to;
+  if (auto error = write_study_record(folder, {manifest, {}, true, {}})) return *error;
   return moved_to;
+}
+
+store::Result<path> set_stale_aside(const path& folder, const StudyRecord& earlier,
+                                    const std::vector<std::string>& written) {
+  std::vector<std::string> stale;
+  for (const std::string& name : names_of(earlier)) {
+    const bool is_new = std::find(written.begin(), written.end(), name) != written.end();
+    if (!is_new && std::filesystem::exists(std::filesystem::symlink_status(folder / name)))
+      stale.push_back(name);
+  }
+  return set_earlier_aside(folder, stale);
 }
 
 }  // namespace launchsafe::app

@@ -3,10 +3,12 @@
 
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/result.hpp"
+#include "study_manifest.hpp"
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace launchsafe::app {
 
@@ -14,8 +16,8 @@ namespace launchsafe::app {
 bool holds_store(const std::filesystem::path& folder);
 
 /// Why the results of a study may not go into the folder: it holds those of a different study and `update` is
-/// not set, or files of somebody else that the report would overwrite. Nothing is changed.
-std::optional<std::string> obstacle_in_folder(const std::filesystem::path& folder,
+/// not set, or files of somebody else under names that the report needs. Nothing is changed.
+std::optional<std::string> obstacle_in_folder(const std::filesystem::path& folder, study::StudyKind kind,
                                               const store::Manifest& manifest, bool update);
 
 /// Removes what killed processes left of report files that they were writing; while no other process is at
@@ -24,8 +26,14 @@ void remove_leftovers(const std::filesystem::path& folder);
 
 /// Makes the folder that of the study, once its store is ours alone: moves the report of an earlier study to
 /// `earlier-N` and writes manifest.json, unless it is there. Returns where the report went, empty if nowhere.
-/// Errors: write_failed.
+/// Errors: conflict, write_failed, unreadable.
 store::Result<std::filesystem::path> take_folder(const std::filesystem::path& folder,
                                                  const store::Manifest& manifest);
+
+/// Moves what an earlier report left and the new one, of the files `written`, did not write again, such as a
+/// picture that cannot be drawn any more. Returns where it went, empty if nowhere. Errors: write_failed.
+store::Result<std::filesystem::path> set_stale_aside(const std::filesystem::path& folder,
+                                                     const StudyRecord& earlier,
+                                                     const std::vector<std::string>& written);
 
 }  // namespace launchsafe::app

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <system_error>
@@ -53,6 +54,7 @@ nlohmann::ordered_json json_of(const StudyRecord& record) {
           {"threads", manifest.threads},
           {"start_time", manifest.start_time},
           {"wall_time_s", manifest.wall_time},
+          {"complete", record.complete},
           {"files", files_json(record.files)},
           {"failures_sha256", record.failures},
           {"input", manifest.input_text}};
@@ -70,15 +72,30 @@ std::vector<ReportFile> files_from(const nlohmann::json& list) {
   return files;
 }
 
-/// Throws what the JSON library throws where a value is of another type.
+/// Negative for what is no version; the first manifests had none, which is 0.
+int version_in(const nlohmann::json& value) {
+  const bool fits =
+      value.is_number_integer() && value >= 0 && value <= std::int64_t{std::numeric_limits<int>::max()};
+  return fits ? value.get<int>() : -1;
+}
+
+/// Whether it says of itself what only a manifest of ours says: its input and the SHA-256 of that.
+bool is_sound(const store::Manifest& manifest) {
+  return manifest.model_version >= 0 && manifest.input_sha256 == store::sha256(manifest.input_text);
+}
+
+/// Throws what the JSON library throws where a value is of another type, or where one is missing that every
+/// manifest has.
 StudyRecord record_from(const nlohmann::json& object) {
   StudyRecord record;
-  record.manifest.input_sha256 = object.value("input_sha256", "");
-  record.manifest.model_version = object.value("model_version", 0);
+  record.manifest.input_sha256 = object.at("input_sha256").get<std::string>();
+  record.manifest.input_text = object.at("input").get<std::string>();
+  record.manifest.model_version = version_in(object.value("model_version", nlohmann::json(0)));
   record.manifest.program_version = object.value("program_version", "");
   record.manifest.commit = object.value("commit", "");
   record.manifest.start_time = object.value("start_time", "");
   record.files = files_from(object.value("files", nlohmann::json::array()));
+  record.complete = object.value("complete", true);
   record.failures = object.value("failures_sha256", "");
   return record;
 }
@@ -139,16 +156,28 @@ store::Result<StudyRecord> read_study_record(const std::filesystem::path& folder
   const auto object = nlohmann::json::parse(*text, nullptr, false);
   if (!object.is_object()) return corrupt;
   try {
-    return record_from(object);
+    StudyRecord record = record_from(object);
+    if (!is_sound(record.manifest)) return corrupt;
+    return record;
   } catch (const nlohmann::json::exception&) {
     return corrupt;
   }
 }
 
 store::MaybeError write_study_record(const std::filesystem::path& folder, const StudyRecord& record) {
-  return store::write_file_atomically(
+  return store::write_own_file(
       manifest_path(folder),
       {json_of(record).dump(2, ' ', false, nlohmann::json::error_handler_t::replace), "\n"});
+}
+
+std::optional<std::string> manifest_digest(const std::filesystem::path& folder) {
+  return digest_of(manifest_path(folder));
+}
+
+std::vector<store::WrittenFile> written_files(const StudyRecord& record) {
+  std::vector<store::WrittenFile> files;
+  for (const ReportFile& file : record.files) files.push_back({file.name, file.sha256});
+  return files;
 }
 
 std::vector<ReportFile> record_files(const std::filesystem::path& folder,

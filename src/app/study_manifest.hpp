@@ -2,11 +2,13 @@
 #pragma once
 
 #include "launchsafe/store/manifest.hpp"
+#include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/result.hpp"
 #include "launchsafe/study/read_study.hpp"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,7 @@ struct ReportFile {
 struct StudyRecord {
   store::Manifest manifest;
   std::vector<ReportFile> files;  ///< none while the study is not finished
+  bool complete = true;           ///< the report lacks no picture
   std::string failures;           ///< digest of what failed, which a report tells too
 };
 
@@ -35,11 +38,17 @@ store::Manifest study_manifest(const study::StudyFile& file, int jobs);
 /// Whether both ask the same of the same model.
 bool same_study(const store::Manifest& one, const store::Manifest& other);
 
-/// Reads manifest.json. Errors: missing, unreadable, corrupt.
+/// Reads manifest.json. Errors: missing, unreadable, corrupt (also somebody else's file of that name).
 store::Result<StudyRecord> read_study_record(const std::filesystem::path& folder);
 
-/// Writes manifest.json.
+/// The SHA-256 of manifest.json as it is; nothing where it cannot be read.
+std::optional<std::string> manifest_digest(const std::filesystem::path& folder);
+
+/// Writes manifest.json; never over one that is not ours.
 store::MaybeError write_study_record(const std::filesystem::path& folder, const StudyRecord& record);
+
+/// The files of a record as a record of the folder knows them.
+std::vector<store::WrittenFile> written_files(const StudyRecord& record);
 
 /// Files as they are now; those that are not there are left out.
 std::vector<ReportFile> record_files(const std::filesystem::path& folder,

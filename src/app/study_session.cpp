@@ -1,6 +1,7 @@
 #include "study_session.hpp"
 
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/foresight.hpp"
 #include "output_folder.hpp"
@@ -45,7 +46,7 @@ std::vector<std::string> all_names(const std::filesystem::path& folder, std::vec
 /// for what failed.
 bool report_stands(const std::filesystem::path& folder, const StudyRecord& record,
                    const store::Manifest& manifest, const std::string& failures) {
-  return !record.files.empty() && same_study(record.manifest, manifest) &&
+  return !record.files.empty() && record.complete && same_study(record.manifest, manifest) &&
          record.manifest.program_version == manifest.program_version &&
          record.manifest.commit == manifest.commit && record.failures == failures &&
          files_unchanged(folder, record.files);
@@ -76,11 +77,13 @@ StudySession::StudySession(SessionRequest request, Console& console)
 
 ExitCode StudySession::refuse(const store::Error& error) {
   console_.error(error.message);
-  return error.kind == store::Error::Kind::conflict ? ExitCode::bad_input : ExitCode::failed;
+  const bool folder_is_wrong =
+      error.kind == store::Error::Kind::conflict || error.kind == store::Error::Kind::corrupt;
+  return folder_is_wrong ? ExitCode::bad_input : ExitCode::failed;
 }
 
 ExitCode StudySession::open() {
-  auto obstacle = obstacle_in_folder(request_.folder, request_.manifest, request_.update);
+  auto obstacle = obstacle_in_folder(request_.folder, request_.kind, request_.manifest, request_.update);
   if (!obstacle) obstacle = prepare_output_folder(request_.folder);
   if (obstacle) return refuse({store::Error::Kind::conflict, *obstacle});
   store::StoreOptions options;
@@ -92,7 +95,8 @@ ExitCode StudySession::open() {
   store_ = std::move(*opened);
   print_remarks();
   // Until the lock was ours somebody else may have been at work here.
-  if (const auto late = obstacle_in_folder(request_.folder, request_.manifest, request_.update))
+  if (const auto late =
+          obstacle_in_folder(request_.folder, request_.kind, request_.manifest, request_.update))
     return refuse({store::Error::Kind::conflict, *late});
   if (request_.part.empty()) remove_leftovers(request_.folder);
   const auto moved = take_folder(request_.folder, request_.manifest);
@@ -167,6 +171,15 @@ ExitCode StudySession::deliver_whole(const StudyResult& result) {
   return written == ExitCode::done ? exit_code_of(failures, any_indeterminate(result)) : written;
 }
 
+ExitCode StudySession::keep_edited_files() {
+  const auto moved = store::set_edited_aside(request_.folder);
+  if (!moved) return refuse(moved.error());
+  for (const std::string& name : *moved)
+    console_.remark(fmt::format("a file was edited since it was written; it is kept as {}",
+                                (request_.folder / name).string()));
+  return ExitCode::done;
+}
+
 ExitCode StudySession::write_files(const StudyResult& result, const std::vector<Failure>& failures) {
   const std::string digest = digest_of(failures);
   const auto present = read_study_record(request_.folder);
@@ -175,16 +188,24 @@ ExitCode StudySession::write_files(const StudyResult& result, const std::vector<
     console_.remark(fmt::format("the report in {} stands as it is", request_.folder.string()));
     return ExitCode::done;
   }
+  if (const ExitCode code = keep_edited_files(); code != ExitCode::done) return code;
   const auto written = write_report(result, request_.folder);
   if (!written) return refuse(written.error());
   for (const std::string& remark : written->remarks) console_.remark(remark);
-  StudyRecord record{request_.manifest, {}, digest};
+  StudyRecord record{request_.manifest, {}, true, digest};
   record.manifest.wall_time = timing_of(result).wall_time;
   // A report that lacks a picture is no finished one: the next time it is written again.
-  const bool complete =
-      std::none_of(written->remarks.begin(), written->remarks.end(),
-                   [](const std::string& remark) { return remark.starts_with("no picture"); });
-  if (complete) record.files = record_files(request_.folder, all_names(request_.folder, written->files));
+  record.complete = std::none_of(written->remarks.begin(), written->remarks.end(),
+                                 [](const std::string& remark) { return remark.starts_with("no picture"); });
+  const std::vector<std::string> names = all_names(request_.folder, written->files);
+  record.files = record_files(request_.folder, names);
+  if (present) {
+    const auto stale = set_stale_aside(request_.folder, *present, names);
+    if (!stale) return refuse(stale.error());
+    if (!stale->empty())
+      console_.remark(
+          fmt::format("files of the earlier report that the new one lacks moved to {}", stale->string()));
+  }
   if (const auto error = write_study_record(request_.folder, record)) return refuse(*error);
   console_.remark(fmt::format("wrote {} files to {}", written->files.size() + 1, request_.folder.string()));
   return ExitCode::done;

@@ -16,6 +16,7 @@ namespace launchsafe::app {
 struct SessionRequest {
   std::filesystem::path study;  ///< file
   std::filesystem::path folder;
+  study::StudyKind kind = study::StudyKind::critical_gap;
   bool update = false;  ///< the folder may hold the results of an earlier study
   std::string part;     ///< of a shard
   std::string command;  ///< to be repeated after an interruption
@@ -48,6 +49,8 @@ class StudySession {
   ExitCode report_interruption(const study::StudyFile& file, const study::StudyOptions& options);
   ExitCode deliver_shard(const StudyResult& result, const study::Shard& shard);
   ExitCode deliver_whole(const StudyResult& result);
+  /// Remarks edited files of an earlier report, which keep their content under another name.
+  ExitCode keep_edited_files();
   ExitCode write_files(const StudyResult& result, const std::vector<Failure>& failures);
   void print_failures(const std::vector<Failure>& failures) const;
 

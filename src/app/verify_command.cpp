@@ -186,7 +186,9 @@ ExitCode tabulate_errors(const VerifyArguments& arguments, Console& console) {
   const std::vector<verify::ErrorSeries> wanted = matching(all, arguments.filter);
   if (wanted.empty()) return refuse_filter(all, arguments.filter, console);
   if (arguments.output) {
-    if (const auto obstacle = prepare_output_folder(*arguments.output)) {
+    auto obstacle = obstacle_to_error_table(*arguments.output);
+    if (!obstacle) obstacle = prepare_output_folder(*arguments.output);
+    if (obstacle) {
       console.error(*obstacle);
       return ExitCode::bad_input;
     }

@@ -3,7 +3,7 @@
 #include "contour_bands.hpp"
 #include "gnuplot_text.hpp"
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/own_files.hpp"
 
 #include <fmt/format.h>
 
@@ -278,7 +278,7 @@ store::Result<std::string> to_svg(const Contour& contour, const std::string& pro
 store::MaybeError write_svg(const Contour& contour, const std::filesystem::path& path) {
   const auto svg = to_svg(contour);
   if (!svg) return svg.error();
-  return store::write_file_atomically(path, {*svg});
+  return store::write_own_file(path, {*svg});
 }
 
 }  // namespace launchsafe::report

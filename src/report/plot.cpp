@@ -2,7 +2,7 @@
 
 #include "gnuplot_text.hpp"
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/own_files.hpp"
 
 #include <fmt/format.h>
 
@@ -234,7 +234,7 @@ store::Result<std::string> to_svg(const Plot& plot, const std::string& program) 
 store::MaybeError write_svg(const Plot& plot, const std::filesystem::path& path) {
   const auto svg = to_svg(plot);
   if (!svg) return svg.error();
-  return store::write_file_atomically(path, {*svg});
+  return store::write_own_file(path, {*svg});
 }
 
 }  // namespace launchsafe::report

@@ -144,7 +144,7 @@ store::MaybeError write_pictures(const SensitivityResult& result, const std::fil
     if (!detail::has_indices(result, output)) continue;
     const std::string name = picture_name(output);
     const auto error = write_svg(sensitivity_plot(result, output), folder / name);
-    if (error && error->kind == store::Error::Kind::write_failed) return error;
+    if (error && !is_of_drawing(*error)) return error;
     if (error) {
       written.remarks.push_back("no picture: " + error->message);
       continue;

@@ -2,9 +2,9 @@
 
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/manifest.hpp"
+#include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "shown_key.hpp"
 
@@ -132,7 +132,7 @@ store::MaybeError write_case(const std::filesystem::path& folder, const study::S
 store::Result<std::string> write_picture(const Plot& plot, const std::filesystem::path& folder,
                                          const std::string& name, WrittenFiles& written) {
   if (auto error = write_svg(plot, folder / name)) {
-    if (error->kind == store::Error::Kind::write_failed) return *error;
+    if (!is_of_drawing(*error)) return *error;
     written.remarks.push_back("no picture: " + error->message);
     return std::string{};
   }
@@ -155,7 +155,7 @@ store::MaybeError write_texts(const std::filesystem::path& folder,
                         fmt::format("cannot make the folder {}: {}", folder.string(), status.message())};
   }
   for (const auto& [name, text] : texts) {
-    if (auto error = store::write_file_atomically(folder / name, {text})) return error;
+    if (auto error = store::write_own_file(folder / name, {text})) return error;
     written.files.push_back(name);
   }
   return {};

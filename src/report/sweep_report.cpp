@@ -143,7 +143,7 @@ store::MaybeError write_pictures(const SweepPictures& pictures, const std::files
     const std::string name = i == 0 ? "critical_gap.svg" : fmt::format("critical_gap_{}.svg", i + 1);
     auto error = i < pictures.maps.size() ? write_svg(pictures.maps[i], folder / name)
                                           : write_svg(*pictures.curve, folder / name);
-    if (error && error->kind == store::Error::Kind::write_failed) return error;
+    if (error && !is_of_drawing(*error)) return error;
     if (error) {
       written.remarks.push_back("no picture: " + error->message);
       return {};

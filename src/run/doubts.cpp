@@ -1,7 +1,7 @@
 #include "launchsafe/run/doubts.hpp"
 
+#include "launchsafe/run/load_coverage.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "load_coverage.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "load_coverage.hpp"
+#include "launchsafe/run/load_coverage.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 #include "launchsafe/store/atomic_file.hpp"
 
+#include "launchsafe/store/sha256.hpp"
 #include "posix_file.hpp"
 
 #include <fcntl.h>
@@ -7,7 +8,6 @@
 #include <sys/stat.h>
 
 #include <cerrno>
-#include <cstdint>
 #include <cstdio>
 #include <random>
 
@@ -18,20 +18,29 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
-std::filesystem::path temporary_name(const std::filesystem::path& path) {
-  std::random_device random;
-  const std::uint64_t number = std::uint64_t{random()} << 32 | random();
-  return folder_of(path) / fmt::format(".{}.{:016x}{}", path.filename().string(), number, partial_suffix);
+constexpr std::string_view partial_suffix = ".partial";
+constexpr std::size_t digits = 8;
+
+std::string check_of(std::string_view name, std::string_view number) {
+  return sha256(fmt::format("{} {} is being written by launchsafe", number, name)).substr(0, digits);
 }
 
-/// False with errno set.
-bool write_synced(const std::filesystem::path& path, std::initializer_list<std::string_view> parts) {
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (!file.is_open()) return false;
+bool write_parts(Descriptor& file, std::initializer_list<std::string_view> parts) {
   for (const std::string_view part : parts) {
     if (!write_all(file.number(), part)) return false;
   }
   return ::fsync(file.number()) == 0 && file.close();
+}
+
+/// Leaves nothing behind on a failure; false with errno set.
+bool write_new(const std::filesystem::path& path, std::initializer_list<std::string_view> parts) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (!file.is_open()) return false;
+  if (write_parts(file, parts)) return true;
+  const int error_number = errno;
+  ::unlink(path.c_str());
+  errno = error_number;
+  return false;
 }
 
 /// False with errno set; EEXIST when the target exists and must not be replaced.
@@ -42,20 +51,46 @@ bool publish(const std::filesystem::path& from, const std::filesystem::path& to,
 
 }  // namespace
 
+std::string temporary_name(std::string_view name) {
+  const std::string number = fmt::format("{:08x}", std::random_device{}());
+  return fmt::format(".{}.{}{}{}", name, number, check_of(name, number), partial_suffix);
+}
+
+std::optional<std::string> name_behind(std::string_view temporary) {
+  constexpr std::size_t tail = 2 * digits + 1 + partial_suffix.size();
+  if (temporary.size() < tail + 2 || !temporary.starts_with(".") || !temporary.ends_with(partial_suffix))
+    return {};
+  const std::string_view name = temporary.substr(1, temporary.size() - tail - 1);
+  if (temporary[name.size() + 1] != '.') return {};
+  const std::string_view number = temporary.substr(name.size() + 2, digits);
+  if (temporary.substr(name.size() + 2 + digits, digits) != check_of(name, number)) return {};
+  return std::string(name);
+}
+
+void remove_leftover(const std::filesystem::path& file) {
+  struct stat status {};
+  if (!name_behind(file.filename().string()) || ::lstat(file.c_str(), &status) != 0) return;
+  if (S_ISREG(status.st_mode)) ::unlink(file.c_str());
+}
+
 MaybeError write_file_atomically(const std::filesystem::path& path,
                                  std::initializer_list<std::string_view> parts, IfExists if_exists) {
-  const std::filesystem::path temporary = temporary_name(path);
-  if (!write_synced(temporary, parts) || !publish(temporary, path, if_exists)) {
+  const std::filesystem::path temporary = folder_of(path) / temporary_name(path.filename().string());
+  if (!write_new(temporary, parts)) return write_error(path, errno);
+  if (!publish(temporary, path, if_exists)) {
     const int error_number = errno;
-    if (error_number != EEXIST || if_exists == IfExists::replace) {
-      ::unlink(temporary.c_str());
-      return write_error(path, error_number);
-    }
     ::unlink(temporary.c_str());
-    return Error{Error::Kind::conflict, fmt::format("{} exists already", path.string())};
+    if (error_number == EEXIST && if_exists == IfExists::refuse)
+      return Error{Error::Kind::conflict, fmt::format("{} exists already", path.string())};
+    return write_error(path, error_number);
   }
   if (!sync_folder(folder_of(path))) return write_error(path, errno);
   return {};
+}
+
+std::error_code move_to_free_name(const std::filesystem::path& from, const std::filesystem::path& to) {
+  if (rename_to_free_name(from, to)) return {};
+  return {errno, std::generic_category()};
 }
 
 Result<std::string> read_file(const std::filesystem::path& path) {

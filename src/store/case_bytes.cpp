@@ -1,6 +1,7 @@
 #include "case_bytes.hpp"
 
 #include "case_layout.hpp"
+#include "case_soundness.hpp"
 #include "launchsafe/store/sha256.hpp"
 
 #include <fmt/format.h>
@@ -141,6 +142,8 @@ Result<StoredCase> case_of(std::string_view bytes) {
     lay_out_manifest(reader, stored.manifest);
     reader.group("scene", "", [&] { reader.value("title", stored.title); });
     lay_out_result(reader, stored.result);
+    if (reader.failed()) return;
+    if (const std::string fault = fault_in(stored.result); !fault.empty()) reader.fail(fault);
   });
   if (error) return *error;
   return stored;

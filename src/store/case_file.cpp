@@ -2,6 +2,7 @@
 
 #include "case_bytes.hpp"
 #include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/own_files.hpp"
 #include "xdmf.hpp"
 
 #include <fmt/format.h>
@@ -13,8 +14,11 @@ namespace {
 MaybeError conflict_at(const std::filesystem::path& path, const Manifest& manifest) {
   const Result<Manifest> present = read_manifest(path);
   if (!present) {
-    if (present.error().kind == Error::Kind::missing) return {};
-    return present.error();
+    if (present.error().kind != Error::Kind::missing) return present.error();
+    // A link that leads nowhere is there, and somebody's.
+    if (!std::filesystem::is_symlink(path)) return {};
+    return Error{Error::Kind::conflict,
+                 fmt::format("{} is a symbolic link; it was left as it is", path.string())};
   }
   if (present->input_sha256 == manifest.input_sha256) return {};
   return Error{Error::Kind::conflict,
@@ -54,8 +58,12 @@ MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene
   if (MaybeError error = publish(path, *bytes, manifest)) return error;
   const auto& snapshots = result.mechanics.snapshots;
   if (snapshots.empty()) return {};
-  const std::filesystem::path sidecar = std::filesystem::path(path).replace_extension(".xdmf");
-  return write_file_atomically(sidecar, {xdmf_of(snapshots, path.filename().string())});
+  const std::filesystem::path sidecar = sidecar_of(path);
+  return write_own_file(sidecar, {xdmf_of(snapshots, path.filename().string())});
+}
+
+std::filesystem::path sidecar_of(const std::filesystem::path& path) {
+  return std::filesystem::path(path).replace_extension(".xdmf");
 }
 
 Result<StoredCase> read_case_file(const std::filesystem::path& path) { return read_with(path, case_of); }

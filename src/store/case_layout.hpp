@@ -42,7 +42,10 @@ template <class Archive, class Number>
 void integer(Archive& archive, const std::string& name, Number& value, const Label& label) {
   std::int64_t stored = static_cast<std::int64_t>(value);
   archive.value(name, stored, label);
-  if constexpr (Archive::reading) value = static_cast<Number>(stored);
+  if constexpr (Archive::reading) {
+    value = static_cast<Number>(stored);
+    if (static_cast<std::int64_t>(value) != stored) archive.fail(name + " is out of range");
+  }
 }
 
 /// An enumerator by its name.
@@ -80,8 +83,13 @@ void column(Archive& archive, const std::string& name, Rows& rows, Member member
     if (rows.empty()) rows.resize(values.size());
     if (rows.size() != values.size())
       return archive.fail(name + " has another length than the columns before it");
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < rows.size(); ++i) {
       std::invoke(member, rows[i]) = static_cast<Value>(values[i]);
+      if constexpr (std::is_integral_v<Value>) {
+        if (static_cast<Stored>(std::invoke(member, rows[i])) != values[i])
+          return archive.fail(name + " is out of range");
+      }
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <cerrno>
 
 namespace launchsafe::store {
@@ -42,7 +43,23 @@ MaybeError make_folder(const std::filesystem::path& folder) {
                fmt::format("cannot make the folder {}: {}", folder.string(), status.message())};
 }
 
+/// What of a store's own names is taken by somebody else's files. Changes nothing.
+MaybeError obstacle_in(const StoreNames& names) {
+  struct stat status {};
+  if (::lstat(names.cases().c_str(), &status) == 0 && !S_ISDIR(status.st_mode))
+    return Error{Error::Kind::conflict, fmt::format("{} is no folder, and nothing is overwritten; move it "
+                                                    "away or name another folder",
+                                                    names.cases().string())};
+  if (MaybeError error = StoreLock::obstacle(names.folder, names.part)) return error;
+  if (MaybeError error = obstacle_in_place(names.journal(), is_journal)) return error;
+  return obstacle_in_place(names.answers(), is_answers);
+}
+
 }  // namespace
+
+bool is_case_hash(std::string_view text) {
+  return text.size() == hash_digits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
 
 CaseIdentity::CaseIdentity(std::string input)
     : input_(std::move(input)), hash_(sha256(input_).substr(0, hash_digits)) {}
@@ -58,17 +75,19 @@ Result<CheckedFile> read_checked(const std::filesystem::path& path, const std::s
 
 // --- the content ---
 
-CaseStore::Content::Content(StoreLock taken, StoreNames all_names, const StoreOptions& chosen)
+CaseStore::Content::Content(std::optional<StoreLock> taken, StoreNames all_names, const StoreOptions& chosen)
     : lock(std::move(taken)),
       names(std::move(all_names)),
       options(chosen),
       manifest(common_manifest()),
-      host(host_name()),
-      writer(names, {[this](const JournalEntry& entry) { index.stored(entry); },
-                     [this](const JournalEntry& entry) { index.dropped(entry); },
-                     [this](const Error& error) {
-                       if (options.on_failure) options.on_failure(error);
-                     }}) {}
+      host(host_name()) {
+  if (reads_only()) return;
+  writer.emplace(names, WriterCallbacks{[this](const JournalEntry& entry) { index.stored(entry); },
+                                        [this](const JournalEntry& entry) { index.dropped(entry); },
+                                        [this](const Error& error) {
+                                          if (options.on_failure) options.on_failure(error);
+                                        }});
+}
 
 bool CaseStore::Content::adopt(const std::string& hash) {
   const std::filesystem::path path = names.case_file(hash);
@@ -92,14 +111,21 @@ bool CaseStore::Content::adopt(const std::string& hash) {
   entry.model_version = file->manifest.model_version;
   entry.file_size = size_of(status);
   entry.file_time = time_of(status);
-  put_entry(std::move(entry));
+  if (reads_only())
+    index.take(entry, false);
+  else
+    put_entry(std::move(entry));
   return true;
 }
 
 Error CaseStore::Content::set_aside(const std::string& hash, const Error& damage) {
   const std::filesystem::path path = names.case_file(hash);
+  if (reads_only()) {
+    index.remark(damage.message + "; it would be set aside and computed again");
+    return damage;
+  }
   // While no file gets its name, the one that is there now is looked at once more: it may be a new one.
-  const std::lock_guard naming(writer.naming());
+  const std::lock_guard naming(writer->naming());
   const Result<CheckedFile> again = read_checked(path, hash);
   if (again || again.error().kind != Error::Kind::corrupt) return damage;
   std::filesystem::path aside;
@@ -115,18 +141,20 @@ Error CaseStore::Content::set_aside(const std::string& hash, const Error& damage
 }
 
 void CaseStore::Content::put_case(std::string bytes, JournalEntry entry) {
-  if (writer.failed()) return;
+  if (writer->failed()) return;
   entry.file_size = 0;
   entry.file_time = 0;
   index.take(entry, true);
-  writer.put({std::move(bytes), std::move(entry), {}});
+  writer->put({std::move(bytes), std::move(entry), {}, {}});
 }
 
 void CaseStore::Content::put_entry(JournalEntry entry) {
-  if (writer.failed()) return;
+  if (writer->failed()) return;
   index.take(entry, false);
-  writer.put({{}, std::move(entry), {}});
+  writer->put({{}, std::move(entry), {}, {}});
 }
+
+MaybeError CaseStore::Content::flush() { return writer ? writer->flush() : MaybeError(); }
 
 void CaseStore::Content::fill_in(JournalEntry& entry) const {
   if (entry.model_version == 0) entry.model_version = options.model_version;
@@ -135,15 +163,15 @@ void CaseStore::Content::fill_in(JournalEntry& entry) const {
 }
 
 void CaseStore::Content::remove_leftovers() {
-  if (!lock.enforced()) return;
-  // A part excludes whole studies and others of its own name.
-  const std::string of_part = fmt::format(".{}-", options.part), of_whole = StoreNames{}.mark();
+  if (!lock->enforced()) return;
   std::error_code status;
-  for (const std::string& name : list_folder(names.cases(), status)) {
-    if (!name.starts_with(".") || !name.ends_with(partial_suffix)) continue;
-    const bool ours = options.part.empty() || name.find(of_part) != std::string::npos ||
-                      name.find("." + of_whole + "-") != std::string::npos;
-    if (ours) std::filesystem::remove(names.cases() / name, status);
+  for (const std::string& temporary : list_folder(names.cases(), status)) {
+    const std::optional<std::string> name = name_behind(temporary);
+    if (!name || !is_case_hash(name->substr(0, name->find('.')))) continue;
+    // A part excludes whole studies and others of its own name.
+    const bool ours = options.part.empty() || name->ends_with("." + names.mark()) ||
+                      name->ends_with("." + StoreNames{}.mark());
+    if (ours) remove_leftover(names.cases() / temporary);
   }
 }
 
@@ -152,18 +180,27 @@ void CaseStore::Content::remove_leftovers() {
 Result<std::unique_ptr<CaseStore>> CaseStore::open(const std::filesystem::path& folder,
                                                    const StoreOptions& options) {
   StoreNames names{folder, options.part};
+  if (const MaybeError error = obstacle_in(names)) return *error;
   for (const std::filesystem::path& each : {folder, names.cases()}) {
     if (const MaybeError error = make_folder(each)) return *error;
   }
   Result<StoreLock> lock = StoreLock::take(folder, options.part);
   if (!lock) return lock.error();
   auto content = std::make_unique<Content>(std::move(*lock), std::move(names), options);
-  if (!content->lock.enforced())
+  if (!content->lock->enforced())
     content->index.remark(
         fmt::format("the file system of {} knows no locks: make sure that no second process writes there",
                     folder.string()));
   if (const MaybeError error = content->index.read(folder)) return *error;
   content->remove_leftovers();
+  return std::unique_ptr<CaseStore>(new CaseStore(std::move(content)));
+}
+
+Result<std::unique_ptr<CaseStore>> CaseStore::open_to_read(const std::filesystem::path& folder,
+                                                           int model_version) {
+  auto content =
+      std::make_unique<Content>(std::nullopt, StoreNames{folder, {}}, StoreOptions{{}, model_version, {}});
+  if (const MaybeError error = content->index.read(folder)) return *error;
   return std::unique_ptr<CaseStore>(new CaseStore(std::move(content)));
 }
 
@@ -187,7 +224,7 @@ bool CaseStore::holds(const std::string& hash) {
 }
 
 Result<run::CaseResult> CaseStore::load(const std::string& hash) {
-  if (content_->index.is_pending(hash)) content_->writer.flush();
+  if (content_->index.is_pending(hash)) content_->flush();
   const std::filesystem::path path = content_->names.case_file(hash);
   const Result<std::string> bytes = read_file(path);
   if (!bytes) return bytes.error();
@@ -203,7 +240,7 @@ Result<run::CaseResult> CaseStore::load(const std::string& hash) {
 }
 
 Result<std::string> CaseStore::input_of(const std::string& hash) const {
-  if (content_->index.is_pending(hash)) content_->writer.flush();
+  if (content_->index.is_pending(hash)) content_->flush();
   Result<CheckedFile> file = read_checked(content_->names.case_file(hash), hash);
   if (file) return std::move(file->manifest.input_text);
   if (file.error().kind != Error::Kind::corrupt) return file.error();
@@ -212,7 +249,8 @@ Result<std::string> CaseStore::input_of(const std::string& hash) const {
 
 void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, run::CaseResult result,
                      JournalEntry entry) {
-  if (content_->writer.failed()) return;
+  assert(!content_->reads_only());
+  if (content_->writer->failed()) return;
   entry.hash = identity.hash();
   entry.state = CaseState::done;
   content_->fill_in(entry);
@@ -227,12 +265,13 @@ void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, ru
   result.mechanics.wall_time = 0;
   Result<std::string> bytes = case_bytes(scene, result, manifest, &content_->molds);
   if (!bytes) {
-    return content_->writer.fail(of_file(content_->names.case_file(entry.hash), bytes.error()));
+    return content_->writer->fail(of_file(content_->names.case_file(entry.hash), bytes.error()));
   }
   content_->put_case(std::move(*bytes), std::move(entry));
 }
 
 void CaseStore::note(JournalEntry entry) {
+  assert(!content_->reads_only());
   content_->fill_in(entry);
   content_->put_entry(std::move(entry));
 }
@@ -242,14 +281,15 @@ std::optional<std::string> CaseStore::answer(const std::string& key) const {
 }
 
 void CaseStore::save_answer(const std::string& key, const std::string& text) {
-  if (content_->writer.failed()) return;
+  assert(!content_->reads_only());
+  if (content_->writer->failed()) return;
   if (text.find('\n') != std::string::npos)
-    return content_->writer.fail({Error::Kind::failed, fmt::format("the answer {} is not one line", key)});
+    return content_->writer->fail({Error::Kind::failed, fmt::format("the answer {} is not one line", key)});
   content_->index.take_answer(key, text);
-  content_->writer.put({{}, {}, answer_line(key, text)});
+  content_->writer->put({{}, {}, answer_line(key, text), answer_entry_line(key, text)});
 }
 
-MaybeError CaseStore::flush() { return content_->writer.flush(); }
+MaybeError CaseStore::flush() { return content_->flush(); }
 
 std::vector<std::string> CaseStore::remarks() const { return content_->index.remarks(); }
 

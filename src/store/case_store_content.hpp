@@ -7,6 +7,7 @@
 #include "store_lock.hpp"
 #include "store_writer.hpp"
 
+#include <optional>
 #include <string>
 
 namespace launchsafe::store {
@@ -20,14 +21,18 @@ struct CheckedFile {
 Result<CheckedFile> read_checked(const std::filesystem::path& path, const std::string& hash);
 
 struct CaseStore::Content {
-  Content(StoreLock taken, StoreNames all_names, const StoreOptions& chosen);
+  /// Without a lock nothing is written.
+  Content(std::optional<StoreLock> taken, StoreNames all_names, const StoreOptions& chosen);
+  bool reads_only() const { return !lock; }
 
   /// Reads and checks a file of another size or time than the journal knows; journals it if it is whole.
   bool adopt(const std::string& hash);
-  /// Gives a damaged file another name. Returns the error to report.
+  /// Gives a damaged file another name, unless the store only reads. Returns the error to report.
   Error set_aside(const std::string& hash, const Error& damage);
   void put_case(std::string bytes, JournalEntry entry);
   void put_entry(JournalEntry entry);
+  /// Waits for what is to be written.
+  MaybeError flush();
   /// Where and when an attempt ended, and of which model it was.
   void fill_in(JournalEntry& entry) const;
   /// Takes over entries of attempts on cases that are done nowhere.
@@ -35,14 +40,14 @@ struct CaseStore::Content {
   /// Deletes what writers that were killed left half written. Those of living parts are not ours to judge.
   void remove_leftovers();
 
-  StoreLock lock;
+  std::optional<StoreLock> lock;
   const StoreNames names;
   const StoreOptions options;
   const Manifest manifest;  ///< of every case, without its input
   const std::string host;
   Hdf5Molds molds;
   StoreIndex index;
-  StoreWriter writer;  // ends first
+  std::optional<StoreWriter> writer;  // ends first
 };
 
 }  // namespace launchsafe::store

@@ -11,7 +11,7 @@ Result<std::vector<std::string>> hashes_in(const StoreNames& names) {
   std::vector<std::string> hashes;
   for (const std::string& name : list_folder(names.cases(), status)) {
     const std::filesystem::path file(name);
-    if (file.extension() == ".h5") hashes.push_back(file.stem());
+    if (file.extension() == ".h5" && is_case_hash(file.stem().string())) hashes.push_back(file.stem());
   }
   if (!status) return hashes;
   return Error{Error::Kind::missing,

@@ -15,7 +15,16 @@ namespace launchsafe::store {
 namespace {
 
 constexpr std::array states{CaseState::done, CaseState::failed, CaseState::timed_out, CaseState::interrupted};
-constexpr std::size_t check_digits = 16;
+constexpr std::size_t check_digits = 16, digest_digits = 64, key_digits = 32;
+constexpr std::string_view hexadecimal = "0123456789abcdef";
+
+constexpr std::string_view entry_begin = R"({"case":")";
+constexpr std::string_view answer_begin = R"({"answer":")", answer_middle = R"(","sha256":")",
+                           answer_end = R"("})";
+
+bool is_hexadecimal(std::string_view text) {
+  return text.find_first_not_of(hexadecimal) == std::string_view::npos;
+}
 
 std::optional<CaseState> state_of(const std::string& name) {
   for (const CaseState state : states) {
@@ -53,9 +62,13 @@ class EntryReader : public nlohmann::json_sax<nlohmann::json> {
     return real(static_cast<double>(number));
   }
   bool number_unsigned(std::uint64_t number) override {
-    if (key_ == "model_version") entry.model_version = static_cast<int>(number);
+    // One that does not fit is no version of ours, and must not become one by being cut off.
+    constexpr std::uint64_t most = std::numeric_limits<int>::max();
+    if (key_ == "model_version") entry.model_version = static_cast<int>(number <= most ? number : 0);
     if (key_ == "file_bytes") entry.file_size = number;
-    return number_integer(static_cast<std::int64_t>(number));
+    constexpr std::uint64_t largest = std::numeric_limits<std::int64_t>::max();
+    return number <= largest ? number_integer(static_cast<std::int64_t>(number))
+                             : real(static_cast<double>(number));
   }
   bool number_float(double number, const string_t&) override { return real(number); }
   bool null() override { return real(std::numeric_limits<double>::quiet_NaN()); }
@@ -145,6 +158,68 @@ std::optional<AnswerLine> parse_answer_line(std::string_view line) {
   return AnswerLine{line.substr(0, key_end), text};
 }
 
+std::string answer_mark(std::string_view key, std::string_view text) {
+  Sha256 digest;
+  digest.update(key);
+  digest.update(" ");
+  digest.update(text);
+  return std::string(key) + " " + digest.finish();
+}
+
+std::string answer_entry_line(std::string_view key, std::string_view text) {
+  const std::string mark = answer_mark(key, text);
+  std::string line(answer_begin);
+  line.append(key).append(answer_middle).append(mark, key.size() + 1).append(answer_end).append("\n");
+  return line;
+}
+
+std::optional<std::string> answer_entry(std::string_view line) {
+  if (!line.starts_with(answer_begin) || !line.ends_with(answer_end)) return {};
+  line.remove_prefix(answer_begin.size());
+  const std::size_t key_end = line.find(answer_middle);
+  if (key_end == std::string_view::npos || key_end == 0) return {};
+  const std::string_view key = line.substr(0, key_end);
+  line.remove_prefix(key_end + answer_middle.size());
+  const std::string_view digest = line.substr(0, line.size() - answer_end.size());
+  if (digest.size() != digest_digits || !is_hexadecimal(digest) || !is_hexadecimal(key)) return {};
+  return std::string(key).append(" ").append(digest);
+}
+
+namespace {
+
+bool any_line(std::string_view content, const std::function<bool(std::string_view)>& is_one) {
+  bool any = false;
+  for_each_line(content, [&](std::string_view line) { return any = any || is_one(line); });
+  return any;
+}
+
+/// A first line that a kill cut short has no end, and nothing follows it.
+bool is_one_cut_line(std::string_view content) { return content.find('\n') == std::string_view::npos; }
+
+/// Whether a line that was cut short goes on with the key of a case or an answer and `end`.
+bool goes_on_with_key(std::string_view line, std::string_view end) {
+  return line.size() > key_digits && is_hexadecimal(line.substr(0, key_digits)) &&
+         line.substr(key_digits).starts_with(end);
+}
+
+}  // namespace
+
+bool is_journal(std::string_view content) {
+  if (is_one_cut_line(content)) {
+    const bool answer = content.starts_with(answer_begin);
+    if (!answer && !content.starts_with(entry_begin)) return false;
+    return goes_on_with_key(content.substr((answer ? answer_begin : entry_begin).size()), "\"");
+  }
+  return any_line(content, [](std::string_view line) {
+    return answer_entry(line).has_value() || journal_entry(line).has_value();
+  });
+}
+
+bool is_answers(std::string_view content) {
+  if (is_one_cut_line(content)) return goes_on_with_key(content, " ");
+  return any_line(content, [](std::string_view line) { return parse_answer_line(line).has_value(); });
+}
+
 std::size_t for_each_line(std::string_view text, const std::function<bool(std::string_view)>& take) {
   std::size_t ignored = 0;
   for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
@@ -155,9 +230,11 @@ std::size_t for_each_line(std::string_view text, const std::function<bool(std::s
 }
 
 MaybeError AppendedFile::open() {
-  file_ = Descriptor(::open(path_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
+  Result<Descriptor> opened = open_in_place(path_, O_APPEND);
+  if (!opened) return opened.error();
+  file_ = std::move(*opened);
   struct stat status {};
-  if (!file_.is_open() || ::fstat(file_.number(), &status) != 0) return write_error(path_, errno);
+  if (::fstat(file_.number(), &status) != 0) return write_error(path_, errno);
   if (status.st_size == 0) {
     if (!sync_folder(path_.parent_path())) return write_error(path_, errno);
     return {};

@@ -24,15 +24,29 @@ struct AnswerLine {
 /// Nothing for a line that is no answer or whose text is not what it was.
 std::optional<AnswerLine> parse_answer_line(std::string_view line);
 
+/// The journal's line about an answer: its key and the SHA-256 of both. An answer that the journal does not
+/// know was not written by this program, whatever its own check says.
+std::string answer_entry_line(std::string_view key, std::string_view text);
+/// Key and digest as in the line above; nothing for any other line.
+std::optional<std::string> answer_entry(std::string_view line);
+/// What `answer_entry` gives for the line of an answer.
+std::string answer_mark(std::string_view key, std::string_view text);
+
+/// Whether the content of a file is that of a journal, or of answers: some line of it is, or it is the
+/// beginning of a single line that a kill or a full disk cut short.
+bool is_journal(std::string_view content);
+bool is_answers(std::string_view content);
+
 /// Calls `take` with every line that ends in a newline; a last one without was cut short. Returns how many
 /// lines `take` did not understand.
 std::size_t for_each_line(std::string_view text, const std::function<bool(std::string_view)>& take);
 
-/// A file that lines are added to. It is made with the first of them.
+/// A file that lines are added to. It is made with the first of them. Whether what is there already is ours
+/// is the caller's to find out before, see `obstacle_in_place`.
 class AppendedFile {
  public:
   explicit AppendedFile(std::filesystem::path path) : path_(std::move(path)) {}
-  /// Adds whole lines and waits until they are on disk. Errors: write_failed.
+  /// Adds whole lines and waits until they are on disk. Errors: conflict (no plain file), write_failed.
   MaybeError append(std::string_view lines);
 
  private:

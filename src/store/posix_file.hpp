@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -43,6 +44,16 @@ std::string system_reason(int error_number);
 
 /// "cannot write PATH: REASON", of kind write_failed.
 Error write_error(const std::filesystem::path& path, int error_number);
+
+/// Opens a file to be written in place, makes it where there is none, and never follows a symbolic link.
+/// `flags` come on top of O_RDWR. Errors: conflict (what is there is no regular file, or has other names that
+/// its content would change under too), write_failed.
+Result<Descriptor> open_in_place(const std::filesystem::path& path, int flags);
+
+/// Why a file may not be written in place; nothing when it is not there, or when it is a regular file of one
+/// name and `is_ours` holds for its content. Changes nothing. Errors: conflict, unreadable.
+MaybeError obstacle_in_place(const std::filesystem::path& path,
+                             const std::function<bool(std::string_view content)>& is_ours);
 
 /// Writes all of it, however many calls that takes. False with errno set.
 bool write_all(int file, std::string_view bytes);

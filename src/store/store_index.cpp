@@ -24,6 +24,12 @@ std::string ignored_remark(const std::filesystem::path& file, std::size_t lines)
   return fmt::format("{}: {} damaged line{} ignored", file.string(), lines, lines == 1 ? " was" : "s were");
 }
 
+std::string unknown_remark(const std::filesystem::path& file, std::size_t lines) {
+  return fmt::format("{}: {} not as the journal says, and {} ignored", file.string(),
+                     lines == 1 ? "1 answer is" : fmt::format("{} answers are", lines),
+                     lines == 1 ? "is" : "are");
+}
+
 }  // namespace
 
 MaybeError StoreIndex::read(const std::filesystem::path& folder) {
@@ -32,16 +38,17 @@ MaybeError StoreIndex::read(const std::filesystem::path& folder) {
   if (status)
     return Error{Error::Kind::unreadable,
                  fmt::format("cannot read {}: {}", folder.string(), status.message())};
-  for (const std::string& name : names) {
-    const std::filesystem::path file = folder / name;
-    const bool journal = is_of_a_part(name, "journal");
-    if (!journal && !is_of_a_part(name, "answers")) continue;
-    Result<std::string> text = read_file(file);
-    if (!text) return text.error();
-    if (journal)
-      read_journal(file, *text);
-    else
-      read_answers(file, std::move(*text));
+  for (const bool journals : {true, false}) {
+    for (const std::string& name : names) {
+      if (!is_of_a_part(name, journals ? "journal" : "answers")) continue;
+      const std::filesystem::path file = folder / name;
+      Result<std::string> text = read_file(file);
+      if (!text) return text.error();
+      if (journals)
+        read_journal(file, *text);
+      else
+        read_answers(file, std::move(*text));
+    }
   }
   return {};
 }
@@ -49,12 +56,16 @@ MaybeError StoreIndex::read(const std::filesystem::path& folder) {
 void StoreIndex::read_journal(const std::filesystem::path& file, std::string_view text) {
   // Within a file the order counts, whatever the clock said.
   std::unordered_map<std::string, JournalEntry> newest;
-  const std::size_t ignored = for_each_line(text, [&newest](std::string_view line) {
+  const std::lock_guard lock(mutex_);
+  const std::size_t ignored = for_each_line(text, [&](std::string_view line) {
+    if (std::optional<std::string> mark = answer_entry(line)) {
+      answer_marks_.insert(std::move(*mark));
+      return true;
+    }
     std::optional<JournalEntry> entry = journal_entry(line);
     if (entry) newest.insert_or_assign(entry->hash, std::move(*entry));
     return entry.has_value();
   });
-  const std::lock_guard lock(mutex_);
   if (ignored > 0) remarks_.push_back(ignored_remark(file, ignored));
   for (auto& [hash, entry] : newest) {
     const auto [known, is_first] = records_.try_emplace(hash);
@@ -65,12 +76,18 @@ void StoreIndex::read_journal(const std::filesystem::path& file, std::string_vie
 void StoreIndex::read_answers(const std::filesystem::path& file, std::string text) {
   const std::lock_guard lock(mutex_);
   texts_.push_back(std::move(text));
-  const std::size_t ignored = for_each_line(texts_.back(), [this](std::string_view line) {
+  std::size_t unknown = 0;
+  const std::size_t ignored = for_each_line(texts_.back(), [&](std::string_view line) {
     const std::optional<AnswerLine> answer = parse_answer_line(line);
-    if (answer) answers_.insert_or_assign(answer->key, answer->text);
-    return answer.has_value();
+    if (!answer) return false;
+    if (answer_marks_.contains(answer_mark(answer->key, answer->text)))
+      answers_.insert_or_assign(answer->key, answer->text);
+    else
+      ++unknown;
+    return true;
   });
   if (ignored > 0) remarks_.push_back(ignored_remark(file, ignored));
+  if (unknown > 0) remarks_.push_back(unknown_remark(file, unknown));
 }
 
 std::optional<JournalEntry> StoreIndex::last_entry(const std::string& hash) const {

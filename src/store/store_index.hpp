@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace launchsafe::store {
@@ -16,7 +17,8 @@ namespace launchsafe::store {
 /// Any thread may call any member.
 class StoreIndex {
  public:
-  /// Reads the journals and answers of every part in a folder. Errors: unreadable.
+  /// Reads the journals and answers of every part in a folder. Answers that no journal knows as they are were
+  /// not written by this program: a remark says so, and they are ignored. Errors: unreadable.
   MaybeError read(const std::filesystem::path& folder);
 
   std::optional<JournalEntry> last_entry(const std::string& hash) const;
@@ -48,12 +50,14 @@ class StoreIndex {
   };
 
   void read_journal(const std::filesystem::path& file, std::string_view text);
+  /// Needs all journals: an answer counts if one of them knows it as it is.
   void read_answers(const std::filesystem::path& file, std::string text);
 
   mutable std::mutex mutex_;
   std::unordered_map<std::string, Record> records_;
   std::deque<std::string> texts_;  ///< of which the keys and values of the answers are parts
   std::unordered_map<std::string_view, std::string_view> answers_;
+  std::unordered_set<std::string> answer_marks_;  ///< of the answers that the journals know
   std::vector<std::string> remarks_;
 };
 

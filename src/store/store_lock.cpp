@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -17,6 +18,15 @@ namespace {
 
 /// "HOST process PID since TIME".
 std::string own_name() { return fmt::format("{} process {} since {}\n", host_name(), ::getpid(), utc_now()); }
+
+/// Whether a lock file's content names an owner as we do; people's notes do not.
+bool names_owner(std::string_view content) {
+  static const std::regex form("[^\\s]+ process [0-9]{1,10} since [0-9T:-]{19}Z\n");
+  constexpr std::size_t longest = 400;
+  return content.size() < longest && std::regex_match(content.begin(), content.end(), form);
+}
+
+std::string part_file(const std::string& part) { return "lock." + part; }
 
 /// Whether an owner's text is left over from a process of this machine that has ended. A kill leaves it.
 bool has_ended(const std::string& owner) {
@@ -58,10 +68,6 @@ Outcome try_lock(int file, int operation) {
   return Outcome::taken;
 }
 
-Descriptor open_lock(const std::filesystem::path& file) {
-  return Descriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-}
-
 /// The text helps people alone, so a failure to write it is none of the lock.
 void name_owner(const Descriptor& file) {
   if (::ftruncate(file.number(), 0) == 0) write_all(file.number(), own_name());
@@ -69,12 +75,18 @@ void name_owner(const Descriptor& file) {
 
 }  // namespace
 
+MaybeError StoreLock::obstacle(const std::filesystem::path& folder, const std::string& part) {
+  if (MaybeError error = obstacle_in_place(folder / "lock", names_owner)) return error;
+  return part.empty() ? MaybeError() : obstacle_in_place(folder / part_file(part), names_owner);
+}
+
 Result<StoreLock> StoreLock::take(const std::filesystem::path& folder, const std::string& part) {
+  if (const MaybeError error = obstacle(folder, part)) return *error;
   StoreLock lock;
   const auto acquire = [&](Descriptor& file, const std::string& name, int operation) -> MaybeError {
-    Descriptor opened = open_lock(folder / name);
-    if (!opened.is_open()) return write_error(folder / name, errno);
-    switch (try_lock(opened.number(), operation)) {
+    Result<Descriptor> opened = open_in_place(folder / name, 0);
+    if (!opened) return opened.error();
+    switch (try_lock(opened->number(), operation)) {
       case Outcome::held:
         return Error{Error::Kind::conflict,
                      fmt::format("{} is in use by {}", folder.string(), owners(folder, name))};
@@ -86,12 +98,12 @@ Result<StoreLock> StoreLock::take(const std::filesystem::path& folder, const std
       case Outcome::taken:
         break;
     }
-    file = std::move(opened);
+    file = std::move(*opened);
     return {};
   };
   if (const MaybeError error = acquire(lock.whole_, "lock", part.empty() ? LOCK_EX : LOCK_SH)) return *error;
   if (!part.empty()) {
-    if (const MaybeError error = acquire(lock.part_, "lock." + part, LOCK_EX)) return *error;
+    if (const MaybeError error = acquire(lock.part_, part_file(part), LOCK_EX)) return *error;
   }
   name_owner(part.empty() ? lock.whole_ : lock.part_);
   return lock;

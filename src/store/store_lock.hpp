@@ -14,10 +14,13 @@ namespace launchsafe::store {
 /// whole study and any part exclude each other, and different parts do not.
 class StoreLock {
  public:
-  /// Errors: conflict (names who holds it), write_failed.
+  /// Errors: conflict (names who holds it, or a file of that name that is none of ours), write_failed.
   static Result<StoreLock> take(const std::filesystem::path& folder, const std::string& part);
   StoreLock(StoreLock&&) = default;
   StoreLock& operator=(StoreLock&&) = default;
+  /// Why the lock files may not be used: files of these names that no process of ours left there. Changes
+  /// nothing. Errors: conflict, unreadable.
+  static MaybeError obstacle(const std::filesystem::path& folder, const std::string& part);
   /// Releases, and empties the file that names the owner; the files stay.
   ~StoreLock();
 

@@ -1,5 +1,6 @@
 #include "store_writer.hpp"
 
+#include "case_store_content.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 
 #include <fcntl.h>
@@ -8,7 +9,6 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <random>
 
 namespace launchsafe::store {
 namespace {
@@ -18,17 +18,11 @@ constexpr std::size_t most_jobs = 512;
 /// What is synced together. Small enough that whoever waits for room does not wait for long.
 constexpr std::size_t batch_bytes = 16 << 20;
 
-std::uint64_t random_number() {
-  std::random_device random;
-  return std::uint64_t{random()} << 32 | random();
-}
-
 }  // namespace
 
 StoreWriter::StoreWriter(StoreNames names, WriterCallbacks callbacks)
     : names_(std::move(names)),
       callbacks_(std::move(callbacks)),
-      number_(random_number()),
       journal_(names_.journal()),
       answers_(names_.answers()),
       thread_([this] { run(); }) {}
@@ -135,8 +129,7 @@ StoreWriter::Outcome StoreWriter::write_cases(std::vector<StoreJob>& batch) {
 MaybeError StoreWriter::write_case(StoreJob& job) {
   const std::filesystem::path target = names_.case_file(job.entry->hash);
   const std::filesystem::path temporary =
-      names_.cases() /
-      fmt::format(".{}.{}-{:016x}-{}{}", job.entry->hash, names_.mark(), number_, written_++, partial_suffix);
+      names_.cases() / temporary_name(job.entry->hash + "." + names_.mark());
   Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (!file.is_open()) return write_error(target, errno);
   struct stat status {};
@@ -144,12 +137,15 @@ MaybeError StoreWriter::write_case(StoreJob& job) {
                  ::fstat(file.number(), &status) == 0 && file.close();
   if (written) {
     const std::lock_guard lock(naming_);
-    written = ::rename(temporary.c_str(), target.c_str()) == 0;
+    written = rename_to_free_name(temporary, target);
   }
   if (!written) {
     const int error_number = errno;
     ::unlink(temporary.c_str());
-    return write_error(target, error_number);
+    // Where nothing keeps a second process out, it may have stored the same result.
+    const bool there_already = error_number == EEXIST && read_checked(target, job.entry->hash) &&
+                               ::stat(target.c_str(), &status) == 0;
+    if (!there_already) return write_error(target, error_number);
   }
   job.entry->file_size = size_of(status);
   job.entry->file_time = time_of(status);
@@ -160,6 +156,8 @@ MaybeError StoreWriter::append_lines(const std::vector<StoreJob>& batch, std::si
   std::string entries, answers;
   for (std::size_t i = 0; i < count; ++i) {
     if (batch[i].entry) entries += journal_line(*batch[i].entry);
+    // The journal first: an answer that it does not know would be drawn again.
+    entries += batch[i].answer_entry;
     answers += batch[i].answer;
   }
   if (!entries.empty()) {

@@ -34,9 +34,10 @@ struct StoreNames {
 struct StoreJob {
   std::string file;  ///< bytes of the case file of `entry`, whose size and time are filled in
   std::optional<JournalEntry> entry;
-  std::string answer;  ///< a whole line
+  std::string answer;        ///< a whole line
+  std::string answer_entry;  ///< the journal's line about it
 
-  std::size_t bytes() const { return file.size() + answer.size(); }
+  std::size_t bytes() const { return file.size() + answer.size() + answer_entry.size(); }
 };
 
 /// What the writer tells, from its own thread.
@@ -82,8 +83,6 @@ class StoreWriter {
 
   const StoreNames names_;
   const WriterCallbacks callbacks_;
-  const std::uint64_t number_;  ///< tells our temporary names from those of other processes
-  std::uint64_t written_ = 0;
   AppendedFile journal_, answers_;
   std::mutex naming_;
 

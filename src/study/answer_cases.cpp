@@ -43,14 +43,14 @@ void attach_references(const StudyFile& study, const StudyCase& input, CaseAnswe
   }
 }
 
-/// The stored answer to a case, if it is there and fits the study.
+/// The stored answer to a case, if it is there and can be one. What is not is drawn again from the mechanics.
 std::optional<CaseAnswer> stored_answer(const StudyFile& study, std::size_t index, const std::string& key,
                                         const StudyOptions& options) {
   if (options.store == nullptr) return std::nullopt;
   const auto line = options.store->answer(key);
   if (!line) return std::nullopt;
   auto answer = answer_from_json(*line);
-  if (!answer || answer->verdicts.size() != study.study.gaps.size()) return std::nullopt;
+  if (!answer || !fits(*answer, study.study, study.cases[index])) return std::nullopt;
   attach_references(study, study.cases[index], *answer);
   return answer;
 }

@@ -55,6 +55,10 @@ std::vector<NamedKinetics> kinetics_of(const StudyFile& study) {
   return all;
 }
 
+detail::NeededRun needed_by(const CalibrationRun& run) {
+  return {&run.input.scene.scene, run.input.label, std::nullopt};
+}
+
 void run_meshes(CalibrationResult& result, const StudyOptions& options) {
   ProgressTracker tracker(options.progress);
   const std::vector<bool> ours = detail::cases_of_shard(result.study, options.shard);
@@ -66,7 +70,7 @@ void run_meshes(CalibrationResult& result, const StudyOptions& options) {
       run.failure = foreign_shard;
       continue;
     }
-    const detail::NeededRun needed{&run.input.scene.scene, run.input.label, std::nullopt};
+    const detail::NeededRun needed = needed_by(run);
     running.push_back(&run);
     tasks.push_back(detail::task_of(needed, options, [&, needed](const auto& report_share) {
       run.start_time = store::utc_now();
@@ -79,6 +83,7 @@ void run_meshes(CalibrationResult& result, const StudyOptions& options) {
   const auto outcomes = run_tasks(tasks, detail::resources_of(options), tracker, options.stop);
   for (std::size_t task = 0; task < tasks.size(); ++task) {
     CalibrationRun& run = *running[task];
+    detail::note_refusal(needed_by(run), outcomes[task], options);
     run.failure = detail::failure_of(run.mechanics, outcomes[task]);
     detail::add_run(result.timing, run.mechanics, run.reused, outcomes[task]);
   }

@@ -1,7 +1,13 @@
 #include "launchsafe/study/case_answer.hpp"
 
 #include "case_runs.hpp"
+#include "case_uncertainty.hpp"
 #include "gap_analysis.hpp"
+#include "launchsafe/run/load_coverage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -13,6 +19,37 @@ CaseAnswer without_histories(CaseOutcome& outcome) {
   answer.critical_anywhere = std::move(outcome.critical_anywhere);
   answer.verdicts = std::move(outcome.verdicts);
   return answer;
+}
+
+/// What every verdict of a case has to say, as its input alone shows.
+struct InputStatements {
+  std::vector<std::string> doubts;
+  std::string accepted;
+  CalibrationDistance distance;
+};
+
+InputStatements statements_of(const Study& study, const StudyCase& input) {
+  InputStatements statements{detail::doubts_of_input(study, input), detail::accepted_text(study, input),
+                             distance_to_calibration(input.scene.scene)};
+  for (std::string& each : run::uncovered_load(input.scene.scene.load))
+    statements.doubts.push_back(std::move(each));
+  return statements;
+}
+
+/// Whether a row that was read says that, and states no less uncertainty than the study and the constants
+/// have at the least.
+bool says(const GapVerdict& row, const InputStatements& statements, const Study& study,
+          const StudyCase& input) {
+  const auto is_said = [&row](const std::string& doubt) {
+    return row.evidence.doubt.find(doubt) != std::string::npos;
+  };
+  const Uncertainty& u = row.uncertainty;
+  return std::all_of(statements.doubts.begin(), statements.doubts.end(), is_said) &&
+         row.evidence.accepted == statements.accepted &&
+         row.evidence.extrapolated == detail::extrapolation_text(study, input, row.gap) &&
+         !(u.numerical < input.numerical_uncertainty) &&
+         !(u.fit < detail::fit_share(study, statements.distance, {})) &&
+         !(u.input < detail::stated_input_share(study, input));
 }
 
 }  // namespace
@@ -46,6 +83,28 @@ CaseAnswer failed_answer(const Study& study, const StudyCase& input, std::string
   CaseAnswer answer = without_histories(outcome);
   answer.heated_temperature.assign(study.gaps.size(), not_a_number);
   return answer;
+}
+
+bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input) {
+  const scene::Scene& scene = input.scene.scene;
+  const double ignition_temperature = scene.charge.kinetics.ignition_temperature;
+  // A step may end a little beyond the duration.
+  const double end = scene.load.duration * (1.0 + 1e-6);
+  const auto is_late = [end](const Peak& peak) { return peak.time > end; };
+  if (answer.verdicts.size() != study.gaps.size()) return false;
+  const InputStatements statements = statements_of(study, input);
+  for (std::size_t i = 0; i < study.gaps.size(); ++i) {
+    const GapVerdict& row = answer.verdicts[i];
+    if (row.gap != study.gaps[i] || is_late(row.maximum) || is_late(row.early) || is_late(row.anywhere))
+      return false;
+    // Both are finite or both are not; the subtraction is the one by which the margin came about.
+    const double margin = ignition_temperature - row.maximum.temperature;
+    if (row.margin != margin && (std::isfinite(row.margin) || std::isfinite(margin))) return false;
+    if (answer.completed() && !says(row, statements, study, input)) return false;
+    // Nothing cools a skin below where it began.
+    if (row.maximum.temperature < scene.initial_temperature - 1.0) return false;
+  }
+  return true;
 }
 
 }  // namespace launchsafe::study

@@ -1,20 +1,63 @@
-// Answers as JSON, to be stored and read back exactly.
+// Answers as JSON, to be stored and read back exactly. Verdicts are not stored: they follow from what is.
 #include "launchsafe/study/case_answer.hpp"
+#include "row_judgement.hpp"
 
 #include <nlohmann/json.hpp>
+
+#include <stdexcept>
 
 namespace launchsafe::study {
 namespace {
 
 using nlohmann::json;
 
+/// What is read is no answer of ours.
+struct Damage : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+void require(bool holds, const char* what) {
+  if (!holds) throw Damage(what);
+}
+
+/// An array of so many values.
+const json& list_of(const json& value, std::size_t count) {
+  require(value.is_array() && value.size() == count, "a list has another length");
+  return value;
+}
+
 /// nlohmann-json prints the shortest text that reads back to the same number, and null for what is not
 /// finite.
-double number_of(const json& value) { return value.is_null() ? not_a_number : value.get<double>(); }
+double number_of(const json& value) {
+  if (value.is_null()) return not_a_number;
+  require(value.is_number(), "a number is none");
+  return value.get<double>();
+}
+
+/// One that may be NaN but not negative.
+double amount_of(const json& value) {
+  const double amount = number_of(value);
+  require(!(amount < 0.0), "an amount is negative");
+  return amount;
+}
+
+std::uint64_t count_of(const json& value) {
+  require(value.is_number_unsigned(), "a count is none");
+  return value.get<std::uint64_t>();
+}
+
+/// An enumerator that is not beyond the last one.
+template <class Enumeration>
+Enumeration enumerator_of(const json& value, Enumeration last) {
+  require(value.is_number_unsigned() && value.get<std::uint64_t>() <= static_cast<std::uint64_t>(last),
+          "an enumerator is unknown");
+  return static_cast<Enumeration>(value.get<int>());
+}
 
 json json_of(const Peak& peak) { return {peak.temperature, peak.time, peak.point}; }
 Peak peak_of(const json& value) {
-  return {number_of(value.at(0)), number_of(value.at(1)), value.at(2).get<std::string>()};
+  list_of(value, 3);
+  return {amount_of(value.at(0)), amount_of(value.at(1)), value.at(2).get<std::string>()};
 }
 
 json json_of(const std::optional<NamedIgnition>& ignition) {
@@ -23,7 +66,8 @@ json json_of(const std::optional<NamedIgnition>& ignition) {
 }
 std::optional<NamedIgnition> ignition_of(const json& value) {
   if (value.is_null()) return std::nullopt;
-  return NamedIgnition{static_cast<surface::IgnitionCause>(value.at(0).get<int>()), number_of(value.at(1)),
+  list_of(value, 4);
+  return NamedIgnition{enumerator_of(value.at(0), surface::IgnitionCause::arrhenius), amount_of(value.at(1)),
                        value.at(2).get<std::string>(), number_of(value.at(3))};
 }
 
@@ -31,46 +75,64 @@ json json_of(const CriticalGap& gap) {
   return {static_cast<int>(gap.kind), gap.value, gap.lower, gap.upper, gap.uncertainty, gap.reason};
 }
 CriticalGap critical_gap_of(const json& value) {
+  list_of(value, 6);
   CriticalGap gap;
-  gap.kind = static_cast<CriticalGapKind>(value.at(0).get<int>());
-  gap.value = number_of(value.at(1));
-  gap.lower = number_of(value.at(2));
-  gap.upper = number_of(value.at(3));
-  gap.uncertainty = number_of(value.at(4));
+  gap.kind = enumerator_of(value.at(0), CriticalGapKind::indeterminate);
+  gap.value = amount_of(value.at(1));
+  gap.lower = amount_of(value.at(2));
+  gap.upper = amount_of(value.at(3));
+  gap.uncertainty = amount_of(value.at(4));
   gap.reason = value.at(5).get<std::string>();
+  if (gap.kind == CriticalGapKind::value) {
+    require(gap.lower <= gap.value && gap.value <= gap.upper, "a critical gap is outside its bracket");
+    // As it was computed: half the bracket and more.
+    require(!(gap.uncertainty < 0.5 * (gap.upper - gap.lower)), "a critical gap is surer than its bracket");
+  }
   return gap;
 }
 
+json json_of(const Uncertainty& u) {
+  return {u.sampling, u.integration, u.coupling, u.numerical, u.fit, u.input};
+}
+Uncertainty uncertainty_of(const json& value) {
+  list_of(value, 6);
+  return {amount_of(value.at(0)), amount_of(value.at(1)), amount_of(value.at(2)),
+          amount_of(value.at(3)), amount_of(value.at(4)), amount_of(value.at(5))};
+}
+
 json json_of(const GapVerdict& row) {
-  const Uncertainty& u = row.uncertainty;
   return {{"gap", row.gap},
           {"maximum", json_of(row.maximum)},
           {"early", json_of(row.early)},
           {"spread", {row.spread, row.early_spread}},
           {"anywhere", json_of(row.anywhere)},
           {"margin", row.margin},
-          {"uncertainty", {u.sampling, u.integration, u.coupling, u.numerical, u.fit, u.input}},
+          {"uncertainty", json_of(row.uncertainty)},
           {"ignition", json_of(row.ignition)},
           {"ignition_anywhere", json_of(row.ignition_anywhere)},
-          {"verdict", static_cast<int>(row.judgement.verdict)},
-          {"reason", row.judgement.reason}};
+          {"doubt", row.evidence.doubt},
+          {"accepted", row.evidence.accepted},
+          {"extrapolated", row.evidence.extrapolated}};
 }
-GapVerdict verdict_of(const json& value) {
+GapVerdict row_of(const json& value) {
   GapVerdict row;
-  row.gap = number_of(value.at("gap"));
+  row.gap = amount_of(value.at("gap"));
   row.maximum = peak_of(value.at("maximum"));
   row.early = peak_of(value.at("early"));
-  row.spread = number_of(value.at("spread").at(0));
-  row.early_spread = number_of(value.at("spread").at(1));
+  const json& spread = list_of(value.at("spread"), 2);
+  row.spread = amount_of(spread.at(0));
+  row.early_spread = amount_of(spread.at(1));
   row.anywhere = peak_of(value.at("anywhere"));
   row.margin = number_of(value.at("margin"));
-  const json& u = value.at("uncertainty");
-  row.uncertainty = {number_of(u.at(0)), number_of(u.at(1)), number_of(u.at(2)),
-                     number_of(u.at(3)), number_of(u.at(4)), number_of(u.at(5))};
+  row.uncertainty = uncertainty_of(value.at("uncertainty"));
   row.ignition = ignition_of(value.at("ignition"));
   row.ignition_anywhere = ignition_of(value.at("ignition_anywhere"));
-  row.judgement = {static_cast<Verdict>(value.at("verdict").get<int>()),
-                   value.at("reason").get<std::string>()};
+  row.evidence.doubt = value.at("doubt").get<std::string>();
+  row.evidence.accepted = value.at("accepted").get<std::string>();
+  row.evidence.extrapolated = value.at("extrapolated").get<std::string>();
+  // The whole bottom holds the observation points.
+  require(!(row.anywhere.temperature < row.maximum.temperature), "the hottest place is not the hottest");
+  require(row.ignition_anywhere || !row.ignition, "an ignition is nowhere");
   return row;
 }
 
@@ -84,13 +146,40 @@ json json_of(const RunSummary& run) {
 }
 RunSummary run_of(const json& value) {
   RunSummary run;
-  run.status = static_cast<run::RunStatus>(value.at("status").get<int>());
-  run.steps = value.at("steps").get<std::uint64_t>();
-  run.particles = value.at("particles").get<std::uint64_t>();
-  run.energy_drift = number_of(value.at("energy_drift"));
-  const json& l = value.at("limiters");
-  run.limiters = {l.at(0).get<std::uint64_t>(), l.at(1).get<std::uint64_t>(), l.at(2).get<std::uint64_t>()};
+  run.status = enumerator_of(value.at("status"), run::RunStatus::timed_out);
+  run.steps = count_of(value.at("steps"));
+  run.particles = count_of(value.at("particles"));
+  run.energy_drift = amount_of(value.at("energy_drift"));
+  const json& l = list_of(value.at("limiters"), 3);
+  run.limiters = {count_of(l.at(0)), count_of(l.at(1)), count_of(l.at(2))};
   return run;
+}
+
+/// The verdicts, as they follow from what was read.
+void judge_rows(CaseAnswer& answer) {
+  for (GapVerdict& row : answer.verdicts) {
+    Evidence evidence = detail::evidence_of(row, answer.failure, answer.run.limiters);
+    evidence.doubt = row.evidence.doubt;
+    evidence.accepted = row.evidence.accepted;
+    evidence.extrapolated = row.evidence.extrapolated;
+    detail::judge_row(std::move(evidence), answer.critical, row);
+  }
+}
+
+/// Throws Damage, or what the JSON library throws where a value is missing or of another type.
+CaseAnswer answer_of(const json& value) {
+  CaseAnswer answer;
+  answer.failure = value.at("failure").get<std::string>();
+  answer.run = run_of(value.at("run"));
+  answer.critical = critical_gap_of(value.at("critical"));
+  answer.critical_anywhere = critical_gap_of(value.at("critical_anywhere"));
+  for (const json& row : value.at("verdicts")) answer.verdicts.push_back(row_of(row));
+  for (const json& heated : list_of(value.at("heated"), answer.verdicts.size()))
+    answer.heated_temperature.push_back(amount_of(heated));
+  require(answer.run.status == run::RunStatus::completed || !answer.completed(),
+          "a run that did not complete has no failure");
+  judge_rows(answer);
+  return answer;
 }
 
 }  // namespace
@@ -109,16 +198,10 @@ std::string to_json_line(const CaseAnswer& answer) {
 
 std::optional<CaseAnswer> answer_from_json(const std::string& line) {
   try {
-    const json value = json::parse(line);
-    CaseAnswer answer;
-    answer.failure = value.at("failure").get<std::string>();
-    answer.run = run_of(value.at("run"));
-    answer.critical = critical_gap_of(value.at("critical"));
-    answer.critical_anywhere = critical_gap_of(value.at("critical_anywhere"));
-    for (const json& row : value.at("verdicts")) answer.verdicts.push_back(verdict_of(row));
-    for (const json& heated : value.at("heated")) answer.heated_temperature.push_back(number_of(heated));
-    return answer;
+    return answer_of(json::parse(line));
   } catch (const json::exception&) {
+    return std::nullopt;
+  } catch (const Damage&) {
     return std::nullopt;
   }
 }

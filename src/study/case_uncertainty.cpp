@@ -2,6 +2,7 @@
 
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
+#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/uncertainty_text.hpp"
 
 #include <fmt/format.h>
@@ -23,6 +24,28 @@ std::string list_of(const std::vector<std::string>& names) {
       fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<long>(shown), ", "));
   if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
   return text;
+}
+
+/// Why the constants say nothing of a case; empty inside the calibration's domain, where a rule carries them,
+/// and where the scene accepts it.
+std::string calibration_doubt(const StudyCase& input) {
+  const CalibrationDistance distance = distance_to_calibration(input.scene.scene);
+  if (distance.unknown.empty() || !reason_for_calibration(input).empty()) return {};
+  return fmt::format(
+      "extrapolated: the constants were calibrated on another launch ({}), and nothing says how wrong they "
+      "are "
+      "here (accept = [{{ key = \"{}\", because = \"...\" }}] in the scene takes them)",
+      list_of(distance.unknown), scene::foreign_calibration);
+}
+
+/// What is not plausible of a case and of what its study states, where that gives verdicts. No hard case of a
+/// stability study may pass because its input is called implausible.
+std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCase& input) {
+  if (!gives_verdicts(study)) return {};
+  std::vector<scene::Implausible> values = study.implausible;
+  for (scene::Implausible& each : scene::implausible_values(input.scene.scene))
+    values.push_back(std::move(each));
+  return values;
 }
 
 }  // namespace
@@ -81,16 +104,23 @@ LoadCurveErrors load_curve_errors(const scene::Load& load) {
   return {roughness / (1.0 + roughness), 1.0 / (kept * kept) - 1.0};
 }
 
-std::string calibration_doubt(const StudyCase& input, const CalibrationDistance& distance) {
-  if (distance.unknown.empty() || !reason_for_calibration(input).empty()) return {};
-  return fmt::format(
-      "extrapolated: the constants were calibrated on another launch ({}), and nothing says how wrong they "
-      "are "
-      "here (accept = [{{ key = \"{}\", because = \"...\" }}] in the scene takes them)",
-      list_of(distance.unknown), scene::foreign_calibration);
+std::vector<std::string> doubts_of_input(const Study& study, const StudyCase& input) {
+  std::vector<std::string> doubts;
+  if (!gives_verdicts(study)) return doubts;
+  for (const scene::Implausible& each : implausible_in(study, input)) {
+    if (!each.accepted()) doubts.push_back(scene::doubt_text(each));
+  }
+  if (auto doubt = calibration_doubt(input); !doubt.empty()) doubts.push_back(std::move(doubt));
+  return doubts;
 }
 
-std::string extrapolation_text(const StudyCase& input, const CalibrationDistance& distance, double gap) {
+std::string accepted_text(const Study& study, const StudyCase& input) {
+  return scene::accepted_text(implausible_in(study, input));
+}
+
+std::string extrapolation_text(const Study& study, const StudyCase& input, double gap) {
+  if (!gives_verdicts(study)) return {};
+  const CalibrationDistance distance = distance_to_calibration(input.scene.scene);
   std::vector<std::string> beyond = distance.unknown;
   beyond.insert(beyond.end(), distance.carried.begin(), distance.carried.end());
   if (gap > CalibrationEvidence{}.largest_gap * (1.0 + 1e-9)) beyond.emplace_back("gap");

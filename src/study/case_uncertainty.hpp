@@ -7,6 +7,7 @@
 #include "launchsafe/study/critical_gap.hpp"
 
 #include <string>
+#include <vector>
 
 namespace launchsafe::study::detail {
 
@@ -59,10 +60,13 @@ struct LoadCurveErrors {
 };
 LoadCurveErrors load_curve_errors(const scene::Load& load);
 
-/// Why the constants say nothing of a case, for its verdict; empty inside the calibration's domain, where a
-/// rule carries them, and where the scene accepts it.
-std::string calibration_doubt(const StudyCase& input, const CalibrationDistance& distance);
+/// What a case's own input says against a verdict, besides its load (run::uncovered_load): values that are
+/// not plausible and that nobody accepted, constants from elsewhere. Nothing for a study without verdicts.
+std::vector<std::string> doubts_of_input(const Study& study, const StudyCase& input);
+/// What is not plausible and why it is meant, for its verdict; empty for nothing.
+std::string accepted_text(const Study& study, const StudyCase& input);
+
 /// What is extrapolated for a gap (m), for its verdict; empty for nothing.
-std::string extrapolation_text(const StudyCase& input, const CalibrationDistance& distance, double gap);
+std::string extrapolation_text(const Study& study, const StudyCase& input, double gap);
 
 }  // namespace launchsafe::study::detail

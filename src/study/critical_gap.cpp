@@ -175,6 +175,7 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
     detail::add_run(result.timing, planned[i].run.result.mechanics, planned[i].run.reused, outcomes[i]);
     Confirmation& confirmation = planned[i].outcome->confirmations[planned[i].side];
     if (outcomes[i].started && outcomes[i].failure.empty()) continue;
+    detail::note_refusal(coupled_of(*planned[i].outcome, confirmation.gap), outcomes[i], options);
     confirmation.ran = true;
     confirmation.completed = false;
     confirmation.failure = detail::failure_of({}, outcomes[i]);

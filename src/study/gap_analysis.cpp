@@ -2,6 +2,7 @@
 
 #include "case_uncertainty.hpp"
 #include "launchsafe/run/doubts.hpp"
+#include "row_judgement.hpp"
 
 #include <fmt/format.h>
 
@@ -174,28 +175,12 @@ std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
          (confirmation.expected_ignition ? "do" : "do not");
 }
 
-/// What is not plausible of a case and of what its study states, where that gives verdicts. No hard case of a
-/// stability study may pass because its input is called implausible.
-std::vector<scene::Implausible> implausible_in(const Study& study, const CaseOutcome& outcome) {
-  if (!gives_verdicts(study)) return {};
-  std::vector<scene::Implausible> values = study.implausible;
-  for (scene::Implausible& each : scene::implausible_values(outcome.input.scene.scene))
-    values.push_back(std::move(each));
-  return values;
-}
-
 /// All doubts about a completed run as one clause.
 std::string doubt_of(const Study& study, const CaseOutcome& outcome) {
   if (!outcome.completed()) return {};
-  const scene::Scene& scene = outcome.input.scene.scene;
-  std::vector<std::string> doubts = run::doubts_of(scene, outcome.result.mechanics);
-  for (const scene::Implausible& each : implausible_in(study, outcome)) {
-    if (!each.accepted()) doubts.push_back(scene::doubt_text(each));
-  }
-  if (gives_verdicts(study)) {
-    if (auto doubt = calibration_doubt(outcome.input, distance_to_calibration(scene)); !doubt.empty())
-      doubts.push_back(std::move(doubt));
-  }
+  std::vector<std::string> doubts = doubts_of_input(study, outcome.input);
+  for (std::string& each : run::doubts_of(outcome.input.scene.scene, outcome.result.mechanics))
+    doubts.push_back(std::move(each));
   if (outcome.raised && outcome.raised->status != run::RunStatus::completed) {
     doubts.push_back(
         fmt::format("the run with the load raised by {:.3g} %, for the uncertainty of the inputs: {}{}{}",
@@ -285,27 +270,17 @@ void conclude(const Study& study, CaseOutcome& outcome) {
   const double coupling = coupling_share(outcome);
   const bool foreign = misses_calibrated_rows(outcome);
   const std::string doubt = doubt_of(study, outcome);
-  const CalibrationDistance distance = distance_to_calibration(outcome.input.scene.scene);
-  const std::string limited = run::to_string(outcome.result.mechanics.limiters);
-  const std::string accepted = scene::accepted_text(implausible_in(study, outcome));
+  const std::string accepted = accepted_text(study, outcome.input);
   std::vector<double> gaps, temperatures;
   for (GapVerdict& row : outcome.verdicts) {
     row.uncertainty.coupling = coupling;
     if (foreign)
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
-    Evidence evidence{outcome.completed(),
-                      outcome.failure,
-                      row.ignition.has_value(),
-                      row.gap,
-                      row.maximum.temperature,
-                      row.margin,
-                      row.uncertainty.total(),
-                      doubt,
-                      limited};
-    if (row.ignition_anywhere) evidence.ignited_elsewhere = row.ignition_anywhere->point;
-    if (gives_verdicts(study)) evidence.extrapolated = extrapolation_text(outcome.input, distance, row.gap);
+    Evidence evidence = evidence_of(row, outcome.failure, outcome.result.mechanics.limiters);
+    evidence.doubt = doubt;
     evidence.accepted = accepted;
-    row.judgement = judge(evidence, outcome.critical);
+    evidence.extrapolated = extrapolation_text(study, outcome.input, row.gap);
+    judge_row(std::move(evidence), outcome.critical, row);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);
     temperatures.push_back(row.maximum.temperature);

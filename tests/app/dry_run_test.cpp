@@ -60,6 +60,43 @@ TEST_F(DryRun, ShowsOneShard) {
   for (const auto& each : foresight["runs"]) EXPECT_EQ(each["shard"], 2);
 }
 
+TEST_F(DryRun, ChangesNothingWhileTheStudyRuns) {
+  write("shell.toml", brief_scene());
+  start({"study", "study.toml", "-o", "out", "--jobs", "1"});
+  wait_for_a_case("out");
+  const Outcome beside = run_beside({"study", "study.toml", "-o", "out", "--dry-run", "--json"});
+  EXPECT_EQ(beside.code, 0) << beside.err;
+  EXPECT_GE(nlohmann::json::parse(beside.out)["stored"], 1);
+  EXPECT_EQ(wait().code, 0);
+}
+
+TEST_F(DryRun, RepairsAndSetsAsideNothing) {
+  ASSERT_EQ(run({"study", "study.toml", "-o", "out", "--shard", "1/3"}).code, 0);
+  const auto cases = whole_cases("out");
+  write("out/cases/" + cases.front().filename().string(), "damaged");
+  write("out/journal.1-of-3.jsonl", read("out/journal.1-of-3.jsonl") + "{\"case\":\"cut sh");
+  write("out/lock", "somewhere process 1 since 2026-01-01T00:00:00Z\n");
+  std::filesystem::last_write_time(cases.back(), std::filesystem::file_time_type::clock::now());
+  const auto everything = [this] {
+    std::map<std::string, std::string> found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder() / "out"))
+      found[entry.path().string()] = entry.is_regular_file()
+                                         ? read(std::filesystem::relative(entry.path(), folder()).string())
+                                         : std::string();
+    return found;
+  };
+  const auto before = everything();
+  // Where nothing may be written: root may all the same, so that the listing is what tells.
+  for (const char* name : {"out", "out/cases"})
+    std::filesystem::permissions(folder() / name, std::filesystem::perms(0555));
+  const auto foresight = foresee({"-o", "out"});
+  for (const char* name : {"out", "out/cases"})
+    std::filesystem::permissions(folder() / name, std::filesystem::perms(0755));
+  EXPECT_EQ(foresight["stored"], 3);
+  EXPECT_EQ(foresight["to_run"], 9);
+  EXPECT_TRUE(everything() == before);
+}
+
 TEST_F(DryRun, AmountsAreRead) {
   for (const char* size : {"8GB", "500 MB", "8e9", "1.5GiB", "2g"})
     EXPECT_EQ(run({"study", "study.toml", "--dry-run", "--memory", size}).code, 0) << size;

@@ -9,6 +9,7 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <map>
 #include <random>
 #include <thread>
 
@@ -195,11 +196,12 @@ TEST_F(StoreFailure, AKillAtAnyInstantLosesOnlyWhatWasInFlight) {
 
 TEST_F(StoreFailure, LeftoversOfAPartAreRemovedWhenItIsOpenedAgain) {
   std::filesystem::create_directories(where() / "cases");
-  const auto leftover = [&](const std::string& mark) {
-    return where() / "cases" / fmt::format(".{}.{}-0123-0.partial", identity_of(1).hash(), mark);
-  };
-  for (const char* mark : {"whole", "1-of-2", "2-of-2"})
-    ASSERT_FALSE(write_file_atomically(leftover(mark), {"half"}));
+  std::map<std::string, std::filesystem::path> leftovers;
+  for (const char* mark : {"whole", "1-of-2", "2-of-2"}) {
+    leftovers[mark] = where() / "cases" / temporary_name(identity_of(1).hash() + "." + mark);
+    ASSERT_FALSE(write_file_atomically(leftovers[mark], {"half"}, IfExists::refuse));
+  }
+  const auto leftover = [&](const char* mark) { return leftovers.at(mark); };
   opened("1-of-2");
   EXPECT_FALSE(std::filesystem::exists(leftover("whole")));
   EXPECT_FALSE(std::filesystem::exists(leftover("1-of-2")));

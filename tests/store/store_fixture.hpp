@@ -2,6 +2,7 @@
 #pragma once
 
 #include "launchsafe/store/case_store.hpp"
+#include "launchsafe/store/sha256.hpp"
 #include "sample_case.hpp"
 #include "temporary_folder.hpp"
 
@@ -34,6 +35,11 @@ inline store::JournalEntry entry_of(int number) {
 
 inline void save(store::CaseStore& store, int number) {
   store.save(identity_of(number), sample_scene(), result_of(number), entry_of(number));
+}
+
+/// The line of an answer, with the checksum that anybody can compute: 16 digits of the SHA-256 of the text.
+inline std::string rehashed_line(const std::string& key, const std::string& text) {
+  return key + " " + store::sha256(text).substr(0, 16) + " " + text + "\n";
 }
 
 class StoreFixture : public TemporaryFolder {

@@ -40,7 +40,7 @@ std::string to_gnuplot(const Contour& contour);
 /// to draw, gnuplot's own complaint).
 store::Result<std::string> to_svg(const Contour& contour, const std::string& program = "gnuplot");
 
-/// Draws into a file, whole or not at all. Errors: those of `to_svg`, and write_failed.
+/// Draws into a file, whole or not at all. Errors: those of `to_svg`, and those of `store::write_own_file`.
 store::MaybeError write_svg(const Contour& contour, const std::filesystem::path& path);
 
 }  // namespace launchsafe::report

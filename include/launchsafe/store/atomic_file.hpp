@@ -5,26 +5,34 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace launchsafe::store {
 
 enum class IfExists { replace, refuse };
 
-/// Ends the names of files that are being written. One that no living process writes is the remains of a
-/// kill.
-inline constexpr std::string_view partial_suffix = ".partial";
+/// A name for the file that is to become NAME while it is written: `.NAME.NUMBER.partial`, where NUMBER is 16
+/// hexadecimal digits, eight at random and eight that follow from them and NAME. So nobody else's file has
+/// such a name by chance, and one that no living process writes is the remains of a kill.
+std::string temporary_name(std::string_view name);
+/// NAME of such a name; nothing for any other.
+std::optional<std::string> name_behind(std::string_view temporary);
+/// Removes a regular file with a temporary name; anything else stays. Failures are of no consequence.
+void remove_leftover(const std::filesystem::path& file);
 
-/// Writes the parts one after the other under a temporary name (`.NAME.RANDOM.partial`) in the folder of
-/// `path`, syncs, renames, and syncs the folder. On an error nothing is left under either name and what was
-/// at `path` before is untouched (except when only the last step, syncing the folder, fails: then the new
-/// file is there, whole, but might not survive a power cut). Errors: write_failed; conflict when `path`
-/// exists and `if_exists` is refuse. A process under a file-size limit must ignore SIGXFSZ to see the error
-/// rather than die of the signal.
+/// Writes the parts one after the other under a temporary name in the folder of `path`, syncs, renames, and
+/// syncs the folder. On an error nothing is left under either name and what was at `path` before is untouched
+/// (except when only the last step, syncing the folder, fails: then the new file is there, whole, but might
+/// not survive a power cut). Errors: write_failed; conflict when `path` exists and `if_exists` is refuse. A
+/// process under a file-size limit must ignore SIGXFSZ to see the error rather than die of the signal.
 MaybeError write_file_atomically(const std::filesystem::path& path,
-                                 std::initializer_list<std::string_view> parts,
-                                 IfExists if_exists = IfExists::replace);
+                                 std::initializer_list<std::string_view> parts, IfExists if_exists);
+
+/// Renames, never over something that is there: then the error is file_exists.
+std::error_code move_to_free_name(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// The whole content of a regular file. Errors: missing, unreadable.
 Result<std::string> read_file(const std::filesystem::path& path);

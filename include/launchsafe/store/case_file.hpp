@@ -16,10 +16,14 @@ namespace launchsafe::store {
 
 /// Writes a case file at `path` and, when there are snapshots, `path` with the extension .xdmf beside it, by
 /// which ParaView opens the particles as a time series. Never overwrites a different result: a file with
-/// another input hash at `path` is a conflict. Errors: failed (a result whose arrays do not fit together),
-/// conflict, corrupt (something at `path` that is no case file), write_failed.
+/// another input hash at `path` is a conflict, and so is an .xdmf that this program did not write there.
+/// Errors: failed (a result whose arrays do not fit together), conflict, corrupt (something at `path` that is
+/// no case file), write_failed.
 MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene& scene,
                            const run::CaseResult& result, const Manifest& manifest);
+
+/// The file beside a case file by which ParaView opens its snapshots.
+std::filesystem::path sidecar_of(const std::filesystem::path& path);
 
 struct StoredCase {
   Manifest manifest;

@@ -3,8 +3,10 @@
 //
 //   DIR/cases/HASH.h5          the result of one case, named by what determines it, whole or not there
 //   DIR/cases/HASH.damaged-1   a file that was truncated or damaged, set aside
-//   DIR/journal[.PART].jsonl   one line an attempt, only ever appended to
-//   DIR/answers[.PART].jsonl   small texts derived from cases, each with its checksum
+//   DIR/journal[.PART].jsonl   one line an attempt and one an answer, only ever appended to
+//   DIR/answers[.PART].jsonl   small texts derived from cases, each with its checksum; what the journal does
+//   not
+//                              know as it is counts for nothing
 //   DIR/lock[.PART]            held by the process that writes; names host and process
 //
 // PART is "1-of-4" for a shard and absent for a whole study; whoever reads, reads the files of every part.
@@ -20,6 +22,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace launchsafe::store {
@@ -35,6 +38,9 @@ class CaseIdentity {
  private:
   std::string input_, hash_;
 };
+
+/// Whether a text has the form of `CaseIdentity::hash`.
+bool is_case_hash(std::string_view text);
 
 /// What became of an attempt. A run that ended by itself is done, also when its energy drifted away: computed
 /// again it would do the same. Failed: it threw (memory, for example), and may succeed another time.
@@ -71,11 +77,18 @@ class CaseStore {
  public:
   /// Makes the folder, takes the lock, reads all journals and answers, and deletes what a killed writer of
   /// this part left half written. A line that a kill cut short is ignored, as are lines with a wrong
-  /// checksum. The lock ends with its process, however that ends; where the file system knows no locks, a
-  /// remark says so. Errors: conflict (another living process holds the lock of this part or of the whole, or
-  /// of any part for a whole study; named with host and process), write_failed, unreadable.
+  /// checksum and answers that the journal does not know. The lock ends with its process, however that ends;
+  /// where the file system knows no locks, a remark says so. Errors: conflict (another living process holds
+  /// the lock of this part or of the whole, or of any part for a whole study; named with host and process; or
+  /// a file has a name that the store needs and is none of ours: then nothing was made or changed),
+  /// write_failed, unreadable.
   static Result<std::unique_ptr<CaseStore>> open(const std::filesystem::path& folder,
                                                  const StoreOptions& options);
+  /// A store that only looks: no lock, no repair, nothing is set aside or written, also while another process
+  /// writes there or where nothing may be written. What a writing store would do is said in `remarks`. Only
+  /// const members, `holds` and `load` may be called. Errors: unreadable.
+  static Result<std::unique_ptr<CaseStore>> open_to_read(const std::filesystem::path& folder,
+                                                         int model_version);
   /// Finishes what is to be written, then releases the lock.
   ~CaseStore();
   CaseStore(const CaseStore&) = delete;

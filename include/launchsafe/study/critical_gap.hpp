@@ -41,6 +41,7 @@ struct GapVerdict {
   Uncertainty uncertainty;
   std::optional<NamedIgnition> ignition;           ///< at an observation point
   std::optional<NamedIgnition> ignition_anywhere;  ///< on the whole bottom
+  Evidence evidence;                               ///< what the judgement rests on
   Judgement judgement;
   std::optional<Reference> reference;
   /// K, this minus the reference; NaN without one or where either ignited

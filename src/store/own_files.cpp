@@ -1,0 +1,175 @@
+#include "launchsafe/store/own_files.hpp"
+
+#include "journal.hpp"
+#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/case_file.hpp"
+#include "launchsafe/store/sha256.hpp"
+#include "posix_file.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cerrno>
+#include <optional>
+
+namespace launchsafe::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view line_begin = R"({"file":)";
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+std::string line_of(const WrittenFile& file) {
+  const nlohmann::ordered_json line{{"file", file.name}, {"sha256", file.sha256}};
+  return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::optional<WrittenFile> written_file(std::string_view line) {
+  if (!line.starts_with(line_begin)) return {};
+  const auto object = nlohmann::json::parse(line, nullptr, false);
+  const auto text = [&object](const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string{};
+  };
+  if (!object.is_object()) return {};
+  WrittenFile file{text("file"), text("sha256")};
+  if (file.name.empty() || file.sha256.empty()) return {};
+  return file;
+}
+
+/// Whether any line is one of ours; a single one that a kill cut short has no end.
+bool is_journal_of_files(std::string_view content) {
+  if (content.find('\n') == std::string_view::npos) return content.starts_with(line_begin);
+  bool any = false;
+  for_each_line(content,
+                [&any](std::string_view line) { return any = any || written_file(line).has_value(); });
+  return any;
+}
+
+MaybeError append(const fs::path& folder, const std::string& lines) {
+  if (lines.empty()) return {};
+  const fs::path path = folder / own_files_name;
+  if (MaybeError error = obstacle_in_place(path, is_journal_of_files)) return error;
+  return AppendedFile(path).append(lines);
+}
+
+Error not_ours(const fs::path& path, FileState state) {
+  return {Error::Kind::conflict,
+          fmt::format("{} {}, and nothing is overwritten; move it away or name another folder", path.string(),
+                      state == FileState::edited ? "was edited since launchsafe wrote it"
+                                                 : "was not written by launchsafe")};
+}
+
+bool is_replaceable(FileState state) { return state == FileState::absent || state == FileState::ours; }
+
+std::string content_of(std::initializer_list<std::string_view> parts) {
+  std::string content;
+  for (const std::string_view part : parts) content += part;
+  return content;
+}
+
+}  // namespace
+
+Result<OwnFiles> OwnFiles::read(const fs::path& folder) {
+  OwnFiles files;
+  files.folder_ = folder;
+  const fs::path path = folder / own_files_name;
+  if (const MaybeError error = obstacle_in_place(path, is_journal_of_files)) return *error;
+  const Result<std::string> text = read_file(path);
+  if (!text && text.error().kind != Error::Kind::missing) return text.error();
+  if (!text) return files;
+  for_each_line(*text, [&files](std::string_view line) {
+    const std::optional<WrittenFile> file = written_file(line);
+    if (file) files.add(*file);
+    return file.has_value();
+  });
+  return files;
+}
+
+FileState OwnFiles::state_of(const std::string& name) const {
+  const fs::path path = folder_ / name;
+  std::error_code failed;
+  const fs::file_status status = fs::symlink_status(path, failed);
+  if (!fs::exists(status)) return FileState::absent;
+  const auto known = digests_.find(name);
+  const FileState otherwise = known == digests_.end() ? FileState::foreign : FileState::edited;
+  if (!fs::is_regular_file(status)) return otherwise;
+  if (path.extension() == ".h5" && read_manifest(path)) return FileState::ours;
+  if (known == digests_.end()) return otherwise;
+  const Result<std::string> content = read_file(path);
+  return content && known->second.contains(sha256(*content)) ? FileState::ours : otherwise;
+}
+
+bool OwnFiles::knows(const WrittenFile& file) const {
+  const auto found = digests_.find(file.name);
+  return found != digests_.end() && found->second.contains(file.sha256);
+}
+
+std::vector<std::string> OwnFiles::present() const {
+  std::vector<std::string> names;
+  for (const auto& [name, digests] : digests_) {
+    if (state_of(name) != FileState::absent) names.push_back(name);
+  }
+  return names;
+}
+
+MaybeError write_own_file(const fs::path& path, std::initializer_list<std::string_view> parts) {
+  const std::string content = content_of(parts);
+  const WrittenFile file{path.filename(), sha256(content)};
+  for (int attempt = 1;; ++attempt) {
+    const Result<OwnFiles> own = OwnFiles::read(folder_of(path));
+    if (!own) return own.error();
+    const FileState state = own->state_of(file.name);
+    if (const auto present = read_file(path); present && *present == content) return {};
+    if (!is_replaceable(state)) return not_ours(path, state);
+    if (!own->knows(file)) {
+      if (MaybeError error = append(folder_of(path), line_of(file))) return error;
+    }
+    const IfExists if_exists = state == FileState::absent ? IfExists::refuse : IfExists::replace;
+    MaybeError error = write_file_atomically(path, {content}, if_exists);
+    // Another process of ours, a shard for example, may have written it meanwhile.
+    constexpr int most_attempts = 10;
+    if (!error || error->kind != Error::Kind::conflict || attempt == most_attempts) return error;
+  }
+}
+
+MaybeError obstacle_to_own_file(const fs::path& path) {
+  const Result<OwnFiles> own = OwnFiles::read(folder_of(path));
+  if (!own) return own.error();
+  const FileState state = own->state_of(path.filename());
+  return is_replaceable(state) ? MaybeError() : not_ours(path, state);
+}
+
+MaybeError note_own_files(const fs::path& folder, const std::vector<WrittenFile>& files) {
+  const Result<OwnFiles> own = OwnFiles::read(folder);
+  if (!own) return own.error();
+  std::string lines;
+  for (const WrittenFile& file : files) {
+    if (!own->knows(file)) lines += line_of(file);
+  }
+  return append(folder, lines);
+}
+
+Result<std::vector<std::string>> set_edited_aside(const fs::path& folder) {
+  const Result<OwnFiles> own = OwnFiles::read(folder);
+  if (!own) return own.error();
+  std::vector<std::string> moved;
+  for (const std::string& name : own->present()) {
+    if (own->state_of(name) != FileState::edited) continue;
+    for (int number = 1;; ++number) {
+      const std::string aside = fmt::format("{}.edited-{}", name, number);
+      if (rename_to_free_name(folder / name, folder / aside)) {
+        moved.push_back(aside);
+        break;
+      }
+      if (errno != EEXIST) return write_error(folder / aside, errno);
+    }
+  }
+  return moved;
+}
+
+}  // namespace launchsafe::store

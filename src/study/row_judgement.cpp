@@ -1,0 +1,26 @@
+#include "row_judgement.hpp"
+
+#include <utility>
+
+namespace launchsafe::study::detail {
+
+Evidence evidence_of(const GapVerdict& row, const std::string& failure, const run::LimiterCounts& limiters) {
+  Evidence evidence;
+  evidence.completed = failure.empty();
+  evidence.failure = failure;
+  evidence.ignited = row.ignition.has_value();
+  evidence.gap = row.gap;
+  evidence.maximum_temperature = row.maximum.temperature;
+  evidence.margin = row.margin;
+  evidence.uncertainty = row.uncertainty.total();
+  evidence.limited = run::to_string(limiters);
+  if (row.ignition_anywhere) evidence.ignited_elsewhere = row.ignition_anywhere->point;
+  return evidence;
+}
+
+void judge_row(Evidence evidence, const CriticalGap& critical, GapVerdict& row) {
+  row.judgement = judge(evidence, critical);
+  row.evidence = std::move(evidence);
+}
+
+}  // namespace launchsafe::study::detail

@@ -1,0 +1,253 @@
+// Somebody else's files, under every name that the program gives a file of its own, and its own files after
+// somebody edited them: nothing is overwritten, emptied, appended to or deleted.
+#include "launchsafe/store/sha256.hpp"
+#include "stored_study.hpp"
+
+namespace launchsafe::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string mine = "mine: do not lose me\n";
+
+const std::string critical_gap_study = R"(kind = "critical-gap"
+scene = "shell.toml"
+early_time = "0.03 ms"
+confirm = false
+)";
+
+const std::string accuracy_study = R"(kind = "accuracy"
+scene = "shell.toml"
+gaps = "0, 0.01 cm"
+reference_cell_sizes = "2, 4, 5 mm"
+times = "0.03 ms"
+
+[[settings]]
+numerics.cell_size = "5 mm"
+)";
+
+const std::string stability_study = R"(kind = "stability"
+scene = "shell.toml"
+numerical_uncertainty = "4 K"
+
+[[case]]
+group = "load"
+name = "as it is"
+must_hold = "T max as with half the time step"
+set = { load.peak = "50 MPa" }
+against = { numerics.time_step_factor = 0.25 }
+)";
+
+struct Target {
+  std::string name;                  ///< of the test
+  std::string study;                 ///< text of study.toml
+  std::vector<std::string> command;  ///< writes into `out`
+  std::vector<std::string> files;    ///< names that the command gives its files
+};
+
+std::vector<std::string> study_command() { return {"study", "study.toml", "-o", "out"}; }
+
+std::vector<Target> targets() {
+  return {
+      {"Sweep",
+       sweep_study,
+       study_command(),
+       {"lock", "journal.jsonl", "answers.jsonl", "cases", "manifest.json", "journal_of_files.jsonl",
+        "report.md", "study.json", "verdicts.csv", "critical_gaps.csv", "critical_gaps.md",
+        "critical_gap.svg", "critical_gap_2.svg"}},
+      {"CriticalGap",
+       critical_gap_study,
+       study_command(),
+       {"report.md", "study.json", "verdicts.csv", "verdicts.md", "temperature.svg", "manifest.json"}},
+      {"Sensitivity",
+       sensitivity_study,
+       study_command(),
+       {"sensitivity.csv", "evaluations.csv", "sensitivity_T_max.svg", "report.md"}},
+      {"Accuracy",
+       accuracy_study,
+       study_command(),
+       {"accuracy.json", "accuracy.csv", "reference.csv", "points.csv", "times.csv", "summary.md",
+        "error_against_time.svg", "report.md"}},
+      {"Stability", stability_study, study_command(), {"stability.csv", "launches.csv", "report.md"}},
+      {"Shard",
+       sweep_study,
+       {"study", "study.toml", "-o", "out", "--shard", "1/2"},
+       {"lock", "lock.1-of-2", "journal.1-of-2.jsonl", "answers.1-of-2.jsonl", "manifest.json"}},
+      {"Merge", sweep_study, {"merge", "study.toml", "-o", "out"}, {"lock", "manifest.json", "report.md"}},
+      {"Update",
+       sweep_study,
+       {"study", "study.toml", "-o", "out", "--update"},
+       {"report.md", "critical_gaps.csv", "manifest.json"}},
+      {"Run",
+       sweep_study,
+       {"run", "scene.toml", "-o", "out"},
+       {"scene.h5", "scene.xdmf", "journal_of_files.jsonl"}},
+      {"Parts",
+       sweep_study,
+       {"verify", "--error-against-time", "--filter", "skin", "-o", "out"},
+       {"parts.csv", "parts.md", "parts.svg"}},
+      {"Emit",
+       sweep_study,
+       {"emit", "slurm", "study.toml", "-o", "out", "--shards", "2"},
+       {"manifest.json", "report.md", "slurm", "slurm/submit.sh", "slurm/shard.sbatch"}},
+  };
+}
+
+class ForeignFiles : public StoredStudy, public ::testing::WithParamInterface<Target> {
+ protected:
+  void SetUp() override {
+    StoredStudy::SetUp();
+    write("study.toml", GetParam().study);
+    write("scene.toml", with(tiny_scene, "[output]", "[output]\nsnapshots = \"0.05 ms\""));
+    write("theirs.txt", mine);
+  }
+
+  /// Whether the program refused, naming the file, and the folder holds what it held before.
+  void expect_refused(const std::string& name) {
+    const auto before = results_and_all("out");
+    const Outcome outcome = run(GetParam().command);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_TRUE(outcome.says(fs::path(name).filename().string())) << outcome.err;
+    EXPECT_EQ(results_and_all("out"), before);
+    EXPECT_EQ(read("theirs.txt"), mine);
+  }
+
+  /// The names of all that is below a folder, with the contents of regular files.
+  std::map<std::string, std::string> results_and_all(const std::string& name) const {
+    std::map<std::string, std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(folder() / name)) {
+      const std::string file = fs::relative(entry.path(), folder() / name).string();
+      found[file] = entry.is_symlink()        ? "-> " + fs::read_symlink(entry.path()).string()
+                    : entry.is_regular_file() ? read(name + "/" + file)
+                                              : "no regular file";
+    }
+    return found;
+  }
+};
+
+TEST_P(ForeignFiles, KeepTheirContent) {
+  for (const std::string& name : GetParam().files) {
+    SCOPED_TRACE(name);
+    fs::create_directories((folder() / "out" / name).parent_path());
+    write("out/" + name, mine);
+    expect_refused(name);
+    fs::remove_all(folder() / "out");
+  }
+}
+
+TEST_P(ForeignFiles, ThatAreLinksAreNotFollowed) {
+  for (const std::string& name : GetParam().files) {
+    for (const char* target : {"theirs.txt", "nowhere.txt"}) {
+      SCOPED_TRACE(name + " to " + target);
+      fs::create_directories((folder() / "out" / name).parent_path());
+      fs::create_symlink(folder() / target, folder() / "out" / name);
+      expect_refused(name);
+      EXPECT_FALSE(exists("nowhere.txt"));
+      fs::remove_all(folder() / "out");
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Names, ForeignFiles, ::testing::ValuesIn(targets()),
+                         [](const auto& test) { return test.param.name; });
+
+class OwnFolder : public StoredStudy {
+ protected:
+  Outcome study() { return run({"study", "study.toml", "-o", "out"}); }
+};
+
+TEST_F(OwnFolder, EditedReportsAreKeptUnderAnotherName) {
+  ASSERT_EQ(study().code, 0);
+  const std::string page = read("out/report.md");
+  write("out/report.md", page + mine);
+  write("out/critical_gaps.csv", mine);
+  const Outcome again = study();
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(again.says("out/report.md.edited-1")) << again.err;
+  EXPECT_EQ(read("out/report.md.edited-1"), page + mine);
+  EXPECT_EQ(read("out/critical_gaps.csv.edited-1"), mine);
+  EXPECT_EQ(read("out/report.md"), page);
+}
+
+TEST_F(OwnFolder, AReportThatWasCutOffIsWrittenAgain) {
+  ASSERT_EQ(study().code, 0);
+  const auto whole = results_in("out");
+  for (const char* name : {"study.json", "critical_gap.svg", "manifest.json"})
+    fs::remove(folder() / "out" / name);
+  EXPECT_EQ(study().code, 2) << "whose report that is, nobody knows";
+  EXPECT_EQ(run({"study", "study.toml", "-o", "out", "--update"}).code, 0);
+  EXPECT_TRUE(exists("out/earlier-1/report.md"));
+  EXPECT_EQ(read("out/report.md"), whole.at("report.md"));
+}
+
+TEST_F(OwnFolder, EarlierReportsGoWhereNobodyElsesFilesAre) {
+  ASSERT_EQ(study().code, 0);
+  const std::string page = read("out/report.md");
+  fs::create_directory(folder() / "out/earlier-1");
+  write("out/earlier-1/report.md", mine);
+  write("out/earlier-1/notes.txt", mine);
+  fs::create_symlink(folder(), folder() / "out/earlier-2");
+  write("study.toml", with(sweep_study, "1, 2 us", "1, 3 us"));
+  const Outcome updated = run({"study", "study.toml", "-o", "out", "--update"});
+  EXPECT_EQ(updated.code, 0) << updated.err;
+  EXPECT_EQ(read("out/earlier-1/report.md"), mine);
+  EXPECT_FALSE(exists("report.md"));
+  EXPECT_EQ(read("out/earlier-3/report.md"), page);
+  EXPECT_TRUE(exists("out/earlier-3/manifest.json"));
+}
+
+TEST_F(OwnFolder, FilesThatANewReportLacksMoveAside) {
+  ASSERT_EQ(study().code, 0);
+  const std::string picture = read("out/critical_gap.svg");
+  if (picture.empty()) GTEST_SKIP() << "no gnuplot";
+  // Found nowhere, so that the report has no picture; a page that is gone makes it be written again.
+  fs::remove(folder() / "out/report.md");
+  before_start([] { ::setenv("PATH", "/nowhere", 1); });
+  const Outcome again = study();
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_FALSE(exists("out/critical_gap.svg")) << "it is not of this report";
+  EXPECT_EQ(read("out/earlier-1/critical_gap.svg"), picture);
+}
+
+TEST_F(OwnFolder, LeftoversOfOthersStay) {
+  ASSERT_EQ(study().code, 0);
+  for (const char* name :
+       {"out/.x.partial", "out/.report.md.0123456789abcdef.partial", "out/cases/.x.partial"})
+    write(name, mine);
+  EXPECT_EQ(study().code, 0);
+  for (const char* name :
+       {"out/.x.partial", "out/.report.md.0123456789abcdef.partial", "out/cases/.x.partial"})
+    EXPECT_EQ(read(name), mine) << name;
+}
+
+TEST_F(OwnFolder, MayBeALink) {
+  fs::create_directory(folder() / "disk");
+  fs::create_directory_symlink(folder() / "disk", folder() / "out");
+  EXPECT_EQ(study().code, 0);
+  EXPECT_TRUE(exists("disk/report.md"));
+  EXPECT_EQ(study().code, 0);
+}
+
+TEST_F(OwnFolder, AnAnswerThatWasForgedIsDrawnAgain) {
+  ASSERT_EQ(study().code, 0);
+  const auto before = results_in("out");
+  std::istringstream lines(read("out/answers.jsonl"));
+  std::string forged;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t key = line.find(' '), check = line.find(' ', key + 1);
+    auto answer = nlohmann::json::parse(line.substr(check + 1));
+    for (auto& row : answer["verdicts"]) row["uncertainty"] = {0, 0, 0, 0, 0, 0};
+    const std::string text = answer.dump();
+    forged += line.substr(0, key) + " " + store::sha256(text).substr(0, 16) + " " + text + "\n";
+  }
+  write("out/answers.jsonl", forged);
+  fs::remove(folder() / "out/report.md");
+  const Outcome again = study();
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(again.says("not as the journal says")) << again.err;
+  EXPECT_TRUE(again.says("ran 0")) << again.err;
+  EXPECT_TRUE(results_in("out") == before);
+}
+
+}  // namespace
+}  // namespace launchsafe::app

@@ -1,0 +1,151 @@
+// A store in a folder where somebody else's files have the names that it needs: nothing is changed.
+#include "launchsafe/store/atomic_file.hpp"
+#include "store_fixture.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+
+namespace launchsafe::store {
+namespace {
+
+using namespace launchsafe::testing;
+namespace fs = std::filesystem;
+
+class ForeignNames : public StoreFixture {
+ protected:
+  fs::path theirs() const { return folder() / "theirs.txt"; }
+
+  void SetUp() override {
+    StoreFixture::SetUp();
+    fs::create_directory(where());
+    write(theirs(), "mine\n");
+  }
+
+  static void write(const fs::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+  }
+
+  /// Everything below a folder: its kind, and the content of regular files and links.
+  static std::map<std::string, std::string> tree(const fs::path& folder) {
+    std::map<std::string, std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      const fs::file_status status = entry.symlink_status();
+      std::string what = std::to_string(static_cast<int>(status.type()));
+      if (fs::is_symlink(status)) what += fs::read_symlink(entry.path()).string();
+      if (fs::is_regular_file(status)) what += *read_file(entry.path());
+      found[fs::relative(entry.path(), folder).string()] = what;
+    }
+    return found;
+  }
+
+  void expect_refused(const std::string& name, const std::string& how, const std::string& part) const {
+    SCOPED_TRACE(name + ": " + how);
+    const auto before = tree(folder());
+    const auto store = try_open(where(), part);
+    ASSERT_FALSE(store);
+    EXPECT_EQ(store.error().kind, Error::Kind::conflict) << store.error().message;
+    EXPECT_NE(store.error().message.find((where() / name).string()), std::string::npos)
+        << store.error().message;
+    EXPECT_EQ(tree(folder()), before);
+  }
+};
+
+TEST_F(ForeignNames, AreRefusedAndLeftAsTheyAre) {
+  const std::map<std::string, std::function<void(const fs::path&)>> ways{
+      {"text", [](const fs::path& path) { write(path, "do not lose me\n"); }},
+      {"text without an end of line", [](const fs::path& path) { write(path, "{\"case\":\"mine\"}"); }},
+      {"lines of another program", [](const fs::path& path) { write(path, "{\"case\": 1}\n{\"a\": 2}\n"); }},
+      {"a link to a file", [&](const fs::path& path) { fs::create_symlink(theirs(), path); }},
+      {"a link to nowhere", [&](const fs::path& path) { fs::create_symlink(folder() / "gone", path); }},
+      {"a second name of a file", [&](const fs::path& path) { fs::create_hard_link(theirs(), path); }},
+      {"a folder", [](const fs::path& path) { fs::create_directory(path); }},
+      {"a pipe", [](const fs::path& path) { ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0); }},
+  };
+  for (const std::string part : {"", "1-of-2"}) {
+    const std::string dotted = part.empty() ? "" : "." + part;
+    for (const std::string name :
+         {"lock" + dotted, "lock", "journal" + dotted + ".jsonl", "answers" + dotted + ".jsonl"}) {
+      for (const auto& [how, make] : ways) {
+        make(where() / name);
+        expect_refused(name, how, part);
+        fs::remove_all(where() / name);
+      }
+    }
+  }
+}
+
+TEST_F(ForeignNames, AFolderOfCasesHasToBeOne) {
+  fs::create_directory(folder() / "disk");
+  fs::create_directory_symlink(folder() / "disk", where() / "cases");
+  expect_refused("cases", "a link", "");
+  fs::remove(where() / "cases");
+  write(where() / "cases", "mine");
+  expect_refused("cases", "a file", "");
+}
+
+// A file of another name than the store needs is nobody's business here.
+TEST_F(ForeignNames, OtherFilesDoNotMatter) {
+  for (const char* name : {"lock.txt", "journal", "answers.json", "journal.jsonl.bak"})
+    write(where() / name, "mine");
+  ASSERT_TRUE(opened());
+  for (const char* name : {"lock.txt", "journal", "answers.json", "journal.jsonl.bak"})
+    EXPECT_EQ(*read_file(where() / name), "mine");
+}
+
+TEST_F(ForeignNames, WhatAKillLeftOfOurOwnIsUsedAgain) {
+  fill(2);
+  opened()->save_answer("0123456789abcdef0123456789abcdef", "text");
+  const std::string journal = *read_file(where() / "journal.jsonl");
+  const std::string answers = *read_file(where() / "answers.jsonl");
+  for (const std::size_t length : {std::size_t{0}, std::size_t{50}, journal.find('\n'),
+                                   journal.find('\n') + 1, journal.size() - 1, journal.size()}) {
+    write(where() / "journal.jsonl", journal.substr(0, length));
+    EXPECT_TRUE(try_open(where())) << length;
+  }
+  for (const std::size_t length : {std::size_t{0}, std::size_t{40}, answers.size() - 1, answers.size()}) {
+    write(where() / "answers.jsonl", answers.substr(0, length));
+    EXPECT_TRUE(try_open(where())) << length;
+  }
+  write(where() / "lock", "somewhere process 123 since 2026-01-02T03:04:05Z\n");
+  EXPECT_TRUE(try_open(where()));
+}
+
+TEST_F(ForeignNames, LeftoversAreOnlyThoseThatWeMade) {
+  opened();
+  const fs::path cases = where() / "cases";
+  const std::string hash = identity_of(1).hash();
+  const std::string ours = temporary_name(hash + ".whole");
+  write(cases / ours, "half");
+  std::string altered = ours;
+  altered[altered.size() - 10] = altered[altered.size() - 10] == '0' ? '1' : '0';
+  for (const std::string& name :
+       {std::string(".x.partial"), "." + hash + ".whole-0123456789abcdef-0.partial", altered,
+        "." + hash + ".whole.0123456789abcdef.partial", temporary_name("notes.whole")})
+    write(cases / name, "mine");
+  fs::create_directory(cases / temporary_name(hash + ".whole"));
+  fs::create_symlink(theirs(), cases / temporary_name(hash + ".whole"));
+  auto before = tree(cases);
+  opened();
+  EXPECT_EQ(before.erase(ours), 1U);
+  EXPECT_EQ(tree(cases), before);
+}
+
+TEST_F(ForeignNames, AFileInTheWayOfACaseIsKept) {
+  const auto store = opened();
+  const fs::path target = file_of(3);
+  write(target, "mine, and no case");
+  save(*store, 3);
+  const MaybeError error = store->flush();
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->kind, Error::Kind::write_failed);
+  EXPECT_EQ(*read_file(target), "mine, and no case");
+}
+
+}  // namespace
+}  // namespace launchsafe::store
