@@ -207,14 +207,15 @@ std::optional<std::string> obstacle_to_error_table(const std::filesystem::path& 
 
 store::Result<report::WrittenFiles> write_error_table(const std::vector<MeasuredSeries>& measured,
                                                       const std::string& command,
-                                                      const std::filesystem::path& folder) {
+                                                      const std::filesystem::path& folder,
+                                                      const report::DrawingLimits& limits) {
   report::WrittenFiles written;
   std::string picture = picture_name;
   const report::Plot plot = plot_of(measured);
   if (plot.series.empty()) {
     written.remarks.push_back("no picture: every part asked for is exact at every setting");
     picture.clear();
-  } else if (auto error = report::write_svg(plot, folder / picture)) {
+  } else if (auto error = report::write_svg(plot, folder / picture, limits)) {
     if (!report::is_of_drawing(*error)) return *error;
     written.remarks.push_back("no picture: " + error->message);
     picture.clear();

@@ -52,7 +52,6 @@ class StudySession {
   /// Remarks edited files of an earlier report, which keep their content under another name.
   ExitCode keep_edited_files();
   ExitCode write_files(const StudyResult& result, const std::vector<Failure>& failures);
-  void print_failures(const std::vector<Failure>& failures) const;
 
   SessionRequest request_;
   Console& console_;

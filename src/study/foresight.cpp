@@ -134,7 +134,7 @@ ForeseenRun foresee_run(const detail::NeededRun& needed, const detail::Mechanica
   run.cases = mechanical.cases.size();
   run.particles = plan.particles();
   run.steps = plan.steps;
-  run.memory = detail::memory_of(*needed.scene);
+  run.memory = run::cost_of(*needed.scene).memory();
   run.shard = mechanical.shard;
   run.stored = options.store != nullptr && options.store->holds(run.hash);
   run.answered = run.stored && answered;
@@ -142,13 +142,22 @@ ForeseenRun foresee_run(const detail::NeededRun& needed, const detail::Mechanica
     run.why = run.answered ? "stored" : "stored; its gaps are judged anew";
     return run;
   }
-  run.why = reasons.why_run(run.hash, needed);
-  run.given_up = is_given_up(run.hash, options);
-  run.time = mechanical.cost / update_rate;
+  const std::string refusal = detail::refusal_of(needed, options);
+  run.refused = !refusal.empty();
+  run.why = run.refused ? "refused: " + refusal : reasons.why_run(run.hash, needed);
+  run.given_up = run.refused || is_given_up(run.hash, options);
+  run.time = run.given_up ? 0.0 : mechanical.cost / update_rate;
   return run;
 }
 
 }  // namespace
+
+std::optional<scene::InputError> all_out_of_reach(const StudyFile& study, const run::Reach& reach) {
+  for (const StudyCase& input : study.cases) {
+    if (!run::out_of_reach(input.scene.scene, reach)) return std::nullopt;
+  }
+  return study.cases.empty() ? std::nullopt : run::out_of_reach(study.cases.front().scene, reach);
+}
 
 Foresight foresee(const StudyFile& study, const StudyOptions& options, double update_rate) {
   Foresight foresight;

@@ -38,7 +38,7 @@ struct Evidence {
   std::string limited = {};  ///< limiters that acted, for people; empty where none did
   std::string ignited_elsewhere =
       {};                         ///< where the bottom ignites off the observation points; empty: nowhere
-  std::string accepted = {};           ///< what is not plausible and why it is meant, for people; empty: nothing
+  std::string accepted = {};      ///< what is not plausible and why it is meant, for people; empty: nothing
   std::string extrapolated = {};  ///< what lies outside the calibration's domain, for people; empty: nothing
 };
 
