@@ -157,6 +157,8 @@ double peak_lost_to_smoothing(const Load& load) {
 }
 
 std::optional<double> suggested_smoothing(const Load& load) {
+  constexpr std::size_t most_points = 100'000;  // more take longer than a suggestion is worth
+  if (load.curve_time.size() > most_points) return std::nullopt;
   if (load_roughness(load) < least_roughness) return std::nullopt;
   const double length = load.curve_time.back() - load.curve_time.front();
   Load smoothed = load;

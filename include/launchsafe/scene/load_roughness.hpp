@@ -31,7 +31,8 @@ double load_roughness(const Load& load);
 double peak_lost_to_smoothing(const Load& load);
 
 /// The shortest window (s) of some that leaves a measured curve with less than `least_roughness`; nothing
-/// where the curve is not rough or no window helps.
+/// where the curve is not rough, no window helps, or a curve of more than 100 000 points would take long to
+/// try.
 std::optional<double> suggested_smoothing(const Load& load);
 
 /// What is to be known of a measured curve, for people: what smoothing takes from it, and its roughness;
