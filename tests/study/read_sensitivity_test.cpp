@@ -40,7 +40,8 @@ void expect_line_error(const std::string& line, const ExpectedError& expected) {
 TEST(ReadSensitivity, ATemperatureMayBeInCelsiusButItsDeviationMayNot) {
   const std::string ignition = "key = \"kinetics.ignition_temperature\"\ndistribution = \"normal\"\n";
   const StudyFile file =
-      study_of(start + input(ignition + "mean = \"252 \u00b0C\"\nrange = \"250 to 254 \u00b0C\"\ndeviation = \"5 K\""));
+      study_of(start + input(ignition +
+                             "mean = \"252 \u00b0C\"\nrange = \"250 to 254 \u00b0C\"\ndeviation = \"5 K\""));
   ASSERT_EQ(file.study.inputs.size(), 1u);
   EXPECT_EQ(file.study.inputs[0].distribution.centre, 525.15);
   EXPECT_EQ(file.study.inputs[0].distribution.lower, 523.15);
