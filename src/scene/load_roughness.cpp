@@ -15,8 +15,10 @@ namespace {
 
 /// Swings below this share of the peak are no feature of a launch.
 constexpr double least_swing_share = 0.01;
-/// Swings of noise are smaller than this many of its standard deviations.
-constexpr double deviations_of_a_swing = 6.0;
+/// A swing of more than this share of the peak is the launch itself.
+constexpr double largest_swing_share = 0.5;
+/// Swings of noise are smaller than this many of its standard deviations: from four below to four above.
+constexpr double deviations_of_a_swing = 8.0;
 
 /// Integral of p |dp| along a way that is monotonic between the given pressures.
 double work_along(const std::vector<double>& pressures) {
@@ -67,15 +69,19 @@ double deviation_from_neighbours(const Load& load, std::size_t i) {
   return std::abs(load.curve_pressure[i] - expected) / std::sqrt(variance);
 }
 
-/// Standard deviation of the noise of a measured curve's points, Pa. From the deviation that one point in ten
-/// exceeds, so that a few steps do not count as noise, nor a quiet stretch before the pulse hides it.
+/// Fewer deviations than these are those of a coarse curve rather than of noise.
+constexpr std::size_t fewest_deviations = 16;
+
+/// Standard deviation of the noise of a measured curve's points, Pa; 0 where they are too few to tell. From
+/// the deviation that one point in ten exceeds, so that a few steps do not count as noise, nor a quiet
+/// stretch before the pulse hides it.
 double noise_of(const Load& load) {
   constexpr double exceeded_by_a_tenth = 1.645;  // standard deviations of a normal distribution
   std::vector<double> deviations;
   for (std::size_t i = 2; i + 2 < load.curve_time.size(); ++i)
     if (load.curve_time[i] >= 0.0 && load.curve_time[i] <= load.duration)
       deviations.push_back(deviation_from_neighbours(load, i));
-  if (deviations.empty()) return 0.0;
+  if (deviations.size() < fewest_deviations) return 0.0;
   const auto ninth = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() * 9 / 10);
   std::nth_element(deviations.begin(), ninth, deviations.end());
   return *ninth / exceeded_by_a_tenth;
@@ -133,7 +139,8 @@ double load_roughness(const Load& load) {
   const double scale =
       stated / std::max(*std::max_element(load.curve_pressure.begin(), load.curve_pressure.end()), 1e-300);
   const double noise = scale * noise_of(load) * share_left_by_smoothing(load);
-  const double least_swing = std::max(least_swing_share * stated, deviations_of_a_swing * noise);
+  const double least_swing =
+      std::clamp(deviations_of_a_swing * noise, least_swing_share * stated, largest_swing_share * stated);
   // A load that only swings less than that has a noiseless one that cannot be told from a constant.
   const double noiseless =
       std::max(work_along(without_small_swings(pressures, least_swing)), 0.5 * least_swing * least_swing);
@@ -150,6 +157,8 @@ double peak_lost_to_smoothing(const Load& load) {
 }
 
 std::optional<double> suggested_smoothing(const Load& load) {
+  constexpr std::size_t most_points = 100'000;  // more take longer than a suggestion is worth
+  if (load.curve_time.size() > most_points) return std::nullopt;
   if (load_roughness(load) < least_roughness) return std::nullopt;
   const double length = load.curve_time.back() - load.curve_time.front();
   Load smoothed = load;

@@ -109,9 +109,9 @@ class CurveProgram : public Program {
 };
 
 TEST_F(CurveProgram, ReadsAByteOrderMarkDecimalCommasAndOtherUnits) {
-  for (const std::string& curve : {"\xEF\xBB\xBFTime (ms);Pressure (MPa)\r\n0;0\r\n0,02;40,5\r\n0,05;10\r\n",
-                                   "time_us,pressure_bar\n0,0\n20,405\n50,100\n",
-                                   "t [ms]\tp [psi]\r0\t0\r0.02\t5874.03\r0.05\t1450.38\r"}) {
+  for (const char* curve : {"\xEF\xBB\xBFTime (ms);Pressure (MPa)\r\n0;0\r\n0,02;40,5\r\n0,05;10\r\n",
+                            "time_us,pressure_bar\n0,0\n20,405\n50,100\n",
+                            "t [ms]\tp [psi]\r0\t0\r0.02\t5874.03\r0.05\t1450.38\r"}) {
     const Outcome outcome = explained(curve);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("40.5 MPa"), std::string::npos) << outcome.out;

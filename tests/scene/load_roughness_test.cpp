@@ -74,7 +74,7 @@ TEST(LoadRoughness, OfASmoothCurveIsNoneHoweverManyPointsItHas) {
 TEST(LoadRoughness, OfANoisyCurveIsAboutWhatTheNoiseAdds) {
   const double noiseless = work_of(measured(2000, pulse));
   for (const double rate : {10e3, 50e3}) {
-    for (const auto& [share, least_part] : {std::pair(0.01, 0.9), {0.05, 0.65}}) {
+    for (const auto& [share, least_part] : {std::pair(0.01, 0.9), {0.05, 0.7}}) {
       const Load load = noisy(share, rate);
       const double part = (1.0 + load_roughness(load)) * noiseless / work_of(load);
       EXPECT_GT(part, least_part) << share << " " << rate;
@@ -84,7 +84,7 @@ TEST(LoadRoughness, OfANoisyCurveIsAboutWhatTheNoiseAdds) {
 }
 
 TEST(LoadRoughness, GrowsWithNoiseAndWithItsRate) {
-  EXPECT_GT(load_roughness(noisy(0.01, 10e3)), 0.3);
+  EXPECT_GT(load_roughness(noisy(0.01, 10e3)), 0.2);
   EXPECT_GT(load_roughness(noisy(0.05, 10e3)), 2.0 * load_roughness(noisy(0.01, 10e3)));
   EXPECT_GT(load_roughness(noisy(0.05, 50e3)), 2.0 * load_roughness(noisy(0.01, 50e3)));
   EXPECT_GT(load_roughness(noisy(0.01, 50e3)), 2.0 * load_roughness(noisy(0.01, 10e3)));

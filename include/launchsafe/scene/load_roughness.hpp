@@ -20,18 +20,19 @@ inline constexpr double least_roughness = 0.01;
 /// launch, the literal friction closure heats with this integral, so that a share roughness / (1 + roughness)
 /// of the rise is false.
 ///
-/// Without noise means without swings that are smaller than six standard deviations of the measured points
+/// Without noise means without swings that are smaller than eight standard deviations of the measured points
 /// about a cubic through their four neighbours, or than a hundredth of the peak: humps and steps that are
 /// larger, or take more points than these, are pressure. A swing that is left out wrongly adds less than
-/// twice the threshold over the peak. Of strong noise the extremes stay in, which makes the roughness
-/// smaller: 5 % of the peak by about a fifth.
+/// twice the threshold over the peak. The extremes of strong noise stay in, so that the integral without
+/// noise is too large, by some 5 % for noise of 1 % of the peak, by a quarter for 5 %.
 double load_roughness(const Load& load);
 
 /// Share of the largest pressure of a measured curve that its smoothing takes away; 0 without smoothing.
 double peak_lost_to_smoothing(const Load& load);
 
 /// The shortest window (s) of some that leaves a measured curve with less than `least_roughness`; nothing
-/// where the curve is not rough or no window helps.
+/// where the curve is not rough, no window helps, or a curve of more than 100 000 points would take long to
+/// try.
 std::optional<double> suggested_smoothing(const Load& load);
 
 /// What is to be known of a measured curve, for people: what smoothing takes from it, and its roughness;
