@@ -22,7 +22,7 @@ TEST_F(Reach, ARunThatCouldNotEndIsRefusedWithKeyAndReason) {
   EXPECT_TRUE(slow.says("slow.toml:14:")) << slow.err;
   EXPECT_TRUE(slow.says("numerics.time_step_factor")) << slow.err;
   EXPECT_TRUE(slow.says("30 days")) << slow.err;
-  const Outcome bounded = run({"run", "shell.toml", "-o", "out", "--longest-run", "1ms"});
+  const Outcome bounded = run({"run", "shell.toml", "-o", "out", "--longest-run", "0.01ms"});
   EXPECT_EQ(bounded.code, 2) << bounded.err;
   EXPECT_TRUE(bounded.says("numerics.cell_size")) << bounded.err;
   EXPECT_FALSE(exists("out"));
@@ -44,6 +44,8 @@ TEST_F(Reach, OneCaseThatIsRefusedIsItsRow) {
   EXPECT_EQ(done_cases("out").size(), 1u);
   const Outcome foreseen = run({"study", "study.toml", "--dry-run"});
   EXPECT_EQ(foreseen.code, 0) << foreseen.err;
+  EXPECT_NE(foreseen.out.find("2 for 2 cases; 1 refused; 0 stored, 1 to run"), std::string::npos)
+      << foreseen.out;
   EXPECT_NE(foreseen.out.find("refused: numerics.time_step_factor"), std::string::npos) << foreseen.out;
 }
 
