@@ -246,7 +246,8 @@ Json to_json(const AccuracyResult& result) {
   return json;
 }
 
-store::Result<WrittenFiles> write_report(const AccuracyResult& result, const std::filesystem::path& folder) {
+store::Result<WrittenFiles> write_report(const AccuracyResult& result, const std::filesystem::path& folder,
+                                         const DrawingLimits& limits) {
   WrittenFiles written;
   std::vector<std::pair<std::string, std::string>> texts{{"accuracy.csv", to_csv(setting_table(result))},
                                                          {"reference.csv", to_csv(reference_table(result))}};
@@ -255,13 +256,14 @@ store::Result<WrittenFiles> write_report(const AccuracyResult& result, const std
   if (result.reference) texts.emplace_back("points.csv", to_csv(point_table(result)));
   if (result.reference) texts.emplace_back("accuracy.json", study::to_json_text(result.record));
   if (auto error = detail::write_texts(folder, texts, written)) return *error;
-  const auto picture = detail::write_picture(error_plot(result), folder, "error_against_time.svg", written);
+  const auto picture =
+      detail::write_picture(error_plot(result), folder, "error_against_time.svg", written, limits);
   if (!picture) return picture.error();
   const std::string page = to_markdown(result, *picture) + detail::missing_picture_text(*picture);
   if (auto error = detail::write_texts(folder,
                                        {{"report.md", page},
                                         {"summary.md", summary(result)},
-                                        {"study.json", to_json(result).dump(2) + "\n"}},
+                                        {"study.json", detail::json_file_text(to_json(result))}},
                                        written)) {
     return *error;
   }

@@ -265,7 +265,7 @@ store::Result<WrittenFiles> write_report(const CalibrationResult& result,
                                        {{"calibration.csv", to_csv(calibration_table(result))},
                                         {"hold_outs.csv", to_csv(all_hold_outs(result))},
                                         {"report.md", to_markdown(result)},
-                                        {"study.json", to_json(result).dump(2) + "\n"}},
+                                        {"study.json", detail::json_file_text(to_json(result))}},
                                        written)) {
     return *error;
   }

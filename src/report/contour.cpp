@@ -270,13 +270,15 @@ std::string to_gnuplot(const Contour& contour) {
   return text + elements.data + fmt::format("plot {}\n", fmt::join(elements.plots, ", \\\n     "));
 }
 
-store::Result<std::string> to_svg(const Contour& contour, const std::string& program) {
+store::Result<std::string> to_svg(const Contour& contour, const std::string& program,
+                                  const DrawingLimits& limits) {
   if (const store::MaybeError error = unfit(contour)) return *error;
-  return detail::drawn(program, to_gnuplot(contour), contour.title);
+  return detail::drawn(program, to_gnuplot(contour), contour.title, limits);
 }
 
-store::MaybeError write_svg(const Contour& contour, const std::filesystem::path& path) {
-  const auto svg = to_svg(contour);
+store::MaybeError write_svg(const Contour& contour, const std::filesystem::path& path,
+                            const DrawingLimits& limits) {
+  const auto svg = to_svg(contour, "gnuplot", limits);
   if (!svg) return svg.error();
   return store::write_file_atomically(path, {*svg});
 }

@@ -131,8 +131,8 @@ Plot temperature_plot(const CriticalGapResult& result) {
   return plot;
 }
 
-store::Result<WrittenFiles> write_report(const CriticalGapResult& result,
-                                         const std::filesystem::path& folder) {
+store::Result<WrittenFiles> write_report(const CriticalGapResult& result, const std::filesystem::path& folder,
+                                         const DrawingLimits& limits) {
   WrittenFiles written;
   const Table verdicts = verdict_table(result);
   if (auto error = detail::write_texts(
@@ -144,11 +144,12 @@ store::Result<WrittenFiles> write_report(const CriticalGapResult& result,
     if (auto error = detail::write_case(folder, outcome.input, outcome.result, outcome.start_time, written))
       return *error;
   }
-  const auto picture = detail::write_picture(temperature_plot(result), folder, "temperature.svg", written);
+  const auto picture =
+      detail::write_picture(temperature_plot(result), folder, "temperature.svg", written, limits);
   if (!picture) return picture.error();
   const std::string page = to_markdown(result, *picture) + detail::missing_picture_text(*picture);
   if (auto error = detail::write_texts(
-          folder, {{"report.md", page}, {"study.json", to_json(result).dump(2) + "\n"}}, written)) {
+          folder, {{"report.md", page}, {"study.json", detail::json_file_text(to_json(result))}}, written)) {
     return *error;
   }
   return written;

@@ -1,6 +1,7 @@
 // What all pictures share: texts, numbers, ranges and axes in gnuplot's words, and calling it.
 #pragma once
 
+#include "launchsafe/report/drawing_limits.hpp"
 #include "launchsafe/report/plot.hpp"
 
 #include <cstddef>
@@ -44,6 +45,6 @@ std::string legend_below(int height, std::size_t entries, double centre);
 
 /// Runs gnuplot on commands. Errors: missing, failed; `title` is named in both.
 store::Result<std::string> drawn(const std::string& program, const std::string& commands,
-                                 const std::string& title);
+                                 const std::string& title, const DrawingLimits& limits);
 
 }  // namespace launchsafe::report::detail

@@ -48,6 +48,8 @@ std::string exact(double value) {
 std::string duration(double seconds) {
   if (std::string text = not_finite(seconds); !text.empty()) return text;
   if (seconds < 9.95) return fixed(seconds, 1) + " s";
+  constexpr double countless = 1e12;
+  if (seconds > countless) return fmt::format("{:.3g} d", seconds / 86400.0);
   const auto whole = static_cast<long long>(std::llround(seconds));
   constexpr long long minute = 60, hour = 60 * minute, day = 24 * hour;
   if (whole < minute) return fmt::format("{} s", whole);

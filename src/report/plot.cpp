@@ -226,13 +226,14 @@ std::string to_gnuplot(const Plot& plot) {
   return text + plot_command(plot);
 }
 
-store::Result<std::string> to_svg(const Plot& plot, const std::string& program) {
+store::Result<std::string> to_svg(const Plot& plot, const std::string& program, const DrawingLimits& limits) {
   if (const store::MaybeError error = unfit(plot)) return *error;
-  return detail::drawn(program, to_gnuplot(plot), plot.title);
+  return detail::drawn(program, to_gnuplot(plot), plot.title, limits);
 }
 
-store::MaybeError write_svg(const Plot& plot, const std::filesystem::path& path) {
-  const auto svg = to_svg(plot);
+store::MaybeError write_svg(const Plot& plot, const std::filesystem::path& path,
+                            const DrawingLimits& limits) {
+  const auto svg = to_svg(plot, "gnuplot", limits);
   if (!svg) return svg.error();
   return store::write_file_atomically(path, {*svg});
 }

@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <system_error>
+#include <thread>
 
 namespace launchsafe::report {
 namespace {
@@ -35,6 +40,11 @@ class MemoryFile {
       written += static_cast<std::size_t>(part);
     }
     return ::lseek(number_, 0, SEEK_SET) == 0;
+  }
+
+  std::int64_t size() const {
+    struct stat status {};
+    return ::fstat(number_, &status) == 0 ? status.st_size : 0;
   }
 
   std::string content() const {
@@ -66,7 +76,7 @@ pid_t start(const std::string& program, const std::vector<std::string>& argument
   ::posix_spawn_file_actions_adddup2(&actions, input.number(), STDIN_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, output.number(), STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, errors.number(), STDERR_FILENO);
-  // In a group of its own: Ctrl-C is for us, and a picture that is being drawn is finished.
+  // In a group of its own: Ctrl-C is for us, and whatever it starts can be ended with it.
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -79,7 +89,35 @@ pid_t start(const std::string& program, const std::vector<std::string>& argument
   return error_number == 0 ? process : -error_number;
 }
 
-bool exits_with_success(pid_t process) {
+/// Whether it has ended. It is not reaped, so that its number, which is that of its group, stays taken.
+bool has_ended(pid_t process) {
+  siginfo_t info{};
+  return ::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         info.si_pid == process;
+}
+
+/// Waits for the end. Why it must not go on, or nothing once it has ended.
+std::string wait_for_end(pid_t process, const DrawingLimits& limits, const MemoryFile& output,
+                         const MemoryFile& errors) {
+  using namespace std::chrono_literals;
+  const auto start = std::chrono::steady_clock::now();
+  auto pause = 1ms;
+  while (!has_ended(process)) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    if (limits.stop != nullptr && limits.stop->load()) return "the program was asked to stop";
+    if (elapsed.count() > limits.time)
+      return fmt::format("it was not done after {:.3g} s and was ended", limits.time);
+    if (std::max(output.size(), errors.size()) > most_program_output)
+      return fmt::format("it wrote more than {} MiB and was ended", most_program_output >> 20);
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, 20ms);
+  }
+  return {};
+}
+
+/// Ends what is left of its group, and tells whether it exited with success.
+bool end_group(pid_t process) {
+  ::kill(-process, SIGKILL);
   int status = 0;
   while (::waitpid(process, &status, 0) < 0) {
     if (errno != EINTR) return false;
@@ -90,8 +128,8 @@ bool exits_with_success(pid_t process) {
 }  // namespace
 
 store::Result<ProgramOutput> run_program(const std::string& program,
-                                         const std::vector<std::string>& arguments,
-                                         const std::string& input) {
+                                         const std::vector<std::string>& arguments, const std::string& input,
+                                         const DrawingLimits& limits) {
   MemoryFile in("input"), out("output"), errors("errors");
   if (!in.is_open() || !out.is_open() || !errors.is_open() || !in.fill(input)) {
     return store::Error{store::Error::Kind::failed,
@@ -103,7 +141,9 @@ store::Result<ProgramOutput> run_program(const std::string& program,
     return store::Error{
         kind, fmt::format("cannot start {}: {}", program, std::generic_category().message(-process))};
   }
-  const bool succeeded = exits_with_success(process);
+  const std::string ended = wait_for_end(process, limits, out, errors);
+  const bool succeeded = end_group(process);
+  if (!ended.empty()) return store::Error{store::Error::Kind::failed, fmt::format("{}: {}", program, ended)};
   return ProgramOutput{out.content(), errors.content(), succeeded};
 }
 

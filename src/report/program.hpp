@@ -1,8 +1,10 @@
 // Calling another program.
 #pragma once
 
+#include "launchsafe/report/drawing_limits.hpp"
 #include "launchsafe/store/result.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,9 +15,15 @@ struct ProgramOutput {
   bool succeeded = false;      ///< it exited with code 0
 };
 
+/// Bytes that a program may write on stdout, and on stderr.
+inline constexpr std::int64_t most_program_output = 64 << 20;
+
 /// Runs a program (found in PATH, no shell) to its end with `input` on its stdin. Input and output go through
-/// files in memory: no pipe can block or break. Errors: missing, failed (it could not be started).
+/// files in memory: no pipe can block or break. It ends with all that it started in its process group: when
+/// it exits, when a limit is reached, or when it writes more than `most_program_output`. Errors: missing,
+/// failed (it could not be started, or was ended).
 store::Result<ProgramOutput> run_program(const std::string& program,
-                                         const std::vector<std::string>& arguments, const std::string& input);
+                                         const std::vector<std::string>& arguments, const std::string& input,
+                                         const DrawingLimits& limits = {});
 
 }  // namespace launchsafe::report

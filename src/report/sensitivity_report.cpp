@@ -138,12 +138,13 @@ std::string picture_name(const OutputSensitivity& output) {
 
 /// Draws the picture of every output that has indices; a missing gnuplot is a remark.
 store::MaybeError write_pictures(const SensitivityResult& result, const std::filesystem::path& folder,
-                                 WrittenFiles& written, std::vector<std::string>& names) {
+                                 WrittenFiles& written, std::vector<std::string>& names,
+                                 const DrawingLimits& limits) {
   for (const OutputSensitivity& output : result.outputs) {
     names.emplace_back();
     if (!detail::has_indices(result, output)) continue;
     const std::string name = picture_name(output);
-    const auto error = write_svg(sensitivity_plot(result, output), folder / name);
+    const auto error = write_svg(sensitivity_plot(result, output), folder / name, limits);
     if (error && error->kind == store::Error::Kind::write_failed) return error;
     if (error) {
       written.remarks.push_back("no picture: " + error->message);
@@ -187,8 +188,8 @@ std::string to_markdown(const SensitivityResult& result, const std::vector<std::
   return text;
 }
 
-store::Result<WrittenFiles> write_report(const SensitivityResult& result,
-                                         const std::filesystem::path& folder) {
+store::Result<WrittenFiles> write_report(const SensitivityResult& result, const std::filesystem::path& folder,
+                                         const DrawingLimits& limits) {
   WrittenFiles written;
   if (auto error = detail::write_texts(folder,
                                        {{"sensitivity.csv", to_csv(sensitivity_table(result))},
@@ -197,12 +198,12 @@ store::Result<WrittenFiles> write_report(const SensitivityResult& result,
     return *error;
   }
   std::vector<std::string> names;
-  if (auto error = write_pictures(result, folder, written, names)) return *error;
+  if (auto error = write_pictures(result, folder, written, names, limits)) return *error;
   std::string page = to_markdown(result, names);
   if (!written.remarks.empty())
     page += "\nNot all pictures are here: gnuplot was not found or failed when this page was made.\n";
   if (auto error = detail::write_texts(
-          folder, {{"report.md", page}, {"study.json", to_json(result).dump(2) + "\n"}}, written)) {
+          folder, {{"report.md", page}, {"study.json", detail::json_file_text(to_json(result))}}, written)) {
     return *error;
   }
   return written;

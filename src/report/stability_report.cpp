@@ -103,7 +103,7 @@ store::Result<WrittenFiles> write_report(const StabilityResult& result, const st
                                        {{"stability.csv", to_csv(stability_table(result))},
                                         {"launches.csv", to_csv(launch_table(result))},
                                         {"report.md", to_markdown(result)},
-                                        {"study.json", to_json(result).dump(2) + "\n"}},
+                                        {"study.json", detail::json_file_text(to_json(result))}},
                                        written)) {
     return *error;
   }

@@ -103,6 +103,10 @@ nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
+std::string json_file_text(const nlohmann::ordered_json& object) {
+  return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 std::string centimetres(double length) { return fmt::format("{:.6g} cm", 100.0 * length); }
 
 std::string case_file_name(const study::StudyCase& input) {
@@ -127,8 +131,9 @@ store::MaybeError write_case(const std::filesystem::path& folder, const study::S
 }
 
 store::Result<std::string> write_picture(const Plot& plot, const std::filesystem::path& folder,
-                                         const std::string& name, WrittenFiles& written) {
-  if (auto error = write_svg(plot, folder / name)) {
+                                         const std::string& name, WrittenFiles& written,
+                                         const DrawingLimits& limits) {
+  if (auto error = write_svg(plot, folder / name, limits)) {
     if (error->kind == store::Error::Kind::write_failed) return *error;
     written.remarks.push_back("no picture: " + error->message);
     return std::string{};
@@ -139,7 +144,7 @@ store::Result<std::string> write_picture(const Plot& plot, const std::filesystem
 
 std::string missing_picture_text(const std::string& picture) {
   if (!picture.empty()) return {};
-  return "\nThere is no picture: gnuplot was not found or failed when this page was made.\n";
+  return "\nThere is no picture: gnuplot was not found, failed or took too long when this page was made.\n";
 }
 
 store::MaybeError write_texts(const std::filesystem::path& folder,

@@ -33,6 +33,8 @@ nlohmann::ordered_json timing_json(const study::Timing& timing);
 std::string limiters_text(const run::LimiterCounts& limiters);
 /// A number, or null where it is not finite.
 nlohmann::ordered_json number(double value);
+/// An object as a file holds it. What is not UTF-8, such as an odd name of a file, is replaced.
+std::string json_file_text(const nlohmann::ordered_json& object);
 /// A length in cm as people read it, six digits.
 std::string centimetres(double length);
 
@@ -43,10 +45,11 @@ store::MaybeError write_case(const std::filesystem::path& folder, const study::S
                              const run::CaseResult& result, const std::string& start_time,
                              WrittenFiles& written);
 
-/// Draws a picture into a folder, which is there. Its name, or nothing where gnuplot is missing, which is a
-/// remark. Errors: write_failed.
+/// Draws a picture into a folder, which is there. Its name, or nothing where gnuplot is missing, fails or
+/// takes too long, which is a remark. Errors: write_failed.
 store::Result<std::string> write_picture(const Plot& plot, const std::filesystem::path& folder,
-                                         const std::string& name, WrittenFiles& written);
+                                         const std::string& name, WrittenFiles& written,
+                                         const DrawingLimits& limits);
 /// What a page says that lacks its picture; empty where it has one.
 std::string missing_picture_text(const std::string& picture);
 

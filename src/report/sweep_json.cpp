@@ -123,12 +123,13 @@ Json to_json(const SweepResult& result) {
 
 std::string detail::json_text(const SweepResult& result) {
   const auto keys = shown_axes(result.study.study);
-  std::string text = head_json(result).dump(2);
-  text.resize(text.rfind('\n'));  // open the object again
+  std::string text = json_file_text(head_json(result));
+  text.resize(text.rfind("\n}"));  // open the object again
   text += ",\n  \"cases\": [";
   for (std::size_t i = 0; i < cases_of(result); ++i) {
     text += i == 0 ? "\n    " : ",\n    ";
-    text += case_json(keys, result.study.cases[i], result.answers[i]).dump();
+    text += case_json(keys, result.study.cases[i], result.answers[i])
+                .dump(-1, ' ', false, Json::error_handler_t::replace);
   }
   return text + "\n  ]\n}\n";
 }

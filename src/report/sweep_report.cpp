@@ -137,12 +137,13 @@ std::string matrix_text(const SweepResult& result) {
 
 /// Draws all pictures into a folder; a missing gnuplot is a remark.
 store::MaybeError write_pictures(const SweepPictures& pictures, const std::filesystem::path& folder,
-                                 WrittenFiles& written, std::vector<std::string>& names) {
+                                 WrittenFiles& written, std::vector<std::string>& names,
+                                 const DrawingLimits& limits) {
   const std::size_t count = pictures.maps.size() + (pictures.curve ? 1 : 0);
   for (std::size_t i = 0; i < count; ++i) {
     const std::string name = i == 0 ? "critical_gap.svg" : fmt::format("critical_gap_{}.svg", i + 1);
-    auto error = i < pictures.maps.size() ? write_svg(pictures.maps[i], folder / name)
-                                          : write_svg(*pictures.curve, folder / name);
+    auto error = i < pictures.maps.size() ? write_svg(pictures.maps[i], folder / name, limits)
+                                          : write_svg(*pictures.curve, folder / name, limits);
     if (error && error->kind == store::Error::Kind::write_failed) return error;
     if (error) {
       written.remarks.push_back("no picture: " + error->message);
@@ -187,7 +188,8 @@ std::string to_markdown(const SweepResult& result, const std::vector<std::string
   return text;
 }
 
-store::Result<WrittenFiles> write_report(const SweepResult& result, const std::filesystem::path& folder) {
+store::Result<WrittenFiles> write_report(const SweepResult& result, const std::filesystem::path& folder,
+                                         const DrawingLimits& limits) {
   WrittenFiles written;
   Table gaps = critical_gap_table(result);
   for (std::string& note : detail::mesh_notes(result.study)) gaps.notes.push_back(std::move(note));
@@ -200,7 +202,7 @@ store::Result<WrittenFiles> write_report(const SweepResult& result, const std::f
   }
   std::vector<std::string> names;
   const SweepPictures drawn = pictures(result);
-  if (auto error = write_pictures(drawn, folder, written, names)) return *error;
+  if (auto error = write_pictures(drawn, folder, written, names, limits)) return *error;
   std::string page = to_markdown(result, names);
   for (const std::string& remark : drawn.remarks) page += "\n" + remark + "\n";
   if (names.empty() && (drawn.curve || !drawn.maps.empty()))

@@ -1,6 +1,7 @@
 // An accuracy study as tables, pages, JSON, a picture, and the record for other studies.
 #pragma once
 
+#include "launchsafe/report/drawing_limits.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/report/written_files.hpp"
@@ -36,6 +37,7 @@ std::string summary(const study::AccuracyResult& result);
 /// record), summary.md, report.md and study.json into a folder, which is made. Errors: conflict,
 /// write_failed.
 store::Result<WrittenFiles> write_report(const study::AccuracyResult& result,
-                                         const std::filesystem::path& folder);
+                                         const std::filesystem::path& folder,
+                                         const DrawingLimits& limits = {});
 
 }  // namespace launchsafe::report

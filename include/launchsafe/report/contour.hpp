@@ -38,9 +38,11 @@ std::string to_gnuplot(const Contour& contour);
 
 /// The picture. Errors: missing (there is no such program), failed (values that do not fit the grid, nothing
 /// to draw, gnuplot's own complaint).
-store::Result<std::string> to_svg(const Contour& contour, const std::string& program = "gnuplot");
+store::Result<std::string> to_svg(const Contour& contour, const std::string& program = "gnuplot",
+                                  const DrawingLimits& limits = {});
 
 /// Draws into a file, whole or not at all. Errors: those of `to_svg`, and write_failed.
-store::MaybeError write_svg(const Contour& contour, const std::filesystem::path& path);
+store::MaybeError write_svg(const Contour& contour, const std::filesystem::path& path,
+                            const DrawingLimits& limits = {});
 
 }  // namespace launchsafe::report

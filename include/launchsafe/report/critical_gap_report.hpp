@@ -1,6 +1,7 @@
 // A critical-gap study as tables, pages, JSON and a picture.
 #pragma once
 
+#include "launchsafe/report/drawing_limits.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/report/written_files.hpp"
@@ -35,6 +36,7 @@ Plot temperature_plot(const study::CriticalGapResult& result);
 /// Writes verdicts.csv, verdicts.md, study.json, report.md, temperature.svg and one case file for every
 /// mechanical run into a folder, which is made. Errors: conflict, write_failed.
 store::Result<WrittenFiles> write_report(const study::CriticalGapResult& result,
-                                         const std::filesystem::path& folder);
+                                         const std::filesystem::path& folder,
+                                         const DrawingLimits& limits = {});
 
 }  // namespace launchsafe::report

@@ -1,6 +1,7 @@
 // Plots as values, drawn by gnuplot as SVG.
 #pragma once
 
+#include "launchsafe/report/drawing_limits.hpp"
 #include "launchsafe/store/result.hpp"
 
 #include <filesystem>
@@ -87,9 +88,11 @@ std::string to_gnuplot(const Plot& plot);
 /// The picture. Points that are not finite, or not positive on a logarithmic axis, are gaps. Errors: missing
 /// (there is no such program), failed (a series whose x and y differ in length, nothing to draw, gnuplot's
 /// own complaint).
-store::Result<std::string> to_svg(const Plot& plot, const std::string& program = "gnuplot");
+store::Result<std::string> to_svg(const Plot& plot, const std::string& program = "gnuplot",
+                                  const DrawingLimits& limits = {});
 
 /// Draws into a file, whole or not at all. Errors: those of `to_svg`, and write_failed.
-store::MaybeError write_svg(const Plot& plot, const std::filesystem::path& path);
+store::MaybeError write_svg(const Plot& plot, const std::filesystem::path& path,
+                            const DrawingLimits& limits = {});
 
 }  // namespace launchsafe::report

@@ -2,6 +2,7 @@
 // same study: no times, rates, dates or hosts.
 #pragma once
 
+#include "launchsafe/report/drawing_limits.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/report/written_files.hpp"
@@ -35,6 +36,7 @@ std::string to_markdown(const study::SensitivityResult& result, const std::vecto
 /// Writes sensitivity.csv, evaluations.csv, sensitivity_OUTPUT.svg for every output with indices, report.md
 /// and study.json into a folder, which is made. Errors: conflict, write_failed.
 store::Result<WrittenFiles> write_report(const study::SensitivityResult& result,
-                                         const std::filesystem::path& folder);
+                                         const std::filesystem::path& folder,
+                                         const DrawingLimits& limits = {});
 
 }  // namespace launchsafe::report

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "launchsafe/report/contour.hpp"
+#include "launchsafe/report/drawing_limits.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/report/written_files.hpp"
 #include "launchsafe/study/sweep.hpp"
@@ -42,6 +43,7 @@ std::string to_markdown(const study::SweepResult& result, const std::vector<std:
 /// Writes critical_gaps.csv, critical_gaps.md, verdicts.csv, critical_gap.svg (critical_gap_2.svg, ...),
 /// report.md and study.json into a folder, which is made. Errors: conflict, write_failed.
 store::Result<WrittenFiles> write_report(const study::SweepResult& result,
-                                         const std::filesystem::path& folder);
+                                         const std::filesystem::path& folder,
+                                         const DrawingLimits& limits = {});
 
 }  // namespace launchsafe::report
