@@ -129,7 +129,9 @@ class Runner {
       }
       // The last step ends on the duration; the one before shares what is left, so that neither is tiny.
       const double remaining = duration - simulation_.time();
-      advance(remaining <= time_step ? remaining : std::min(time_step, 0.5 * remaining));
+      const double dt = remaining <= time_step ? remaining : std::min(time_step, 0.5 * remaining);
+      check_step(dt);
+      if (result_.status == RunStatus::completed) advance(dt);
     }
     take_monitor_sample(time_step);
     if (result_.status == RunStatus::completed) check_energy(energy_of(simulation_));
@@ -156,7 +158,7 @@ class Runner {
       recorder_.sample(simulation_);
       if (surface_) surface_->record(recorder_);
       heat_.advance_to(simulation_, time);
-      while (next_sample_ <= time) next_sample_ += scene.output.trace_interval;
+      next_sample_ = next_time(next_sample_, scene.output.trace_interval, time);
     }
     while (next_snapshot_ < scene.output.snapshot_times.size() &&
            time >= scene.output.snapshot_times[next_snapshot_]) {
@@ -164,6 +166,18 @@ class Runner {
       ++next_snapshot_;
     }
     if (time >= next_monitor_ && !last) take_monitor_sample(dt);
+  }
+
+  /// The first of the times `next`, `next` + `interval`, ... after `time`. Intervals much shorter than a step
+  /// are as good as none: then it is `time`, which every later step reaches.
+  static double next_time(double next, double interval, double time) {
+    constexpr double most_in_a_step = 1000.0;
+    if (time - next > most_in_a_step * interval) return time;
+    while (next <= time) {
+      if (!(next + interval > next)) return time;
+      next += interval;
+    }
+    return next;
   }
 
   bool finished() const {
@@ -187,6 +201,15 @@ class Runner {
       last_report_ = Clock::now();
       options_.progress(simulation_.time() / simulation_.scene().load.duration);
     }
+  }
+
+  /// Steps so short would not end the launch, or no longer move the time at all.
+  void check_step(double dt) {
+    constexpr double shortest_share = 1e-15;
+    if (dt >= shortest_share * simulation_.scene().load.duration) return;
+    stop({std::isnan(dt) ? RunStatus::non_finite : RunStatus::time_step_collapse,
+          fmt::format("at t = {:.6g} ms: with steps of {:.3g} s the launch would not end{}",
+                      1e3 * simulation_.time(), dt, step_remark(simulation_.scene()))});
   }
 
   void check_energy(const EnergyBalance& energy) {

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace launchsafe::scene {
 namespace {
@@ -15,8 +17,14 @@ bool has_charge(const Scene& scene) {
 
 }  // namespace
 
+std::int64_t counted(double count) {
+  return count < static_cast<double>(most_counted) ? static_cast<std::int64_t>(count) : most_counted;
+}
+
 int parts_of(double length, double part) {
-  return std::max(1, static_cast<int>(std::ceil(length / part - 1e-9)));
+  const double parts = std::ceil(length / part - 1e-9);
+  assert(parts < std::numeric_limits<int>::max());
+  return std::max(1, static_cast<int>(parts));
 }
 
 Mesh fit_mesh(const Scene& scene) {

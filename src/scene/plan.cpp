@@ -148,13 +148,13 @@ void count_work(const Scene& scene, const Mesh& mesh, Plan& plan) {
                parts_of(all.r_end - all.r_begin, mesh.dr);
   plan.time_step = scene.numerics.time_step_factor * std::min(mesh.dx, mesh.dr) / longitudinal_speed(scene) *
                    std::sqrt(scene.numerics.inertial_scaling);
-  plan.steps = static_cast<std::int64_t>(std::ceil(scene.load.duration / plan.time_step - 1e-9));
+  const double steps = std::ceil(scene.load.duration / plan.time_step - 1e-9);
+  plan.steps = counted(steps);
   // Measured: a sub-step costs as much as 1.4 whole updates of a particle.
   constexpr double updates_per_substep = 1.4;
   const double substeps = plan.particles_charge > 0 ? crack_substeps(scene, plan.time_step) : 0.0;
-  plan.work = static_cast<double>(plan.steps) *
-              (static_cast<double>(plan.particles()) +
-               updates_per_substep * substeps * static_cast<double>(plan.particles_charge));
+  plan.work = steps * (static_cast<double>(plan.particles()) +
+                       updates_per_substep * substeps * static_cast<double>(plan.particles_charge));
   plan.memory = bytes_per_steel_particle * static_cast<double>(plan.particles_steel) +
                 bytes_per_charge_particle * static_cast<double>(plan.particles_charge) +
                 bytes_per_cell * static_cast<double>(plan.cells);

@@ -74,6 +74,7 @@ std::string physics_text(const Plan& plan) {
 std::string duration_text(double seconds) {
   if (seconds < 100.0) return fmt::format("{:.1f} s", seconds);
   if (seconds < 6000.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  if (!(seconds < 1e9)) return fmt::format("{:.3g} days", seconds / 86400.0);
   return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
@@ -88,7 +89,7 @@ std::string cost_text(const Plan& plan, const Scene& scene, double update_rate) 
   text += row("time step",
               fmt::format("{} at rest, sound at {:.2f} m/s", format_quantity(plan.time_step, Dimension::time),
                           longitudinal_speed(scene)));
-  text += row("steps", fmt::format("{}", plan.steps));
+  text += row("steps", plan.steps < most_counted ? fmt::format("{}", plan.steps) : "too many to count");
   text += row("memory", fmt::format("about {:.3g} MB", plan.memory / 1e6));
   if (update_rate > 0.0) {
     text += row("time", fmt::format("about {} at {:.3g} particle updates per second",

@@ -54,7 +54,7 @@ AccuracyMeasurement measure(const Study& study, const StudyCase& input, const Ca
   measured.wall_time = mechanics.wall_time;
   measured.processor_time = mechanics.processor_time > 0 ? mechanics.processor_time : mechanics.wall_time;
   measured.particle_steps = static_cast<double>(mechanics.particles) * static_cast<double>(mechanics.steps);
-  measured.memory = detail::memory_of(input.scene.scene);
+  measured.memory = run::cost_of(input.scene.scene).memory();
   measured.energy_drift = answer.run.energy_drift;
   if (!measured.failure.empty()) return measured;
   measured.doubt = doubt_of(input, mechanics);

@@ -2,7 +2,6 @@
 
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/scene/mechanical_part.hpp"
-#include "launchsafe/scene/plan.hpp"
 
 #include <fmt/format.h>
 
@@ -113,20 +112,14 @@ ObtainedRun obtain(const NeededRun& needed, const StudyOptions& options,
 }
 
 double cost_of(const scene::Scene& scene) {
-  const double cost = scene::make_plan(scene).work;
+  const double cost = run::cost_of(scene).work;
   return std::isfinite(cost) ? std::max(cost, 1.0) : 1.0;
 }
 
-double memory_of(const scene::Scene& scene) {
-  // The trace keeps two friction histories a station, with a station for every particle of the bottom row.
-  const double samples = scene.load.duration / scene.output.trace_interval;
-  const double row = extent_of(scene, scene::BodyMaterial::charge).r_end / scene.numerics.cell_size *
-                     scene.numerics.particles_per_cell;
-  const double stations = static_cast<double>(scene.output.observation_points.size()) + row;
-  const double histories = 8.0 * samples * (6.0 + stations * trace::traced_closures);
-  // While it is stored, a result exists a few times: as it is, as the image of its file, and being written.
-  constexpr double copies = 4.0;
-  return scene::make_plan(scene).memory + copies * histories;
+std::string refusal_of(const NeededRun& needed, const StudyOptions& options) {
+  if (!options.compute) return {};
+  const auto error = run::out_of_reach(*needed.scene, {.longest_run = options.longest_run});
+  return error ? error->message() : std::string{};
 }
 
 Task task_of(const NeededRun& needed, const StudyOptions& options,
@@ -134,8 +127,10 @@ Task task_of(const NeededRun& needed, const StudyOptions& options,
   constexpr double reading_share = 1e-3;
   const bool stored = options.store != nullptr && options.store->holds(identity_of(needed).hash());
   const double cost = cost_of(*needed.scene);
-  if (stored) return {reading_share * cost, std::move(work), 0.0};
-  return {cost, std::move(work), memory_of(*needed.scene)};
+  if (stored) return {reading_share * cost, std::move(work), 0.0, {}};
+  if (std::string refusal = refusal_of(needed, options); !refusal.empty())
+    return {1.0, std::move(work), 0.0, std::move(refusal)};
+  return {cost, std::move(work), run::cost_of(*needed.scene).memory(), {}};
 }
 
 void note_refusal(const NeededRun& needed, const TaskOutcome& outcome, const StudyOptions& options) {

@@ -35,8 +35,8 @@ ObtainedRun obtain(const NeededRun& needed, const StudyOptions& options,
 
 /// Relative cost of a run: predicted particle updates, > 0.
 double cost_of(const scene::Scene& scene);
-/// Bytes that a run takes: particles, grid, and the histories it records.
-double memory_of(const scene::Scene& scene);
+/// Why a run that is not stored must not be begun; empty for one that may.
+std::string refusal_of(const NeededRun& needed, const StudyOptions& options);
 /// A task for one run, cheap where its result is stored.
 Task task_of(const NeededRun& needed, const StudyOptions& options,
              std::function<void(const std::function<void(double)>&)> work);

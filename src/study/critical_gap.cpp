@@ -170,8 +170,10 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
 }
 
 /// Takes back the progress of confirmations that no bracket needs.
-void expect_confirmations(const CriticalGapResult& result, ProgressTracker& tracker, bool before) {
+void expect_confirmations(const CriticalGapResult& result, const StudyOptions& options,
+                          ProgressTracker& tracker, bool before) {
   for (const CaseOutcome& outcome : result.cases) {
+    if (!detail::refusal_of(mechanics_of(outcome), options).empty()) continue;
     const double cost = 2.0 * detail::cost_of(outcome.input.scene.scene);
     if (before) {
       tracker.expect(2, cost);
@@ -195,10 +197,10 @@ CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& o
     outcome.input = study.cases[i];
     result.cases.push_back(std::move(outcome));
   }
-  if (study.study.confirm) expect_confirmations(result, tracker, true);
+  if (study.study.confirm) expect_confirmations(result, options, tracker, true);
   run_mechanics(result, ours, options, tracker);
   if (study.study.confirm) {
-    expect_confirmations(result, tracker, false);
+    expect_confirmations(result, options, tracker, false);
     run_confirmations(result, options, tracker);
   }
   for (CaseOutcome& outcome : result.cases) {

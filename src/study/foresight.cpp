@@ -126,6 +126,13 @@ double time_on(std::vector<double> times, int jobs) {
 
 }  // namespace
 
+std::optional<scene::InputError> all_out_of_reach(const StudyFile& study, const run::Reach& reach) {
+  for (const StudyCase& input : study.cases) {
+    if (!run::out_of_reach(input.scene.scene, reach)) return std::nullopt;
+  }
+  return study.cases.empty() ? std::nullopt : run::out_of_reach(study.cases.front().scene, reach);
+}
+
 Foresight foresee(const StudyFile& study, const StudyOptions& options, double update_rate) {
   Foresight foresight;
   foresight.update_rate = update_rate;
@@ -145,7 +152,7 @@ Foresight foresee(const StudyFile& study, const StudyOptions& options, double up
     run.cases = ours[i].cases.size();
     run.particles = plan.particles();
     run.steps = plan.steps;
-    run.memory = detail::memory_of(input.scene.scene);
+    run.memory = run::cost_of(input.scene.scene).memory();
     run.shard = ours[i].shard;
     run.stored = options.store != nullptr && options.store->holds(run.hash);
     run.answered = run.stored && std::all_of(ours[i].cases.begin(), ours[i].cases.end(), [&](std::size_t at) {
@@ -154,9 +161,12 @@ Foresight foresee(const StudyFile& study, const StudyOptions& options, double up
     if (run.stored) {
       run.why = run.answered ? "stored" : "stored; its gaps are judged anew";
     } else {
-      run.why = reasons.why_run(run.hash, input);
-      run.given_up = is_given_up(run.hash, options);
-      run.time = ours[i].cost / foresight.update_rate;
+      const detail::NeededRun needed{&input.scene.scene, input.label, std::nullopt};
+      const std::string refusal = detail::refusal_of(needed, options);
+      run.refused = !refusal.empty();
+      run.why = run.refused ? "refused: " + refusal : reasons.why_run(run.hash, input);
+      run.given_up = run.refused || is_given_up(run.hash, options);
+      run.time = run.given_up ? 0.0 : ours[i].cost / foresight.update_rate;
     }
   });
   std::vector<double> times, memories;

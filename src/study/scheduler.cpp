@@ -96,16 +96,16 @@ class Queue {
   std::optional<std::size_t> take(const std::atomic<bool>* stop) {
     std::unique_lock lock(mutex_);
     while (!waiting_.empty() && !(stop != nullptr && stop->load(std::memory_order_relaxed))) {
-      // One that never fits is taken at once: `perform` refuses it.
+      // One that is refused is taken at once.
       const auto fits = [this](std::size_t task) {
         // Sums of rounded numbers may end a bit short of the limit that they began with.
-        return tasks_[task].memory <= free_ || running_ == 0 || too_large(task);
+        return tasks_[task].memory <= free_ || running_ == 0 || is_refused(task);
       };
       const auto found = std::find_if(waiting_.rbegin(), waiting_.rend(), fits);
       if (found != waiting_.rend()) {
         const std::size_t task = *found;
         waiting_.erase(std::next(found).base());
-        if (!too_large(task)) {
+        if (!is_refused(task)) {
           free_ -= tasks_[task].memory;
           ++running_;
         }
@@ -118,14 +118,17 @@ class Queue {
   }
 
   void give_back(std::size_t task) {
-    if (too_large(task)) return;
+    if (is_refused(task)) return;
     const std::lock_guard lock(mutex_);
     free_ += tasks_[task].memory;
     --running_;
     changed_.notify_all();
   }
 
-  bool too_large(std::size_t task) const { return tasks_[task].memory > limit_; }
+  /// It must not be begun, or does not fit even alone.
+  bool is_refused(std::size_t task) const {
+    return !tasks_[task].refusal.empty() || tasks_[task].memory > limit_;
+  }
 
  private:
   const std::vector<Task>& tasks_;
@@ -136,15 +139,13 @@ class Queue {
   std::condition_variable changed_;
 };
 
-/// For one that does not fit even alone.
+/// What fails in the place of a task that is refused.
 Task refusal(const Task& task, double limit) {
-  return {
-      task.cost,
-      [needs = task.memory, limit](const auto&) {
-        throw std::runtime_error(fmt::format("it needs about {:.3g} GB of memory, and the limit is {:.3g} GB",
-                                             1e-9 * needs, 1e-9 * limit));
-      },
-      0.0};
+  std::string why = task.refusal;
+  if (why.empty())
+    why = fmt::format("it needs about {:.3g} GB of memory, and the limit is {:.3g} GB", 1e-9 * task.memory,
+                      1e-9 * limit);
+  return {task.cost, [why](const auto&) { throw std::runtime_error(why); }, 0.0, {}};
 }
 
 }  // namespace
@@ -158,7 +159,7 @@ std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, const Resourc
   Queue queue(tasks, memory);
   const auto pull = [&] {
     while (const auto task = queue.take(stop)) {
-      perform(queue.too_large(*task) ? refusal(tasks[*task], memory) : tasks[*task], outcomes[*task],
+      perform(queue.is_refused(*task) ? refusal(tasks[*task], memory) : tasks[*task], outcomes[*task],
               tracker);
       queue.give_back(*task);
     }

@@ -162,7 +162,13 @@ SkinPoint advance(const SkinModel& model, const SkinEquation& equation, SkinPoin
   const Trigger trigger = trigger_of(model);
   const double infinity = std::numeric_limits<double>::infinity();
   Arrival at{0.0, point.temperature, false};
-  while (!point.ignited && at.time < dt) {
+  // At the trigger heating and cooling have the same sign in both phases, so that a few changes are many.
+  constexpr int most_changes = 1000;
+  for (int change = 0; !point.ignited && at.time < dt; ++change) {
+    if (change == most_changes) {
+      point.temperature = not_a_number;
+      return point;
+    }
     const Phase phase =
         at.temperature >= trigger.temperature && !trigger.immediate ? Phase::reacting : Phase::solid;
     const double target = phase == Phase::solid ? trigger.temperature : model.kinetics.burnt_temperature;

@@ -24,6 +24,13 @@ TEST(Mesh, ChargeAndRadiusAreWholeNumbersOfCells) {
   }
 }
 
+TEST(Mesh, CountsAreWholeUpToABoundThatNoComputationReaches) {
+  EXPECT_EQ(counted(0.0), 0);
+  EXPECT_EQ(counted(12345678901.0), 12345678901);
+  for (const double many : {1e15, 1e19, 1e300, HUGE_VAL, std::nan("")})
+    EXPECT_EQ(counted(many), most_counted) << many;
+}
+
 TEST(Mesh, DivisibleLengthsAreNotRoundedUp) {
   EXPECT_EQ(parts_of(0.56, 0.0025), 224);
   EXPECT_EQ(parts_of(0.3, 0.1), 3);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace launchsafe::scene {
 namespace {
@@ -97,6 +98,33 @@ TEST(Plan, TextNamesEveryTermAndItsReason) {
     EXPECT_FALSE(term.reason.empty());
     EXPECT_NE(text.find(term.reason), std::string::npos) << term.reason;
   }
+}
+
+TEST(Plan, StepsThatCannotBeCountedAreNotTakenForFew) {
+  for (const double factor : {1e-300, std::numeric_limits<double>::denorm_min()}) {
+    Scene scene = small();
+    scene.numerics.time_step_factor = factor;
+    const Plan plan = make_plan(scene);
+    EXPECT_EQ(plan.steps, most_counted);
+    EXPECT_GT(plan.work, 1e100);
+    EXPECT_GT(predicted_time(plan, 1e7), 1e90);
+    EXPECT_NE(to_text(plan, scene, 1e7).find("too many to count"), std::string::npos);
+  }
+}
+
+TEST(Plan, CountsTheParticlesOfTheFinestMesh) {
+  Scene scene = small();
+  scene.numerics.cell_size = 1e-5;
+  for (Body& body : scene.bodies) {
+    body.x_end *= 100.0;
+    body.x_begin *= 100.0;
+    body.r_end *= 100.0;
+    body.r_begin *= 100.0;
+  }
+  const Extent all = extent_of(scene);
+  // Area over that of a cell; each body is rounded up by less than a cell a side.
+  const double cells = (all.x_end - all.x_begin) * all.r_end / 1e-10;
+  EXPECT_NEAR(static_cast<double>(make_plan(scene).particles()) / cells, 1.0, 1e-4);
 }
 
 }  // namespace

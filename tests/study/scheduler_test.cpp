@@ -102,6 +102,18 @@ TEST(Scheduler, RunsNothingForNoTasks) {
   EXPECT_TRUE(run_tasks({}, {4}, tracker).empty());
 }
 
+TEST(Scheduler, ARefusedTaskFailsWithItsReasonAndTheOthersRun) {
+  int done = 0;
+  std::vector<Task> tasks{task_of(1, [&] { ++done; }), task_of(1, [&] { ++done; })};
+  tasks[0].refusal = "it would take 90 days";
+  ProgressTracker tracker({});
+  const auto outcomes = run_tasks(tasks, {1}, tracker);
+  EXPECT_EQ(done, 1);
+  EXPECT_TRUE(outcomes[0].started);
+  EXPECT_EQ(outcomes[0].failure, "it would take 90 days");
+  EXPECT_TRUE(outcomes[1].failure.empty());
+}
+
 /// Tasks that record how much memory they and those beside them take.
 struct MemoryUse {
   std::mutex mutex;

@@ -25,8 +25,15 @@ struct ParticleCount {
   std::int64_t total() const { return static_cast<std::int64_t>(nx) * nr; }
 };
 
+/// Counts beyond this are not told apart: no computation of so many parts or steps is within reach.
+inline constexpr std::int64_t most_counted = 1'000'000'000'000'000;
+
+/// A count (>= 0) as a whole number; most_counted where it is larger, infinite or no number.
+std::int64_t counted(double count);
+
 /// Smallest whole number of parts no longer than `part` that make up `length`; at least 1. A part that
 /// divides the length up to a relative 1e-9 counts as dividing it.
+/// Extents are at most 10 m and cells at least 10 um, so that the number is far below 2^31.
 int parts_of(double length, double part);
 
 /// The charge (without one, the whole scene) is a whole number of cells long and the outer radius a whole

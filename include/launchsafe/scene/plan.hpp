@@ -37,7 +37,8 @@ struct Plan {
   std::int64_t particles() const { return particles_steel + particles_charge; }
   std::int64_t cells = 0;  ///< of the fitted grid over the shell at rest
   double time_step = 0;    ///< s, at rest: CFL h/c_L, times sqrt(inertial_scaling)
-  std::int64_t steps = 0;  ///< duration over time_step; compression stiffens, so a run takes some more
+  /// Duration over time_step, most_counted at most; compression stiffens, so a run takes some more.
+  std::int64_t steps = 0;
   /// Particle updates that the run is worth: steps times particles, and more where the crack law divides its
   /// steps.
   double work = 0;

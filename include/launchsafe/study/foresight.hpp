@@ -6,6 +6,7 @@
 #include "launchsafe/study/read_study.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,12 @@ struct ForeseenRun {
   std::size_t cases = 0;
   std::int64_t particles = 0, steps = 0;
   double memory = 0;  ///< bytes
-  double time = 0;    ///< s on a core, predicted; 0 for a stored one
+  double time = 0;    ///< s on a core, predicted; 0 for one that does not run
   int shard = 1;
   bool stored = false;    ///< its result is there
   bool answered = false;  ///< and so are the answers of all its cases
   bool given_up = false;  ///< it was timed out, or failed and may not be computed: that is its row
+  bool refused = false;   ///< given up because it is out of reach (run::out_of_reach)
   std::string why;        ///< why it is used again or has to run
 };
 
@@ -35,6 +37,9 @@ struct Foresight {
   double memory = 0;              ///< bytes, of the cases that will run side by side
   int jobs = 1;
 };
+
+/// Why a study is not begun at all: every one of its cases is out of reach. The error of the first.
+std::optional<scene::InputError> all_out_of_reach(const StudyFile& study, const run::Reach& reach);
 
 /// `update_rate` (particle updates per second on a core) is used where the journal knows no better.
 Foresight foresee(const StudyFile& study, const StudyOptions& options, double update_rate);

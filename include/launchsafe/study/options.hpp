@@ -1,6 +1,7 @@
 // What the caller of a study may choose, watch and replace.
 #pragma once
 
+#include "launchsafe/run/cost.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/study/scheduler.hpp"
@@ -32,6 +33,8 @@ struct StudyOptions {
   int jobs = 0;             ///< cases at a time; <= 0: available_cores()
   double memory_limit = 0;  ///< bytes of all running cases together; <= 0: most of what is available
   double time_limit = std::numeric_limits<double>::infinity();  ///< s of wall time, of one case
+  /// s, predicted; a case that takes longer is refused (run::out_of_reach).
+  double longest_run = run::Reach{}.longest_run;
   Shard shard;  ///< the part of the mechanical runs that is ours; the others are not run
   /// Set from elsewhere (a signal handler) to stop: running cases end as interrupted, waiting ones do not
   /// start. The study sets it itself when its store can no longer be written.

@@ -52,7 +52,8 @@ double available_memory();
 struct Task {
   double cost = 1;  ///< relative, > 0
   std::function<void(const std::function<void(double)>& report_share)> work;
-  double memory = 0;  ///< bytes while it runs
+  double memory = 0;         ///< bytes while it runs
+  std::string refusal = {};  ///< why it must not be begun: that is its failure; empty for one that may
 };
 
 /// What became of one task.

@@ -1,0 +1,115 @@
+#include "launchsafe/run/cost.hpp"
+
+#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/trace/bottom_trace.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::run {
+namespace {
+
+constexpr double bytes_per_number = 8.0;
+/// While it is stored, a result exists a few times: as it is, as the image of its file, and being written.
+constexpr double copies = 4.0;
+
+/// What the trace records. It keeps two friction histories a station, with a station for every particle of
+/// the bottom row. A step is sampled once at most, however short the interval.
+struct TraceSize {
+  double samples = 0, stations = 0;
+};
+TraceSize trace_size(const scene::Scene& scene, const scene::Plan& plan) {
+  const double row = extent_of(scene, scene::BodyMaterial::charge).r_end / scene.numerics.cell_size *
+                     scene.numerics.particles_per_cell;
+  return {2.0 + std::min(scene.load.duration / scene.output.trace_interval, static_cast<double>(plan.steps)),
+          static_cast<double>(scene.output.observation_points.size()) + row};
+}
+
+double trace_memory(const TraceSize& size) {
+  constexpr double histories_of_the_bottom = 6.0;
+  return copies * bytes_per_number * size.samples *
+         (histories_of_the_bottom + size.stations * trace::traced_closures);
+}
+
+/// Time, air and skins of every gap.
+double skin_memory(const scene::Scene& scene, const TraceSize& size) {
+  return copies * bytes_per_number * static_cast<double>(scene.surface.gaps.size()) * size.samples *
+         (2.0 + size.stations);
+}
+
+double snapshot_memory(const scene::Scene& scene, const scene::Plan& plan) {
+  constexpr double numbers_per_particle = 11.0;
+  return copies * bytes_per_number * numbers_per_particle *
+         static_cast<double>(scene.output.snapshot_times.size()) * static_cast<double>(plan.particles());
+}
+
+std::string days(double seconds) { return fmt::format("{:.3g} days", seconds / 86400.0); }
+std::string gigabytes(double bytes) { return fmt::format("{:.3g} GB", 1e-9 * bytes); }
+
+/// A short step is the reason where steps as long as usual would do.
+const char* key_of_time(const scene::Scene& scene, double time, double longest) {
+  const double usual = scene::Numerics{}.time_step_factor, given = scene.numerics.time_step_factor;
+  return given < usual && time * given / usual <= longest ? "numerics.time_step_factor"
+                                                          : "numerics.cell_size";
+}
+
+const char* key_of_memory(const Cost& cost, double skins) {
+  const double largest = std::max({cost.particles, cost.trace, cost.snapshots, skins});
+  if (largest == skins) return "gap.thickness";
+  if (largest == cost.trace) return "output.trace_interval";
+  return largest == cost.snapshots ? "output.snapshots" : "numerics.cell_size";
+}
+
+}  // namespace
+
+Cost cost_of(const scene::Scene& scene) {
+  const scene::Plan plan = scene::make_plan(scene);
+  const TraceSize size = trace_size(scene, plan);
+  return {plan.work, plan.memory, trace_memory(size), snapshot_memory(scene, plan), skin_memory(scene, size)};
+}
+
+std::optional<scene::InputError> out_of_reach(const scene::Scene& scene, const Reach& reach) {
+  const Cost cost = cost_of(scene);
+  scene::InputError error;
+  // Written so that what is no number is out of reach.
+  if (!(cost.time() <= reach.longest_run) || std::isinf(cost.time())) {
+    const scene::Plan plan = scene::make_plan(scene);
+    error.key = key_of_time(scene, cost.time(), reach.longest_run);
+    error.found = fmt::format(
+        "{:.3g} particles and {} steps of {:.3g} s (sound at {:.3g} m/s), which take {} at {:.3g} million "
+        "particle updates per second",
+        static_cast<double>(plan.particles()),
+        plan.steps < scene::most_counted ? fmt::format("{}", plan.steps) : "countless", plan.time_step,
+        scene::longitudinal_speed(scene), days(cost.time()), 1e-6 * cautious_update_rate);
+    error.allowed = fmt::format(
+        "a run of at most {}; larger cells or longer steps take less, and "
+        "--longest-run allows more",
+        days(reach.longest_run));
+    return error;
+  }
+  const double skins = reach.keeps_skins ? cost.skins : 0.0;
+  if (!(cost.memory() + skins <= reach.memory)) {
+    error.key = key_of_memory(cost, skins);
+    error.found = fmt::format(
+        "a run that needs {} of memory: {} for particles and grid, {} for the trace, {} "
+        "for snapshots, {} for skin temperatures",
+        gigabytes(cost.memory() + skins), gigabytes(cost.particles), gigabytes(cost.trace),
+        gigabytes(cost.snapshots), gigabytes(skins));
+    error.allowed = fmt::format("at most {}, what this machine has left", gigabytes(reach.memory));
+    return error;
+  }
+  return std::nullopt;
+}
+
+std::optional<scene::InputError> out_of_reach(const scene::SceneFile& file, const Reach& reach) {
+  auto error = out_of_reach(file.scene, reach);
+  if (!error) return error;
+  const auto given = file.given.find(error->key);
+  const scene::Place place = given == file.given.end() ? scene::Place{file.file} : given->second.place;
+  return scene::error_at(place, error->key, error->found, error->allowed);
+}
+
+}  // namespace launchsafe::run
