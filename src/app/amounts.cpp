@@ -51,15 +51,17 @@ std::optional<double> parse_amount(std::string_view text, const std::array<UnitF
   const std::string unit = unit_in(text.substr(static_cast<std::size_t>(end - text.data())));
   const auto found =
       std::find_if(units.begin(), units.end(), [&](const UnitFactor& each) { return each.name == unit; });
-  if (found == units.end() || !std::isfinite(number) || !(number > 0)) return std::nullopt;
-  return number * found->factor;
+  if (found == units.end()) return std::nullopt;
+  const double amount = number * found->factor;
+  return std::isfinite(amount) && amount > 0 ? std::optional(amount) : std::nullopt;
 }
 
 }  // namespace
 
 std::optional<double> parse_size(std::string_view text) {
   const auto size = parse_amount(text, size_units);
-  return size && *size >= 1 ? size : std::nullopt;
+  constexpr double largest = 1e18;  // what whole numbers of bytes are counted with
+  return size && *size >= 1 && *size <= largest ? size : std::nullopt;
 }
 
 std::optional<double> parse_duration(std::string_view text) { return parse_amount(text, duration_units); }

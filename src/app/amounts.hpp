@@ -8,9 +8,9 @@
 namespace launchsafe::app {
 
 /// Bytes: "8GB", "500 MB", "1.5GiB", "8e9". kB, MB, GB and TB are powers of 1000; KiB, MiB, GiB and TiB of
-/// 1024. Nothing for any other text, and for less than a byte.
+/// 1024. Nothing for any other text, and for less than a byte or more than 1e18.
 std::optional<double> parse_size(std::string_view text);
-inline constexpr const char* allowed_sizes = "a size such as 500MB, 8GB, 1.5GiB or 8e9";
+inline constexpr const char* allowed_sizes = "a size such as 500MB, 8GB, 1.5GiB or 8e9, up to 1e18";
 
 /// Seconds: "90s", "10min", "2h", "1.5 d", "90". Nothing for any other text, and for what is not more than
 /// zero.

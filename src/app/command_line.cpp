@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <sstream>
+#include <string_view>
 
 namespace launchsafe::app {
 namespace {
@@ -31,21 +32,6 @@ void add_output_options(CLI::App& command, Parsed& parsed) {
   command.add_flag("-q,--quiet", parsed.line.quiet, "No progress and no remarks on stderr; errors remain");
 }
 
-CLI::App* add_run(CLI::App& app, Parsed& parsed) {
-  CLI::App* command =
-      app.add_subcommand("run", "Run one case: a scene in, temperatures of the charge bottom out");
-  command->add_option("scene", parsed.run.scene, "Scene file")->required()->type_name("SCENE.toml");
-  command->add_option("-o,--output", parsed.run.output, "Folder to write the HDF5 case file to")
-      ->type_name("DIR");
-  add_output_options(*command, parsed);
-  command->footer(run_footer);
-  return command;
-}
-
-void add_jobs(CLI::App& command, int& jobs, const char* meaning) {
-  command.add_option("-j,--jobs", jobs, meaning)->check(CLI::Range(1, most_jobs))->type_name("N");
-}
-
 /// An option whose text is read by `parse`.
 template <class Parse>
 void add_amount(CLI::App& command, const std::string& name, std::optional<double>& value, Parse parse,
@@ -55,6 +41,27 @@ void add_amount(CLI::App& command, const std::string& name, std::optional<double
     if (!value) throw CLI::ValidationError(name, fmt::format("found \"{}\"; allowed: {}", text, allowed));
   };
   command.add_option_function<std::string>(name, read, meaning)->type_name(type);
+}
+
+void add_longest_run(CLI::App& command, std::optional<double>& longest_run) {
+  add_amount(command, "--longest-run", longest_run, parse_duration, allowed_durations, "DURATION",
+             "Refuse a case that is predicted to take longer; 30d unless given");
+}
+
+CLI::App* add_run(CLI::App& app, Parsed& parsed) {
+  CLI::App* command =
+      app.add_subcommand("run", "Run one case: a scene in, temperatures of the charge bottom out");
+  command->add_option("scene", parsed.run.scene, "Scene file")->required()->type_name("SCENE.toml");
+  command->add_option("-o,--output", parsed.run.output, "Folder to write the HDF5 case file to")
+      ->type_name("DIR");
+  add_longest_run(*command, parsed.run.longest_run);
+  add_output_options(*command, parsed);
+  command->footer(run_footer);
+  return command;
+}
+
+void add_jobs(CLI::App& command, int& jobs, const char* meaning) {
+  command.add_option("-j,--jobs", jobs, meaning)->check(CLI::Range(1, most_jobs))->type_name("N");
 }
 
 void add_limits(CLI::App& command, std::optional<double>& memory, std::optional<double>& time_limit) {
@@ -95,6 +102,7 @@ CLI::App* add_study(CLI::App& app, Parsed& parsed) {
       ->type_name("DIR");
   add_jobs(*command, study.jobs, "Cases at a time; as many as there are processors unless given");
   add_limits(*command, study.memory, study.time_limit);
+  add_longest_run(*command, study.longest_run);
   add_shard(*command, study.shard);
   add_tolerance(*command, study.tolerance);
   command->add_flag("--dry-run", study.dry_run, "Say what would be run and at what cost; write nothing");
@@ -183,6 +191,16 @@ std::string text_of_success(const CLI::App& app, const CLI::Success& success) {
   return text.str();
 }
 
+/// Whether --json is on a command line that is not read to its end.
+bool asks_for_json(int argument_count, const char* const* arguments) {
+  for (int i = 1; i < argument_count; ++i) {
+    const std::string_view argument = arguments[i];
+    if (argument == "--") return false;
+    if (argument == "--json") return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 CommandLine parse_command_line(int argument_count, const char* const* arguments) {
@@ -202,10 +220,13 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::Success& success) {
-    line.request = Information{text_of_success(app, success)};
+    const bool version = dynamic_cast<const CLI::CallForVersion*>(&success) != nullptr;
+    line.request = Information{text_of_success(app, success), version};
+    line.json = asks_for_json(argument_count, arguments);
     return line;
   } catch (const CLI::ParseError& error) {
     line.request = UsageError{error.what()};
+    line.json = asks_for_json(argument_count, arguments);
     return line;
   }
   const std::string command = shell_command({arguments, arguments + argument_count});

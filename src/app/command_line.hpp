@@ -11,6 +11,7 @@ namespace launchsafe::app {
 /// The text that `--help` or `--version` asks for.
 struct Information {
   std::string text;
+  bool version = false;  ///< it is the version
 };
 /// Why the command line makes no sense.
 struct UsageError {
@@ -23,7 +24,7 @@ using Request = std::variant<Information, UsageError, RunArguments, StudyArgumen
 struct CommandLine {
   Request request;
   bool quiet = false;
-  bool json = false;
+  bool json = false;  ///< also where the rest of the command line makes no sense
 };
 
 CommandLine parse_command_line(int argument_count, const char* const* arguments);

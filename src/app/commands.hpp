@@ -14,21 +14,23 @@ namespace launchsafe::app {
 struct RunArguments {
   std::filesystem::path scene;
   std::optional<std::filesystem::path> output;  ///< folder of the case file; none: nothing is written
+  std::optional<double> longest_run;            ///< s, predicted; a longer one is refused
 };
 ExitCode run_command(const RunArguments& arguments, Console& console);
 
 struct StudyArguments {
   std::filesystem::path study;
-  std::filesystem::path output;      ///< folder of cases, tables and report; may be empty for a dry run
-  int jobs = 0;                      ///< threads; 0: as many as there are processors for us
-  std::optional<double> memory;      ///< bytes of all running cases together
-  std::optional<double> time_limit;  ///< s of wall time, of one case
-  study::Shard shard;                ///< the part that is ours
-  std::optional<double> tolerance;   ///< K, of T max; picks a setting from the study's accuracy record
-  bool dry_run = false;              ///< say what would be run, and run nothing
-  bool explain = false;              ///< say of every mechanical run why it runs
-  bool update = false;               ///< the folder may hold the results of an earlier study
-  std::string command;               ///< the whole command, to be repeated in a shell
+  std::filesystem::path output;       ///< folder of cases, tables and report; may be empty for a dry run
+  int jobs = 0;                       ///< threads; 0: as many as there are processors for us
+  std::optional<double> memory;       ///< bytes of all running cases together
+  std::optional<double> time_limit;   ///< s of wall time, of one case
+  std::optional<double> longest_run;  ///< s, predicted, of one case; a longer one is refused
+  study::Shard shard;                 ///< the part that is ours
+  std::optional<double> tolerance;    ///< K, of T max; picks a setting from the study's accuracy record
+  bool dry_run = false;               ///< say what would be run, and run nothing
+  bool explain = false;               ///< say of every mechanical run why it runs
+  bool update = false;                ///< the folder may hold the results of an earlier study
+  std::string command;                ///< the whole command, to be repeated in a shell
 };
 ExitCode study_command(const StudyArguments& arguments, Console& console);
 /// What `study_command` would run, and at what cost; nothing is written.

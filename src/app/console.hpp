@@ -1,9 +1,14 @@
 // Where a command's words go: results to stdout, everything else to stderr; and the exit codes.
 #pragma once
 
+#include "launchsafe/scene/input_error.hpp"
+
 #include <nlohmann/json_fwd.hpp>
 
+#include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace launchsafe::app {
 
@@ -17,31 +22,56 @@ enum class ExitCode {
   interrupted = 75
 };
 
+/// A case that came to nothing.
+struct Failure {
+  std::string label, reason;
+};
+
+/// Text goes out at once. What is wanted as JSON is collected, results and errors alike, and goes out as one
+/// object by `finish`. Nothing here fails because stderr is closed or full.
 class Console {
  public:
-  Console(bool quiet, bool json) : quiet_(quiet), json_(json) {}
+  Console(bool quiet, bool json);
+  ~Console();
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
 
   bool quiet() const { return quiet_; }
   bool json() const { return json_; }
 
   /// A text result, to stdout; nothing when the result is wanted as JSON.
   void print_text(std::string_view text);
-  /// The JSON result, to stdout; nothing unless it is wanted.
-  void print_json(const nlohmann::ordered_json& object);
-  /// Whether something could not be written to stdout. That its reader has gone is the reader's choice and no
-  /// loss.
-  bool output_lost() const { return output_lost_; }
+  /// Members of the one JSON object; nothing unless it is wanted.
+  void print_json(nlohmann::ordered_json members);
   /// A remark on stderr; nothing when quiet.
   void remark(std::string_view text) const;
-  /// An error on stderr, always.
-  void error(std::string_view text) const;
+  /// What ended the command, on stderr always, and as the member `error`.
+  void error(const std::string& message);
+  void error(const scene::InputError& error);
+  /// Cases that failed, the first of them by name on stderr, all of them as the member `failures`.
+  void failures(const std::vector<Failure>& failures);
+
+  /// Writes the JSON object, if it is wanted. To be called once, at the end. The exit code, which is `failed`
+  /// where something could not be written to stdout. That its reader has gone is the reader's choice and no
+  /// loss.
+  ExitCode finish(ExitCode code);
 
  private:
   bool quiet_;
   bool json_;
   bool output_lost_ = false;
+  std::unique_ptr<nlohmann::ordered_json> object_;
 
   void write_result(std::string_view text);
+  void add_error(const std::string& message, const scene::InputError& parts);
 };
+
+/// True from the moment that a JSON object is promised until it is about to be written: whoever ends the
+/// program early has to write one.
+bool json_is_owed();
+
+/// For the end that nothing else could be made of: one line on stderr, the JSON object where it is owed.
+/// Allocates nothing, never throws.
+ExitCode fail_at_once(const char* message);
 
 }  // namespace launchsafe::app

@@ -47,6 +47,7 @@ study::StudyOptions options_of(const StudyArguments& arguments, store::CaseStore
   options.jobs = arguments.jobs;
   options.time_limit = arguments.time_limit.value_or(options.time_limit);
   options.memory_limit = arguments.memory.value_or(options.memory_limit);
+  options.longest_run = arguments.longest_run.value_or(options.longest_run);
   options.shard = arguments.shard;
   options.store = store;
   return options;
@@ -57,7 +58,7 @@ study::StudyOptions options_of(const StudyArguments& arguments, store::CaseStore
 ExitCode dry_run_command(const StudyArguments& arguments, Console& console) {
   const auto file = study::read_study(arguments.study, {arguments.tolerance});
   if (!file) {
-    console.error(file.error().message());
+    console.error(file.error());
     return ExitCode::bad_input;
   }
   if (!file->chosen_setting.empty()) console.remark("setting: " + file->chosen_setting);

@@ -22,10 +22,6 @@ namespace {
 
 using std::filesystem::path;
 
-/// Particle updates per second on a core that a cluster is trusted to do. A third of a good machine's; no
-/// measurement, as the machine that submits is not the one that computes, and scripts stay what they were.
-constexpr double cautious_update_rate = 1e7;
-
 /// What the most demanding of a study's shards takes.
 struct ShardNeeds {
   double time = 0;       ///< s of wall time
@@ -67,7 +63,7 @@ ShardNeeds needs_of(const study::Foresight& whole, int shards, int jobs) {
     for (std::size_t i = 0; i < times.size(); ++i) {
       if (shard_of_run[i] != shard) continue;
       own_times.push_back(times[i]);
-      own_memories.push_back(whole.runs[i].memory);
+      own_memories.push_back(whole.runs[i].given_up ? 0.0 : whole.runs[i].memory);
     }
     needs.time = std::max(needs.time, time_on(own_times, jobs));
     needs.memory = std::max(needs.memory, sum_of_largest(own_memories, jobs));
@@ -101,7 +97,9 @@ SlurmStudy slurm_study(const EmitArguments& arguments, const study::StudyFile& f
   study.cases = file.cases.size();
   study.shards = arguments.shards;
   study.jobs = std::max(1, arguments.jobs);
-  study.update_rate = cautious_update_rate;
+  // No measurement, as the machine that submits is not the one that computes, and scripts stay what they
+  // were.
+  study.update_rate = run::cautious_update_rate;
   study.memory_limit = arguments.memory;
   study.time_limit = arguments.time_limit;
   study.sbatch = arguments.sbatch;
@@ -114,7 +112,7 @@ ShardNeeds foresee_needs(const study::StudyFile& file, const SlurmStudy& study) 
   return needs_of(study::foresee(file, options, study.update_rate), study.shards, study.jobs);
 }
 
-ExitCode refuse(const std::string& message, const Console& console) {
+ExitCode refuse(const std::string& message, Console& console) {
   console.error(message);
   return ExitCode::bad_input;
 }
@@ -190,7 +188,14 @@ ExitCode emit_command(const EmitArguments& arguments, Console& console) {
     return refuse(fmt::format("emit: found {}; allowed: slurm", arguments.engine), console);
   }
   const auto file = study::read_study(arguments.study);
-  if (!file) return refuse(file.error().message(), console);
+  if (!file) {
+    console.error(file.error());
+    return ExitCode::bad_input;
+  }
+  if (const auto error = study::all_out_of_reach(*file, {})) {
+    console.error(*error);
+    return ExitCode::bad_input;
+  }
   SlurmStudy study = slurm_study(arguments, *file);
   if (const auto fault = fault_of(study)) return refuse(*fault, console);
   const store::Manifest manifest = study_manifest(*file, study.jobs);

@@ -198,14 +198,15 @@ nlohmann::ordered_json error_table_json(const std::vector<MeasuredSeries>& measu
 
 store::Result<report::WrittenFiles> write_error_table(const std::vector<MeasuredSeries>& measured,
                                                       const std::string& command,
-                                                      const std::filesystem::path& folder) {
+                                                      const std::filesystem::path& folder,
+                                                      const report::DrawingLimits& limits) {
   report::WrittenFiles written;
   std::string picture = "parts.svg";
   const report::Plot plot = plot_of(measured);
   if (plot.series.empty()) {
     written.remarks.push_back("no picture: every part asked for is exact at every setting");
     picture.clear();
-  } else if (auto error = report::write_svg(plot, folder / picture)) {
+  } else if (auto error = report::write_svg(plot, folder / picture, limits)) {
     if (error->kind == store::Error::Kind::write_failed) return *error;
     written.remarks.push_back("no picture: " + error->message);
     picture.clear();

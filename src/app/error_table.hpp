@@ -2,6 +2,7 @@
 // files.
 #pragma once
 
+#include "launchsafe/report/drawing_limits.hpp"
 #include "launchsafe/report/written_files.hpp"
 #include "launchsafe/store/result.hpp"
 #include "launchsafe/verify/error_against_time.hpp"
@@ -29,6 +30,7 @@ nlohmann::ordered_json error_table_json(const std::vector<MeasuredSeries>& measu
 /// Writes parts.md, parts.csv and, where gnuplot is installed, parts.svg.
 store::Result<report::WrittenFiles> write_error_table(const std::vector<MeasuredSeries>& measured,
                                                       const std::string& command,
-                                                      const std::filesystem::path& folder);
+                                                      const std::filesystem::path& folder,
+                                                      const report::DrawingLimits& limits);
 
 }  // namespace launchsafe::app

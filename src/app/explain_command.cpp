@@ -27,12 +27,12 @@ bool is_study(const std::filesystem::path& path) {
   return table && (table->contains("kind") || table->contains("scene"));
 }
 
-ExitCode refuse(const scene::InputError& error, const Console& console) {
-  console.error(error.message());
+ExitCode refuse(const scene::InputError& error, Console& console) {
+  console.error(error);
   return ExitCode::bad_input;
 }
 
-ExitCode interrupted(const Console& console) {
+ExitCode interrupted(Console& console) {
   console.error("interrupted while measuring the speed of this machine; there is nothing to keep");
   return ExitCode::interrupted;
 }

@@ -1,7 +1,10 @@
 #include "explain_scene.hpp"
 
+#include "launchsafe/run/cost.hpp"
 #include "launchsafe/scene/plan.hpp"
+#include "launchsafe/study/scheduler.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace launchsafe::app {
@@ -28,14 +31,20 @@ nlohmann::ordered_json physics_json(const scene::Plan& plan) {
           {"snapshots", term_json(plan.snapshots)}};
 }
 
+run::Reach reach_here() { return {.memory = study::available_memory(), .keeps_skins = true}; }
+
 }  // namespace
 
 std::string scene_text(const scene::Scene& scene, double update_rate) {
-  return scene::to_text(scene::make_plan(scene), scene, update_rate);
+  std::string text = scene::to_text(scene::make_plan(scene), scene, update_rate);
+  if (const auto refusal = run::out_of_reach(scene, reach_here()))
+    text += fmt::format("\nRefused by launchsafe run\n  {}\n", refusal->message());
+  return text;
 }
 
 nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate) {
   const scene::Plan plan = scene::make_plan(scene);
+  const auto refusal = run::out_of_reach(scene, reach_here());
   return {{"title", scene.title},
           {"physics", physics_json(plan)},
           {"particles", {{"steel", plan.particles_steel}, {"charge", plan.particles_charge}}},
@@ -45,7 +54,8 @@ nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate)
           {"memory_bytes", plan.memory},
           {"updates_per_second", update_rate},
           {"predicted_time_s",
-           update_rate > 0 ? nlohmann::ordered_json(scene::predicted_time(plan, update_rate)) : nullptr}};
+           update_rate > 0 ? nlohmann::ordered_json(scene::predicted_time(plan, update_rate)) : nullptr},
+          {"refused", refusal ? nlohmann::ordered_json(refusal->message()) : nlohmann::ordered_json()}};
 }
 
 }  // namespace launchsafe::app

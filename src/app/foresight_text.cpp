@@ -45,7 +45,16 @@ std::size_t cases_in(const Foresight& foresight) {
 std::size_t stored_in(const Foresight& foresight) {
   return static_cast<std::size_t>(
       std::count_if(foresight.runs.begin(), foresight.runs.end(),
-                    [](const ForeseenRun& run) { return run.stored || run.given_up; }));
+                    [](const ForeseenRun& run) { return run.stored || (run.given_up && !run.refused); }));
+}
+
+std::size_t refused_in(const Foresight& foresight) {
+  return static_cast<std::size_t>(std::count_if(foresight.runs.begin(), foresight.runs.end(),
+                                                [](const ForeseenRun& run) { return run.refused; }));
+}
+
+std::size_t to_run_in(const Foresight& foresight) {
+  return foresight.runs.size() - stored_in(foresight) - refused_in(foresight);
 }
 
 double updates_in(const Foresight& foresight) {
@@ -65,12 +74,15 @@ std::size_t gaps_of(const study::StudyFile& file) {
 
 std::string runs_text(const Foresight& foresight) {
   const std::size_t stored = stored_in(foresight), cases = cases_in(foresight);
-  return fmt::format(
-      "{} for {} case{}{}", foresight.runs.size(), cases, cases == 1 ? "" : "s",
-      stored > 0 ? fmt::format("; {} stored, {} to run", stored, foresight.runs.size() - stored) : "");
+  const std::size_t refused = refused_in(foresight);
+  std::string text = fmt::format("{} for {} case{}", foresight.runs.size(), cases, cases == 1 ? "" : "s");
+  if (refused > 0) text += fmt::format("; {} refused", refused);
+  if (stored > 0 || refused > 0) text += fmt::format("; {} stored, {} to run", stored, to_run_in(foresight));
+  return text;
 }
 
 std::string time_text(const Foresight& foresight, const std::filesystem::path& folder) {
+  if (refused_in(foresight) > 0 && to_run_in(foresight) == 0) return "none: nothing is left that may run";
   if (stored_in(foresight) == foresight.runs.size()) return "next to none: every mechanical run is stored";
   const std::string origin = foresight.learned_from == 0
                                  ? "measured now"
@@ -108,7 +120,8 @@ nlohmann::ordered_json foresight_json(const study::StudyFile& file, const Foresi
           {"cases", cases_in(foresight)},
           {"mechanical_runs", foresight.runs.size()},
           {"stored", stored_in(foresight)},
-          {"to_run", foresight.runs.size() - stored_in(foresight)},
+          {"to_run", to_run_in(foresight)},
+          {"refused", refused_in(foresight)},
           {"coupled_runs_at_most", foresight.confirmations},
           {"gaps", gaps_of(file)},
           {"jobs", foresight.jobs},

@@ -1,8 +1,12 @@
 #include "command_line.hpp"
+#include "descriptors.hpp"
 #include "signals.hpp"
+#include "version_text.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -10,8 +14,14 @@ namespace {
 
 using namespace launchsafe::app;
 
+constexpr const char* out_of_memory =
+    "out of memory; a coarser numerics.cell_size, fewer --jobs or a smaller --memory need less";
+constexpr const char* unknown_error = "internal error: an exception of an unknown kind";
+
 ExitCode perform(const Information& information, Console& console) {
   console.print_text(information.text);
+  console.print_json(information.version ? version_json()
+                                         : nlohmann::ordered_json{{"help", information.text}});
   return ExitCode::done;
 }
 
@@ -37,28 +47,57 @@ ExitCode perform(const ExplainArguments& arguments, Console& console) {
   return explain_command(arguments, console);
 }
 
-ExitCode perform(const CommandLine& line) {
-  const bool json = line.json && !std::holds_alternative<Information>(line.request);
-  Console console(line.quiet, json);
-  const ExitCode code =
-      std::visit([&](const auto& request) { return perform(request, console); }, line.request);
-  if (!console.output_lost()) return code;
-  console.error("the result could not be written to standard output");
+/// Whatever a command throws is its error.
+ExitCode perform(const CommandLine& line, Console& console) {
+  try {
+    return std::visit([&](const auto& request) { return perform(request, console); }, line.request);
+  } catch (const std::bad_alloc&) {
+    console.error(out_of_memory);
+  } catch (const std::exception& error) {
+    console.error(fmt::format("internal error: {}", error.what()));
+  } catch (...) {
+    console.error(unknown_error);
+  }
   return ExitCode::failed;
 }
+
+/// An exception that nobody could catch: of a static object, of a thread, out of a destructor.
+[[noreturn]] void end_on_uncaught() {
+  const std::exception_ptr thrown = std::current_exception();
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+    fail_at_once("internal error: std::terminate was called");
+  } catch (const std::bad_alloc&) {
+    fail_at_once(out_of_memory);
+  } catch (const std::exception& error) {
+    fail_at_once(error.what());
+  } catch (...) {
+    fail_at_once(unknown_error);
+  }
+  std::_Exit(static_cast<int>(ExitCode::failed));
+}
+
+/// What has to hold before any other static object of ours is made.
+struct Groundwork {
+  Groundwork() {
+    reserve_standard_descriptors();
+    std::set_terminate(end_on_uncaught);
+  }
+};
+[[gnu::init_priority(101)]] const Groundwork groundwork;
 
 }  // namespace
 
 int main(int argument_count, char** arguments) {
-  const Console console(false, false);
   try {
     catch_signals();
-    return static_cast<int>(perform(parse_command_line(argument_count, arguments)));
+    const CommandLine line = parse_command_line(argument_count, arguments);
+    Console console(line.quiet, line.json);
+    const ExitCode code = perform(line, console);
+    return static_cast<int>(console.finish(code));
   } catch (const std::bad_alloc&) {
-    console.error(
-        "out of memory; a coarser numerics.cell_size, fewer --jobs or a smaller --memory need less");
-  } catch (const std::exception& error) {
-    console.error(fmt::format("internal error: {}", error.what()));
+    return static_cast<int>(fail_at_once(out_of_memory));
+  } catch (...) {
+    return static_cast<int>(fail_at_once(unknown_error));
   }
-  return static_cast<int>(ExitCode::failed);
 }

@@ -20,7 +20,7 @@ ExitCode exit_code_of(const store::Error& error) {
 }
 
 ExitCode import_folders(const std::vector<std::filesystem::path>& folders, StudySession& session,
-                        const Console& console) {
+                        Console& console) {
   for (const std::filesystem::path& folder : folders) {
     const auto imported = session.store().import_from(folder);
     session.print_remarks();
@@ -64,7 +64,7 @@ std::size_t list_not_stored(const StudyResult& result, Console& console) {
 ExitCode merge_command(const MergeArguments& arguments, Console& console) {
   const auto file = study::read_study(arguments.study, {arguments.tolerance});
   if (!file) {
-    console.error(file.error().message());
+    console.error(file.error());
     return ExitCode::bad_input;
   }
   study::StudyOptions options;

@@ -1,11 +1,11 @@
 #include "progress.hpp"
 
+#include "descriptors.hpp"
 #include "launchsafe/report/number.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -40,9 +40,8 @@ void Progress::show(const std::string& line) {
   if (now - last_ < (terminal ? 200ms : 10s)) return;
   last_ = now;
   shown_ = terminal;
-  fmt::print(stderr, "{}{}{}", terminal ? "\r" : "", terminal ? fitted(line) : line,
-             terminal ? "\x1b[K" : "\n");
-  std::fflush(stderr);
+  const std::string text = terminal ? fmt::format("\r{}\x1b[K", fitted(line)) : line + "\n";
+  write_or_drop(STDERR_FILENO, text);
 }
 
 void Progress::clear() {
@@ -53,8 +52,7 @@ void Progress::clear() {
 void Progress::erase() {
   if (!shown_) return;
   shown_ = false;
-  fmt::print(stderr, "\r\x1b[K");
-  std::fflush(stderr);
+  write_or_drop(STDERR_FILENO, "\r\x1b[K");
 }
 
 std::string time_left(double share, double elapsed) {

@@ -1,9 +1,11 @@
 // launchsafe run: one case.
 #include "case_summary.hpp"
 #include "commands.hpp"
+#include "launchsafe/run/cost.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/case_file.hpp"
+#include "launchsafe/study/scheduler.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
@@ -48,7 +50,7 @@ std::optional<std::string> obstacle_at(const std::filesystem::path& path, const 
 }
 
 ExitCode report_interruption(const RunArguments& arguments, const run::MechanicsResult& mechanics,
-                             const scene::Scene& scene, const Console& console) {
+                             const scene::Scene& scene, Console& console) {
   const std::string output = arguments.output ? fmt::format(" -o {}", arguments.output->string()) : "";
   console.error(fmt::format(
       "interrupted at {} of {}; nothing of this case was kept; to start it again: launchsafe run {}{}",
@@ -67,10 +69,16 @@ ExitCode exit_code_of(const store::Error& error) {
 ExitCode run_command(const RunArguments& arguments, Console& console) {
   const auto file = scene::read_scene(arguments.scene);
   if (!file) {
-    console.error(file.error().message());
+    console.error(file.error());
     return ExitCode::bad_input;
   }
   const scene::Scene& scene = file->scene;
+  run::Reach reach{.memory = study::available_memory(), .keeps_skins = true};
+  if (arguments.longest_run) reach.longest_run = *arguments.longest_run;
+  if (const auto error = run::out_of_reach(*file, reach)) {
+    console.error(*error);
+    return ExitCode::bad_input;
+  }
   store::Manifest manifest = store::make_manifest(scene::to_toml(scene), 1);
   std::filesystem::path target;
   if (arguments.output) {

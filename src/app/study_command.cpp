@@ -5,6 +5,7 @@
 #include "launchsafe/study/foresight.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
+#include "study_folder.hpp"
 #include "study_manifest.hpp"
 #include "study_session.hpp"
 
@@ -25,6 +26,7 @@ study::StudyOptions options_of(const StudyArguments& arguments, store::CaseStore
   options.jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
   options.memory_limit = arguments.memory.value_or(options.memory_limit);
   options.time_limit = arguments.time_limit.value_or(options.time_limit);
+  options.longest_run = arguments.longest_run.value_or(options.longest_run);
   options.shard = arguments.shard;
   options.stop = &stop_requested();
   options.store = store;
@@ -44,17 +46,30 @@ void explain_runs(const study::StudyFile& file, const study::StudyOptions& optio
   for (const std::string& line : reason_lines(foresight)) console.remark(line);
 }
 
+/// Where not one case may run, unless an earlier study left results here.
+std::optional<scene::InputError> refusal_of(const study::StudyFile& file, const StudyArguments& arguments,
+                                            const study::StudyOptions& options) {
+  if (holds_store(arguments.output)) return std::nullopt;
+  run::Reach reach{.longest_run = options.longest_run};
+  if (!arguments.memory) reach.memory = study::available_memory();
+  return study::all_out_of_reach(file, reach);
+}
+
 }  // namespace
 
 ExitCode study_command(const StudyArguments& arguments, Console& console) {
   if (arguments.dry_run) return dry_run_command(arguments, console);
   const auto file = study::read_study(arguments.study, {arguments.tolerance});
   if (!file) {
-    console.error(file.error().message());
+    console.error(file.error());
     return ExitCode::bad_input;
   }
   if (!file->chosen_setting.empty()) console.remark("setting: " + file->chosen_setting);
   study::StudyOptions options = options_of(arguments, nullptr);
+  if (const auto error = refusal_of(*file, arguments, options)) {
+    console.error(*error);
+    return ExitCode::bad_input;
+  }
   StudySession session({arguments.study, arguments.output, arguments.update, arguments.shard.part(),
                         arguments.command, study_manifest(*file, options.jobs)},
                        console);

@@ -167,8 +167,16 @@ nlohmann::ordered_json to_json(const StudyResult& result) {
 }
 
 store::Result<report::WrittenFiles> write_report(const StudyResult& result,
-                                                 const std::filesystem::path& folder) {
-  return std::visit([&](const auto& each) { return report::write_report(each, folder); }, result);
+                                                 const std::filesystem::path& folder,
+                                                 const report::DrawingLimits& limits) {
+  return std::visit(
+      [&](const auto& each) {
+        if constexpr (requires { report::write_report(each, folder, limits); })
+          return report::write_report(each, folder, limits);
+        else
+          return report::write_report(each, folder);  // a kind without pictures
+      },
+      result);
 }
 
 std::string timing_text(const study::Timing& timing) {

@@ -1,6 +1,8 @@
 // What came of a study of any kind, in the words of the command line.
 #pragma once
 
+#include "console.hpp"
+#include "launchsafe/report/drawing_limits.hpp"
 #include "launchsafe/report/written_files.hpp"
 #include "launchsafe/store/result.hpp"
 #include "launchsafe/study/accuracy.hpp"
@@ -29,10 +31,6 @@ bool interrupted(const StudyResult& result);
 const study::Timing& timing_of(const StudyResult& result);
 bool any_indeterminate(const StudyResult& result);
 
-/// A case that came to nothing.
-struct Failure {
-  std::string label, reason;
-};
 /// In the order of the cases; without those that another shard runs.
 std::vector<Failure> failures_of(const StudyResult& result);
 
@@ -40,7 +38,8 @@ std::vector<Failure> failures_of(const StudyResult& result);
 std::string stdout_text(const StudyResult& result, const std::filesystem::path& folder);
 nlohmann::ordered_json to_json(const StudyResult& result);
 store::Result<report::WrittenFiles> write_report(const StudyResult& result,
-                                                 const std::filesystem::path& folder);
+                                                 const std::filesystem::path& folder,
+                                                 const report::DrawingLimits& limits);
 
 /// "ran 12 mechanical runs, re-used 3; ...": runs, rate, wall time.
 std::string timing_text(const study::Timing& timing);

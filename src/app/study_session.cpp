@@ -18,8 +18,6 @@
 namespace launchsafe::app {
 namespace {
 
-constexpr std::size_t most_failures_named = 20;
-
 std::string digest_of(const std::vector<Failure>& failures) {
   std::string text;
   for (const Failure& failure : failures) text += failure.label + "\n" + failure.reason + "\n";
@@ -58,15 +56,12 @@ ExitCode exit_code_of(const std::vector<Failure>& failures, bool indeterminate) 
 
 nlohmann::ordered_json shard_json(const StudyResult& result, const study::Shard& shard,
                                   const std::vector<Failure>& failures) {
-  nlohmann::ordered_json failed = nlohmann::ordered_json::array();
-  for (const Failure& failure : failures)
-    failed.push_back({{"case", failure.label}, {"reason", failure.reason}});
   return {{"shard", shard.index},
           {"shards", shard.count},
           {"mechanical_runs", timing_of(result).runs},
           {"reused", timing_of(result).reused},
           {"wall_s", timing_of(result).wall_time},
-          {"failed", failed}};
+          {"failed", failures.size()}};
 }
 
 }  // namespace
@@ -130,14 +125,6 @@ ExitCode StudySession::report_interruption(const study::StudyFile& file, const s
   return ExitCode::interrupted;
 }
 
-void StudySession::print_failures(const std::vector<Failure>& failures) const {
-  const std::size_t named = std::min(failures.size(), most_failures_named);
-  for (std::size_t i = 0; i < named; ++i)
-    console_.error(fmt::format("{}: {}", failures[i].label, failures[i].reason));
-  if (named < failures.size())
-    console_.error(fmt::format("and {} more cases failed", failures.size() - named));
-}
-
 ExitCode StudySession::conclude(const StudyResult& result, const study::StudyFile& file,
                                 const study::StudyOptions& options) {
   if (interrupted(result)) return report_interruption(file, options);
@@ -148,7 +135,7 @@ ExitCode StudySession::conclude(const StudyResult& result, const study::StudyFil
 ExitCode StudySession::deliver_shard(const StudyResult& result, const study::Shard& shard) {
   const std::vector<Failure> failures = failures_of(result);
   console_.print_json(shard_json(result, shard, failures));
-  print_failures(failures);
+  console_.failures(failures);
   console_.remark(timing_text(timing_of(result)));
   console_.remark(fmt::format(
       "shard {}/{} is done{}; once all are: {} (then the folders of shards that have one of their own)",
@@ -161,7 +148,7 @@ ExitCode StudySession::deliver_whole(const StudyResult& result) {
   const std::vector<Failure> failures = failures_of(result);
   console_.print_text(stdout_text(result, request_.folder));
   if (console_.json()) console_.print_json(to_json(result));
-  print_failures(failures);
+  console_.failures(failures);
   console_.remark(timing_text(timing_of(result)));
   const ExitCode written = write_files(result, failures);
   return written == ExitCode::done ? exit_code_of(failures, any_indeterminate(result)) : written;
@@ -175,7 +162,7 @@ ExitCode StudySession::write_files(const StudyResult& result, const std::vector<
     console_.remark(fmt::format("the report in {} stands as it is", request_.folder.string()));
     return ExitCode::done;
   }
-  const auto written = write_report(result, request_.folder);
+  const auto written = write_report(result, request_.folder, {.stop = &stop_requested()});
   if (!written) return refuse(written.error());
   for (const std::string& remark : written->remarks) console_.remark(remark);
   StudyRecord record{request_.manifest, {}, digest};
@@ -187,7 +174,10 @@ ExitCode StudySession::write_files(const StudyResult& result, const std::vector<
   if (complete) record.files = record_files(request_.folder, all_names(request_.folder, written->files));
   if (const auto error = write_study_record(request_.folder, record)) return refuse(*error);
   console_.remark(fmt::format("wrote {} files to {}", written->files.size() + 1, request_.folder.string()));
-  return ExitCode::done;
+  if (complete || !stop_requested()) return ExitCode::done;
+  console_.error(fmt::format(
+      "interrupted while a picture was drawn; all results are kept; for the picture: {}", request_.command));
+  return ExitCode::interrupted;
 }
 
 }  // namespace launchsafe::app

@@ -49,7 +49,6 @@ class StudySession {
   ExitCode deliver_shard(const StudyResult& result, const study::Shard& shard);
   ExitCode deliver_whole(const StudyResult& result);
   ExitCode write_files(const StudyResult& result, const std::vector<Failure>& failures);
-  void print_failures(const std::vector<Failure>& failures) const;
 
   SessionRequest request_;
   Console& console_;

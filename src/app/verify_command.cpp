@@ -54,7 +54,7 @@ Checks all_checks(Progress& progress) {
 
 /// What `compute(progress)` gives. Ends the program where the user wants it to stop.
 template <class Compute>
-std::invoke_result_t<Compute, Progress&> unless_stopped(const Console& console, const char* lost,
+std::invoke_result_t<Compute, Progress&> unless_stopped(Console& console, const char* lost,
                                                         const Compute& compute) {
   Progress progress(progress_style(console.quiet()));
   auto result = std::async(std::launch::async, [&] { return compute(progress); });
@@ -65,7 +65,7 @@ std::invoke_result_t<Compute, Progress&> unless_stopped(const Console& console, 
     progress.clear();
     console.error(fmt::format("interrupted; no {} was printed, and there is nothing to keep", lost));
     // What is being computed cannot be stopped and would be waited for.
-    std::quick_exit(static_cast<int>(ExitCode::interrupted));
+    std::quick_exit(static_cast<int>(console.finish(ExitCode::interrupted)));
   }
   return result.get();
 }
@@ -85,7 +85,7 @@ std::vector<Item> matching(const std::vector<Item>& items, const std::string& fi
 }
 
 template <class Item>
-ExitCode refuse_filter(const std::vector<Item>& items, const std::string& filter, const Console& console) {
+ExitCode refuse_filter(const std::vector<Item>& items, const std::string& filter, Console& console) {
   std::vector<std::string> groups;
   for (const Item& item : items) {
     if (std::find(groups.begin(), groups.end(), group_of(item)) == groups.end())
@@ -161,17 +161,17 @@ std::vector<MeasuredSeries> measured(const std::vector<verify::ErrorSeries>& all
   return results;
 }
 
-/// Names the settings whose computation failed.
-std::int64_t report_failures(const std::vector<MeasuredSeries>& results, const Console& console) {
-  std::int64_t failed = 0;
+/// The settings whose computation failed.
+std::vector<Failure> failures_of(const std::vector<MeasuredSeries>& results) {
+  std::vector<Failure> failures;
   for (const MeasuredSeries& each : results) {
     for (const verify::PartSetting& row : each.settings) {
       if (std::isfinite(row.error)) continue;
-      ++failed;
-      console.error(fmt::format("{}, {}: the computation failed", name_of(each.series), row.setting));
+      failures.push_back(
+          {fmt::format("{}, {}", name_of(each.series), row.setting), "the computation failed"});
     }
   }
-  return failed;
+  return failures;
 }
 
 /// The command that makes the table again, on any machine.
@@ -196,9 +196,10 @@ ExitCode tabulate_errors(const VerifyArguments& arguments, Console& console) {
   const std::string command = remaking_command(arguments);
   console.print_text(error_table_text(results, command));
   console.print_json(error_table_json(results, command));
-  const std::int64_t failed = report_failures(results, console);
+  const std::vector<Failure> failures = failures_of(results);
+  console.failures(failures);
   if (arguments.output) {
-    const auto written = write_error_table(results, command, *arguments.output);
+    const auto written = write_error_table(results, command, *arguments.output, {.stop = &stop_requested()});
     if (!written) {
       console.error(written.error().message);
       return ExitCode::failed;
@@ -207,7 +208,7 @@ ExitCode tabulate_errors(const VerifyArguments& arguments, Console& console) {
     console.remark(
         fmt::format("wrote {} to {}", fmt::join(written->files, ", "), arguments.output->string()));
   }
-  return failed == 0 ? ExitCode::done : ExitCode::cases_failed;
+  return failures.empty() ? ExitCode::done : ExitCode::cases_failed;
 }
 
 }  // namespace

@@ -1,0 +1,130 @@
+// With --json every outcome is one JSON object on stdout, errors too.
+#include "stored_study.hpp"
+
+namespace launchsafe::app {
+namespace {
+
+using namespace std::chrono_literals;
+using Arguments = std::vector<std::string>;
+
+class JsonProgram : public StoredStudy {
+ protected:
+  void SetUp() override {
+    StoredStudy::SetUp();
+    write("unknown_key.toml", with(tiny_scene, "peak_time = ", "peek_time = "));
+    write("odd.toml", "kind = \"sweep\"\nscene = \"none.toml\"\n");
+    std::filesystem::create_directory(folder() / "foreign");
+    write("foreign/report.md", "mine\n");
+  }
+
+  /// What is printed, which must be one object and nothing else.
+  nlohmann::json object_of(const Outcome& outcome) const {
+    auto object = nlohmann::json::parse(outcome.out, nullptr, false);
+    EXPECT_TRUE(object.is_object()) << outcome.out << outcome.err;
+    return object.is_object() ? object : nlohmann::json::object();
+  }
+};
+
+struct ErrorPath {
+  Arguments arguments;
+  int code;
+  std::string part;  ///< of the message
+};
+
+TEST_F(JsonProgram, EveryErrorIsAnObjectAndOneLineForPeople) {
+  const std::vector<ErrorPath> paths{
+      {{}, 2, "subcommand"},
+      {{"launch"}, 2, "launch"},
+      {{"run"}, 2, "scene"},
+      {{"run", "shell.toml", "--fast"}, 2, "--fast"},
+      {{"run", "absent.toml"}, 2, "absent.toml"},
+      {{"run", "unknown_key.toml", "-o", "out"}, 2, "peek_time"},
+      {{"run", "shell.toml", "-o", "shell.toml"}, 2, "no folder"},
+      {{"run", "shell.toml", "--longest-run", "0.01ms"}, 2, "--longest-run"},
+      {{"study", "study.toml"}, 2, "--output"},
+      {{"study", "study.toml", "-o", "out", "--jobs", "100000000"}, 2, "--jobs"},
+      {{"study", "study.toml", "-o", "out", "--shard", "1/2000000000"}, 2, "--shard"},
+      {{"study", "study.toml", "-o", "out", "--memory", "much"}, 2, "--memory"},
+      {{"study", "odd.toml", "-o", "out"}, 2, "none.toml"},
+      {{"study", "absent.toml", "--dry-run"}, 2, "absent.toml"},
+      {{"study", "study.toml", "-o", "foreign"}, 2, "foreign"},
+      {{"merge", "absent.toml", "-o", "out"}, 2, "absent.toml"},
+      {{"merge", "study.toml", "-o", "merged"}, 3, "missing"},
+      {{"merge", "study.toml", "-o", "merged", "nowhere"}, 2, "nowhere"},
+      {{"emit", "slurm", "absent.toml", "-o", "out", "--shards", "2"}, 2, "absent.toml"},
+      {{"emit", "cluster", "study.toml", "-o", "out", "--shards", "2"}, 2, "cluster"},
+      {{"verify", "--filter", "no check has this name"}, 2, "--filter"},
+      {{"explain"}, 2, "--keys"},
+      {{"explain", "unknown_key.toml"}, 2, "peek_time"}};
+  for (const ErrorPath& path : paths) {
+    Arguments arguments = path.arguments;
+    arguments.push_back("--json");
+    const Outcome outcome = run(arguments);
+    std::string line;
+    for (const std::string& argument : arguments) line += argument + " ";
+    EXPECT_EQ(outcome.code, path.code) << line << "\n" << outcome.err;
+    const auto object = object_of(outcome);
+    ASSERT_TRUE(object.contains("error")) << line << "\n" << outcome.out;
+    const auto message = object["error"]["message"].get<std::string>();
+    EXPECT_NE(message.find(path.part), std::string::npos) << line << "\n" << message;
+    EXPECT_EQ(outcome.err, "launchsafe: " + message + "\n") << line;
+    for (const char* key : {"file", "line", "column", "key", "found", "allowed", "suggestion"})
+      EXPECT_TRUE(object["error"].contains(key)) << line << ": " << key;
+  }
+}
+
+TEST_F(JsonProgram, AFaultOfTheInputHasItsParts) {
+  const auto error = object_of(run({"run", "--json", "unknown_key.toml"}))["error"];
+  EXPECT_EQ(error["file"], "unknown_key.toml");
+  EXPECT_EQ(error["line"], 7);
+  EXPECT_EQ(error["key"], "load.peek_time");
+  EXPECT_NE(error["suggestion"].dump().find("peak_time"), std::string::npos) << error;
+  EXPECT_TRUE(error["found"].is_string()) << error;
+  EXPECT_TRUE(error["allowed"].is_string()) << error;
+}
+
+TEST_F(JsonProgram, VersionAndHelpAreObjects) {
+  const Outcome version = run({"--version", "--json"});
+  EXPECT_EQ(version.code, 0) << version.err;
+  const auto object = object_of(version);
+  for (const char* key : {"version", "commit", "compiler", "flags", "build_type"})
+    EXPECT_FALSE(object[key].get<std::string>().empty()) << key;
+  EXPECT_TRUE(object["libraries"].contains("HDF5"));
+  for (const Arguments& arguments : {Arguments{"--help", "--json"}, Arguments{"study", "--json", "--help"}}) {
+    const Outcome help = run(arguments);
+    EXPECT_EQ(help.code, 0) << help.err;
+    EXPECT_NE(object_of(help)["help"].get<std::string>().find("Examples:"), std::string::npos);
+  }
+}
+
+TEST_F(JsonProgram, FailedCasesStandBesideTheResults) {
+  const Outcome outcome = run({"study", "study.toml", "-o", "out", "--memory", "1B", "--json", "--quiet"});
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  const auto object = object_of(outcome);
+  EXPECT_EQ(object["cases"].size(), 24u);
+  ASSERT_EQ(object["failures"].size(), 24u) << outcome.err;
+  EXPECT_NE(object["failures"][0]["reason"].get<std::string>().find("memory"), std::string::npos);
+}
+
+TEST_F(JsonProgram, AnInterruptionIsAnErrorOfOneObject) {
+  write("long.toml", long_scene());
+  start({"run", "long.toml", "--json", "--quiet"});
+  std::this_thread::sleep_for(500ms);
+  send(SIGTERM);
+  const Outcome outcome = wait();
+  EXPECT_EQ(outcome.code, 75) << outcome.err;
+  EXPECT_NE(object_of(outcome)["error"]["message"].get<std::string>().find("interrupted"), std::string::npos);
+}
+
+TEST_F(JsonProgram, NamesThatAreNoTextAreReplaced) {
+  const std::string name = "odd\xff.toml";
+  write(name, tiny_scene);
+  EXPECT_EQ(object_of(run({"run", name, "--json"}))["status"], "completed");
+  write(name, "[load");
+  const Outcome outcome = run({"run", name, "--json"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(object_of(outcome)["error"]["file"], "odd\xef\xbf\xbd.toml");
+}
+
+}  // namespace
+}  // namespace launchsafe::app

@@ -1,0 +1,46 @@
+// A gnuplot that hangs does not keep the user from stopping, and costs no result.
+#include "stored_study.hpp"
+
+#include <cstdlib>
+
+namespace launchsafe::app {
+namespace {
+
+using namespace std::chrono_literals;
+
+class HangingPicture : public StoredStudy {
+ protected:
+  void SetUp() override {
+    StoredStudy::SetUp();
+    std::filesystem::create_directory(folder() / "bin");
+    write("bin/gnuplot", "#!/bin/sh\ntouch \"$0.began\"\nsleep 600\n");
+    std::filesystem::permissions(folder() / "bin/gnuplot", std::filesystem::perms::owner_all);
+    const std::string path = (folder() / "bin").string() + ":" + std::getenv("PATH");
+    before_start([path] { ::setenv("PATH", path.c_str(), 1); });
+    write("study.toml",
+          "kind = \"critical-gap\"\nscene = \"shell.toml\"\nearly_time = \"0.03 ms\"\nconfirm = false\n");
+  }
+};
+
+TEST_F(HangingPicture, IsGivenUpWhenTheUserStopsAndDrawnTheNextTime) {
+  start({"study", "study.toml", "-o", "out", "--json"});
+  for (int tries = 0; tries < 600 && !exists("bin/gnuplot.began"); ++tries) std::this_thread::sleep_for(50ms);
+  ASSERT_TRUE(exists("bin/gnuplot.began"));
+  const auto begin = std::chrono::steady_clock::now();
+  send(SIGINT);
+  const Outcome outcome = wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 2s);
+  EXPECT_EQ(outcome.code, 75) << outcome.err;
+  EXPECT_TRUE(outcome.says("no picture: ")) << outcome.err;
+  const auto object = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(object.contains("error")) << outcome.out;
+  EXPECT_TRUE(object.contains("cases")) << outcome.out;
+  EXPECT_TRUE(exists("out/verdicts.csv"));
+  write("bin/gnuplot", "#!/bin/sh\necho '<svg></svg>'\n");
+  const Outcome again = run({"study", "study.toml", "-o", "out"});
+  EXPECT_TRUE(again.says("ran 0")) << again.err;
+  EXPECT_EQ(read("out/temperature.svg"), "<svg></svg>\n");
+}
+
+}  // namespace
+}  // namespace launchsafe::app
