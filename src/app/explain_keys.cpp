@@ -38,9 +38,8 @@ std::string plausible_line(const scene::KeyDescription& key) {
 
 std::string derived_text() {
   std::string text =
-      "Quantities that follow from the keys of a scene; a verdict on one that is not plausible is in doubt, "
-      "as "
-      "on a key.\n";
+      "Quantities that follow from the keys of a scene; what is not plausible of one puts verdicts in "
+      "doubt too.\n";
   for (const scene::DerivedQuantity& each : scene::derived_quantities()) {
     text += fmt::format("\n{}\n    {}\n{}", each.description.name, each.description.sentence,
                         plausible_line(each.description));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <map>
 
 namespace launchsafe::app {
@@ -35,8 +36,12 @@ std::vector<std::string> plausibility_lines(const study::StudyFile& study) {
       if (++cases[line] == 1) order.push_back(line);
     }
   }
-  for (const std::string& line : order)
-    lines.push_back(fmt::format("{} ({} of {} cases)", line, cases[line], study.cases.size()));
+  // A sensitivity study may have another value in every case.
+  constexpr std::size_t most_lines = 20;
+  for (std::size_t i = 0; i < std::min(order.size(), most_lines); ++i)
+    lines.push_back(fmt::format("{} ({} of {} cases)", order[i], cases[order[i]], study.cases.size()));
+  if (order.size() > most_lines)
+    lines.push_back(fmt::format("and {} other values like these", order.size() - most_lines));
   return lines;
 }
 

@@ -94,11 +94,11 @@ Key<Scene> crack_friction_key() {
 Keys crack_keys() {
   return {
       number(
-          "charge.crack_radius", Dimension::length, between(0, 0.1), Standing::paper,
+          "charge.crack_radius", Dimension::length, between(0, 1), Standing::paper,
           "Mean crack radius c(0) before launch; 0 leaves the cracks out.",
           [](auto& s) -> auto& { return s.charge.cracks.initial_crack_radius; }),
       number(
-          "charge.flaw_size", Dimension::length, between(0, 0.1), Standing::paper,
+          "charge.flaw_size", Dimension::length, between(0, 1), Standing::paper,
           "Flaw size a, which cracks are measured against; 0 leaves the cracks out.",
           [](auto& s) -> auto& { return s.charge.cracks.flaw_size; }),
       number(

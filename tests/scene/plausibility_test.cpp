@@ -269,7 +269,7 @@ TEST(Plausibility, RefusesWhatIsNoPhysicsAtAll) {
   const std::vector<std::pair<std::string, std::string>> edits{
       {"gap.air_specific_heat", "1e-300 J/(kg K)"},
       {"charge.jwl.a", "-1 GPa"},
-      {"charge.jwl.b", "-900 GPa"},
+      {"charge.jwl.b", "50 GPa"},
       {"charge.jwl.r1", "1"},
       {"charge.jwl.r2", "12"},
       {"charge.density", "1.2 kg/m3"},

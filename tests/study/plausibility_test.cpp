@@ -95,14 +95,14 @@ TEST(StudyPlausibility, EveryCaseOfASweepIsJudgedOnItsOwnValues) {
   ASSERT_EQ(result.answers.size(), 2u);
   EXPECT_EQ(result.answers[0].verdicts[0].judgement.verdict, Verdict::safe);
   EXPECT_EQ(result.answers[1].verdicts[0].judgement.verdict, Verdict::indeterminate);
-  EXPECT_TRUE(says(result.answers[1].verdicts[0].judgement.reason, "gap.skin_thickness = 5 mm"))
+  EXPECT_TRUE(says(result.answers[1].verdicts[0].judgement.reason, "gap.skin_thickness = 0.5 cm"))
       << result.answers[1].verdicts[0].judgement.reason;
 }
 
 // Its hard cases ask what the computation makes of them; none may pass because its input is called
 // implausible.
 TEST(StudyPlausibility, AStabilityStudyJudgesWithoutIt) {
-  StudyFile study = study_of(safe_study("", "gap.exchange_time = \"1 s\"\n"));
+  StudyFile study = study_of(safe_study("", "gap.skin_thickness = \"5 mm\"\n"));
   const run::MechanicsResult mechanics = synthetic_mechanics(study.cases[0].scene.scene);
   EXPECT_EQ(answer_of(study.study, study.cases[0], mechanics).verdicts[0].judgement.verdict,
             Verdict::indeterminate);
