@@ -4,6 +4,7 @@
 #include "foresight_text.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/study/foresight.hpp"
+#include "plausibility_text.hpp"
 #include "signals.hpp"
 #include "update_rate.hpp"
 
@@ -37,13 +38,22 @@ ExitCode interrupted(const Console& console) {
   return ExitCode::interrupted;
 }
 
+/// Nothing where all is plausible.
+std::string section_of(const std::vector<std::string>& lines) {
+  std::string text = lines.empty() ? "" : "\nPlausibility\n";
+  for (const std::string& line : lines) text += "  " + line + "\n";
+  return text;
+}
+
 ExitCode explain_scene(const std::filesystem::path& path, Console& console) {
   const auto file = scene::read_scene(path);
   if (!file) return refuse(file.error(), console);
   const double update_rate = measured_update_rate(file->scene);
   if (stop_requested()) return interrupted(console);
-  console.print_text(scene_text(file->scene, update_rate));
-  console.print_json(scene_json(file->scene, update_rate));
+  console.print_text(scene_text(file->scene, update_rate) + section_of(plausibility_lines(file->scene)));
+  nlohmann::ordered_json object = scene_json(file->scene, update_rate);
+  object["implausible"] = plausibility_json(file->scene);
+  console.print_json(object);
   return ExitCode::done;
 }
 
@@ -53,8 +63,11 @@ ExitCode explain_study(const std::filesystem::path& path, Console& console) {
   const double update_rate = measured_update_rate(file->cases.front().scene.scene);
   if (stop_requested()) return interrupted(console);
   const study::Foresight foresight = study::foresee(*file, {}, update_rate);
-  console.print_text(foresight_text(*file, foresight, {}));
-  console.print_json(foresight_json(*file, foresight));
+  const std::vector<std::string> lines = plausibility_lines(*file);
+  console.print_text(foresight_text(*file, foresight, {}) + section_of(lines));
+  nlohmann::ordered_json object = foresight_json(*file, foresight);
+  object["implausible"] = lines;
+  console.print_json(object);
   return ExitCode::done;
 }
 

@@ -1,5 +1,6 @@
 // Every key of a scene file and of a study file, from the same descriptions that read them.
 #include "explain_scene.hpp"
+#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/read_study.hpp"
 
@@ -29,11 +30,40 @@ std::string standings() {
   return text;
 }
 
+/// Empty where nothing is said.
+std::string plausible_line(const scene::KeyDescription& key) {
+  if (key.plausible.because.empty()) return {};
+  return fmt::format("    plausible: {}\n", scene::plausible_text(key));
+}
+
+std::string derived_text() {
+  std::string text =
+      "Quantities that follow from the keys of a scene; what is not plausible of one puts verdicts in "
+      "doubt too.\n";
+  for (const scene::DerivedQuantity& each : scene::derived_quantities()) {
+    text += fmt::format("\n{}\n    {}\n{}", each.description.name, each.description.sentence,
+                        plausible_line(each.description));
+  }
+  return text;
+}
+
+nlohmann::ordered_json derived_json() {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const scene::DerivedQuantity& each : scene::derived_quantities()) {
+    list.push_back({{"quantity", each.description.name},
+                    {"si_unit", scene::si_unit_of(each.description.dimension)},
+                    {"plausible", scene::plausible_text(each.description)},
+                    {"sentence", each.description.sentence}});
+  }
+  return list;
+}
+
 std::string documented(const std::vector<scene::DocumentedKey>& keys) {
   std::string text;
   for (const scene::DocumentedKey& key : keys) {
-    text += fmt::format("\n{}\n    {}\n    {}\n    {}\n", key.description.name, key.description.sentence,
-                        scene::allowed_text(key.description), default_of(key));
+    text +=
+        fmt::format("\n{}\n    {}\n    {}\n{}    {}\n", key.description.name, key.description.sentence,
+                    scene::allowed_text(key.description), plausible_line(key.description), default_of(key));
   }
   return text;
 }
@@ -44,6 +74,7 @@ nlohmann::ordered_json json_of(const std::vector<scene::DocumentedKey>& keys) {
     list.push_back({{"key", key.description.name},
                     {"si_unit", scene::si_unit_of(key.description.dimension)},
                     {"allowed", scene::allowed_text(key.description)},
+                    {"plausible", scene::plausible_text(key.description)},
                     {"default", key.default_text},
                     {"required", key.description.required},
                     {"standing", scene::letter_of(key.description.standing)},
@@ -58,12 +89,15 @@ std::string keys_text() {
   return fmt::format(
              "Keys of a scene file; a key a.b is written b under [a]. Standing of a default: {}.\n{}\n\n",
              standings(), documented(scene::describe_keys())) +
-         "Study files\n\nA study file also has [set], a table of scene keys with other values.\n" +
+         derived_text() +
+         "\n\nStudy files\n\nA study file also has [set], a table of scene keys with other values.\n" +
          documented(study::describe_study_keys());
 }
 
 nlohmann::ordered_json keys_json() {
-  return {{"keys", json_of(scene::describe_keys())}, {"study_keys", json_of(study::describe_study_keys())}};
+  return {{"keys", json_of(scene::describe_keys())},
+          {"derived_quantities", derived_json()},
+          {"study_keys", json_of(study::describe_study_keys())}};
 }
 
 }  // namespace launchsafe::app

@@ -5,6 +5,7 @@
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "output_folder.hpp"
+#include "plausibility_text.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 
@@ -83,6 +84,7 @@ ExitCode run_command(const RunArguments& arguments, Console& console) {
     }
   }
 
+  for (const std::string& line : plausibility_lines(scene)) console.remark(line);
   const run::CaseResult result = run_with_progress(scene, console);
   manifest.wall_time = result.mechanics.wall_time;
   if (result.mechanics.status == run::RunStatus::interrupted) {
@@ -97,6 +99,7 @@ ExitCode run_command(const RunArguments& arguments, Console& console) {
   }
   console.print_text(case_text(scene, result));
   nlohmann::ordered_json object = case_json(scene, result);
+  object["implausible"] = plausibility_json(scene);
   object["input_sha256"] = manifest.input_sha256;
   object["file"] = target.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(target.string());
   console.print_json(object);

@@ -9,18 +9,18 @@
 namespace launchsafe::scene {
 namespace {
 
-std::string limits_text(const KeyDescription& key) {
-  const Limits& limits = key.limits;
-  const auto shown = [&](double value) { return format_quantity(value, key.dimension); };
+/// "0 cm to 1 cm", "at least 0 K", ...; empty for any number.
+std::string limits_text(const Limits& limits, Dimension dimension) {
+  const auto shown = [&](double value) { return format_quantity(value, dimension); };
   const bool low = std::isfinite(limits.lowest), high = std::isfinite(limits.highest);
   if (low && high) {
-    return fmt::format(", {} {}to {}{}", shown(limits.lowest), limits.lowest_allowed ? "" : "(excluded) ",
+    return fmt::format("{} {}to {}{}", shown(limits.lowest), limits.lowest_allowed ? "" : "(excluded) ",
                        shown(limits.highest), limits.highest_allowed ? "" : " (excluded)");
   }
   if (low)
-    return fmt::format(", {}{}", limits.lowest_allowed ? "at least " : "more than ", shown(limits.lowest));
+    return fmt::format("{}{}", limits.lowest_allowed ? "at least " : "more than ", shown(limits.lowest));
   if (high)
-    return fmt::format(", {}{}", limits.highest_allowed ? "at most " : "less than ", shown(limits.highest));
+    return fmt::format("{}{}", limits.highest_allowed ? "at most " : "less than ", shown(limits.highest));
   return {};
 }
 
@@ -96,7 +96,8 @@ bool Limits::contain(double value) const {
 
 std::string allowed_text(const KeyDescription& key) {
   const std::string_view name = name_of(key.dimension);
-  const std::string limits = limits_text(key);
+  const std::string range = limits_text(key.limits, key.dimension);
+  const std::string limits = range.empty() ? range : ", " + range;
   switch (key.kind) {
     case KeyKind::flag:
       return "true or false";
@@ -120,6 +121,16 @@ std::string allowed_text(const KeyDescription& key) {
           limits, first_unit(key.dimension));
   }
   return {};
+}
+
+std::string plausible_text(const KeyDescription& key) {
+  const Plausible& plausible = key.plausible;
+  std::string range = plausible.words.empty()     ? limits_text(plausible.limits, key.dimension)
+                      : key.kind == KeyKind::flag ? plausible.words.front()
+                                                  : quoted_list(plausible.words);
+  if (range.empty()) range = "any";
+  if (plausible.or_zero) range = fmt::format("0, or {}", range);
+  return plausible.because.empty() ? range : range + ", because " + plausible.because;
 }
 
 std::string format_value(const KeyDescription& key, const Value& value) {

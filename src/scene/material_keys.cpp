@@ -126,11 +126,11 @@ Keys crack_keys() {
           [](auto& s) -> auto& { return s.charge.cracks.face_friction; }),
       crack_friction_key(),
       list_key<Scene>(
-          "charge.shear_moduli", Dimension::pressure, above(0), Standing::paper,
+          "charge.shear_moduli", Dimension::pressure, above_to(0, 1e12), Standing::paper,
           "Shear moduli G_n of the Maxwell elements.",
           [](auto& s) -> auto& { return s.charge.cracks.shear_moduli; }, materials::maxwell_elements),
       list_key<Scene>(
-          "charge.relaxation_rates", Dimension::frequency, at_least(0), Standing::paper,
+          "charge.relaxation_rates", Dimension::frequency, between(0, 1e15), Standing::paper,
           "Relaxation rates 1/tau_n of the Maxwell elements; 0 is an elastic spring.",
           [](auto& s) -> auto& { return s.charge.cracks.relaxation_rates; }, materials::maxwell_elements),
   };
@@ -139,14 +139,14 @@ Keys crack_keys() {
 Keys pressure_keys() {
   return {
       number(
-          "charge.density", Dimension::density, above_to(0, 1e5), Standing::paper, "Density before launch.",
+          "charge.density", Dimension::density, between(500, 25e3), Standing::paper, "Density before launch.",
           [](auto& s) -> auto& { return s.charge.eos.initial_density; }),
       balanced(number(
-          "charge.jwl.a", Dimension::pressure, any_number(), Standing::paper, "A of the unreacted JWL.",
+          "charge.jwl.a", Dimension::pressure, above_to(0, 1e17), Standing::paper, "A of the unreacted JWL.",
           [](auto& s) -> auto& { return s.charge.eos.a; })),
       balanced(number(
-          "charge.jwl.b", Dimension::pressure, any_number(), Standing::paper, "B of the unreacted JWL.",
-          [](auto& s) -> auto& { return s.charge.eos.b; })),
+          "charge.jwl.b", Dimension::pressure, between(-1e12, 1e12), Standing::paper,
+          "B of the unreacted JWL.", [](auto& s) -> auto& { return s.charge.eos.b; })),
       balanced(number(
           "charge.jwl.r1", Dimension::number, above_to(0, 100), Standing::paper, "R1 of the unreacted JWL.",
           [](auto& s) -> auto& { return s.charge.eos.r1; })),
@@ -158,11 +158,11 @@ Keys pressure_keys() {
           "w of the unreacted JWL; its initial energy follows from p(V = 1) = 0.",
           [](auto& s) -> auto& { return s.charge.eos.omega; })),
       number(
-          "charge.tension_cutoff", Dimension::pressure, above(0), Standing::assumed,
+          "charge.tension_cutoff", Dimension::pressure, above_to(0, 1e12), Standing::assumed,
           "Tension that the charge bears; its pressure never falls below minus this.",
           [](auto& s) -> auto& { return s.charge.tension_cutoff; }),
       number(
-          "charge.specific_heat", Dimension::specific_heat, above_to(0, 1e5), Standing::paper,
+          "charge.specific_heat", Dimension::specific_heat, between(100, 1e4), Standing::paper,
           "Specific heat.", [](auto& s) -> auto& { return s.charge.specific_heat; }),
       number(
           "charge.conductivity", Dimension::conductivity, between(0, 1e4), Standing::paper,
@@ -179,10 +179,10 @@ Keys pressure_keys() {
 Keys steel_keys() {
   return {
       number(
-          "steel.density", Dimension::density, above_to(0, 1e5), Standing::paper, "Density before launch.",
+          "steel.density", Dimension::density, between(500, 25e3), Standing::paper, "Density before launch.",
           [](auto& s) -> auto& { return s.steel.eos.density; }),
       number(
-          "steel.sound_speed", Dimension::speed, above_to(0, 1e5), Standing::paper,
+          "steel.sound_speed", Dimension::speed, between(100, 2e4), Standing::paper,
           "c0 of the linear Hugoniot.", [](auto& s) -> auto& { return s.steel.eos.sound_speed; }),
       number(
           "steel.hugoniot_slope", Dimension::number, between(0, 10), Standing::paper,
@@ -196,10 +196,10 @@ Keys steel_keys() {
           "Largest compression as a share of the Hugoniot's pole 1/(s - 1).",
           [](auto& s) -> auto& { return s.steel.eos.pole_fraction; }),
       number(
-          "steel.yield_stress", Dimension::pressure, above(0), Standing::paper, "A of Johnson-Cook.",
+          "steel.yield_stress", Dimension::pressure, above_to(0, 1e12), Standing::paper, "A of Johnson-Cook.",
           [](auto& s) -> auto& { return s.steel.strength.a; }),
       number(
-          "steel.hardening", Dimension::pressure, at_least(0), Standing::paper, "B of Johnson-Cook.",
+          "steel.hardening", Dimension::pressure, between(0, 1e12), Standing::paper, "B of Johnson-Cook.",
           [](auto& s) -> auto& { return s.steel.strength.b; }),
       number(
           "steel.hardening_exponent", Dimension::number, above_to(0, 10), Standing::paper,
@@ -211,22 +211,22 @@ Keys steel_keys() {
           "steel.softening_exponent", Dimension::number, above_to(0, 10), Standing::paper,
           "m of Johnson-Cook.", [](auto& s) -> auto& { return s.steel.strength.m; }),
       number(
-          "steel.reference_rate", Dimension::frequency, above(0), Standing::assumed,
+          "steel.reference_rate", Dimension::frequency, above_to(0, 1e12), Standing::assumed,
           "Plastic strain rate at which the rate factor of Johnson-Cook is 1.",
           [](auto& s) -> auto& { return s.steel.strength.reference_rate; }),
       number(
-          "steel.room_temperature", Dimension::temperature, above(0), Standing::assumed,
+          "steel.room_temperature", Dimension::temperature, above_to(0, 1e4), Standing::assumed,
           "Temperature below which Johnson-Cook does not soften.",
           [](auto& s) -> auto& { return s.steel.strength.room_temperature; }),
       number(
-          "steel.melting_temperature", Dimension::temperature, above(0), Standing::paper,
+          "steel.melting_temperature", Dimension::temperature, above_to(0, 1e4), Standing::paper,
           "Temperature at which the flow stress vanishes.",
           [](auto& s) -> auto& { return s.steel.strength.melting_temperature; }),
       number(
-          "steel.shear_modulus", Dimension::pressure, above(0), Standing::literature, "Shear modulus.",
-          [](auto& s) -> auto& { return s.steel.strength.shear_modulus; }),
+          "steel.shear_modulus", Dimension::pressure, above_to(0, 1e12), Standing::literature,
+          "Shear modulus.", [](auto& s) -> auto& { return s.steel.strength.shear_modulus; }),
       number(
-          "steel.specific_heat", Dimension::specific_heat, above_to(0, 1e5), Standing::paper,
+          "steel.specific_heat", Dimension::specific_heat, between(50, 1e4), Standing::paper,
           "Specific heat.", [](auto& s) -> auto& { return s.steel.strength.specific_heat; }),
       number(
           "steel.taylor_quinney", Dimension::number, between(0, 1), Standing::assumed,
@@ -248,23 +248,23 @@ Keys kinetics_keys() {
   return {
       kinetics_set_key(),
       renaming(number(
-          "kinetics.heat_of_reaction", Dimension::specific_energy, at_least(0), Standing::paper,
+          "kinetics.heat_of_reaction", Dimension::specific_energy, between(0, 1e8), Standing::paper,
           "Heat Q that the reaction releases.",
           [](auto& s) -> auto& { return s.charge.kinetics.heat_of_reaction; })),
       renaming(number(
-          "kinetics.frequency", Dimension::frequency, at_least(0), Standing::paper,
+          "kinetics.frequency", Dimension::frequency, between(0, 1e30), Standing::paper,
           "Frequency factor Z of the Arrhenius law.",
           [](auto& s) -> auto& { return s.charge.kinetics.frequency; })),
       renaming(number(
-          "kinetics.activation_temperature", Dimension::temperature, above(0), Standing::calibrated,
+          "kinetics.activation_temperature", Dimension::temperature, above_to(0, 1e6), Standing::calibrated,
           "Activation energy over the gas constant, E/R.",
           [](auto& s) -> auto& { return s.charge.kinetics.activation_temperature; })),
       number(
-          "kinetics.ignition_temperature", Dimension::temperature, above(0), Standing::calibrated,
+          "kinetics.ignition_temperature", Dimension::temperature, above_to(0, 2e3), Standing::calibrated,
           "Temperature T1 that triggers ignition.",
           [](auto& s) -> auto& { return s.charge.kinetics.ignition_temperature; }),
       number(
-          "kinetics.burnt_temperature", Dimension::temperature, above(0), Standing::paper,
+          "kinetics.burnt_temperature", Dimension::temperature, above_to(0, 1e4), Standing::paper,
           "Temperature T2 at which the reaction is complete.",
           [](auto& s) -> auto& { return s.charge.kinetics.burnt_temperature; }),
   };

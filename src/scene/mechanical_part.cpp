@@ -81,6 +81,7 @@ Scene mechanical_part(const Scene& scene) {
   const Charge usual;
   Scene part = scene;
   part.title.clear();
+  part.accepted.clear();
   part.load = without_unused(std::move(part.load));
   part.surface = surface_part(scene.surface, temperatures_matter);
   if (!temperatures_matter) part.charge.specific_heat = usual.specific_heat;

@@ -1,6 +1,8 @@
 #include "launchsafe/scene/read_scene.hpp"
 
 #include "key_text.hpp"
+#include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +12,7 @@
 namespace launchsafe::scene {
 namespace {
 
-const std::vector<std::string> tables_read_apart{"body", "observation_point"};
+const std::vector<std::string> tables_read_apart{"body", "observation_point", "accept"};
 
 /// Reads [[name]] tables into `owners`; the places become "name.<name of the owner>.<key>".
 template <class Owner>
@@ -73,6 +75,7 @@ std::optional<InputError> rebuild(SceneFile& file, bool has_curve) {
   Scene fresh;
   fresh.bodies = std::move(file.scene.bodies);
   fresh.output.observation_points = std::move(file.scene.output.observation_points);
+  fresh.accepted = std::move(file.scene.accepted);
   for (const Key<Scene>& key : scene_keys()) {
     const auto given = file.given.find(key.name);
     if (given != file.given.end()) key.set(fresh, given->second.value);
@@ -145,6 +148,9 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
                                scene.output.observation_points, file.places)) {
     return *error;
   }
+  auto accepted = read_acceptances(*table, acceptable_names(scene), file.file);
+  if (!accepted) return accepted.error();
+  scene.accepted = std::move(*accepted);
   if (auto error = rebuild(file, false)) return *error;
   return file;
 }
@@ -237,6 +243,7 @@ std::string to_toml(const Scene& scene) {
   }
   append_inline_tables(text, "body", body_keys(), scene.bodies);
   append_inline_tables(text, "observation_point", observation_point_keys(), scene.output.observation_points);
+  if (!scene.accepted.empty()) append_inline_tables(text, "accept", acceptance_keys(), scene.accepted);
   return fmt::to_string(text);
 }
 

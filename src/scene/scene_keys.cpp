@@ -1,7 +1,9 @@
 #include "launchsafe/scene/scene_keys.hpp"
 
+#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "material_keys.hpp"
+#include "plausible_ranges.hpp"
 
 #include <iterator>
 #include <utility>
@@ -114,13 +116,13 @@ Keys gap_keys() {
           "Time constant of the exchange between air and skin.",
           [](auto& s) -> auto& { return s.surface.exchange_time; }),
       number_key<Scene>(
-          "gap.air_density", Dimension::density, above_to(0, 100), Standing::literature,
+          "gap.air_density", Dimension::density, between(0.01, 100), Standing::literature,
           "Density of the air before launch.", [](auto& s) -> auto& { return s.surface.air.density; }),
       number_key<Scene>(
-          "gap.air_specific_heat", Dimension::specific_heat, above_to(0, 1e5), Standing::literature,
+          "gap.air_specific_heat", Dimension::specific_heat, between(100, 1e4), Standing::literature,
           "Specific heat of the air.", [](auto& s) -> auto& { return s.surface.air.specific_heat; }),
       number_key<Scene>(
-          "gap.air_heat_ratio", Dimension::number, above_to(1, 2), Standing::paper,
+          "gap.air_heat_ratio", Dimension::number, above_to(1, 1.67), Standing::paper,
           "Adiabatic exponent of the air.", [](auto& s) -> auto& { return s.surface.air.heat_ratio; }),
       number_key<Scene>(
           "gap.air_temperature", Dimension::temperature, between(200, 500), Standing::paper,
@@ -212,6 +214,13 @@ void append(Keys& keys, Keys more) {
   keys.insert(keys.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+/// The keys with what is plausible of each; `prefix` is that of their names in a whole file.
+template <class Owner>
+std::vector<Key<Owner>> with_plausible(std::vector<Key<Owner>> keys, const std::string& prefix) {
+  for (Key<Owner>& key : keys) key.plausible = plausible_values_of(prefix + key.name);
+  return keys;
+}
+
 Keys all_scene_keys() {
   Keys keys = general_keys();
   append(keys, load_keys());
@@ -221,7 +230,7 @@ Keys all_scene_keys() {
   append(keys, gap_keys());
   append(keys, numerics_keys());
   append(keys, output_keys());
-  return keys;
+  return with_plausible(std::move(keys), "");
 }
 
 template <class Owner>
@@ -242,34 +251,41 @@ const std::vector<Key<Scene>>& scene_keys() {
 }
 
 const std::vector<Key<Body>>& body_keys() {
-  static const std::vector<Key<Body>> keys{
-      required(text_key<Body>(
-          "name", Standing::input, "Name of the body, unique.", [](auto& b) -> auto& { return b.name; })),
-      required(word_key<Body, BodyMaterial>(
-          "material", Standing::input, "What the body is made of.",
-          {{"steel", BodyMaterial::steel}, {"charge", BodyMaterial::charge}},
-          [](auto& b) -> auto& { return b.material; })),
-      required(range_key<Body>(
-          "x", Dimension::length, between(0, 10), Standing::input, "Axial extent, from the nose to the base.",
-          [](auto& b) -> auto& { return b.x_begin; }, [](auto& b) -> auto& { return b.x_end; })),
-      required(range_key<Body>(
-          "r", Dimension::length, between(0, 10), Standing::input, "Radial extent, from the axis outward.",
-          [](auto& b) -> auto& { return b.r_begin; }, [](auto& b) -> auto& { return b.r_end; })),
-  };
+  static const std::vector<Key<Body>> keys = with_plausible<Body>(
+      {
+          required(text_key<Body>(
+              "name", Standing::input, "Name of the body, unique.", [](auto& b) -> auto& { return b.name; })),
+          required(word_key<Body, BodyMaterial>(
+              "material", Standing::input, "What the body is made of.",
+              {{"steel", BodyMaterial::steel}, {"charge", BodyMaterial::charge}},
+              [](auto& b) -> auto& { return b.material; })),
+          required(range_key<Body>(
+              "x", Dimension::length, between(0, 10), Standing::input,
+              "Axial extent, from the nose to the base.", [](auto& b) -> auto& { return b.x_begin; },
+              [](auto& b) -> auto& { return b.x_end; })),
+          required(range_key<Body>(
+              "r", Dimension::length, between(0, 10), Standing::input,
+              "Radial extent, from the axis outward.", [](auto& b) -> auto& { return b.r_begin; },
+              [](auto& b) -> auto& { return b.r_end; })),
+      },
+      "body.");
   return keys;
 }
 
 const std::vector<Key<ObservationPoint>>& observation_point_keys() {
-  static const std::vector<Key<ObservationPoint>> keys{
-      required(text_key<ObservationPoint>(
-          "name", Standing::input, "Name of the point, unique.", [](auto& p) -> auto& { return p.name; })),
-      required(number_key<ObservationPoint>(
-          "x", Dimension::length, between(0, 10), Standing::input, "Axial position at rest.",
-          [](auto& p) -> auto& { return p.x; })),
-      required(number_key<ObservationPoint>(
-          "r", Dimension::length, between(0, 10), Standing::input, "Radial position at rest.",
-          [](auto& p) -> auto& { return p.r; })),
-  };
+  static const std::vector<Key<ObservationPoint>> keys = with_plausible<ObservationPoint>(
+      {
+          required(text_key<ObservationPoint>(
+              "name", Standing::input, "Name of the point, unique.",
+              [](auto& p) -> auto& { return p.name; })),
+          required(number_key<ObservationPoint>(
+              "x", Dimension::length, between(0, 10), Standing::input, "Axial position at rest.",
+              [](auto& p) -> auto& { return p.x; })),
+          required(number_key<ObservationPoint>(
+              "r", Dimension::length, between(0, 10), Standing::input, "Radial position at rest.",
+              [](auto& p) -> auto& { return p.r; })),
+      },
+      "observation_point.");
   return keys;
 }
 
@@ -278,6 +294,7 @@ std::vector<DocumentedKey> describe_keys() {
   document(documented, scene_keys(), "");
   document(documented, body_keys(), "body.");
   document(documented, observation_point_keys(), "observation_point.");
+  document(documented, acceptance_keys(), "accept.");
   return documented;
 }
 

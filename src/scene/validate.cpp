@@ -222,6 +222,25 @@ Fault check_kinetics(const SceneFile& file) {
   return std::nullopt;
 }
 
+/// An equation of state with the shape of an unreacted explosive's: it resists compression.
+Fault check_jwl(const SceneFile& file) {
+  const materials::JwlParameters& eos = file.scene.charge.eos;
+  if (!(eos.r1 > eos.r2)) {
+    const bool second = file.given.contains("charge.jwl.r2");
+    return fault_at(file, second ? "charge.jwl.r2" : "charge.jwl.r1",
+                    fmt::format("R1 = {:.6g} and R2 = {:.6g}", eos.r1, eos.r2), "R1 above R2");
+  }
+  const double bulk = materials::jwl_bulk_modulus(eos, 1.0, eos.initial_energy);
+  if (bulk > 0.0) return std::nullopt;
+  std::string key = "charge.jwl.a";
+  for (const char* each : {"charge.jwl.b", "charge.jwl.r1", "charge.jwl.r2", "charge.jwl.omega"}) {
+    if (!file.given.contains("charge.jwl.a") && file.given.contains(each)) key = each;
+  }
+  return fault_at(file, key,
+                  fmt::format("a JWL with a bulk modulus of {:.4g} GPa before launch", 1e-9 * bulk),
+                  "constants whose bulk modulus is above 0 GPa");
+}
+
 Fault check_steel(const SceneFile& file) {
   const materials::JohnsonCookParameters& steel = file.scene.steel.strength;
   if (steel.room_temperature < steel.melting_temperature) return std::nullopt;
@@ -322,7 +341,7 @@ Fault check_output(const SceneFile& file) {
 
 std::optional<InputError> validate(const SceneFile& file) {
   for (const auto check : {check_names, check_charge_fits, check_overlaps, check_cell_size, check_load,
-                           check_kinetics, check_steel, check_crack_friction, check_gaps,
+                           check_kinetics, check_jwl, check_steel, check_crack_friction, check_gaps,
                            check_observation_points, check_numerics, check_output}) {
     if (Fault fault = check(file)) return fault;
   }

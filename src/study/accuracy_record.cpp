@@ -83,6 +83,7 @@ std::string shell_of(const scene::Scene& scene) {
   scene::Scene shell = scene;
   const scene::Scene usual;
   shell.title.clear();
+  shell.accepted.clear();
   shell.frame = usual.frame;
   shell.load = usual.load;
   shell.numerics = usual.numerics;

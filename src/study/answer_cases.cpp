@@ -27,6 +27,8 @@ std::string analysis_text(const Study& study) {
     text += fmt::format("{} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.early_temperature,
                         row.spread, row.early_spread, row.ignition_time, row.calibrated);
   }
+  for (const scene::Implausible& each : study.implausible)
+    text += fmt::format("{} {} {}\n", each.key, each.value, each.because);
   return text;
 }
 

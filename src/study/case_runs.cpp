@@ -80,6 +80,7 @@ scene::Scene scene_of(const NeededRun& needed) {
   if (!needed.coupled_gap) return scene::mechanical_part(*needed.scene);
   scene::Scene scene = *needed.scene;
   scene.title.clear();
+  scene.accepted.clear();
   scene.surface.gaps = {*needed.coupled_gap};
   return scene;
 }

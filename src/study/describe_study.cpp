@@ -1,5 +1,6 @@
 // The keys of a study file as documentation.
 #include "hard_launches.hpp"
+#include "launchsafe/scene/acceptance.hpp"
 #include "study_axes.hpp"
 #include "study_keys.hpp"
 
@@ -71,6 +72,7 @@ std::vector<DocumentedKey> describe_study_keys() {
   document_axes(documented);
   document(documented, detail::input_keys({}), "input");
   document(documented, detail::hard_launch_keys(), "case");
+  document(documented, scene::acceptance_keys(), "accept");
   return documented;
 }
 

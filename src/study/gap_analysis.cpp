@@ -138,11 +138,24 @@ std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
          (confirmation.expected_ignition ? "do" : "do not");
 }
 
+/// What is not plausible of a case and of what its study states. A stability study asks about hard cases
+/// themselves: there no case may pass because its input is called implausible.
+std::vector<scene::Implausible> implausible_in(const Study& study, const CaseOutcome& outcome) {
+  if (study.kind == StudyKind::stability) return {};
+  std::vector<scene::Implausible> values = study.implausible;
+  for (scene::Implausible& each : scene::implausible_values(outcome.input.scene.scene))
+    values.push_back(std::move(each));
+  return values;
+}
+
 /// All doubts about a completed run as one clause.
-std::string doubt_of(const CaseOutcome& outcome) {
+std::string doubt_of(const Study& study, const CaseOutcome& outcome) {
   if (!outcome.completed()) return {};
-  return fmt::format("{}",
-                     fmt::join(run::doubts_of(outcome.input.scene.scene, outcome.result.mechanics), "; "));
+  std::vector<std::string> doubts = run::doubts_of(outcome.input.scene.scene, outcome.result.mechanics);
+  for (const scene::Implausible& each : implausible_in(study, outcome)) {
+    if (!each.accepted()) doubts.push_back(scene::doubt_text(each));
+  }
+  return fmt::format("{}", fmt::join(doubts, "; "));
 }
 
 }  // namespace
@@ -156,7 +169,7 @@ surface::SkinModel without_reaction(surface::SkinModel model) {
 }
 
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
-  const std::string doubt = doubt_of(outcome);
+  const std::string doubt = doubt_of(study, outcome);
   if (!outcome.completed() || !doubt.empty()) {
     outcome.critical = outcome.critical_anywhere =
         indeterminate(outcome.completed() ? "the run is in doubt: " + doubt : outcome.failure);
@@ -226,8 +239,9 @@ void conclude(const Study& study, CaseOutcome& outcome) {
       coupling = std::max(coupling, std::abs(confirmation.difference));
   }
   const bool foreign = misses_calibrated_rows(outcome);
-  const std::string doubt = doubt_of(outcome);
+  const std::string doubt = doubt_of(study, outcome);
   const std::string limited = run::to_string(outcome.result.mechanics.limiters);
+  const std::string accepted = scene::accepted_text(implausible_in(study, outcome));
   std::vector<double> gaps, temperatures;
   for (GapVerdict& row : outcome.verdicts) {
     row.uncertainty.coupling = coupling;
@@ -239,6 +253,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
     if (!row.ignition && row.ignition_anywhere)
       row.judgement.reason +=
           "; the bottom ignites off the observation points, at " + row.ignition_anywhere->point;
+    if (!accepted.empty()) row.judgement.reason += "; " + accepted;
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);
     temperatures.push_back(row.maximum.temperature);

@@ -2,6 +2,7 @@
 
 #include "changed_scene.hpp"
 #include "hard_launches.hpp"
+#include "launchsafe/scene/acceptance.hpp"
 #include "study_axes.hpp"
 #include "study_cases.hpp"
 #include "study_keys.hpp"
@@ -85,6 +86,26 @@ Fault apply_overrides(const toml::table& root, StudyFile& study) {
   if (Fault fault = apply_override(*node, "", study, scene)) return fault;
   if (!scene.complete()) return scene.error();
   study.scene = scene.take();
+  return std::nullopt;
+}
+
+/// The acceptances of the study: those of scene keys go to its scene, those of its own keys beside what it
+/// states. Needs the overrides.
+Fault read_accepted(const toml::table& root, StudyFile& study) {
+  std::vector<std::string> known = scene::acceptable_names(study.scene.scene);
+  for (const auto& key : detail::study_keys()) known.push_back(key.name);
+  auto accepted = scene::read_acceptances(root, known, study.file);
+  if (!accepted) return accepted.error();
+  for (const auto& key : detail::study_keys()) {
+    const scene::Value value = key.get(study.study);
+    if (!study.places.contains(key.name) || scene::is_plausible(key, value)) continue;
+    study.study.implausible.push_back({key.name, scene::format_value(key, value), scene::plausible_text(key),
+                                       scene::reason_for(*accepted, key.name)});
+  }
+  for (scene::Acceptance& each : *accepted) {
+    if (!scene::find_key(detail::study_keys(), each.key))
+      scene::accept(study.scene.scene.accepted, std::move(each));
+  }
   return std::nullopt;
 }
 
@@ -223,9 +244,9 @@ scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesys
   StudyFile study;
   study.file = path.string();
   study.most_cases = request.most_cases;
-  auto read =
-      scene::read_table(*table, detail::study_keys(),
-                        {"set", "reference", "axes", "input", "settings", "case"}, study.file, study.study);
+  auto read = scene::read_table(*table, detail::study_keys(),
+                                {"set", "reference", "axes", "input", "settings", "case", "accept"},
+                                study.file, study.study);
   if (!read) return read.error();
   study.places = std::move(*read);
   note_tables(*table, study);
@@ -236,6 +257,7 @@ scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesys
   if (Fault fault = check_references(study)) return *fault;
   if (Fault fault = read_scene_of(study, path.parent_path())) return *fault;
   if (Fault fault = apply_overrides(*table, study)) return *fault;
+  if (Fault fault = read_accepted(*table, study)) return *fault;
   const auto record = detail::read_record(study, path.parent_path());
   if (!record) return record.error();
   const double tolerance = request.tolerance.value_or(study.study.setting_tolerance);

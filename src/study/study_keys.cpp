@@ -32,7 +32,7 @@ namespace detail {
 namespace {
 
 using scene::above, scene::above_to, scene::any_number, scene::at_least, scene::between;
-using scene::Dimension, scene::Key, scene::Standing;
+using scene::Dimension, scene::Key, scene::plausibly, scene::Standing;
 using enum StudyKind;
 
 /// Whole numbers that a double holds exactly.
@@ -51,6 +51,13 @@ Key<Study> study_number(std::string name, Dimension dimension, scene::Limits lim
   return scene::number_key<Study>(
       std::move(name), dimension, limits, Standing::assumed,
       std::move(sentence), [member](auto& s) -> auto& { return s.*member; });
+}
+
+/// Of a temperature, K.
+Key<Study> stated_uncertainty(std::string name, std::string sentence, double Study::*member) {
+  return plausibly(
+      study_number(std::move(name), Dimension::temperature, between(0, 1000), std::move(sentence), member),
+      between(0.1, 1000), "nothing is known of a launch to a tenth of a kelvin");
 }
 
 std::vector<Key<Study>> common_keys() {
@@ -106,13 +113,15 @@ std::vector<Key<Study>> critical_gap_keys() {
 /// Of every kind that judges gaps and seeks the critical one.
 std::vector<Key<Study>> judging_keys() {
   return {
-      study_number("tolerance", Dimension::length, between(1e-9, 1e-3),
-                   "Largest width of the bracket of the critical gap.", &Study::tolerance),
-      study_number("largest_gap", Dimension::length, above_to(0, 0.01),
-                   "Where the search for the critical gap ends.", &Study::largest_gap),
-      study_number("numerical_uncertainty", Dimension::temperature, between(0, 1000),
-                   "Uncertainty of the maximum temperature from the mesh, from a mesh study.",
-                   &Study::numerical_uncertainty),
+      plausibly(study_number("tolerance", Dimension::length, between(1e-9, 1e-3),
+                             "Largest width of the bracket of the critical gap.", &Study::tolerance),
+                between(1e-9, 2e-4), "a wider bracket says little of gaps that are tenths of a millimetre"),
+      plausibly(study_number("largest_gap", Dimension::length, above_to(0, 0.01),
+                             "Where the search for the critical gap ends.", &Study::largest_gap),
+                between(1e-4, 0.01), "a search that ends at less finds no gap that ignites"),
+      stated_uncertainty("numerical_uncertainty",
+                         "Uncertainty of the maximum temperature from the mesh, from a mesh study.",
+                         &Study::numerical_uncertainty),
   };
 }
 
@@ -163,13 +172,13 @@ std::vector<Key<Study>> uncertainty_keys() {
           "Replaces the scene's numerics by the cheapest setting of the record that knows the maximum "
           "temperature to this; on the command line --tolerance.",
           &Study::setting_tolerance),
-      study_number("fit_uncertainty", Dimension::temperature, between(0, 1000),
-                   "Uncertainty of the margin from the calibrated constants; not counted if absent.",
-                   &Study::fit_uncertainty),
-      study_number("input_uncertainty", Dimension::temperature, between(0, 1000),
-                   "Uncertainty of the maximum temperature from what is not known of the launch (see kind "
-                   "sensitivity); not counted if absent.",
-                   &Study::input_uncertainty),
+      stated_uncertainty("fit_uncertainty",
+                         "Uncertainty of the margin from the calibrated constants; not counted if absent.",
+                         &Study::fit_uncertainty),
+      stated_uncertainty("input_uncertainty",
+                         "Uncertainty of the maximum temperature from what is not known of the launch (see "
+                         "kind sensitivity); not counted if absent.",
+                         &Study::input_uncertainty),
   };
 }
 

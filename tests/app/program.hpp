@@ -42,7 +42,20 @@ energy_drift_limit = 0.5
 [output]
 trace_interval = "5 us"
 )" + testing::small_shell + testing::small_shell_base +
-                                      testing::small_shell_point;
+                                      testing::small_shell_point + R"(
+[[accept]]
+key = "load.duration"
+because = "a launch that takes milliseconds to compute"
+[[accept]]
+key = "load.peak_time"
+because = "a launch that takes milliseconds to compute"
+[[accept]]
+key = "load.launch_speed"
+because = "a launch that takes milliseconds to compute"
+[[accept]]
+key = "numerics.energy_drift_limit"
+because = "the base is loaded by a shock, on a coarse mesh"
+)";
 
 /// The text with its first `from` replaced by `to`.
 inline std::string with(std::string text, const std::string& from, const std::string& to) {

@@ -4,8 +4,10 @@
 #include "launchsafe/scene/read_scene.hpp"
 
 #include "fuzz_input.hpp"
+#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/scene/plan.hpp"
+#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 
 #include <cmath>
@@ -45,11 +47,21 @@ void check_load(const scene::Scene& given) {
   }
 }
 
+void check_plausibility(const scene::Scene& given) {
+  for (const scene::Implausible& each : scene::implausible_values(given)) {
+    fuzz::require(!each.key.empty() && !each.value.empty() && !each.range.empty(),
+                  "what is not plausible is named, with what would be", scene::doubt_text(each));
+    fuzz::require(each.accepted() == !scene::reason_for(given.accepted, each.key).empty(),
+                  "only what the scene accepts is accepted", scene::doubt_text(each));
+  }
+}
+
 void check_scene(const scene::SceneFile& file) {
   check_round_trip(file.scene);
   check_round_trip(scene::mechanical_part(file.scene));
   check_plan(file.scene);
   check_load(file.scene);
+  check_plausibility(file.scene);
   fuzz::require(scene::list_keys(file).size() == scene::scene_keys().size(), "every key is listed");
 }
 

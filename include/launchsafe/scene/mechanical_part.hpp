@@ -6,7 +6,7 @@
 namespace launchsafe::scene {
 
 /// The scene with everything that cannot influence the mechanical run, its trace or its snapshots at its
-/// default: title and file names; gap, air (but for its initial pressure, below which no bottom pressure is
+/// default: title, file names and acceptances; gap, air (but for its initial pressure, below which no bottom pressure is
 /// traced), exchange and localisation; numbers of the analytic load under a measured curve. The plan's
 /// switches stand as decided, without what the decision rests on. Kinetics, heat conduction, friction closure
 /// and specific heat of the charge stay only where the plan, or a snapshot, needs them. Zeros have no sign.

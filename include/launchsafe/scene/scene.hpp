@@ -105,6 +105,12 @@ struct Physics {
   double reaction_bound = 0.1;     ///< K of self-heating over the run
 };
 
+/// What the user says of a value that is allowed but not plausible: that it is meant, and why.
+struct Acceptance {
+  std::string key;
+  std::string because;
+};
+
 struct Scene {
   std::string title;
   Symmetry symmetry = Symmetry::axisymmetric;
@@ -119,6 +125,7 @@ struct Scene {
   Numerics numerics;
   Output output;
   Physics physics;
+  std::vector<Acceptance> accepted;
 };
 
 /// The smallest rectangle around all bodies of a material (or all bodies).

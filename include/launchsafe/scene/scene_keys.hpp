@@ -23,7 +23,7 @@ struct DocumentedKey {
   KeyDescription description;
   std::string default_text;
 };
-/// All keys of a scene file, those of bodies and observation points as "body.x" and "observation_point.x".
+/// All keys of a scene file, those of its tables as "body.x", "observation_point.x" and "accept.key".
 std::vector<DocumentedKey> describe_keys();
 
 }  // namespace launchsafe::scene

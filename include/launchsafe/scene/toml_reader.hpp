@@ -54,6 +54,15 @@ inline Limits above_to(double lowest, double highest) {
   return {.lowest = lowest, .highest = highest, .lowest_allowed = false};
 }
 
+/// What a key is expected to hold: a value that is allowed but not plausible puts every verdict that rests on
+/// it in doubt (see plausibility.hpp).
+struct Plausible {
+  Limits limits = {};    ///< SI; of a list those of every number, of a range those of its width
+  bool or_zero = false;  ///< 0 too, where it stands for "none"
+  std::vector<std::string> words = {};  ///< of a word, or of a flag ("true"); empty: every one
+  std::string because = {};             ///< a clause: why; where all is plausible, why that is
+};
+
 /// All there is to say about a key, apart from where its value goes.
 struct KeyDescription {
   std::string name = {};  ///< dotted, such as "charge.crack_radius"
@@ -66,10 +75,13 @@ struct KeyDescription {
   std::string sentence = {};
   bool may_be_empty = false;  ///< of a list: [] is allowed
   bool required = false;      ///< no default: the user must say
+  Plausible plausible = {};
 };
 
 /// "a length, more than 0 cm, such as ...": for messages and the key listing.
 std::string allowed_text(const KeyDescription& key);
+/// "0.05 ms to 2 ms, because ...": what is plausible of a key; "any" where all that is allowed is.
+std::string plausible_text(const KeyDescription& key);
 /// A value as people read it ("0.003 cm", "axisymmetric", "0 to 11.8 cm").
 std::string format_value(const KeyDescription& key, const Value& value);
 /// A value as TOML that reads back to exactly the same.
@@ -250,6 +262,13 @@ Key<Owner> range_key(std::string name, Dimension dimension, Limits limits, Stand
 template <class Owner>
 Key<Owner> required(Key<Owner> key) {
   key.required = true;
+  return key;
+}
+
+/// The same key with what is plausible of it, and why.
+template <class Owner>
+Key<Owner> plausibly(Key<Owner> key, Limits limits, std::string because) {
+  key.plausible = {.limits = limits, .because = std::move(because)};
   return key;
 }
 

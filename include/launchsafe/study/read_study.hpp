@@ -2,6 +2,7 @@
 #pragma once
 
 #include "launchsafe/math/sampling.hpp"
+#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/verify/hard_case.hpp"
@@ -144,6 +145,9 @@ struct Study {
       not_a_number;                       ///< K, of T max; picks a setting from the record; NaN: the scene's
   double fit_uncertainty = not_a_number;  ///< K, of the calibrated constants; NaN: not stated
   double input_uncertainty = not_a_number;  ///< K, of T max by what is not known of the launch; NaN: likewise
+
+  /// What the study itself states, rather than its scene, and is not plausible; accepted or not.
+  std::vector<scene::Implausible> implausible;
 };
 
 /// K. By so much was T max of the 155 mm shell seen to move between meshes of 1 to 10 mm with one set of

@@ -1,0 +1,50 @@
+// Values that are allowed but that no launch has: a verdict that rests on one is in doubt, unless the scene
+// says why it is meant.
+#pragma once
+
+#include "launchsafe/scene/scene.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::scene {
+
+/// A value that is not plausible.
+struct Implausible {
+  std::string key;      ///< of the scene or study, or a quantity that follows from keys
+  std::string value;    ///< as people read it
+  std::string range;    ///< what is plausible, with its reason
+  std::string because;  ///< why the user accepts it; empty: he does not
+  bool accepted() const { return !because.empty(); }
+};
+
+/// "gap.exchange_time = 100 s is not plausible (0.05 ms to 2 ms, because ...)".
+std::string doubt_text(const Implausible& value);
+/// "accepted: gap.exchange_time = 100 s, because ...; ..." of those that are; empty if none is.
+std::string accepted_text(const std::vector<Implausible>& values);
+
+/// Whether a value is what is expected of its key. NaN never is.
+bool is_plausible(const KeyDescription& key, const Value& value);
+
+/// A quantity that follows from several keys and that they may make meaningless while each of them is
+/// plausible.
+struct DerivedQuantity {
+  KeyDescription description;
+  std::function<std::optional<double>(const Scene&)> value;  ///< SI; none where a scene has no such quantity
+};
+const std::vector<DerivedQuantity>& derived_quantities();
+
+/// All values of a scene that are not plausible, accepted or not: keys in the order of their declaration,
+/// bodies, then derived quantities. They depend on the scene alone, whatever file or study it came from.
+std::vector<Implausible> implausible_values(const Scene& scene);
+
+/// What `accept` may name: scene keys, "body.<name>.x" and ".r", derived quantities.
+std::vector<std::string> acceptable_names(const Scene& scene);
+
+/// Acceptances of values that are plausible anyway.
+std::vector<std::string> needless_acceptances(const Scene& scene);
+
+}  // namespace launchsafe::scene

@@ -1,0 +1,94 @@
+#include "launchsafe/scene/acceptance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace launchsafe::scene {
+namespace {
+
+constexpr std::ptrdiff_t fewest_letters = 8;
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+/// Letters of any language: beyond ASCII every byte counts.
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+}
+
+std::optional<InputError> check(const Acceptance& acceptance, const std::map<std::string, Place>& places,
+                                const std::vector<Acceptance>& earlier,
+                                const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), acceptance.key) == known.end()) {
+    InputError error = unknown_key(places.at("key"), acceptance.key, known);
+    error.found = fmt::format("the unknown key \"{}\"", acceptance.key);
+    error.key = "accept.key";
+    return error;
+  }
+  if (!reason_for(earlier, acceptance.key).empty()) {
+    return error_at(places.at("key"), "accept.key", fmt::format("\"{}\" a second time", acceptance.key),
+                    "each key once");
+  }
+  const std::string& because = acceptance.because;
+  if (std::count_if(because.begin(), because.end(), is_letter) < fewest_letters ||
+      std::any_of(because.begin(), because.end(), is_control)) {
+    return error_at(
+        places.at("because"), "accept.because", fmt::format("a reason of {} characters", because.size()),
+        fmt::format("a reason in words, at least {} letters on one line: it is printed beside every verdict",
+                    fewest_letters));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+const std::vector<Key<Acceptance>>& acceptance_keys() {
+  static const std::vector<Key<Acceptance>> keys{
+      required(text_key<Acceptance>(
+          "key", Standing::input,
+          "Key, or quantity that follows from keys, whose value is meant though it is not plausible.",
+          [](auto& a) -> auto& { return a.key; })),
+      required(text_key<Acceptance>(
+          "because", Standing::input, "Why, in words; printed beside every verdict.",
+          [](auto& a) -> auto& { return a.because; })),
+  };
+  return keys;
+}
+
+Expected<std::vector<Acceptance>> read_acceptances(const toml::table& root,
+                                                   const std::vector<std::string>& known,
+                                                   const std::string& file) {
+  std::vector<Acceptance> accepted;
+  const toml::node* node = root.get("accept");
+  if (!node || (node->is_array() && node->as_array()->empty())) return accepted;
+  if (!node->is_array_of_tables()) {
+    return error_at(place_of(*node, file), "accept", found_text(*node),
+                    "tables, such as accept = [{ key = \"gap.exchange_time\", because = \"...\" }]");
+  }
+  for (const toml::node& element : *node->as_array()) {
+    Acceptance acceptance;
+    const auto places = read_table(*element.as_table(), acceptance_keys(), {}, file, acceptance);
+    if (!places) {
+      InputError error = places.error();
+      error.key = "accept." + error.key;
+      return error;
+    }
+    if (auto error = check(acceptance, *places, accepted, known)) return *error;
+    accepted.push_back(std::move(acceptance));
+  }
+  return accepted;
+}
+
+void accept(std::vector<Acceptance>& accepted, Acceptance acceptance) {
+  std::erase_if(accepted, [&](const Acceptance& each) { return each.key == acceptance.key; });
+  accepted.push_back(std::move(acceptance));
+}
+
+std::string reason_for(const std::vector<Acceptance>& accepted, const std::string& key) {
+  const auto found =
+      std::find_if(accepted.begin(), accepted.end(), [&](const Acceptance& each) { return each.key == key; });
+  return found == accepted.end() ? std::string{} : found->because;
+}
+
+}  // namespace launchsafe::scene

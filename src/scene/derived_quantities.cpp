@@ -1,0 +1,204 @@
+// Quantities that follow from several keys, and what is plausible of them.
+#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/scene/plausibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace launchsafe::scene {
+namespace {
+
+using Number = std::optional<double>;
+
+/// Of dry air, J/(kg K).
+constexpr double gas_constant_of_air = 287.05;
+
+double measured_peak(const Load& load) {
+  return *std::max_element(load.curve_pressure.begin(), load.curve_pressure.end());
+}
+
+/// The largest pressure that the scene states, Pa, wherever in time it lies.
+double stated_peak(const Load& load) {
+  return load.curve_time.empty() || load.rescale_to_peak ? load.peak : measured_peak(load);
+}
+
+Number peak_of_curve(const Scene& scene) {
+  if (scene.load.curve_time.empty()) return std::nullopt;
+  return measured_peak(scene.load);
+}
+
+/// Only where it is another than the stated one, which is judged by itself.
+Number simulated_peak(const Scene& scene) {
+  constexpr double same = 0.99;
+  const double peak = PressureHistory(scene.load).peak();
+  if (peak >= same * stated_peak(scene.load)) return std::nullopt;
+  return peak;
+}
+
+Number rescaling(const Scene& scene) {
+  if (scene.load.curve_time.empty() || !scene.load.rescale_to_peak) return std::nullopt;
+  return scene.load.peak / measured_peak(scene.load);
+}
+
+/// As one rigid body, m/s.
+Number launch_speed(const Scene& scene) {
+  constexpr int parts = 1000;
+  const PressureHistory load(scene.load);
+  const double dt = scene.load.duration / parts;
+  double impulse = 0.0;
+  for (int part = 0; part < parts; ++part) impulse += load.at((part + 0.5) * dt) * dt;
+  return rigid_acceleration(scene, impulse);
+}
+
+/// Of an isotropic solid.
+double poisson_ratio(double bulk, double shear) {
+  return (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear));
+}
+
+Number poisson_ratio_of_steel(const Scene& scene) {
+  if (!has_material(scene, BodyMaterial::steel)) return std::nullopt;
+  const auto& eos = scene.steel.eos;
+  return poisson_ratio(eos.density * eos.sound_speed * eos.sound_speed, scene.steel.strength.shear_modulus);
+}
+
+double bulk_modulus_of_charge(const Scene& scene) {
+  const auto& eos = scene.charge.eos;
+  return materials::jwl_bulk_modulus(eos, 1.0, eos.initial_energy);
+}
+
+/// A quantity that only a scene with a charge has.
+std::function<Number(const Scene&)> of_charge(double (*value)(const Scene&)) {
+  return [value](const Scene& scene) {
+    return has_material(scene, BodyMaterial::charge) ? Number(value(scene)) : std::nullopt;
+  };
+}
+
+double poisson_ratio_of_charge(const Scene& scene) {
+  return poisson_ratio(bulk_modulus_of_charge(scene), scene.charge.cracks.shear_modulus());
+}
+
+double bulk_sound_speed(const Scene& scene) {
+  return std::sqrt(bulk_modulus_of_charge(scene) / scene.charge.eos.initial_density);
+}
+
+double heat_capacity(const Scene& scene) {
+  return 1e-6 * scene.charge.eos.initial_density * scene.charge.specific_heat;
+}
+
+/// Temperature (K) at which self-heating without loss runs away within a second, with the leading term of the
+/// induction time, c T^2/(Q Z E) exp(E/T); infinite without reaction. (Frank-Kamenetskii 1969.)
+double explosion_temperature(const Scene& scene) {
+  const materials::KineticsParameters& kinetics = scene.charge.kinetics;
+  const double activation = kinetics.activation_temperature;
+  const double rate = kinetics.heat_of_reaction * kinetics.frequency / scene.charge.specific_heat;
+  constexpr double delay = 1.0;  // s
+  const auto too_slow = [&](double temperature) {
+    return std::log(temperature * temperature / (rate * activation)) + activation / temperature >
+           std::log(delay);
+  };
+  double lower = 1.0, upper = std::min(0.5 * activation, 1e5);  // up to E/2 the time falls with T
+  if (!(rate > 0.0) || too_slow(upper)) return std::numeric_limits<double>::infinity();
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (lower + upper);
+    (too_slow(middle) ? lower : upper) = middle;
+  }
+  return upper;
+}
+
+double gas_law_of_air(const Scene& scene) {
+  const materials::AirParameters& air = scene.surface.air;
+  return air.density * gas_constant_of_air * air.initial_temperature / air.initial_pressure;
+}
+
+double heat_of_ideal_air(const Scene& scene) {
+  const materials::AirParameters& air = scene.surface.air;
+  return air.specific_heat * (air.heat_ratio - 1.0) / (air.heat_ratio * gas_constant_of_air);
+}
+
+Number length_of_shell(const Scene& scene) {
+  const Extent all = extent_of(scene);
+  return all.x_end - all.x_begin;
+}
+
+Number radius_of_shell(const Scene& scene) { return extent_of(scene).r_end; }
+
+DerivedQuantity quantity(std::string name, Dimension dimension, std::string sentence, Limits plausible,
+                         std::string because, std::function<Number(const Scene&)> value) {
+  return {{.name = std::move(name),
+           .dimension = dimension,
+           .standing = Standing::derived,
+           .sentence = std::move(sentence),
+           .plausible = {.limits = plausible, .because = std::move(because)}},
+          std::move(value)};
+}
+
+std::vector<DerivedQuantity> of_load() {
+  const Limits gun = between(10e6, 1e9);
+  return {
+      quantity("load.measured_peak", Dimension::pressure,
+               "Largest pressure of a measured curve as it was measured, wherever in time it lies.", gun,
+               "a mortar has 10 MPa, and no gun tube bears 1 GPa", peak_of_curve),
+      quantity("load.simulated_peak", Dimension::pressure,
+               "Largest pressure within load.duration, where it is below the one that the scene states.", gun,
+               "what lies outside of the simulated time does nothing", simulated_peak),
+      quantity("load.rescaling", Dimension::number, "Factor on a measured curve by load.rescale_to_peak.",
+               between(0.25, 4), "other charges of propellant than these make another shape of the curve",
+               rescaling),
+      quantity("load.launch_speed", Dimension::speed,
+               "Speed at the end of the load, of the projectile as one rigid body.", between(50, 2.5e3),
+               "mortars launch with 70 m/s, tank guns with 1.8 km/s", launch_speed),
+  };
+}
+
+std::vector<DerivedQuantity> of_materials() {
+  return {
+      quantity("steel.poisson_ratio", Dimension::number,
+               "Poisson's ratio, from density, c0 and shear modulus.", between(0.24, 0.35),
+               "steels have 0.27 to 0.30", poisson_ratio_of_steel),
+      quantity("charge.poisson_ratio", Dimension::number,
+               "Poisson's ratio before relaxation, from the JWL and the shear moduli.", between(0.1, 0.49),
+               "explosives have 0.2 to 0.45", of_charge(poisson_ratio_of_charge)),
+      quantity("charge.bulk_sound_speed", Dimension::speed, "Bulk sound speed, from the JWL and the density.",
+               between(1.5e3, 5e3), "explosives have 2 to 3 km/s", of_charge(bulk_sound_speed)),
+      quantity("charge.heat_capacity", Dimension::number,
+               "Density times specific heat of the charge, in MJ/(m3 K).", between(1.2, 3.6),
+               "explosives have 1.6 to 2.5, the published model 3.1", of_charge(heat_capacity)),
+      quantity("kinetics.explosion_temperature", Dimension::temperature,
+               "Temperature at which self-heating runs away within a second, from Q, Z, E/R and specific "
+               "heat.",
+               between(400, 700), "explosives do so between 450 and 650 K", of_charge(explosion_temperature)),
+  };
+}
+
+std::vector<DerivedQuantity> of_gap_and_shell() {
+  return {
+      quantity("gap.gas_law", Dimension::number,
+               "Density over that of an ideal gas of air's molar mass, at the air's pressure and "
+               "temperature before launch.",
+               between(0.9, 1.1), "air at rest obeys the law within a percent", of_charge(gas_law_of_air)),
+      quantity("gap.heat_law", Dimension::number,
+               "Specific heat over that of an ideal gas of air's molar mass and the given heat ratio.",
+               between(0.9, 1.1), "air obeys the law within some percent", of_charge(heat_of_ideal_air)),
+      quantity("shell.length", Dimension::length, "Length of all bodies together.", between(0.02, 2.5),
+               "the longest shells have 2 m", length_of_shell),
+      quantity("shell.radius", Dimension::length, "Largest radius of all bodies.", between(0.005, 0.25),
+               "calibres go from machine cannons to 46 cm", radius_of_shell),
+  };
+}
+
+std::vector<DerivedQuantity> all_quantities() {
+  std::vector<DerivedQuantity> all;
+  for (auto part : {of_load(), of_materials(), of_gap_and_shell()})
+    std::move(part.begin(), part.end(), std::back_inserter(all));
+  return all;
+}
+
+}  // namespace
+
+const std::vector<DerivedQuantity>& derived_quantities() {
+  static const std::vector<DerivedQuantity> quantities = all_quantities();
+  return quantities;
+}
+
+}  // namespace launchsafe::scene

@@ -1,0 +1,143 @@
+#include "launchsafe/scene/plausibility.hpp"
+
+#include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::scene {
+namespace {
+
+bool is_plausible_number(const Plausible& plausible, double number) {
+  return (plausible.or_zero && number == 0.0) || plausible.limits.contain(number);
+}
+
+bool is_plausible_word(const Plausible& plausible, const std::string& word) {
+  return plausible.words.empty() ||
+         std::find(plausible.words.begin(), plausible.words.end(), word) != plausible.words.end();
+}
+
+/// Numbers of the analytic load, which do nothing under a measured curve.
+bool is_unused(const Scene& scene, const std::string& key) {
+  if (scene.load.curve_time.empty()) return false;
+  if (key == "load.peak") return !scene.load.rescale_to_peak;
+  return key == "load.base" || key == "load.peak_time" || key == "load.exponent";
+}
+
+class Judge {
+ public:
+  explicit Judge(const Scene& scene) : scene_(scene) {}
+
+  void key(const KeyDescription& key, const std::string& name, const Value& value) {
+    if (!is_plausible(key, value)) add(name, format_value(key, value), plausible_text(key));
+  }
+  void add(const std::string& name, std::string value, std::string range) {
+    found_.push_back({name, std::move(value), std::move(range), reason_for(scene_.accepted, name)});
+  }
+  std::vector<Implausible> take() { return std::move(found_); }
+
+ private:
+  const Scene& scene_;
+  std::vector<Implausible> found_;
+};
+
+void judge_bodies(const Scene& scene, Judge& judge) {
+  for (const Body& body : scene.bodies) {
+    for (const Key<Body>& key : body_keys())
+      judge.key(key, fmt::format("body.{}.{}", body.name, key.name), key.get(body));
+  }
+}
+
+/// Physics that the plan would have in.
+void judge_switches(const Scene& scene, Judge& judge) {
+  Scene free = scene;
+  free.physics.conduction = free.physics.bulk_reaction = Switch::automatic;
+  const auto forced_off = [&judge](Switch user, const Term& term, const char* key) {
+    if (user == Switch::off && term.in) judge.add(key, "off", "auto, because " + term.reason);
+  };
+  if (scene.physics.conduction != Switch::off && scene.physics.bulk_reaction != Switch::off) return;
+  const Plan plan = make_plan(free);
+  forced_off(scene.physics.conduction, plan.conduction, "physics.conduction");
+  forced_off(scene.physics.bulk_reaction, plan.bulk_reaction, "physics.bulk_reaction");
+}
+
+/// Cracks that begin beyond the bound of their growth never grow.
+void judge_crack_bound(const Scene& scene, Judge& judge) {
+  const materials::ViscoScramParameters& cracks = scene.charge.cracks;
+  if (cracks.largest_crack_radius > cracks.initial_crack_radius) return;
+  const auto text = [](double radius) { return format_quantity(radius, Dimension::length); };
+  judge.add("charge.largest_crack_radius", text(cracks.largest_crack_radius),
+            fmt::format("more than {}, because cracks of charge.crack_radius could not grow",
+                        text(cracks.initial_crack_radius)));
+}
+
+}  // namespace
+
+std::string doubt_text(const Implausible& value) {
+  return fmt::format("{} = {} is not plausible ({})", value.key, value.value, value.range);
+}
+
+std::string accepted_text(const std::vector<Implausible>& values) {
+  std::string text;
+  for (const Implausible& each : values) {
+    if (!each.accepted()) continue;
+    text += fmt::format("{}{} = {}, because {}", text.empty() ? "accepted: " : "; ", each.key, each.value,
+                        each.because);
+  }
+  return text;
+}
+
+bool is_plausible(const KeyDescription& key, const Value& value) {
+  const Plausible& plausible = key.plausible;
+  if (const auto* number = std::get_if<double>(&value)) return is_plausible_number(plausible, *number);
+  if (const auto* flag = std::get_if<bool>(&value))
+    return is_plausible_word(plausible, *flag ? "true" : "false");
+  if (const auto* word = std::get_if<std::string>(&value)) return is_plausible_word(plausible, *word);
+  const auto& numbers = std::get<std::vector<double>>(value);
+  if (key.kind == KeyKind::range) return is_plausible_number(plausible, numbers[1] - numbers[0]);
+  return std::all_of(numbers.begin(), numbers.end(),
+                     [&](double number) { return is_plausible_number(plausible, number); });
+}
+
+std::vector<Implausible> implausible_values(const Scene& scene) {
+  Judge judge(scene);
+  for (const Key<Scene>& key : scene_keys()) {
+    if (!is_unused(scene, key.name)) judge.key(key, key.name, key.get(scene));
+  }
+  judge_crack_bound(scene, judge);
+  judge_switches(scene, judge);
+  judge_bodies(scene, judge);
+  for (const DerivedQuantity& quantity : derived_quantities()) {
+    if (const auto value = quantity.value(scene))
+      judge.key(quantity.description, quantity.description.name, Value(*value));
+  }
+  return judge.take();
+}
+
+std::vector<std::string> acceptable_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Key<Scene>& key : scene_keys()) names.push_back(key.name);
+  for (const Body& body : scene.bodies) {
+    names.push_back(fmt::format("body.{}.x", body.name));
+    names.push_back(fmt::format("body.{}.r", body.name));
+  }
+  for (const DerivedQuantity& quantity : derived_quantities()) names.push_back(quantity.description.name);
+  return names;
+}
+
+std::vector<std::string> needless_acceptances(const Scene& scene) {
+  const std::vector<Implausible> values = implausible_values(scene);
+  std::vector<std::string> needless;
+  for (const Acceptance& acceptance : scene.accepted) {
+    const bool needed = std::any_of(values.begin(), values.end(),
+                                    [&](const Implausible& each) { return each.key == acceptance.key; });
+    if (!needed) needless.push_back(acceptance.key);
+  }
+  return needless;
+}
+
+}  // namespace launchsafe::scene

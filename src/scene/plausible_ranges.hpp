@@ -1,0 +1,14 @@
+// What is plausible of every key of a scene, each with its argument, on one page.
+#pragma once
+
+#include "launchsafe/scene/toml_reader.hpp"
+
+#include <string_view>
+
+namespace launchsafe::scene {
+
+/// What is plausible of a key by its dotted name, those of a body as "body.x"; nothing said for an unknown
+/// one.
+Plausible plausible_values_of(std::string_view key);
+
+}  // namespace launchsafe::scene

@@ -1,0 +1,292 @@
+#include "launchsafe/scene/plausibility.hpp"
+
+#include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/mechanical_part.hpp"
+#include "scene/scene_text.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace launchsafe::scene {
+namespace {
+
+SceneFile shipped() { return read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value(); }
+
+/// What a scene has that is not plausible, one clause each.
+std::string doubts_of(const Scene& scene) {
+  std::string text;
+  for (const Implausible& each : implausible_values(scene)) text += doubt_text(each) + "\n";
+  return text;
+}
+
+std::set<std::string> implausible_keys(const Scene& scene) {
+  std::set<std::string> keys;
+  for (const Implausible& each : implausible_values(scene)) keys.insert(each.key);
+  return keys;
+}
+
+/// The shipped scene with a few keys written otherwise.
+SceneFile shipped_with(const std::vector<std::pair<std::string, std::string>>& edits) {
+  SceneFile file = shipped();
+  for (const auto& [key, value] : edits) {
+    auto changed = with_written_key(file, key, value, {"edit", 1, 1});
+    EXPECT_TRUE(changed) << key << " " << (changed ? "" : changed.error().message());
+    if (changed) file = std::move(*changed);
+  }
+  return file;
+}
+
+TEST(Plausibility, EveryKeyHasARangeWithItsReasonOrAReasonWhyItHasNone) {
+  for (const DocumentedKey& key : describe_keys()) {
+    if (key.description.name.starts_with("accept.")) continue;
+    EXPECT_FALSE(key.description.plausible.because.empty()) << key.description.name;
+  }
+  for (const DerivedQuantity& each : derived_quantities())
+    EXPECT_FALSE(each.description.plausible.because.empty()) << each.description.name;
+}
+
+TEST(Plausibility, EveryNumberThatDecidesIsBoundedOnBothSides) {
+  for (const Key<Scene>& key : scene_keys()) {
+    const Limits& limits = key.plausible.limits;
+    const bool all = !std::isfinite(limits.lowest) && !std::isfinite(limits.highest);
+    if (key.kind != KeyKind::number || all) continue;
+    EXPECT_TRUE(std::isfinite(limits.lowest) && std::isfinite(limits.highest)) << key.name;
+    EXPECT_TRUE(key.limits.contain(limits.highest)) << key.name;
+    EXPECT_TRUE(key.limits.contain(limits.lowest)) << key.name;
+  }
+}
+
+TEST(Plausibility, EveryDefaultAndTheShippedSceneArePlausible) {
+  for (const Key<Scene>& key : scene_keys()) EXPECT_TRUE(is_plausible(key, key.default_value())) << key.name;
+  EXPECT_EQ(doubts_of(shipped().scene), "");
+}
+
+// Each of these ended with every gap SAFE, or might have: the air does not heat, the skin is thick, nothing
+// rubs, cracks, ignites or moves.
+TEST(Plausibility, NamesTheKeyOfEveryValueThatNoLaunchHas) {
+  const std::vector<std::pair<std::string, std::string>> edits{
+      {"gap.exchange_time", "100 s"},
+      {"gap.exchange_time", "2.98 ms"},
+      {"gap.skin_thickness", "1 cm"},
+      {"gap.skin_thickness", "1 mm"},
+      {"gap.air_specific_heat", "100 J/(kg K)"},
+      {"gap.air_density", "0.1 kg/m3"},
+      {"gap.air_heat_ratio", "1.001"},
+      {"gap.air_heat_ratio", "1.2"},
+      {"gap.air_pressure", "10 MPa"},
+      {"gap.exchange", "per-step"},
+      {"initial_temperature", "200 K"},
+      {"friction.closure", "none"},
+      {"friction.localisation", "0"},
+      {"friction.localisation", "8"},
+      {"charge.sliding_friction", "0"},
+      {"charge.sliding_friction", "0.0024"},
+      {"charge.crack_radius", "0 um"},
+      {"charge.flaw_size", "0 mm"},
+      {"charge.flaw_size", "10 cm"},
+      {"charge.crack_growth", "false"},
+      {"charge.largest_crack_radius", "30 um"},
+      {"charge.toughness", "5e8 Pa m^0.5"},
+      {"charge.density", "0.5 g/cm3"},
+      {"charge.density", "17 g/cm3"},
+      {"charge.specific_heat", "10000 J/(kg K)"},
+      {"charge.conductivity", "0 W/(m K)"},
+      {"charge.shear_moduli", "944, 0.1, 0.1, 0.1, 0.1 GPa"},
+      {"charge.jwl.a", "1e17 Pa"},
+      {"charge.jwl.omega", "9"},
+      {"kinetics.ignition_temperature", "700 K"},
+      {"kinetics.heat_of_reaction", "0 J/kg"},
+      {"kinetics.frequency", "0 1/s"},
+      {"kinetics.activation_temperature", "50000 K"},
+      {"steel.density", "0.78 g/cm3"},
+      {"steel.sound_speed", "461 m/s"},
+      {"steel.yield_stress", "792 GPa"},
+      {"steel.shear_modulus", "80 MPa"},
+      {"load.peak", "496 Pa"},
+      {"load.peak", "5 GPa"},
+      {"load.duration", "1 s"},
+      {"load.exponent", "1000"},
+      {"numerics.energy_drift_limit", "100"},
+      {"numerics.damping_time", "1e-6 s"},
+      {"numerics.pic_fraction", "1"},
+      {"numerics.inertial_scaling", "1000"},
+      {"numerics.time_step_factor", "1"},
+      {"physics.conduction_bound", "1e9"},
+      {"physics.reaction_bound", "1e9 K"},
+      {"output.trace_interval", "5 ms"},
+      {"body.base.x", "67.8 to 67.81 cm"},
+      {"body.base.x", "67.8 to 900 cm"},
+  };
+  for (const auto& [key, value] : edits) {
+    // What has to change with it for the scene to be valid at all.
+    std::vector<std::pair<std::string, std::string>> all{{key, value}};
+    if (key == "body.base.x") all.insert(all.begin(), {"numerics.cell_size", "0.2 mm"});
+    if (key == "load.peak") all.insert(all.begin(), {"load.base", "0 Pa"});
+    const Scene scene = shipped_with(all).scene;
+    EXPECT_TRUE(implausible_keys(scene).contains(key)) << key << " = " << value << "\n" << doubts_of(scene);
+  }
+}
+
+TEST(Plausibility, JudgesWhatSeveralKeysMakeTogether) {
+  using Edits = std::vector<std::pair<std::string, std::string>>;
+  const std::vector<std::pair<std::set<std::string>, Edits>> edits{
+      {{"gap.gas_law"}, {{"gap.air_density", "0.7 kg/m3"}}},
+      {{"gap.gas_law"}, {{"initial_temperature", "230 K"}}},
+      {{"gap.heat_law"}, {{"gap.air_heat_ratio", "1.3"}}},
+      {{"load.launch_speed"}, {{"load.peak", "12 MPa"}}},
+      {{"load.launch_speed"}, {{"load.peak_time", "0.2 ms"}}},
+      {{"load.simulated_peak", "load.launch_speed"}, {{"load.peak_time", "49 ms"}}},
+      {{"charge.bulk_sound_speed", "charge.poisson_ratio"}, {{"charge.jwl.r1", "16"}}},
+      {{"charge.poisson_ratio"}, {{"charge.shear_moduli", "2, 2, 2, 2, 2 MPa"}}},
+      {{"charge.heat_capacity"},
+       {{"charge.density", "2.2 g/cm3"}, {"charge.specific_heat", "2000 J/(kg K)"}}},
+      {{"steel.poisson_ratio"},
+       {{"steel.density", "7.6 g/cm3"}, {"steel.sound_speed", "4 km/s"}, {"steel.shear_modulus", "90 GPa"}}},
+      {{"kinetics.explosion_temperature"}, {{"kinetics.frequency", "1e10 1/s"}}},
+      {{"physics.bulk_reaction"}, {{"physics.bulk_reaction", "off"}, {"physics.reaction_bound", "0 K"}}},
+      {{"physics.conduction"}, {{"physics.conduction", "off"}, {"physics.conduction_bound", "0"}}},
+      {{"charge.largest_crack_radius"},
+       {{"charge.crack_radius", "3 mm"}, {"charge.largest_crack_radius", "2 mm"}}},
+  };
+  for (const auto& [quantities, keys] : edits) {
+    const Scene scene = shipped_with(keys).scene;
+    EXPECT_EQ(implausible_keys(scene), quantities) << doubts_of(scene);
+  }
+}
+
+// (3 K - 2 G) / (2 (3 K + G)) with K = 10.297 GPa and G = 3.235 GPa; with 7830 kg/m3 (4610 m/s)^2 and 80 GPa.
+TEST(Plausibility, DerivedQuantitiesOfTheShippedSceneAreThoseOfTheModel) {
+  const Scene scene = shipped().scene;
+  const auto value = [&](const std::string& name) {
+    for (const DerivedQuantity& each : derived_quantities()) {
+      if (each.description.name == name) return each.value(scene).value_or(-1.0);
+    }
+    return std::nan("");
+  };
+  EXPECT_NEAR(value("charge.bulk_sound_speed"), std::sqrt(10.297e9 / 1717.0), 0.5);
+  EXPECT_NEAR(value("charge.poisson_ratio"), 0.3578, 1e-3);
+  EXPECT_NEAR(value("steel.poisson_ratio"), 0.2930, 1e-3);
+  EXPECT_NEAR(value("gap.gas_law"), 1.0, 1e-4);
+  EXPECT_NEAR(value("gap.heat_law"), 1.0, 1e-3);
+  EXPECT_EQ(value("load.simulated_peak"), -1.0) << "the stated one is judged by itself";
+  EXPECT_EQ(value("shell.length"), 0.74);
+  // E/T = ln(Q Z E / (c T^2)) at 1 s: T = 452.2 K by hand.
+  EXPECT_NEAR(value("kinetics.explosion_temperature"), 452.2, 0.5);
+}
+
+std::string with_curve(const std::string& times, const std::string& pressures, const std::string& more = "") {
+  return fmt::format("load.curve_time = \"{}\"\nload.curve_pressure = \"{}\"\n{}", times, pressures, more) +
+         with(small_scene, "[load]\nduration = \"1 ms\"\n", "load.duration = \"10 ms\"\n");
+}
+
+TEST(Plausibility, JudgesAMeasuredCurveByItsLargestPressureAndByWhatIsSimulated) {
+  const auto keys_of = [](const std::string& text) {
+    const auto file = parse_scene(text, "shell.toml");
+    EXPECT_TRUE(file) << (file ? "" : file.error().message());
+    return file ? implausible_keys(file->scene) : std::set<std::string>{};
+  };
+  using Names = std::set<std::string>;
+  // The small shell is light: 20 MPa launch it with 360 m/s.
+  EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 20, 5 MPa")), Names{});
+  const Names none{"load.launch_speed", "load.measured_peak"};
+  EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 496, 100 Pa")), none) << "MPa labelled Pa";
+  EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 496, 100 kPa")), none) << "MPa labelled kPa";
+  EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 0, 0 MPa")), none) << "zero load";
+  EXPECT_EQ(keys_of(with_curve("0, 20, 25, 30 ms", "0, 0, 20, 5 MPa")),
+            (Names{"load.launch_speed", "load.simulated_peak"}))
+      << "the pulse comes after the end";
+  EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 496, 100 Pa",
+                               "load.rescale_to_peak = true\nload.peak = \"20 MPa\"\n")),
+            (Names{"load.measured_peak", "load.rescaling"}))
+      << "a wrong label stays in doubt where the curve is scaled";
+  // Numbers of the analytic shape do nothing under a curve.
+  EXPECT_EQ(keys_of("load.exponent = 999\n" + with_curve("0, 5, 10 ms", "0, 20, 5 MPa")), Names{});
+}
+
+TEST(Plausibility, AValueThatIsAcceptedKeepsItsReason) {
+  const std::string text = "accept = [{ key = \"gap.skin_thickness\", because = \"a coated charge\" }]\n" +
+                           with(small_scene, "[gap]\n", "[gap]\nskin_thickness = \"0.5 mm\"\n");
+  const auto file = parse_scene(text, "shell.toml");
+  ASSERT_TRUE(file) << file.error().message();
+  for (const Implausible& each : implausible_values(file->scene))
+    EXPECT_EQ(each.accepted(), each.key == "gap.skin_thickness") << each.key;
+  EXPECT_EQ(accepted_text(implausible_values(file->scene)),
+            "accepted: gap.skin_thickness = 0.5 mm, because a coated charge");
+  const auto thin = with_written_key(*file, "gap.skin_thickness", "0.1 mm", {"edit", 1, 1});
+  ASSERT_TRUE(thin);
+  EXPECT_EQ(accepted_text(implausible_values(thin->scene)), "");
+  EXPECT_EQ(needless_acceptances(thin->scene), std::vector<std::string>{"gap.skin_thickness"});
+}
+
+TEST(Plausibility, AcceptanceOfABodyAndOfADerivedQuantity) {
+  const std::string accept =
+      "accept = [{ key = \"body.base.x\", because = \"a foil as its base\" }, "
+      "{ key = \"gap.gas_law\", because = \"the air was dried\" }]\n";
+  const auto file = parse_scene(accept + small_scene + testing::small_shell_base, "shell.toml");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->scene.accepted.size(), 2u);
+}
+
+TEST(Plausibility, AcceptancesSurviveWritingAndChangeNoMechanicalRun) {
+  SceneFile file = shipped();
+  const std::string plain = to_toml(file.scene), mechanics = to_toml(mechanical_part(file.scene));
+  EXPECT_EQ(plain.find("accept"), std::string::npos) << "scenes without acceptances are written as ever";
+  file.scene.accepted = {{"gap.exchange_time", "an \"open\" gap, 50 % \\ 'wide'"}, {"load.peak", "přetlak"}};
+  const auto again = parse_scene(to_toml(file.scene), "written.toml");
+  ASSERT_TRUE(again) << again.error().message();
+  ASSERT_EQ(again->scene.accepted.size(), 2u);
+  EXPECT_EQ(again->scene.accepted[0].because, file.scene.accepted[0].because);
+  EXPECT_EQ(to_toml(again->scene), to_toml(file.scene));
+  EXPECT_NE(to_toml(file.scene), plain);
+  EXPECT_EQ(to_toml(mechanical_part(file.scene)), mechanics);
+}
+
+TEST(Plausibility, RefusesAcceptancesThatNameNoKeyOrGiveNoReason) {
+  const auto refused = [](const std::string& tables, std::string_view key, std::string_view found,
+                          std::string_view allowed) {
+    expect_error(error_of("accept = " + tables + "\n" + small_scene), 1, key, found, allowed);
+  };
+  refused("[{ key = \"gap.exchange_tim\", because = \"it is meant\" }]", "accept.key", "gap.exchange_tim",
+          "exchange_time");
+  refused("[{ key = \"gap.exchange_time\" }]", "accept.because", "missing", "text");
+  refused("[{ key = \"gap.exchange_time\", because = \"\" }]", "accept.because", "0 characters", "letters");
+  refused("[{ key = \"gap.exchange_time\", because = \"12345678910\" }]", "accept.because", "11 characters",
+          "letters");
+  refused("[{ key = \"gap.exchange_time\", because = \"two lines\\nof words\" }]", "accept.because",
+          "characters", "one line");
+  refused(
+      "[{ key = \"load.peak\", because = \"it is meant\" }, { key = \"load.peak\", because = \"so it is\" }]",
+      "accept.key", "a second time", "once");
+  refused("\"gap.exchange_time\"", "accept", "gap.exchange_time", "tables");
+  refused("[{ key = \"load.peak\", because = \"it is meant\", value = 3 }]", "accept.value", "unknown key",
+          "because");
+}
+
+TEST(Plausibility, RefusesWhatIsNoPhysicsAtAll) {
+  const std::vector<std::pair<std::string, std::string>> edits{
+      {"gap.air_specific_heat", "1e-300 J/(kg K)"},
+      {"charge.jwl.a", "-1 GPa"},
+      {"charge.jwl.b", "50 GPa"},
+      {"charge.jwl.r1", "1"},
+      {"charge.jwl.r2", "12"},
+      {"charge.density", "1.2 kg/m3"},
+      {"charge.density", "1717 g/cm3"},
+      {"steel.density", "7.83 kg/m3"},
+      {"kinetics.ignition_temperature", "1e6 K"},
+      {"charge.shear_moduli", "-1, 1, 1, 1, 1 GPa"},
+      {"gap.air_heat_ratio", "1"},
+      {"gap.air_heat_ratio", "2"},
+  };
+  for (const auto& [key, value] : edits) {
+    const auto changed = with_written_key(shipped(), key, value, {"edit", 3, 1});
+    ASSERT_FALSE(changed) << key << " = " << value;
+    EXPECT_TRUE(changed.error().key.starts_with(key.substr(0, key.rfind('.')))) << changed.error().message();
+    EXPECT_EQ(changed.error().line, 3) << changed.error().message();
+  }
+}
+
+}  // namespace
+}  // namespace launchsafe::scene
