@@ -18,8 +18,9 @@ confirm = false
 
 const std::string accuracy_study = R"(kind = "accuracy"
 scene = "shell.toml"
+early_time = "0.03 ms"
 gaps = "0, 0.01 cm"
-reference_cell_sizes = "2, 4, 5 mm"
+reference_cell_sizes = "1.25, 2.5, 5 mm"
 times = "0.03 ms"
 
 [[settings]]
