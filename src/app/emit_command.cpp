@@ -119,8 +119,13 @@ ExitCode refuse(const std::string& message, Console& console) {
 
 /// Why the scripts may not be written: something else is there.
 std::optional<std::string> obstacle_in(const path& folder, const std::vector<SlurmScript>& scripts) {
+  if (std::filesystem::is_symlink(folder))
+    return fmt::format("{} is a link, and nothing is written through one; move it away", folder.string());
   for (const SlurmScript& script : scripts) {
     const auto present = store::read_file(folder / script.name);
+    if (std::filesystem::is_symlink(folder / script.name))
+      return fmt::format("{} is a link, and nothing is written through one; move it away",
+                         (folder / script.name).string());
     if (present && *present == script.text) continue;
     if (!present && present.error().kind == store::Error::Kind::missing) continue;
     if (!present) return present.error().message;

@@ -134,11 +134,12 @@ std::optional<std::string> obstacle_in_folder(const path& folder, study::StudyKi
   if (!own) return own.error().message;
   std::vector<std::string> foreign = report_names_in(folder, kind);
   std::erase_if(foreign, [&](const std::string& name) { return own->state_of(name) != FileState::foreign; });
+  // A manifest that cannot be read and is there all the same is a link to nowhere.
+  if (!record && std::filesystem::is_symlink(folder / manifest_name)) foreign.emplace_back(manifest_name);
   if (!foreign.empty()) {
     return fmt::format(
         "{} holds files that launchsafe did not write ({}), and nothing is overwritten; move them away or "
-        "name "
-        "another folder",
+        "name another folder",
         folder.string(), listed(foreign));
   }
   const std::vector<std::string> earlier = names_of_earlier(*own, record);

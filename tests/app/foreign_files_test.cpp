@@ -1,5 +1,6 @@
 // Somebody else's files, under every name that the program gives a file of its own, and its own files after
 // somebody edited them: nothing is overwritten, emptied, appended to or deleted.
+#include "launchsafe/report/report_names.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "stored_study.hpp"
 
@@ -18,8 +19,9 @@ confirm = false
 
 const std::string accuracy_study = R"(kind = "accuracy"
 scene = "shell.toml"
+early_time = "0.03 ms"
 gaps = "0, 0.01 cm"
-reference_cell_sizes = "2, 4, 5 mm"
+reference_cell_sizes = "1.25, 2.5, 5 mm"
 times = "0.03 ms"
 
 [[settings]]
@@ -155,6 +157,26 @@ class OwnFolder : public StoredStudy {
  protected:
   Outcome study() { return run({"study", "study.toml", "-o", "out"}); }
 };
+
+// What a report writes has to be on the list by which a folder is refused before anything is computed.
+TEST_F(OwnFolder, HoldsOnlyNamesThatAreExpected) {
+  using study::StudyKind;
+  const std::map<StudyKind, std::string> kinds{{StudyKind::sweep, sweep_study},
+                                               {StudyKind::sensitivity, sensitivity_study},
+                                               {StudyKind::critical_gap, critical_gap_study},
+                                               {StudyKind::accuracy, accuracy_study},
+                                               {StudyKind::stability, stability_study}};
+  for (const auto& [kind, text] : kinds) {
+    write("study.toml", text);
+    const std::string out = "out of " + to_string(kind);
+    const Outcome outcome = run({"study", "study.toml", "-o", out});
+    ASSERT_TRUE(outcome.code == 0 || outcome.code == 3 || outcome.code == 4) << outcome.err;
+    const auto files = nlohmann::json::parse(read(out + "/manifest.json"))["files"];
+    EXPECT_GT(files.size(), 3u);
+    for (const auto& file : files)
+      EXPECT_TRUE(report::may_write(kind, file["name"].get<std::string>())) << out << ": " << file["name"];
+  }
+}
 
 TEST_F(OwnFolder, EditedReportsAreKeptUnderAnotherName) {
   ASSERT_EQ(study().code, 0);

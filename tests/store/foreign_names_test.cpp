@@ -69,8 +69,8 @@ TEST_F(ForeignNames, AreRefusedAndLeftAsTheyAre) {
   };
   for (const std::string part : {"", "1-of-2"}) {
     const std::string dotted = part.empty() ? "" : "." + part;
-    for (const std::string name :
-         {"lock" + dotted, "lock", "journal" + dotted + ".jsonl", "answers" + dotted + ".jsonl"}) {
+    for (const std::string& name : {"lock" + dotted, std::string("lock"), "journal" + dotted + ".jsonl",
+                                   "answers" + dotted + ".jsonl"}) {
       for (const auto& [how, make] : ways) {
         make(where() / name);
         expect_refused(name, how, part);
