@@ -83,7 +83,8 @@ TEST(AccuracyReport, WritesARecordThatOtherStudiesCanRead) {
   const report::Folder folder;
   const AccuracyResult result = made_accuracy();
   ASSERT_TRUE(report::write_report(result, folder.path));
-  const auto record = parse_accuracy_record(report::content_of(folder.path / "accuracy.json"), "accuracy.json");
+  const auto record =
+      parse_accuracy_record(report::content_of(folder.path / "accuracy.json"), "accuracy.json");
   ASSERT_TRUE(record);
   EXPECT_EQ(record->settings.size(), 4u);
   EXPECT_NE(recorded_setting(*record, result.study.scene.scene), nullptr);
