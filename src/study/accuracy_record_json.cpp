@@ -239,7 +239,7 @@ Setting setting_from(const ordered_json& object, const std::string& path, Record
 }
 
 RecordedLaunch launch_from(const ordered_json& object, RecordReader& reader) {
-  using scene::above_to, scene::at_least, scene::between;
+  using scene::above_to, scene::between;
   RecordedLaunch launch;
   const std::vector<std::string> keys{"peak_pressure_Pa",      "duration_s",  "rise_time_s", "roughness",
                                       "crack_radius_m",        "flaw_size_m", "gaps_m",      "localisation",
@@ -267,7 +267,7 @@ RecordedLaunch launch_from(const ordered_json& object, RecordReader& reader) {
 
 RecordedSetting recorded_from(const ordered_json& object, const std::string& path,
                               const AccuracyRecord& record, RecordReader& reader) {
-  using scene::above_to, scene::at_least, scene::between;
+  using scene::above_to, scene::between;
   RecordedSetting each;
   if (!reader.has_keys(object, path,
                        {"label", "temperature_bound_K", "critical_gap_bound_m", "processor_time_s",
