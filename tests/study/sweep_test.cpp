@@ -136,8 +136,7 @@ TEST(Sweep, BracketsWithoutAChangeAreBoundsAndNoNumbers) {
   std::string text =
       sweep_text("gap = \"0, 0.01 cm\"\nkinetics.ignition_temperature = \"400, 425, 700 K\"\n");
   text.replace(text.find("0.2 cm"), 6, "0.02 cm");
-  const StudyFile study = study_of(
-      "accept = [{ key = \"kinetics.ignition_temperature\", because = \"bounds are wanted\" }]\n" + text);
+  const StudyFile study = study_of(text);
   Counting counting;
   const SweepResult result = run_sweep(study, counting.options());
   EXPECT_EQ(result.answers[0].critical.kind, CriticalGapKind::all_ignite);
