@@ -1,5 +1,7 @@
 #include "launchsafe/study/recorded_launch.hpp"
 
+#include "launchsafe/scene/load_roughness.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,19 +20,7 @@ constexpr double longest = 1.1, steepest = 1.25, most_off_shape = 0.1, most_roug
 /// What is no difference: round-off of units.
 constexpr double round_off = 1e-9;
 
-/// Even instants over the duration and, of a measured curve, its own.
-std::vector<double> instants_of(const scene::Load& load) {
-  constexpr int parts = 4 * (static_cast<int>(shape_instants) - 1);
-  std::vector<double> instants;
-  for (int i = 0; i <= parts; ++i) instants.push_back(load.duration * i / parts);
-  for (const double time : load.curve_time) {
-    if (time > 0.0 && time < load.duration) instants.push_back(time);
-  }
-  std::sort(instants.begin(), instants.end());
-  return instants;
-}
-
-/// s, over the even instants alone: what is shorter is roughness.
+/// s, over even instants alone: what is shorter is roughness.
 double rise_time_of(const scene::PressureHistory& history, double duration, double peak) {
   constexpr int parts = 4 * (static_cast<int>(shape_instants) - 1);
   const double step = duration / parts;
@@ -116,21 +106,6 @@ std::string beyond(double recorded, double value, const char* unit, const char* 
 
 }  // namespace
 
-double roughness_of(const scene::Load& load) {
-  const scene::PressureHistory history(load);
-  const std::vector<double> instants = instants_of(load);
-  double path = 0.0, largest = 0.0;
-  for (std::size_t i = 0; i + 1 < instants.size(); ++i) {
-    // p |dp| between two instants of a monotone piece is half the difference of the squares.
-    const double from = history.at(instants[i]), to = history.at(instants[i + 1]);
-    path += 0.5 * std::abs(to * to - from * from);
-    largest = std::max({largest, from, to});
-  }
-  const double begin = history.at(0.0), end = history.at(load.duration);
-  const double smooth = largest * largest - 0.5 * (begin * begin + end * end);
-  return smooth > 0.0 ? std::max(0.0, path / smooth - 1.0) : 0.0;
-}
-
 RecordedLaunch launch_of(const scene::Scene& scene, std::vector<double> gaps) {
   const scene::PressureHistory history(scene.load);
   RecordedLaunch launch;
@@ -142,7 +117,7 @@ RecordedLaunch launch_of(const scene::Scene& scene, std::vector<double> gaps) {
     launch.shape.push_back(launch.peak_pressure > 0.0 ? std::min(pressure / launch.peak_pressure, 1.0) : 0.0);
   }
   launch.rise_time = rise_time_of(history, launch.duration, launch.peak_pressure);
-  launch.roughness = roughness_of(scene.load);
+  launch.roughness = scene::load_roughness(scene.load);
   launch.crack_radius = scene.charge.cracks.initial_crack_radius;
   launch.flaw_size = scene.charge.cracks.flaw_size;
   launch.gaps = std::move(gaps);

@@ -54,18 +54,6 @@ TEST(RecordedLaunch, DoesNotCoverARoughCurve) {
   }
 }
 
-TEST(RecordedLaunch, RoughnessIsThePathOfTheSquaresBeyondOneRiseAndFall) {
-  EXPECT_NEAR(roughness_of(own_scene().load), 0.0, 1e-3);
-  scene::Load load;
-  load.duration = 1e-3;
-  // 0 to 100, back to 50, up to 100 and down to 0 MPa: int p |dp| is 10^4 and twice (10^4 - 50^2)/2 MPa2 on
-  // the way, which is 0.75 more than the 10^4 of a single hump. Straight lines, so that no swing is rounded
-  // off.
-  load.curve_time = {0.0, 0.25e-3, 0.5e-3, 0.75e-3, 1e-3};
-  load.curve_pressure = {0.0, 100e6, 50e6, 100e6, 0.0};
-  EXPECT_NEAR(roughness_of(load), 0.75, 1e-9);
-}
-
 /// The rate at which compressed air heats a cold skin is that of the surface's own equation.
 TEST(RecordedLaunch, AirHeatsAsItDoesInTheSkin) {
   const scene::Scene scene = own_scene();

@@ -16,7 +16,7 @@ struct RecordedLaunch {
   double duration = 0;        ///< s
   std::vector<double> shape;  ///< pressure over its peak at `shape_instants` even instants of the duration
   double rise_time = 0;       ///< s, > 0: the peak over the largest rate of rise, at most the duration
-  double roughness = 0;       ///< of the load, dimensionless, >= 0: see `roughness_of`
+  double roughness = 0;       ///< of the load, dimensionless, >= 0: see `scene::load_roughness`
   double crack_radius = 0;    ///< m, c(0)
   double flaw_size = 0;       ///< m, a
   std::vector<double> gaps;   ///< m, at which T max was compared
@@ -30,11 +30,6 @@ inline constexpr std::size_t shape_instants = 65;
 
 /// The launch of a scene, compared at gaps (m).
 RecordedLaunch launch_of(const scene::Scene& scene, std::vector<double> gaps);
-
-/// How much a load goes up and down beside one rise and one fall, where friction makes heat without
-/// increasing the pressure: the integral of p |dp| over the simulated duration, over that of a load which
-/// rises to its peak and falls to its end, minus 1.
-double roughness_of(const scene::Load& load);
 
 /// What a record of one launch says of another.
 struct Coverage {
