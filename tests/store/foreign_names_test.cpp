@@ -70,7 +70,7 @@ TEST_F(ForeignNames, AreRefusedAndLeftAsTheyAre) {
   for (const std::string part : {"", "1-of-2"}) {
     const std::string dotted = part.empty() ? "" : "." + part;
     for (const std::string& name : {"lock" + dotted, std::string("lock"), "journal" + dotted + ".jsonl",
-                                   "answers" + dotted + ".jsonl"}) {
+                                    "answers" + dotted + ".jsonl"}) {
       for (const auto& [how, make] : ways) {
         make(where() / name);
         expect_refused(name, how, part);
