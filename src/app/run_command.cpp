@@ -102,7 +102,9 @@ ExitCode run_command(const RunArguments& arguments, Console& console) {
     }
   }
 
-  for (const std::string& line : plausibility_lines(scene)) console.remark(line);
+  for (const scene::Implausible& each : scene::implausible_values(scene)) {
+    if (!each.accepted()) console.remark("a verdict on this would be in doubt: " + scene::doubt_text(each));
+  }
   const run::CaseResult result = run_with_progress(scene, console);
   manifest.wall_time = result.mechanics.wall_time;
   if (result.mechanics.status == run::RunStatus::interrupted) {

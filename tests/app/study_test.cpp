@@ -66,6 +66,28 @@ TEST_F(StudyProgram, FaultsOfStudyAndSceneEndItBeforeAnythingIsWritten) {
   EXPECT_FALSE(exists("out"));
 }
 
+// The gap stays cold under each of these; without their ranges all of them ended SAFE.
+TEST_F(StudyProgram, AnImplausibleValueIsNamedInsteadOfSafeUntilItIsAccepted) {
+  const std::vector<std::pair<std::string, std::string>> edits{{"gap.exchange_time", "\"100 s\""},
+                                                               {"gap.skin_thickness", "\"1 cm\""},
+                                                               {"friction.closure", "\"none\""},
+                                                               {"charge.sliding_friction", "0"}};
+  int number = 0;
+  for (const auto& [key, value] : edits) {
+    const std::string set = "[set]\n" + key + " = " + value + "\n";
+    const std::string folder = "out" + std::to_string(++number);
+    write("study.toml", small_study + set);
+    EXPECT_EQ(run({"study", "study.toml", "-o", folder}).code, 4) << key;
+    EXPECT_EQ(read(folder + "/verdicts.csv").find("SAFE"), std::string::npos) << key;
+    EXPECT_NE(read(folder + "/verdicts.csv").find(key + " = "), std::string::npos) << key;
+    write("study.toml",
+          small_study + "accept = [{ key = \"" + key + "\", because = \"it is a test\" }]\n" + set);
+    EXPECT_EQ(run({"study", "study.toml", "-o", folder, "--update"}).code, 0) << key;
+    EXPECT_NE(read(folder + "/verdicts.csv").find("SAFE"), std::string::npos) << key;
+    EXPECT_NE(read(folder + "/verdicts.csv").find("because it is a test"), std::string::npos) << key;
+  }
+}
+
 TEST_F(StudyProgram, ExplainCountsItsRuns) {
   const auto plan = nlohmann::json::parse(run({"explain", "study.toml", "--json"}).out);
   EXPECT_EQ(plan["kind"], "critical-gap");
