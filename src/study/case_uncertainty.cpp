@@ -13,10 +13,6 @@
 namespace launchsafe::study::detail {
 namespace {
 
-std::string reason_for_calibration(const StudyCase& input) {
-  return scene::reason_for(input.scene.scene.accepted, scene::foreign_calibration);
-}
-
 std::string list_of(const std::vector<std::string>& names) {
   constexpr std::size_t most = 4;
   const std::size_t shown = std::min(names.size(), most);
@@ -26,16 +22,24 @@ std::string list_of(const std::vector<std::string>& names) {
   return text;
 }
 
+/// What a scene says of using the constants in spite of a difference: of its key, or of all of them.
+std::string reason_for(const StudyCase& input, const std::string& difference) {
+  const auto& accepted = input.scene.scene.accepted;
+  const std::string of_key = scene::reason_for(accepted, difference);
+  return of_key.empty() ? scene::reason_for(accepted, scene::foreign_calibration) : of_key;
+}
+
 /// Why the constants say nothing of a case; empty inside the calibration's domain, where a rule carries them,
 /// and where the scene accepts it.
 std::string calibration_doubt(const StudyCase& input) {
-  const CalibrationDistance distance = distance_to_calibration(input.scene.scene);
-  if (distance.unknown.empty() || !reason_for_calibration(input).empty()) return {};
+  std::vector<std::string> unknown = distance_to_calibration(input.scene.scene).unknown;
+  std::erase_if(unknown, [&](const auto& each) { return !reason_for(input, each).empty(); });
+  if (unknown.empty()) return {};
   return fmt::format(
       "extrapolated: the constants were calibrated on another launch ({}), and nothing says how wrong they "
-      "are "
-      "here (accept = [{{ key = \"{}\", because = \"...\" }}] in the scene takes them)",
-      list_of(distance.unknown), scene::foreign_calibration);
+      "are here "
+      "(accept = [{{ key = \"{}\", because = \"...\" }}] takes them)",
+      list_of(unknown), scene::foreign_calibration);
 }
 
 /// What is not plausible of a case and of what its study states, where that gives verdicts. No hard case of a
@@ -121,14 +125,14 @@ std::string accepted_text(const Study& study, const StudyCase& input) {
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap) {
   if (!gives_verdicts(study)) return {};
   const CalibrationDistance distance = distance_to_calibration(input.scene.scene);
-  std::vector<std::string> beyond = distance.unknown;
+  std::vector<std::string> beyond;
+  for (const std::string& each : distance.unknown) {
+    const std::string because = reason_for(input, each);
+    beyond.push_back(because.empty() ? each : fmt::format("{} (accepted because {})", each, because));
+  }
   beyond.insert(beyond.end(), distance.carried.begin(), distance.carried.end());
   if (gap > CalibrationEvidence{}.largest_gap * (1.0 + 1e-9)) beyond.emplace_back("gap");
-  if (beyond.empty()) return {};
-  std::string text = "extrapolated: " + list_of(beyond);
-  const std::string because = reason_for_calibration(input);
-  if (!distance.unknown.empty() && !because.empty()) text += ", accepted because " + because;
-  return text;
+  return beyond.empty() ? std::string{} : "extrapolated: " + list_of(beyond);
 }
 
 }  // namespace launchsafe::study::detail

@@ -24,7 +24,9 @@ class AccuracyRecordProgram : public Program {
     return read(name + "/accuracy.json");
   }
   Outcome use(const std::string& keys, const std::vector<std::string>& more = {}) {
-    write("gaps.toml", "kind = \"critical-gap\"\nscene = \"shell.toml\"\nconfirm = false\n" + early + keys);
+    write("gaps.toml",
+          "kind = \"critical-gap\"\nscene = \"shell.toml\"\nconfirm = false\ninput_uncertainty = \"2 K\"\n" +
+              early + keys);
     std::vector<std::string> arguments{"study", "gaps.toml", "-o", "used", "--update"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);

@@ -7,8 +7,10 @@ namespace {
 class FailingCase : public StoredStudy {
  protected:
   void write_study(const std::string& axes) const {
-    write("study.toml", "kind = \"sweep\"\nscene = \"shell.toml\"\nearly_time = \"0.03 ms\"\n[axes]\n" +
-                            axes + "\ngap = \"0, 0.01 cm\"\n");
+    write("study.toml",
+          "kind = \"sweep\"\nscene = \"shell.toml\"\nearly_time = \"0.03 ms\"\ninput_uncertainty = \"2 "
+          "K\"\n[axes]\n" +
+              axes + "\ngap = \"0, 0.01 cm\"\n");
   }
   /// The study's cases by what is printed as JSON.
   nlohmann::json cases_of(const Outcome& outcome) const {

@@ -14,6 +14,7 @@ const std::string mine = "mine: do not lose me\n";
 const std::string critical_gap_study = R"(kind = "critical-gap"
 scene = "shell.toml"
 early_time = "0.03 ms"
+input_uncertainty = "2 K"
 confirm = false
 )";
 

@@ -2,29 +2,25 @@
 // first.
 #include "program.hpp"
 
-#include <algorithm>
-#include <cctype>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <iterator>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace launchsafe::app {
 namespace {
 
-/// A small shell under the load of a gun, on cells so coarse that its launch takes a tenth of a second.
-const std::string sound_scene = R"(title = "a small shell"
-accept = [{ key = "calibration", because = "this is a test of the program" }]
-
-[load]
-peak = "496 MPa"
-
-[gap]
-thickness = "0, 0.01 cm"
-
-[numerics]
-cell_size = "5 mm"
-)" + testing::small_shell + testing::small_shell_base +
-                                testing::small_shell_point;
+/// The shipped scene on cells so coarse, with so much inertia, that its launch takes a tenth of a second.
+std::string sound_scene() {
+  std::ifstream file(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  return with(with(text, "cell_size = \"2.5 mm\"", "cell_size = \"10 mm\"\ninertial_scaling = 16"),
+              "\"0, 0.01, 0.02, 0.03, 0.039, 0.04 cm\"", "\"0, 0.005 cm\"");
+}
 
 const std::string sound_study = R"(kind = "critical-gap"
 scene = "shell.toml"
@@ -37,7 +33,7 @@ input_uncertainty = "5 K"
 
 /// A pulse as a gun makes it, in ms and MPa.
 const std::string sound_curve =
-    "time_ms,pressure_MPa\n0,0.1\n3,5\n5,60\n7,240\n9,430\n11,496\n13,430\n15,270\n17,120\n18,70\n";
+    "time_ms,pressure_MPa\n0,0\n3,5\n5,60\n7,240\n9,430\n11,496\n13,430\n15,270\n17,120\n18,70\n";
 
 struct Edit {
   std::string file, from, to;
@@ -60,7 +56,7 @@ std::vector<Edit> with_curve(const std::string& curve, const std::string& load =
 std::vector<Edit> in_scene(std::string from, std::string to) {
   return {{"shell.toml", std::move(from), std::move(to)}};
 }
-std::vector<Edit> in_load(const std::string& line) { return in_scene("[load]\n", "[load]\n" + line + "\n"); }
+
 std::vector<Edit> in_study(std::string from, std::string to) {
   return {{"study.toml", std::move(from), std::move(to)}};
 }
@@ -68,7 +64,7 @@ std::vector<Edit> in_study(std::string from, std::string to) {
 class NeverSafe : public Program, public ::testing::WithParamInterface<Mistake> {
  protected:
   void write_sound() const {
-    write("shell.toml", sound_scene);
+    write("shell.toml", sound_scene());
     write("study.toml", sound_study);
     write("pressure.csv", sound_curve);
   }
@@ -122,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Mistake{"QuietBeforeThePulse", with_curve("time_ms,pressure_MPa\n0,0\n20,0\n24,60\n30,496\n36,70\n"),
                 "not covered"},
-        Mistake{"CutBeforeThePeak", with_curve("time_ms,pressure_MPa\n0,0.1\n5,60\n9,200\n18,480\n"),
+        Mistake{"CutBeforeThePeak", with_curve("time_ms,pressure_MPa\n0,0\n5,60\n9,200\n18,480\n"),
                 "cut off"},
         Mistake{"ACurveThatGoesOn", with_curve(sound_curve + "25,40\n"), "after the end of the simulation"},
         Mistake{"ASecondHumpAfterTheEnd", with_curve(sound_curve + "25,480\n30,20\n"), "after the end"},
@@ -130,32 +126,87 @@ INSTANTIATE_TEST_SUITE_P(
                 with_curve("time_ms,pressure_MPa\n0,0\n20,0\n24,60\n30,300\n36,70\n",
                            "peak = \"496 MPa\"\nrescale_to_peak = true\n"),
                 "not covered"},
-        Mistake{"ThePeakAfterTheEnd", in_load("peak_time = \"40 ms\""), "not covered"},
-        Mistake{"ShorterThanTheRise", in_load("duration = \"8 ms\""), "not covered"},
-        Mistake{"EndsAtThePeak", in_load("peak_time = \"18 ms\""), "cut off"},
-        Mistake{"BeginsUnderLoad", with_curve("time_ms,pressure_MPa\n0,150\n5,300\n11,496\n18,70\n"),
-                "begins with"}),
+        Mistake{"ThePeakAfterTheEnd", in_scene("peak_time = \"11 ms\"", "peak_time = \"40 ms\""),
+                "not covered"},
+        Mistake{"ShorterThanTheRise", in_scene("duration = \"18 ms\"", "duration = \"10.5 ms\""),
+                "not covered"},
+        Mistake{"EndsAtThePeak", in_scene("peak_time = \"11 ms\"", "peak_time = \"18 ms\""), "cut off"}),
     [](const auto& test) { return test.param.name; });
 
-INSTANTIATE_TEST_SUITE_P(CalibrationElsewhere, NeverSafe,
-                         ::testing::Values(Mistake{
-                             "AnotherShell",
-                             in_scene("accept = [{ key = \"calibration\", because = \"this is a test of the "
-                                      "program\" }]\n",
-                                      ""),
-                             "another shell"}),
-                         [](const auto& test) { return test.param.name; });
+/// A line more in a table of the scene.
+std::vector<Edit> in_table(const std::string& table, const std::string& line) {
+  return in_scene("[" + table + "]\n", "[" + table + "]\n" + line + "\n");
+}
 
-INSTANTIATE_TEST_SUITE_P(UncertaintyUnstated, NeverSafe,
-                         ::testing::Values(
-                             // T1 a hundred kelvin above the skin: a margin that stated uncertainties leave,
-                             // and assumed ones do not.
-                             Mistake{"OfTheMesh",
-                                     {{"study.toml", "numerical_uncertainty = \"5 K\"\n", ""},
-                                      {"shell.toml", "[gap]",
-                                       "[kinetics]\nignition_temperature = \"385 K\"\n\n[gap]"}},
-                                     "within the uncertainty"}),
-                         [](const auto& test) { return test.param.name; });
+/// Values that a scene may have and no launch has; what nothing can have is refused.
+INSTANTIATE_TEST_SUITE_P(
+    Implausible, NeverSafe,
+    ::testing::Values(
+        Mistake{"MegapascalsLabelledPascal", with_curve(with(sound_curve, "MPa", "Pa")),
+                "load.measured_peak"},
+        Mistake{"MegapascalsLabelledKilopascal", with_curve(with(sound_curve, "MPa", "kPa")),
+                "load.measured_peak"},
+        Mistake{"NoLoad", with_curve("time_ms,pressure_MPa\n0,0\n9,0\n18,0\n"), "load.measured_peak"},
+        Mistake{"AHundredthOfThePeak", in_scene("496 MPa", "4.96 MPa"), "load.peak"},
+        Mistake{"SlowExchange", in_scene("\"0.297513 ms\"", "\"100 s\""), "gap.exchange_time"},
+        Mistake{"ThickSkin", in_scene("skin_thickness = \"0.1 mm\"", "skin_thickness = \"1 cm\""),
+                "gap.skin_thickness"},
+        Mistake{"ThinAir", in_table("gap", "air_density = \"0.7 kg/m3\""), "gap.gas_law"},
+        Mistake{"AirWithoutHeat", in_table("gap", "air_specific_heat = \"1e-300 J/(kg K)\""),
+                "gap.air_specific_heat", true},
+        Mistake{"NoIgnition", in_scene("\"521.52 K\"", "\"1e6 K\""), "kinetics.ignition_temperature", true},
+        Mistake{"LateIgnition", in_scene("\"521.52 K\"", "\"700 K\""), "kinetics.ignition_temperature"},
+        Mistake{"NegativeJwl", in_table("charge", "jwl.a = \"-1 GPa\""), "charge.jwl.a", true},
+        Mistake{"NoFriction", in_table("charge", "sliding_friction = 0"), "charge.sliding_friction"},
+        Mistake{"NoDriftLimit", in_scene("[numerics]\n", "[numerics]\nenergy_drift_limit = 100\n"),
+                "numerics.energy_drift_limit"},
+        Mistake{"AnExactMesh", in_study("\"5 K\"\nfit", "\"0 K\"\nfit"), "numerical_uncertainty"},
+        Mistake{"ExactConstants", in_study("\"3 K\"", "\"0 K\""), "fit_uncertainty"},
+        Mistake{"ExactInputs", in_study("input_uncertainty = \"5 K\"", "input_uncertainty = \"0 K\""),
+                "input_uncertainty"}),
+    [](const auto& test) { return test.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    CalibratedElsewhere, NeverSafe,
+    ::testing::Values(
+        Mistake{"AnotherShell",
+                in_scene("x = \"0 to 11.8 cm\",    r = \"0 to 7.75 cm\"",
+                         "x = \"1 to 11.8 cm\",    r = \"0 to 7.75 cm\""),
+                "another shell"},
+        Mistake{"WithoutTheHottestPoint",
+                in_scene("  { name = \"G1\",  x = \"67.75 cm\", r = \"6.25 cm\" },\n", ""),
+                "observation points are missing"},
+        Mistake{"AnotherExplosive", in_table("charge", "density = \"1.6 g/cm3\""), "charge.density"},
+        Mistake{"AnotherClosure", in_scene("closure = \"literal\"", "closure = \"inelastic\""),
+                "friction.closure"},
+        Mistake{"ColderConstants", in_scene("localisation = 802.835", "localisation = 600"),
+                "friction.localisation"},
+        Mistake{"SlowerExchange", in_scene("\"0.297513 ms\"", "\"0.5 ms\""), "gap.exchange_time"},
+        Mistake{"AcceptedWithoutAReason",
+                in_scene("title =", "accept = [{ key = \"calibration\", because = \"yes\" }]\ntitle ="),
+                "accept.because", true},
+        Mistake{"AcceptedByAnUnknownKey",
+                in_scene("title =",
+                         "accept = [{ key = \"calibrations\", because = \"it was measured\" }]\ntitle ="),
+                "accept.key", true}),
+    [](const auto& test) { return test.param.name; });
+
+/// What is not stated is not taken for nothing: the line of the study that is left out, the share that it is
+/// of, and what is assumed at the least, K.
+TEST_F(NeverSafe, AnOmittedUncertaintyIsNoSmallerThanAStatedOne) {
+  const std::vector<std::tuple<std::string, std::string, double>> omissions{
+      {"numerical_uncertainty = \"5 K\"\n", "uncertainty_of_computation_K", 60.0},
+      {"fit_uncertainty = \"3 K\"\n", "uncertainty_of_fit_K", 21.9},
+      {"input_uncertainty = \"5 K\"\n", "uncertainty_of_inputs_K", 12.0}};
+  for (const auto& [line, share, least] : omissions) {
+    write_sound();
+    apply(in_study(line, ""));
+    const Outcome outcome = run({"study", "study.toml", "-o", share, "--json"});
+    const auto verdicts = nlohmann::json::parse(outcome.out)["verdicts"];
+    ASSERT_EQ(verdicts.size(), 2u) << outcome.err;
+    for (const auto& row : verdicts) EXPECT_GE(row[share].get<double>(), least) << share;
+  }
+}
 
 }  // namespace
 }  // namespace launchsafe::app

@@ -168,6 +168,7 @@ END
 kind = "sweep"
 scene = "shell.toml"
 early_time = "0.03 ms"
+input_uncertainty = "2 K"
 
 [axes]
 peak_pressure = "30, 40, 50, 60, 70, 80 MPa"

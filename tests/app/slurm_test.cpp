@@ -13,6 +13,7 @@ namespace {
 const std::string small_sweep = R"(kind = "sweep"
 scene = "shell.toml"
 early_time = "0.03 ms"
+input_uncertainty = "2 K"
 
 [axes]
 peak_pressure = "40, 50, 60 MPa"
@@ -147,7 +148,7 @@ TEST_F(SlurmProgram, BadInputLeavesNothing) {
   write("sweep.toml", with(small_sweep, "gap", "gasp"));
   const Outcome unknown = emit();
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_TRUE(unknown.says("sweep.toml:7:")) << unknown.err;
+  EXPECT_TRUE(unknown.says("sweep.toml:8:")) << unknown.err;
   EXPECT_FALSE(exists("out"));
   EXPECT_FALSE(exists("back\\slash"));
 }

@@ -17,6 +17,7 @@ namespace launchsafe::app {
 inline const std::string sweep_study = R"(kind = "sweep"
 scene = "shell.toml"
 early_time = "0.03 ms"
+input_uncertainty = "2 K"
 accept = [{ key = "gap.exchange_time", because = "the launch is as much faster" }]
 
 [axes]

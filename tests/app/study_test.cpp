@@ -12,6 +12,7 @@ const std::string small_study = R"(kind = "critical-gap"
 scene = "shell.toml"
 gaps = "0, 0.01, 0.02 cm"
 early_time = "0.03 ms"
+input_uncertainty = "2 K"
 )";
 
 class StudyProgram : public Program {

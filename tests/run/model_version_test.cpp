@@ -35,7 +35,7 @@ namespace launchsafe::run {
 namespace {
 
 /// What model_numbers.csv was for every version, by `digest_of`.
-const std::map<int, std::uint64_t> digests{{1, 0xc5bc9a66d5107f8dU}};
+const std::map<int, std::uint64_t> digests{{1, 0xcf8fc17d687d3b02U}};
 
 const char* const numbers_file = LAUNCHSAFE_SOURCE_DIR "/tests/run/model_numbers.csv";
 
@@ -148,7 +148,7 @@ const Keys common{{"load.duration", "\"0.2 ms\""},
 const std::map<std::string, Keys> scenes{
     {"plain", {}},
     {"plane strain", {{"symmetry", "\"plane-strain\""}}},
-    {"at rest", {{"frame", "\"lab\""}}},
+    {"at rest", {{"frame", "\"lab\""}, {"numerics.energy_drift_limit", "5"}}},
     {"no barrel, yielding", {{"barrel", "\"none\""}, {"load.peak", "\"1.5 GPa\""}}},
     {"tension",
      {{"barrel", "\"none\""}, {"load.peak_time", "\"0.03 ms\""}, {"charge.tension_cutoff", "\"1 MPa\""}}},
@@ -167,7 +167,7 @@ const std::map<std::string, Keys> scenes{
     {"two particles a cell",
      {{"numerics.particles_per_cell", "2"},
       {"numerics.pic_fraction", "0.1"},
-      {"numerics.time_step_factor", "0.9"}}},
+      {"numerics.time_step_factor", "0.4"}}},
     {"measured load",
      {{"load.curve_time", "\"0, 0.1, 0.15, 0.2 ms\""}, {"load.curve_pressure", "\"0, 300, 400, 200 MPa\""}}}};
 

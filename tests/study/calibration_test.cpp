@@ -39,7 +39,7 @@ const std::string calibration_text = "kind = \"calibration\"\nscene = \"scene_15
 
 TEST(Calibration, RecoversTheConstantsOfASyntheticTruth) {
   const trace::BottomTrace trace = synthetic_trace(496e6, friction_for(116.1));
-  const Constants truth{317.0, 4.2e-4, not_a_number};
+  const Constants truth{951.0, 4.2e-4, not_a_number};
   const CalibrationResult result = run_calibration(
       study_of(calibration_text + published(truth, trace) + synthetic_constants), synthetic_options());
   ASSERT_EQ(result.rows.size(), 3u);  // literal, inelastic, none
@@ -58,7 +58,7 @@ TEST(Calibration, RecoversTheConstantsOfASyntheticTruth) {
 
 TEST(Calibration, FitsNothingButItsThreeRows) {
   const trace::BottomTrace trace = synthetic_trace(496e6, friction_for(116.1));
-  const std::string rows = published({317.0, 4.2e-4, not_a_number}, trace);
+  const std::string rows = published({951.0, 4.2e-4, not_a_number}, trace);
   std::string changed = rows;
   const std::string key = "{ gap = \"0.0001 m\", maximum_temperature = \"";
   changed.replace(changed.find(key) + key.size(), 1, "9");
@@ -77,7 +77,7 @@ TEST(Calibration, FitsNothingButItsThreeRows) {
 TEST(Calibration, WithoutFrictionThereIsOnlyAPrediction) {
   const trace::BottomTrace trace = synthetic_trace(496e6, friction_for(116.1));
   const CalibrationResult result =
-      run_calibration(study_of(calibration_text + published({317.0, 4.2e-4, 0}, trace) + synthetic_constants),
+      run_calibration(study_of(calibration_text + published({951.0, 4.2e-4, 0}, trace) + synthetic_constants),
                       synthetic_options());
   const CalibrationRow& none = result.rows[2];
   EXPECT_FALSE(none.calibratable);
@@ -92,7 +92,7 @@ TEST(Calibration, ATraceWithoutFrictionSaysSoAndRecommendsNothing) {
   StudyOptions options = synthetic_options();
   options.runners = synthetic_runners(0.0);
   const CalibrationResult result = run_calibration(
-      study_of(calibration_text + published({317.0, 4.2e-4, 0}, trace) + synthetic_constants), options);
+      study_of(calibration_text + published({951.0, 4.2e-4, 0}, trace) + synthetic_constants), options);
   EXPECT_NE(result.rows[0].failure.find("no localisation"), std::string::npos) << result.rows[0].failure;
   EXPECT_FALSE(result.recommendation.row.has_value());
 }
@@ -107,7 +107,7 @@ TEST(Calibration, AFailedMeshIsItsOwnFailure) {
   };
   const CalibrationResult result =
       run_calibration(study_of(calibration_text + "meshes = \"2.5, 1.25 mm\"\n" +
-                               published({317.0, 4.2e-4, 0}, trace) + synthetic_constants),
+                               published({951.0, 4.2e-4, 0}, trace) + synthetic_constants),
                       options);
   EXPECT_TRUE(result.any_failed());
   ASSERT_EQ(result.rows.size(), 6u);
@@ -124,7 +124,7 @@ TEST(Calibration, MeasuresTheChangeBetweenMeshes) {
   };
   const CalibrationResult result =
       run_calibration(study_of(calibration_text + "meshes = \"2.5, 1.25 mm\"\n" +
-                               published({317.0, 4.2e-4, 0}, trace) + synthetic_constants),
+                               published({951.0, 4.2e-4, 0}, trace) + synthetic_constants),
                       options);
   ASSERT_EQ(result.convergence.size(), 2u);
   EXPECT_NEAR(result.convergence[0].localisation_change, -0.25, 1e-6);
@@ -143,7 +143,7 @@ TEST(Calibration, SaysWhenTheEvidenceDoesNotTellTheClosuresApart) {
     for (double& energy : result.trace.friction[1]) energy *= 0.5;
     return result;
   };
-  std::string rows = published({317.0, 4.2e-4, 0}, trace);
+  std::string rows = published({951.0, 4.2e-4, 0}, trace);
   const std::string key = "{ gap = \"0.0001 m\", maximum_temperature = \"4";
   rows.replace(rows.find(key) + key.size() - 1, 1, "5");  // a misfit that both share
   const CalibrationResult result =

@@ -101,8 +101,7 @@ TEST(CaseUncertainty, ARaisedLoadThatCannotBeComputedLeavesNothingSafe) {
   const CriticalGapResult result = run_critical_gap(study_of(critical_kind + no_confirmation), options);
   for (const GapVerdict& row : result.cases.at(0).verdicts) {
     EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
-    EXPECT_NE(row.judgement.reason.find("load raised by 4 %: energy drift"), std::string::npos)
-        << row.judgement.reason;
+    EXPECT_NE(row.judgement.reason.find("energy drift"), std::string::npos) << row.judgement.reason;
   }
 }
 
@@ -132,9 +131,10 @@ TEST(CaseUncertainty, AnotherLoadShapeKeepsTheLargestMisfit) {
 
 /// The constants of the 155 mm shell say nothing of another one, however small its own errors are.
 TEST(CaseUncertainty, AnotherShellIsIndeterminateUnlessItsSceneSaysWhyNot) {
-  for (const std::string change : {"body.charge.r = \"0 to 6 cm\"\nbody.wall.r = \"6 to 7.75 cm\"\n",
-                                   "friction.closure = \"inelastic\"\n", "charge.density = \"1.65 g/cm3\"\n",
-                                   "friction.localisation = 400\n"}) {
+  for (const std::string change :
+       {"body.charge.x = \"12 to 67.8 cm\"\nbody.wall.x = \"12 to 67.8 cm\"\nbody.nose.x = \"0 to 12 cm\"\n",
+        "friction.closure = \"inelastic\"\n", "charge.density = \"1.65 g/cm3\"\n",
+        "friction.localisation = 400\n"}) {
     for (const bool accepted : {false, true}) {
       StudyFile study = study_of(critical_kind + no_confirmation + stated + "[set]\n" + change);
       ASSERT_EQ(study.cases.size(), 1u);

@@ -64,7 +64,11 @@ TEST(StudyPlausibility, AnImplausibleValueIsIndeterminateUntilItIsAccepted) {
     EXPECT_TRUE(says(judgement_in(doubted).reason, named)) << judgement_in(doubted).reason;
     EXPECT_TRUE(says(judgement_in(doubted).reason, "not plausible")) << judgement_in(doubted).reason;
     EXPECT_EQ(doubted.cases[0].critical.kind, CriticalGapKind::indeterminate) << key;
-    const Judgement accepted = judgement_in(run_safe_study(accept(key, "it was measured so"), overrides));
+    const std::string shell =
+        key.starts_with("body.") ? "{ key = \"calibration\", because = \"another shell\" }, " : "";
+    std::string reasons = accept(key, "it was measured so");
+    reasons.insert(reasons.find('[') + 1, shell);
+    const Judgement accepted = judgement_in(run_safe_study(reasons, overrides));
     EXPECT_FALSE(says(accepted.reason, "not plausible")) << accepted.reason;
     EXPECT_TRUE(says(accepted.reason, "accepted: " + key)) << accepted.reason;
     EXPECT_TRUE(says(accepted.reason, "because it was measured so")) << accepted.reason;

@@ -193,7 +193,7 @@ TEST(ReadSweep, KeysOfOtherKindsAreErrors) {
   expect_error_in(start + "meshes = \"1 mm\"\n", {3, "meshes", "kind \"calibration\""});
   expect_error_in(start + "samples = 3\n", {3, "samples", "kind \"sensitivity\""});
   expect_error_in(start + "[[input]]\nkey = \"peak_pressure\"\n", {3, "input", "kind \"sensitivity\""});
-  expect_error_in(critical_text + "[axes]\ngap = \"1 mm\"\n", {3, "axes", "kind \"sweep\"", "critical-gap"});
+  expect_error_in(critical_kind + "[axes]\ngap = \"1 mm\"\n", {3, "axes", "kind \"sweep\"", "critical-gap"});
   expect_error_in("kind = \"calibration\"\nscene = \"scene_155mm.toml\"\n[axes]\n",
                   {3, "axes", "kind \"sweep\"", "calibration"});
 }

@@ -111,8 +111,8 @@ TEST(Stability, ATemperatureOffTheSafeComputationIsWrong) {
     });
   };
   expect_outcome(off_by(2.0), Outcome::held, "against the safe computation");
-  expect_outcome(off_by(5.0), Outcome::wrong, "off the safe computation by 4.98 K, more than 3 K");
-  expect_outcome(off_by(-5.0), Outcome::wrong, "off the safe computation by 4.98 K, more than 3 K");
+  expect_outcome(off_by(5.0), Outcome::wrong, "off the safe computation by 4.97 K, more than 3 K");
+  expect_outcome(off_by(-5.0), Outcome::wrong, "off the safe computation by 4.97 K, more than 3 K");
 }
 
 TEST(Stability, OffButSayingSoIsDegraded) {
