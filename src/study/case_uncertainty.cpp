@@ -98,14 +98,14 @@ double fit_share(const Study& study, const CalibrationDistance& distance, const 
 
 double stated_input_share(const Study& study, const StudyCase& input) {
   if (!std::isfinite(study.input_uncertainty)) return 0.0;
-  const double growth = input.pressure_ratio * input.pressure_ratio;
+  const double growth = std::pow(input.pressure_ratio, heat_exponent);
   return study.input_uncertainty * (growth <= 1.0 ? 1.0 : growth);
 }
 
 LoadCurveErrors load_curve_errors(const scene::Load& load) {
   const double roughness = scene::load_roughness(load);
   const double kept = 1.0 - scene::peak_lost_to_smoothing(load);
-  return {roughness / (1.0 + roughness), 1.0 / (kept * kept) - 1.0};
+  return {roughness / (1.0 + roughness), std::pow(kept, -heat_exponent) - 1.0};
 }
 
 std::vector<std::string> doubts_of_input(const Study& study, const StudyCase& input) {
@@ -165,9 +165,9 @@ std::string input_uncertainty_text(const Study& study) {
   const std::string spread =
       std::isfinite(study.input_uncertainty)
           ? fmt::format(
-                "{:.3g} K, as the study states for its own scene; at a higher peak it grows with the square "
-                "of the pressure",
-                study.input_uncertainty)
+                "{:.3g} K, as the study states for its own scene; at a higher peak it grows with the power "
+                "{:g} of the pressure",
+                study.input_uncertainty, detail::heat_exponent)
           : fmt::format(
                 "the study states none, so that an assumed spread is propagated: the load {:.3g} % higher, "
                 "by "
