@@ -88,10 +88,8 @@ void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells) {
 std::vector<std::string> mesh_notes(const study::StudyFile& study) {
   std::vector<std::string> notes;
   if (study.study.numerical_uncertainty_assumed) {
-    notes.push_back(
-        fmt::format("The uncertainty includes {} K for the mesh, assumed: the study states none that "
-                    "applies to these settings (`numerical_uncertainty`).",
-                    study.study.numerical_uncertainty));
+    notes.push_back(fmt::format("The uncertainty includes up to {} K for mesh, step and scaling, {}.",
+                                significant(study.study.numerical_uncertainty, 3), study.uncertainty_source));
   }
   if (std::string note = off_grid_note(study); !note.empty()) notes.push_back(std::move(note));
   return notes;
