@@ -85,14 +85,14 @@ CaseGround ground_of(const CaseOutcome& outcome) {
           heated_temperature(scene, outcome.result.mechanics.trace, 0.0)};
 }
 
-/// K by which T max of a gap rises where load and initial temperature are at the hot ends of their assumed
+/// K by which T max of a gap changes where load and initial temperature are at the hot ends of their assumed
 /// spread together. One that ignites there has no margin left.
 double propagated_share(const CaseOutcome& outcome, const GapVerdict& row) {
   scene::Scene hot = with_raised_load(outcome.input.scene.scene);
   hot.initial_temperature += assumed_temperature_spread;
   hot.surface.air.initial_temperature += assumed_temperature_spread;
   const BottomTrace& trace = outcome.raised->trace;
-  const double rise = heated_temperature(hot, trace, row.gap) - row.heated;
+  const double rise = std::abs(heated_temperature(hot, trace, row.gap) - row.heated);
   const auto reacting = surface::integrate_skin(surface::skin_model(hot), trace, row.gap);
   return !row.ignition && reacting.ignition ? std::max(rise, row.margin) : rise;
 }
