@@ -229,6 +229,16 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     line.json = asks_for_json(argument_count, arguments);
     return line;
   }
+  for (const std::filesystem::path& output :
+       {parsed.run.output.value_or(""), parsed.study.output, parsed.merge.output, parsed.emit.output,
+        parsed.verify.output.value_or("")}) {
+    if (!output.string().starts_with("-")) continue;
+    line.request =
+        UsageError{"--output: found " + output.string() + ", which is an option; allowed: a folder (./" +
+                   output.string() + " for one of this name)"};
+    line.json = asks_for_json(argument_count, arguments);
+    return line;
+  }
   const std::string command = shell_command({arguments, arguments + argument_count});
   parsed.study.command = command;
   parsed.merge.command = command;

@@ -40,6 +40,10 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
 
 /// Why the result may not be written at `path`; found out before anything is computed.
 std::optional<std::string> obstacle_at(const std::filesystem::path& path, const store::Manifest& manifest) {
+  std::error_code failed;
+  if (std::filesystem::is_symlink(path, failed))
+    return path.string() +
+           " is a link, and nothing is written in its place: move it away or name another folder";
   const auto present = store::read_manifest(path);
   if (present) {
     if (present->input_sha256 == manifest.input_sha256) return std::nullopt;
@@ -47,9 +51,7 @@ std::optional<std::string> obstacle_at(const std::filesystem::path& path, const 
         "{} holds the result of a different input, and nothing is overwritten; name another folder",
         path.string());
   }
-  const bool absent = present.error().kind == store::Error::Kind::missing;
-  // A link that leads nowhere is there, and somebody's.
-  if (absent && !std::filesystem::is_symlink(path)) return std::nullopt;
+  if (present.error().kind == store::Error::Kind::missing) return std::nullopt;
   return present.error().message + "; it is not overwritten: move it away or name another folder";
 }
 

@@ -65,7 +65,9 @@ std::vector<ReportFile> files_from(const nlohmann::json& list) {
   for (const auto& each : list) {
     // A name that leads out of the folder is none of ours.
     const std::string name = each.value("name", "");
-    if (name.empty() || std::filesystem::path(name).filename() != name) continue;
+    if (name.empty() || name == "." || name == ".." || name == "cases" ||
+        std::filesystem::path(name).filename() != name)
+      continue;
     files.push_back({name, each.value("bytes", std::uintmax_t{0}), each.value("modified_ns", std::int64_t{0}),
                      each.value("sha256", "")});
   }

@@ -49,7 +49,7 @@ class MemoryFile {
 
   std::string content() const {
     std::string content;
-    std::array<char, 1 << 16> part{};
+    std::array<char, 1 << 12> part{};  // stacks may be small
     for (;;) {
       const ssize_t taken = ::pread(number_, part.data(), part.size(), static_cast<off_t>(content.size()));
       if (taken < 0 && errno == EINTR) continue;

@@ -121,6 +121,26 @@ double bulk_temperature(const Scene& scene, const trace::BottomTrace& trace) {
   return scene.initial_temperature + most / (scene.charge.eos.initial_density * scene.charge.specific_heat);
 }
 
+/// The skin is that of the charge's rearmost face. A part of the charge that ends before it, by however
+/// little, has a face of its own that nobody looks at, unless more charge lies behind all of it.
+void doubt_bottom(const Scene& scene, Doubts& doubts) {
+  constexpr double touching = 1e-9;  // m
+  const auto is_charge = [](const scene::Body& body) { return body.material == scene::BodyMaterial::charge; };
+  const double bottom = scene::extent_of(scene, scene::BodyMaterial::charge).x_end;
+  for (const scene::Body& body : scene.bodies) {
+    if (!is_charge(body) || body.x_end == bottom) continue;
+    const bool covered =
+        std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const scene::Body& behind) {
+          return is_charge(behind) && std::abs(behind.x_begin - body.x_end) <= touching &&
+                 behind.r_begin <= body.r_begin + touching && behind.r_end >= body.r_end - touching;
+        });
+    if (covered) continue;
+    doubts.push_back(fmt::format(
+        "the charge body \"{}\" ends {:.3g} mm before the charge's bottom, and its face is not looked at",
+        body.name, 1e3 * (bottom - body.x_end)));
+  }
+}
+
 void doubt_charge(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
   if (scene::make_plan(scene).bulk_reaction.in) return;
   const double temperature = bulk_temperature(scene, mechanics.trace);
@@ -196,6 +216,7 @@ std::vector<std::string> doubts_of(const Scene& scene, const MechanicsResult& me
   if (scene::has_material(scene, scene::BodyMaterial::charge)) {
     doubt_cracks(scene, mechanics, doubts);
     doubt_charge(scene, mechanics, doubts);
+    doubt_bottom(scene, doubts);
   }
   doubt_steel(scene, mechanics, doubts);
   return doubts;

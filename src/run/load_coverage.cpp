@@ -13,13 +13,23 @@ constexpr double least_reached = 0.995;
 /// A smoothed curve loses what was noise at its peak; what it loses beyond this was none.
 constexpr double least_reached_smoothed = 0.95;
 /// A launch whose pressure ends this near its peak has not been seen to pass it.
-constexpr double highest_end = 0.98;
+constexpr double highest_end = 0.9;
 /// Rise over the last parts of the launch from which the load is on its way to somewhere.
-constexpr double least_rise = 0.01;
+constexpr double least_rise = 0.003;
 /// Pressure before or after the simulated time that is no part of a launch: offset and noise of a gauge.
 constexpr double negligible = 0.01;
 /// A start that the charge would feel as a blow.
 constexpr double highest_start = 0.05;
+
+// Of a measured curve, shares of the duration or of its own rise.
+/// A gauge that saturates or is cut shows one pressure for so long; the pulse of a gun is within 0.2 % of its
+/// peak for 2 % of the launch.
+constexpr double longest_plateau = 0.05, plateau = 0.998;
+/// Points further apart beside the largest one may have missed the peak between them.
+constexpr double widest_gap_at_peak = 0.2;
+/// Time from the peak down to half of it over that from half of it up: propellant burns out no faster than
+/// this, and a cable that breaks does.
+constexpr double fastest_fall = 0.25;
 
 using scene::Load, scene::PressureHistory;
 
@@ -79,14 +89,55 @@ std::string is_whole(const Load& load, const PressureHistory& history) {
   return {};
 }
 
+/// Whether the largest point of a measured curve can be the peak of the launch.
+std::string shows_its_peak(const Load& load, const PressureHistory& history) {
+  const auto& pressure = load.curve_pressure;
+  if (pressure.size() < 2) return {};
+  const auto top = std::max_element(pressure.begin(), pressure.end());
+  const auto at = static_cast<std::size_t>(top - pressure.begin());
+  const double before = at > 0 ? load.curve_time[at] - load.curve_time[at - 1] : 0.0;
+  const double after = at + 1 < pressure.size() ? load.curve_time[at + 1] - load.curve_time[at] : 0.0;
+  if (std::max(before, after) > widest_gap_at_peak * load.duration)
+    return fmt::format("the measured curve has no point for {} beside its largest: the peak may lie between",
+                       milliseconds(std::max(before, after)));
+  constexpr int parts = 2000;
+  const double stated = history.peak();
+  double first_half = load.duration, last_half = 0.0, flat = 0.0;
+  bool has_fallen = false;
+  for (int part = 0; part < parts; ++part) {
+    const double time = load.duration * (part + 0.5) / parts, here = history.at(time);
+    if (here >= plateau * stated) flat += load.duration / parts;
+    has_fallen = has_fallen || (here < 0.1 * stated && last_half > 0.0);
+    if (here < 0.5 * stated) continue;
+    if (has_fallen)
+      return fmt::format(
+          "the measured curve falls below a tenth of its peak and rises again by {}, as misread numbers "
+          "do",
+          milliseconds(time));
+    first_half = std::min(first_half, time);
+    last_half = std::max(last_half, time);
+  }
+  if (flat > longest_plateau * load.duration)
+    return fmt::format(
+        "the measured curve stays at its largest pressure for {}, as a gauge does that saturates",
+        milliseconds(flat));
+  const double peak_time = std::clamp(load.curve_time[at], 0.0, load.duration);
+  if (last_half - peak_time < fastest_fall * (peak_time - first_half))
+    return fmt::format(
+        "the measured curve breaks off: it falls to half of its peak within {}, and took {} to rise",
+        milliseconds(last_half - peak_time), milliseconds(peak_time - first_half));
+  return {};
+}
+
 }  // namespace
 
 std::vector<std::string> uncovered_load(const Load& load) {
   const PressureHistory history(load);
   std::vector<std::string> uncovered;
   if (history.stated_peak() == 0.0) return uncovered;  // nothing can be missing of no load
-  for (const std::string& each : {reaches_its_peak(load, history), passes_its_peak(load, history),
-                                  begins_at_rest(history), is_whole(load, history)}) {
+  for (const std::string& each :
+       {reaches_its_peak(load, history), passes_its_peak(load, history), begins_at_rest(history),
+        is_whole(load, history), shows_its_peak(load, history)}) {
     if (!each.empty()) uncovered.push_back(each);
   }
   return uncovered;

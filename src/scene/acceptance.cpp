@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace launchsafe::scene {
@@ -12,9 +13,32 @@ constexpr std::ptrdiff_t fewest_letters = 8;
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
-/// Letters of any language: beyond ASCII every byte counts.
+/// Characters that nobody sees: soft hyphen, zero-width and directional ones, byte-order marks (UTF-8).
+bool has_invisible(const std::string& text) {
+  for (const char* unseen : {"\xc2\xad", "\xe2\x80\x8b", "\xe2\x80\x8c", "\xe2\x80\x8d", "\xe2\x80\x8e",
+                             "\xe2\x80\x8f", "\xe2\x80\xaa", "\xe2\x80\xab", "\xe2\x80\xac", "\xe2\x80\xad",
+                             "\xe2\x80\xae", "\xe2\x81", "\xe3\x85\xa4", "\xef\xbb\xbf"}) {
+    if (text.find(unseen) != std::string::npos) return true;
+  }
+  return false;
+}
+
+/// First bytes of letters of any language.
 bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+  const auto byte = static_cast<unsigned char>(c);
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || byte >= 0xc0;
+}
+
+/// Whether a reason is one in words: several, of enough letters, not one letter again and again.
+bool is_in_words(const std::string& text) {
+  std::set<char> letters;
+  std::ptrdiff_t count = 0;
+  for (const char c : text) {
+    if (!is_letter(c)) continue;
+    ++count;
+    letters.insert(c);
+  }
+  return count >= fewest_letters && letters.size() > 2 && text.find(' ') != std::string::npos;
 }
 
 std::optional<InputError> check(const Acceptance& acceptance, const std::map<std::string, Place>& places,
@@ -31,12 +55,13 @@ std::optional<InputError> check(const Acceptance& acceptance, const std::map<std
                     "each key once");
   }
   const std::string& because = acceptance.because;
-  if (std::count_if(because.begin(), because.end(), is_letter) < fewest_letters ||
+  if (!is_in_words(because) || has_invisible(because) ||
       std::any_of(because.begin(), because.end(), is_control)) {
     return error_at(
         places.at("because"), "accept.because", fmt::format("a reason of {} characters", because.size()),
-        fmt::format("a reason in words, at least {} letters on one line: it is printed beside every verdict",
-                    fewest_letters));
+        fmt::format(
+            "a reason in words, at least two and {} letters on one line: it is printed beside every verdict",
+            fewest_letters));
   }
   return std::nullopt;
 }

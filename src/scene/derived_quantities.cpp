@@ -121,6 +121,10 @@ Number length_of_shell(const Scene& scene) {
   return all.x_end - all.x_begin;
 }
 
+double warmth_of_air(const Scene& scene) {
+  return scene.surface.air.initial_temperature - scene.initial_temperature;
+}
+
 Number radius_of_shell(const Scene& scene) { return extent_of(scene).r_end; }
 
 DerivedQuantity quantity(std::string name, Dimension dimension, std::string sentence, Limits plausible,
@@ -173,6 +177,9 @@ std::vector<DerivedQuantity> of_materials() {
 
 std::vector<DerivedQuantity> of_gap_and_shell() {
   return {
+      quantity("gap.air_warmth", Dimension::temperature_difference,
+               "Temperature of the air before launch over that of the shell around it.", between(-5, 5),
+               "air in a narrow gap has the temperature of its walls", of_charge(warmth_of_air)),
       quantity("gap.gas_law", Dimension::number,
                "Density over that of an ideal gas of air's molar mass, at the air's pressure and "
                "temperature before launch.",

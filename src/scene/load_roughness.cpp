@@ -96,6 +96,27 @@ double share_left_by_smoothing(const Load& load) {
   return 1.0 / std::sqrt(std::max(1.0, load.smoothing / mean_interval(load)));
 }
 
+/// The integral of p |dp| over the simulated time, Pa2, with the swings of noise and without.
+struct Work {
+  double whole = 0, noiseless = 0;
+};
+
+Work work_of(const Load& load) {
+  const PressureHistory history(load);
+  std::vector<double> pressures;
+  for (const double time : history.marks()) pressures.push_back(history.at(time));
+  const double stated = history.stated_peak();
+  const double scale =
+      stated / std::max(*std::max_element(load.curve_pressure.begin(), load.curve_pressure.end()), 1e-300);
+  const double noise = scale * noise_of(load) * share_left_by_smoothing(load);
+  const double least_swing =
+      std::clamp(deviations_of_a_swing * noise, least_swing_share * stated, largest_swing_share * stated);
+  // A load that only swings less than that has a noiseless one that cannot be told from a constant.
+  const double noiseless =
+      std::max(work_along(without_small_swings(pressures, least_swing)), 0.5 * least_swing * least_swing);
+  return {work_along(pressures), noiseless};
+}
+
 /// A number with two digits, rounded up.
 double rounded_up(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
@@ -132,19 +153,16 @@ std::string smoothing_text(const Load& load) {
 
 double load_roughness(const Load& load) {
   if (load.curve_time.size() < 2) return 0.0;
-  const PressureHistory history(load);
-  std::vector<double> pressures;
-  for (const double time : history.marks()) pressures.push_back(history.at(time));
-  const double stated = history.stated_peak();
-  const double scale =
-      stated / std::max(*std::max_element(load.curve_pressure.begin(), load.curve_pressure.end()), 1e-300);
-  const double noise = scale * noise_of(load) * share_left_by_smoothing(load);
-  const double least_swing =
-      std::clamp(deviations_of_a_swing * noise, least_swing_share * stated, largest_swing_share * stated);
-  // A load that only swings less than that has a noiseless one that cannot be told from a constant.
-  const double noiseless =
-      std::max(work_along(without_small_swings(pressures, least_swing)), 0.5 * least_swing * least_swing);
-  return noiseless > 0.0 ? std::max(0.0, work_along(pressures) / noiseless - 1.0) : 0.0;
+  const Work work = work_of(load);
+  return work.noiseless > 0.0 ? std::max(0.0, work.whole / work.noiseless - 1.0) : 0.0;
+}
+
+double work_lost_to_smoothing(const Load& load) {
+  if (load.curve_time.size() < 2 || !(load.smoothing > 0.0)) return 0.0;
+  Load raw = load;
+  raw.smoothing = 0.0;
+  const double before = work_of(raw).noiseless, after = work_of(load).whole;
+  return after > 0.0 ? std::max(0.0, before / after - 1.0) : 0.0;
 }
 
 double peak_lost_to_smoothing(const Load& load) {

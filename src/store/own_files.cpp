@@ -28,6 +28,14 @@ std::string line_of(const WrittenFile& file) {
   return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+/// Whether a record's word is taken for a name: one in its folder, and none of the store's own.
+bool may_be_recorded(const std::string& name) {
+  if (name.empty() || name == "." || name == ".." || fs::path(name).filename() != name) return false;
+  const auto begins_with = [&name](const char* begin) { return name.starts_with(begin); };
+  return name != "cases" && name != "slurm" && !begins_with("lock") && !begins_with("journal") &&
+         !begins_with("answers");
+}
+
 std::optional<WrittenFile> written_file(std::string_view line) {
   if (!line.starts_with(line_begin)) return {};
   const auto object = nlohmann::json::parse(line, nullptr, false);
@@ -37,7 +45,7 @@ std::optional<WrittenFile> written_file(std::string_view line) {
   };
   if (!object.is_object()) return {};
   WrittenFile file{text("file"), text("sha256")};
-  if (file.name.empty() || file.sha256.empty()) return {};
+  if (!may_be_recorded(file.name) || file.sha256.empty()) return {};
   return file;
 }
 

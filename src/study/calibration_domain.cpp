@@ -1,5 +1,6 @@
 #include "launchsafe/study/calibration_domain.hpp"
 
+#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 
 #include <fmt/format.h>
@@ -158,12 +159,15 @@ CalibrationDistance distance_to_calibration(const Scene& scene) {
   if (!same_shell(scene, calibrated)) {
     distance.unknown.emplace_back("another shell");
   } else if (!has_points_of(calibrated, scene)) {
-    distance.unknown.emplace_back("observation points are missing");
+    distance.unknown.emplace_back(scene::missing_points);
   }
   for (const auto& key : scene::scene_keys()) {
     const Value value = key.get(scene), wanted = key.get(calibrated);
     if (!same_value(value, wanted)) add_difference(distance, key.name, value, wanted);
   }
+  const double peak = scene::PressureHistory(scene.load).stated_peak();
+  if (!scene.load.curve_time.empty() && !same_number(peak, calibrated.load.peak))
+    distance.carried.emplace_back("peak pressure");
   if (distance.other_load_shape) distance.carried.emplace_back("load shape");
   if (distance.other_numerics) distance.carried.emplace_back("numerics");
   return distance;

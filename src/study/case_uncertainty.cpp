@@ -13,20 +13,13 @@
 namespace launchsafe::study::detail {
 namespace {
 
-std::string list_of(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 4;
-  const std::size_t shown = std::min(names.size(), most);
-  std::string text =
-      fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<long>(shown), ", "));
-  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
-  return text;
-}
-
-/// What a scene says of using the constants in spite of a difference: of its key, or of all of them.
+/// What a scene says of using the constants in spite of a difference: of its key, or of all of them. Where T
+/// max is read, and what it is compared with, has to be accepted by itself.
 std::string reason_for(const StudyCase& input, const std::string& difference) {
   const auto& accepted = input.scene.scene.accepted;
   const std::string of_key = scene::reason_for(accepted, difference);
-  return of_key.empty() ? scene::reason_for(accepted, scene::foreign_calibration) : of_key;
+  const bool alone = difference == scene::missing_points || difference == "kinetics.ignition_temperature";
+  return of_key.empty() && !alone ? scene::reason_for(accepted, scene::foreign_calibration) : of_key;
 }
 
 /// Why the constants say nothing of a case; empty inside the calibration's domain, where a rule carries them,
@@ -39,7 +32,7 @@ std::string calibration_doubt(const StudyCase& input) {
       "extrapolated: the constants were calibrated on another launch ({}), and nothing says how wrong they "
       "are here "
       "(accept = [{{ key = \"{}\", because = \"...\" }}] takes them)",
-      list_of(unknown), scene::foreign_calibration);
+      fmt::join(unknown, ", "), scene::foreign_calibration);
 }
 
 /// What is not plausible of a case and of what its study states, where that gives verdicts. No hard case of a
@@ -105,7 +98,8 @@ double stated_input_share(const Study& study, const StudyCase& input) {
 LoadCurveErrors load_curve_errors(const scene::Load& load) {
   const double roughness = scene::load_roughness(load);
   const double kept = 1.0 - scene::peak_lost_to_smoothing(load);
-  return {roughness / (1.0 + roughness), std::pow(kept, -heat_exponent) - 1.0};
+  return {roughness / (1.0 + roughness) + scene::work_lost_to_smoothing(load),
+          std::pow(kept, -heat_exponent) - 1.0};
 }
 
 std::vector<std::string> doubts_of_input(const Study& study, const StudyCase& input) {
@@ -131,8 +125,12 @@ std::string extrapolation_text(const Study& study, const StudyCase& input, doubl
     beyond.push_back(because.empty() ? each : fmt::format("{} (accepted because {})", each, because));
   }
   beyond.insert(beyond.end(), distance.carried.begin(), distance.carried.end());
+  if (input.scene.scene.load.smoothing > 0.0) {
+    beyond.push_back("load smoothed over " +
+                     scene::format_quantity(input.scene.scene.load.smoothing, scene::Dimension::time));
+  }
   if (gap > CalibrationEvidence{}.largest_gap * (1.0 + 1e-9)) beyond.emplace_back("gap");
-  return beyond.empty() ? std::string{} : "extrapolated: " + list_of(beyond);
+  return beyond.empty() ? std::string{} : fmt::format("extrapolated: {}", fmt::join(beyond, ", "));
 }
 
 }  // namespace launchsafe::study::detail

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace launchsafe::study {
@@ -89,9 +90,23 @@ Fault apply_overrides(const toml::table& root, StudyFile& study) {
   return std::nullopt;
 }
 
+/// A scene accepts the values that stand in it: where the study gives a key others, it has to accept them
+/// itself.
+void drop_acceptances_of_other_values(StudyFile& study) {
+  std::set<std::string> changed;
+  for (const auto& [key, value] : study.overrides) changed.insert(key);
+  if (!study.study.peak_pressures.empty()) changed.insert("load.peak");
+  if (!study.study.crack_radii.empty()) changed.insert("charge.crack_radius");
+  if (!study.study.flaw_sizes.empty()) changed.insert("charge.flaw_size");
+  for (const Axis& axis : study.study.axes) changed.insert(axis.key.name);
+  for (const UncertainInput& input : study.study.inputs) changed.insert(input.key.name);
+  std::erase_if(study.scene.scene.accepted, [&](const auto& each) { return changed.contains(each.key); });
+}
+
 /// The acceptances of the study: those of scene keys go to its scene, those of its own keys beside what it
-/// states. Needs the overrides.
+/// states. Needs the overrides and what varies.
 Fault read_accepted(const toml::table& root, StudyFile& study) {
+  drop_acceptances_of_other_values(study);
   std::vector<std::string> known = scene::acceptable_names(study.scene.scene);
   for (const auto& key : detail::study_keys()) known.push_back(key.name);
   auto accepted = scene::read_acceptances(root, known, study.file);
@@ -257,7 +272,6 @@ scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesys
   if (Fault fault = check_references(study)) return *fault;
   if (Fault fault = read_scene_of(study, path.parent_path())) return *fault;
   if (Fault fault = apply_overrides(*table, study)) return *fault;
-  if (Fault fault = read_accepted(*table, study)) return *fault;
   const auto record = detail::read_record(study, path.parent_path());
   if (!record) return record.error();
   const double tolerance = request.tolerance.value_or(study.study.setting_tolerance);
@@ -266,6 +280,7 @@ scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesys
   }
   if (Fault fault = check_scene(study)) return *fault;
   if (Fault fault = read_what_varies(*table, study)) return *fault;
+  if (Fault fault = read_accepted(*table, study)) return *fault;
   if (Fault fault = detail::make_cases(study)) return *fault;
   if (Fault fault = detail::read_hard_launches(*table, study, path.parent_path())) return *fault;
   // A stability study states what each of its cases is judged with.

@@ -57,7 +57,8 @@ Key<Study> study_number(std::string name, Dimension dimension, scene::Limits lim
 Key<Study> stated_uncertainty(std::string name, std::string sentence, double Study::*member) {
   return plausibly(study_number(std::move(name), Dimension::temperature_difference, between(0, 1000),
                                 std::move(sentence), member),
-                   between(0.1, 1000), "nothing is known of a launch to a tenth of a kelvin");
+                   between(1, 1000),
+                   "no published temperature is met, and no mesh known to be exact, to a kelvin");
 }
 
 std::vector<Key<Study>> common_keys() {

@@ -24,23 +24,30 @@ bool has_other_numerics(const StudyFile& study) {
          std::any_of(s.inputs.begin(), s.inputs.end(), varies);
 }
 
+/// K, where nothing is known of the numerics of a scene.
+double assumed_for(const scene::Scene& scene) {
+  const bool as_calibrated =
+      scene.numerics.particles_per_cell == 1 && scene::charge_edges_off_grid(scene).empty();
+  return as_calibrated ? assumed_numerical_uncertainty : assumed_uncertainty_off_grid;
+}
+
 /// Where a study states a number itself. It belongs to the scene's own numerics on a grid that runs along the
 /// charge's edges.
 void settle_stated(StudyFile& study) {
   Study& s = study.study;
-  const bool unstated = !std::isfinite(s.numerical_uncertainty);
-  const bool applies =
-      !unstated && !has_other_numerics(study) && scene::charge_edges_off_grid(study.scene.scene).empty();
-  if (applies) {
-    study.uncertainty_source = "as the study states";
-  } else {
-    s.numerical_uncertainty_assumed = unstated || s.numerical_uncertainty < assumed_numerical_uncertainty;
-    if (s.numerical_uncertainty_assumed) s.numerical_uncertainty = assumed_numerical_uncertainty;
-    study.uncertainty_source = s.numerical_uncertainty_assumed
-                                   ? "assumed, as the study states none for these settings"
-                                   : "as the study states";
+  const double stated = std::isfinite(s.numerical_uncertainty) ? s.numerical_uncertainty : 0.0;
+  const bool own =
+      stated > 0.0 && !has_other_numerics(study) && scene::charge_edges_off_grid(study.scene.scene).empty();
+  double largest = stated;
+  for (StudyCase& each : study.cases) {
+    each.numerical_uncertainty = own ? stated : std::max(stated, assumed_for(each.scene.scene));
+    largest = std::max(largest, each.numerical_uncertainty);
   }
-  for (StudyCase& each : study.cases) each.numerical_uncertainty = s.numerical_uncertainty;
+  s.numerical_uncertainty = largest;
+  s.numerical_uncertainty_assumed = largest > stated;
+  study.uncertainty_source = s.numerical_uncertainty_assumed
+                                 ? "assumed, as the study states none for these settings"
+                                 : "as the study states";
 }
 
 /// What a record says of a scene at the gaps that are judged.
@@ -91,7 +98,7 @@ void settle_recorded(StudyFile& study, const AccuracyRecord& record) {
     const Recorded recorded = recorded_for(record, each.scene.scene, s.gaps);
     const bool known = std::isfinite(recorded.bound);
     const bool applies = known && recorded.reason.empty();
-    each.numerical_uncertainty = applies ? recorded.bound : assumed_numerical_uncertainty;
+    each.numerical_uncertainty = applies ? recorded.bound : assumed_for(each.scene.scene);
     if (known) {
       each.numerical_uncertainty = std::max(each.numerical_uncertainty, recorded.bound);
       each.rise_of_uncertainty = record.rise * recorded.growth * each.numerical_uncertainty / recorded.bound;

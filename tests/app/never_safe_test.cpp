@@ -175,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "another shell"},
         Mistake{"WithoutTheHottestPoint",
                 in_scene("  { name = \"G1\",  x = \"67.75 cm\", r = \"6.25 cm\" },\n", ""),
-                "observation points are missing"},
+                "observation_point"},
         Mistake{"AnotherExplosive", in_table("charge", "density = \"1.6 g/cm3\""), "charge.density"},
         Mistake{"AnotherClosure", in_scene("closure = \"literal\"", "closure = \"inelastic\""),
                 "friction.closure"},

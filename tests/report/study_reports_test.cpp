@@ -81,7 +81,7 @@ TEST(CriticalGapReport, ThePageOpensWithTheAnswerAndSaysHowToRemakeIt) {
   EXPECT_TRUE(page.starts_with("# A test\n\nThe critical gap is 0.0")) << page.substr(0, 200);
   EXPECT_NE(page.find("launchsafe study some_study.toml -o DIR"), std::string::npos);
   EXPECT_NE(page.find("hold-out"), std::string::npos);
-  EXPECT_NE(page.find("60 K for the mesh, assumed"), std::string::npos);
+  EXPECT_NE(page.find("60 K for mesh, step and scaling, assumed"), std::string::npos);
   EXPECT_EQ(page.find(LAUNCHSAFE_SOURCE_DIR), std::string::npos) << "a path of this machine";
 }
 

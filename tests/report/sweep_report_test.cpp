@@ -130,7 +130,8 @@ TEST(SweepReport, TheAnswerCountsAndNames) {
   SweepResult assumed = made_sweep();
   assumed.study.study.numerical_uncertainty = 60;
   assumed.study.study.numerical_uncertainty_assumed = true;
-  EXPECT_NE(answer(assumed).find("60 K for the mesh, assumed"), std::string::npos);
+  assumed.study.uncertainty_source = "assumed, as the study states none";
+  EXPECT_NE(answer(assumed).find("60 K for mesh, step and scaling, assumed"), std::string::npos);
 }
 
 TEST(SweepReport, ManyFailuresAreNotAllListed) {

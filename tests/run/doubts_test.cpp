@@ -128,12 +128,12 @@ TEST(Doubts, ALaunchThatIsNotSimulatedAsItIsStated) {
       {"analytic, the peak long after the end", [](auto& load) { load.peak_time = 0.5; }, "not covered"},
       {"measured, covered",
        [](auto& load) {
-         measured(load, {0, 5, 9, 11, 18}, {0.1, 20, 400, 496, 80});
+         measured(load, {0, 5, 9, 11, 13, 18}, {0.1, 20, 400, 496, 400, 80});
        },
        ""},
       {"measured, with quiet after it",
        [](auto& load) {
-         measured(load, {0, 5, 9, 11, 17, 20, 50}, {0.1, 20, 400, 496, 80, 2, 0.1});
+         measured(load, {0, 5, 9, 11, 13, 17, 20, 50}, {0.1, 20, 400, 496, 400, 80, 2, 0.1});
        },
        ""},
       {"measured, goes on after the end",
@@ -172,6 +172,27 @@ TEST(Doubts, ALaunchThatIsNotSimulatedAsItIsStated) {
          measured(load, {0, 5, 11, 18}, {0.1, 400, 400, 400});
        },
        "cut off"},
+      {"measured, a gauge that saturates",
+       [](auto& load) {
+         measured(load, {0, 5, 7, 9, 11, 13, 15, 18}, {0, 60, 240, 250, 250, 250, 240, 70});
+       },
+       "saturates"},
+      {"measured, breaks off as it rises",
+       [](auto& load) {
+         measured(load, {0, 3, 5, 7, 9, 9.5, 18}, {0, 5, 60, 240, 390, 0, 0});
+       },
+       "breaks off"},
+      {"measured, no point near the peak",
+       [](auto& load) {
+         measured(load, {0, 3, 6, 8.5, 13.5, 18}, {0, 5, 120, 380, 390, 70});
+       },
+       "no point for"},
+      {"measured, points between thousands read as decimals",
+       [](auto& load) {
+         measured(load, {0, 3, 3.5, 4, 6, 8, 10, 12, 12.5, 18},
+                  {1, 50, 68.7, 0.1, 0.3, 0.5, 0.3, 0.1, 68.6, 1});
+       },
+       "misread numbers"},
       {"measured, begins under load",
        [](auto& load) {
          measured(load, {0, 5, 11, 18}, {60, 300, 496, 80});

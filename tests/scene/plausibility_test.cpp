@@ -234,7 +234,8 @@ TEST(Plausibility, AcceptancesSurviveWritingAndChangeNoMechanicalRun) {
   SceneFile file = shipped();
   const std::string plain = to_toml(file.scene), mechanics = to_toml(mechanical_part(file.scene));
   EXPECT_EQ(plain.find("accept"), std::string::npos) << "scenes without acceptances are written as ever";
-  file.scene.accepted = {{"gap.exchange_time", "an \"open\" gap, 50 % \\ 'wide'"}, {"load.peak", "přetlak"}};
+  file.scene.accepted = {{"gap.exchange_time", "an \"open\" gap, 50 % \\ 'wide'"},
+                         {"load.peak", "změřený přetlak"}};
   const auto again = parse_scene(to_toml(file.scene), "written.toml");
   ASSERT_TRUE(again) << again.error().message();
   ASSERT_EQ(again->scene.accepted.size(), 2u);

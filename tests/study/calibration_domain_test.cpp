@@ -85,7 +85,7 @@ TEST(CalibrationDomain, NamesWhatLiesOutside) {
       {"another charge length", [](auto& s) { s.bodies[1].x_begin += 0.01; }, "another shell", ""},
       {"the hottest point left out",
        [](auto& s) { s.output.observation_points.erase(s.output.observation_points.begin()); },
-       "observation points are missing", ""},
+       "observation_point", ""},
       {"explosive", [](auto& s) { s.charge.eos.initial_density = 1800.0; }, "charge.density", ""},
       {"steel", [](auto& s) { s.steel.strength.a = 1e9; }, "steel.yield_stress", ""},
       {"closure", [](auto& s) { s.surface.friction = scene::FrictionClosure::inelastic; }, "friction.closure",

@@ -24,7 +24,7 @@ TEST(CriticalGapStudy, WithoutAStatedUncertaintyASmallMarginIsNotSafe) {
 
 TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
   const CriticalGapResult result = run_critical_gap(
-      study_of(critical_text + gaps + "numerical_uncertainty = \"0.1 K\"\n" + synthetic_constants),
+      study_of(critical_text + gaps + "numerical_uncertainty = \"1 K\"\n" + synthetic_constants),
       synthetic_options());
   ASSERT_EQ(result.cases.size(), 1u);
   const CaseOutcome& outcome = result.cases[0];

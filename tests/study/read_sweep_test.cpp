@@ -123,7 +123,7 @@ TEST(ReadSweep, NumericsOnAnAxisHaveNoStatedUncertainty) {
   const std::string start = "numerical_uncertainty = \"1 K\"\n";
   EXPECT_EQ(study_of(start + sweep_text + "peak_pressure = \"400 MPa\"\n").study.numerical_uncertainty, 1.0);
   const StudyFile other = study_of(start + sweep_text + "numerics.cell_size = \"2.5, 5 mm\"\n");
-  EXPECT_EQ(other.study.numerical_uncertainty, assumed_numerical_uncertainty);
+  EXPECT_EQ(other.study.numerical_uncertainty, assumed_uncertainty_off_grid);
   EXPECT_TRUE(other.study.numerical_uncertainty_assumed);
 }
 

@@ -30,6 +30,10 @@ double load_roughness(const Load& load);
 /// Share of the largest pressure of a measured curve that its smoothing takes away; 0 without smoothing.
 double peak_lost_to_smoothing(const Load& load);
 
+/// What smoothing takes out of the integral of p |dp| besides noise, over what it leaves: swings of a
+/// measured curve that stand above its noise are pressure, and heat. 0 without smoothing.
+double work_lost_to_smoothing(const Load& load);
+
 /// The shortest window (s) of some that leaves a measured curve with less than `least_roughness`; nothing
 /// where the curve is not rough, no window helps, or a curve of more than 100 000 points would take long to
 /// try.

@@ -155,6 +155,9 @@ struct Study {
 /// K. By so much was T max of the 155 mm shell seen to move between meshes of 1 to 10 mm with one set of
 /// constants.
 inline constexpr double assumed_numerical_uncertainty = 60.0;
+/// K, on a grid that does not run along the charge, or with other than one particle a cell: the largest bound
+/// that the record of the 155 mm shell has for such numerics is 99 K.
+inline constexpr double assumed_uncertainty_off_grid = 100.0;
 
 /// One mechanical run of a study: a complete, valid scene.
 struct StudyCase {
