@@ -43,6 +43,41 @@ MaybeError make_folder(const std::filesystem::path& folder) {
                fmt::format("cannot make the folder {}: {}", folder.string(), status.message())};
 }
 
+Error not_ours(const std::filesystem::path& path, const char* why) {
+  return {Error::Kind::conflict,
+          fmt::format("{} {}, and nothing is overwritten; move it away or name another folder", path.string(),
+                      why)};
+}
+
+/// Whatever has the name of a case but is no file.
+MaybeError obstacle_among_cases(const StoreNames& names) {
+  constexpr std::string_view extension = ".h5";
+  std::error_code failed;
+  for (std::filesystem::directory_iterator entry(names.cases(), failed), end; !failed && entry != end;
+       entry.increment(failed)) {
+    const std::string name = entry->path().filename();
+    std::error_code ignored;
+    if (!name.ends_with(extension) ||
+        !is_case_hash(std::string_view(name).substr(0, name.size() - extension.size())))
+      continue;
+    if (entry->is_symlink(ignored) || !entry->is_regular_file(ignored))
+      return not_ours(entry->path(), "is no plain file");
+  }
+  return {};
+}
+
+/// A store makes its folder of cases before anything else: an empty file of a store's name beside none is not
+/// its own.
+MaybeError obstacle_before_first(const StoreNames& names) {
+  std::error_code failed;
+  if (std::filesystem::exists(names.cases(), failed)) return {};
+  for (const std::filesystem::path& path : {names.journal(), names.answers(), names.folder / "lock"}) {
+    if (std::filesystem::is_regular_file(path, failed) && std::filesystem::file_size(path, failed) == 0)
+      return not_ours(path, "was not written by launchsafe");
+  }
+  return {};
+}
+
 /// What of a store's own names is taken by somebody else's files. Changes nothing.
 MaybeError obstacle_in(const StoreNames& names) {
   struct stat status {};
@@ -50,6 +85,8 @@ MaybeError obstacle_in(const StoreNames& names) {
     return Error{Error::Kind::conflict, fmt::format("{} is no folder, and nothing is overwritten; move it "
                                                     "away or name another folder",
                                                     names.cases().string())};
+  if (MaybeError error = obstacle_among_cases(names)) return error;
+  if (MaybeError error = obstacle_before_first(names)) return error;
   if (MaybeError error = StoreLock::obstacle(names.folder, names.part)) return error;
   if (MaybeError error = obstacle_in_place(names.journal(), is_journal)) return error;
   return obstacle_in_place(names.answers(), is_answers);

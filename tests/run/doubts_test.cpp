@@ -217,6 +217,25 @@ TEST(Doubts, ALaunchThatIsNotSimulatedAsItIsStated) {
   }
 }
 
+TEST(Doubts, AFaceOfTheChargeThatNobodyLooksAt) {
+  scene::Scene scene = shipped_scene();
+  scene::Body ring = scene.bodies[1];
+  scene.bodies[1].r_end = ring.r_begin = 0.03;
+  ring.name = "ring";
+  scene.bodies.push_back(ring);
+  EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
+  scene.bodies.back().x_end -= 1e-8;  // 10 nm
+  expect_one(doubts_of(scene, sound_run()), "\"ring\" ends 1e-05 mm before");
+  // More charge behind all of it is no face.
+  scene.bodies.back().x_end = 0.6;
+  scene::Body rear = scene.bodies.back();
+  rear.name = "rear";
+  rear.x_begin = 0.6;
+  rear.x_end = 0.678;
+  scene.bodies.push_back(rear);
+  EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
+}
+
 TEST(Doubts, ATraceOfTooFewSamples) {
   MechanicsResult run = sound_run();
   run.trace.time = {0.0, 18e-3};

@@ -56,6 +56,26 @@ class ForeignNames : public StoreFixture {
   }
 };
 
+/// A store makes its folder of cases first, so that an empty journal beside none is somebody else's.
+TEST_F(ForeignNames, MayBeThoseOfEmptyFiles) {
+  for (const std::string name : {"journal.jsonl", "answers.jsonl", "lock"}) {
+    write(where() / name, "");
+    expect_refused(name, "an empty file", "");
+    fs::remove(where() / name);
+  }
+}
+
+TEST_F(ForeignNames, MayBeThoseOfCases) {
+  fs::create_directories(where() / "cases");
+  const std::string name = "cases/" + std::string(32, 'a') + ".h5";
+  const fs::path taken = where() / name;
+  fs::create_symlink(theirs(), taken);
+  expect_refused(name, "a link", "");
+  fs::remove(taken);
+  fs::create_directory(taken);
+  expect_refused(name, "a folder", "");
+}
+
 TEST_F(ForeignNames, AreRefusedAndLeftAsTheyAre) {
   const std::map<std::string, std::function<void(const fs::path&)>> ways{
       {"text", [](const fs::path& path) { write(path, "do not lose me\n"); }},

@@ -47,6 +47,21 @@ TEST_F(OwnFile, IsReplacedAndNothingElseIs) {
   EXPECT_EQ(*read_file(folder() / "stability.csv"), "mine");
 }
 
+// A folder that somebody passed on may hold a journal with any names.
+TEST_F(OwnFile, IsNeverOneOutsideTheFolderOrOfTheStore) {
+  ASSERT_FALSE(write_own_file(page(), {"text"}));
+  const fs::path theirs = folder().parent_path() / "theirs.txt";
+  const std::string journal = (folder() / own_files_name).string();
+  for (const std::string& name :
+       {theirs.string(), std::string("../theirs.txt"), std::string("."), std::string(".."),
+        std::string("cases"), std::string("lock"), std::string("journal.jsonl")})
+    std::ofstream(journal, std::ios::app) << R"({"file":")" << name << R"(","sha256":"00"})"
+                                          << "\n";
+  const auto own = OwnFiles::read(folder());
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->present(), std::vector<std::string>{"report.md"});
+}
+
 TEST_F(OwnFile, ThatIsALinkOrAFolderIsNone) {
   write(folder() / "theirs", "mine");
   fs::create_symlink(folder() / "theirs", page());

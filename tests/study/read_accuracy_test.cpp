@@ -45,6 +45,9 @@ TEST(ReadAccuracy, RefusesReferencesThatCannotBeExtrapolated) {
                   {3, "reference_cell_sizes", "twice", "once"});
   expect_error_in(start + "reference_cell_sizes = \"1.25, 1.26, 2.5 mm\"\n",
                   {3, "reference_cell_sizes", "not coarser", "different grids"});
+  // 2.5 mm over 7 and over 6: a ratio of 1.17 shows ripple rather than convergence.
+  expect_error_in(start + "reference_cell_sizes = \"0.3572, 0.4168, 2.5 mm\"\n",
+                  {3, "reference_cell_sizes", "less than 1.2 times", "far enough apart"});
 }
 
 TEST(ReadAccuracy, RefusesSettingsThatMeanNothing) {
