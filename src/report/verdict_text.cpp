@@ -79,7 +79,7 @@ void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells) {
   cells.emplace_back(row.uncertainty.total());
   cells.emplace_back(row.uncertainty.computed());
   cells.emplace_back(row.uncertainty.fit);
-  cells.emplace_back(row.uncertainty.input);
+  cells.emplace_back(row.uncertainty.inputs());
   cells.emplace_back(study::to_string(row.judgement.verdict));
   cells.emplace_back(row.judgement.reason);
   cells.emplace_back(ignition_text(row));
@@ -115,7 +115,8 @@ void add_verdict(Json& json, const study::GapVerdict& row) {
   json["uncertainty_K"] = number(row.uncertainty.total());
   json["uncertainty_of_computation_K"] = number(row.uncertainty.computed());
   json["uncertainty_of_fit_K"] = number(row.uncertainty.fit);
-  json["uncertainty_of_inputs_K"] = number(row.uncertainty.input);
+  json["uncertainty_of_inputs_K"] = number(row.uncertainty.inputs());
+  json["of_these_load_curve_K"] = number(row.uncertainty.load_curve);
   json["verdict"] = study::to_string(row.judgement.verdict);
   json["reason"] = row.judgement.reason;
   json["ignition"] = json_of(row.ignition);

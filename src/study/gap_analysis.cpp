@@ -105,9 +105,9 @@ void add_shares(const Study& study, const CaseOutcome& outcome, const CaseGround
   row.uncertainty.numerical = outcome.input.numerical_uncertainty * (hotter > 1.0 ? hotter : 1.0);
   const Rises rises{ground.heated_without_gap - initial, row.heated - ground.heated_without_gap};
   row.uncertainty.fit = fit_share(study, ground.distance, rises);
-  const double spread =
+  row.uncertainty.input =
       outcome.raised ? propagated_share(outcome, row) : stated_input_share(study, outcome.input);
-  row.uncertainty.input = spread + ground.load_curve.in_kelvin(rises);
+  row.uncertainty.load_curve = ground.load_curve.in_kelvin(rises);
 }
 
 GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGround& ground,

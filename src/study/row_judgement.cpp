@@ -1,5 +1,7 @@
 #include "row_judgement.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace launchsafe::study::detail {
@@ -14,6 +16,10 @@ Evidence evidence_of(const GapVerdict& row, const std::string& failure, const ru
   evidence.margin = row.margin;
   evidence.uncertainty = row.uncertainty.total();
   evidence.limited = run::to_string(limiters);
+  constexpr double least_told = 0.1;  // K
+  if (row.uncertainty.load_curve >= least_told)
+    evidence.noise =
+        fmt::format("noise and smoothing of the measured curve count {:.2g} K", row.uncertainty.load_curve);
   if (row.ignition_anywhere) evidence.ignited_elsewhere = row.ignition_anywhere->point;
   return evidence;
 }

@@ -66,6 +66,7 @@ Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
   if (!evidence.doubt.empty()) return indeterminate("the run is in doubt: " + evidence.doubt);
   Judgement judgement = judge_sound(evidence, critical);
   if (!evidence.limited.empty()) judgement.reason += "; limiters acted: " + evidence.limited;
+  if (!evidence.noise.empty()) judgement.reason += "; " + evidence.noise;
   if (!evidence.accepted.empty()) judgement.reason += "; " + evidence.accepted;
   if (!evidence.extrapolated.empty()) judgement.reason += "; " + evidence.extrapolated;
   return judgement;

@@ -129,6 +129,27 @@ TEST(CaseUncertainty, AnotherLoadShapeKeepsTheLargestMisfit) {
   EXPECT_NE(row.judgement.reason.find("load shape"), std::string::npos) << row.judgement.reason;
 }
 
+/// What its noise heats is told in kelvin; averaging over a window takes the noise out, and is named.
+TEST(CaseUncertainty, ARoughCurveIsToldInKelvinAndItsSmoothingByName) {
+  StudyFile study = study_of(critical_kind + no_confirmation + stated);
+  scene::Load& load = study.cases.at(0).scene.scene.load;
+  for (int i = 0; i <= 900; ++i) {
+    const double time = 18e-3 * i / 900.0;
+    load.curve_time.push_back(time);
+    load.curve_pressure.push_back(scene::PressureHistory(scene::Load{}).at(time) *
+                                  (1.0 + 0.02 * ((i * 7919) % 13 - 6) / 6.0));
+  }
+  const GapVerdict rough = run_critical_gap(study, quadratic_options()).cases.at(0).verdicts.at(0);
+  EXPECT_GT(rough.uncertainty.load_curve, 5.0);
+  EXPECT_NE(rough.judgement.reason.find("of the measured curve count"), std::string::npos)
+      << rough.judgement.reason;
+  load.smoothing = 0.5e-3;
+  const GapVerdict smooth = run_critical_gap(study, quadratic_options()).cases.at(0).verdicts.at(0);
+  EXPECT_LT(smooth.uncertainty.load_curve, 0.5 * rough.uncertainty.load_curve);
+  EXPECT_NE(smooth.judgement.reason.find("load smoothed over 0.5 ms"), std::string::npos)
+      << smooth.judgement.reason;
+}
+
 /// The constants of the 155 mm shell say nothing of another one, however small its own errors are.
 TEST(CaseUncertainty, AnotherShellIsIndeterminateUnlessItsSceneSaysWhyNot) {
   for (const std::string change :

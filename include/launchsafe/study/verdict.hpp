@@ -19,10 +19,13 @@ struct Uncertainty {
   double numerical = 0;    ///< of mesh, step and scaling: from an accuracy study, stated, or assumed
   double fit = 0;          ///< of the calibrated constants, carried to this case
   double input = 0;        ///< of what is not known of the launch
+  double load_curve = 0;   ///< of a measured curve: what its noise heats, and what smoothing took from it
   /// Of the computation itself: the sum, since the parts are bounds and have common causes.
   double computed() const { return sampling + integration + coupling + numerical; }
+  /// Of the launch: both may be wrong in the same direction.
+  double inputs() const { return input + load_curve; }
   /// The root of the sum of squares of the independent parts, as ASME V&V 20 combines them.
-  double total() const { return std::sqrt(computed() * computed() + fit * fit + input * input); }
+  double total() const { return std::sqrt(computed() * computed() + fit * fit + inputs() * inputs()); }
 };
 
 /// All that a verdict rests on.
@@ -37,8 +40,9 @@ struct Evidence {
   std::string doubt = {};    ///< why a completed run is no basis (see run::doubts_of); empty for a sound one
   std::string limited = {};  ///< limiters that acted, for people; empty where none did
   std::string ignited_elsewhere =
-      {};                         ///< where the bottom ignites off the observation points; empty: nowhere
-  std::string accepted = {};      ///< what is not plausible and why it is meant, for people; empty: nothing
+      {};                     ///< where the bottom ignites off the observation points; empty: nowhere
+  std::string noise = {};     ///< what the noise of a measured curve counts, for people; empty for nothing
+  std::string accepted = {};  ///< what is not plausible and why it is meant, for people; empty: nothing
   std::string extrapolated = {};  ///< what lies outside the calibration's domain, for people; empty: nothing
 };
 
