@@ -28,8 +28,7 @@ inline StudyFile study_of(const std::string& text) {
 }
 
 /// What studies of the synthetic launch state, so that its computation alone decides.
-inline const std::string synthetic_statements =
-    "fit_uncertainty = \"1 K\"\ninput_uncertainty = \"1 K\"\n";
+inline const std::string synthetic_statements = "fit_uncertainty = \"1 K\"\ninput_uncertainty = \"1 K\"\n";
 
 inline const std::string critical_kind = "kind = \"critical-gap\"\nscene = \"scene_155mm.toml\"\n";
 inline const std::string critical_text = critical_kind + synthetic_statements;
