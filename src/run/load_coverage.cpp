@@ -29,7 +29,7 @@ constexpr double longest_plateau = 0.05, plateau = 0.998;
 constexpr double widest_gap_at_peak = 0.2;
 /// Time from the peak down to half of it over that from half of it up: propellant burns out no faster than
 /// this, and a cable that breaks does.
-constexpr double fastest_fall = 0.25;
+constexpr double fastest_fall = 0.5;
 
 using scene::Load, scene::PressureHistory;
 

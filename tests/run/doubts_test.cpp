@@ -182,6 +182,11 @@ TEST(Doubts, ALaunchThatIsNotSimulatedAsItIsStated) {
          measured(load, {0, 3, 5, 7, 9, 9.5, 18}, {0, 5, 60, 240, 390, 0, 0});
        },
        "breaks off"},
+      {"measured, breaks off more slowly",
+       [](auto& load) {
+         measured(load, {0, 3, 5, 7, 9, 10, 18}, {0, 5, 60, 240, 390, 0, 0});
+       },
+       "breaks off"},
       {"measured, no point near the peak",
        [](auto& load) {
          measured(load, {0, 3, 6, 8.5, 13.5, 18}, {0, 5, 120, 380, 390, 70});
