@@ -9,11 +9,10 @@ namespace {
 
 class RunProgram : public Program {};
 
-TEST_F(RunProgram, PrintsATableAndWritesACaseFileInUnderASecond) {
+TEST_F(RunProgram, PrintsATableAndWritesACaseFile) {
   write("shell.toml", tiny_scene);
   const Outcome outcome = run({"run", "shell.toml", "-o", "out/deep"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_LT(outcome.seconds, 1.0);
   for (const std::string part : {"a small shell", "T max [K]", "G1", "ignition", "Energy balance", "drift",
                                  "particles", "steps", "wall time", "million particle updates per second"}) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;

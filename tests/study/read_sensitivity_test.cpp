@@ -251,14 +251,15 @@ TEST(ReadSensitivity, TheAnalyticLoadIsNotUncertainUnderAMeasuredCurve) {
                   {5, "input.key", "which a measured curve does not have"});
 }
 
-TEST(ReadSensitivity, TenThousandEvaluationsAreReadInHalfASecond) {
+TEST(ReadSensitivity, TenThousandEvaluationsAreReadWithoutADelay) {
   const std::clock_t begin = std::clock();
   const StudyFile file = study_of(start + "samples = 2048\n" + crack + exponent + flaw);
   const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   EXPECT_EQ(file.cases.size(), 10240u);
   RecordProperty("milliseconds", static_cast<int>(1e3 * seconds));
 #ifdef NDEBUG
-  EXPECT_LT(seconds, 0.5) << "processor time";
+  // A fifth of a second on a quiet core. What grows with the square of the evaluations takes minutes.
+  EXPECT_LT(seconds, 5.0) << "processor time";
 #endif
 }
 

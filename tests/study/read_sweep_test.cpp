@@ -219,7 +219,7 @@ TEST(ReadSweep, ThereIsAMostOfCases) {
       {4, "axes.load.exponent", "1030301 mechanical runs, 101 of axes.load.exponent x", "at most 1000000"});
 }
 
-TEST(ReadSweep, TenThousandCasesAreReadInAQuarterOfASecond) {
+TEST(ReadSweep, TenThousandCasesAreReadWithoutADelay) {
   const std::string text = sweep_text + "peak_pressure = \"" + numbers(100, 300.0, 1.0) +
                            " MPa\"\nflaw_size = \"" + numbers(100, 1.0, 0.01) + " mm\"\n";
   const std::clock_t start = std::clock();
@@ -228,7 +228,8 @@ TEST(ReadSweep, TenThousandCasesAreReadInAQuarterOfASecond) {
   EXPECT_EQ(study.cases.size(), 10000u);
   RecordProperty("milliseconds", static_cast<int>(1e3 * seconds));
 #ifdef NDEBUG
-  EXPECT_LT(seconds, 0.25) << "processor time";
+  // A tenth of a second on a quiet core. What grows with the square of the cases takes minutes.
+  EXPECT_LT(seconds, 5.0) << "processor time";
 #endif
 }
 
