@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace launchsafe::mpm {
 namespace {
@@ -18,28 +19,20 @@ constexpr double coincidence = 1e-9;
 struct Thermal {
   double conductivity, specific_heat;
 };
-Thermal thermal_of(const scene::Scene& scene, const Kinematics& p) {
-  if (scene.bodies[static_cast<std::size_t>(p.body)].material == scene::BodyMaterial::steel)
-    return {scene.steel.strength.conductivity, scene.steel.strength.specific_heat};
-  return {scene.charge.conductivity, scene.charge.specific_heat};
-}
-
-/// Bodies in the order of their particles' numbers.
-std::vector<const Kinematics*> bodies_of(const Simulation& simulation) {
-  std::vector<const Kinematics*> bodies;
-  simulation.for_each_body([&](const Kinematics& p) { bodies.push_back(&p); });
-  return bodies;
+Thermal thermal_of(const AnyBody& any) {
+  return std::visit(
+      [](const auto& body) { return Thermal{body.law.heat_conductivity(), body.law.heat_capacity()}; }, any);
 }
 
 Eigen::Index particles_of(const Lattice& lattice) {
-  return static_cast<Eigen::Index>(lattice.columns) * lattice.rows;
+  return static_cast<Eigen::Index>(lattice.columns()) * lattice.rows();
 }
 
 /// Calls f(number, slot) for every particle of a body whose first particle has the number `first`.
 template <class F>
 void for_each_particle(const Lattice& lattice, Eigen::Index first, F&& f) {
-  for (int j = 0; j < lattice.rows; ++j)
-    for (int i = 0; i < lattice.columns; ++i) f(first++, lattice.slot(i, j));
+  for (int j = 0; j < lattice.rows(); ++j)
+    for (int i = 0; i < lattice.columns(); ++i) f(first++, lattice.slot(i, j));
 }
 
 double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
@@ -70,14 +63,15 @@ Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& system, const Eigen::Ve
 /// Collects the links between particles into a symmetric matrix whose rows sum to 0.
 class Network {
  public:
-  Network(const scene::Scene& scene, const std::vector<const Kinematics*>& bodies)
+  Network(const scene::Scene& scene, const std::vector<AnyBody>& bodies)
       : axisymmetric_(scene.symmetry == scene::Symmetry::axisymmetric) {
     const scene::Extent extent = scene::extent_of(scene);
     tolerance_ = coincidence * std::max(extent.x_end - extent.x_begin, extent.r_end);
     Eigen::Index first = 0;
-    for (const Kinematics* p : bodies) {
-      parts_.push_back({p->lattice, first, thermal_of(scene, *p).conductivity});
-      first += particles_of(p->lattice);
+    for (const AnyBody& body : bodies) {
+      const Lattice& lattice = kinematics_of(body).lattice;
+      parts_.push_back({lattice, first, thermal_of(body).conductivity});
+      first += particles_of(lattice);
     }
     for (const Part& part : parts_) link_inside(part);
     for (const Part& a : parts_)
@@ -101,10 +95,8 @@ class Network {
     Eigen::Index first;
     double conductivity;
     Eigen::Index number(int i, int j) const {
-      return first + static_cast<Eigen::Index>(j) * lattice.columns + i;
+      return first + static_cast<Eigen::Index>(j) * lattice.columns() + i;
     }
-    double x_end() const { return lattice.x_begin + lattice.columns * lattice.spacing_x; }
-    double r_end() const { return lattice.r_begin + lattice.rows * lattice.spacing_r; }
   };
 
   double radial_area(double r, double length) const { return axisymmetric_ ? r * length : length; }
@@ -118,43 +110,40 @@ class Network {
 
   void link_inside(const Part& part) {
     const Lattice& l = part.lattice;
-    for (int j = 0; j < l.rows; ++j) {
-      const double r_begin = l.r_begin + j * l.spacing_r, r_end = r_begin + l.spacing_r;
-      const double along_x = part.conductivity * axial_area(r_begin, r_end) / l.spacing_x;
-      const double along_r = part.conductivity * radial_area(r_end, l.spacing_x) / l.spacing_r;
-      for (int i = 0; i < l.columns; ++i) {
-        if (i + 1 < l.columns) link(part.number(i, j), part.number(i + 1, j), along_x);
-        if (j + 1 < l.rows) link(part.number(i, j), part.number(i, j + 1), along_r);
+    for (int j = 0; j < l.rows(); ++j)
+      for (int i = 0; i < l.columns(); ++i) {
+        const auto row = static_cast<std::size_t>(j);
+        const double r_end = l.r_edges[row + 1];
+        if (i + 1 < l.columns())
+          link(part.number(i, j), part.number(i + 1, j),
+               part.conductivity * axial_area(l.r_edges[row], r_end) / (l.x_of(i + 1) - l.x_of(i)));
+        if (j + 1 < l.rows())
+          link(part.number(i, j), part.number(i, j + 1),
+               part.conductivity * radial_area(r_end, l.length_x(i)) / (l.r_of(j + 1) - l.r_of(j)));
       }
-    }
   }
 
-  /// Calls f(j of a, j of b, begin, end) for particles that face each other: intervals of two lattices that
-  /// overlap.
+  /// Calls f(index in a, index in b, begin, end) for particles that face each other: intervals that overlap.
   template <class F>
-  void for_each_overlap(double a_begin, double a_part, int a_count, double b_begin, double b_part,
-                        int b_count, F&& f) const {
-    int b = 0;
-    for (int a = 0; a < a_count; ++a) {
-      const double from = a_begin + a * a_part, to = from + a_part;
-      while (b > 0 && b_begin + b * b_part > from) --b;
-      for (; b < b_count && b_begin + b * b_part < to; ++b) {
-        const double begin = std::max(from, b_begin + b * b_part),
-                     end = std::min(to, b_begin + (b + 1) * b_part);
-        if (end - begin > tolerance_) f(a, b, begin, end);
+  void for_each_overlap(const std::vector<double>& a, const std::vector<double>& b, F&& f) const {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i + 1 < a.size(); ++i) {
+      while (first + 1 < b.size() && b[first + 1] <= a[i]) ++first;
+      for (std::size_t k = first; k + 1 < b.size() && b[k] < a[i + 1]; ++k) {
+        const double begin = std::max(a[i], b[k]), end = std::min(a[i + 1], b[k + 1]);
+        if (end - begin > tolerance_) f(static_cast<int>(i), static_cast<int>(k), begin, end);
       }
-      b = std::max(0, b - 1);
     }
   }
 
   /// The base-side face of `a` against the nose-side face of `b`.
   void link_axially(const Part& a, const Part& b) {
     const Lattice &la = a.lattice, &lb = b.lattice;
-    if (std::abs(a.x_end() - lb.x_begin) > tolerance_) return;
-    const double resistance = 0.5 * (la.spacing_x / a.conductivity + lb.spacing_x / b.conductivity);
-    for_each_overlap(la.r_begin, la.spacing_r, la.rows, lb.r_begin, lb.spacing_r, lb.rows,
+    if (std::abs(la.x_end() - lb.x_begin()) > tolerance_) return;
+    const double resistance = 0.5 * (la.length_x(la.columns() - 1) / a.conductivity + lb.length_x(0) / b.conductivity);
+    for_each_overlap(la.r_edges, lb.r_edges,
                      [&](int ja, int jb, double begin, double end) {
-                       link(a.number(la.columns - 1, ja), b.number(0, jb),
+                       link(a.number(la.columns() - 1, ja), b.number(0, jb),
                             axial_area(begin, end) / resistance);
                      });
   }
@@ -162,12 +151,12 @@ class Network {
   /// The outer face of `a` against the inner face of `b`.
   void link_radially(const Part& a, const Part& b) {
     const Lattice &la = a.lattice, &lb = b.lattice;
-    if (std::abs(a.r_end() - lb.r_begin) > tolerance_) return;
-    const double resistance = 0.5 * (la.spacing_r / a.conductivity + lb.spacing_r / b.conductivity);
-    for_each_overlap(la.x_begin, la.spacing_x, la.columns, lb.x_begin, lb.spacing_x, lb.columns,
+    if (std::abs(la.r_end() - lb.r_begin()) > tolerance_) return;
+    const double resistance = 0.5 * (la.length_r(la.rows() - 1) / a.conductivity + lb.length_r(0) / b.conductivity);
+    for_each_overlap(la.x_edges, lb.x_edges,
                      [&](int ia, int ib, double begin, double end) {
-                       link(a.number(ia, la.rows - 1), b.number(ib, 0),
-                            radial_area(lb.r_begin, end - begin) / resistance);
+                       link(a.number(ia, la.rows() - 1), b.number(ib, 0),
+                            radial_area(lb.r_begin(), end - begin) / resistance);
                      });
   }
 
@@ -182,25 +171,25 @@ class Network {
 
 Conduction::Conduction(const Simulation& simulation) {
   const scene::Scene& scene = simulation.scene();
-  const std::vector<const Kinematics*> bodies = bodies_of(simulation);
-  Network network(scene, bodies);
+  Network network(scene, simulation.bodies());
   conductance_ = network.take();
   capacity_.resize(conductance_.rows());
   const scene::Extent extent = scene::extent_of(scene);
   Eigen::Index first = 0;
-  for (const Kinematics* p : bodies) {
-    const Thermal thermal = thermal_of(scene, *p);
-    const Lattice& lattice = p->lattice;
+  for (const AnyBody& body : simulation.bodies()) {
+    const Thermal thermal = thermal_of(body);
+    const Kinematics& p = kinematics_of(body);
+    const Lattice& lattice = p.lattice;
     for_each_particle(lattice, first, [&](Eigen::Index number, std::size_t slot) {
-      capacity_[number] = p->mass[slot] * thermal.specific_heat;
+      capacity_[number] = p.mass[slot] * thermal.specific_heat;
     });
-    const bool at_base = std::abs(lattice.x_begin + lattice.columns * lattice.spacing_x - extent.x_end) <=
-                         coincidence * (extent.x_end - extent.x_begin);
-    for (int j = 0; at_base && j < lattice.rows; ++j) {
-      const double r = lattice.r_begin + j * lattice.spacing_r;
-      const double area = network.axial_area(r, r + lattice.spacing_r);
-      base_.push_back({first + static_cast<Eigen::Index>(j + 1) * lattice.columns - 1, area,
-                       thermal.conductivity * area / (0.5 * lattice.spacing_x)});
+    const bool at_base =
+        std::abs(lattice.x_end() - extent.x_end) <= coincidence * (extent.x_end - extent.x_begin);
+    for (int j = 0; at_base && j < lattice.rows(); ++j) {
+      const auto row = static_cast<std::size_t>(j);
+      const double area = network.axial_area(lattice.r_edges[row], lattice.r_edges[row + 1]);
+      base_.push_back({first + static_cast<Eigen::Index>(j + 1) * lattice.columns() - 1, area,
+                       thermal.conductivity * area / (0.5 * lattice.length_x(lattice.columns() - 1))});
     }
     first += particles_of(lattice);
   }
@@ -214,15 +203,14 @@ void Conduction::hold_base(double temperature) {
 void Conduction::heat_base(double flux) { flux_ = flux; }
 
 void Conduction::advance(Simulation& simulation, double dt) {
-  const std::vector<const Kinematics*> bodies = bodies_of(simulation);
   Eigen::VectorXd temperature(capacity_.size());
   Eigen::Index first = 0;
-  for (const Kinematics* p : bodies) {
-    for_each_particle(p->lattice, first, [&](Eigen::Index number, std::size_t slot) {
-      temperature[number] = p->temperature[slot];
+  std::as_const(simulation).for_each_body([&](const Kinematics& p) {
+    for_each_particle(p.lattice, first, [&](Eigen::Index number, std::size_t slot) {
+      temperature[number] = p.temperature[slot];
     });
-    first += particles_of(p->lattice);
-  }
+    first += particles_of(p.lattice);
+  });
   // (C + dt K) change = -dt K T + dt q: solved for the change, so that heat is conserved to round-off.
   Eigen::VectorXd gain = -dt * (conductance_ * temperature);
   Eigen::VectorXd diagonal = capacity_;
@@ -247,30 +235,28 @@ void Conduction::advance(Simulation& simulation, double dt) {
       (entered - dot(capacity_, change)) / std::accumulate(capacity_.begin(), capacity_.end(), 0.0);
 
   first = 0;
-  const auto apply = [&](Kinematics& p) {
-    for_each_particle(p.lattice, first,
-                      [&](Eigen::Index number, std::size_t slot) { p.temperature[slot] += change[number]; });
+  const auto apply = [&]<class Law>(Body<Law>& body) {
+    Kinematics& p = body.kinematics;
+    for_each_particle(p.lattice, first, [&](Eigen::Index number, std::size_t slot) {
+      p.temperature[slot] += change[number];
+      auto state = body.at(slot);
+      body.law.set_temperature(state, p.temperature[slot]);
+      for (std::size_t f = 0; f < state.size(); ++f) body.state[f][slot] = state[f];
+    });
     first += particles_of(p.lattice);
   };
-  for (SteelBody& body : simulation.steel()) {
-    apply(body.kinematics);
-    for (std::size_t slot = 0; slot < body.flow_stress.size(); ++slot)
-      body.flow_stress[slot] =
-          materials::johnson_cook_flow_stress(simulation.scene().steel.strength, body.plastic_strain[slot],
-                                              0.0, body.kinematics.temperature[slot]);
-  }
-  for (ChargeBody& body : simulation.charges()) apply(body.kinematics);
+  for (AnyBody& body : simulation.bodies()) std::visit(apply, body);
 }
 
 double Conduction::heat(const Simulation& simulation) const {
   double total = 0.0;
   Eigen::Index first = 0;
-  for (const Kinematics* p : bodies_of(simulation)) {
-    for_each_particle(p->lattice, first, [&](Eigen::Index number, std::size_t slot) {
-      total += capacity_[number] * p->temperature[slot];
+  simulation.for_each_body([&](const Kinematics& p) {
+    for_each_particle(p.lattice, first, [&](Eigen::Index number, std::size_t slot) {
+      total += capacity_[number] * p.temperature[slot];
     });
-    first += particles_of(p->lattice);
-  }
+    first += particles_of(p.lattice);
+  });
   return total;
 }
 

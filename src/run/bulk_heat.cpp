@@ -1,6 +1,7 @@
 #include "bulk_heat.hpp"
 
 #include "launchsafe/surface/skin.hpp"
+#include "launchsafe/trace/bottom_trace.hpp"
 
 namespace launchsafe::run {
 
@@ -10,7 +11,7 @@ BulkHeat::BulkHeat(const mpm::Simulation& simulation)
   const scene::Plan plan = scene::make_plan(simulation.scene());
   reaction_ = plan.bulk_reaction.in;
   if (plan.conduction.in) conduction_.emplace(simulation);
-  for (const mpm::ChargeBody& body : simulation.charges())
+  for (const Charge& body : simulation.bodies_of<materials::Charge>())
     friction_before_.emplace_back(body.kinematics.x.size(), 0.0);
 }
 
@@ -18,23 +19,24 @@ void BulkHeat::advance_to(mpm::Simulation& simulation, double time) {
   const double dt = time - time_;
   time_ = time;
   if (!(dt > 0.0)) return;
-  for (std::size_t c = 0; c < friction_before_.size(); ++c) {
-    add_friction(simulation.charges()[c], friction_before_[c]);
-    if (reaction_) react(simulation.charges()[c], dt);
+  auto before = friction_before_.begin();
+  for (Charge& charge : simulation.bodies_of<materials::Charge>()) {
+    add_friction(charge, *before++);
+    if (reaction_) react(charge, dt);
   }
   if (conduction_) conduction_->advance(simulation, dt);
 }
 
-void BulkHeat::add_friction(mpm::ChargeBody& charge, math::AlignedArray& before) const {
-  if (closure_ >= charge.friction.size()) return;
+void BulkHeat::add_friction(Charge& charge, math::AlignedArray& before) const {
+  if (closure_ >= trace::traced_closures) return;
   const double capacity = charge_.eos.initial_density * charge_.specific_heat;
-  const math::AlignedArray& energy = charge.friction[closure_];
+  const math::AlignedArray& energy = charge[materials::Charge::friction_literal + closure_];
   for (std::size_t i = 0; i < energy.size(); ++i)
     charge.kinematics.temperature[i] += (energy[i] - before[i]) / capacity;
   before = energy;
 }
 
-void BulkHeat::react(mpm::ChargeBody& charge, double dt) const {
+void BulkHeat::react(Charge& charge, double dt) const {
   // The skin equation without air is the bulk's: a gap of nothing exchanges nothing.
   surface::SkinModel model;
   model.kinetics = charge_.kinetics;

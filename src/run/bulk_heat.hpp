@@ -20,8 +20,9 @@ class BulkHeat {
   void advance_to(mpm::Simulation& simulation, double time);
 
  private:
-  void add_friction(mpm::ChargeBody& charge, math::AlignedArray& before) const;
-  void react(mpm::ChargeBody& charge, double dt) const;
+  using Charge = mpm::Body<materials::Charge>;
+  void add_friction(Charge& charge, math::AlignedArray& before) const;
+  void react(Charge& charge, double dt) const;
 
   scene::Charge charge_;
   std::size_t closure_;

@@ -24,6 +24,8 @@ std::string to_string(RunStatus status) {
       return "interrupted";
     case RunStatus::timed_out:
       return "timed out";
+    case RunStatus::cells_distorted:
+      return "cells distorted";
   }
   return "unknown";
 }

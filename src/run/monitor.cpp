@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 namespace launchsafe::run {
 namespace {
@@ -20,8 +21,8 @@ std::string first_broken_particle(const mpm::Simulation& simulation) {
   std::string place = "no particle found";
   bool found = false;
   simulation.for_each_body([&](const mpm::Kinematics& p) {
-    for (int j = 0; j < p.lattice.rows && !found; ++j)
-      for (int i = 0; i < p.lattice.columns && !found; ++i) {
+    for (int j = 0; j < p.lattice.rows() && !found; ++j)
+      for (int i = 0; i < p.lattice.columns() && !found; ++i) {
         const std::size_t slot = p.lattice.slot(i, j);
         if (std::isfinite(p.velocity_x[slot] + p.velocity_r[slot] + p.pressure[slot] + p.density[slot]))
           continue;
@@ -34,8 +35,18 @@ std::string first_broken_particle(const mpm::Simulation& simulation) {
   return place;
 }
 
-double largest_of(const math::AlignedArray& values) {
-  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+/// A state field of a body by name; null where its law has none of that name.
+const math::AlignedArray* field_of(const mpm::AnyBody& any, std::string_view name) {
+  return std::visit(
+      [&]<class Law>(const mpm::Body<Law>& body) -> const math::AlignedArray* {
+        const std::size_t field = materials::field_index<Law>(name);
+        return field < body.state.size() ? &body.state[field] : nullptr;
+      },
+      any);
+}
+
+double largest_of(const math::AlignedArray* values) {
+  return values == nullptr || values->empty() ? 0.0 : *std::max_element(values->begin(), values->end());
 }
 
 }  // namespace
@@ -49,6 +60,7 @@ EnergyBalance energy_of(const mpm::Simulation& simulation) {
   energy.external = whole * totals.external;
   energy.body_force = whole * totals.body_force;
   energy.damping = whole * totals.damping;
+  energy.hourglass = whole * totals.hourglass;
   energy.plastic = whole * totals.plastic;
   energy.viscous = whole * totals.viscous;
   energy.crack = whole * totals.crack;
@@ -60,10 +72,12 @@ MonitorSample monitor_sample(const mpm::Simulation& simulation, double time_step
   sample.time = simulation.time();
   sample.time_step = time_step;
   sample.energy = energy_of(simulation);
-  for (const mpm::SteelBody& body : simulation.steel())
-    sample.largest_plastic_strain = std::max(sample.largest_plastic_strain, largest_of(body.plastic_strain));
-  for (const mpm::ChargeBody& body : simulation.charges())
-    sample.largest_crack_radius = std::max(sample.largest_crack_radius, largest_of(body.crack_radius));
+  for (const mpm::AnyBody& body : simulation.bodies()) {
+    sample.largest_plastic_strain =
+        std::max(sample.largest_plastic_strain, largest_of(field_of(body, "plastic_strain")));
+    sample.largest_crack_radius =
+        std::max(sample.largest_crack_radius, largest_of(field_of(body, "crack_radius")));
+  }
   sample.momentum = whole_shell(simulation) * simulation.axial_momentum();
   return sample;
 }
@@ -71,9 +85,14 @@ MonitorSample monitor_sample(const mpm::Simulation& simulation, double time_step
 Snapshot take_snapshot(const mpm::Simulation& simulation) {
   Snapshot shot;
   shot.time = simulation.time();
-  const auto add = [&](const mpm::Kinematics& p, auto&& von_mises, auto&& crack, auto&& plastic) {
-    for (int j = 0; j < p.lattice.rows; ++j)
-      for (int i = 0; i < p.lattice.columns; ++i) {
+  const auto value = [](const math::AlignedArray* field, std::size_t slot) {
+    return field == nullptr ? 0.0 : (*field)[slot];
+  };
+  for (const mpm::AnyBody& any : simulation.bodies()) {
+    const mpm::Kinematics& p = mpm::kinematics_of(any);
+    const math::AlignedArray *crack = field_of(any, "crack_radius"), *plastic = field_of(any, "plastic_strain");
+    for (int j = 0; j < p.lattice.rows(); ++j)
+      for (int i = 0; i < p.lattice.columns(); ++i) {
         const std::size_t slot = p.lattice.slot(i, j);
         shot.x.push_back(p.x[slot]);
         shot.r.push_back(p.r[slot]);
@@ -82,24 +101,13 @@ Snapshot take_snapshot(const mpm::Simulation& simulation) {
         shot.density.push_back(p.density[slot]);
         shot.pressure.push_back(p.pressure[slot]);
         shot.temperature.push_back(p.temperature[slot]);
-        shot.von_mises.push_back(von_mises(slot));
-        shot.crack_radius.push_back(crack(slot));
-        shot.plastic_strain.push_back(plastic(slot));
+        shot.von_mises.push_back(
+            std::visit([&](const auto& body) { return math::von_mises(body.deviator(slot)); }, any));
+        shot.crack_radius.push_back(value(crack, slot));
+        shot.plastic_strain.push_back(value(plastic, slot));
         shot.body.push_back(p.body);
       }
-  };
-  const auto none = [](std::size_t) { return 0.0; };
-  for (const mpm::SteelBody& b : simulation.steel())
-    add(
-        b.kinematics,
-        [&](std::size_t s) {
-          return math::von_mises(math::Deviator<double>{b.stress_rr[s], b.stress_xx[s], b.stress_rx[s]});
-        },
-        none, [&](std::size_t s) { return b.plastic_strain[s]; });
-  for (const mpm::ChargeBody& b : simulation.charges())
-    add(
-        b.kinematics, [&](std::size_t s) { return math::von_mises(mpm::deviator(b, s)); },
-        [&](std::size_t s) { return b.crack_radius[s]; }, none);
+  }
   return shot;
 }
 
@@ -108,7 +116,7 @@ LimiterCounts count_limited(const mpm::Simulation& simulation) {
   LimiterCounts counts;
   counts.crack_at_bound = static_cast<std::uint64_t>(events.crack_at_bound);
   counts.tension_cutoff = static_cast<std::uint64_t>(events.tension_cutoff);
-  counts.hugoniot_guard = static_cast<std::uint64_t>(events.hugoniot_guard);
+  counts.hugoniot_guard = static_cast<std::uint64_t>(events.pressure_guard);
   return counts;
 }
 
@@ -121,6 +129,10 @@ std::optional<Stop> reason_to_stop(const mpm::Simulation& simulation, const Ener
   if (simulation.events().off_grid > 0.0)
     return stop(RunStatus::particles_left_grid,
                 fmt::format("particles left the grid ({:.0f} particle-steps)", simulation.events().off_grid));
+  if (simulation.events().distorted > 0.0)
+    return stop(RunStatus::cells_distorted,
+                fmt::format("cells are inverted or stretched beyond what strains mean ({:.0f} particle-steps)",
+                            simulation.events().distorted));
   if (!std::isfinite(energy.kinetic + energy.internal + energy.external))
     return stop(RunStatus::non_finite,
                 "the computation is no longer finite, " + first_broken_particle(simulation));

@@ -61,8 +61,8 @@ class CoupledSurface {
     const auto& stations = recorder.trace().stations;
     for (std::size_t s = 0; s < points_.size(); ++s) {
       const bool was_ignited = points_[s].ignited;
-      points_[s] = surface::advance_skin(model_, history_.gap, points_[s], dt, begin, end,
-                                         heating(simulation, recorder, s, dt));
+      points_[s] =
+          surface::advance_skin(model_, history_.gap, points_[s], dt, begin, end, heating(recorder, s, dt));
       if (points_[s].ignited && !was_ignited)
         note_ignition(stations[s].observation, s, simulation.time() - dt + points_[s].ignition_time);
     }
@@ -80,10 +80,10 @@ class CoupledSurface {
   double pressure_of(const TraceRecorder& recorder, double chamber) const {
     return model_.surface.air_pressure == scene::AirPressure::chamber ? chamber : recorder.bottom_pressure();
   }
-  double heating(const mpm::Simulation& simulation, const TraceRecorder& recorder, std::size_t s, double dt) {
+  double heating(const TraceRecorder& recorder, std::size_t s, double dt) {
     if (closure_ >= trace::traced_closures) return 0.0;
     const double before = friction_[s];
-    friction_[s] = recorder.friction(simulation, closure_, s);
+    friction_[s] = recorder.friction(closure_, s);
     return (friction_[s] - before) * model_.surface.localisation /
            (model_.charge_density * model_.specific_heat * dt);
   }
@@ -108,7 +108,7 @@ class Runner {
  public:
   Runner(const scene::Scene& scene, const RunOptions& options, std::optional<double> coupled_gap)
       : options_(options),
-        simulation_(scene),
+        simulation_(scene, options.threads),
         recorder_(simulation_, simulation_.scene()),
         heat_(simulation_) {
     if (coupled_gap) surface_.emplace(simulation_.scene(), *coupled_gap, recorder_);

@@ -8,7 +8,8 @@
 
 namespace launchsafe::run {
 
-/// Stations are the particles of the charge's bottom row and the scene's observation points. A scene without
+/// Stations are the radii of the particles of the charge's bottom row, on its bottom, and the scene's
+/// observation points. A scene without
 /// a charge has no stations, and its trace holds the chamber pressure only.
 class TraceRecorder {
  public:
@@ -21,22 +22,26 @@ class TraceRecorder {
 
   double bottom_pressure() const { return bottom_pressure_; }  ///< Pa, at the present state
   /// Friction energy since the start at a station, J/m3, by closure index.
-  double friction(const mpm::Simulation& simulation, std::size_t closure, std::size_t station) const;
+  double friction(std::size_t closure, std::size_t station) const;
   const trace::BottomTrace& trace() const { return trace_; }
   trace::BottomTrace take() { return std::move(trace_); }
 
  private:
-  /// A particle of the bottom with a weight: its area for the mean pressure, its share for a station.
+  using Charge = mpm::Body<materials::Charge>;
+  /// A particle with a weight: its share of what is read at a place, or of the mean over the bottom.
   struct Share {
-    std::size_t charge;  ///< index into Simulation::charges()
+    const Charge* charge;
     std::size_t slot;
     double weight;
   };
-  void add_bottom_row(const mpm::Simulation& simulation, const scene::Scene& scene, std::size_t charge);
-  void add_observation_point(const mpm::Simulation& simulation, const scene::ObservationPoint& point);
+  /// Linear in x and in r between the centres of the four nearest particles, continued to the charge's faces.
+  static std::vector<Share> shares_at(const Charge& charge, double x, double r);
+  void add_bottom_row(const Charge& charge, bool axisymmetric);
+  void add_observation_point(const scene::ObservationPoint& point);
   double measure_bottom_pressure(const mpm::Simulation& simulation) const;
 
   trace::BottomTrace trace_;
+  std::vector<const Charge*> charges_;
   std::vector<Share> bottom_;                          ///< weights sum to 1
   std::vector<std::vector<Share>> shares_;             ///< by station
   double floor_ = 0;                                   ///< Pa: the air's initial pressure

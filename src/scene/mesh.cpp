@@ -15,7 +15,129 @@ bool has_charge(const Scene& scene) {
                      [](const Body& body) { return body.material == BodyMaterial::charge; });
 }
 
+/// Edges closer than this share of the scene's size are one.
+constexpr double coincidence = 1e-9;
+
+/// The integral of ds/h from a refined line over the distance d.
+class CellDensity {
+ public:
+  CellDensity(const Numerics& numerics, std::vector<double> refined)
+      : smallest_(numerics.cell_size),
+        largest_(std::max(numerics.largest_cell, numerics.cell_size)),
+        slope_(numerics.growth - 1.0),
+        refined_(std::move(refined)) {
+    std::sort(refined_.begin(), refined_.end());
+  }
+
+  /// Number of cells, not rounded, between two places.
+  double cells(double from, double to) const {
+    double total = 0.0, begin = from;
+    // Between two refined lines the nearest changes halfway.
+    for (std::size_t i = 0; i < refined_.size(); ++i) {
+      const double end =
+          i + 1 < refined_.size() ? std::clamp(0.5 * (refined_[i] + refined_[i + 1]), begin, to) : to;
+      total += primitive(end - refined_[i]) - primitive(begin - refined_[i]);
+      begin = end;
+    }
+    return refined_.empty() ? (to - from) / smallest_ : total;
+  }
+
+ private:
+  /// Odd in the distance.
+  double primitive(double distance) const {
+    const double d = std::abs(distance);
+    double cells = d / smallest_;
+    if (slope_ > 0.0) {
+      const double reach = (largest_ - smallest_) / slope_;
+      cells = std::log1p(slope_ * std::min(d, reach) / smallest_) / slope_ + std::max(d - reach, 0.0) / largest_;
+    }
+    return std::copysign(cells, distance);
+  }
+
+  double smallest_, largest_, slope_;
+  std::vector<double> refined_;
+};
+
+/// The place between two lines up to which there are so many cells.
+double place_of(const CellDensity& density, double from, double to, double cells) {
+  double low = from, high = to;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (density.cells(from, middle) < cells ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+std::vector<double> lines_through(std::vector<double> edges, double size, const CellDensity& density) {
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end(),
+                          [&](double a, double b) { return b - a <= coincidence * size; }),
+              edges.end());
+  std::vector<double> lines{edges.front()};
+  for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
+    const double from = edges[e], to = edges[e + 1], all = density.cells(from, to);
+    const int count = std::max(1, static_cast<int>(std::ceil(all - 1e-9)));
+    for (int i = 1; i < count; ++i) lines.push_back(place_of(density, from, to, all * i / count));
+    lines.push_back(to);
+  }
+  return lines;
+}
+
+/// Lines of the grid from one place to another, each interval cut into parts.
+std::vector<double> cut(const std::vector<double>& lines, double from, double to, int parts, double size) {
+  std::vector<double> edges;
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    if (lines[i] < from - coincidence * size || lines[i + 1] > to + coincidence * size) continue;
+    for (int k = 0; k < parts; ++k) edges.push_back(lines[i] + (lines[i + 1] - lines[i]) * k / parts);
+    if (edges.size() % static_cast<std::size_t>(parts) == 0 &&
+        (i + 2 == lines.size() || lines[i + 2] > to + coincidence * size))
+      edges.push_back(lines[i + 1]);
+  }
+  return edges;
+}
+
+std::vector<double> even(double from, double to, int count) {
+  std::vector<double> edges;
+  for (int i = 0; i <= count; ++i) edges.push_back(from + (to - from) * i / count);
+  edges.back() = to;
+  return edges;
+}
+
+double size_of(const Scene& scene) {
+  const Extent all = extent_of(scene);
+  return std::max(all.x_end - all.x_begin, all.r_end);
+}
+
 }  // namespace
+
+GridLines grid_lines(const Scene& scene) {
+  std::vector<double> x, r, refined_x = scene.numerics.refined_x, refined_r = scene.numerics.refined_r;
+  for (const Body& body : scene.bodies) {
+    x.insert(x.end(), {body.x_begin, body.x_end});
+    r.insert(r.end(), {body.r_begin, body.r_end});
+    if (body.material != BodyMaterial::charge) continue;
+    if (scene.numerics.refined_r.empty()) {
+      refined_r.push_back(body.r_end);
+      if (body.r_begin > 0.0) refined_r.push_back(body.r_begin);
+    }
+  }
+  if (refined_x.empty() && has_charge(scene)) refined_x = {extent_of(scene, BodyMaterial::charge).x_end};
+  const double size = size_of(scene);
+  return {lines_through(std::move(x), size, CellDensity(scene.numerics, std::move(refined_x))),
+          lines_through(std::move(r), size, CellDensity(scene.numerics, std::move(refined_r)))};
+}
+
+GridLines particle_edges(const Scene& scene, const Body& body) {
+  const int per_cell = scene.numerics.particles_per_cell;
+  if (scene.numerics.formulation == Formulation::updated_lagrangian) {
+    const ParticleCount count = particles_of(fit_mesh(scene), body, per_cell);
+    return {even(body.x_begin, body.x_end, count.nx), even(body.r_begin, body.r_end, count.nr)};
+  }
+  const GridLines lines = grid_lines(scene);
+  const double size = size_of(scene);
+  return {cut(lines.x, body.x_begin, body.x_end, per_cell, size),
+          cut(lines.r, body.r_begin, body.r_end, per_cell, size)};
+}
 
 std::int64_t counted(double count) {
   return count < static_cast<double>(most_counted) ? static_cast<std::int64_t>(count) : most_counted;

@@ -46,6 +46,11 @@ Extent extent_of(const Scene& scene, BodyMaterial material) {
   return has_material(scene, material) ? extent : Extent{};
 }
 
+materials::Law law_of(const Scene& scene, const Body& body) {
+  if (body.material == BodyMaterial::steel) return scene.steel;
+  return scene.charge;
+}
+
 bool has_material(const Scene& scene, BodyMaterial material) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(),
                      [material](const Body& body) { return body.material == material; });

@@ -30,6 +30,7 @@ inline constexpr std::array run_status_names{
     Named{run::RunStatus::particles_left_grid, "particles_left_grid"},
     Named{run::RunStatus::interrupted, "interrupted"},
     Named{run::RunStatus::timed_out, "timed_out"},
+    Named{run::RunStatus::cells_distorted, "cells_distorted"},
 };
 inline constexpr std::array ignition_cause_names{
     Named{surface::IgnitionCause::trigger, "trigger"},
@@ -208,6 +209,7 @@ void lay_out_energy(Archive& archive, Rows& rows) {
   energy("plastic_dissipation", &EnergyBalance::plastic, "dissipated in steel");
   energy("viscous_dissipation", &EnergyBalance::viscous, "dissipated in the charge's Maxwell elements");
   energy("crack_dissipation", &EnergyBalance::crack, "dissipated by crack growth");
+  energy("hourglass", &EnergyBalance::hourglass, "stored against hourglassing, part of the internal energy");
 }
 
 template <class Archive, class Rows>

@@ -17,12 +17,12 @@ constexpr double cell = 10e-3, cold = 300.0, hot = 1300.0;  // m, K
 /// Neighbours are cold and hot by turns: the roughest field there is.
 void make_checkered(mpm::Simulation& simulation) {
   const auto paint = [](mpm::Kinematics& p) {
-    for (int j = 0; j < p.lattice.rows; ++j)
-      for (int i = 0; i < p.lattice.columns; ++i)
+    for (int j = 0; j < p.lattice.rows(); ++j)
+      for (int i = 0; i < p.lattice.columns(); ++i)
         p.temperature[p.lattice.slot(i, j)] = (i + j) % 2 == 0 ? cold : hot;
   };
-  for (mpm::SteelBody& body : simulation.steel()) paint(body.kinematics);
-  for (mpm::ChargeBody& body : simulation.charges()) paint(body.kinematics);
+  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) paint(body.kinematics);
+  for (mpm::Body<materials::Charge>& body : simulation.bodies_of<materials::Charge>()) paint(body.kinematics);
 }
 
 /// Lowest and highest temperature; whether any is not a number.
@@ -33,8 +33,8 @@ struct Range {
 Range range_of(const mpm::Simulation& simulation) {
   Range range;
   simulation.for_each_body([&](const mpm::Kinematics& p) {
-    for (int j = 0; j < p.lattice.rows; ++j)
-      for (int i = 0; i < p.lattice.columns; ++i) {
+    for (int j = 0; j < p.lattice.rows(); ++j)
+      for (int i = 0; i < p.lattice.columns(); ++i) {
         const double temperature = p.temperature[p.lattice.slot(i, j)];
         range.broken = range.broken || !std::isfinite(temperature);
         range.low = std::min(range.low, temperature);
@@ -93,7 +93,7 @@ Cases conduction_cases() {
                      Judge judge;
                      mpm::Simulation simulation(mechanics::shell_155(cell));
                      mpm::Conduction conduction(simulation);
-                     mpm::Kinematics& p = simulation.charges()[0].kinematics;
+                     mpm::Kinematics& p = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
                      p.temperature[p.lattice.slot(1, 1)] = std::numeric_limits<double>::quiet_NaN();
                      conduction.advance(simulation, 1.0);
                      judge.never("all temperatures are finite again", !range_of(simulation).broken);

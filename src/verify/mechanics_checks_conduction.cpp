@@ -47,8 +47,8 @@ void make_checkered(mpm::Simulation& simulation) {
       temperature = 300.0 + 1000.0 * static_cast<double>(random >> 8) / 16777215.0;
     }
   };
-  for (mpm::SteelBody& body : simulation.steel()) shake(body.kinematics);
-  for (mpm::ChargeBody& body : simulation.charges()) shake(body.kinematics);
+  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) shake(body.kinematics);
+  for (mpm::Body<materials::Charge>& body : simulation.bodies_of<materials::Charge>()) shake(body.kinematics);
 }
 
 }  // namespace
@@ -61,10 +61,10 @@ double half_space_error(double cell, int steps) {
   conduct(conduction, simulation, duration, steps);
   const scene::Charge& charge = simulation.scene().charge;
   const double diffusivity = charge.conductivity / (charge.eos.initial_density * charge.specific_heat);
-  const mpm::Kinematics& p = simulation.charges()[0].kinematics;
-  const double face = p.lattice.x_begin + p.lattice.columns * p.lattice.spacing_x;
+  const mpm::Kinematics& p = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
+  const double face = p.lattice.x_begin() + p.lattice.columns() * p.lattice.length_x(0);
   double difference = 0.0, scale = 0.0;
-  for (int i = 0; i < p.lattice.columns; ++i) {
+  for (int i = 0; i < p.lattice.columns(); ++i) {
     const double exact = std::erfc((face - p.lattice.x_of(i)) / (2.0 * std::sqrt(diffusivity * duration)));
     const double rise = p.temperature[p.lattice.slot(i, 0)] - initial;
     difference += (rise - exact) * (rise - exact);
@@ -79,7 +79,7 @@ Checks semi_infinite_conduction() {
   mpm::Conduction conduction(simulation);
   conduction.hold_base(simulation.scene().initial_temperature + 1.0);
   conduct(conduction, simulation, duration, 1000);
-  const mpm::Kinematics& p = simulation.charges()[0].kinematics;
+  const mpm::Kinematics& p = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
   const int face = 180;  // 10 um from the base, between two particles
   const double rise =
       0.5 * (p.temperature[p.lattice.slot(face - 1, 0)] + p.temperature[p.lattice.slot(face, 0)]) - 300.0;
@@ -96,10 +96,10 @@ Checks conduction_under_flux() {
   mpm::Conduction conduction(simulation);
   conduction.heat_base(1e6);
   conduct(conduction, simulation, duration, 1000);
-  const mpm::Kinematics& p = simulation.charges()[0].kinematics;
-  const int last = p.lattice.columns - 1;
+  const mpm::Kinematics& p = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
+  const int last = p.lattice.columns() - 1;
   // The face lies half a spacing beyond the last particle; the slope there is q/k.
-  const double half_spacing = 0.5 * p.lattice.spacing_x;
+  const double half_spacing = 0.5 * p.lattice.length_x(0);
   const double surface = p.temperature[p.lattice.slot(last, 0)] +
                          half_spacing * 1e6 / simulation.scene().charge.conductivity - 300.0;
   return {{"conduction", "surface rise under 1 MW/m2 after 1 ms", surface, 41.15213, 1e-3, "K",

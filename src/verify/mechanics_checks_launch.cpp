@@ -43,14 +43,14 @@ double measured_acceleration(scene::Symmetry symmetry) {
 double squeeze_radially(mpm::Simulation& simulation) {
   constexpr double mu = 1e-3;
   const double pressure = materials::mie_gruneisen_pressure(simulation.scene().steel.eos, mu, 0.0);
-  for (mpm::SteelBody& body : simulation.steel()) {
+  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) {
     mpm::Kinematics& p = body.kinematics;
     for (std::size_t i = 0; i < p.mass.size(); ++i) {
       p.density[i] *= 1.0 + mu;
       p.mass[i] *= 1.0 + mu;
       p.pressure[i] = pressure;
-      body.stress_xx[i] = pressure;
-      body.stress_rr[i] = -0.5 * pressure;
+      body[materials::Steel::stress_xx][i] = pressure;
+      body[materials::Steel::stress_rr][i] = -0.5 * pressure;
     }
   }
   return pressure;
@@ -88,11 +88,11 @@ scene::Scene pulsed_shell(double cell_size) {
 
 /// Mean axial compression of the charge's last column, Pa.
 double bottom_pressure(const mpm::Simulation& simulation) {
-  const mpm::ChargeBody& charge = simulation.charges()[0];
+  const mpm::Body<materials::Charge>& charge = simulation.bodies_of<materials::Charge>()[0];
   const mpm::Lattice& lattice = charge.kinematics.lattice;
   double force = 0.0, area = 0.0;
-  for (int j = 0; j < lattice.rows; ++j) {
-    force -= lattice.r_of(j) * axial_stress(charge, lattice.slot(lattice.columns - 1, j));
+  for (int j = 0; j < lattice.rows(); ++j) {
+    force -= lattice.r_of(j) * axial_stress(charge, lattice.slot(lattice.columns() - 1, j));
     area += lattice.r_of(j);
   }
   return force / area;
@@ -118,15 +118,15 @@ FlightDrift drift_in_flight(double cell, double way) {
   mpm::Simulation simulation(bar);
   const double pressure = squeeze_radially(simulation);
   constexpr double speed = 500.0;
-  for (mpm::SteelBody& body : simulation.steel())
+  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>())
     std::fill(body.kinematics.velocity_x.begin(), body.kinematics.velocity_x.end(), -speed);
   simulation.restart();
   const double momentum = simulation.axial_momentum(), kinetic = simulation.kinetic_energy();
   const double begin = centre_of_mass(simulation);
   run_to(simulation, way / speed);
   double stress = 0.0;
-  const mpm::SteelBody& body = simulation.steel()[0];
-  for (std::size_t i = 0; i < body.stress_xx.size(); ++i)
+  const mpm::Body<materials::Steel>& body = simulation.bodies_of<materials::Steel>()[0];
+  for (std::size_t i = 0; i < body[materials::Steel::stress_xx].size(); ++i)
     if (body.kinematics.mass[i] > 0.0) stress = std::max(stress, std::abs(axial_stress(body, i)) / pressure);
   return {simulation.axial_momentum() / momentum - 1.0, simulation.kinetic_energy() / kinetic - 1.0, stress,
           simulation.energy().internal / kinetic, (begin - centre_of_mass(simulation)) / way - 1.0};

@@ -51,15 +51,15 @@ Tube relaxed_tube(int radial_cells) {
   mpm::Simulation simulation(ring);
   simulation.press_bore(0, pressure);
   run_to(simulation, 3e-4);
-  const mpm::SteelBody& body = simulation.steel()[0];
+  const mpm::Body<materials::Steel>& body = simulation.bodies_of<materials::Steel>()[0];
   const mpm::Kinematics& p = body.kinematics;
-  const int begin = 2, end = p.lattice.columns - 3;  // clear of the ends
+  const int begin = 2, end = p.lattice.columns() - 3;  // clear of the ends
   std::vector<double> radius, hoop, displacement;
-  for (int j = 0; j < p.lattice.rows; ++j)
+  for (int j = 0; j < p.lattice.rows(); ++j)
     for (int i = begin; i <= end; ++i) {
       const std::size_t slot = p.lattice.slot(i, j);
       radius.push_back(p.lattice.r_of(j));
-      hoop.push_back(-body.stress_rr[slot] - body.stress_xx[slot] - p.pressure[slot]);
+      hoop.push_back(-body[materials::Steel::stress_rr][slot] - body[materials::Steel::stress_xx][slot] - p.pressure[slot]);
       displacement.push_back(p.r[slot] - p.lattice.r_of(j));
     }
   const auto stress = fit(
@@ -105,13 +105,13 @@ Checks setback_column() {
     column.numerics.damping_time = 3e-5;
     mpm::Simulation simulation(column);
     run_to(simulation, 3e-3);
-    const mpm::ChargeBody& body = simulation.charges()[0];
+    const mpm::Body<materials::Charge>& body = simulation.bodies_of<materials::Charge>()[0];
     const mpm::Lattice& lattice = body.kinematics.lattice;
     double worst = 0.0;
-    for (int i = 0; i < lattice.columns; ++i)
+    for (int i = 0; i < lattice.columns(); ++i)
       worst = std::max(
           worst, std::abs(-axial_stress(body, lattice.slot(i, 0)) / pressure - lattice.x_of(i) / length));
-    const int last = lattice.columns - 1;
+    const int last = lattice.columns() - 1;
     const double bottom = -axial_stress(body, lattice.slot(last, 0)) * length / lattice.x_of(last);
     const std::string group = round ? "setback" : "setback, plane strain";
     checks.push_back({group, "axial pressure at the charge bottom", bottom / 1e6, round ? 140.843 : 163.156,

@@ -48,12 +48,12 @@ double run_to(mpm::Simulation& simulation, double end) {
   return dt;
 }
 
-double axial_stress(const mpm::SteelBody& body, std::size_t slot) {
-  return body.stress_xx[slot] - body.kinematics.pressure[slot];
+double axial_stress(const mpm::Body<materials::Steel>& body, std::size_t slot) {
+  return body[materials::Steel::stress_xx][slot] - body.kinematics.pressure[slot];
 }
 
-double axial_stress(const mpm::ChargeBody& body, std::size_t slot) {
-  return mpm::axial_deviator(body, slot) - body.kinematics.pressure[slot];
+double axial_stress(const mpm::Body<materials::Charge>& body, std::size_t slot) {
+  return body.deviator(slot).xx - body.kinematics.pressure[slot];
 }
 
 double observed_order(double coarse_error, double fine_error, double ratio) {

@@ -62,8 +62,8 @@ void make_elastic(scene::Scene& scene);
 double run_to(mpm::Simulation& simulation, double end);
 
 /// Axial Cauchy stress of a steel or charge particle, tension positive, Pa.
-double axial_stress(const mpm::SteelBody& body, std::size_t slot);
-double axial_stress(const mpm::ChargeBody& body, std::size_t slot);
+double axial_stress(const mpm::Body<materials::Steel>& body, std::size_t slot);
+double axial_stress(const mpm::Body<materials::Charge>& body, std::size_t slot);
 
 /// Observed order of convergence from two errors and the ratio of their mesh sizes (> 1).
 double observed_order(double coarse_error, double fine_error, double ratio);

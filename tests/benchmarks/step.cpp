@@ -48,7 +48,7 @@ template <class Operation>
 void over_the_charge(benchmark::State& state, Operation&& operation) {
   const mpm::Simulation simulation(shipped_scene(2.5e-3));
   mpm::Grid grid = simulation.grid();
-  const mpm::Kinematics& p = simulation.charges()[0].kinematics;
+  const mpm::Kinematics& p = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
   const mpm::StencilContext context{grid, grid.origin_x, p.half_x, p.half_r, true};
   for (auto _ : state)
     for (std::size_t slot = 0; slot < p.x.size(); slot += math::pack_width)

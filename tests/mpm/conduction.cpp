@@ -18,8 +18,8 @@ void shake(mpm::Simulation& simulation, unsigned seed) {
   const auto set = [&](mpm::Kinematics& p) {
     for (double& temperature : p.temperature) temperature = kelvin(random);
   };
-  for (mpm::SteelBody& body : simulation.steel()) set(body.kinematics);
-  for (mpm::ChargeBody& body : simulation.charges()) set(body.kinematics);
+  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) set(body.kinematics);
+  for (mpm::Body<materials::Charge>& body : simulation.bodies_of<materials::Charge>()) set(body.kinematics);
 }
 
 template <class F>
@@ -83,7 +83,7 @@ TEST(Conduction, DecaysLikeTheFirstRadialMode) {
   constexpr double radius = 0.02, zero = 3.8317059702075123;
   const auto rate_error = [&](double cell) {
     mpm::Simulation simulation(test_support::steel_bar(0.01, radius, cell));
-    mpm::Kinematics& p = simulation.steel()[0].kinematics;
+    mpm::Kinematics& p = simulation.bodies_of<materials::Steel>()[0].get().kinematics;
     for (std::size_t i = 0; i < p.r.size(); ++i)
       p.temperature[i] = 300.0 + 100.0 * std::cyl_bessel_j(0.0, zero * p.r[i] / radius);
     const auto amplitude = [&] {
@@ -129,13 +129,13 @@ TEST(Conduction, CarriesTheFluxThroughTheInterfacesOfALayer) {
   for (int step = 0; step < 400; ++step) conduction.advance(simulation, 50.0);
   const double sink = 7830.0 * 460.0 * sink_length, layer = 1717.0 * 1780.0 * layer_length,
                plate = 7830.0 * 460.0 * plate_length;
-  const mpm::Kinematics& in_layer = simulation.charges()[0].kinematics;
-  const mpm::Kinematics& in_plate = simulation.steel()[1].kinematics;
+  const mpm::Kinematics& in_layer = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
+  const mpm::Kinematics& in_plate = simulation.bodies_of<materials::Steel>()[1].get().kinematics;
   const auto at = [](const mpm::Kinematics& p, int i) { return p.temperature[p.lattice.slot(i, 0)]; };
-  const double through_middle = (at(in_layer, 1) - at(in_layer, 0)) * 0.246 / in_layer.lattice.spacing_x;
+  const double through_middle = (at(in_layer, 1) - at(in_layer, 0)) * 0.246 / in_layer.lattice.length_x(0);
   EXPECT_NEAR(through_middle / flux, (sink + 0.5 * layer) / (sink + layer + plate), 1e-4);
   // From the layer's last particle to the plate's first: two half spacings in series.
-  const double resistance = 0.5 * (in_layer.lattice.spacing_x / 0.246 + in_plate.lattice.spacing_x / 38.0);
+  const double resistance = 0.5 * (in_layer.lattice.length_x(0) / 0.246 + in_plate.lattice.length_x(0) / 38.0);
   EXPECT_NEAR((at(in_plate, 0) - at(in_layer, 1)) / resistance / flux,
               (sink + layer) / (sink + layer + plate), 1e-4);
 }
@@ -145,10 +145,10 @@ TEST(Conduction, RefreshesTheFlowStressOfHeatedSteel) {
   mpm::Conduction conduction(simulation);
   conduction.hold_base(900.0);
   conduction.advance(simulation, 100.0);
-  const mpm::SteelBody& body = simulation.steel()[0];
+  const mpm::Body<materials::Steel>& body = simulation.bodies_of<materials::Steel>()[0];
   const std::size_t slot = body.kinematics.lattice.slot(0, 0);
   EXPECT_GT(body.kinematics.temperature[slot], 500.0);
-  EXPECT_DOUBLE_EQ(body.flow_stress[slot],
+  EXPECT_DOUBLE_EQ(body[materials::Steel::flow_stress][slot],
                    materials::johnson_cook_flow_stress(simulation.scene().steel.strength, 0.0, 0.0,
                                                        body.kinematics.temperature[slot]));
 }

@@ -1,5 +1,5 @@
 // Particles tile their bodies exactly, whatever the grid.
-#include "launchsafe/mpm/particles.hpp"
+#include "launchsafe/mpm/body.hpp"
 
 #include "launchsafe/mpm/simulation.hpp"
 #include "scenes.hpp"
@@ -48,11 +48,11 @@ TEST(Particles, HaveTheMassOfTheFormulaInPlaneStrain) {
 TEST(Lattice, GivesEveryParticleItsOwnSlotAndLeavesPaddingMassless) {
   for (const int per_cell : {1, 2, 3}) {
     const scene::Scene shell = test_support::shell_155(7e-3, per_cell);
-    const mpm::ChargeBody charge = mpm::make_charge_body(shell, 1);
+    const mpm::Body<materials::Charge> charge = mpm::make_charge_body(shell, 1);
     const mpm::Lattice& lattice = charge.kinematics.lattice;
     std::set<std::size_t> slots;
-    for (int j = 0; j < lattice.rows; ++j)
-      for (int i = 0; i < lattice.columns; ++i) {
+    for (int j = 0; j < lattice.rows(); ++j)
+      for (int i = 0; i < lattice.columns(); ++i) {
         const std::size_t slot = lattice.slot(i, j);
         EXPECT_TRUE(slots.insert(slot).second);
         EXPECT_DOUBLE_EQ(charge.kinematics.x[slot], lattice.x_of(i));

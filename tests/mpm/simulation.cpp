@@ -15,7 +15,7 @@ using namespace launchsafe;
 double compress(mpm::Simulation& simulation, double mu) {
   const auto& eos = simulation.scene().steel.eos;
   const double pressure = materials::mie_gruneisen_pressure(eos, mu, 0.0);
-  for (mpm::SteelBody& body : simulation.steel()) {
+  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) {
     mpm::Kinematics& p = body.kinematics;
     for (std::size_t i = 0; i < p.mass.size(); ++i) {
       p.density[i] *= 1.0 + mu;
@@ -134,7 +134,7 @@ TEST(Simulation, IsBitwiseRepeatable) {
   const auto run = [] {
     mpm::Simulation simulation(test_support::shell_155(5e-3));
     for (int step = 0; step < 200; ++step) simulation.step(simulation.stable_time_step());
-    return simulation.charges()[0].kinematics.x;
+    return simulation.bodies_of<materials::Charge>()[0].get().kinematics.x;
   };
   EXPECT_EQ(run(), run());
 }

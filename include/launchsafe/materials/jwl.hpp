@@ -97,6 +97,30 @@ jwl_isentrope(const JwlParameters& m, Real v0, Real energy0, Real v1) {
   return {select(is_volume, jwl_pressure(m, v1, energy), nothing), select(is_volume, energy, nothing)};
 }
 
+/// Pressure (Pa) on the isentrope through V = 1 with the law's initial energy: with E beyond the cold energy
+/// going with V^(-w), p = A exp(-R1 V) + B exp(-R2 V) + w K V^(-1-w), K = E(1) - cold energy(1). NaN for a
+/// volume that is none (V <= 0).
+template <class Real>
+Real jwl_isentropic_pressure(const JwlParameters& m, Real v) {
+  using math::exp;
+  using math::pow;
+  using math::select;
+  const double thermal = m.omega * (m.initial_energy - jwl_cold_energy(m, 1.0));
+  const Real pressure = Real(m.a) * exp(Real(-m.r1) * v) + Real(m.b) * exp(Real(-m.r2) * v) +
+                        Real(thermal) * pow(v, Real(-1.0 - m.omega));
+  return select(v > Real(0.0), pressure, Real(std::numeric_limits<double>::quiet_NaN()));
+}
+
+/// Bulk modulus -V dp/dV (Pa) on that isentrope.
+template <class Real>
+Real jwl_isentropic_bulk_modulus(const JwlParameters& m, Real v) {
+  using math::exp;
+  using math::pow;
+  const double thermal = m.omega * (m.initial_energy - jwl_cold_energy(m, 1.0));
+  return v * (Real(m.a * m.r1) * exp(Real(-m.r1) * v) + Real(m.b * m.r2) * exp(Real(-m.r2) * v)) +
+         Real(thermal * (1.0 + m.omega)) * pow(v, Real(-1.0 - m.omega));
+}
+
 /// Adiabatic change from (p0, E0) at V0 to V1 with dE = -1/2 (p0 + p1) dV; linear in E, hence solved exactly.
 /// Second-order accurate in V1 - V0. Beyond a small change of V, on the isentrope itself.
 template <class Real>

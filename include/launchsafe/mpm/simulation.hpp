@@ -1,16 +1,16 @@
-// The launch as a material point computation: explicit uGIMP in the update-stress-last form.
-//
-// A step takes the nodal sums that the particles left behind, updates the grid, and then passes once over all
-// particles: each reads the grid, moves, updates its stress and adds itself to the next step's sums. One pass
-// over the particle data a step is what makes it fast.
+// The launch as a material point computation, in either formulation.
 #pragma once
 
-#include "launchsafe/mpm/body_step.hpp"
-#include "launchsafe/mpm/grid.hpp"
-#include "launchsafe/mpm/particles.hpp"
+#include "launchsafe/mpm/body.hpp"
+#include "launchsafe/mpm/step.hpp"
+#include "launchsafe/mpm/total_lagrangian.hpp"
+#include "launchsafe/mpm/updated_lagrangian.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/scene.hpp"
 
+#include <cstdint>
+#include <functional>
+#include <variant>
 #include <vector>
 
 namespace launchsafe::mpm {
@@ -20,23 +20,27 @@ struct EnergyTotals {
   /// Of the motion relative to the mass centre, with scaled inertia, centred in time: velocities live half a
   /// step away from stresses (leapfrog), and m v_old v_new/2 is what the discrete work balances.
   double kinetic = 0;
-  double internal = 0, external = 0, body_force = 0, damping = 0;
+  double internal = 0;  ///< stress power, and what is stored against hourglassing
+  double external = 0, body_force = 0;
+  double damping = 0;   ///< taken out by damping, the PIC share and FLIP's way from nodes to particles and back
   double plastic = 0, viscous = 0, crack = 0;
+  double hourglass = 0;  ///< stored against hourglassing (part of `internal`)
 };
 
-/// Particle-steps on which a limiter acted or a particle was off the grid.
+/// Particle-steps on which a limiter acted, a particle was off the grid or its cell beyond what strains mean.
 struct EventCounts {
-  double tension_cutoff = 0, hugoniot_guard = 0, crack_at_bound = 0, off_grid = 0;
+  double tension_cutoff = 0, pressure_guard = 0, crack_at_bound = 0, off_grid = 0, distorted = 0;
 };
 
 class Simulation {
  public:
-  explicit Simulation(scene::Scene scene);
-  // Loaded faces and anchors point into the bodies.
+  /// `threads` work on each step together where the form can; results do not depend on their number.
+  explicit Simulation(scene::Scene scene, int threads = 1);
+  // The form refers to the bodies.
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Stable time step (s) for the present state: CFL min(dx, dr)/(c_L + |v|), times sqrt(inertial_scaling).
+  /// Stable time step (s) for the present state.
   double stable_time_step() const;
   /// Advances by dt > 0 (s).
   void step(double dt);
@@ -55,73 +59,61 @@ class Simulation {
   double axial_momentum() const;
   /// Particles that carry mass.
   std::uint64_t particles() const { return particles_; }
-
-  std::vector<SteelBody>& steel() { return steel_; }
-  const std::vector<SteelBody>& steel() const { return steel_; }
-  std::vector<ChargeBody>& charges() { return charges_; }
-  const std::vector<ChargeBody>& charges() const { return charges_; }
-  const Grid& grid() const { return grid_; }
   bool axisymmetric() const { return scene_.symmetry == scene::Symmetry::axisymmetric; }
-  /// Calls f(kinematics) for every body, in the order of Scene::bodies within each material.
+
+  /// In the order of Scene::bodies.
+  std::vector<AnyBody>& bodies() { return bodies_; }
+  const std::vector<AnyBody>& bodies() const { return bodies_; }
+  /// The bodies of one law, in the same order.
+  template <class Law>
+  std::vector<std::reference_wrapper<Body<Law>>> bodies_of() {
+    std::vector<std::reference_wrapper<Body<Law>>> found;
+    for (AnyBody& body : bodies_)
+      if (auto* one = std::get_if<Body<Law>>(&body)) found.emplace_back(*one);
+    return found;
+  }
+  template <class Law>
+  std::vector<std::reference_wrapper<const Body<Law>>> bodies_of() const {
+    std::vector<std::reference_wrapper<const Body<Law>>> found;
+    for (const AnyBody& body : bodies_)
+      if (const auto* one = std::get_if<Body<Law>>(&body)) found.emplace_back(*one);
+    return found;
+  }
+  /// Calls f(kinematics) for every body, in the order of Scene::bodies.
   template <class F>
   void for_each_body(F&& f) const {
-    for (const SteelBody& body : steel_) f(body.kinematics);
-    for (const ChargeBody& body : charges_) f(body.kinematics);
+    for (const AnyBody& body : bodies_) f(kinematics_of(body));
   }
-  /// Clears the grid and gives it the particles' mass and momentum again: after a test has set velocities.
+  template <class F>
+  void for_each_body(F&& f) {
+    for (AnyBody& body : bodies_) std::visit([&](auto& one) { f(one.kinematics); }, body);
+  }
+
+  /// The form that is at work; null for the other one.
+  const TotalLagrangian* total_lagrangian() const { return std::get_if<TotalLagrangian>(&form_); }
+  const UpdatedLagrangian* updated_lagrangian() const { return std::get_if<UpdatedLagrangian>(&form_); }
+
+  /// Gives the grid the particles' momentum again: after a test has set velocities.
   void restart();
   /// Puts a steady pressure (Pa) on the inner radial face of a body (index into Scene::bodies) from now on.
   /// Its work counts as external. No scene asks for it; the thick-walled tube of `launchsafe verify` does.
   void press_bore(int body, double pressure);
 
  private:
-  /// A particle whose base-side face carries the chamber pressure.
-  struct LoadedFace {
-    const Kinematics* body;
-    std::size_t slot;
-    double area;  ///< m2 per radian or metre, of the particle at rest
-  };
-  /// A particle of the charge bottom (without a charge, of the base) that the co-moving grid follows.
-  struct Anchor {
-    const Kinematics* body;
-    std::size_t slot;
-    double initial_x;  ///< m
-  };
-  /// Force per radian or metre on one node: of the chamber pressure N per Pa, of the bores N.
-  struct LoadShare {
-    std::size_t node;
-    double force;
-  };
-  /// A body whose inner radial face carries a pressure.
-  struct Bore {
-    const Kinematics* body;
-    double pressure;  ///< Pa
-  };
-  void locate_load();
-  void locate_bores();
-  double window_origin() const;
-  void update_grid(double dt);
-  StepContext context_of(double dt) const;
+  /// Inertial over true mass of a body.
+  double inertial_factor(const Kinematics& body) const;
+  void book(const StepTotals& totals, double dt);
 
   scene::Scene scene_;
   scene::PressureHistory load_;
-  Grid grid_;
-  std::vector<SteelBody> steel_;
-  std::vector<ChargeBody> charges_;
-  std::vector<LoadedFace> faces_;
-  std::vector<Anchor> anchors_;
-  std::vector<LoadShare> load_shares_;
-  std::vector<Bore> bores_;
-  std::vector<LoadShare> bore_shares_;  ///< radial
-  double total_mass_ = 0;               ///< kg per radian or metre
-  double loaded_area_ = 0;              ///< m2 per radian or metre
+  std::vector<AnyBody> bodies_;
+  std::variant<std::monostate, TotalLagrangian, UpdatedLagrangian> form_;
+  double total_mass_ = 0;   ///< kg per radian or metre
+  double loaded_area_ = 0;  ///< m2 per radian or metre
   double time_ = 0;
-  double travel_ = 0;       ///< m, of the window's target in the lab frame
-  double base_origin_ = 0;  ///< m, of the grid at rest
   std::uint64_t particles_ = 0;
-  EnergyTotals energy_;      ///< at the present time, without the kinetic energy
-  double bulk_kinetic_ = 0;  ///< of the mass centre, centred in the last step
-  EnergyTotals balance_;     ///< at the begin of the last step
+  EnergyTotals energy_;   ///< at the present time, without the kinetic energy
+  EnergyTotals balance_;  ///< at the begin of the last step
   EventCounts events_;
 };
 

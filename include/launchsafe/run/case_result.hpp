@@ -19,7 +19,8 @@ enum class RunStatus {
   time_step_collapse,
   particles_left_grid,
   interrupted,
-  timed_out
+  timed_out,
+  cells_distorted
 };
 std::string to_string(RunStatus status);
 
@@ -30,10 +31,11 @@ struct EnergyBalance {
   double internal = 0;    ///< stress power integrated
   double external = 0;    ///< work of the chamber pressure
   double body_force = 0;  ///< work of the accelerating frame's body force (co-moving frame only)
-  double damping = 0;     ///< taken out by damping and by the PIC share
+  double damping = 0;     ///< taken out by damping, the PIC share and FLIP's filter
   double plastic = 0;     ///< dissipated in steel
   double viscous = 0;     ///< dissipated in the charge's Maxwell elements
   double crack = 0;       ///< dissipated by crack growth
+  double hourglass = 0;   ///< stored against hourglassing, part of the internal energy
   double scale() const;   ///< what drift is measured against, > 0
   double drift() const;   ///< (kinetic + internal + damping - external - body_force)/scale
 };

@@ -19,6 +19,8 @@ struct RunOptions {
   double time_limit = std::numeric_limits<double>::infinity();
   /// Called a few times a second of wall time from the running thread with the share done, 0..1.
   std::function<void(double)> progress;
+  /// Threads that work on the steps of this one run; the result does not depend on their number.
+  int threads = 1;
 };
 
 /// Runs the mechanics of a scene over its load's duration and records the bottom trace, the monitors and the

@@ -18,6 +18,23 @@ struct Mesh {
   double radius = 0;    ///< outer radius of the scene, m, a whole number of radial cells
 };
 
+/// Lines of a rectilinear grid, increasing, m.
+struct GridLines {
+  std::vector<double> x, r;
+};
+
+/// The reference grid of the total-Lagrangian form: lines through all edges of all bodies, and between two
+/// neighbouring edges cells whose length follows `numerics`: `cell_size` at the refined lines, growing away
+/// from them by the ratio `growth` from cell to cell up to `largest_cell`.
+/// With lengths of h(d) = min(cell_size + (growth - 1) d, largest_cell) at the distance d from the nearest
+/// refined line, an interval gets the smallest whole number of cells not below the integral of ds/h, and lines
+/// at equal shares of that integral.
+GridLines grid_lines(const Scene& scene);
+
+/// Edges of the particles of one body: total-Lagrangian the grid's lines, updated-Lagrangian an even division,
+/// each cut into `particles_per_cell`.
+GridLines particle_edges(const Scene& scene, const Body& body);
+
 /// Particles of one body in each direction, each at least 1. They tile the body exactly, whatever the grid.
 struct ParticleCount {
   int nx = 0;

@@ -3,11 +3,7 @@
 #pragma once
 
 #include "launchsafe/materials/ideal_gas.hpp"
-#include "launchsafe/materials/johnson_cook.hpp"
-#include "launchsafe/materials/jwl.hpp"
-#include "launchsafe/materials/kinetics.hpp"
-#include "launchsafe/materials/mie_gruneisen.hpp"
-#include "launchsafe/materials/visco_scram.hpp"
+#include "launchsafe/materials/laws.hpp"
 
 #include <functional>
 #include <string>
@@ -21,6 +17,8 @@ enum class Barrel { rigid, none };
 enum class BodyMaterial { steel, charge };
 /// auto: the plan decides from the scene's own numbers.
 enum class Switch { automatic, on, off };
+/// Which configuration gradients and transfer refer to: the one at rest, or the present one (uGIMP).
+enum class Formulation { total_lagrangian, updated_lagrangian };
 enum class FrictionClosure { literal, inelastic, none };
 enum class AirPressure { charge_bottom, chamber };
 enum class AirModel { reservoir, balance };
@@ -49,20 +47,8 @@ struct Load {
   double smoothing = 0.0;              ///< s; window over which a measured curve is averaged, 0 = as measured
 };
 
-struct Steel {
-  materials::MieGruneisenParameters eos;
-  materials::JohnsonCookParameters strength;
-};
-
-struct Charge {
-  materials::ViscoScramParameters cracks;
-  materials::JwlParameters eos = materials::unreacted_composition_b();
-  double tension_cutoff = 5e6;     ///< Pa, > 0: the pressure never falls below -cutoff
-  double specific_heat = 1780.0;   ///< J/(kg K)
-  double conductivity = 0.246;     ///< W/(m K)
-  double sliding_friction = 0.24;  ///< mu_d
-  materials::KineticsParameters kinetics;
-};
+using materials::Charge;
+using materials::Steel;
 
 /// The bottom gap, its air and the skin of the charge (model section 6).
 struct Surface {
@@ -78,10 +64,18 @@ struct Surface {
 };
 
 struct Numerics {
-  double cell_size = 2.5e-3;         ///< nominal, m; fitted to the shell (see scene::fit_mesh)
+  Formulation formulation = Formulation::total_lagrangian;
+  /// Largest cell (m) at the refined lines; everywhere else too where the growth is 1.
+  double cell_size = 2.5e-3;
+  double growth = 1.0;               ///< ratio of neighbouring cells away from the refined lines, 1 = even
+  double largest_cell = 10e-3;       ///< m, where cells grow
+  std::vector<double> refined_x;     ///< m; empty: the charge's bottom
+  std::vector<double> refined_r;     ///< m; empty: the charge's edges
+  double hourglass_stiffness = 0.1;  ///< share of the shear stiffness against hourglassing, one particle a cell
   int particles_per_cell = 1;        ///< in each direction
   double time_step_factor = 0.5;     ///< CFL
   double inertial_scaling = 1.0;     ///< s >= 1
+  double steel_inertia = 1.0;        ///< >= 1; factor on the inertia of metal bodies beside the scaling
   double damping_time = 0.0;         ///< s; decay time of the relative velocity, 0 = no damping
   double pic_fraction = 0.0;         ///< share of PIC in the velocity update, 0 = pure FLIP
   double energy_drift_limit = 0.05;  ///< of the energy scale; past it the run is stopped and indeterminate
@@ -146,6 +140,9 @@ double base_area(const Scene& scene);
 double rigid_acceleration(const Scene& scene, double pressure);
 
 bool has_material(const Scene& scene, BodyMaterial material);
+
+/// The law of a body's material.
+materials::Law law_of(const Scene& scene, const Body& body);
 
 /// Chamber pressure (Pa) on the base at time t (s); monotone cubic (PCHIP) through a measured curve of at
 /// least two points at increasing times, held constant outside it. Curves of two or three points are joined

@@ -1,0 +1,64 @@
+// What a material is to the mechanics: a law that advances declared state.
+//
+// A law is a plain struct of parameters with
+//   static constexpr std::string_view name           the word that bodies refer to it by
+//   static constexpr std::array<StateField, N> state what a particle of it carries, in this order
+//   initial_density(), shear_modulus(), bulk_modulus(), heat_capacity(), heat_conductivity()   at rest, SI
+//   initial_state(temperature)                       std::array<double, N>
+//   static constexpr bool heats_itself               whether update changes the temperature
+//   Integrator                                       made of the law; set_step(dt), then update(...) by particle
+// and the functions on a particle's state that outputs ask for: deviator(state) and, for the time step,
+// Integrator::bulk_modulus(state, density, pressure). Everything else of a law is its own.
+#pragma once
+
+#include "launchsafe/math/deviator.hpp"
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace launchsafe::materials {
+
+/// One number that a particle of a law carries, by name and SI unit ("1" for none).
+struct StateField {
+  std::string_view name;
+  std::string_view unit;
+};
+
+template <class Law, class Real>
+using State = std::array<Real, Law::state.size()>;
+
+/// Index of a state field by name; the number of fields where the law has none of that name.
+template <class Law>
+constexpr std::size_t field_index(std::string_view name) {
+  std::size_t index = 0;
+  while (index < Law::state.size() && Law::state[index].name != name) ++index;
+  return index;
+}
+
+template <class Law>
+constexpr bool has_field(std::string_view name) {
+  return field_index<Law>(name) < Law::state.size();
+}
+
+/// The deformation of one step as laws want it.
+template <class Real>
+struct Increment {
+  math::Deviator<Real> deviator;  ///< of the strain increment, at the middle of the step
+  math::Rotation<Real> rotation;  ///< of the step (Jaumann)
+  Real density_before;            ///< kg/m3
+  Real density_after;             ///< kg/m3
+};
+
+/// Stress at the end of a step, and what the step did. Energies in J per m3 of volume at the step's begin.
+template <class Real>
+struct Response {
+  math::Deviator<Real> deviator_before;  ///< at the begin, turned with the step's rotation, Pa
+  math::Deviator<Real> deviator;         ///< Pa
+  Real pressure;                         ///< Pa, compression positive
+  Real plastic{0.0}, viscous{0.0}, crack{0.0};
+  /// 1 where a limiter acted, 0 elsewhere.
+  Real tension_cutoff{0.0}, pressure_guard{0.0}, crack_at_bound{0.0};
+};
+
+}  // namespace launchsafe::materials

@@ -1,0 +1,80 @@
+// What both formulations do with a Pack of particles once its deformation is known: law, energies, velocity.
+#pragma once
+
+#include "launchsafe/mpm/body.hpp"
+#include "launchsafe/mpm/step.hpp"
+
+namespace launchsafe::mpm {
+
+inline Pack load(const math::AlignedArray& field, std::size_t slot) { return Pack::load(field.data() + slot); }
+inline void store(math::AlignedArray& field, std::size_t slot, Pack value) { value.store(field.data() + slot); }
+
+/// Deformation of a step at a Pack of particles.
+struct Deformation {
+  materials::Increment<Pack> increment;
+  Pack volumetric;                   ///< trace of the strain increment
+  Pack volume_before, volume_after;  ///< m3 per radian or metre
+};
+
+/// Cauchy stress at the end of a step.
+struct Stressed {
+  math::Deviator<Pack> deviator;
+  Pack pressure;
+};
+
+/// Advances the law of a Pack of particles, keeps what they carry and books what it did.
+template <class Law>
+[[gnu::always_inline]] inline Stressed update_material(Body<Law>& body, std::size_t slot,
+                                                       const Deformation& d, ParticleTotals& totals) {
+  Kinematics& p = body.kinematics;
+  materials::State<Law, Pack> state;
+  for (std::size_t f = 0; f < state.size(); ++f) state[f] = load(body.state[f], slot);
+  const Pack pressure_before = load(p.pressure, slot);
+  Pack temperature = load(p.temperature, slot);
+  const auto response = body.integrator.update(d.increment, state, pressure_before, temperature);
+  for (std::size_t f = 0; f < state.size(); ++f) store(body.state[f], slot, state[f]);
+  store(p.pressure, slot, response.pressure);
+  store(p.density, slot, d.increment.density_after);
+  if constexpr (Law::heats_itself) store(p.temperature, slot, temperature);
+
+  const Pack work =
+      contract(Pack(0.5) * (response.deviator_before + response.deviator), d.increment.deviator) -
+      0.5 * (pressure_before + response.pressure) * d.volumetric;
+  totals.internal += 0.5 * (d.volume_before + d.volume_after) * work;
+  totals.plastic += d.volume_before * response.plastic;
+  totals.viscous += d.volume_before * response.viscous;
+  totals.crack += d.volume_before * response.crack;
+  totals.tension_cutoff += response.tension_cutoff;
+  totals.pressure_guard += response.pressure_guard;
+  totals.crack_at_bound += response.crack_at_bound;
+  return {response.deviator, response.pressure};
+}
+
+/// FLIP velocity update with an optional share of PIC. Books the kinetic energy that the share takes out, and
+/// the time-centred kinetic energy of the step's begin. `inertia` is the mass in that balance, kg.
+[[gnu::always_inline]] inline void update_velocity(Kinematics& p, std::size_t slot, Pack inertia, Pack change_x,
+                                                   Pack change_r, Pack grid_x, Pack grid_r,
+                                                   double pic_fraction, ParticleTotals& totals) {
+  const Pack old_x = load(p.velocity_x, slot), old_r = load(p.velocity_r, slot);
+  const Pack flip_x = old_x + change_x, flip_r = old_r + change_r;
+  const Pack new_x = flip_x + pic_fraction * (grid_x - flip_x), new_r = flip_r + pic_fraction * (grid_r - flip_r);
+  store(p.velocity_x, slot, new_x);
+  store(p.velocity_r, slot, new_r);
+  const Pack half = 0.5 * inertia;
+  totals.pic_loss += half * (flip_x * flip_x + flip_r * flip_r - new_x * new_x - new_r * new_r);
+  totals.centred_kinetic += half * (old_x * flip_x + old_r * flip_r);
+}
+
+/// Largest squared longitudinal sound speed (m2/s2) of a Pack of particles.
+template <class Law>
+Pack sound_speed_squared(const Body<Law>& body, std::size_t slot) {
+  const Kinematics& p = body.kinematics;
+  materials::State<Law, Pack> state;
+  for (std::size_t f = 0; f < state.size(); ++f) state[f] = load(body.state[f], slot);
+  const Pack density = load(p.density, slot);
+  const Pack modulus =
+      body.integrator.bulk_modulus(state, density, load(p.pressure, slot)) + (4.0 / 3.0) * body.law.shear_modulus();
+  return modulus / density;
+}
+
+}  // namespace launchsafe::mpm

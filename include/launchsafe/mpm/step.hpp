@@ -1,0 +1,79 @@
+// What a step is told and what it adds up, in either formulation.
+#pragma once
+
+#include "launchsafe/math/pack.hpp"
+
+#include <vector>
+
+namespace launchsafe::mpm {
+
+using math::Mask;
+using math::Pack;
+
+/// What drives a step.
+struct Drive {
+  double dt = 0;            ///< s
+  double pressure = 0;      ///< on the base, Pa
+  double acceleration = 0;  ///< of the frame, m/s2
+  double keep = 1;          ///< share of the velocity that damping leaves
+  double pic_fraction = 0;  ///< share of the grid velocity in the particle velocity
+};
+
+/// What particles add to the energy balance (J per radian, or per metre) and to the limiters (particle-steps).
+struct ParticleTotals {
+  Pack internal{0.0}, hourglass{0.0}, plastic{0.0}, viscous{0.0}, crack{0.0}, pic_loss{0.0},
+      centred_kinetic{0.0};
+  Pack tension_cutoff{0.0}, pressure_guard{0.0}, crack_at_bound{0.0};
+  Pack off_grid{0.0};   ///< particles outside the grid
+  Pack distorted{0.0};  ///< particles whose cell is inverted or extremely stretched
+
+  void add(const ParticleTotals& other);
+};
+
+/// What nodes add: J per radian or metre, and kg m/s.
+struct NodeTotals {
+  Pack damping{0.0};       ///< taken out by damping in the step
+  Pack lost_before{0.0};   ///< total-Lagrangian: taken out by damping and FLIP until the step's begin
+  Pack old_momentum{0.0};   ///< axial, at the begin, true mass
+  Pack momentum{0.0};       ///< axial, with the velocity that the step moves by
+
+  void add(const NodeTotals& other);
+};
+
+/// All of a step.
+struct StepTotals {
+  ParticleTotals particles;
+  NodeTotals nodes;
+  double base_flow = 0;  ///< of the loaded face against unit pressure, m3/s
+  double bore_work = 0;  ///< of bore pressures, J
+};
+
+/// A body whose inner radial face carries a steady pressure.
+struct Bore {
+  int body = 0;         ///< index into Scene::bodies
+  double pressure = 0;  ///< Pa
+};
+
+inline void ParticleTotals::add(const ParticleTotals& other) {
+  internal += other.internal;
+  hourglass += other.hourglass;
+  plastic += other.plastic;
+  viscous += other.viscous;
+  crack += other.crack;
+  pic_loss += other.pic_loss;
+  centred_kinetic += other.centred_kinetic;
+  tension_cutoff += other.tension_cutoff;
+  pressure_guard += other.pressure_guard;
+  crack_at_bound += other.crack_at_bound;
+  off_grid += other.off_grid;
+  distorted += other.distorted;
+}
+
+inline void NodeTotals::add(const NodeTotals& other) {
+  damping += other.damping;
+  lost_before += other.lost_before;
+  old_momentum += other.old_momentum;
+  momentum += other.momentum;
+}
+
+}  // namespace launchsafe::mpm

@@ -1,0 +1,46 @@
+// Threads that work on one step together.
+#pragma once
+
+#include <atomic>
+#include <cfenv>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace launchsafe::mpm {
+
+/// A fixed number of threads, the caller among them, that run the same function side by side. Threads start
+/// at the first call and take over the caller's floating-point environment. Between calls they wait: first
+/// awake, giving way to other work, then asleep.
+class Team {
+ public:
+  explicit Team(int threads) : threads_(threads < 1 ? 1 : threads) {}
+  ~Team();
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  int threads() const { return threads_; }
+
+  /// Calls work(member) on every thread, member = 0 .. threads() - 1, and returns when all are done. `work`
+  /// must not throw.
+  void run(const std::function<void(int)>& work);
+
+  /// Inside `work`: waits until all members have come here.
+  void wait_for_all();
+
+ private:
+  void start();
+  void serve(int member);
+
+  int threads_;
+  std::vector<std::thread> helpers_;
+  std::fenv_t environment_{};
+  const std::function<void(int)>* work_ = nullptr;
+  std::atomic<unsigned> call_{0};       ///< number of calls so far
+  std::atomic<int> running_{0};         ///< helpers that have not finished the present call
+  std::atomic<int> arrived_{0};         ///< members at the present barrier
+  std::atomic<unsigned> barrier_{0};    ///< number of barriers passed
+  std::atomic<bool> ends_{false};
+};
+
+}  // namespace launchsafe::mpm

@@ -1,0 +1,319 @@
+#include "launchsafe/mpm/total_lagrangian.hpp"
+
+#include "launchsafe/mpm/material_step.hpp"
+#include "total_lagrangian_row.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::mpm {
+namespace {
+
+double radial_measure(bool axisymmetric, double r) { return axisymmetric ? r : 1.0; }
+
+/// Means over the particle's interval of the hat functions of its cell [a, b], see Nairn & Guilkey 2015.
+RowWeights row_weights(const Lattice& lattice, int j, double a, double b, bool axisymmetric) {
+  const double r = lattice.r_of(j), length = lattice.length_r(j), cell = b - a;
+  RowWeights w;
+  w.cell_row = j / lattice.stride;
+  w.inverse_length = 1.0 / cell;
+  w.value[1] = (r - a + (axisymmetric ? length * length / (12.0 * r) : 0.0)) / cell;
+  w.value[0] = 1.0 - w.value[1];
+  if (axisymmetric) {
+    w.hoop[1] = (r - a) / (cell * r);
+    w.hoop[0] = (b - r) / (cell * r);
+  }
+  return w;
+}
+
+/// Cuts rows, in order, into as many runs of like work as there are threads.
+std::vector<std::vector<std::pair<std::size_t, int>>> shared_out(
+    const std::vector<std::pair<std::size_t, int>>& rows, const std::vector<double>& work, int threads) {
+  double all = 0.0;
+  for (const auto& [body, row] : rows) all += work[body];
+  std::vector<std::vector<std::pair<std::size_t, int>>> shares(static_cast<std::size_t>(threads));
+  double done = 0.0;
+  for (const auto& row : rows) {
+    const double middle = done + 0.5 * work[row.first];
+    done += work[row.first];
+    const auto thread = static_cast<std::size_t>(middle / all * threads);
+    shares[std::min(thread, shares.size() - 1)].push_back(row);
+  }
+  return shares;
+}
+
+}  // namespace
+
+TotalLagrangian::TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>& bodies, int threads)
+    : scene_(scene),
+      bodies_(bodies),
+      axisymmetric_(scene.symmetry == scene::Symmetry::axisymmetric),
+      lines_(scene::grid_lines(scene)),
+      team_(std::make_unique<Team>(threads)) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    nodes_.push_back(make_nodes(scene, lines_, static_cast<int>(b)));
+    parts_.push_back(make_part(bodies[b], nodes_[b]));
+  }
+  weigh_nodes();
+  ties_ = find_ties(nodes_);
+  for (const Tie& tie : ties_) {
+    double mass = 0.0, inertia = 0.0;
+    for (const Tie::Member& m : tie.members) {
+      mass += nodes_[m.nodes].mass[m.index];
+      inertia += nodes_[m.nodes].inertia[m.index];
+    }
+    for (const Tie::Member& m : tie.members) {
+      nodes_[m.nodes].inverse_inertia[m.index] = 1.0 / inertia;
+      nodes_[m.nodes].mass_share[m.index] = mass / inertia;
+    }
+  }
+  find_base();
+  share_work();
+  restart();
+}
+
+double TotalLagrangian::inertial_factor(const Kinematics& body) const {
+  return parts_[static_cast<std::size_t>(body.body)].inertial_factor;
+}
+
+TotalLagrangian::Part TotalLagrangian::make_part(const AnyBody& any, const Nodes& nodes) const {
+  const Kinematics& p = kinematics_of(any);
+  const Lattice& lattice = p.lattice;
+  const scene::Numerics& numerics = scene_.numerics;
+  Part part;
+  for (int j = 0; j < lattice.rows(); ++j) {
+    const auto line = static_cast<std::size_t>(nodes.first_r + j / lattice.stride);
+    part.rows.push_back(row_weights(lattice, j, lines_.r[line], lines_.r[line + 1], axisymmetric_));
+  }
+  const int cells = nodes.columns - 1;
+  part.inverse_length.assign(nodes.stride, 0.0);
+  for (int c = 0; c < cells; ++c) {
+    const auto line = static_cast<std::size_t>(nodes.first_x + c);
+    part.inverse_length[static_cast<std::size_t>(c)] = 1.0 / (lines_.x[line + 1] - lines_.x[line]);
+  }
+  const bool metal =
+      scene_.bodies[static_cast<std::size_t>(p.body)].material != scene::BodyMaterial::charge;
+  part.inertial_factor = numerics.inertial_scaling * (metal ? numerics.steel_inertia : 1.0);
+  if (lattice.stride > 1 || !(numerics.hourglass_stiffness > 0.0)) return part;
+  const auto [shear, density] = std::visit(
+      [](const auto& body) { return std::pair{body.law.shear_modulus(), body.law.initial_density()}; }, any);
+  part.hourglass.assign(lattice.slots(), 0.0);
+  for (int j = 0; j < lattice.rows(); ++j)
+    for (int i = 0; i < lattice.columns(); ++i) {
+      const double a = lattice.length_x(i), b = lattice.length_r(j);
+      const std::size_t slot = lattice.slot(i, j);
+      part.hourglass[slot] = numerics.hourglass_stiffness * shear * p.mass[slot] / density *
+                             (1.0 / (a * a) + 1.0 / (b * b)) / 6.0;
+    }
+  return part;
+}
+
+void TotalLagrangian::weigh_nodes() {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Nodes& n = nodes_[b];
+    const Part& part = parts_[b];
+    const Kinematics& p = kinematics_of(bodies_[b]);
+    const Lattice& lattice = p.lattice;
+    for (int j = 0; j < lattice.rows(); ++j)
+      for (int i = 0; i < lattice.columns(); ++i) {
+        const RowWeights& w = part.rows[static_cast<std::size_t>(j)];
+        const double right = ((i % lattice.stride) + 0.5) / lattice.stride;
+        const double mass = p.mass[lattice.slot(i, j)];
+        for (int k = 0; k < 2; ++k) {
+          const std::size_t node = n.index(i / lattice.stride, w.cell_row + k);
+          n.mass[node] += mass * w.value[k] * (1.0 - right);
+          n.mass[node + 1] += mass * w.value[k] * right;
+        }
+      }
+    for (std::size_t node = 0; node < n.mass.size(); ++node) {
+      n.inertia[node] = part.inertial_factor * n.mass[node];
+      if (!(n.mass[node] > 0.0)) continue;
+      n.inverse_inertia[node] = 1.0 / n.inertia[node];
+      n.mass_share[node] = 1.0 / part.inertial_factor;
+    }
+  }
+}
+
+void TotalLagrangian::share_work() {
+  std::vector<std::pair<std::size_t, int>> particle_rows, node_rows;
+  std::vector<double> particle_work, node_work;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const Lattice& lattice = kinematics_of(bodies_[b]).lattice;
+    const double fields = std::visit([](const auto& body) { return 8.0 + static_cast<double>(body.state.size()); }, bodies_[b]);
+    particle_work.push_back(fields * lattice.padded_columns);
+    node_work.push_back(static_cast<double>(nodes_[b].stride));
+    // Rows of particles in one row of cells write the same nodes and stay together.
+    for (int j = 0; j < lattice.rows(); j += lattice.stride) particle_rows.emplace_back(b, j);
+    for (int j = 0; j < nodes_[b].rows; ++j) node_rows.emplace_back(b, j);
+    particle_totals_.emplace_back(static_cast<std::size_t>(lattice.rows()));
+    node_totals_.emplace_back(static_cast<std::size_t>(nodes_[b].rows));
+  }
+  const int threads = team_->threads();
+  for (const auto& share : shared_out(particle_rows, particle_work, threads)) {
+    particle_rows_.emplace_back();
+    for (const auto& [b, j] : share)
+      particle_rows_.back().push_back({b, j, j + kinematics_of(bodies_[b]).lattice.stride});
+  }
+  for (const auto& share : shared_out(node_rows, node_work, threads)) {
+    node_rows_.emplace_back();
+    for (const auto& [b, j] : share) node_rows_.back().push_back({b, j, j + 1});
+  }
+}
+
+void TotalLagrangian::find_base() {
+  const double base = scene::extent_of(scene_).x_end;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (scene_.bodies[b].x_end < base) continue;
+    const Nodes& n = nodes_[b];
+    const Lattice& lattice = kinematics_of(bodies_[b]).lattice;
+    for (int j = 0; j < lattice.rows(); ++j) {
+      const RowWeights& w = parts_[b].rows[static_cast<std::size_t>(j)];
+      const double area = radial_measure(axisymmetric_, lattice.r_of(j)) * lattice.length_r(j);
+      for (int k = 0; k < 2; ++k)
+        base_.push_back({b, w.cell_row + k, n.index(n.columns - 1, w.cell_row + k), -area * w.value[k]});
+    }
+  }
+}
+
+void TotalLagrangian::restart() {
+  Drive still;
+  damped_before_ = 0.0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    std::visit([&](auto& body) { scatter_at_rest(body.kinematics, nodes_[b], parts_[b].rows, parts_[b].inertial_factor); }, bodies_[b]);
+  bond(ties_, nodes_);
+  for (Nodes& n : nodes_)
+    for (std::size_t node = 0; node < n.mass.size(); ++node) {
+      n.velocity_x[node] = (n.inside.momentum_x[node] + n.outside.momentum_x[node]) * n.inverse_inertia[node];
+      n.velocity_r[node] = (n.inside.momentum_r[node] + n.outside.momentum_r[node]) * n.inverse_inertia[node];
+      n.change_x[node] = n.change_r[node] = 0.0;
+    }
+}
+
+double TotalLagrangian::stable_time_step() const {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    std::visit(
+        [&](const auto& body) {
+          const double time = shortest_sound_time(body, nodes_[b], parts_[b].rows, parts_[b].inverse_length);
+          const double scaled = time * std::sqrt(parts_[b].inertial_factor);
+          if (!(scaled >= shortest)) shortest = scaled;  // NaN stays one
+        },
+        bodies_[b]);
+  return scene_.numerics.time_step_factor * shortest;
+}
+
+/// The inner faces as radial nodal forces at their present radius.
+template <class F>
+void TotalLagrangian::for_each_bore_share(F&& f) const {
+  for (const Bore& bore : bores_) {
+    const auto b = static_cast<std::size_t>(bore.body);
+    const Nodes& n = nodes_[b];
+    const double r = lines_.r[static_cast<std::size_t>(n.first_r)];
+    for (int i = 0; i + 1 < n.columns; ++i) {
+      const auto line = static_cast<std::size_t>(n.first_x + i);
+      const std::size_t node = n.index(i, 0);
+      const double face = r + 0.5 * (n.displacement_r[node] + n.displacement_r[node + 1]);
+      const double force = 0.5 * bore.pressure * radial_measure(axisymmetric_, face) * (lines_.x[line + 1] - lines_.x[line]);
+      f(b, node, force);
+      f(b, node + 1, force);
+    }
+  }
+}
+
+void TotalLagrangian::load_nodes(const Drive& drive) {
+  for (const LoadShare& share : base_)
+    nodes_[share.body].written(share.row).force_x[share.index] += drive.pressure * share.force;
+  for_each_bore_share([&](std::size_t body, std::size_t node, double force) {
+    nodes_[body].written(0).force_r[node] += force;
+  });
+  bond(ties_, nodes_);
+}
+
+double TotalLagrangian::base_flow() const {
+  double flow = 0.0;
+  for (const LoadShare& share : base_) flow += share.force * nodes_[share.body].velocity_x[share.index];
+  return flow;
+}
+
+double TotalLagrangian::bore_work(double dt) const {
+  double work = 0.0;
+  for_each_bore_share([&](std::size_t body, std::size_t node, double force) {
+    work += force * nodes_[body].velocity_r[node] * dt;
+  });
+  return work;
+}
+
+/// Moves a row of nodes. The losses keep the leapfrog balance of centred kinetic energy with mean forces exact:
+/// with the change D of velocity in a step, the velocity v that the step moved by, and the momentum p that came
+/// back from the particles, the way there and back took (D_old + D_new) (m v_old - p)/2 away.
+void TotalLagrangian::move_row(Nodes& n, int row, const Drive& drive, NodeTotals& totals) const {
+  const double dt = drive.dt, damped = 1.0 / drive.keep - 1.0;
+  totals = {};
+  const std::size_t begin = n.index(0, row);
+  for (std::size_t i = begin; i < begin + n.stride; i += math::pack_width) {
+    const Pack inverse = load(n.inverse_inertia, i), share = load(n.mass_share, i);
+    const Pack inertia = load(n.inertia, i), mass = load(n.mass, i);
+    const Pack before_x = load(n.velocity_x, i), before_r = load(n.velocity_r, i);
+    const Pack gained_x = load(n.change_x, i), gained_r = load(n.change_r, i);
+    const Pack old_x = (load(n.inside.momentum_x, i) + load(n.outside.momentum_x, i)) * inverse;
+    const Pack old_r = (load(n.inside.momentum_r, i) + load(n.outside.momentum_r, i)) * inverse;
+    const Pack push_x = (load(n.inside.force_x, i) + load(n.outside.force_x, i)) * inverse + drive.acceleration * share;
+    const Pack push_r = (load(n.inside.force_r, i) + load(n.outside.force_r, i)) * inverse;
+    const Pack new_x = (old_x + dt * push_x) * drive.keep;
+    const Pack new_r = load(n.moves_r, i) * (old_r + dt * push_r) * drive.keep;
+    const Pack change_x = new_x - old_x, change_r = new_r - old_r;
+    store(n.velocity_x, i, new_x);
+    store(n.velocity_r, i, new_r);
+    store(n.change_x, i, change_x);
+    store(n.change_r, i, change_r);
+    store(n.displacement_x, i, load(n.displacement_x, i) + dt * new_x);
+    store(n.displacement_r, i, load(n.displacement_r, i) + dt * new_r);
+    const Pack half = 0.5 * inertia;
+    totals.lost_before +=
+        half * ((gained_x + change_x) * (before_x - old_x) + (gained_r + change_r) * (before_r - old_r));
+    totals.lost_before += half * ((damped_before_ * before_x + damped * new_x) * before_x +
+                              (damped_before_ * before_r + damped * new_r) * before_r);
+    totals.old_momentum += mass * old_x;
+    totals.momentum += mass * new_x;
+  }
+}
+
+void TotalLagrangian::advance_rows(const Rows& rows, const Drive& drive) {
+  const Part& part = parts_[rows.body];
+  std::visit(
+      [&](auto& body) {
+        for (int j = rows.begin; j < rows.end; ++j) {
+          ParticleTotals& totals = particle_totals_[rows.body][static_cast<std::size_t>(j)];
+          totals = {};
+          const RowStep step{j, part.rows[static_cast<std::size_t>(j)], part.inverse_length, part.hourglass,
+                             part.inertial_factor, drive.dt, drive.pic_fraction, j == rows.begin};
+          advance_row(body, nodes_[rows.body], step, totals);
+        }
+      },
+      bodies_[rows.body]);
+}
+
+StepTotals TotalLagrangian::step(const Drive& drive) {
+  load_nodes(drive);
+  for (AnyBody& any : bodies_)
+    std::visit([&](auto& body) { body.integrator.set_step(drive.dt); }, any);
+  team_->run([&](int member) {
+    const auto thread = static_cast<std::size_t>(member);
+    for (const Rows& rows : node_rows_[thread])
+      move_row(nodes_[rows.body], rows.begin, drive, node_totals_[rows.body][static_cast<std::size_t>(rows.begin)]);
+    team_->wait_for_all();
+    for (const Rows& rows : particle_rows_[thread]) advance_rows(rows, drive);
+  });
+  damped_before_ = 1.0 / drive.keep - 1.0;
+  StepTotals totals;
+  for (const auto& body : particle_totals_)
+    for (const ParticleTotals& row : body) totals.particles.add(row);
+  for (const auto& body : node_totals_)
+    for (const NodeTotals& row : body) totals.nodes.add(row);
+  totals.base_flow = base_flow();
+  totals.bore_work = bore_work(drive.dt);
+  return totals;
+}
+
+}  // namespace launchsafe::mpm

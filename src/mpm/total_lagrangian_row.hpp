@@ -1,0 +1,278 @@
+// One row of particles in the total-Lagrangian form: eight neighbours at a time, which lie in eight
+// neighbouring cells, read and write consecutive nodes.
+#pragma once
+
+#include "launchsafe/mpm/material_step.hpp"
+#include "launchsafe/mpm/total_lagrangian.hpp"
+
+#include <limits>
+
+namespace launchsafe::mpm {
+
+/// A cell whose area or hoop stretch falls below this share, or whose volume grows beyond its inverse, has
+/// left what strain measures and laws mean; strains of a launch are a few per cent.
+inline constexpr double smallest_stretch = 0.05;
+
+/// What a step and a row fix.
+struct RowStep {
+  int row;
+  const RowWeights& weights;
+  const math::AlignedArray& inverse_length;  ///< of the cells along x, 1/m
+  const math::AlignedArray& hourglass;       ///< N/m by slot; empty without
+  double inertial_factor;
+  double dt;            ///< s
+  double pic_fraction;
+  bool first;  ///< in its row of cells: it writes the nodes' sums anew, later ones add to them
+};
+
+/// Values of a nodal field at the corners of eight cells: 0 towards the axis, 1 away; left and right.
+struct Corners {
+  Pack left[2], right[2];
+
+  /// d/dx, from the difference along x in both rows.
+  Pack slope_x(const RowWeights& w, Pack inverse_length) const {
+    return (w.value[0] * (right[0] - left[0]) + w.value[1] * (right[1] - left[1])) * inverse_length;
+  }
+  /// d/dr at the share `s` of the cell's length from the left.
+  Pack slope_r(const RowWeights& w, double s) const {
+    return ((1.0 - s) * (left[1] - left[0]) + s * (right[1] - right[0])) * w.inverse_length;
+  }
+  Pack mean(const double weight[2], double s) const {
+    return weight[0] * ((1.0 - s) * left[0] + s * right[0]) + weight[1] * ((1.0 - s) * left[1] + s * right[1]);
+  }
+  /// Amplitude of the hourglass mode, a quarter of the corners' alternating sum.
+  Pack hourglass() const { return 0.25 * ((left[0] - right[0]) - (left[1] - right[1])); }
+};
+
+inline Corners corners(const math::AlignedArray& field, std::size_t inner, std::size_t outer) {
+  return {{load(field, inner), load(field, outer)}, {load(field, inner + 1), load(field, outer + 1)}};
+}
+
+/// Deformation gradient dx_i/dX_J, or a change of it: first index the present, second the rest; tt the hoop.
+struct Gradient {
+  Pack rr, xx, rx, xr, tt;
+};
+
+inline Gradient gradient_of(const Corners& x, const Corners& r, const RowWeights& w, Pack inverse_length,
+                            double s) {
+  return {r.slope_r(w, s), x.slope_x(w, inverse_length), r.slope_x(w, inverse_length), x.slope_r(w, s),
+          r.mean(w.hoop, s)};
+}
+
+/// The alternating writes of a row: a node gets the right share of the cell before it and the left share of
+/// the cell after it.
+class NodeRow {
+ public:
+  NodeRow(double* sums, bool first) : sums_(sums), first_(first) {}
+  void add(std::size_t i, Pack left, Pack right) {
+    const Pack before = Pack(__builtin_shufflevector(carried_.lanes, right.lanes, 7, 8, 9, 10, 11, 12, 13, 14));
+    carried_ = right;
+    const Pack both = left + before;
+    (first_ ? both : Pack::load(sums_ + i) + both).store(sums_ + i);
+  }
+  /// The node after the last Pack: it ends the row where the cells fill their Packs.
+  void finish(std::size_t i) { sums_[i] = (first_ ? 0.0 : sums_[i]) + carried_[math::pack_width - 1]; }
+
+ private:
+  double* sums_;
+  Pack carried_{0.0};
+  bool first_;
+};
+
+/// The four sums of one node row.
+struct NodeRows {
+  NodeRow momentum_x, momentum_r, force_x, force_r;
+  NodeRows(NodeSums& sums, std::size_t begin, bool first)
+      : momentum_x(sums.momentum_x.data() + begin, first),
+        momentum_r(sums.momentum_r.data() + begin, first),
+        force_x(sums.force_x.data() + begin, first),
+        force_r(sums.force_r.data() + begin, first) {}
+  void finish(std::size_t i) {
+    momentum_x.finish(i);
+    momentum_r.finish(i);
+    force_x.finish(i);
+    force_r.finish(i);
+  }
+};
+
+/// Deformation of the step from F at its end and the change dF in it. With F at the middle, the strain and
+/// spin increments are those of dF F^-1; the volumetric one is taken from the volumes, 2 (J1 - J0)/(J1 + J0).
+inline Deformation deformation_of(const Gradient& f, const Gradient& d, Pack rest_volume, Pack rest_density,
+                                  Pack density_before, Pack area) {
+  const Pack rr = f.rr - 0.5 * d.rr, xx = f.xx - 0.5 * d.xx, rx = f.rx - 0.5 * d.rx, xr = f.xr - 0.5 * d.xr,
+             tt = f.tt - 0.5 * d.tt;
+  const Pack determinant = rr * xx - rx * xr;
+  const Pack inverse = 1.0 / (determinant * tt);
+  const Pack plane = inverse * tt, hoop = inverse * determinant;
+  // dF F^-1 with F^-1 = [[xx, -rx], [-xr, rr]]/determinant.
+  const Pack l_rr = (d.rr * xx - d.rx * xr) * plane, l_rx = (d.rx * rr - d.rr * rx) * plane;
+  const Pack l_xr = (d.xr * xx - d.xx * xr) * plane, l_xx = (d.xx * rr - d.xr * rx) * plane;
+  const Pack l_tt = d.tt * hoop;
+  const Pack third = (l_rr + l_xx + l_tt) * (1.0 / 3.0);
+  const Pack after = area * f.tt;  // J
+  const Pack before = rest_density / density_before;
+  Deformation result;
+  result.increment.deviator = {l_rr - third, l_xx - third, 0.5 * (l_rx + l_xr)};
+  result.increment.rotation = math::rotation_of(0.5 * (l_rx - l_xr));
+  result.increment.density_before = density_before;
+  result.increment.density_after = rest_density / after;
+  result.volumetric = 2.0 * (after - before) / (after + before);
+  result.volume_before = rest_volume * before;
+  result.volume_after = rest_volume * after;
+  return result;
+}
+
+/// Gives the force of the stress in eight cells to their corners: f = -V0 P grad0 N.
+struct CornerForces {
+  Pack along_r, along_x, hoop, hourglass;  ///< N: V0 P_iR/dr, V0 P_iX/dx, V0 P_tt (m N), k q
+
+  void give(const RowWeights& w, double s, std::size_t i, NodeRow& inner, NodeRow& outer) const {
+    const Pack left = (1.0 - s) * along_r, right = s * along_r;
+    const Pack hoop0 = w.hoop[0] * hoop, hoop1 = w.hoop[1] * hoop;
+    inner.add(i, left + w.value[0] * along_x - (1.0 - s) * hoop0 - hourglass,
+              right - w.value[0] * along_x - s * hoop0 + hourglass);
+    outer.add(i, w.value[1] * along_x - left - (1.0 - s) * hoop1 + hourglass,
+              -(w.value[1] * along_x) - right - s * hoop1 - hourglass);
+  }
+};
+
+/// Advances one row of particles by a step and gives it to the nodes.
+template <class Law>
+[[gnu::flatten]] void advance_row(Body<Law>& body, Nodes& nodes, const RowStep& step, ParticleTotals& totals) {
+  Kinematics& p = body.kinematics;
+  const RowWeights& w = step.weights;
+  const Lattice& lattice = p.lattice;
+  const std::size_t inner = nodes.index(0, w.cell_row), outer = nodes.index(0, w.cell_row + 1);
+  const Pack density(body.law.initial_density());
+  const double per_density = 1.0 / body.law.initial_density();
+  const auto columns = static_cast<std::size_t>(lattice.padded_columns / lattice.stride);
+  std::size_t slot = static_cast<std::size_t>(step.row) * static_cast<std::size_t>(lattice.padded_columns);
+  for (int subrow = 0; subrow < lattice.stride; ++subrow) {
+    const double s = (subrow + 0.5) / lattice.stride;
+    const bool first = step.first && subrow == 0;
+    NodeRows to_inner(nodes.outside, inner, first), to_outer(nodes.inside, outer, first);
+    for (std::size_t i = 0; i < columns; i += math::pack_width, slot += math::pack_width) {
+      const Pack inverse_length = load(step.inverse_length, i);
+      const Mask real = inverse_length > Pack(0.0);
+      const Pack mass = load(p.mass, slot);
+      const Corners vx = corners(nodes.velocity_x, inner + i, outer + i);
+      const Corners vr = corners(nodes.velocity_r, inner + i, outer + i);
+      const Corners ux = corners(nodes.displacement_x, inner + i, outer + i);
+      const Corners ur = corners(nodes.displacement_r, inner + i, outer + i);
+      const auto in_cell = [real](Pack value) { return select(real, value, Pack(0.0)); };
+      const auto masked = [&](const Gradient& g) {
+        return Gradient{in_cell(g.rr), in_cell(g.xx), in_cell(g.rx), in_cell(g.xr), in_cell(g.tt)};
+      };
+      Gradient d = masked(gradient_of(vx, vr, w, inverse_length, s));
+      for (Pack* part : {&d.rr, &d.xx, &d.rx, &d.xr, &d.tt}) *part *= step.dt;
+      Gradient f = masked(gradient_of(ux, ur, w, inverse_length, s));
+      f.rr += 1.0;
+      f.xx += 1.0;
+      f.tt += 1.0;
+
+      const Pack grid_x = in_cell(vx.mean(w.value, s)), grid_r = in_cell(vr.mean(w.value, s));
+      const Pack inertia = step.inertial_factor * mass;
+      update_velocity(p, slot, inertia,
+                      in_cell(corners(nodes.change_x, inner + i, outer + i).mean(w.value, s)),
+                      in_cell(corners(nodes.change_r, inner + i, outer + i).mean(w.value, s)), grid_x, grid_r,
+                      step.pic_fraction, totals);
+      store(p.x, slot, load(p.x, slot) + step.dt * grid_x);
+      store(p.r, slot, load(p.r, slot) + step.dt * grid_r);
+
+      const Pack volume = mass * per_density;
+      const Pack area = f.rr * f.xx - f.rx * f.xr;
+      const Mask sound = (area > Pack(smallest_stretch)) & (f.tt > Pack(smallest_stretch)) &
+                         (area * f.tt < Pack(1.0 / smallest_stretch));
+      totals.distorted += select(sound, Pack(0.0), Pack(1.0));
+      const Deformation deformation = deformation_of(f, d, volume, density, load(p.density, slot), area);
+      const Stressed stress = update_material(body, slot, deformation, totals);
+
+      // P = J sigma F^-T, in the plane J F^-T = tt [[xx, -xr], [-rx, rr]].
+      const Pack rr = stress.deviator.rr - stress.pressure, xx = stress.deviator.xx - stress.pressure,
+                 rx = stress.deviator.rx, tt = stress.deviator.tt() - stress.pressure;
+      const Pack scaled = volume * f.tt;
+      CornerForces on_x{scaled * (rx * f.xx - xx * f.rx) * w.inverse_length,
+                        scaled * (xx * f.rr - rx * f.xr) * inverse_length, Pack(0.0), Pack(0.0)};
+      CornerForces on_r{scaled * (rr * f.xx - rx * f.rx) * w.inverse_length,
+                        scaled * (rx * f.rr - rr * f.xr) * inverse_length, volume * tt * area, Pack(0.0)};
+      if (!step.hourglass.empty()) {
+        const Pack stiffness = load(step.hourglass, slot);
+        const Pack qx = ux.hourglass(), qr = ur.hourglass();
+        on_x.hourglass = stiffness * qx;
+        on_r.hourglass = stiffness * qr;
+        const Pack half_step(0.5 * step.dt);
+        const Pack dqx = vx.hourglass(), dqr = vr.hourglass();
+        totals.hourglass += Pack(4.0 * step.dt) * stiffness *
+                            ((qx - half_step * dqx) * dqx + (qr - half_step * dqr) * dqr);
+      }
+      on_x.give(w, s, i, to_inner.force_x, to_outer.force_x);
+      on_r.give(w, s, i, to_inner.force_r, to_outer.force_r);
+      const Pack momentum_x = inertia * load(p.velocity_x, slot), momentum_r = inertia * load(p.velocity_r, slot);
+      to_inner.momentum_x.add(i, (w.value[0] * (1.0 - s)) * momentum_x, (w.value[0] * s) * momentum_x);
+      to_inner.momentum_r.add(i, (w.value[0] * (1.0 - s)) * momentum_r, (w.value[0] * s) * momentum_r);
+      to_outer.momentum_x.add(i, (w.value[1] * (1.0 - s)) * momentum_x, (w.value[1] * s) * momentum_x);
+      to_outer.momentum_r.add(i, (w.value[1] * (1.0 - s)) * momentum_r, (w.value[1] * s) * momentum_r);
+    }
+    if (static_cast<std::size_t>(nodes.columns) == columns + 1) {
+      to_inner.finish(columns);
+      to_outer.finish(columns);
+    }
+  }
+}
+
+/// Gives the particles' momentum to empty nodes.
+inline void scatter_at_rest(const Kinematics& p, Nodes& nodes, const std::vector<RowWeights>& rows,
+                            double inertial_factor) {
+  for (NodeSums* sums : {&nodes.inside, &nodes.outside}) {
+    std::fill(sums->momentum_x.begin(), sums->momentum_x.end(), 0.0);
+    std::fill(sums->momentum_r.begin(), sums->momentum_r.end(), 0.0);
+  }
+  const Lattice& lattice = p.lattice;
+  for (int j = 0; j < lattice.rows(); ++j)
+    for (int i = 0; i < lattice.columns(); ++i) {
+      const RowWeights& w = rows[static_cast<std::size_t>(j)];
+      const std::size_t slot = lattice.slot(i, j);
+      const double right = ((i % lattice.stride) + 0.5) / lattice.stride;
+      for (int k = 0; k < 2; ++k) {
+        NodeSums& sums = k == 0 ? nodes.outside : nodes.inside;
+        const std::size_t node = nodes.index(i / lattice.stride, w.cell_row + k);
+        const double mass = inertial_factor * p.mass[slot] * w.value[k];
+        sums.momentum_x[node] += mass * (1.0 - right) * p.velocity_x[slot];
+        sums.momentum_r[node] += mass * (1.0 - right) * p.velocity_r[slot];
+        sums.momentum_x[node + 1] += mass * right * p.velocity_x[slot];
+        sums.momentum_r[node + 1] += mass * right * p.velocity_r[slot];
+      }
+    }
+}
+
+/// Shortest time (s) in which sound crosses the height of a cell of the body as it is deformed.
+template <class Law>
+double shortest_sound_time(const Body<Law>& body, const Nodes& nodes, const std::vector<RowWeights>& rows,
+                           const math::AlignedArray& inverse_lengths) {
+  const Lattice& lattice = body.kinematics.lattice;
+  const auto columns = static_cast<std::size_t>(lattice.padded_columns / lattice.stride);
+  Pack fastest(0.0);  // (sound speed over height)^2, 1/s2
+  std::size_t slot = 0;
+  for (const RowWeights& w : rows)
+    for (int subrow = 0; subrow < lattice.stride; ++subrow)
+      for (std::size_t i = 0; i < columns; i += math::pack_width, slot += math::pack_width) {
+        const double s = (subrow + 0.5) / lattice.stride;
+        const std::size_t inner = nodes.index(static_cast<int>(i), w.cell_row),
+                          outer = nodes.index(static_cast<int>(i), w.cell_row + 1);
+        const Pack inverse_length = load(inverse_lengths, i);
+        const Mask real = inverse_length > Pack(0.0);
+        const Gradient g = gradient_of(corners(nodes.displacement_x, inner, outer),
+                                       corners(nodes.displacement_r, inner, outer), w, inverse_length, s);
+        const Pack rr = 1.0 + g.rr, xx = 1.0 + g.xx;
+        const Pack area = rr * xx - g.rx * g.xr;
+        // Height along x: area over the edge along r, and the other way round.
+        const Pack along_r = (rr * rr + g.xr * g.xr) * (inverse_length * inverse_length);
+        const Pack along_x = (xx * xx + g.rx * g.rx) * Pack(w.inverse_length * w.inverse_length);
+        const Pack rate = sound_speed_squared(body, slot) * max(along_r, along_x) / (area * area);
+        const Pack counted = select(real, rate, Pack(0.0));
+        fastest = select(counted <= fastest, fastest, counted);  // NaN wins
+      }
+  return 1.0 / std::sqrt(math::largest(fastest));
+}
+
+}  // namespace launchsafe::mpm

@@ -1,0 +1,265 @@
+#include "launchsafe/mpm/updated_lagrangian.hpp"
+
+#include "launchsafe/mpm/material_step.hpp"
+#include "launchsafe/mpm/transfer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::mpm {
+namespace {
+
+/// Nodes lighter than this share of a charge cell hold no more than round-off; they do not move.
+constexpr double empty_node_share = 1e-12;
+
+double radial_measure(bool axisymmetric, double r) { return axisymmetric ? r : 1.0; }
+
+/// Half-lengths of the particles of an evenly divided body, m.
+double half_x(const Kinematics& p) { return 0.5 * p.lattice.length_x(0); }
+double half_r(const Kinematics& p) { return 0.5 * p.lattice.length_r(0); }
+
+/// What a step fixes for all bodies.
+struct Transfer {
+  double dt = 0;            ///< s
+  double read_origin = 0;   ///< window of the grid that is read, m
+  double write_origin = 0;  ///< window of the grid that is written, m
+  double pic_fraction = 0;
+  bool axisymmetric = true;
+};
+
+/// Density after a volumetric strain increment: rho exp(-tr) to second order.
+Pack compressed(Pack density, Pack volumetric) {
+  return density * (1.0 - 0.5 * volumetric) / (1.0 + 0.5 * volumetric);
+}
+
+Deformation deformation_of(const Gathered& g, double dt, Pack mass, Pack density) {
+  const Pack volumetric = (g.rate_rr + g.rate_xx + g.rate_tt) * dt;
+  const Pack third = volumetric * (1.0 / 3.0);
+  const Pack after = compressed(density, volumetric);
+  return {{{g.rate_rr * dt - third, g.rate_xx * dt - third, (g.vr_by_x + g.vx_by_r) * (0.5 * dt)},
+           math::rotation_of((g.vr_by_x - g.vx_by_r) * (0.5 * dt)),
+           density,
+           after},
+          volumetric,
+          mass / density,
+          mass / after};
+}
+
+/// Everything but the rare sub-steps is inlined: a call would pass its Packs through memory.
+template <class Law>
+[[gnu::flatten]] void advance_body(Body<Law>& body, Grid& grid, const Transfer& transfer,
+                                   ParticleTotals& totals) {
+  Kinematics& p = body.kinematics;
+  const StencilContext reading{grid, transfer.read_origin, half_x(p), half_r(p), transfer.axisymmetric};
+  const StencilContext writing{grid, transfer.write_origin, half_x(p), half_r(p), transfer.axisymmetric};
+  for (std::size_t slot = 0; slot < p.x.size(); slot += math::pack_width) {
+    const Pack mass = load(p.mass, slot);
+    const Mask real = mass > Pack(0.0);
+    const Pack x0 = load(p.x, slot), r0 = load(p.r, slot);
+    const Stencil old_stencil = stencil_of(reading, x0, r0);
+    const Gathered g = gather(grid, old_stencil, real & old_stencil.inside);
+    update_velocity(p, slot, mass, g.change_x, g.change_r, g.velocity_x, g.velocity_r, transfer.pic_fraction,
+                    totals);
+    const Pack x1 = x0 + transfer.dt * g.velocity_x, r1 = r0 + transfer.dt * g.velocity_r;
+    store(p.x, slot, x1);
+    store(p.r, slot, r1);
+    const Deformation deformation = deformation_of(g, transfer.dt, mass, load(p.density, slot));
+    const Stressed s = update_material(body, slot, deformation, totals);
+
+    const Stencil stencil = stencil_of(writing, x1, r1);
+    totals.off_grid += select(real & !stencil.inside, Pack(1.0), Pack(0.0));
+    const Scattered given{mass,
+                          load(p.velocity_x, slot),
+                          load(p.velocity_r, slot),
+                          deformation.volume_after,
+                          s.deviator.rr - s.pressure,
+                          s.deviator.xx - s.pressure,
+                          s.deviator.tt() - s.pressure,
+                          s.deviator.rx};
+    scatter(grid, stencil, given, real & stencil.inside);
+  }
+}
+
+/// Gives a body at rest and free of stress to an empty grid: mass and momentum only.
+void scatter_initial(const Kinematics& p, Grid& grid, bool axisymmetric) {
+  const StencilContext writing{grid, grid.origin_x, half_x(p), half_r(p), axisymmetric};
+  for (std::size_t slot = 0; slot < p.x.size(); slot += math::pack_width) {
+    const Pack mass = load(p.mass, slot);
+    const Stencil stencil = stencil_of(writing, load(p.x, slot), load(p.r, slot));
+    const Pack none(0.0);
+    const Scattered given{mass, load(p.velocity_x, slot), load(p.velocity_r, slot), none, none, none, none,
+                          none};
+    scatter(grid, stencil, given, (mass > none) & stencil.inside);
+  }
+}
+
+}  // namespace
+
+UpdatedLagrangian::UpdatedLagrangian(const scene::Scene& scene, std::vector<AnyBody>& bodies)
+    : scene_(scene),
+      bodies_(bodies),
+      axisymmetric_(scene.symmetry == scene::Symmetry::axisymmetric),
+      grid_(make_grid(scene)),
+      base_origin_(grid_.origin_x) {
+  const double base = scene::extent_of(scene).x_end;
+  const bool has_charge = scene::has_material(scene, scene::BodyMaterial::charge);
+  const double bottom = has_charge ? scene::extent_of(scene, scene::BodyMaterial::charge).x_end : base;
+  for (const AnyBody& any : bodies) {
+    const Kinematics& p = kinematics_of(any);
+    const Lattice& lattice = p.lattice;
+    for (const double mass : p.mass) total_mass_ += mass;
+    const scene::Body& body = scene.bodies[static_cast<std::size_t>(p.body)];
+    const int last = lattice.columns() - 1;
+    for (int j = 0; body.x_end >= base && j < lattice.rows(); ++j)
+      faces_.push_back({&p, lattice.slot(last, j), half_x(p), half_r(p),
+                        radial_measure(axisymmetric_, lattice.r_of(j)) * lattice.length_r(j)});
+    if (body.x_end != bottom || (body.material == scene::BodyMaterial::charge) != has_charge) continue;
+    for (int j = 0; j < lattice.rows(); ++j)
+      anchors_.push_back({&p, lattice.slot(last, j), lattice.x_of(last)});
+  }
+  restart();
+}
+
+/// The co-moving grid rides with the charge bottom, so that particles there stay in their cells: crossing
+/// cells beside the steel makes the stresses of neighbouring particles alternate, and the skin temperatures
+/// with them. The lab's grid stands still; its window follows by whole cells.
+double UpdatedLagrangian::window_origin() const {
+  if (scene_.frame == scene::Frame::lab) return base_origin_ + std::round(travel_ / grid_.dx) * grid_.dx;
+  double displacement = 0.0;
+  for (const Anchor& anchor : anchors_) displacement += anchor.body->x[anchor.slot] - anchor.initial_x;
+  return base_origin_ + displacement / static_cast<double>(anchors_.size());
+}
+
+void UpdatedLagrangian::restart() {
+  for (auto* field : {&grid_.mass, &grid_.momentum_x, &grid_.momentum_r, &grid_.force_x, &grid_.force_r})
+    std::fill(field->begin(), field->end(), 0.0);
+  for (const AnyBody& body : bodies_) scatter_initial(kinematics_of(body), grid_, axisymmetric_);
+}
+
+double UpdatedLagrangian::stable_time_step() const {
+  Pack sound(0.0), particle(0.0);
+  for (const AnyBody& any : bodies_) {
+    std::visit(
+        [&]<class Law>(const Body<Law>& body) {
+          const Kinematics& p = body.kinematics;
+          for (std::size_t slot = 0; slot < p.x.size(); slot += math::pack_width) {
+            sound = max(sound_speed_squared(body, slot), sound);
+            particle = max(math::abs(load(p.velocity_x, slot)) + math::abs(load(p.velocity_r, slot)), particle);
+          }
+        },
+        any);
+  }
+  const double speed =
+      std::sqrt(math::largest(sound) / scene_.numerics.inertial_scaling) + math::largest(particle);
+  return scene_.numerics.time_step_factor * std::min(grid_.dx, grid_.dr) / speed;
+}
+
+/// The base face as nodal forces per unit pressure: cut by the linear hat functions in x at its present place
+/// and weighted in r like its particles, so a uniform stress balances it exactly.
+void UpdatedLagrangian::locate_load() {
+  load_shares_.clear();
+  for (const LoadedFace& face : faces_) {
+    const Kinematics& p = *face.body;
+    const StencilContext context{grid_, grid_.origin_x, face.half_x, face.half_r, axisymmetric_};
+    const Stencil stencil = stencil_of(context, Pack(p.x[face.slot]), Pack(p.r[face.slot]));
+    if (stencil.inside.lanes[0] == 0) continue;
+    const double coordinate = (p.x[face.slot] + face.half_x - grid_.origin_x) / grid_.dx;
+    const double cell = std::floor(coordinate), share = coordinate - cell;
+    const auto nodes_x = static_cast<std::size_t>(grid_.nodes_x);
+    const auto row = static_cast<std::size_t>(stencil.first[0]) / nodes_x;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::size_t node = (row + j) * nodes_x + static_cast<std::size_t>(cell);
+      const double force = -face.area * stencil.radial.value[j][0];
+      load_shares_.push_back({node, force * (1.0 - share)});
+      load_shares_.push_back({node + 1, force * share});
+    }
+  }
+}
+
+/// The inner faces as radial nodal forces, cut by the linear hat functions in r at their present place and
+/// weighted in x like their particles.
+void UpdatedLagrangian::locate_bores() {
+  bore_shares_.clear();
+  for (const Bore& bore : bores_) {
+    const Kinematics& p = kinematics_of(bodies_[static_cast<std::size_t>(bore.body)]);
+    const StencilContext context{grid_, grid_.origin_x, half_x(p), half_r(p), axisymmetric_};
+    for (int i = 0; i < p.lattice.columns(); ++i) {
+      const std::size_t slot = p.lattice.slot(i, 0);
+      const Stencil stencil = stencil_of(context, Pack(p.x[slot]), Pack(p.r[slot]));
+      if (stencil.inside.lanes[0] == 0) continue;
+      const double face = p.r[slot] - half_r(p);
+      const double force = bore.pressure * radial_measure(axisymmetric_, face) * p.lattice.length_x(i);
+      const double coordinate = face / grid_.dr + Grid::radial_padding;
+      const double cell = std::floor(coordinate), share = coordinate - cell;
+      const auto nodes_x = static_cast<std::size_t>(grid_.nodes_x);
+      const std::size_t column = static_cast<std::size_t>(stencil.first[0]) % nodes_x;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t node = static_cast<std::size_t>(cell) * nodes_x + column + k;
+        bore_shares_.push_back({node, force * (1.0 - share) * stencil.axial.value[k][0]});
+        bore_shares_.push_back({node + nodes_x, force * share * stencil.axial.value[k][0]});
+      }
+    }
+  }
+}
+
+void UpdatedLagrangian::update_grid(const Drive& drive, NodeTotals& totals) {
+  const double scaling = scene_.numerics.inertial_scaling;
+  const double dt = drive.dt, keep = drive.keep;
+  const double lightest = empty_node_share * scene_.charge.eos.initial_density * grid_.dx * grid_.dr *
+                          radial_measure(axisymmetric_, grid_.dr);
+  // Nodes are padded to whole Packs; the rows' ends may share one, so the radial condition is given by node.
+  Pack old_transport(0.0), axial_transport(0.0), damping(0.0);
+  const Pack none(0.0);
+  for (std::size_t n = 0; n < grid_.mass.size(); n += math::pack_width) {
+    const Pack mass = Pack::load(&grid_.mass[n]), moves_r = Pack::load(&grid_.moves_r[n]);
+    const Mask used = mass > Pack(lightest);
+    const Pack inverse = select(used, 1.0 / mass, none);
+    const Pack old_x = Pack::load(&grid_.momentum_x[n]) * inverse,
+               old_r = Pack::load(&grid_.momentum_r[n]) * inverse;
+    const Pack push_x = Pack::load(&grid_.force_x[n]) * inverse + select(used, Pack(drive.acceleration), none);
+    const Pack push_r = Pack::load(&grid_.force_r[n]) * inverse;
+    const Pack free_x = old_x + push_x * (dt / scaling), free_r = moves_r * (old_r + push_r * (dt / scaling));
+    const Pack new_x = free_x * keep, new_r = free_r * keep;
+    damping += 0.5 * mass * (free_x * free_x - new_x * new_x + free_r * free_r - new_r * new_r);
+    old_transport += mass * old_x;
+    axial_transport += mass * new_x;
+    new_x.store(&grid_.velocity_x[n]);
+    new_r.store(&grid_.velocity_r[n]);
+    (new_x - old_x).store(&grid_.change_x[n]);
+    (new_r - old_r).store(&grid_.change_r[n]);
+    for (auto* sums : {&grid_.mass, &grid_.momentum_x, &grid_.momentum_r, &grid_.force_x, &grid_.force_r})
+      none.store(sums->data() + n);
+  }
+  totals.damping = scaling * damping;
+  totals.old_momentum = old_transport;
+  totals.momentum = axial_transport;
+  if (scene_.frame == scene::Frame::lab) travel_ += sum(axial_transport) / total_mass_ * dt;
+}
+
+StepTotals UpdatedLagrangian::step(const Drive& drive) {
+  StepTotals totals;
+  locate_load();
+  for (const LoadShare& share : load_shares_) grid_.force_x[share.node] += drive.pressure * share.force;
+  locate_bores();
+  for (const LoadShare& share : bore_shares_) grid_.force_r[share.node] += share.force;
+  update_grid(drive, totals.nodes);
+  for (const LoadShare& share : load_shares_) totals.base_flow += share.force * grid_.velocity_x[share.node];
+  for (const LoadShare& share : bore_shares_)
+    totals.bore_work += share.force * grid_.velocity_r[share.node] * drive.dt;
+
+  Transfer transfer{drive.dt, grid_.origin_x, 0.0, drive.pic_fraction, axisymmetric_};
+  grid_.origin_x = transfer.write_origin = window_origin();
+  for (AnyBody& any : bodies_) {
+    std::visit(
+        [&]<class Law>(Body<Law>& body) {
+          body.integrator.set_step(drive.dt);
+          advance_body(body, grid_, transfer, totals.particles);
+        },
+        any);
+  }
+  totals.particles.centred_kinetic *= scene_.numerics.inertial_scaling;
+  totals.particles.pic_loss *= scene_.numerics.inertial_scaling;
+  return totals;
+}
+
+}  // namespace launchsafe::mpm
