@@ -72,13 +72,14 @@ void Simulation::book(const StepTotals& totals, double dt) {
   const double acceleration = 0.5 * (frame_acceleration(time_) + frame_acceleration(time_ + dt));
   const ParticleTotals& p = totals.particles;
   const NodeTotals& n = totals.nodes;
-  // The motion of the mass centre takes its energy from the external work to the last digit and says nothing
-  // of the computation; in the lab frame it would drown what does.
+  // The motion of the mass centre takes its energy from the work on it to the last digit and says nothing of
+  // the computation; in the lab frame it would drown what does. Its velocity is that of the whole momentum.
   const double bulk_kinetic =
       0.5 * scene_.numerics.inertial_scaling * sum(n.old_momentum) * sum(n.momentum) / total_mass_;
   balance_.kinetic = sum(p.centred_kinetic) - bulk_kinetic;
-  balance_.external -= bulk_kinetic;
-  energy_.external += pressure * totals.base_flow * dt + totals.bore_work;
+  const bool lab = scene_.frame == scene::Frame::lab;
+  const double bulk_flow = lab ? -loaded_area_ * sum(n.momentum) / total_mass_ : 0.0;
+  energy_.external += pressure * (totals.base_flow - bulk_flow) * dt + totals.bore_work;
   energy_.body_force += acceleration * sum(n.momentum) * dt;
   energy_.internal += sum(p.internal) + sum(p.hourglass);
   energy_.hourglass += sum(p.hourglass);

@@ -20,7 +20,7 @@ double proved_time_step_factor(const scene::Scene& scene) {
   const scene::Mesh mesh = scene::fit_mesh(scene);
   double least = std::numeric_limits<double>::infinity();
   for (const scene::Body& body : scene.bodies) {
-    const scene::ParticleCount count = scene::particles_of(mesh, body, scene.numerics.particles_per_cell);
+    const scene::ParticleCount count = scene::particles_of(scene, body);
     const double half_x = 0.5 * (body.x_end - body.x_begin) / count.nx;
     const double half_r = 0.5 * (body.r_end - body.r_begin) / count.nr;
     const double fastest = std::sqrt(stiffness(mesh.dx, half_x) + stiffness(mesh.dr, half_r));

@@ -18,43 +18,44 @@ bool has_charge(const Scene& scene) {
 /// Edges closer than this share of the scene's size are one.
 constexpr double coincidence = 1e-9;
 
-/// The integral of ds/h from a refined line over the distance d.
+/// How many cells there are between two places, not rounded. Away from a refined line cells are
+/// cell_size g^n long, n = 0, 1, ..; n of them reach d = cell_size (g^n - 1)/(g - 1), up to where they are as
+/// long as the largest.
 class CellDensity {
  public:
-  CellDensity(const Numerics& numerics, std::vector<double> refined)
+  CellDensity(const Numerics& numerics, double growth, std::vector<double> refined)
       : smallest_(numerics.cell_size),
         largest_(std::max(numerics.largest_cell, numerics.cell_size)),
-        slope_(numerics.growth - 1.0),
+        growth_(largest_ > smallest_ ? growth : 1.0),
         refined_(std::move(refined)) {
     std::sort(refined_.begin(), refined_.end());
   }
 
-  /// Number of cells, not rounded, between two places.
+  bool even() const { return !(growth_ > 1.0) || refined_.empty(); }
+
   double cells(double from, double to) const {
+    if (even()) return (to - from) / smallest_;
     double total = 0.0, begin = from;
     // Between two refined lines the nearest changes halfway.
     for (std::size_t i = 0; i < refined_.size(); ++i) {
       const double end =
           i + 1 < refined_.size() ? std::clamp(0.5 * (refined_[i] + refined_[i + 1]), begin, to) : to;
-      total += primitive(end - refined_[i]) - primitive(begin - refined_[i]);
+      total += cells_beside(end - refined_[i]) - cells_beside(begin - refined_[i]);
       begin = end;
     }
-    return refined_.empty() ? (to - from) / smallest_ : total;
+    return total;
   }
 
  private:
-  /// Odd in the distance.
-  double primitive(double distance) const {
+  /// From a refined line to a place beside it; odd in the distance.
+  double cells_beside(double distance) const {
     const double d = std::abs(distance);
-    double cells = d / smallest_;
-    if (slope_ > 0.0) {
-      const double reach = (largest_ - smallest_) / slope_;
-      cells = std::log1p(slope_ * std::min(d, reach) / smallest_) / slope_ + std::max(d - reach, 0.0) / largest_;
-    }
-    return std::copysign(cells, distance);
+    const double reach = (largest_ - smallest_) / (growth_ - 1.0);
+    const double growing = std::log1p((growth_ - 1.0) * std::min(d, reach) / smallest_) / std::log(growth_);
+    return std::copysign(growing + std::max(d - reach, 0.0) / largest_, distance);
   }
 
-  double smallest_, largest_, slope_;
+  double smallest_, largest_, growth_;
   std::vector<double> refined_;
 };
 
@@ -77,7 +78,9 @@ std::vector<double> lines_through(std::vector<double> edges, double size, const 
   for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
     const double from = edges[e], to = edges[e + 1], all = density.cells(from, to);
     const int count = std::max(1, static_cast<int>(std::ceil(all - 1e-9)));
-    for (int i = 1; i < count; ++i) lines.push_back(place_of(density, from, to, all * i / count));
+    for (int i = 1; i < count; ++i)
+      lines.push_back(density.even() ? from + (to - from) * i / count
+                                     : place_of(density, from, to, all * i / count));
     lines.push_back(to);
   }
   return lines;
@@ -123,20 +126,49 @@ GridLines grid_lines(const Scene& scene) {
   }
   if (refined_x.empty() && has_charge(scene)) refined_x = {extent_of(scene, BodyMaterial::charge).x_end};
   const double size = size_of(scene);
-  return {lines_through(std::move(x), size, CellDensity(scene.numerics, std::move(refined_x))),
-          lines_through(std::move(r), size, CellDensity(scene.numerics, std::move(refined_r)))};
+  return {lines_through(std::move(x), size, CellDensity(scene.numerics, scene.numerics.growth_x, std::move(refined_x))),
+          lines_through(std::move(r), size, CellDensity(scene.numerics, scene.numerics.growth_r, std::move(refined_r)))};
 }
 
 GridLines particle_edges(const Scene& scene, const Body& body) {
   const int per_cell = scene.numerics.particles_per_cell;
   if (scene.numerics.formulation == Formulation::updated_lagrangian) {
-    const ParticleCount count = particles_of(fit_mesh(scene), body, per_cell);
+    const ParticleCount count = particles_of(scene, body);
     return {even(body.x_begin, body.x_end, count.nx), even(body.r_begin, body.r_end, count.nr)};
   }
   const GridLines lines = grid_lines(scene);
   const double size = size_of(scene);
   return {cut(lines.x, body.x_begin, body.x_end, per_cell, size),
           cut(lines.r, body.r_begin, body.r_end, per_cell, size)};
+}
+
+CellRange cells_of(const Scene& scene) {
+  const Extent all = extent_of(scene);
+  return cells_of(scene, Body{{}, {}, all.x_begin, all.x_end, all.r_begin, all.r_end});
+}
+
+CellRange cells_of(const Scene& scene, const Body& body) {
+  if (scene.numerics.formulation == Formulation::updated_lagrangian) {
+    const Mesh mesh = fit_mesh(scene);
+    return {parts_of(body.x_end - body.x_begin, mesh.dx), parts_of(body.r_end - body.r_begin, mesh.dr),
+            mesh.dx, mesh.dx, mesh.dr, mesh.dr};
+  }
+  const GridLines lines = grid_lines(scene);
+  const double size = size_of(scene);
+  CellRange range;
+  const auto measure = [&](const std::vector<double>& all, double from, double to, int& count,
+                           double& shortest, double& longest) {
+    const std::vector<double> own = cut(all, from, to, 1, size);
+    count = static_cast<int>(own.size()) - 1;
+    shortest = to - from;
+    for (std::size_t i = 0; i + 1 < own.size(); ++i) {
+      shortest = std::min(shortest, own[i + 1] - own[i]);
+      longest = std::max(longest, own[i + 1] - own[i]);
+    }
+  };
+  measure(lines.x, body.x_begin, body.x_end, range.nx, range.shortest_x, range.longest_x);
+  measure(lines.r, body.r_begin, body.r_end, range.nr, range.shortest_r, range.longest_r);
+  return range;
 }
 
 std::int64_t counted(double count) {
@@ -162,6 +194,7 @@ Mesh fit_mesh(const Scene& scene) {
 }
 
 std::string charge_edges_off_grid(const Scene& scene) {
+  if (scene.numerics.formulation == Formulation::total_lagrangian) return {};
   const Mesh mesh = fit_mesh(scene);
   std::string edges;
   for (const Body& body : scene.bodies) {
@@ -175,18 +208,20 @@ std::string charge_edges_off_grid(const Scene& scene) {
   return edges;
 }
 
-ParticleCount particles_of(const Mesh& mesh, const Body& body, int particles_per_cell) {
-  return {parts_of((body.x_end - body.x_begin) * particles_per_cell, mesh.dx),
-          parts_of((body.r_end - body.r_begin) * particles_per_cell, mesh.dr)};
+ParticleCount particles_of(const Scene& scene, const Body& body) {
+  const int per_cell = scene.numerics.particles_per_cell;
+  if (scene.numerics.formulation == Formulation::total_lagrangian) {
+    const CellRange cells = cells_of(scene, body);
+    return {cells.nx * per_cell, cells.nr * per_cell};
+  }
+  const Mesh mesh = fit_mesh(scene);
+  return {parts_of((body.x_end - body.x_begin) * per_cell, mesh.dx),
+          parts_of((body.r_end - body.r_begin) * per_cell, mesh.dr)};
 }
 
 std::int64_t particle_count(const Scene& scene) {
-  if (scene.bodies.empty()) return 0;
-  const Mesh mesh = fit_mesh(scene);
   std::int64_t total = 0;
-  for (const Body& body : scene.bodies) {
-    total += particles_of(mesh, body, scene.numerics.particles_per_cell).total();
-  }
+  for (const Body& body : scene.bodies) total += particles_of(scene, body).total();
   return total;
 }
 

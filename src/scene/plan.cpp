@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace launchsafe::scene {
 namespace {
@@ -30,11 +31,11 @@ Term switched(Switch user, bool needed, std::string reason, double value, double
   return {in, forced, std::move(reason), value, bound};
 }
 
-Term plan_conduction(const Scene& scene, const Mesh& mesh) {
+Term plan_conduction(const Scene& scene, const CellRange& cells) {
   // Verdicts rest on the charge's temperature; heat in the steel only softens it a little.
   const bool charge = has_material(scene, BodyMaterial::charge);
   const double length = diffusion_length(scene, charge ? BodyMaterial::charge : BodyMaterial::steel);
-  const double cell = std::min(mesh.dx, mesh.dr);
+  const double cell = cells.shortest();
   const double share = length / cell;
   const double bound = scene.physics.conduction_bound;
   return switched(
@@ -138,16 +139,29 @@ double crack_substeps(const Scene& scene, double time_step) {
   return std::ceil(x / (law::coupling_share_of_substep * law::longest_coupled_step(q)));
 }
 
-void count_work(const Scene& scene, const Mesh& mesh, Plan& plan) {
+/// At rest: CFL times the shortest time in which sound crosses a cell, with the inertial factors.
+double time_step_at_rest(const Scene& scene) {
+  const Numerics& numerics = scene.numerics;
+  if (numerics.formulation == Formulation::updated_lagrangian)
+    return numerics.time_step_factor * cells_of(scene).shortest() / longitudinal_speed(scene) *
+           std::sqrt(numerics.inertial_scaling);
+  double shortest = std::numeric_limits<double>::infinity();
   for (const Body& body : scene.bodies) {
-    const std::int64_t particles = particles_of(mesh, body, scene.numerics.particles_per_cell).total();
+    const double inertia =
+        numerics.inertial_scaling * (body.material == BodyMaterial::charge ? 1.0 : numerics.steel_inertia);
+    shortest = std::min(shortest, cells_of(scene, body).shortest() / longitudinal_speed(scene, body.material) *
+                                      std::sqrt(inertia));
+  }
+  return numerics.time_step_factor * shortest;
+}
+
+void count_work(const Scene& scene, const CellRange& cells, Plan& plan) {
+  for (const Body& body : scene.bodies) {
+    const std::int64_t particles = particles_of(scene, body).total();
     (body.material == BodyMaterial::steel ? plan.particles_steel : plan.particles_charge) += particles;
   }
-  const Extent all = extent_of(scene);
-  plan.cells = static_cast<std::int64_t>(parts_of(all.x_end - all.x_begin, mesh.dx)) *
-               parts_of(all.r_end - all.r_begin, mesh.dr);
-  plan.time_step = scene.numerics.time_step_factor * std::min(mesh.dx, mesh.dr) / longitudinal_speed(scene) *
-                   std::sqrt(scene.numerics.inertial_scaling);
+  plan.cells = static_cast<std::int64_t>(cells.nx) * cells.nr;
+  plan.time_step = time_step_at_rest(scene);
   const double steps = std::ceil(scene.load.duration / plan.time_step - 1e-9);
   plan.steps = counted(steps);
   // Measured: a sub-step costs as much as 1.4 whole updates of a particle.
@@ -208,9 +222,9 @@ double bulk_temperature_bound(const Scene& scene) {
 }
 
 Plan make_plan(const Scene& scene) {
-  const Mesh mesh = fit_mesh(scene);
+  const CellRange cells = cells_of(scene);
   Plan plan;
-  plan.conduction = plan_conduction(scene, mesh);
+  plan.conduction = plan_conduction(scene, cells);
   plan.bulk_reaction = plan_bulk_reaction(scene);
   plan.air = plan_air(scene);
   plan.cracks = plan_cracks(scene);
@@ -220,7 +234,7 @@ Plan make_plan(const Scene& scene) {
   plan.friction_heat = plan_friction_heat(scene);
   plan.inertial_scaling = plan_inertial_scaling(scene);
   plan.snapshots = plan_snapshots(scene);
-  count_work(scene, mesh, plan);
+  count_work(scene, cells, plan);
   return plan;
 }
 

@@ -19,10 +19,9 @@ std::string row(std::string_view name, const std::string& value) {
 }
 
 std::string bodies_text(const Scene& scene) {
-  const Mesh mesh = fit_mesh(scene);
   std::string text = "Bodies\n";
   for (const Body& body : scene.bodies) {
-    const ParticleCount count = particles_of(mesh, body, scene.numerics.particles_per_cell);
+    const ParticleCount count = particles_of(scene, body);
     text += row(body.name,
                 fmt::format("{}, x {:.6g} to {:.6g} cm, r {:.6g} to {:.6g} cm, {} x {} particles",
                             body.material == BodyMaterial::steel ? "steel" : "charge", 100 * body.x_begin,
@@ -81,11 +80,21 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
+std::string lengths_text(double shortest, double longest) {
+  if (longest - shortest <= 1e-6 * longest) return fmt::format("{:.4g} mm", 1e3 * shortest);
+  return fmt::format("{:.4g} to {:.4g} mm", 1e3 * shortest, 1e3 * longest);
+}
+
+std::string mesh_text(const Scene& scene, const Plan& plan) {
+  const CellRange cells = cells_of(scene);
+  return fmt::format("{} x {} cells, {} in x, {} in r, {} particles", cells.nx, cells.nr,
+                     lengths_text(cells.shortest_x, cells.longest_x),
+                     lengths_text(cells.shortest_r, cells.longest_r), plan.particles());
+}
+
 std::string cost_text(const Plan& plan, const Scene& scene, double update_rate) {
-  const Mesh mesh = fit_mesh(scene);
   std::string text = "Cost\n";
-  text += row("mesh", fmt::format("{} cells of {:.6g} x {:.6g} mm, {} particles", plan.cells, 1e3 * mesh.dx,
-                                  1e3 * mesh.dr, plan.particles()));
+  text += row("mesh", mesh_text(scene, plan));
   if (const std::string edges = charge_edges_off_grid(scene); !edges.empty())
     text +=
         row("charge off the grid", edges + "; calibrated constants do not carry over from a grid that fits");

@@ -153,10 +153,41 @@ Keys gap_keys() {
 
 Keys numerics_keys() {
   return {
+      word_key<Scene, Formulation>(
+          "numerics.formulation", Standing::assumed,
+          "Gradients on the lattice at rest, whose lines run through all edges of bodies, or uGIMP on an even "
+          "background grid (the paper's method).",
+          {{"total-lagrangian", Formulation::total_lagrangian},
+           {"updated-lagrangian", Formulation::updated_lagrangian}},
+          [](auto& s) -> auto& { return s.numerics.formulation; }),
       number_key<Scene>(
           "numerics.cell_size", Dimension::length, between(1e-5, 1), Standing::assumed,
-          "Largest cell length; the grid is fitted to the shell with cells no longer than this.",
+          "Largest cell length at the refined lines, and everywhere on an even grid; the grid is fitted to the "
+          "bodies with cells no longer than this.",
           [](auto& s) -> auto& { return s.numerics.cell_size; }),
+      number_key<Scene>(
+          "numerics.growth_x", Dimension::number, between(1, 2), Standing::assumed,
+          "Ratio of neighbouring cells along x away from the refined lines; 1 is an even grid.",
+          [](auto& s) -> auto& { return s.numerics.growth_x; }),
+      number_key<Scene>(
+          "numerics.growth_r", Dimension::number, between(1, 2), Standing::assumed,
+          "Ratio of neighbouring cells along r away from the refined lines; 1 is an even grid.",
+          [](auto& s) -> auto& { return s.numerics.growth_r; }),
+      number_key<Scene>(
+          "numerics.largest_cell", Dimension::length, between(1e-5, 1), Standing::assumed,
+          "Length up to which cells grow.", [](auto& s) -> auto& { return s.numerics.largest_cell; }),
+      may_be_empty(list_key<Scene>(
+          "numerics.refined_x", Dimension::length, between(-10, 10), Standing::assumed,
+          "Places along x where cells are smallest; empty for the charge's bottom.",
+          [](auto& s) -> auto& { return s.numerics.refined_x; })),
+      may_be_empty(list_key<Scene>(
+          "numerics.refined_r", Dimension::length, between(0, 10), Standing::assumed,
+          "Radii where cells are smallest; empty for the charge's edges.",
+          [](auto& s) -> auto& { return s.numerics.refined_r; })),
+      number_key<Scene>(
+          "numerics.hourglass_stiffness", Dimension::number, between(0, 10), Standing::assumed,
+          "Stiffness against hourglassing as a share of the shear stiffness, with one particle a cell.",
+          [](auto& s) -> auto& { return s.numerics.hourglass_stiffness; }),
       number_key<Scene>(
           "numerics.particles_per_cell", Dimension::count, between(1, 16), Standing::assumed,
           "Particles per cell in each direction.",
@@ -169,6 +200,10 @@ Keys numerics_keys() {
           "numerics.inertial_scaling", Dimension::number, between(1, 1e4), Standing::assumed,
           "Factor on the inertia of the motion relative to the accelerating frame; an accuracy knob.",
           [](auto& s) -> auto& { return s.numerics.inertial_scaling; }),
+      number_key<Scene>(
+          "numerics.steel_inertia", Dimension::number, between(1, 100), Standing::assumed,
+          "Factor on the inertia of what is no charge, beside inertial_scaling; an accuracy knob.",
+          [](auto& s) -> auto& { return s.numerics.steel_inertia; }),
       number_key<Scene>(
           "numerics.damping_time", Dimension::time, between(0, 1), Standing::assumed,
           "Decay time of the relative velocity; \"0 ms\" for no damping.",

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace launchsafe::scene {
 namespace {
@@ -124,6 +125,44 @@ Fault check_cell_size(const SceneFile& file) {
                   fmt::format("{}, with which the body \"{}\", {} thick, has no particle of the mesh",
                               centimetres(cell), thinnest->name, centimetres(0.5 * largest)),
                   fmt::format("at most {} for this body", centimetres(largest)));
+}
+
+/// What only one of the formulations has is refused with the other, so that nobody believes it at work.
+Fault check_formulation(const SceneFile& file) {
+  const Numerics& numerics = file.scene.numerics;
+  if (numerics.formulation == Formulation::total_lagrangian) return std::nullopt;
+  const Numerics usual;
+  const auto other = [&](const char* key, bool given) -> Fault {
+    if (!given) return std::nullopt;
+    return fault_at(file, key, "a value with numerics.formulation = \"updated-lagrangian\", which has an even grid "
+                    "without hourglass stiffness and one factor on all inertia",
+                    "the key only with \"total-lagrangian\"");
+  };
+  const auto differs = [](double a, double b) { return a < b || a > b; };
+  if (Fault f = other("numerics.growth_x", differs(numerics.growth_x, usual.growth_x))) return f;
+  if (Fault f = other("numerics.growth_r", differs(numerics.growth_r, usual.growth_r))) return f;
+  if (Fault f = other("numerics.refined_x", !numerics.refined_x.empty())) return f;
+  if (Fault f = other("numerics.refined_r", !numerics.refined_r.empty())) return f;
+  return other("numerics.steel_inertia", differs(numerics.steel_inertia, usual.steel_inertia));
+}
+
+/// Refined lines belong to the bodies.
+Fault check_refinement(const SceneFile& file) {
+  const Extent all = extent_of(file.scene);
+  const double tolerance = tolerance_of(file);
+  const auto outside = [&](const std::vector<double>& places, double begin, double end) {
+    return std::find_if(places.begin(), places.end(), [&](double place) {
+      return place < begin - tolerance || place > end + tolerance;
+    });
+  };
+  const Numerics& numerics = file.scene.numerics;
+  if (const auto x = outside(numerics.refined_x, all.x_begin, all.x_end); x != numerics.refined_x.end())
+    return fault_at(file, "numerics.refined_x", centimetres(*x),
+                    "places in the shell, x " + range_text(all.x_begin, all.x_end));
+  if (const auto r = outside(numerics.refined_r, all.r_begin, all.r_end); r != numerics.refined_r.end())
+    return fault_at(file, "numerics.refined_r", centimetres(*r),
+                    "radii in the shell, r " + range_text(all.r_begin, all.r_end));
+  return std::nullopt;
 }
 
 /// Whether a peak was given that the measured curve makes useless. A study that gives a scene a curve
@@ -330,13 +369,15 @@ Fault check_observation_points(const SceneFile& file) {
   return std::nullopt;
 }
 
-Fault check_numerics(const SceneFile& file) {
-  const Scene& scene = file.scene;
-  if (scene.frame == Frame::lab && scene.numerics.inertial_scaling > 1.0) {
-    return fault_at(file, "numerics.inertial_scaling",
-                    fmt::format("{:.6g} in the lab frame", scene.numerics.inertial_scaling),
-                    "1 in the lab frame; more than 1 only with frame = \"co-moving\"");
-  }
+/// In the lab frame the whole shell would fly as a heavier one.
+Fault check_inertia(const SceneFile& file) {
+  if (file.scene.frame == Frame::co_moving) return std::nullopt;
+  const Numerics& numerics = file.scene.numerics;
+  for (const auto& [key, factor] : {std::pair{"numerics.inertial_scaling", numerics.inertial_scaling},
+                                    std::pair{"numerics.steel_inertia", numerics.steel_inertia}})
+    if (factor > 1.0)
+      return fault_at(file, key, fmt::format("{:.6g} in the lab frame", factor),
+                      "1 in the lab frame; more than 1 only with frame = \"co-moving\"");
   return std::nullopt;
 }
 
@@ -366,7 +407,8 @@ Fault check_output(const SceneFile& file) {
 std::optional<InputError> validate(const SceneFile& file) {
   for (const auto check : {check_names, check_charge_fits, check_overlaps, check_cell_size, check_load,
                            check_kinetics, check_jwl, check_steel, check_crack_friction, check_gaps,
-                           check_observation_points, check_numerics, check_output}) {
+                           check_observation_points, check_formulation, check_inertia, check_refinement,
+                           check_output}) {
     if (Fault fault = check(file)) return fault;
   }
   return std::nullopt;

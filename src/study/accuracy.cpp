@@ -49,8 +49,8 @@ AccuracyMeasurement measure(const Study& study, const StudyCase& input, const Ca
                             const run::MechanicsResult& mechanics) {
   AccuracyMeasurement measured;
   measured.failure = detail::failure_of(mechanics, {true, {}});
-  const scene::Mesh mesh = scene::fit_mesh(input.scene.scene);
-  measured.cell = std::sqrt(mesh.dx * mesh.dr);
+  const scene::CellRange mesh = scene::cells_of(input.scene.scene);
+  measured.cell = std::sqrt(mesh.shortest_x * mesh.shortest_r);
   measured.wall_time = mechanics.wall_time;
   measured.processor_time = mechanics.processor_time > 0 ? mechanics.processor_time : mechanics.wall_time;
   measured.particle_steps = static_cast<double>(mechanics.particles) * static_cast<double>(mechanics.steps);

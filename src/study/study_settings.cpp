@@ -74,12 +74,14 @@ Fault check_reference_grids(const StudyFile& study) {
                       "cells that divide the outer radius and the radius of the charge, rounded up a little");
     }
     if (i == 0) continue;
-    const scene::Mesh finer = scene::fit_mesh(study.cases[i - 1].scene.scene), mesh = scene::fit_mesh(scene);
-    if (!(mesh.dr > finer.dr && mesh.dx > finer.dx))
+    const scene::CellRange finer = scene::cells_of(study.cases[i - 1].scene.scene),
+                           mesh = scene::cells_of(scene);
+    if (!(mesh.shortest_r > finer.shortest_r && mesh.shortest_x > finer.shortest_x))
       return fault_at(study, "reference_cell_sizes",
                       fmt::format("{}, whose fitted grid is not coarser than the one before it", size),
                       "cell sizes that make different grids");
-    if (mesh.dr >= least_refinement * finer.dr && mesh.dx >= least_refinement * finer.dx) continue;
+    if (mesh.shortest_r >= least_refinement * finer.shortest_r &&
+        mesh.shortest_x >= least_refinement * finer.shortest_x) continue;
     return fault_at(study, "reference_cell_sizes",
                     fmt::format("{}, whose fitted grid is less than {} times as coarse as the one before it",
                                 size, least_refinement),

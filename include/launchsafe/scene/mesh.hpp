@@ -9,7 +9,7 @@
 
 namespace launchsafe::scene {
 
-/// Cells of the fitted grid. An axial grid line runs through `x_anchor` and a radial one through r = 0 and r
+/// Cells of the even grid of the updated-Lagrangian form. An axial grid line runs through `x_anchor` and a radial one through r = 0 and r
 /// = radius.
 struct Mesh {
   double dx = 0;        ///< axial cell length, m, at most the nominal cell size
@@ -25,10 +25,8 @@ struct GridLines {
 
 /// The reference grid of the total-Lagrangian form: lines through all edges of all bodies, and between two
 /// neighbouring edges cells whose length follows `numerics`: `cell_size` at the refined lines, growing away
-/// from them by the ratio `growth` from cell to cell up to `largest_cell`.
-/// With lengths of h(d) = min(cell_size + (growth - 1) d, largest_cell) at the distance d from the nearest
-/// refined line, an interval gets the smallest whole number of cells not below the integral of ds/h, and lines
-/// at equal shares of that integral.
+/// from them by the ratio `growth_x` or `growth_r` from cell to cell up to `largest_cell`. An interval gets the
+/// smallest whole number of cells that keeps them from being longer than that.
 GridLines grid_lines(const Scene& scene);
 
 /// Edges of the particles of one body: total-Lagrangian the grid's lines, updated-Lagrangian an even division,
@@ -64,8 +62,19 @@ Mesh fit_mesh(const Scene& scene);
 /// that fits do not carry over.
 std::string charge_edges_off_grid(const Scene& scene);
 
-/// Particles for `particles_per_cell` >= 1 in each direction: the body's length over the cell's, rounded up.
-ParticleCount particles_of(const Mesh& mesh, const Body& body, int particles_per_cell);
+/// Particles of one body with `particles_per_cell` >= 1 in each direction: of the lattice's cells in it or, in
+/// the updated-Lagrangian form, the body's length over the cell's, rounded up.
+ParticleCount particles_of(const Scene& scene, const Body& body);
+
+/// Cells of the scene's grid, and the lengths of the shortest and longest ones in each direction, m.
+struct CellRange {
+  int nx = 0, nr = 0;
+  double shortest_x = 0, longest_x = 0, shortest_r = 0, longest_r = 0;
+  double shortest() const { return shortest_x < shortest_r ? shortest_x : shortest_r; }
+};
+CellRange cells_of(const Scene& scene);
+/// Of the part of it that lies in a body.
+CellRange cells_of(const Scene& scene, const Body& body);
 
 /// Particles of all bodies.
 std::int64_t particle_count(const Scene& scene);

@@ -67,7 +67,8 @@ struct Numerics {
   Formulation formulation = Formulation::total_lagrangian;
   /// Largest cell (m) at the refined lines; everywhere else too where the growth is 1.
   double cell_size = 2.5e-3;
-  double growth = 1.0;               ///< ratio of neighbouring cells away from the refined lines, 1 = even
+  /// Ratio of neighbouring cells away from the refined lines, by direction; 1 = even.
+  double growth_x = 1.0, growth_r = 1.0;
   double largest_cell = 10e-3;       ///< m, where cells grow
   std::vector<double> refined_x;     ///< m; empty: the charge's bottom
   std::vector<double> refined_r;     ///< m; empty: the charge's edges

@@ -48,7 +48,7 @@ TEST(Particles, HaveTheMassOfTheFormulaInPlaneStrain) {
 TEST(Lattice, GivesEveryParticleItsOwnSlotAndLeavesPaddingMassless) {
   for (const int per_cell : {1, 2, 3}) {
     const scene::Scene shell = test_support::shell_155(7e-3, per_cell);
-    const mpm::Body<materials::Charge> charge = mpm::make_charge_body(shell, 1);
+    const auto charge = std::get<mpm::Body<materials::Charge>>(mpm::make_body(shell, 1));
     const mpm::Lattice& lattice = charge.kinematics.lattice;
     std::set<std::size_t> slots;
     for (int j = 0; j < lattice.rows(); ++j)

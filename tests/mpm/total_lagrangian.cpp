@@ -1,0 +1,204 @@
+// The total-Lagrangian form: balance on graded lattices of several bodies, frames, ties, threads, energies.
+#include "launchsafe/mpm/simulation.hpp"
+#include "scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace launchsafe;
+
+/// The shell on a coarse graded lattice, under a load that is over within a millisecond.
+scene::Scene quick_shell() {
+  scene::Scene shell = test_support::shell_155(5e-3);
+  shell.numerics.growth_x = 1.3;
+  shell.numerics.growth_r = 1.2;
+  shell.load.duration = 2e-3;
+  shell.load.peak_time = 1e-3;
+  return shell;
+}
+
+void run_until(mpm::Simulation& simulation, double end) {
+  while (simulation.time() < end) simulation.step(simulation.stable_time_step());
+}
+
+/// A bar of three bodies whose edges no even grid meets.
+scene::Scene bar_of_three(double growth) {
+  scene::Scene bar = test_support::steel_bar(0.2, 0.02, 4e-3);
+  bar.bodies = {{"front", scene::BodyMaterial::steel, 0.0, 0.0883, 0.0, 0.02},
+                {"core", scene::BodyMaterial::steel, 0.0883, 0.2, 0.0, 0.0131},
+                {"wall", scene::BodyMaterial::steel, 0.0883, 0.2, 0.0131, 0.02}};
+  bar.numerics.refined_x = {0.2};
+  bar.numerics.refined_r = {0.0131};
+  bar.numerics.growth_x = bar.numerics.growth_r = growth;
+  bar.steel.strength.a = 1e15;
+  return bar;
+}
+
+TEST(TotalLagrangian, AccelerationMakesAStressThatGrowsLinearlyFromTheNose) {
+  // Statics in the accelerated frame: the force on a section carries the mass before it, P_xX = -p X/L. Linear
+  // elements have one axial stress a cell, that of its middle.
+  for (const double growth : {1.0, 1.25})
+    for (const int per_cell : {1, 2}) {
+      scene::Scene bar = bar_of_three(growth);
+      bar.numerics.particles_per_cell = per_cell;
+      bar.numerics.damping_time = 2e-5;
+      bar.load = test_support::steady_pressure(100e6);
+      mpm::Simulation simulation(bar);
+      run_until(simulation, 8e-4);
+      for (const mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) {
+        const mpm::Lattice& lattice = body.kinematics.lattice;
+        for (int j = 0; j < lattice.rows(); ++j)
+          for (int i = 0; i < lattice.columns(); ++i) {
+            const std::size_t slot = lattice.slot(i, j);
+            const double stress = body.deviator(slot).xx - body.kinematics.pressure[slot];
+            const auto cell = static_cast<std::size_t>(i / per_cell * per_cell);
+            const double middle =
+                0.5 * (lattice.x_edges[cell] + lattice.x_edges[cell + static_cast<std::size_t>(per_cell)]);
+            EXPECT_NEAR(stress / 100e6, -middle / 0.2, 2e-6) << growth << ' ' << per_cell << ' ' << i;
+          }
+      }
+    }
+}
+
+TEST(TotalLagrangian, TheLabFrameIsTheCoMovingFrame) {
+  const auto friction = [](scene::Frame frame) {
+    scene::Scene shell = quick_shell();
+    shell.frame = frame;
+    mpm::Simulation simulation(shell);
+    run_until(simulation, 2e-3);
+    const mpm::Body<materials::Charge>& charge = simulation.bodies_of<materials::Charge>()[0];
+    const mpm::Lattice& lattice = charge.kinematics.lattice;
+    return charge[materials::Charge::friction_literal][lattice.slot(lattice.columns() - 1, 0)];
+  };
+  const double lab = friction(scene::Frame::lab), co_moving = friction(scene::Frame::co_moving);
+  EXPECT_GT(co_moving, 1e3);
+  // The shell flies 10 cm, and round-off of that way stands in displacements of some micrometres.
+  EXPECT_NEAR(lab / co_moving, 1.0, 1e-8);
+}
+
+TEST(TotalLagrangian, NoNumberOfThreadsChangesABit) {
+  const auto run = [](int threads, int per_cell) {
+    scene::Scene shell = quick_shell();
+    shell.numerics.particles_per_cell = per_cell;
+    mpm::Simulation simulation(shell, threads);
+    for (int step = 0; step < 300; ++step) simulation.step(simulation.stable_time_step());
+    const mpm::Body<materials::Charge>& charge = simulation.bodies_of<materials::Charge>()[0];
+    math::AlignedArray all = charge.kinematics.velocity_r;
+    all.insert(all.end(), charge.kinematics.pressure.begin(), charge.kinematics.pressure.end());
+    all.push_back(simulation.energy().internal);
+    all.push_back(simulation.energy().kinetic);
+    return all;
+  };
+  for (const int per_cell : {1, 2}) {
+    const math::AlignedArray alone = run(1, per_cell);
+    for (const int threads : {2, 3, 7}) EXPECT_EQ(run(threads, per_cell), alone) << threads;
+  }
+}
+
+TEST(TotalLagrangian, ClosesItsEnergyBalance) {
+  for (const scene::Frame frame : {scene::Frame::co_moving, scene::Frame::lab})
+    for (const int per_cell : {1, 2}) {
+      scene::Scene shell = quick_shell();
+      shell.frame = frame;
+      shell.numerics.particles_per_cell = per_cell;
+      mpm::Simulation simulation(shell);
+      double largest = 0.0, scale = 0.0;
+      while (simulation.time() < 2e-3) {
+        simulation.step(simulation.stable_time_step());
+        const mpm::EnergyTotals& e = simulation.energy();
+        largest = std::max(largest,
+                           std::abs(e.kinetic + e.internal + e.damping - e.external - e.body_force));
+        scale = std::max(scale, e.kinetic + e.internal);
+      }
+      // What is left is the third power of a step's strain, and in the lab frame round-off of the flight.
+      EXPECT_LT(largest / scale, 1e-7) << per_cell;
+      EXPECT_GT(scale, 100.0);
+    }
+}
+
+TEST(TotalLagrangian, TiedNodesMoveAlikeAndTheTieTakesNoEnergy) {
+  scene::Scene shell = quick_shell();
+  mpm::Simulation simulation(shell);
+  run_until(simulation, 1e-3);
+  const mpm::TotalLagrangian& form = *simulation.total_lagrangian();
+  ASSERT_GT(form.ties().size(), 100u);
+  double power = 0.0, largest = 0.0;
+  for (const mpm::Tie& tie : form.ties()) {
+    const auto& first = tie.members.front();
+    for (const auto& member : tie.members) {
+      const mpm::Nodes &a = form.nodes()[first.nodes], &b = form.nodes()[member.nodes];
+      EXPECT_EQ(a.velocity_x[first.index], b.velocity_x[member.index]);
+      EXPECT_EQ(a.velocity_r[first.index], b.velocity_r[member.index]);
+      // What the tie gives a member: the change of its momentum that its own forces did not make. All of the
+      // place's momentum is in the first member's sums.
+      power += b.inertia[member.index] * (b.change_x[member.index] - a.change_x[first.index]) *
+               b.velocity_x[member.index];
+      largest = std::max(largest, std::abs(b.inertia[member.index] * b.change_x[member.index]));
+    }
+  }
+  EXPECT_EQ(power, 0.0);
+  EXPECT_GT(largest, 0.0);
+}
+
+TEST(TotalLagrangian, ABodyCutInTwoIsTheSameBody) {
+  const auto pressure = [](bool cut) {
+    scene::Scene bar = test_support::steel_bar(0.1, 0.02, 4e-3);
+    bar.numerics.refined_x = {0.1};
+    bar.numerics.growth_x = 1.2;
+    if (cut)
+      bar.bodies = {{"core", scene::BodyMaterial::steel, 0.0, 0.1, 0.0, 0.012},
+                    {"skin", scene::BodyMaterial::steel, 0.0, 0.1, 0.012, 0.02}};
+    bar.load = test_support::steady_pressure(500e6);
+    bar.barrel = scene::Barrel::none;
+    mpm::Simulation simulation(bar);
+    run_until(simulation, 1e-4);
+    const mpm::Kinematics& p = mpm::kinematics_of(simulation.bodies()[0]);
+    std::vector<double> first_rows;
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < p.lattice.columns(); ++i) first_rows.push_back(p.pressure[p.lattice.slot(i, j)]);
+    return first_rows;
+  };
+  const std::vector<double> whole = pressure(false), cut = pressure(true);
+  ASSERT_EQ(whole.size(), cut.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) EXPECT_NEAR(whole[i], cut[i], 1e-9 * 500e6);
+}
+
+TEST(TotalLagrangian, CountsInvertedCells) {
+  scene::Scene bar = test_support::steel_bar(0.05, 0.02, 4e-3);
+  bar.steel.strength.a = 1e6;
+  bar.steel.strength.b = 0.0;
+  bar.barrel = scene::Barrel::none;
+  bar.load = test_support::steady_pressure(50e9);
+  mpm::Simulation simulation(bar);
+  for (int step = 0; step < 400 && !(simulation.events().distorted > 0.0); ++step)
+    simulation.step(simulation.stable_time_step());
+  EXPECT_GT(simulation.events().distorted, 0.0);
+}
+
+TEST(TotalLagrangian, AStiffHourglassStoresLessBendingThanASoftOne) {
+  // The energy of the mode is what is stored against it; it is part of the internal energy.
+  const auto stored = [](double stiffness) {
+    scene::Scene shell = quick_shell();
+    shell.numerics.hourglass_stiffness = stiffness;
+    mpm::Simulation simulation(shell);
+    run_until(simulation, 1e-3);
+    return simulation.energy();
+  };
+  const mpm::EnergyTotals none = stored(0.0), some = stored(0.1);
+  EXPECT_EQ(none.hourglass, 0.0);
+  EXPECT_GT(some.hourglass, 0.0);
+  EXPECT_LT(some.hourglass, 1e-2 * some.internal);
+}
+
+TEST(TotalLagrangian, SteelInertiaLengthensTheStepOfSteelAlone) {
+  scene::Scene shell = quick_shell();
+  const double plain = mpm::Simulation(shell).stable_time_step();
+  shell.numerics.steel_inertia = 4.0;
+  // Steel carries sound twice as fast as the charge, so that both are about as slow now.
+  EXPECT_NEAR(mpm::Simulation(shell).stable_time_step() / plain, 2.0, 0.1);
+}
+
+}  // namespace
