@@ -42,7 +42,7 @@ struct Body {
     return {de, math::rotation_of(Pack(0.4 * strain)), Pack(density), Pack(density * (1.0 + compression))};
   }
 
-  void step(const Increment<Pack>& increment, Pack& total) {
+  [[gnu::flatten]] void step(const Increment<Pack>& increment, Pack& total) {
     for (std::size_t slot = 0; slot < particles; slot += math::pack_width) {
       materials::State<Law, Pack> s;
       for (std::size_t f = 0; f < s.size(); ++f) s[f] = Pack::load(&state[f][slot]);
