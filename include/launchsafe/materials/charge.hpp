@@ -2,7 +2,7 @@
 // of their sliding.
 #pragma once
 
-#include "launchsafe/materials/jwl.hpp"
+#include "launchsafe/materials/jwl_isentrope.hpp"
 #include "launchsafe/materials/kinetics.hpp"
 #include "launchsafe/materials/law.hpp"
 #include "launchsafe/materials/visco_scram.hpp"
@@ -77,7 +77,7 @@ struct Charge {
 
 class Charge::Integrator {
  public:
-  explicit Integrator(const Charge& charge) : charge_(charge) {}
+  explicit Integrator(const Charge& charge) : charge_(charge), isentrope_(charge.eos) {}
   void set_step(double dt) {
     if (dt < relaxation_.dt || dt > relaxation_.dt) relaxation_ = relaxation(charge_.cracks, dt);
   }
@@ -89,7 +89,9 @@ class Charge::Integrator {
     using math::select;
     const double reference = charge_.eos.initial_density;
     Response<Real> response;
-    const Real isentropic = jwl_isentropic_pressure(charge_.eos, Real(reference) / increment.density_after);
+    const Real per_density = Real(1.0) / increment.density_after;
+    // V - 1, from the difference of the densities so that rest is exact.
+    const Real isentropic = isentrope_.pressure((Real(reference) - increment.density_after) * per_density);
     const Real cutoff(-charge_.tension_cutoff);
     response.tension_cutoff = select(isentropic < cutoff, Real(1.0), Real(0.0));
     response.pressure = max(isentropic, cutoff);
@@ -114,7 +116,7 @@ class Charge::Integrator {
     response.crack_at_bound =
         select(cracked.crack_radius >= Real(charge_.cracks.largest_crack_radius), Real(1.0), Real(0.0));
     const Real sliding =
-        Real(charge_.sliding_friction * reference) * max(response.pressure, Real(0.0)) / increment.density_after;
+        Real(charge_.sliding_friction * reference) * max(response.pressure, Real(0.0)) * per_density;
     s[friction_literal] = s[friction_literal] + sliding * math::equivalent_strain(increment.deviator);
     s[friction_inelastic] = s[friction_inelastic] + sliding * loss.inelastic_strain;
     return response;
@@ -128,6 +130,7 @@ class Charge::Integrator {
 
  private:
   Charge charge_;
+  JwlIsentrope isentrope_;
   Relaxation<double> relaxation_{};
 };
 

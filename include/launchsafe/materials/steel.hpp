@@ -65,12 +65,14 @@ class Steel::Integrator {
                         Real& temperature) const {
     using math::any;
     using math::select;
-    const double reference = steel_.eos.density;
+    const double per_reference = 1.0 / steel_.eos.density;
     Response<Real> response;
     const math::Deviator<Real> old = math::rotate(deviator(s), increment.rotation);
     math::Deviator<Real> stress = old + Real(2.0 * steel_.strength.shear_modulus) * increment.deviator;
     Real heat(0.0);  // J/kg
-    if (any(math::von_mises(stress) > s[flow_stress])) {
+    // 3/2 S:S <= Y^2, without the root; false where anything is not a number.
+    const auto elastic = Real(1.5) * contract(stress, stress) <= s[flow_stress] * s[flow_stress];
+    if (any(!elastic)) {
       const auto flow =
           johnson_cook_return(steel_.strength, stress, s[plastic_strain], temperature, Real(dt_));
       stress = flow.stress;
@@ -80,8 +82,8 @@ class Steel::Integrator {
       s[flow_stress] = steel_.quasi_static_flow_stress(s[plastic_strain], temperature);
       response.plastic = flow.plastic_work;
     }
-    const Real mu0 = increment.density_before * Real(1.0 / reference) - Real(1.0),
-               mu1 = increment.density_after * Real(1.0 / reference) - Real(1.0);
+    const Real mu0 = increment.density_before * Real(per_reference) - Real(1.0),
+               mu1 = increment.density_after * Real(per_reference) - Real(1.0);
     const auto compressed = mie_gruneisen_compress(steel_.eos, mu0, pressure, s[energy], mu1, heat);
     response.pressure_guard = select(mie_gruneisen_is_valid(steel_.eos, mu1), Real(0.0), Real(1.0));
     s[energy] = compressed.energy;
