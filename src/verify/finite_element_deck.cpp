@@ -23,6 +23,10 @@ double place(const std::vector<double>& edges, int half_steps) {
   return half_steps % 2 == 0 ? edges[k] : 0.5 * (edges[k] + edges[k + 1]);
 }
 
+/// Decks are in m, s and MPa, hence units of mass of 1000 t: a compressibility as small as steel's is in 1/Pa,
+/// CalculiX 2.20 takes for none, and puts one of its own in its place.
+constexpr double pascal = 1.0 / deck_stress_unit;
+
 using Text = std::back_insert_iterator<std::string>;
 
 void write_nodes(const FiniteElementModel& model, const NodeLattice& nodes, Text text) {
@@ -60,20 +64,31 @@ void write_elements(const FiniteElementModel& model, const NodeLattice& nodes, T
   }
 }
 
+/// What yields is linear in logarithmic strains; what does not is a neo-Hookean solid, whose
+/// volume and shape are apart. The linear law that CalculiX has for large strains is not: under a pressure it
+/// adds to the deviator twice the pressure times the strain, a tenth of it in an explosive at 100 MPa.
+void write_law(const FiniteElementMaterial& material, Text text) {
+  const double bulk = material.bulk_modulus, shear = material.shear_modulus;
+  if (material.hardening.empty()) {
+    fmt::format_to(text, "*HYPERELASTIC,NEO HOOKE\n{:.10g},{:.10g}\n", 0.5 * shear * pascal,
+                   2.0 / (bulk * pascal));
+    return;
+  }
+  const double young = 9.0 * bulk * shear / (3.0 * bulk + shear);
+  const double poisson = (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear);
+  fmt::format_to(text, "*ELASTIC\n{:.10g},{:.10g}\n*PLASTIC\n", young * pascal, poisson);
+  for (const HardeningPoint& point : material.hardening)
+    fmt::format_to(text, "{:.10g},{:.10g}\n", point.stress * pascal, point.plastic_strain);
+}
+
 void write_materials(const FiniteElementModel& model, Text text) {
   fmt::format_to(text, "*ELSET,ELSET=ELEMENTS,GENERATE\n1,{}\n", model.elements());
   for (std::size_t k = 0; k < model.materials.size(); ++k) {
     if (!is_used(model, k)) continue;
-    const FiniteElementMaterial& material = model.materials[k];
-    const double bulk = material.bulk_modulus, shear = material.shear_modulus;
-    const double young = 9.0 * bulk * shear / (3.0 * bulk + shear);
-    const double poisson = (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear);
-    fmt::format_to(text, "*MATERIAL,NAME=MATERIAL{}\n*ELASTIC\n{:.10g},{:.10g}\n*DENSITY\n{:.10g}\n", k,
-                   young, poisson, material.density);
-    if (!material.hardening.empty()) fmt::format_to(text, "*PLASTIC\n");
-    for (const HardeningPoint& point : material.hardening)
-      fmt::format_to(text, "{:.10g},{:.10g}\n", point.stress, point.plastic_strain);
-    fmt::format_to(text, "*SOLID SECTION,ELSET=PART{},MATERIAL=MATERIAL{}\n", k, k);
+    fmt::format_to(text, "*MATERIAL,NAME=MATERIAL{}\n", k);
+    write_law(model.materials[k], text);
+    fmt::format_to(text, "*DENSITY\n{:.10g}\n*SOLID SECTION,ELSET=PART{},MATERIAL=MATERIAL{}\n",
+                   model.materials[k].density * pascal, k, k);
   }
 }
 
@@ -99,10 +114,11 @@ void write_loads(const FiniteElementModel& model, Text text) {
   if (model.acceleration > 0.0) fmt::format_to(text, "ELEMENTS,GRAV,{:.12g},0.,1.,0.\n", model.acceleration);
   if (model.base_pressure > 0.0)
     for (int j = 0; j < model.rows(); ++j)
-      fmt::format_to(text, "{},P3,{:.12g}\n", model.element(model.columns() - 1, j) + 1, model.base_pressure);
+      fmt::format_to(text, "{},P3,{:.12g}\n", model.element(model.columns() - 1, j) + 1,
+                     model.base_pressure * pascal);
   if (model.bore_pressure > 0.0)
     for (int i = 0; i < model.columns(); ++i)
-      fmt::format_to(text, "{},P4,{:.12g}\n", model.element(i, 0) + 1, model.bore_pressure);
+      fmt::format_to(text, "{},P4,{:.12g}\n", model.element(i, 0) + 1, model.bore_pressure * pascal);
 }
 
 std::vector<double> halved(const std::vector<double>& edges) {

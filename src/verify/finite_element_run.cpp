@@ -81,7 +81,8 @@ bool read_stresses(std::string_view& text, int elements, std::vector<CauchyStres
     if (n[1] > integration_points) continue;
     const auto slot = static_cast<std::size_t>((n[0] - 1) * integration_points + (n[1] - 1));
     // Points 1 to 4 lie at negative angles: the turn has the other sign.
-    stress[slot] = in_own_plane(n[2], n[3], n[4], n[5], -n[6]);
+    const auto pascal = [&](std::size_t k) { return n[k] * deck_stress_unit; };
+    stress[slot] = in_own_plane(pascal(2), pascal(3), pascal(4), pascal(5), -pascal(6));
     ++found;
   }
   return found == stress.size();

@@ -15,7 +15,4 @@ double static_shear_modulus(const materials::ViscoScramParameters& charge);
 /// Runs the particles of a case in cells of `cell_size` (m) and takes the means.
 ParticleMeans particle_means(const StaticCase& compared, double cell_size, const run::RunOptions& options);
 
-/// Means of a run's snapshots; the first is at rest and tells the cells, all others are averaged.
-ParticleMeans particle_means(const StaticCase& compared, const std::vector<run::Snapshot>& snapshots);
-
 }  // namespace launchsafe::verify

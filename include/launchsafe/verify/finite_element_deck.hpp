@@ -54,6 +54,9 @@ std::vector<double> graded_edges(double begin, double end, double first, double 
 /// Every element cut in two along each direction.
 FiniteElementModel refined(const FiniteElementModel& model);
 
+/// Pa, of the stresses that stand in decks and come back.
+inline constexpr double deck_stress_unit = 1e6;
+
 /// The input deck of a static, geometrically nonlinear step that prints the stresses at all integration
 /// points at its end.
 std::string deck_of(const FiniteElementModel& model);

@@ -2,6 +2,7 @@
 // accelerates with them, under a pressure that rises smoothly and then stays.
 #pragma once
 
+#include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/verify/finite_element_run.hpp"
 
@@ -68,6 +69,19 @@ struct StaticComparison {
   }
 };
 
+/// How far the particles may be from the reference on any mesh.
+struct StressTargets {
+  double inner = 0.01;           ///< of pressure and von Mises stress up to `inner_radius`
+  double inner_radius = 0.0575;  ///< m
+  double outer = 0.04;           ///< beyond, beside the wall
+  double alternation = 1e-3;     ///< of a charge's pressure
+  double ringing_share = 0.1;    ///< of these: what motion in time may be left, for the mean to count
+};
+
+/// What of a comparison misses a target, a sentence each; empty where nothing does.
+std::vector<std::string> missed_targets(const StaticComparison& comparison,
+                                        const StressTargets& targets = {});
+
 /// Stresses of a thick tube under pressure inside, at its two faces.
 struct TubeComparison {
   double exact_bore = 0, exact_outside = 0;        ///< hoop stress, Pa, after Lame
@@ -84,6 +98,10 @@ struct ComparisonOptions {
 /// The mesh of a case for finite elements: fine at the bottom and toward its edge, with lines along all
 /// boxes. The charge's bulk modulus is that at rest.
 FiniteElementModel finite_element_model(const StaticCase& compared);
+
+/// Means of the particles of a case, from snapshots alone, on any mesh of rectangular cells with their
+/// particles in the middle: the first snapshot is at rest and tells the cells, all others are averaged.
+ParticleMeans particle_means(const StaticCase& compared, const std::vector<run::Snapshot>& snapshots);
 
 /// Means over a station's box of what finite elements give.
 StressMeasures box_mean(const FiniteElementModel& model, const FiniteElementResult& result,
