@@ -179,16 +179,12 @@ report::Table whole_table(const FiniteElementComparison& comparison) {
 std::string page_of(const FiniteElementComparison& comparison, const std::string& command) {
   std::string page = fmt::format(
       "# {}\n\nMade by `{}` with CalculiX {}. Times are of the machine that ran it.\n\n"
-      "The bodies rest in the frame that accelerates with them, under a pressure on the base that rises over "
-      "1 "
-      "ms and then stays; what moves is damped. Stresses are averaged over 5 mm x 5 mm at the bottom with "
-      "the "
-      "weight r dr dx: the mean of the particles' or integration points' pressure and von Mises stress. The "
-      "elements (axisymmetric, quadratic, reduced integration, geometrically nonlinear) have the steel's "
-      "moduli "
-      "at rest, and for each element of the charge the secant bulk modulus of its equation of state at its "
-      "own "
-      "pressure.\n\n{}\n\n",
+      "The bodies rest in the frame that accelerates with them, under a pressure on the base that "
+      "rises over 1 ms and then stays; what moves is damped. Stresses are averaged over 5 mm x 5 mm at "
+      "the bottom with the weight r dr dx: the mean of the particles' or integration points' pressure "
+      "and von Mises stress. The elements (axisymmetric, quadratic, reduced integration) are of large "
+      "strain, neo-Hookean where they do not yield; each has the secant bulk modulus of its equation "
+      "of state at its own pressure.\n\n{}\n\n",
       title, command, comparison.version, targets_text());
   const std::vector<std::string> missed = missed_by(comparison);
   page += missed.empty() ? "All are met.\n" : fmt::format("{} are missed:\n\n", missed.size());
