@@ -11,7 +11,7 @@ set(LAUNCHSAFE_mpm_USES materials scene)
 set(LAUNCHSAFE_surface_USES materials scene trace)
 set(LAUNCHSAFE_run_USES mpm surface trace)
 set(LAUNCHSAFE_store_USES run)
-set(LAUNCHSAFE_verify_USES run)
+set(LAUNCHSAFE_verify_USES run store)
 set(LAUNCHSAFE_study_USES run store verify)
 set(LAUNCHSAFE_report_USES study store)
 

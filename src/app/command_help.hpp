@@ -64,7 +64,8 @@ Examples:
   launchsafe verify                      every check
   launchsafe verify --filter jwl         those with "jwl" in their name
   launchsafe verify --error-against-time             error, order and processor time over step and mesh
-  launchsafe verify --error-against-time -o parts    parts/parts.md, .csv and .svg as well)";
+  launchsafe verify --error-against-time -o parts    parts/parts.md, .csv and .svg as well
+  launchsafe verify --finite-elements -o stresses    static stresses against CalculiX, where ccx is installed)";
 
 inline constexpr const char* explain_footer = R"(
 Examples:

@@ -165,9 +165,13 @@ CLI::App* add_verify(CLI::App& app, Parsed& parsed) {
       "--error-against-time", parsed.verify.error_against_time,
       "Error against processor time of the parts with exact solutions, over step, tolerance and mesh");
   command
+      ->add_flag("--finite-elements", parsed.verify.finite_elements,
+                 "Static stresses at the charge bottom against CalculiX (ccx): minutes")
+      ->excludes(table);
+  command
       ->add_option("-o,--output", parsed.verify.output,
-                   "Folder for parts.md, parts.csv and parts.svg of --error-against-time")
-      ->needs(table)
+                   "Folder for parts.md, parts.csv and parts.svg of --error-against-time, or summary.md and "
+                   "stresses.csv of --finite-elements")
       ->type_name("DIR");
   add_output_options(*command, parsed);
   command->footer(verify_footer);
@@ -252,6 +256,9 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     line.request = parsed.merge;
   } else if (emit->parsed()) {
     line.request = parsed.emit;
+  } else if (verify->parsed() && parsed.verify.output && !parsed.verify.error_against_time &&
+             !parsed.verify.finite_elements) {
+    line.request = UsageError{"verify: --output requires --error-against-time or --finite-elements"};
   } else if (verify->parsed()) {
     line.request = parsed.verify;
   } else if (parsed.explain.keys != parsed.explain.file.empty()) {

@@ -61,7 +61,8 @@ ExitCode emit_command(const EmitArguments& arguments, Console& console);
 struct VerifyArguments {
   std::string filter;                           ///< part of a check's group or name, case ignored
   bool error_against_time = false;              ///< tabulate errors against processor time instead
-  std::optional<std::filesystem::path> output;  ///< folder of that table; none: nothing is written
+  bool finite_elements = false;                 ///< compare static stresses with CalculiX instead
+  std::optional<std::filesystem::path> output;  ///< folder of either table; none: nothing is written
 };
 ExitCode verify_command(const VerifyArguments& arguments, Console& console);
 

@@ -1,6 +1,7 @@
 // launchsafe verify: numbers the program must reproduce.
 #include "commands.hpp"
 #include "error_table.hpp"
+#include "finite_element_command.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/verify/material_checks.hpp"
@@ -216,6 +217,7 @@ ExitCode tabulate_errors(const VerifyArguments& arguments, Console& console) {
 }  // namespace
 
 ExitCode verify_command(const VerifyArguments& arguments, Console& console) {
+  if (arguments.finite_elements) return compare_with_finite_elements(arguments, console);
   return arguments.error_against_time ? tabulate_errors(arguments, console)
                                       : compare_with_expected(arguments, console);
 }

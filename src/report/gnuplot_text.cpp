@@ -1,7 +1,7 @@
 #include "gnuplot_text.hpp"
 
 #include "launchsafe/report/number.hpp"
-#include "program.hpp"
+#include "launchsafe/store/program.hpp"
 
 #include <fmt/format.h>
 
@@ -116,7 +116,7 @@ std::string legend_below(int height, std::size_t entries, double centre) {
 store::Result<std::string> drawn(const std::string& program, const std::string& commands,
                                  const std::string& title, const DrawingLimits& limits) {
   // --default-settings: the user's own start-up file must not change a report.
-  auto run = run_program(program, {"--default-settings", "-"}, commands, limits);
+  auto run = store::run_program(program, {"--default-settings", "-"}, commands, limits);
   if (!run) return run.error();
   if (!run->succeeded || run->output.find("</svg>") == std::string::npos) {
     return store::Error{store::Error::Kind::failed,

@@ -1,4 +1,4 @@
-#include "program.hpp"
+#include "launchsafe/store/program.hpp"
 
 #include <fmt/format.h>
 #include <spawn.h>
@@ -15,7 +15,7 @@
 #include <system_error>
 #include <thread>
 
-namespace launchsafe::report {
+namespace launchsafe::store {
 namespace {
 
 /// A nameless file in memory.
@@ -63,8 +63,9 @@ class MemoryFile {
 };
 
 /// The process id, or the negative error number.
-pid_t start(const std::string& program, const std::vector<std::string>& arguments, const MemoryFile& input,
-            const MemoryFile& output, const MemoryFile& errors) {
+pid_t start(const std::string& program, const std::vector<std::string>& arguments,
+            const std::filesystem::path& folder, const MemoryFile& input, const MemoryFile& output,
+            const MemoryFile& errors) {
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
@@ -76,6 +77,7 @@ pid_t start(const std::string& program, const std::vector<std::string>& argument
   ::posix_spawn_file_actions_adddup2(&actions, input.number(), STDIN_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, output.number(), STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, errors.number(), STDERR_FILENO);
+  if (!folder.empty()) ::posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   // In a group of its own: Ctrl-C is for us, and whatever it starts can be ended with it.
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
@@ -97,7 +99,7 @@ bool has_ended(pid_t process) {
 }
 
 /// Waits for the end. Why it must not go on, or nothing once it has ended.
-std::string wait_for_end(pid_t process, const DrawingLimits& limits, const MemoryFile& output,
+std::string wait_for_end(pid_t process, const ProgramLimits& limits, const MemoryFile& output,
                          const MemoryFile& errors) {
   using namespace std::chrono_literals;
   const auto start = std::chrono::steady_clock::now();
@@ -127,24 +129,23 @@ bool end_group(pid_t process) {
 
 }  // namespace
 
-store::Result<ProgramOutput> run_program(const std::string& program,
-                                         const std::vector<std::string>& arguments, const std::string& input,
-                                         const DrawingLimits& limits) {
+Result<ProgramOutput> run_program(const std::string& program, const std::vector<std::string>& arguments,
+                                  const std::string& input, const ProgramLimits& limits,
+                                  const std::filesystem::path& folder) {
   MemoryFile in("input"), out("output"), errors("errors");
   if (!in.is_open() || !out.is_open() || !errors.is_open() || !in.fill(input)) {
-    return store::Error{store::Error::Kind::failed,
-                        fmt::format("cannot start {}: no memory for its input", program)};
+    return Error{Error::Kind::failed, fmt::format("cannot start {}: no memory for its input", program)};
   }
-  const pid_t process = start(program, arguments, in, out, errors);
+  const pid_t process = start(program, arguments, folder, in, out, errors);
   if (process < 0) {
-    const auto kind = process == -ENOENT ? store::Error::Kind::missing : store::Error::Kind::failed;
-    return store::Error{
-        kind, fmt::format("cannot start {}: {}", program, std::generic_category().message(-process))};
+    const auto kind = process == -ENOENT ? Error::Kind::missing : Error::Kind::failed;
+    return Error{kind,
+                 fmt::format("cannot start {}: {}", program, std::generic_category().message(-process))};
   }
   const std::string ended = wait_for_end(process, limits, out, errors);
   const bool succeeded = end_group(process);
-  if (!ended.empty()) return store::Error{store::Error::Kind::failed, fmt::format("{}: {}", program, ended)};
+  if (!ended.empty()) return Error{Error::Kind::failed, fmt::format("{}: {}", program, ended)};
   return ProgramOutput{out.content(), errors.content(), succeeded};
 }
 
-}  // namespace launchsafe::report
+}  // namespace launchsafe::store

@@ -1,0 +1,64 @@
+// A static, axisymmetric finite element model on a rectangular mesh, and its input deck for CalculiX
+// (Abaqus' format): an independent judge of the stresses at the charge bottom.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace launchsafe::verify {
+
+/// Yield stress (Pa) at a plastic strain.
+struct HardeningPoint {
+  double plastic_strain = 0, stress = 0;
+};
+
+struct FiniteElementMaterial {
+  double bulk_modulus = 0, shear_modulus = 0;  ///< Pa
+  double density = 0;                          ///< kg/m3
+  std::vector<HardeningPoint> hardening;       ///< from plastic strain 0 on; empty: elastic
+};
+
+/// Quadratic elements with reduced integration (CAX8R: 8 nodes, 2 x 2 points). Neighbours share their nodes:
+/// whatever touches is bonded. In the frame of the accelerating body the acceleration is a body force toward
+/// the base (+x).
+struct FiniteElementModel {
+  std::vector<double> edges_x, edges_r;  ///< lines between elements, m, rising; x grows from nose to base
+  std::vector<FiniteElementMaterial> materials;
+  std::vector<int> material_of;  ///< of element (i along x, j along r), at `element(i, j)`
+  double acceleration = 0;       ///< m/s2, of the frame
+  double base_pressure = 0;      ///< Pa, on the face at the largest x
+  double bore_pressure = 0;      ///< Pa, on the face at the smallest r
+  bool rigid_barrel = false;     ///< no radial motion, and no friction, at the largest r
+  bool ends_held = false;        ///< no axial motion at either end: plane strain
+
+  int columns() const { return static_cast<int>(edges_x.size()) - 1; }
+  int rows() const { return static_cast<int>(edges_r.size()) - 1; }
+  int elements() const { return columns() * rows(); }
+  int element(int i, int j) const { return i + columns() * j; }
+};
+
+/// Integration points of an element, in the order in which CalculiX prints them: x outer, r inner.
+inline constexpr int integration_points = 4;
+
+/// One integration point of the undeformed mesh.
+struct IntegrationPoint {
+  double x = 0, r = 0;  ///< m
+  double weight = 0;    ///< m3 per radian that it stands for
+};
+IntegrationPoint integration_point(const FiniteElementModel& model, int element, int point);
+
+/// Lines from `begin` to `end`, both included, whose distances change geometrically from `first` at the begin
+/// to `last` at the end (all m, > 0), each rounded down to fit.
+std::vector<double> graded_edges(double begin, double end, double first, double last);
+
+/// Every element cut in two along each direction.
+FiniteElementModel refined(const FiniteElementModel& model);
+
+/// Pa, of the stresses that stand in decks and come back.
+inline constexpr double deck_stress_unit = 1e6;
+
+/// The input deck of a static, geometrically nonlinear step that prints the stresses at all integration
+/// points at its end.
+std::string deck_of(const FiniteElementModel& model);
+
+}  // namespace launchsafe::verify

@@ -1,0 +1,190 @@
+#include "launchsafe/verify/finite_element_deck.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace launchsafe::verify {
+namespace {
+
+/// Nodes lie on a lattice of corners and mid-sides; the places in the middle of elements stay empty.
+struct NodeLattice {
+  int columns, rows;
+  explicit NodeLattice(const FiniteElementModel& model)
+      : columns(2 * model.columns() + 1), rows(2 * model.rows() + 1) {}
+  bool is_node(int a, int b) const { return a % 2 == 0 || b % 2 == 0; }
+  int number(int a, int b) const { return 1 + a + columns * b; }
+};
+
+double place(const std::vector<double>& edges, int half_steps) {
+  const auto k = static_cast<std::size_t>(half_steps / 2);
+  return half_steps % 2 == 0 ? edges[k] : 0.5 * (edges[k] + edges[k + 1]);
+}
+
+/// Decks are in m, s and MPa, hence units of mass of 1000 t: a compressibility as small as steel's is in 1/Pa,
+/// CalculiX 2.20 takes for none, and puts one of its own in its place.
+constexpr double pascal = 1.0 / deck_stress_unit;
+
+using Text = std::back_insert_iterator<std::string>;
+
+void write_nodes(const FiniteElementModel& model, const NodeLattice& nodes, Text text) {
+  fmt::format_to(text, "*NODE\n");
+  for (int b = 0; b < nodes.rows; ++b)
+    for (int a = 0; a < nodes.columns; ++a) {
+      if (!nodes.is_node(a, b)) continue;
+      fmt::format_to(text, "{},{:.12g},{:.12g}\n", nodes.number(a, b), place(model.edges_r, b),
+                     place(model.edges_x, a));
+    }
+}
+
+/// CalculiX refuses sets without members: a material that no element has is left out.
+bool is_used(const FiniteElementModel& model, std::size_t material) {
+  return std::find(model.material_of.begin(), model.material_of.end(), static_cast<int>(material)) !=
+         model.material_of.end();
+}
+
+/// Corners counterclockwise in the plane (r, x), then the mid-sides: faces 1 (x least), 2 (r most), 3 (x
+/// most), 4 (r least).
+void write_elements(const FiniteElementModel& model, const NodeLattice& nodes, Text text) {
+  for (std::size_t material = 0; material < model.materials.size(); ++material) {
+    if (!is_used(model, material)) continue;
+    fmt::format_to(text, "*ELEMENT,TYPE=CAX8R,ELSET=PART{}\n", material);
+    for (int j = 0; j < model.rows(); ++j)
+      for (int i = 0; i < model.columns(); ++i) {
+        const int element = model.element(i, j);
+        if (model.material_of[static_cast<std::size_t>(element)] != static_cast<int>(material)) continue;
+        const int a = 2 * i, b = 2 * j;
+        fmt::format_to(text, "{},{},{},{},{},{},{},{},{}\n", element + 1, nodes.number(a, b),
+                       nodes.number(a, b + 2), nodes.number(a + 2, b + 2), nodes.number(a + 2, b),
+                       nodes.number(a, b + 1), nodes.number(a + 1, b + 2), nodes.number(a + 2, b + 1),
+                       nodes.number(a + 1, b));
+      }
+  }
+}
+
+/// What yields is linear in logarithmic strains; what does not is a neo-Hookean solid, whose
+/// volume and shape are apart. The linear law that CalculiX has for large strains is not: under a pressure it
+/// adds to the deviator twice the pressure times the strain, a tenth of it in an explosive at 100 MPa.
+void write_law(const FiniteElementMaterial& material, Text text) {
+  const double bulk = material.bulk_modulus, shear = material.shear_modulus;
+  if (material.hardening.empty()) {
+    fmt::format_to(text, "*HYPERELASTIC,NEO HOOKE\n{:.10g},{:.10g}\n", 0.5 * shear * pascal,
+                   2.0 / (bulk * pascal));
+    return;
+  }
+  const double young = 9.0 * bulk * shear / (3.0 * bulk + shear);
+  const double poisson = (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear);
+  fmt::format_to(text, "*ELASTIC\n{:.10g},{:.10g}\n*PLASTIC\n", young * pascal, poisson);
+  for (const HardeningPoint& point : material.hardening)
+    fmt::format_to(text, "{:.10g},{:.10g}\n", point.stress * pascal, point.plastic_strain);
+}
+
+void write_materials(const FiniteElementModel& model, Text text) {
+  fmt::format_to(text, "*ELSET,ELSET=ELEMENTS,GENERATE\n1,{}\n", model.elements());
+  for (std::size_t k = 0; k < model.materials.size(); ++k) {
+    if (!is_used(model, k)) continue;
+    fmt::format_to(text, "*MATERIAL,NAME=MATERIAL{}\n", k);
+    write_law(model.materials[k], text);
+    fmt::format_to(text, "*DENSITY\n{:.10g}\n*SOLID SECTION,ELSET=PART{},MATERIAL=MATERIAL{}\n",
+                   model.materials[k].density * pascal, k, k);
+  }
+}
+
+void write_supports(const FiniteElementModel& model, const NodeLattice& nodes, Text text) {
+  fmt::format_to(text, "*BOUNDARY\n");
+  const auto hold_radially = [&](int b) {
+    for (int a = 0; a < nodes.columns; ++a) fmt::format_to(text, "{},1,1\n", nodes.number(a, b));
+  };
+  if (!(model.edges_r.front() > 0.0)) hold_radially(0);
+  if (model.rigid_barrel) hold_radially(nodes.rows - 1);
+  if (model.ends_held) {
+    for (int b = 0; b < nodes.rows; ++b)
+      for (const int a : {0, nodes.columns - 1}) fmt::format_to(text, "{},2,2\n", nodes.number(a, b));
+  } else {
+    // Pressure and body force balance; one node keeps the whole from drifting. It bears what the pressed face
+    // swells (follower load), hence at the far end.
+    fmt::format_to(text, "{},2,2\n", nodes.number(0, 0));
+  }
+}
+
+void write_loads(const FiniteElementModel& model, Text text) {
+  fmt::format_to(text, "*DLOAD\n");
+  if (model.acceleration > 0.0) fmt::format_to(text, "ELEMENTS,GRAV,{:.12g},0.,1.,0.\n", model.acceleration);
+  if (model.base_pressure > 0.0)
+    for (int j = 0; j < model.rows(); ++j)
+      fmt::format_to(text, "{},P3,{:.12g}\n", model.element(model.columns() - 1, j) + 1,
+                     model.base_pressure * pascal);
+  if (model.bore_pressure > 0.0)
+    for (int i = 0; i < model.columns(); ++i)
+      fmt::format_to(text, "{},P4,{:.12g}\n", model.element(i, 0) + 1, model.bore_pressure * pascal);
+}
+
+std::vector<double> halved(const std::vector<double>& edges) {
+  std::vector<double> finer{edges.front()};
+  for (std::size_t k = 1; k < edges.size(); ++k) {
+    finer.push_back(0.5 * (edges[k - 1] + edges[k]));
+    finer.push_back(edges[k]);
+  }
+  return finer;
+}
+
+}  // namespace
+
+IntegrationPoint integration_point(const FiniteElementModel& model, int element, int point) {
+  const auto i = static_cast<std::size_t>(element % model.columns()),
+             j = static_cast<std::size_t>(element / model.columns());
+  const double half_x = 0.5 * (model.edges_x[i + 1] - model.edges_x[i]),
+               half_r = 0.5 * (model.edges_r[j + 1] - model.edges_r[j]);
+  const double gauss = 1.0 / std::sqrt(3.0);
+  const double x = model.edges_x[i] + half_x * (point / 2 == 0 ? 1.0 - gauss : 1.0 + gauss);
+  const double r = model.edges_r[j] + half_r * (point % 2 == 0 ? 1.0 - gauss : 1.0 + gauss);
+  return {x, r, r * half_x * half_r};
+}
+
+std::vector<double> graded_edges(double begin, double end, double first, double last) {
+  const double length = end - begin;
+  // Distances that grow in proportion to the way: d = first + (last - first) s/length, and the number of
+  // elements is the integral of ds/d.
+  const double ratio = last / first;
+  const bool uniform = std::abs(ratio - 1.0) < 1e-9;
+  const double count = uniform ? length / first : length * std::log(ratio) / (last - first);
+  const int parts = std::max(1, static_cast<int>(std::ceil(count - 1e-9)));
+  std::vector<double> edges;
+  for (int k = 0; k < parts; ++k) {
+    const double share = static_cast<double>(k) / parts;
+    edges.push_back(begin + length * (uniform ? share : std::expm1(share * std::log(ratio)) / (ratio - 1.0)));
+  }
+  edges.push_back(end);
+  return edges;
+}
+
+FiniteElementModel refined(const FiniteElementModel& model) {
+  FiniteElementModel finer = model;
+  finer.edges_x = halved(model.edges_x);
+  finer.edges_r = halved(model.edges_r);
+  finer.material_of.assign(static_cast<std::size_t>(finer.elements()), 0);
+  for (int j = 0; j < finer.rows(); ++j)
+    for (int i = 0; i < finer.columns(); ++i)
+      finer.material_of[static_cast<std::size_t>(finer.element(i, j))] =
+          model.material_of[static_cast<std::size_t>(model.element(i / 2, j / 2))];
+  return finer;
+}
+
+std::string deck_of(const FiniteElementModel& model) {
+  std::string deck;
+  const NodeLattice nodes(model);
+  const Text text = std::back_inserter(deck);
+  write_nodes(model, nodes, text);
+  write_elements(model, nodes, text);
+  write_materials(model, text);
+  write_supports(model, nodes, text);
+  // The load grows with the step's time from 0 to 1; only the last increment is printed.
+  fmt::format_to(text, "*STEP,NLGEOM,INC=1000\n*STATIC\n0.2,1.,1e-5,0.2\n");
+  write_loads(model, text);
+  fmt::format_to(text, "*EL PRINT,ELSET=ELEMENTS,FREQUENCY=1000\nS\n*END STEP\n");
+  return deck;
+}
+
+}  // namespace launchsafe::verify

@@ -1,0 +1,185 @@
+// The cases whose static stresses are compared, and their finite element models.
+#include "launchsafe/verify/static_stress_comparison.hpp"
+#include "mechanics_scenes.hpp"
+#include "static_stress_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::verify {
+namespace {
+
+using scene::BodyMaterial;
+
+/// s: the pressure rises over twice the slowest period of the shell and is then held until damping has taken
+/// what is left of the motion and the charge's Maxwell elements have relaxed (the slowest in 0.14 ms).
+constexpr double rise = 1e-3, held = 2.5e-3, observed = 0.5e-3;
+constexpr int looks = 11;  ///< at the stresses, within the last part of the run
+
+void let_settle(scene::Scene& scene, double pressure) {
+  scene.load = mechanics::ramp(pressure, rise, rise + held);
+  scene.numerics.damping_time = 5e-5;  // near critical for the slowest mode: 1/(2 omega), omega = 1e4/s
+  scene.physics.conduction = scene.physics.bulk_reaction = scene::Switch::off;
+  scene.charge.cracks.flaw_size = 0.0;  // no cracks
+  scene.charge.tension_cutoff = 1e12;   // at the nose the charge hangs on the bond
+  scene.output.trace_interval = rise;
+  scene.output.snapshot_times = {0.0};
+  for (int look = 0; look < looks; ++look)
+    scene.output.snapshot_times.push_back(rise + held - observed * (looks - 1 - look) / (looks - 1));
+}
+
+StaticCase shell(double pressure) {
+  StaticCase shell;
+  shell.scene = mechanics::shell_155(2.5e-3);
+  shell.pressure = pressure;
+  let_settle(shell.scene, pressure);
+  for (int k = 1; k <= 13; ++k) shell.stations.push_back({fmt::format("G{}", k), 0.065 - (k - 0.5) * 5e-3});
+  return shell;
+}
+
+StaticCase elastic_shell() {
+  StaticCase elastic = shell(50e6);
+  elastic.name = "elastic shell, 50 MPa";
+  elastic.description =
+      "Charge, wall, nose and base bonded, rigid barrel. Steel that never yields; a charge without cracks "
+      "and "
+      "tension cut-off that has kept only the spring of its Maxwell elements (G = 0.944 GPa).";
+  mechanics::make_elastic(elastic.scene);
+  auto& charge = elastic.scene.charge.cracks;
+  for (std::size_t n = 0; n < materials::maxwell_elements; ++n)
+    if (charge.relaxation_rates[n] > 0.0) charge.shear_moduli[n] = 0.0;
+  return elastic;
+}
+
+StaticCase plastic_shell() {
+  StaticCase plastic = shell(496e6);
+  plastic.name = "plastic wall, 496 MPa";
+  plastic.description =
+      "The same shell with Johnson-Cook steel at its reference rate, heated by its own plastic work, and a "
+      "charge whose Maxwell elements have relaxed (G = 0.944 GPa).";
+  return plastic;
+}
+
+/// Under its own weight in uniaxial stress, -sigma_xx = p x/L: exact in three dimensions.
+StaticCase free_bar() {
+  constexpr double length = 0.1, radius = 0.02;
+  StaticCase bar;
+  bar.name = "free bar, 50 MPa";
+  bar.description =
+      "A steel bar of 100 mm and 40 mm diameter, free all around, under its own weight. Closed form: the "
+      "axial "
+      "stress falls linearly to 0 at the far end, and there is no other.";
+  bar.scene = mechanics::block(BodyMaterial::steel, length, radius, 2.5e-3);
+  bar.scene.barrel = scene::Barrel::none;
+  bar.pressure = 50e6;
+  let_settle(bar.scene, bar.pressure);
+  mechanics::make_elastic(bar.scene);
+  bar.scene.numerics.damping_time = 1.2e-5;  // the slowest mode is that of a bar of 100 mm
+  const double axial = bar.pressure * (1.0 - 0.5 * stress_box / length);  // mean over the box
+  for (int k = 0; k < 4; ++k) {
+    bar.stations.push_back({fmt::format("B{}", k + 1), radius - (k + 0.5) * stress_box});
+    bar.exact.push_back({axial / 3.0, axial});
+  }
+  return bar;
+}
+
+/// Johnson-Cook at or below the reference rate, adiabatic: T rises with the plastic work.
+std::vector<HardeningPoint> hardening_of(const scene::Scene& scene) {
+  const materials::JohnsonCookParameters& law = scene.steel.strength;
+  if (law.a > 1e14) return {};  // steel that never yields
+  std::vector<HardeningPoint> points;
+  double temperature = scene.initial_temperature, strain = 0.0, stress = 0.0;
+  const auto add = [&](double next_strain) {
+    const double next_stress = materials::johnson_cook_flow_stress(law, next_strain, 0.0, temperature);
+    const double work = points.empty() ? 0.0 : 0.5 * (stress + next_stress) * (next_strain - strain);
+    temperature += law.taylor_quinney * work / (scene.steel.eos.density * law.specific_heat);
+    strain = next_strain;
+    stress = materials::johnson_cook_flow_stress(law, strain, 0.0, temperature);
+    points.push_back({strain, stress});
+  };
+  add(0.0);
+  for (double next = 1e-6; next < 1.0; next *= 1.25) add(next);
+  return points;
+}
+
+void append(std::vector<double>& edges, const std::vector<double>& more) {
+  edges.insert(edges.end(), more.begin() + (edges.empty() ? 0 : 1), more.end());
+}
+
+/// The largest rise of 1 to which lines of 5 mm are cut.
+std::vector<double> radial_edges(double radius, double finest) {
+  std::vector<double> edges;
+  const int boxes = static_cast<int>(std::lround(radius / stress_box));
+  for (int k = 0; k < boxes; ++k) {
+    const double begin = k * stress_box, end = k + 1 == boxes ? radius : (k + 1) * stress_box;
+    const bool last = k + 1 == boxes, before = k + 2 == boxes;
+    append(edges, graded_edges(begin, end, last ? 1.25e-3 : 2.5e-3,
+                               last     ? finest
+                               : before ? 1.25e-3
+                                        : 2.5e-3));
+  }
+  return edges;
+}
+
+}  // namespace
+
+double bottom_of(const scene::Scene& scene) {
+  return scene::has_material(scene, BodyMaterial::charge)
+             ? scene::extent_of(scene, BodyMaterial::charge).x_end
+             : scene::extent_of(scene).x_end;
+}
+
+double static_shear_modulus(const materials::ViscoScramParameters& charge) {
+  double modulus = 0.0;
+  for (std::size_t n = 0; n < materials::maxwell_elements; ++n)
+    if (!(charge.relaxation_rates[n] > 0.0)) modulus += charge.shear_moduli[n];
+  return modulus;
+}
+
+std::vector<StaticCase> static_cases() { return {elastic_shell(), plastic_shell(), free_bar()}; }
+
+FiniteElementModel finite_element_model(const StaticCase& compared) {
+  const scene::Scene& scene = compared.scene;
+  const scene::Extent all = scene::extent_of(scene);
+  const double bottom = bottom_of(scene);
+  const bool shell = scene::has_material(scene, BodyMaterial::charge);
+  constexpr double finest = 0.25e-3;
+  FiniteElementModel model;
+  if (shell) {
+    const scene::Extent charge = scene::extent_of(scene, BodyMaterial::charge);
+    append(model.edges_x, graded_edges(all.x_begin, charge.x_begin, 40e-3, 20e-3));
+    append(model.edges_x, graded_edges(charge.x_begin, bottom - stress_box, 30e-3, 2e-3));
+    append(model.edges_x, graded_edges(bottom - stress_box, bottom, 2e-3, finest));
+    append(model.edges_x, graded_edges(bottom, all.x_end, finest, 15e-3));
+    append(model.edges_r, radial_edges(charge.r_end, finest));
+    append(model.edges_r, graded_edges(charge.r_end, all.r_end, finest, 2.5e-3));
+  } else {
+    append(model.edges_x, graded_edges(all.x_begin, bottom - stress_box, 10e-3, 2.5e-3));
+    append(model.edges_x, graded_edges(bottom - stress_box, bottom, 2.5e-3, 2.5e-3));
+    append(model.edges_r, radial_edges(all.r_end, 1.25e-3));
+  }
+  const auto& steel = scene.steel;
+  const auto& explosive = scene.charge.eos;
+  model.materials = {{steel.eos.density * steel.eos.sound_speed * steel.eos.sound_speed,
+                      steel.strength.shear_modulus, steel.eos.density, hardening_of(scene)},
+                     {materials::jwl_bulk_modulus(explosive, 1.0, explosive.initial_energy),
+                      static_shear_modulus(scene.charge.cracks),
+                      explosive.initial_density,
+                      {}}};
+  model.material_of.assign(static_cast<std::size_t>(model.elements()), 0);
+  for (int element = 0; element < model.elements(); ++element) {
+    const IntegrationPoint inside = integration_point(model, element, 0);
+    for (const scene::Body& body : scene.bodies)
+      if (inside.x > body.x_begin && inside.x < body.x_end && inside.r > body.r_begin &&
+          inside.r < body.r_end)
+        model.material_of[static_cast<std::size_t>(element)] = body.material == BodyMaterial::charge ? 1 : 0;
+  }
+  model.acceleration = scene::rigid_acceleration(scene, compared.pressure);
+  model.base_pressure = compared.pressure;
+  model.rigid_barrel = scene.barrel == scene::Barrel::rigid;
+  return model;
+}
+
+}  // namespace launchsafe::verify
