@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace launchsafe::run {
 namespace {
@@ -14,9 +15,30 @@ namespace {
 /// Upper bound of sum G^2/S over the nodes of one direction, 1/m2.
 double stiffness(double cell, double half) { return 2.0 / (cell * half) + 1.0 / (cell * (cell - half)); }
 
+/// The total-Lagrangian bound: weights are constants of the lattice, so the sums are known.
+double proved_on_lattice(const scene::Scene& scene) {
+  const bool axisymmetric = scene.symmetry == scene::Symmetry::axisymmetric;
+  const int per_cell = scene.numerics.particles_per_cell;
+  // sum G^2/S = (1/S0 + 1/S1)/L^2 along one direction; largest for the particle nearest to a cell's edge.
+  const double nearest = 0.5 / per_cell;
+  const double along_x = 1.0 / nearest + 1.0 / (1.0 - nearest);
+  double along_r = along_x;
+  for (const scene::Body& body : scene.bodies) {
+    const std::vector<double> edges = scene::particle_edges(scene, body).r;
+    for (std::size_t j = 0; axisymmetric && j + 1 < edges.size(); ++j) {
+      const double inner = edges[j - j % static_cast<std::size_t>(per_cell)];
+      const double r = 0.5 * (edges[j] + edges[j + 1]), length = edges[j + 1] - edges[j];
+      const double outer_share = (r - inner + length * length / (12.0 * r)) / (length * per_cell);
+      along_r = std::max(along_r, 1.0 / outer_share + 1.0 / (1.0 - outer_share));
+    }
+  }
+  return 2.0 / std::sqrt(along_x + along_r);
+}
+
 }  // namespace
 
 double proved_time_step_factor(const scene::Scene& scene) {
+  if (scene.numerics.formulation == scene::Formulation::total_lagrangian) return proved_on_lattice(scene);
   const scene::Mesh mesh = scene::fit_mesh(scene);
   double least = std::numeric_limits<double>::infinity();
   for (const scene::Body& body : scene.bodies) {

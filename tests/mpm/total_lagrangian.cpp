@@ -161,14 +161,17 @@ TEST(TotalLagrangian, ABodyCutInTwoIsTheSameBody) {
 }
 
 TEST(TotalLagrangian, CountsInvertedCells) {
+  // Two ends that fly into each other at several times the speed of sound.
   scene::Scene bar = test_support::steel_bar(0.05, 0.02, 4e-3);
-  bar.steel.strength.a = 1e6;
-  bar.steel.strength.b = 0.0;
-  bar.barrel = scene::Barrel::none;
-  bar.load = test_support::steady_pressure(50e9);
+  bar.frame = scene::Frame::lab;
+  bar.load = test_support::steady_pressure(0.0);
   mpm::Simulation simulation(bar);
-  for (int step = 0; step < 20000 && !(simulation.events().distorted > 0.0); ++step)
-    simulation.step(simulation.stable_time_step());
+  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>())
+    for (std::size_t i = 0; i < body.kinematics.mass.size(); ++i)
+      body.kinematics.velocity_x[i] = body.kinematics.x[i] < 0.025 ? 3e4 : -3e4;
+  simulation.restart();
+  const double dt = simulation.stable_time_step();
+  for (int step = 0; step < 20; ++step) simulation.step(dt);
   EXPECT_GT(simulation.events().distorted, 0.0);
 }
 

@@ -11,9 +11,10 @@ namespace launchsafe::run {
 namespace {
 
 /// Square cells of 2.5 mm along all bodies: particles fill their cells.
-scene::Scene small_shell() {
+scene::Scene small_shell(scene::Formulation formulation = scene::Formulation::updated_lagrangian) {
   scene::Scene scene =
       scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/stability/small_shell.toml").value().scene;
+  scene.numerics.formulation = formulation;
   scene.numerics.cell_size = 2.5e-3;
   scene.load.duration = 0.4e-3;
   return scene;
@@ -57,6 +58,24 @@ TEST(StableFactor, AStepWithinItIsNotNamedWhereARunBreaks) {
   EXPECT_TRUE(step_remark(scene).empty());
   scene.numerics.time_step_factor = 0.8;
   EXPECT_NE(step_remark(scene).find("0.8 is above 0.577"), std::string::npos) << step_remark(scene);
+}
+
+/// Beside the axis S_1 = 2/3, so that 1/S_0 + 1/S_1 = 4.5, and 4 along x.
+TEST(StableFactor, OfTheLatticeIsThatOfTheRowBesideTheAxis) {
+  const scene::Scene scene = small_shell(scene::Formulation::total_lagrangian);
+  EXPECT_NEAR(proved_time_step_factor(scene), 2.0 / std::sqrt(8.5), 1e-9);
+}
+
+/// The measured limit lies above the proved one, and no more than a tenth.
+TEST(StableFactor, OfTheLatticeIsSharp) {
+  scene::Scene scene = small_shell(scene::Formulation::total_lagrangian);
+  scene.numerics.time_step_factor = 0.68;
+  EXPECT_EQ(run_mechanics(scene).status, RunStatus::completed);
+  scene.numerics.time_step_factor = 0.76;
+  const MechanicsResult broken = run_mechanics(scene);
+  EXPECT_NE(broken.status, RunStatus::completed);
+  EXPECT_NE(broken.reason.find("time step factor"), std::string::npos) << broken.reason;
+  EXPECT_LT(broken.steps, 1500u) << "instability must be caught soon";
 }
 
 /// Round-off without a load is no drift.
