@@ -134,8 +134,8 @@ store::Result<StaticComparison> compare_static_stresses(const StaticCase& compar
   tell("finite elements");
   const FiniteElementModel at_rest = finite_element_model(compared);
   FiniteElementModel model = at_rest;
-  model.increment = 0.1;  // near enough to know the moduli
   for (int pass = 0; pass < secant_passes; ++pass) {
+    model.increment = 0.1;  // near enough to know the moduli
     const auto result = run_finite_elements(model, limits);
     if (!result) return result.error();
     model = with_secant_moduli(at_rest, *result, compared.scene);
