@@ -9,8 +9,13 @@
 
 #include <cctype>
 #include <cmath>
+#include <ostream>
 
 namespace launchsafe::verify {
+
+/// What the names of tests show of a case.
+static void PrintTo(const StaticCase& compared, std::ostream* stream) { *stream << compared.name; }
+
 namespace {
 
 bool is_installed() {
