@@ -23,8 +23,8 @@ double place(const std::vector<double>& edges, int half_steps) {
   return half_steps % 2 == 0 ? edges[k] : 0.5 * (edges[k] + edges[k + 1]);
 }
 
-/// Decks are in m, s and MPa, hence units of mass of 1000 t: a compressibility as small as steel's is in 1/Pa,
-/// CalculiX 2.20 takes for none, and puts one of its own in its place.
+/// Decks are in m, s and MPa, hence units of mass of 1000 t: a compressibility as small as steel's is in
+/// 1/Pa, CalculiX 2.20 takes for none, and puts one of its own in its place.
 constexpr double pascal = 1.0 / deck_stress_unit;
 
 using Text = std::back_insert_iterator<std::string>;
@@ -109,16 +109,31 @@ void write_supports(const FiniteElementModel& model, const NodeLattice& nodes, T
   }
 }
 
-void write_loads(const FiniteElementModel& model, Text text) {
+void write_loads(const FiniteElementModel& model, double share, Text text) {
   fmt::format_to(text, "*DLOAD\n");
-  if (model.acceleration > 0.0) fmt::format_to(text, "ELEMENTS,GRAV,{:.12g},0.,1.,0.\n", model.acceleration);
+  if (model.acceleration > 0.0)
+    fmt::format_to(text, "ELEMENTS,GRAV,{:.12g},0.,1.,0.\n", share * model.acceleration);
+  const auto press = [&](int element, const char* face, double pressure) {
+    fmt::format_to(text, "{},{},{:.12g}\n", element + 1, face, share * pressure * pascal);
+  };
   if (model.base_pressure > 0.0)
     for (int j = 0; j < model.rows(); ++j)
-      fmt::format_to(text, "{},P3,{:.12g}\n", model.element(model.columns() - 1, j) + 1,
-                     model.base_pressure * pascal);
+      press(model.element(model.columns() - 1, j), "P3", model.base_pressure);
   if (model.bore_pressure > 0.0)
-    for (int i = 0; i < model.columns(); ++i)
-      fmt::format_to(text, "{},P4,{:.12g}\n", model.element(i, 0) + 1, model.bore_pressure * pascal);
+    for (int i = 0; i < model.columns(); ++i) press(model.element(i, 0), "P4", model.bore_pressure);
+}
+
+/// Leads the load to a share of the whole, in increments of at most a part of the way; only the last one is
+/// printed.
+void write_step(const FiniteElementModel& model, double share, double increment, Text text) {
+  fmt::format_to(text, "*STEP,NLGEOM,INC=1000\n*STATIC\n{},1.,1e-5,{}\n", increment, increment);
+  write_loads(model, share, text);
+  fmt::format_to(text, "*EL PRINT,ELSET=ELEMENTS,FREQUENCY=1000\nS\n*END STEP\n");
+}
+
+bool may_yield(const FiniteElementModel& model) {
+  return std::any_of(model.materials.begin(), model.materials.end(),
+                     [](const FiniteElementMaterial& material) { return !material.hardening.empty(); });
 }
 
 std::vector<double> halved(const std::vector<double>& edges) {
@@ -180,10 +195,10 @@ std::string deck_of(const FiniteElementModel& model) {
   write_elements(model, nodes, text);
   write_materials(model, text);
   write_supports(model, nodes, text);
-  // The load grows with the step's time from 0 to 1; only the last increment is printed.
-  fmt::format_to(text, "*STEP,NLGEOM,INC=1000\n*STATIC\n0.2,1.,1e-5,0.2\n");
-  write_loads(model, text);
-  fmt::format_to(text, "*EL PRINT,ELSET=ELEMENTS,FREQUENCY=1000\nS\n*END STEP\n");
+  // Little yields under the first half of the load.
+  const bool yields = may_yield(model);
+  if (yields) write_step(model, 0.5, 0.25, text);
+  write_step(model, 1.0, yields ? 2.0 * model.increment : 0.2, text);
   return deck;
 }
 
