@@ -29,6 +29,7 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
   const auto start = std::chrono::steady_clock::now();
   run::RunOptions options;
   options.stop = &stop_requested();
+  options.threads = study::available_cores();
   options.progress = [&](double share) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     progress.show(fmt::format("{} of {}, {:.0f} %  {}", milliseconds(share * scene.load.duration),

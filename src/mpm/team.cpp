@@ -1,5 +1,9 @@
 #include "launchsafe/mpm/team.hpp"
 
+#include <pthread.h>
+
+#include <ctime>
+
 namespace launchsafe::mpm {
 namespace {
 
@@ -44,6 +48,17 @@ void Team::serve(int member) {
     (*work_)(member);
     running_.fetch_sub(1, std::memory_order_acq_rel);
   }
+}
+
+double Team::helpers_processor_time() const {
+  double total = 0.0;
+  for (std::thread& helper : helpers_) {
+    clockid_t clock{};
+    timespec time{};
+    if (pthread_getcpuclockid(helper.native_handle(), &clock) != 0 || clock_gettime(clock, &time) != 0) continue;
+    total += static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+  return total;
 }
 
 void Team::run(const std::function<void(int)>& work) {

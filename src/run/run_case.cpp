@@ -146,6 +146,8 @@ class Runner {
     result_.limiters = count_limited(simulation_);
     result_.wall_time = seconds_since(start_);
     result_.processor_time = thread_processor_time() - processor_start;
+    if (const mpm::TotalLagrangian* form = simulation_.total_lagrangian())
+      result_.processor_time += form->helpers_processor_time();
     result_.trace = recorder_.take();
     return std::move(result_);
   }

@@ -90,8 +90,8 @@ class Measuring {
     std::vector<Task> tasks;
     std::vector<detail::ObtainedRun> obtained(runs.size());
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      tasks.push_back(detail::task_of(needed_by(runs[i]), options_, [&, i](const auto& report_share) {
-        obtained[i] = detail::obtain(needed_by(runs[i]), options_, report_share);
+      tasks.push_back(detail::task_of(needed_by(runs[i]), options_, [&, i](const Allotment& allotment) {
+        obtained[i] = detail::obtain(needed_by(runs[i]), options_, allotment);
         draw(runs[i], obtained[i].result.mechanics);
         obtained[i].result.mechanics.trace = {};
       }));

@@ -120,8 +120,8 @@ class Answering {
     const bool propagated = propagates_spread(study_.study);
     for (std::size_t task = 0; task < open.size(); ++task) {
       tasks.push_back(
-          task_of(needed_by(study_.cases[open[task].front()]), options_, [&, task](const auto& report_share) {
-            obtained[task] = answer_group(open[task], report_share, raised[task]);
+          task_of(needed_by(study_.cases[open[task].front()]), options_, [&, task](const Allotment& allotment) {
+            obtained[task] = answer_group(open[task], allotment, raised[task]);
           }));
       if (propagated) tasks.back().cost *= 2.0;
       tracker_.expect(1, tasks.back().cost);
@@ -142,8 +142,8 @@ class Answering {
   /// Runs the mechanics or takes them from the store, and draws the answers. What is returned is for the
   /// account alone: its histories are gone.
   ObtainedRun answer_group(const std::vector<std::size_t>& cases,
-                           const std::function<void(double)>& report_share, ObtainedRun& raised) {
-    ObtainedRun run = obtain(needed_by(study_.cases[cases.front()]), options_, report_share);
+                           const Allotment& allotment, ObtainedRun& raised) {
+    ObtainedRun run = obtain(needed_by(study_.cases[cases.front()]), options_, allotment);
     run::MechanicsResult& mechanics = run.result.mechanics;
     std::optional<run::MechanicsResult> raised_mechanics;
     if (propagates_spread(study_.study) && mechanics.status == run::RunStatus::completed) {

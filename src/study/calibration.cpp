@@ -72,9 +72,9 @@ void run_meshes(CalibrationResult& result, const StudyOptions& options) {
     }
     const detail::NeededRun needed = needed_by(run);
     running.push_back(&run);
-    tasks.push_back(detail::task_of(needed, options, [&, needed](const auto& report_share) {
+    tasks.push_back(detail::task_of(needed, options, [&, needed](const Allotment& allotment) {
       run.start_time = store::utc_now();
-      detail::ObtainedRun obtained = detail::obtain(needed, options, report_share);
+      detail::ObtainedRun obtained = detail::obtain(needed, options, allotment);
       run.reused = obtained.reused;
       run.mechanics = std::move(obtained.result.mechanics);
     }));

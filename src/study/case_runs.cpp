@@ -16,9 +16,9 @@ namespace detail {
 namespace {
 
 run::CaseResult compute(const NeededRun& needed, const StudyOptions& options,
-                        const std::function<void(double)>& report_share) {
+                        const Allotment& allotment) {
   const scene::Scene scene = scene_of(needed);
-  const run::RunOptions run_options{options.stop, options.time_limit, report_share};
+  const run::RunOptions run_options{options.stop, options.time_limit, allotment.report_share, allotment.threads};
   if (needed.coupled_gap) return options.runners.coupled(scene, *needed.coupled_gap, run_options);
   run::CaseResult result;
   result.mechanics = options.runners.mechanics(scene, run_options);
@@ -91,8 +91,8 @@ store::CaseIdentity identity_of(const NeededRun& needed) {
 }
 
 ObtainedRun obtain(const NeededRun& needed, const StudyOptions& options,
-                   const std::function<void(double)>& report_share) {
-  if (options.store == nullptr) return {compute(needed, options, report_share), false};
+                   const Allotment& allotment) {
+  if (options.store == nullptr) return {compute(needed, options, allotment), false};
   const store::CaseIdentity identity = identity_of(needed);
   if (options.store->holds(identity.hash())) {
     if (auto stored = options.store->load(identity.hash())) return {std::move(*stored), true};
@@ -100,7 +100,7 @@ ObtainedRun obtain(const NeededRun& needed, const StudyOptions& options,
   if (auto before = timed_out_before(identity, options)) return {std::move(*before), true};
   if (!options.compute) throw_failure_of(identity, options);
   try {
-    ObtainedRun run{compute(needed, options, report_share), false};
+    ObtainedRun run{compute(needed, options, allotment), false};
     keep(needed, identity, run.result, options);
     return run;
   } catch (const std::exception& error) {
@@ -124,7 +124,7 @@ std::string refusal_of(const NeededRun& needed, const StudyOptions& options) {
 }
 
 Task task_of(const NeededRun& needed, const StudyOptions& options,
-             std::function<void(const std::function<void(double)>&)> work) {
+             std::function<void(const Allotment&)> work) {
   constexpr double reading_share = 1e-3;
   const bool stored = options.store != nullptr && options.store->holds(identity_of(needed).hash());
   const double cost = cost_of(*needed.scene);

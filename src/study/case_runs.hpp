@@ -31,7 +31,7 @@ struct ObtainedRun {
 /// The result from the store, or computed and handed to it. A case that was timed out before under a limit no
 /// smaller than today's is not tried again. Throws what the runner throws, after journaling it.
 ObtainedRun obtain(const NeededRun& needed, const StudyOptions& options,
-                   const std::function<void(double)>& report_share);
+                   const Allotment& allotment);
 
 /// Relative cost of a run: predicted particle updates, > 0.
 double cost_of(const scene::Scene& scene);
@@ -39,7 +39,7 @@ double cost_of(const scene::Scene& scene);
 std::string refusal_of(const NeededRun& needed, const StudyOptions& options);
 /// A task for one run, cheap where its result is stored.
 Task task_of(const NeededRun& needed, const StudyOptions& options,
-             std::function<void(const std::function<void(double)>&)> work);
+             std::function<void(const Allotment&)> work);
 
 /// Journals a run that failed before it began: one that the memory limit refused.
 void note_refusal(const NeededRun& needed, const TaskOutcome& outcome, const StudyOptions& options);

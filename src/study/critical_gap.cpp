@@ -79,9 +79,9 @@ void run_mechanics(CriticalGapResult& result, const std::vector<bool>& ours, con
       continue;
     }
     indices.push_back(i);
-    tasks.push_back(detail::task_of(mechanics_of(outcome), options, [&, i](const auto& report_share) {
+    tasks.push_back(detail::task_of(mechanics_of(outcome), options, [&, i](const Allotment& allotment) {
       outcome.start_time = store::utc_now();
-      detail::ObtainedRun run = detail::obtain(mechanics_of(outcome), options, report_share);
+      detail::ObtainedRun run = detail::obtain(mechanics_of(outcome), options, allotment);
       outcome.reused = run.reused;
       outcome.result.mechanics = std::move(run.result.mechanics);
       outcome.failure = detail::failure_of(outcome.result.mechanics, {true, {}});
@@ -117,10 +117,10 @@ Confirmation expectation(double gap, bool ignition) {
 }
 
 Confirmation confirm(const CaseOutcome& outcome, double gap, const StudyOptions& options,
-                     const std::function<void(double)>& report_share, detail::ObtainedRun& run,
+                     const Allotment& allotment, detail::ObtainedRun& run,
                      bool expected) {
   const scene::Scene& scene = outcome.input.scene.scene;
-  run = detail::obtain(coupled_of(outcome, gap), options, report_share);
+  run = detail::obtain(coupled_of(outcome, gap), options, allotment);
   const run::CaseResult& coupled = run.result;
   const run::MechanicsResult& mechanics = coupled.mechanics;
   Confirmation confirmation = expectation(gap, expected);
@@ -166,8 +166,8 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
   for (Planned& each : planned) {
     Confirmation& place = each.outcome->confirmations[each.side];
     tasks.push_back(
-        detail::task_of(coupled_of(*each.outcome, place.gap), options, [&](const auto& report_share) {
-          place = confirm(*each.outcome, place.gap, options, report_share, each.run, place.expected_ignition);
+        detail::task_of(coupled_of(*each.outcome, place.gap), options, [&](const Allotment& allotment) {
+          place = confirm(*each.outcome, place.gap, options, allotment, each.run, place.expected_ignition);
         }));
   }
   const auto outcomes = run_tasks(tasks, detail::resources_of(options), tracker, options.stop);

@@ -58,7 +58,7 @@ void ProgressTracker::report() {
 namespace {
 
 /// One task from start to end, whatever it throws.
-void perform(const Task& task, TaskOutcome& outcome, ProgressTracker& tracker) {
+void perform(const Task& task, int threads, TaskOutcome& outcome, ProgressTracker& tracker) {
   double reported = 0;
   const auto report_share = [&](double share) {
     const double now = std::clamp(share, reported, 1.0);
@@ -68,7 +68,7 @@ void perform(const Task& task, TaskOutcome& outcome, ProgressTracker& tracker) {
   outcome.started = true;
   tracker.started();
   try {
-    task.work(report_share);
+    task.work({report_share, threads});
   } catch (const std::exception& error) {
     outcome.failure = error.what();
     if (outcome.failure.empty()) outcome.failure = "an exception without a message";
@@ -117,6 +117,12 @@ class Queue {
     return std::nullopt;
   }
 
+  /// Threads for a task that was just taken, of so many jobs: its share where there are more jobs than tasks.
+  int threads_of_one(int jobs) {
+    const std::lock_guard lock(mutex_);
+    return std::max(1, jobs / static_cast<int>(std::clamp<std::size_t>(running_ + waiting_.size(), 1, 1024)));
+  }
+
   void give_back(std::size_t task) {
     if (is_refused(task)) return;
     const std::lock_guard lock(mutex_);
@@ -157,15 +163,17 @@ std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, const Resourc
   const double memory =
       resources.memory_limit > 0 ? resources.memory_limit : usable_share * available_memory();
   Queue queue(tasks, memory);
+  const int jobs = resources.jobs > 0 ? resources.jobs : available_cores();
   const auto pull = [&] {
     while (const auto task = queue.take(stop)) {
-      perform(queue.is_refused(*task) ? refusal(tasks[*task], memory) : tasks[*task], outcomes[*task],
-              tracker);
+      const bool refused = queue.is_refused(*task);
+      perform(refused ? refusal(tasks[*task], memory) : tasks[*task], refused ? 1 : queue.threads_of_one(jobs),
+              outcomes[*task], tracker);
       queue.give_back(*task);
     }
   };
   const int most = static_cast<int>(std::min<std::size_t>(std::max<std::size_t>(tasks.size(), 1), 1024));
-  const int pullers = std::clamp(resources.jobs > 0 ? resources.jobs : available_cores(), 1, most);
+  const int pullers = std::clamp(jobs, 1, most);
   // TBB by itself starts no more threads than there are cores; the caller may want more.
   const auto parallelism = tbb::global_control::max_allowed_parallelism;
   const tbb::global_control allowed(parallelism, std::max(static_cast<std::size_t>(pullers),

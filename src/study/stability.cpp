@@ -91,7 +91,7 @@ class Launching {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       tasks.push_back(detail::task_of(
           needed_by(study_.cases[runs[i].cases.front()]), options_,
-          [&, i](const auto& report_share) { obtained[i] = run_one(runs[i], report_share); }));
+          [&, i](const Allotment& allotment) { obtained[i] = run_one(runs[i], allotment); }));
       tracker.expect(1, tasks.back().cost);
     }
     const auto outcomes = run_tasks(tasks, detail::resources_of(options_), tracker, options_.stop);
@@ -107,9 +107,9 @@ class Launching {
 
  private:
   detail::ObtainedRun run_one(const detail::MechanicalRun& run,
-                              const std::function<void(double)>& report_share) {
+                              const Allotment& allotment) {
     detail::ObtainedRun obtained =
-        detail::obtain(needed_by(study_.cases[run.cases.front()]), options_, report_share);
+        detail::obtain(needed_by(study_.cases[run.cases.front()]), options_, allotment);
     run::MechanicsResult& mechanics = obtained.result.mechanics;
     for (const std::size_t each : run.cases) records_[each] = record_of(study_, each, mechanics);
     mechanics.trace = {};

@@ -12,7 +12,7 @@ namespace {
 using namespace launchsafe::study;
 
 Task task_of(double cost, std::function<void()> work) {
-  return {cost, [work = std::move(work)](const std::function<void(double)>&) { work(); }};
+  return {cost, [work = std::move(work)](const Allotment&) { work(); }};
 }
 
 TEST(Scheduler, StartsTheMostCostlyFirst) {
@@ -80,9 +80,9 @@ TEST(Scheduler, ReportsProgressThatEndsAtOne) {
   ProgressTracker tracker([&reports](const Progress& progress) { reports.push_back(progress); });
   std::vector<Task> tasks;
   for (int i = 0; i < 3; ++i) {
-    tasks.push_back({1.0 + i, [](const std::function<void(double)>& report) {
-                       report(0.5);
-                       report(0.25);  // never goes back
+    tasks.push_back({1.0 + i, [](const Allotment& allotment) {
+                       allotment.report_share(0.5);
+                       allotment.report_share(0.25);  // never goes back
                      }});
     tracker.expect(1, tasks.back().cost);
   }
@@ -122,7 +122,7 @@ struct MemoryUse {
 
   void add(double cost, double memory) {
     tasks.push_back({cost,
-                     [this, memory](const std::function<void(double)>&) {
+                     [this, memory](const Allotment&) {
                        {
                          const std::lock_guard lock(mutex);
                          now += memory;

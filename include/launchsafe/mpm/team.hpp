@@ -25,6 +25,9 @@ class Team {
   /// must not throw.
   void run(const std::function<void(int)>& work);
 
+  /// Processor time (s) that the threads beside the caller have used.
+  double helpers_processor_time() const;
+
   /// Inside `work`: waits until all members have come here.
   void wait_for_all();
 
@@ -33,7 +36,7 @@ class Team {
   void serve(int member);
 
   int threads_;
-  std::vector<std::thread> helpers_;
+  mutable std::vector<std::thread> helpers_;
   std::fenv_t environment_{};
   const std::function<void(int)>* work_ = nullptr;
   std::atomic<unsigned> call_{0};       ///< number of calls so far

@@ -40,6 +40,9 @@ class TotalLagrangian {
   double stable_time_step() const;
   StepTotals step(const Drive& drive);
 
+  /// Processor time (s) of the threads beside the caller's.
+  double helpers_processor_time() const { return team_->helpers_processor_time(); }
+
   const std::vector<Nodes>& nodes() const { return nodes_; }
   const std::vector<Tie>& ties() const { return ties_; }
   /// Inertial over true mass of a body.

@@ -75,7 +75,7 @@ struct MechanicsResult {
   std::uint64_t steps = 0;
   std::uint64_t particles = 0;
   double wall_time = 0;       ///< s
-  double processor_time = 0;  ///< s, of the run's thread: what other work on the machine disturbs least
+  double processor_time = 0;  ///< s, of the run's threads: what other work on the machine disturbs least
   double update_rate() const { return wall_time > 0 ? double(steps) * double(particles) / wall_time : 0; }
   double mass_steel = 0, mass_charge = 0;  ///< kg, summed over the particles
   trace::BottomTrace trace;

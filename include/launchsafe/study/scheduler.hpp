@@ -48,10 +48,16 @@ class ProgressTracker {
 /// its control groups leaves. Infinity where neither can be read.
 double available_memory();
 
-/// One task. `work` gets a function to report the share done (0..1) with.
+/// What a task works with: a function to report the share done (0..1) with, and the threads that it may use.
+struct Allotment {
+  std::function<void(double)> report_share;
+  int threads = 1;
+};
+
+/// One task.
 struct Task {
   double cost = 1;  ///< relative, > 0
-  std::function<void(const std::function<void(double)>& report_share)> work;
+  std::function<void(const Allotment& allotment)> work;
   double memory = 0;         ///< bytes while it runs
   std::string refusal = {};  ///< why it must not be begun: that is its failure; empty for one that may
 };
@@ -70,7 +76,7 @@ struct Resources {
 
 /// Runs all tasks, the most costly first. A task that would not fit into the memory limit beside those that
 /// run waits, and less costly ones that fit go first; one that is too large even alone fails. Never throws
-/// for a task's exception. Once `stop` is set no further task starts. Outcomes are in the order of the tasks.
+/// for a task's exception. Where there are fewer tasks left than jobs, they share the jobs' threads. Once `stop` is set no further task starts. Outcomes are in the order of the tasks.
 std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, const Resources& resources,
                                    ProgressTracker& tracker, const std::atomic<bool>* stop = nullptr);
 
