@@ -114,8 +114,10 @@ std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mec
   if (const std::string measured = scene::measured_load_text(scene.load); !measured.empty())
     text += line("load", measured);
   text += line("simulated", scene::format_quantity(mechanics.end_time, Dimension::time));
-  text += line("mass", fmt::format("steel {:.6g}, charge {:.6g} {}", mechanics.mass_steel,
-                                   mechanics.mass_charge, unit));
+  std::string masses;
+  for (const run::MaterialMass& each : mechanics.masses)
+    masses += fmt::format("{}{} {:.6g}", masses.empty() ? "" : ", ", each.material, each.mass);
+  text += line("mass", fmt::format("{} {}", masses, unit));
   text += line("particles", fmt::format("{}", mechanics.particles));
   text += line("steps", fmt::format("{}", mechanics.steps));
   text += line("wall time", report::duration(mechanics.wall_time));
@@ -205,7 +207,7 @@ nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResul
   object["limiters"] = {{"crack_at_bound", mechanics.limiters.crack_at_bound},
                         {"tension_cutoff", mechanics.limiters.tension_cutoff},
                         {"hugoniot_guard", mechanics.limiters.hugoniot_guard}};
-  object["mass"] = {{"steel_kg", mechanics.mass_steel}, {"charge_kg", mechanics.mass_charge}};
+  for (const run::MaterialMass& each : mechanics.masses) object["mass"][each.material + "_kg"] = each.mass;
   object["timing"] = {{"particles", mechanics.particles},
                       {"steps", mechanics.steps},
                       {"wall_time_s", mechanics.wall_time},

@@ -32,6 +32,12 @@ nlohmann::ordered_json physics_json(const scene::Plan& plan) {
           {"snapshots", term_json(plan.snapshots)}};
 }
 
+nlohmann::ordered_json particles_json(const scene::Plan& plan) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const scene::MaterialParticles& each : plan.by_material) json[each.material] = each.particles;
+  return json;
+}
+
 run::Reach reach_here() { return {.memory = study::available_memory(), .keeps_skins = true}; }
 
 }  // namespace
@@ -58,7 +64,7 @@ nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate)
   return {{"title", scene.title},
           {"load", load_json(scene.load)},
           {"physics", physics_json(plan)},
-          {"particles", {{"steel", plan.particles_steel}, {"charge", plan.particles_charge}}},
+          {"particles", particles_json(plan)},
           {"cells", plan.cells},
           {"time_step_s", plan.time_step},
           {"steps", plan.steps},

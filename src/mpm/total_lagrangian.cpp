@@ -92,8 +92,7 @@ TotalLagrangian::Part TotalLagrangian::make_part(const AnyBody& any, const Nodes
     const auto line = static_cast<std::size_t>(nodes.first_x + c);
     part.inverse_length[static_cast<std::size_t>(c)] = 1.0 / (lines_.x[line + 1] - lines_.x[line]);
   }
-  const bool metal =
-      scene_.bodies[static_cast<std::size_t>(p.body)].material != scene::BodyMaterial::charge;
+  const bool metal = !scene::is_charge(scene_, scene_.bodies[static_cast<std::size_t>(p.body)]);
   part.inertial_factor = numerics.inertial_scaling * (metal ? numerics.steel_inertia : 1.0);
   if (lattice.stride > 1 || !(numerics.hourglass_stiffness > 0.0)) return part;
   const auto [shear, density] = std::visit(

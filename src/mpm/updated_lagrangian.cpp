@@ -5,12 +5,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace launchsafe::mpm {
 namespace {
 
-/// Nodes lighter than this share of a charge cell hold no more than round-off; they do not move.
+/// Nodes lighter than this share of a cell of the lightest material hold no more than round-off; they do not
+/// move.
 constexpr double empty_node_share = 1e-12;
+
+/// Of any body at rest, kg/m3.
+double lightest_density(const std::vector<AnyBody>& bodies) {
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const AnyBody& any : bodies)
+    lightest =
+        std::min(lightest, std::visit([](const auto& body) { return body.law.initial_density(); }, any));
+  return lightest;
+}
 
 double radial_measure(bool axisymmetric, double r) { return axisymmetric ? r : 1.0; }
 
@@ -102,8 +113,8 @@ UpdatedLagrangian::UpdatedLagrangian(const scene::Scene& scene, std::vector<AnyB
       grid_(make_grid(scene)),
       base_origin_(grid_.origin_x) {
   const double base = scene::extent_of(scene).x_end;
-  const bool has_charge = scene::has_material(scene, scene::BodyMaterial::charge);
-  const double bottom = has_charge ? scene::extent_of(scene, scene::BodyMaterial::charge).x_end : base;
+  const bool has_charge = scene::has_charge(scene);
+  const double bottom = has_charge ? scene::charge_extent(scene).x_end : base;
   for (const AnyBody& any : bodies) {
     const Kinematics& p = kinematics_of(any);
     const Lattice& lattice = p.lattice;
@@ -113,7 +124,7 @@ UpdatedLagrangian::UpdatedLagrangian(const scene::Scene& scene, std::vector<AnyB
     for (int j = 0; body.x_end >= base && j < lattice.rows(); ++j)
       faces_.push_back({&p, lattice.slot(last, j), half_x(p), half_r(p),
                         radial_measure(axisymmetric_, lattice.r_of(j)) * lattice.length_r(j)});
-    if (body.x_end != bottom || (body.material == scene::BodyMaterial::charge) != has_charge) continue;
+    if (body.x_end != bottom || scene::is_charge(scene, body) != has_charge) continue;
     for (int j = 0; j < lattice.rows(); ++j)
       anchors_.push_back({&p, lattice.slot(last, j), lattice.x_of(last)});
   }
@@ -205,7 +216,7 @@ void UpdatedLagrangian::locate_bores() {
 void UpdatedLagrangian::update_grid(const Drive& drive, NodeTotals& totals) {
   const double scaling = scene_.numerics.inertial_scaling;
   const double dt = drive.dt, keep = drive.keep;
-  const double lightest = empty_node_share * scene_.charge.eos.initial_density * grid_.dx * grid_.dr *
+  const double lightest = empty_node_share * lightest_density(bodies_) * grid_.dx * grid_.dr *
                           radial_measure(axisymmetric_, grid_.dr);
   // Nodes are padded to whole Packs; the rows' ends may share one, so the radial condition is given by node.
   Pack old_transport(0.0), axial_transport(0.0), damping(0.0);

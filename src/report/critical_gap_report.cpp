@@ -127,7 +127,7 @@ Plot temperature_plot(const CriticalGapResult& result) {
   }
   if (!published.x.empty()) plot.series.push_back(std::move(published));
   plot.horizontal_lines.push_back(
-      {result.study.scene.scene.charge.kinetics.ignition_temperature, "ignition temperature"});
+      {result.study.scene.scene.charge().kinetics.ignition_temperature, "ignition temperature"});
   return plot;
 }
 

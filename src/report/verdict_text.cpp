@@ -158,7 +158,7 @@ std::string friction_remark(const study::StudyFile& study) {
       "not a prediction. What is predicted is how it moves with pressure, defect, load shape and design.\n",
       study::to_string(scene.surface.friction), significant(scene.surface.localisation, 6),
       significant(1e3 * scene.surface.exchange_time, 6),
-      significant(scene.charge.kinetics.ignition_temperature, 6));
+      significant(scene.charge().kinetics.ignition_temperature, 6));
   std::string varied;
   for (const char* key : {"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"}) {
     if (varies(study.study, key)) varied += fmt::format("{}`{}`", varied.empty() ? "" : ", ", key);

@@ -6,7 +6,7 @@
 namespace launchsafe::run {
 
 BulkHeat::BulkHeat(const mpm::Simulation& simulation)
-    : charge_(simulation.scene().charge),
+    : charge_(simulation.scene().charge()),
       closure_(static_cast<std::size_t>(simulation.scene().surface.friction)) {
   const scene::Plan plan = scene::make_plan(simulation.scene());
   reaction_ = plan.bulk_reaction.in;

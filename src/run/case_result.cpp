@@ -50,6 +50,21 @@ double EnergyBalance::drift() const {
   return (kinetic + internal + damping - external - body_force) / scale();
 }
 
+void add_mass(std::vector<MaterialMass>& masses, const std::string& material, double mass) {
+  for (MaterialMass& each : masses)
+    if (each.material == material) {
+      each.mass += mass;
+      return;
+    }
+  masses.push_back({material, mass});
+}
+
+double mass_of(const MechanicsResult& mechanics, std::string_view material) {
+  for (const MaterialMass& each : mechanics.masses)
+    if (each.material == material) return each.mass;
+  return 0.0;
+}
+
 double largest_energy_drift(const MechanicsResult& mechanics) {
   double largest = std::numeric_limits<double>::quiet_NaN(), scale = 0;
   for (const MonitorSample& sample : mechanics.monitor) scale = std::max(scale, sample.energy.scale());

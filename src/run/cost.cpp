@@ -22,8 +22,8 @@ struct TraceSize {
   double samples = 0, stations = 0;
 };
 TraceSize trace_size(const scene::Scene& scene, const scene::Plan& plan) {
-  const double row = extent_of(scene, scene::BodyMaterial::charge).r_end / scene.numerics.cell_size *
-                     scene.numerics.particles_per_cell;
+  const double row =
+      charge_extent(scene).r_end / scene.numerics.cell_size * scene.numerics.particles_per_cell;
   return {2.0 + std::min(scene.load.duration / scene.output.trace_interval, static_cast<double>(plan.steps)),
           static_cast<double>(scene.output.observation_points.size()) + row};
 }

@@ -95,10 +95,10 @@ void doubt_samples(const MechanicsResult& mechanics, Doubts& doubts) {
 }
 
 void doubt_cracks(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
-  const double flaw = scene.charge.cracks.flaw_size, cell = scene.numerics.cell_size;
+  const double flaw = scene.charge().cracks.flaw_size, cell = scene.numerics.cell_size;
   const double crack = largest(mechanics, [](const auto& sample) { return sample.largest_crack_radius; });
   if (!(flaw > 0.0) || !(crack > 0.0)) return;
-  const scene::Extent charge = scene::extent_of(scene, scene::BodyMaterial::charge);
+  const scene::Extent charge = scene::charge_extent(scene);
   const double room = std::min(charge.x_end - charge.x_begin, charge.r_end);
   const auto doubt = [&](const std::string& against) {
     doubts.push_back(
@@ -118,15 +118,16 @@ double bulk_temperature(const Scene& scene, const trace::BottomTrace& trace) {
   if (closure < trace.friction.size()) {
     for (const double energy : trace.friction[closure]) most = std::max(most, energy);
   }
-  return scene.initial_temperature + most / (scene.charge.eos.initial_density * scene.charge.specific_heat);
+  return scene.initial_temperature +
+         most / (scene.charge().eos.initial_density * scene.charge().specific_heat);
 }
 
 /// The skin is that of the charge's rearmost face. A part of the charge that ends before it, by however
 /// little, has a face of its own that nobody looks at, unless more charge lies behind all of it.
 void doubt_bottom(const Scene& scene, Doubts& doubts) {
   constexpr double touching = 1e-9;  // m
-  const auto is_charge = [](const scene::Body& body) { return body.material == scene::BodyMaterial::charge; };
-  const double bottom = scene::extent_of(scene, scene::BodyMaterial::charge).x_end;
+  const auto is_charge = [&scene](const scene::Body& body) { return scene::is_charge(scene, body); };
+  const double bottom = scene::charge_extent(scene).x_end;
   for (const scene::Body& body : scene.bodies) {
     if (!is_charge(body) || body.x_end == bottom) continue;
     const bool covered =
@@ -144,7 +145,7 @@ void doubt_bottom(const Scene& scene, Doubts& doubts) {
 void doubt_charge(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
   if (scene::make_plan(scene).bulk_reaction.in) return;
   const double temperature = bulk_temperature(scene, mechanics.trace);
-  const double ignition = scene.charge.kinetics.ignition_temperature;
+  const double ignition = scene.charge().kinetics.ignition_temperature;
   if (temperature < ignition) return;
   doubts.push_back(
       fmt::format("friction heats the bulk of the charge to {:.4g} K, above ignition at {:.4g} K, while its "
@@ -157,21 +158,21 @@ void doubt_charge(const Scene& scene, const MechanicsResult& mechanics, Doubts& 
 double heated_steel(const Scene& scene, double plastic_strain) {
   constexpr double rate = 1e3;  // 1/s
   constexpr int steps = 200;
-  const materials::JohnsonCookParameters& steel = scene.steel.strength;
+  const materials::JohnsonCookParameters& steel = scene.steel().strength;
   double temperature = scene.initial_temperature;
   for (int step = 0; step < steps; ++step) {
     const double strain = plastic_strain * (step + 0.5) / steps;
     const double flow = materials::johnson_cook_flow_stress(steel, strain, rate, temperature);
     temperature += steel.taylor_quinney * flow * plastic_strain / steps /
-                   (scene.steel.eos.density * steel.specific_heat);
+                   (scene.steel().eos.density * steel.specific_heat);
   }
   return temperature;
 }
 
 void doubt_steel(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
-  if (!scene::has_material(scene, scene::BodyMaterial::steel)) return;
+  if (!scene::has_law<scene::Steel>(scene)) return;
   const double strain = largest(mechanics, [](const auto& sample) { return sample.largest_plastic_strain; });
-  const materials::JohnsonCookParameters& steel = scene.steel.strength;
+  const materials::JohnsonCookParameters& steel = scene.steel().strength;
   const double temperature = heated_steel(scene, strain);
   const double share =
       (temperature - steel.room_temperature) / (steel.melting_temperature - steel.room_temperature);
@@ -213,7 +214,7 @@ std::vector<std::string> doubts_of(const Scene& scene, const MechanicsResult& me
   doubt_inertia(scene, mechanics, doubts);
   for (std::string& each : uncovered_load(scene.load)) doubts.push_back(std::move(each));
   doubt_samples(mechanics, doubts);
-  if (scene::has_material(scene, scene::BodyMaterial::charge)) {
+  if (scene::has_charge(scene)) {
     doubt_cracks(scene, mechanics, doubts);
     doubt_charge(scene, mechanics, doubts);
     doubt_bottom(scene, doubts);

@@ -15,13 +15,11 @@ constexpr double least_pressure = 1e3;
 double least_judged_energy(const scene::Scene& scene) {
   const double pressure = std::max(0.01 * scene::PressureHistory(scene.load).peak(), least_pressure);
   double energy = 0.0;
-  for (const auto material : {scene::BodyMaterial::steel, scene::BodyMaterial::charge}) {
-    if (!scene::has_material(scene, material)) continue;
-    const double speed = scene::longitudinal_speed(scene, material);
-    const double density =
-        material == scene::BodyMaterial::steel ? scene.steel.eos.density : scene.charge.eos.initial_density;
-    energy +=
-        0.5 * pressure * pressure * scene::mass_of(scene, material) / (density * density * speed * speed);
+  for (const scene::Material& material : scene::used_materials(scene)) {
+    const double speed = scene::longitudinal_speed(material.law);
+    const double density = initial_density(material.law);
+    energy += 0.5 * pressure * pressure * scene::mass_of(scene, material.name) /
+              (density * density * speed * speed);
   }
   return energy;
 }

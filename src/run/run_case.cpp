@@ -114,9 +114,8 @@ class Runner {
     if (coupled_gap) surface_.emplace(simulation_.scene(), *coupled_gap, recorder_);
     result_.particles = simulation_.particles();
     simulation_.for_each_body([&](const mpm::Kinematics& p) {
-      const bool steel =
-          scene.bodies[static_cast<std::size_t>(p.body)].material == scene::BodyMaterial::steel;
-      (steel ? result_.mass_steel : result_.mass_charge) += mpm::mass_of(p, scene.symmetry);
+      add_mass(result_.masses, scene.bodies[static_cast<std::size_t>(p.body)].material,
+               mpm::mass_of(p, scene.symmetry));
     });
   }
 
@@ -286,7 +285,7 @@ GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trac
 CaseResult run_case(const scene::Scene& scene, const RunOptions& options) {
   CaseResult result;
   result.mechanics = run_mechanics(scene, options);
-  if (scene::has_material(scene, scene::BodyMaterial::charge))
+  if (scene::has_charge(scene))
     for (const double gap : scene.surface.gaps)
       result.gaps.push_back(evaluate_gap(scene, result.mechanics.trace, gap));
   return result;

@@ -31,8 +31,7 @@ bool contains(const mpm::Lattice& lattice, double x, double r) {
 TraceRecorder::TraceRecorder(const mpm::Simulation& simulation, const scene::Scene& scene)
     : floor_(scene.surface.air.initial_pressure) {
   for (const Charge& charge : simulation.bodies_of<materials::Charge>()) charges_.push_back(&charge);
-  const double bottom =
-      charges_.empty() ? 0.0 : scene::extent_of(scene, scene::BodyMaterial::charge).x_end;
+  const double bottom = charges_.empty() ? 0.0 : scene::charge_extent(scene).x_end;
   for (const Charge* charge : charges_)
     if (scene.bodies[static_cast<std::size_t>(charge->kinematics.body)].x_end >= bottom)
       add_bottom_row(*charge, scene.symmetry == scene::Symmetry::axisymmetric);

@@ -57,41 +57,33 @@ double poisson_ratio(double bulk, double shear) {
 }
 
 Number poisson_ratio_of_steel(const Scene& scene) {
-  if (!has_material(scene, BodyMaterial::steel)) return std::nullopt;
-  const auto& eos = scene.steel.eos;
-  return poisson_ratio(eos.density * eos.sound_speed * eos.sound_speed, scene.steel.strength.shear_modulus);
-}
-
-double bulk_modulus_of_charge(const Scene& scene) {
-  const auto& eos = scene.charge.eos;
-  return materials::jwl_bulk_modulus(eos, 1.0, eos.initial_energy);
+  if (!has_law<Steel>(scene)) return std::nullopt;
+  return poisson_ratio(scene.steel().bulk_modulus(), scene.steel().shear_modulus());
 }
 
 /// A quantity that only a scene with a charge has.
 std::function<Number(const Scene&)> of_charge(double (*value)(const Scene&)) {
-  return [value](const Scene& scene) {
-    return has_material(scene, BodyMaterial::charge) ? Number(value(scene)) : std::nullopt;
-  };
+  return [value](const Scene& scene) { return has_charge(scene) ? Number(value(scene)) : std::nullopt; };
 }
 
 double poisson_ratio_of_charge(const Scene& scene) {
-  return poisson_ratio(bulk_modulus_of_charge(scene), scene.charge.cracks.shear_modulus());
+  return poisson_ratio(scene.charge().bulk_modulus(), scene.charge().shear_modulus());
 }
 
 double bulk_sound_speed(const Scene& scene) {
-  return std::sqrt(bulk_modulus_of_charge(scene) / scene.charge.eos.initial_density);
+  return std::sqrt(scene.charge().bulk_modulus() / scene.charge().initial_density());
 }
 
 double heat_capacity(const Scene& scene) {
-  return 1e-6 * scene.charge.eos.initial_density * scene.charge.specific_heat;
+  return 1e-6 * scene.charge().eos.initial_density * scene.charge().specific_heat;
 }
 
 /// Temperature (K) at which self-heating without loss runs away within a second, with the leading term of the
 /// induction time, c T^2/(Q Z E) exp(E/T); infinite without reaction. (Frank-Kamenetskii 1969.)
 double explosion_temperature(const Scene& scene) {
-  const materials::KineticsParameters& kinetics = scene.charge.kinetics;
+  const materials::KineticsParameters& kinetics = scene.charge().kinetics;
   const double activation = kinetics.activation_temperature;
-  const double rate = kinetics.heat_of_reaction * kinetics.frequency / scene.charge.specific_heat;
+  const double rate = kinetics.heat_of_reaction * kinetics.frequency / scene.charge().specific_heat;
   constexpr double delay = 1.0;  // s
   const auto too_slow = [&](double temperature) {
     return std::log(temperature * temperature / (rate * activation)) + activation / temperature >

@@ -88,12 +88,6 @@ std::string_view meaning_of(Standing standing) {
   return {};
 }
 
-bool Limits::contain(double value) const {
-  const bool above_lowest = lowest_allowed ? value >= lowest : value > lowest;
-  const bool below_highest = highest_allowed ? value <= highest : value < highest;
-  return above_lowest && below_highest;
-}
-
 std::string allowed_text(const KeyDescription& key) {
   const std::string_view name = name_of(key.dimension);
   const std::string range = limits_text(key.limits, key.dimension);

@@ -41,6 +41,32 @@ void settle_physics(const Plan& plan, Physics& physics) {
   physics.reaction_bound = usual.reaction_bound;
 }
 
+/// What of a law acts through heat alone, at its default where that heat is left out.
+template <class Law>
+void drop_heat(Law& law, bool conducts, bool temperatures_matter) {
+  static const std::vector<Key<Law>> keys = Law::parameters();
+  for (const Key<Law>& key : keys) {
+    const bool unused =
+        (key.dimension == Dimension::conductivity && !conducts) ||
+        (key.dimension == Dimension::specific_heat && !Law::heats_itself && !temperatures_matter);
+    if (unused) key.set(law, key.default_value());
+  }
+}
+
+/// What no body is made of stands at its default.
+void settle_materials(Scene& part, bool conducts, bool temperatures_matter) {
+  for (Material& material : part.materials) {
+    const bool used = std::any_of(part.bodies.begin(), part.bodies.end(),
+                                  [&](const Body& body) { return body.material == material.name; });
+    std::visit(
+        [&]<class Law>(Law& law) {
+          if (!used) law = Law{};
+          drop_heat(law, conducts, temperatures_matter);
+        },
+        material.law);
+  }
+}
+
 bool is_negative_zero(double number) { return number == 0.0 && std::signbit(number); }
 
 void clear_sign(double& number) {
@@ -78,18 +104,13 @@ Scene mechanical_part(const Scene& scene) {
   // snapshots.
   const bool temperatures_matter =
       plan.conduction.in || plan.bulk_reaction.in || !scene.output.snapshot_times.empty();
-  const Charge usual;
   Scene part = scene;
   part.title.clear();
   part.accepted.clear();
   part.load = without_unused(std::move(part.load));
   part.surface = surface_part(scene.surface, temperatures_matter);
-  if (!temperatures_matter) part.charge.specific_heat = usual.specific_heat;
-  if (!plan.bulk_reaction.in) part.charge.kinetics = usual.kinetics;
-  if (!plan.conduction.in) {
-    part.charge.conductivity = usual.conductivity;
-    part.steel.strength.conductivity = Steel{}.strength.conductivity;
-  }
+  settle_materials(part, plan.conduction.in, temperatures_matter);
+  if (!plan.bulk_reaction.in) part.charge().kinetics = Charge{}.kinetics;
   settle_physics(plan, part.physics);
   std::sort(part.output.snapshot_times.begin(), part.output.snapshot_times.end());
   clear_signs_of_zeros(part);

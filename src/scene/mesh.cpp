@@ -10,11 +10,6 @@
 namespace launchsafe::scene {
 namespace {
 
-bool has_charge(const Scene& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const Body& body) { return body.material == BodyMaterial::charge; });
-}
-
 /// Edges closer than this share of the scene's size are one.
 constexpr double coincidence = 1e-9;
 
@@ -118,13 +113,13 @@ GridLines grid_lines(const Scene& scene) {
   for (const Body& body : scene.bodies) {
     x.insert(x.end(), {body.x_begin, body.x_end});
     r.insert(r.end(), {body.r_begin, body.r_end});
-    if (body.material != BodyMaterial::charge) continue;
+    if (!is_charge(scene, body)) continue;
     if (scene.numerics.refined_r.empty()) {
       refined_r.push_back(body.r_end);
       if (body.r_begin > 0.0) refined_r.push_back(body.r_begin);
     }
   }
-  if (refined_x.empty() && has_charge(scene)) refined_x = {extent_of(scene, BodyMaterial::charge).x_end};
+  if (refined_x.empty() && has_charge(scene)) refined_x = {charge_extent(scene).x_end};
   const double size = size_of(scene);
   return {lines_through(std::move(x), size, CellDensity(scene.numerics, scene.numerics.growth_x, std::move(refined_x))),
           lines_through(std::move(r), size, CellDensity(scene.numerics, scene.numerics.growth_r, std::move(refined_r)))};
@@ -183,7 +178,7 @@ int parts_of(double length, double part) {
 
 Mesh fit_mesh(const Scene& scene) {
   const Extent all = extent_of(scene);
-  const Extent fitted = has_charge(scene) ? extent_of(scene, BodyMaterial::charge) : all;
+  const Extent fitted = has_charge(scene) ? charge_extent(scene) : all;
   const double length = fitted.x_end - fitted.x_begin;
   Mesh mesh;
   mesh.dx = length / parts_of(length, scene.numerics.cell_size);
@@ -198,7 +193,7 @@ std::string charge_edges_off_grid(const Scene& scene) {
   const Mesh mesh = fit_mesh(scene);
   std::string edges;
   for (const Body& body : scene.bodies) {
-    if (body.material != BodyMaterial::charge) continue;
+    if (!is_charge(scene, body)) continue;
     for (const double r : {body.r_begin, body.r_end}) {
       const double cells = r / mesh.dr;
       if (std::abs(cells - std::round(cells)) < 1e-6) continue;

@@ -12,10 +12,11 @@
 namespace launchsafe::scene {
 namespace {
 
-/// Bytes that the mechanics holds for a particle and a grid cell, about: state, increments and transfer
-/// weights.
-constexpr double bytes_per_steel_particle = 320.0;
-constexpr double bytes_per_charge_particle = 560.0;
+/// Numbers of 8 bytes that the mechanics holds for a particle beside the state of its law, with what pads
+/// rows: place, velocity, mass, density, pressure, temperature, stiffness against hourglassing. And bytes for
+/// a cell, about.
+constexpr double numbers_per_particle = 10.0;
+constexpr double bytes_per_number = 8.0;
 constexpr double bytes_per_cell = 128.0;
 
 std::string length_text(double length) { return format_quantity(length, Dimension::length); }
@@ -31,25 +32,33 @@ Term switched(Switch user, bool needed, std::string reason, double value, double
   return {in, forced, std::move(reason), value, bound};
 }
 
+/// Verdicts rest on the charge's temperature; heat in the rest only softens it a little.
+Material material_to_conduct(const Scene& scene) {
+  std::vector<Material> used = used_materials(scene);
+  if (has_charge(scene)) std::erase_if(used, [](const Material& each) { return !is_explosive(each.law); });
+  return *std::max_element(used.begin(), used.end(), [&](const Material& a, const Material& b) {
+    return diffusion_length(a.law, scene.load.duration) < diffusion_length(b.law, scene.load.duration);
+  });
+}
+
 Term plan_conduction(const Scene& scene, const CellRange& cells) {
-  // Verdicts rest on the charge's temperature; heat in the steel only softens it a little.
-  const bool charge = has_material(scene, BodyMaterial::charge);
-  const double length = diffusion_length(scene, charge ? BodyMaterial::charge : BodyMaterial::steel);
+  const Material material = material_to_conduct(scene);
+  const double length = diffusion_length(material.law, scene.load.duration);
   const double cell = cells.shortest();
   const double share = length / cell;
   const double bound = scene.physics.conduction_bound;
   return switched(
       scene.physics.conduction, share > bound,
       fmt::format("heat diffuses {} in the {} over the run, {:.3g} of a cell of {}; left out up to {:.3g}",
-                  length_text(length), charge ? "charge" : "steel", share, length_text(cell), bound),
+                  length_text(length), material.name, share, length_text(cell), bound),
       share, bound);
 }
 
 Term plan_bulk_reaction(const Scene& scene) {
-  if (!has_material(scene, BodyMaterial::charge)) return {false, false, "no charge", 0.0, 0.0};
+  if (!has_charge(scene)) return {false, false, "no charge", 0.0, 0.0};
   const double temperature = bulk_temperature_bound(scene);
   const double heating =
-      materials::arrhenius_heating(scene.charge.kinetics, scene.charge.specific_heat, temperature) *
+      materials::arrhenius_heating(scene.charge().kinetics, scene.charge().specific_heat, temperature) *
       scene.load.duration;
   const double bound = scene.physics.reaction_bound;
   return switched(
@@ -62,21 +71,21 @@ Term plan_bulk_reaction(const Scene& scene) {
 
 Term plan_surface(const Scene& scene) {
   const auto gaps = static_cast<double>(scene.surface.gaps.size());
-  if (!has_material(scene, BodyMaterial::charge)) return {false, false, "no charge", gaps, 0.0};
+  if (!has_charge(scene)) return {false, false, "no charge", gaps, 0.0};
   return {true, false, fmt::format("{:.0f} gaps on one bottom trace", gaps), gaps, 0.0};
 }
 
 Term plan_air(const Scene& scene) {
   double largest = 0.0;
   for (const double gap : scene.surface.gaps) largest = std::max(largest, gap);
-  if (!has_material(scene, BodyMaterial::charge)) return {false, false, "no charge", largest, 0.0};
+  if (!has_charge(scene)) return {false, false, "no charge", largest, 0.0};
   if (!(largest > 0.0)) return {false, false, "no gap above 0 cm", largest, 0.0};
   return {true, false, fmt::format("gaps up to {}", length_text(largest)), largest, 0.0};
 }
 
 Term plan_cracks(const Scene& scene) {
-  const materials::ViscoScramParameters& cracks = scene.charge.cracks;
-  if (!has_material(scene, BodyMaterial::charge)) return {false, false, "no charge", 0.0, 0.0};
+  const materials::ViscoScramParameters& cracks = scene.charge().cracks;
+  if (!has_charge(scene)) return {false, false, "no charge", 0.0, 0.0};
   if (!(cracks.flaw_size > 0.0)) return {false, false, "charge.flaw_size is 0", 0.0, 0.0};
   const double ratio = cracks.initial_crack_radius / cracks.flaw_size;
   if (!(ratio > 0.0)) return {false, false, "charge.crack_radius is 0", 0.0, 0.0};
@@ -87,14 +96,14 @@ Term plan_cracks(const Scene& scene) {
 }
 
 Term plan_crack_growth(const Scene& scene, const Term& cracks) {
-  const double speed = scene.charge.cracks.largest_growth_speed;
+  const double speed = scene.charge().cracks.largest_growth_speed;
   if (!cracks.in) return {false, false, "no cracks", speed, 0.0};
-  if (!scene.charge.cracks.growth) return {false, false, "charge.crack_growth is false", speed, 0.0};
+  if (!scene.charge().cracks.growth) return {false, false, "charge.crack_growth is false", speed, 0.0};
   return {true, false, fmt::format("up to {:.4g} m/s", speed), speed, 0.0};
 }
 
 Term plan_crack_friction(const Scene& scene, const Term& growth) {
-  const double friction = scene.charge.cracks.face_friction;
+  const double friction = scene.charge().cracks.face_friction;
   if (!growth.in) return {false, false, "no crack growth that it could hold back", friction, 0.0};
   if (!(friction > 0.0)) return {false, false, "charge.face_friction is 0", friction, 0.0};
   return {true, false, fmt::format("coefficient {:.3g} of closed crack faces", friction), friction, 0.0};
@@ -102,9 +111,9 @@ Term plan_crack_friction(const Scene& scene, const Term& growth) {
 
 Term plan_friction_heat(const Scene& scene) {
   const Surface& surface = scene.surface;
-  if (!has_material(scene, BodyMaterial::charge)) return {false, false, "no charge", 0.0, 0.0};
+  if (!has_charge(scene)) return {false, false, "no charge", 0.0, 0.0};
   if (surface.friction == FrictionClosure::none) return {false, false, "friction.closure is none", 0.0, 0.0};
-  const double factor = scene.charge.sliding_friction * surface.localisation;
+  const double factor = scene.charge().sliding_friction * surface.localisation;
   if (!(factor > 0.0)) return {false, false, "sliding_friction or localisation is 0", factor, 0.0};
   return {true, false,
           fmt::format("closure \"{}\", localisation {:.6g}",
@@ -131,7 +140,7 @@ Term plan_snapshots(const Scene& scene) {
 /// where it takes the step whole. Growth of the cracks, which divides steps too, cannot be foreseen.
 double crack_substeps(const Scene& scene, double time_step) {
   namespace law = materials::detail;
-  const materials::ViscoScramParameters& cracks = scene.charge.cracks;
+  const materials::ViscoScramParameters& cracks = scene.charge().cracks;
   const double fastest = *std::max_element(cracks.relaxation_rates.begin(), cracks.relaxation_rates.end());
   const double x = time_step * fastest,
                q = materials::crack_strain_ratio(cracks, cracks.initial_crack_radius);
@@ -148,69 +157,79 @@ double time_step_at_rest(const Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Body& body : scene.bodies) {
     const double inertia =
-        numerics.inertial_scaling * (body.material == BodyMaterial::charge ? 1.0 : numerics.steel_inertia);
-    shortest = std::min(shortest, cells_of(scene, body).shortest() / longitudinal_speed(scene, body.material) *
+        numerics.inertial_scaling * (is_charge(scene, body) ? 1.0 : numerics.steel_inertia);
+    shortest = std::min(shortest, cells_of(scene, body).shortest() / longitudinal_speed(law_of(scene, body)) *
                                       std::sqrt(inertia));
   }
   return numerics.time_step_factor * shortest;
 }
 
-void count_work(const Scene& scene, const CellRange& cells, Plan& plan) {
-  for (const Body& body : scene.bodies) {
-    const std::int64_t particles = particles_of(scene, body).total();
-    (body.material == BodyMaterial::steel ? plan.particles_steel : plan.particles_charge) += particles;
+void count_particles(const Scene& scene, Plan& plan) {
+  for (const Material& material : used_materials(scene)) {
+    MaterialParticles& count = plan.by_material.emplace_back(MaterialParticles{material.name});
+    for (const Body& body : scene.bodies) {
+      if (body.material != material.name) continue;
+      count.particles += particles_of(scene, body).total();
+    }
+    plan.memory += bytes_per_number * (numbers_per_particle + static_cast<double>(state_size(material.law))) *
+                   static_cast<double>(count.particles);
   }
+}
+
+/// Particles whose law has cracks.
+double cracked_particles(const Scene& scene, const Plan& plan) {
+  double total = 0.0;
+  for (const MaterialParticles& each : plan.by_material)
+    if (std::holds_alternative<Charge>(find_material(scene, each.material)->law))
+      total += static_cast<double>(each.particles);
+  return total;
+}
+
+void count_work(const Scene& scene, const CellRange& cells, Plan& plan) {
+  count_particles(scene, plan);
   plan.cells = static_cast<std::int64_t>(cells.nx) * cells.nr;
   plan.time_step = time_step_at_rest(scene);
   const double steps = std::ceil(scene.load.duration / plan.time_step - 1e-9);
   plan.steps = counted(steps);
   // Measured: a sub-step costs as much as 1.4 whole updates of a particle.
   constexpr double updates_per_substep = 1.4;
-  const double substeps = plan.particles_charge > 0 ? crack_substeps(scene, plan.time_step) : 0.0;
-  plan.work = steps * (static_cast<double>(plan.particles()) +
-                       updates_per_substep * substeps * static_cast<double>(plan.particles_charge));
-  plan.memory = bytes_per_steel_particle * static_cast<double>(plan.particles_steel) +
-                bytes_per_charge_particle * static_cast<double>(plan.particles_charge) +
-                bytes_per_cell * static_cast<double>(plan.cells);
+  const double cracked = cracked_particles(scene, plan);
+  const double substeps = cracked > 0.0 ? crack_substeps(scene, plan.time_step) : 0.0;
+  plan.work = steps * (static_cast<double>(plan.particles()) + updates_per_substep * substeps * cracked);
+  plan.memory += bytes_per_cell * static_cast<double>(plan.cells);
 }
 
 }  // namespace
 
-double longitudinal_speed(const Scene& scene, BodyMaterial material) {
-  if (material == BodyMaterial::steel) {
-    const auto& eos = scene.steel.eos;
-    return std::sqrt(eos.sound_speed * eos.sound_speed +
-                     4.0 / 3.0 * scene.steel.strength.shear_modulus / eos.density);
-  }
-  const auto& eos = scene.charge.eos;
-  const double bulk = materials::jwl_bulk_modulus(eos, 1.0, eos.initial_energy);
-  return std::sqrt((bulk + 4.0 / 3.0 * scene.charge.cracks.shear_modulus()) / eos.initial_density);
+std::int64_t Plan::particles() const {
+  std::int64_t total = 0;
+  for (const MaterialParticles& each : by_material) total += each.particles;
+  return total;
+}
+
+double longitudinal_speed(const materials::Law& law) {
+  return std::sqrt((bulk_modulus(law) + 4.0 / 3.0 * shear_modulus(law)) / initial_density(law));
 }
 
 double longitudinal_speed(const Scene& scene) {
   double largest = 0.0;
-  for (const BodyMaterial material : {BodyMaterial::steel, BodyMaterial::charge}) {
-    if (has_material(scene, material)) largest = std::max(largest, longitudinal_speed(scene, material));
-  }
+  for (const Material& material : used_materials(scene))
+    largest = std::max(largest, longitudinal_speed(material.law));
   return largest;
 }
 
-double diffusion_length(const Scene& scene, BodyMaterial material) {
-  const bool steel = material == BodyMaterial::steel;
-  const double conductivity = steel ? scene.steel.strength.conductivity : scene.charge.conductivity;
-  const double heat_capacity = steel ? scene.steel.eos.density * scene.steel.strength.specific_heat
-                                     : scene.charge.eos.initial_density * scene.charge.specific_heat;
-  return std::sqrt(conductivity * scene.load.duration / heat_capacity);
+double diffusion_length(const materials::Law& law, double time) {
+  return std::sqrt(heat_conductivity(law) * time / (initial_density(law) * heat_capacity(law)));
 }
 
 double setback_pressure(const Scene& scene) {
-  const Extent charge = extent_of(scene, BodyMaterial::charge);
+  const Extent charge = charge_extent(scene);
   const double acceleration = rigid_acceleration(scene, PressureHistory(scene.load).peak());
-  return scene.charge.eos.initial_density * (charge.x_end - charge.x_begin) * acceleration;
+  return scene.charge().eos.initial_density * (charge.x_end - charge.x_begin) * acceleration;
 }
 
 double bulk_temperature_bound(const Scene& scene) {
-  const Charge& charge = scene.charge;
+  const Charge& charge = scene.charge();
   const double pressure = pressure_margin * setback_pressure(scene);
   const double bulk = materials::jwl_bulk_modulus(charge.eos, 1.0, charge.eos.initial_energy);
   const auto& rates = charge.cracks.relaxation_rates;

@@ -22,14 +22,16 @@ std::string bodies_text(const Scene& scene) {
   std::string text = "Bodies\n";
   for (const Body& body : scene.bodies) {
     const ParticleCount count = particles_of(scene, body);
-    text += row(body.name,
-                fmt::format("{}, x {:.6g} to {:.6g} cm, r {:.6g} to {:.6g} cm, {} x {} particles",
-                            body.material == BodyMaterial::steel ? "steel" : "charge", 100 * body.x_begin,
-                            100 * body.x_end, 100 * body.r_begin, 100 * body.r_end, count.nx, count.nr));
+    text += row(body.name, fmt::format("{}, x {:.6g} to {:.6g} cm, r {:.6g} to {:.6g} cm, {} x {} particles",
+                                       body.material, 100 * body.x_begin, 100 * body.x_end,
+                                       100 * body.r_begin, 100 * body.r_end, count.nx, count.nr));
   }
   const char* unit = scene.symmetry == Symmetry::axisymmetric ? "kg" : "kg per metre, half model";
-  text += row("mass", fmt::format("{:.6g} {} (steel {:.6g}, charge {:.6g})", total_mass(scene), unit,
-                                  mass_of(scene, BodyMaterial::steel), mass_of(scene, BodyMaterial::charge)));
+  std::string parts;
+  for (const Material& material : used_materials(scene))
+    parts +=
+        fmt::format("{}{} {:.6g}", parts.empty() ? "" : ", ", material.name, mass_of(scene, material.name));
+  text += row("mass", fmt::format("{:.6g} {} ({})", total_mass(scene), unit, parts));
   return text;
 }
 
@@ -45,7 +47,7 @@ std::string load_text(const Scene& scene) {
   if (const std::string measured = measured_load_text(scene.load); !measured.empty())
     text += row("measurement", measured);
   text += row("rigid acceleration", fmt::format("{:.6g} m/s2", rigid_acceleration(scene, peak)));
-  if (has_material(scene, BodyMaterial::charge)) {
+  if (has_charge(scene)) {
     text += row("setback pressure", format_quantity(setback_pressure(scene), Dimension::pressure));
   }
   return text;

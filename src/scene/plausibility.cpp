@@ -67,7 +67,7 @@ void judge_switches(const Scene& scene, Judge& judge) {
 
 /// Cracks that begin beyond the bound of their growth never grow.
 void judge_crack_bound(const Scene& scene, Judge& judge) {
-  const materials::ViscoScramParameters& cracks = scene.charge.cracks;
+  const materials::ViscoScramParameters& cracks = scene.charge().cracks;
   if (cracks.largest_crack_radius > cracks.initial_crack_radius) return;
   const auto text = [](double radius) { return format_quantity(radius, Dimension::length); };
   judge.add("charge.largest_crack_radius", text(cracks.largest_crack_radius),

@@ -1,4 +1,5 @@
-// What is plausible of every key of a scene, each with its argument, on one page.
+// What is plausible of the keys of a scene, each with its argument, on one page. Those of materials stand
+// beside their law.
 #pragma once
 
 #include "launchsafe/scene/toml_reader.hpp"

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <utility>
 
 namespace launchsafe::scene {
@@ -89,17 +90,6 @@ std::optional<InputError> rebuild(SceneFile& file, bool has_curve) {
   return validate(file);
 }
 
-/// Keys whose given value would contradict or override a new value of `name`.
-std::vector<std::string> overridden_by(const std::string& name) {
-  if (name == "charge.face_friction") return {"charge.crack_friction"};
-  if (name == "charge.crack_friction") return {"charge.face_friction"};
-  if (name == "load.curve") return {"load.curve_time", "load.curve_pressure"};
-  if (name == "kinetics.set") {
-    return {"kinetics.heat_of_reaction", "kinetics.frequency", "kinetics.activation_temperature"};
-  }
-  return {};
-}
-
 /// "body.<name>.<key>" taken apart.
 struct BodyKey {
   std::size_t body = 0;
@@ -180,7 +170,7 @@ Expected<SceneFile> with_key(const SceneFile& file, const std::string& name, con
     found->key->set(changed.scene.bodies[found->body], value);
     changed.places[name] = place;
   } else {
-    for (const std::string& overridden : overridden_by(name)) changed.given.erase(overridden);
+    for (const std::string& overridden : description->overrides) changed.given.erase(overridden);
     changed.given[name] = {place, value};
   }
   if (auto error = rebuild(changed, name != "load.curve")) return *error;
@@ -229,20 +219,36 @@ void append_inline_tables(fmt::memory_buffer& text, std::string_view name,
   append(text, "]\n");
 }
 
+/// Materials under other names than their law's, which only programs make. Files cannot declare them, but
+/// texts of different scenes differ.
+void append_own_materials(fmt::memory_buffer& text, const Scene& scene) {
+  for (const Material& material : scene.materials) {
+    std::visit(
+        [&]<class Law>(const Law& law) {
+          if (material.name == Law::name) return;
+          fmt::format_to(std::back_inserter(text), "material.\"{}\".law = '{}'\n", material.name, Law::name);
+          for (const Key<Law>& key : Law::parameters()) {
+            fmt::format_to(std::back_inserter(text), "material.\"{}\".{} = ", material.name, key.name);
+            append_exact_toml(text, key, key.get(law));
+            append(text, "\n");
+          }
+        },
+        material.law);
+  }
+}
+
 }  // namespace
 
 std::string to_toml(const Scene& scene) {
   fmt::memory_buffer text;
   for (const Key<Scene>& key : scene_keys()) {
-    // The points of a measured curve are written; the file they came from need not exist any more.
-    if (key.name == "load.curve") continue;
-    // A key that came later than results that are stored: where it does nothing, these stay what they are.
-    if (key.name == "load.smoothing" && scene.load.smoothing == 0.0) continue;
+    if (key.is_written && !key.is_written(scene)) continue;
     append(text, key.name);
     append(text, " = ");
     append_exact_toml(text, key, key.get(scene));
     append(text, "\n");
   }
+  append_own_materials(text, scene);
   append_inline_tables(text, "body", body_keys(), scene.bodies);
   append_inline_tables(text, "observation_point", observation_point_keys(), scene.output.observation_points);
   if (!scene.accepted.empty()) append_inline_tables(text, "accept", acceptance_keys(), scene.accepted);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 namespace launchsafe::scene {
 namespace {
@@ -26,47 +27,86 @@ double cross_section(const Body& body, Symmetry symmetry) {
   return std::numbers::pi * width * (body.r_end + body.r_begin);
 }
 
-double density_of(const Scene& scene, BodyMaterial material) {
-  return material == BodyMaterial::steel ? scene.steel.eos.density : scene.charge.eos.initial_density;
+/// Around the bodies that a rule chooses.
+template <class Choose>
+Extent extent_where(const Scene& scene, Choose&& choose) {
+  Extent extent = nothing_yet();
+  bool any = false;
+  for (const Body& body : scene.bodies) {
+    if (!choose(body)) continue;
+    enclose(extent, body);
+    any = true;
+  }
+  return any ? extent : Extent{};
 }
 
 }  // namespace
 
-Extent extent_of(const Scene& scene) {
-  Extent extent = nothing_yet();
-  for (const Body& body : scene.bodies) enclose(extent, body);
-  return scene.bodies.empty() ? Extent{} : extent;
+std::vector<Material> usual_materials() {
+  std::vector<Material> all;
+  materials::for_each_law([&all]<class Law>(const Law& law) {
+    all.push_back({std::string(Law::name), law});
+  });
+  return all;
 }
 
-Extent extent_of(const Scene& scene, BodyMaterial material) {
-  Extent extent = nothing_yet();
-  for (const Body& body : scene.bodies) {
-    if (body.material == material) enclose(extent, body);
+const Material* find_material(const Scene& scene, std::string_view name) {
+  for (const Material& material : scene.materials)
+    if (material.name == name) return &material;
+  return nullptr;
+}
+
+const materials::Law& law_of(const Scene& scene, const Body& body) {
+  const Material* material = find_material(scene, body.material);
+  if (material == nullptr)
+    throw std::invalid_argument("body \"" + body.name + "\" is of a material that the scene has not: \"" +
+                                body.material + "\"");
+  return material->law;
+}
+
+std::vector<Material> used_materials(const Scene& scene) {
+  std::vector<Material> used;
+  for (const Material& material : scene.materials) {
+    const bool is_used = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                     [&](const Body& body) { return body.material == material.name; });
+    if (is_used) used.push_back(material);
   }
-  return has_material(scene, material) ? extent : Extent{};
+  return used;
 }
 
-materials::Law law_of(const Scene& scene, const Body& body) {
-  if (body.material == BodyMaterial::steel) return scene.steel;
-  return scene.charge;
-}
+bool is_charge(const Scene& scene, const Body& body) { return is_explosive(law_of(scene, body)); }
 
-bool has_material(const Scene& scene, BodyMaterial material) {
+bool has_charge(const Scene& scene) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [material](const Body& body) { return body.material == material; });
+                     [&](const Body& body) { return is_charge(scene, body); });
 }
 
-double mass_of(const Scene& scene, BodyMaterial material) {
+Extent extent_of(const Scene& scene) {
+  return extent_where(scene, [](const Body&) { return true; });
+}
+
+Extent charge_extent(const Scene& scene) {
+  return extent_where(scene, [&](const Body& body) { return is_charge(scene, body); });
+}
+
+Extent inert_extent(const Scene& scene) {
+  return extent_where(scene, [&](const Body& body) { return !is_charge(scene, body); });
+}
+
+double mass_of(const Scene& scene, std::string_view material) {
   double volume = 0.0;
   for (const Body& body : scene.bodies) {
     if (body.material != material) continue;
     volume += cross_section(body, scene.symmetry) * (body.x_end - body.x_begin);
   }
-  return volume * density_of(scene, material);
+  const Material* of = find_material(scene, material);
+  return of ? volume * initial_density(of->law) : 0.0;
 }
 
 double total_mass(const Scene& scene) {
-  return mass_of(scene, BodyMaterial::steel) + mass_of(scene, BodyMaterial::charge);
+  double mass = 0.0;
+  for (const Material& material : scene.materials) mass += mass_of(scene, material.name);
+  return mass;
 }
 
 double base_area(const Scene& scene) {

@@ -2,7 +2,6 @@
 
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
-#include "material_keys.hpp"
 #include "plausible_ranges.hpp"
 
 #include <iterator>
@@ -13,13 +12,39 @@ namespace {
 
 using Keys = std::vector<Key<Scene>>;
 
-/// The same key, with something that follows from it done after it is set.
-Key<Scene> then(Key<Scene> key, std::function<void(Scene&)> consequence) {
-  key.set = [set = std::move(key.set), consequence = std::move(consequence)](Scene& scene,
-                                                                             const Value& value) {
-    set(scene, value);
-    consequence(scene);
-  };
+/// A key of a law as one of the scene.
+template <class Law>
+Key<Scene> key_of_law(const Key<Law>& key) {
+  Key<Scene> own{static_cast<const KeyDescription&>(key), {}, {}};
+  own.set = [set = key.set](Scene& scene, const Value& value) { set(scene.parameters<Law>(), value); };
+  own.get = [get = key.get](const Scene& scene) { return get(scene.parameters<Law>()); };
+  if (!Law::always_written)
+    own.is_written = [get = own.get, usual = key.default_value()](const Scene& scene) {
+      return has_law<Law>(scene) || get(scene) != usual;
+    };
+  return own;
+}
+
+Keys material_keys() {
+  Keys keys;
+  materials::for_each_law([&keys]<class Law>(const Law&) {
+    for (const Key<Law>& key : Law::parameters()) keys.push_back(key_of_law(key));
+  });
+  return keys;
+}
+
+std::vector<std::string> names_of_materials() {
+  std::vector<std::string> names;
+  for (const Material& material : usual_materials()) names.push_back(material.name);
+  return names;
+}
+
+/// The material of a body, by name.
+Key<Body> material_key() {
+  Key<Body> key = text_key<Body>(
+      "material", Standing::input, "What the body is made of.", [](auto& b) -> auto& { return b.material; });
+  key.kind = KeyKind::word;
+  key.words = names_of_materials();
   return key;
 }
 
@@ -67,11 +92,15 @@ Keys load_keys() {
           "load.exponent", Dimension::number, above_to(0, 1000), Standing::assumed,
           "Steepness n of base + (peak - base) ((t/peak_time) exp(1 - t/peak_time))^n.",
           [](auto& s) -> auto& { return s.load.exponent; }),
-      text_key<Scene>(
-          "load.curve", Standing::assumed,
-          "Measured curve that replaces the analytic shape: a CSV file beside the scene, with a header "
-          "such as time_ms,pressure_MPa; empty for none.",
-          [](auto& s) -> auto& { return s.load.curve_file; }),
+      // The points of a measured curve are written back; the file they came from need not exist any more.
+      written_where<Scene>(
+          overriding(text_key<Scene>(
+                         "load.curve", Standing::assumed,
+                         "Measured curve that replaces the analytic shape: a CSV file beside "
+                         "the scene, with a header such as time_ms,pressure_MPa; empty for none.",
+                         [](auto& s) -> auto& { return s.load.curve_file; }),
+                     {"load.curve_time", "load.curve_pressure"}),
+          [](const Scene&) { return false; }),
       may_be_empty(list_key<Scene>(
           "load.curve_time", Dimension::time, between(-largest_curve_time, largest_curve_time),
           Standing::assumed, "Times of a measured curve written in the scene itself, increasing.",
@@ -84,11 +113,12 @@ Keys load_keys() {
           "load.rescale_to_peak", Standing::assumed,
           "Scale the measured curve, after smoothing, so that its largest pressure is load.peak.",
           [](auto& s) -> auto& { return s.load.rescale_to_peak; }),
-      number_key<Scene>(
-          "load.smoothing", Dimension::time, between(0, 1), Standing::assumed,
-          "Window over which a measured curve is averaged against noise, which heats falsely; it takes from "
-          "narrow peaks; \"0 ms\" for none.",
-          [](auto& s) -> auto& { return s.load.smoothing; }),
+      written_where<Scene>(number_key<Scene>(
+                               "load.smoothing", Dimension::time, between(0, 1), Standing::assumed,
+                               "Window over which a measured curve is averaged against noise, which heats "
+                               "falsely; it takes from narrow peaks; \"0 ms\" for none.",
+                               [](auto& s) -> auto& { return s.load.smoothing; }),
+                           [](const Scene& s) { return s.load.smoothing != 0.0; }),
   };
 }
 
@@ -255,19 +285,19 @@ void append(Keys& keys, Keys more) {
   keys.insert(keys.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// The keys with what is plausible of each; `prefix` is that of their names in a whole file.
+/// The keys with what is plausible of each that does not say so itself; `prefix` is that of their names in a
+/// whole file.
 template <class Owner>
 std::vector<Key<Owner>> with_plausible(std::vector<Key<Owner>> keys, const std::string& prefix) {
-  for (Key<Owner>& key : keys) key.plausible = plausible_values_of(prefix + key.name);
+  for (Key<Owner>& key : keys)
+    if (key.plausible.because.empty()) key.plausible = plausible_values_of(prefix + key.name);
   return keys;
 }
 
 Keys all_scene_keys() {
   Keys keys = general_keys();
   append(keys, load_keys());
-  append(keys, steel_keys());
-  append(keys, charge_keys());
-  append(keys, kinetics_keys());
+  append(keys, material_keys());
   append(keys, gap_keys());
   append(keys, numerics_keys());
   append(keys, output_keys());
@@ -296,10 +326,7 @@ const std::vector<Key<Body>>& body_keys() {
       {
           required(text_key<Body>(
               "name", Standing::input, "Name of the body, unique.", [](auto& b) -> auto& { return b.name; })),
-          required(word_key<Body, BodyMaterial>(
-              "material", Standing::input, "What the body is made of.",
-              {{"steel", BodyMaterial::steel}, {"charge", BodyMaterial::charge}},
-              [](auto& b) -> auto& { return b.material; })),
+          required(material_key()),
           required(range_key<Body>(
               "x", Dimension::length, between(0, 10), Standing::input,
               "Axial extent, from the nose to the base.", [](auto& b) -> auto& { return b.x_begin; },

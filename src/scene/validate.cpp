@@ -67,17 +67,19 @@ Fault check_names(const SceneFile& file) {
 }
 
 Fault check_charge_fits(const SceneFile& file) {
-  if (!has_material(file.scene, BodyMaterial::steel)) return std::nullopt;
-  const Extent shell = extent_of(file.scene, BodyMaterial::steel);
+  const bool has_shell = std::any_of(file.scene.bodies.begin(), file.scene.bodies.end(),
+                                     [&](const Body& body) { return !is_charge(file.scene, body); });
+  if (!has_shell) return std::nullopt;
+  const Extent shell = inert_extent(file.scene);
   const double tolerance = tolerance_of(file);
   for (const Body& body : file.scene.bodies) {
-    if (body.material != BodyMaterial::charge) continue;
+    if (!is_charge(file.scene, body)) continue;
     const auto sticks_out = [&](const char* axis, double begin, double end, double shell_begin,
                                 double shell_end) {
       return fault_at(
           file, fmt::format("body.{}.{}", body.name, axis),
           fmt::format("\"{}\", which sticks out of the shell", range_text(begin, end)),
-          fmt::format("a charge within the steel, {} {}", axis, range_text(shell_begin, shell_end)));
+          fmt::format("a charge within the shell, {} {}", axis, range_text(shell_begin, shell_end)));
     };
     if (body.x_begin < shell.x_begin - tolerance || body.x_end > shell.x_end + tolerance) {
       return sticks_out("x", body.x_begin, body.x_end, shell.x_begin, shell.x_end);
@@ -263,7 +265,7 @@ Fault check_load(const SceneFile& file) {
 }
 
 Fault check_kinetics(const SceneFile& file) {
-  const materials::KineticsParameters& kinetics = file.scene.charge.kinetics;
+  const materials::KineticsParameters& kinetics = file.scene.charge().kinetics;
   const double initial = file.scene.initial_temperature;
   if (!(kinetics.ignition_temperature < kinetics.burnt_temperature)) {
     const bool burnt = file.given.contains("kinetics.burnt_temperature");
@@ -282,7 +284,7 @@ Fault check_kinetics(const SceneFile& file) {
 
 /// An equation of state with the shape of an unreacted explosive's: it resists compression.
 Fault check_jwl(const SceneFile& file) {
-  const materials::JwlParameters& eos = file.scene.charge.eos;
+  const materials::JwlParameters& eos = file.scene.charge().eos;
   if (!(eos.r1 > eos.r2)) {
     const bool second = file.given.contains("charge.jwl.r2");
     return fault_at(file, second ? "charge.jwl.r2" : "charge.jwl.r1",
@@ -300,7 +302,7 @@ Fault check_jwl(const SceneFile& file) {
 }
 
 Fault check_steel(const SceneFile& file) {
-  const materials::JohnsonCookParameters& steel = file.scene.steel.strength;
+  const materials::JohnsonCookParameters& steel = file.scene.steel().strength;
   if (steel.room_temperature < steel.melting_temperature) return std::nullopt;
   return fault_at(file, "steel.melting_temperature", fmt::format("{:.6g} K", steel.melting_temperature),
                   fmt::format("a temperature above the room temperature, {:.6g} K", steel.room_temperature));
@@ -326,7 +328,7 @@ Fault check_gaps(const SceneFile& file) {
   if (twice != gaps.end()) {
     return fault_at(file, "gap.thickness", fmt::format("{} twice", centimetres(*twice)), "each gap once");
   }
-  if (!gaps.empty() && gaps.back() > 0.0 && !has_material(file.scene, BodyMaterial::charge)) {
+  if (!gaps.empty() && gaps.back() > 0.0 && !has_charge(file.scene)) {
     return fault_at(file, "gap.thickness",
                     fmt::format("a gap of {} in a scene without a charge", centimetres(gaps.back())),
                     "gaps only under a body of material \"charge\"");
@@ -345,21 +347,20 @@ constexpr double largest_point_depth = 10e-3;
 Fault check_observation_points(const SceneFile& file) {
   const double tolerance = tolerance_of(file);
   for (const ObservationPoint& point : file.scene.output.observation_points) {
-    const bool in_charge =
-        std::any_of(file.scene.bodies.begin(), file.scene.bodies.end(), [&](const Body& body) {
-          return body.material == BodyMaterial::charge && inside(body, point, tolerance);
-        });
-    const double depth = extent_of(file.scene, BodyMaterial::charge).x_end - point.x;
+    const bool in_charge = std::any_of(
+        file.scene.bodies.begin(), file.scene.bodies.end(),
+        [&](const Body& body) { return is_charge(file.scene, body) && inside(body, point, tolerance); });
+    const double depth = charge_extent(file.scene).x_end - point.x;
     if (in_charge && depth > largest_point_depth + tolerance) {
       return fault_at(file, fmt::format("observation_point.{}.x", point.name), centimetres(point.x),
                       fmt::format("at most {} from the charge's bottom, whose temperatures it reads",
                                   centimetres(largest_point_depth)));
     }
     if (in_charge) continue;
-    const Extent charge = extent_of(file.scene, BodyMaterial::charge);
+    const Extent charge = charge_extent(file.scene);
     const bool in_x = point.x >= charge.x_begin - tolerance && point.x <= charge.x_end + tolerance;
     std::string allowed = "none: the scene has no charge";
-    if (has_material(file.scene, BodyMaterial::charge)) {
+    if (has_charge(file.scene)) {
       allowed = fmt::format("a point in the charge, x {}, r {}", range_text(charge.x_begin, charge.x_end),
                             range_text(charge.r_begin, charge.r_end));
     }

@@ -63,13 +63,9 @@ std::string name_of(Value value, std::initializer_list<Named<Value>> names) {
 }
 
 void write_bodies(Hdf5Output& output, const std::vector<scene::Body>& bodies) {
-  using scene::Body, scene::BodyMaterial;
+  using scene::Body;
   column(output, "name", bodies, &Body::name, {"none", "name"});
-  const auto material = [](const Body& body) {
-    return name_of<BodyMaterial>(body.material,
-                                 {{BodyMaterial::steel, "steel"}, {BodyMaterial::charge, "charge"}});
-  };
-  column(output, "material", bodies, material, {"none", "material"});
+  column(output, "material", bodies, &Body::material, {"none", "material"});
   column(output, "x_begin", bodies, &Body::x_begin, {"m", "axial begin"});
   column(output, "x_end", bodies, &Body::x_end, {"m", "axial end"});
   column(output, "r_begin", bodies, &Body::r_begin, {"m", "radial begin"});

@@ -256,9 +256,10 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
     if constexpr (!Archive::reading) {
       archive.value("update_rate", mechanics.update_rate(), {"1/s", "particle updates per second"});
     }
-    archive.value("mass_steel", mechanics.mass_steel, {"kg", "mass of the steel, summed over the particles"});
-    archive.value("mass_charge", mechanics.mass_charge,
-                  {"kg", "mass of the charge, summed over the particles"});
+    archive.group("masses", "Masses by material, summed over the particles", [&] {
+      column(archive, "material", mechanics.masses, &run::MaterialMass::material, {"none", "material"});
+      column(archive, "mass", mechanics.masses, &run::MaterialMass::mass, {"kg", "mass"});
+    });
     archive.group("limiters", "How often limiters acted", [&] {
       auto& limiters = mechanics.limiters;
       archive.value("crack_at_bound", limiters.crack_at_bound,

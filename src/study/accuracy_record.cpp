@@ -55,9 +55,9 @@ std::string shell_of(const scene::Scene& scene) {
   shell.surface.exchange = scene.surface.exchange;
   shell.output.trace_interval = usual.output.trace_interval;
   shell.output.snapshot_times.clear();
-  shell.charge.kinetics = usual.charge.kinetics;
-  shell.charge.cracks.initial_crack_radius = usual.charge.cracks.initial_crack_radius;
-  shell.charge.cracks.flaw_size = usual.charge.cracks.flaw_size;
+  shell.charge().kinetics = usual.charge().kinetics;
+  shell.charge().cracks.initial_crack_radius = usual.charge().cracks.initial_crack_radius;
+  shell.charge().cracks.flaw_size = usual.charge().cracks.flaw_size;
   return store::sha256(scene::to_toml(shell));
 }
 

@@ -42,7 +42,7 @@ struct NamedKinetics {
 };
 
 std::vector<NamedKinetics> kinetics_of(const StudyFile& study) {
-  const materials::KineticsParameters& own = study.scene.scene.charge.kinetics;
+  const materials::KineticsParameters& own = study.scene.scene.charge().kinetics;
   std::vector<NamedKinetics> all{{own.name, own}};
   if (!study.study.compare_kinetics) return all;
   const auto key = scene::describe_key(study.scene, "kinetics.set", {});
@@ -50,7 +50,7 @@ std::vector<NamedKinetics> kinetics_of(const StudyFile& study) {
   for (const std::string& word : key->words) {
     const auto changed = scene::with_written_key(study.scene, "kinetics.set", word, {});
     if (changed && word != own.name && word != "custom")
-      all.push_back({word, changed->scene.charge.kinetics});
+      all.push_back({word, changed->scene.charge().kinetics});
   }
   return all;
 }
@@ -175,7 +175,7 @@ FrictionClosure study_closure(const CalibrationResult& result) {
 
 /// What the hold-outs and the meshes say of the two closures with the scene's own kinetics.
 void recommend(CalibrationResult& result) {
-  const std::string kinetics = result.study.scene.scene.charge.kinetics.name;
+  const std::string kinetics = result.study.scene.scene.charge().kinetics.name;
   const double finest = mesh_range(result).first, mesh = recommended_mesh(result);
   const CalibrationRow* literal = find_row(result, finest, FrictionClosure::literal, kinetics);
   const CalibrationRow* inelastic = find_row(result, finest, FrictionClosure::inelastic, kinetics);
@@ -224,7 +224,7 @@ CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& op
   result.timing.jobs = detail::jobs_of(options);
   const scene::Scene& scene = study.scene.scene;
   result.in_scene = {scene.surface.localisation, scene.surface.exchange_time,
-                     scene.charge.kinetics.ignition_temperature};
+                     scene.charge().kinetics.ignition_temperature};
   for (const StudyCase& input : study.cases) {
     CalibrationRun run;
     run.input = input;

@@ -140,12 +140,11 @@ void add_difference(CalibrationDistance& distance, const std::string& key, const
 }  // namespace
 
 Scene calibration_scene() {
-  using enum scene::BodyMaterial;
   Scene scene;
-  scene.bodies = {{"nose", steel, 0.0, 0.118, 0.0, 0.0775},
-                  {"charge", charge, 0.118, 0.678, 0.0, 0.065},
-                  {"wall", steel, 0.118, 0.678, 0.065, 0.0775},
-                  {"base", steel, 0.678, 0.74, 0.0, 0.0775}};
+  scene.bodies = {{"nose", "steel", 0.0, 0.118, 0.0, 0.0775},
+                  {"charge", "charge", 0.118, 0.678, 0.0, 0.065},
+                  {"wall", "steel", 0.118, 0.678, 0.065, 0.0775},
+                  {"base", "steel", 0.678, 0.74, 0.0, 0.0775}};
   for (int point = 1; point <= 13; ++point) {
     scene.output.observation_points.push_back(
         {fmt::format("G{}", point), 0.6775, 0.0675 - 0.005 * static_cast<double>(point)});

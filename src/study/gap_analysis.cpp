@@ -121,7 +121,7 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGrou
   row.early = peak_of(surface::maximum_at_time(gap.skin, trace, study.early_time), trace);
   row.spread = surface::spread_at_time(gap.skin, trace, scene.load.duration);
   row.early_spread = surface::spread_at_time(gap.skin, trace, study.early_time);
-  row.margin = scene.charge.kinetics.ignition_temperature - gap.at_points.temperature;
+  row.margin = scene.charge().kinetics.ignition_temperature - gap.at_points.temperature;
   row.heated = heated_temperature(scene, trace, gap.gap);
   row.ignition = named(gap.skin.ignition, trace);
   row.ignition_anywhere = named(gap.skin.ignition_anywhere, trace);

@@ -113,15 +113,15 @@ scene::Expected<std::vector<Outcome>> read_expected(const CaseReader& reader) {
 /// A mechanical run of a case. Its scene is checked for all that judging needs.
 scene::Expected<std::size_t> add_run(CaseReader& reader, const std::string& label, SceneFile scene) {
   const scene::Scene& s = scene.scene;
-  if (!scene::has_material(s, scene::BodyMaterial::charge) || s.output.observation_points.empty()) {
+  if (!scene::has_charge(s) || s.output.observation_points.empty()) {
     return reader.fault("scene", "a scene without charge or observation points",
                         "a scene with observation points at the bottom of a charge");
   }
   StudyCase made;
   made.label = label;
   made.peak_pressure = scene::PressureHistory(s.load).stated_peak();
-  made.crack_radius = s.charge.cracks.initial_crack_radius;
-  made.flaw_size = s.charge.cracks.flaw_size;
+  made.crack_radius = s.charge().cracks.initial_crack_radius;
+  made.flaw_size = s.charge().cracks.flaw_size;
   made.cell_size = s.numerics.cell_size;
   made.own_conditions = false;
   made.numerical_uncertainty = std::isfinite(reader.text.numerical_uncertainty)

@@ -217,7 +217,7 @@ Fault check_references(const StudyFile& study) {
 
 Fault check_scene(const StudyFile& study) {
   const scene::Scene& scene = study.scene.scene;
-  if (!scene::has_material(scene, scene::BodyMaterial::charge))
+  if (!scene::has_charge(scene))
     return fault_at(study, "scene", "a scene without a charge", "a scene with a charge");
   if (scene.output.observation_points.empty()) {
     return fault_at(study, "scene", "a scene without observation points",

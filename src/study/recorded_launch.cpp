@@ -33,7 +33,7 @@ double rise_time_of(const scene::PressureHistory& history, double duration, doub
 /// K/(s m). Where the exchange is per step its time constant does not matter.
 double air_heating_of(const scene::Scene& scene, double peak) {
   const scene::Surface& surface = scene.surface;
-  const scene::Charge& charge = scene.charge;
+  const scene::Charge& charge = scene.charge();
   const double share = surface.air.density * surface.air.specific_heat /
                        (charge.eos.initial_density * charge.specific_heat * surface.skin_thickness);
   const double rise =
@@ -118,8 +118,8 @@ RecordedLaunch launch_of(const scene::Scene& scene, std::vector<double> gaps) {
   }
   launch.rise_time = rise_time_of(history, launch.duration, launch.peak_pressure);
   launch.roughness = scene::load_roughness(scene.load);
-  launch.crack_radius = scene.charge.cracks.initial_crack_radius;
-  launch.flaw_size = scene.charge.cracks.flaw_size;
+  launch.crack_radius = scene.charge().cracks.initial_crack_radius;
+  launch.flaw_size = scene.charge().cracks.flaw_size;
   launch.gaps = std::move(gaps);
   launch.localisation = scene.surface.localisation;
   launch.air_heating = air_heating_of(scene, launch.peak_pressure);

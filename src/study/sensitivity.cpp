@@ -36,7 +36,7 @@ double value_of(const OutputSensitivity& of, const CaseAnswer& answer, const Stu
   const double temperature =
       of.inert ? answer.heated_temperature.front() : answer.verdicts.front().maximum.temperature;
   return of.output == SensitivityOutput::margin
-             ? input.scene.scene.charge.kinetics.ignition_temperature - temperature
+             ? input.scene.scene.charge().kinetics.ignition_temperature - temperature
              : temperature;
 }
 

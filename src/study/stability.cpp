@@ -61,7 +61,7 @@ detail::LaunchRecord record_of(const StudyFile& study, std::size_t index,
   detail::LaunchRecord record;
   record.reason = mechanics.reason;
   record.end_time = mechanics.end_time;
-  record.ignition_temperature = input.scene.scene.charge.kinetics.ignition_temperature;
+  record.ignition_temperature = input.scene.scene.charge().kinetics.ignition_temperature;
   if (mechanics.status == run::RunStatus::interrupted || mechanics.status == run::RunStatus::timed_out) {
     // How far it came depends on the machine, and says nothing of the computation.
     record.failure = detail::failure_of(mechanics, {true, {}});

@@ -48,14 +48,13 @@ void check_finite(const MechanicsResult& mechanics, Violations& violations) {
 }
 
 void check_masses(const scene::Scene& scene, const MechanicsResult& mechanics, Violations& violations) {
-  const auto check = [&](const char* name, scene::BodyMaterial material, double mass) {
-    const double exact = scene::mass_of(scene, material);
-    if (std::abs(mass - exact) <= mass_share * exact) return;
-    violations.push_back(fmt::format("the particles' mass of {} is off by {:.2g} of it", name,
-                                     std::abs(mass - exact) / exact));
-  };
-  check("steel", scene::BodyMaterial::steel, mechanics.mass_steel);
-  check("charge", scene::BodyMaterial::charge, mechanics.mass_charge);
+  for (const scene::Material& material : scene::used_materials(scene)) {
+    const double exact = scene::mass_of(scene, material.name);
+    const double error = std::abs(mass_of(mechanics, material.name) - exact);
+    if (error <= mass_share * exact) continue;
+    violations.push_back(
+        fmt::format("the particles' mass of {} is off by {:.2g} of it", material.name, error / exact));
+  }
 }
 
 /// Impulse of the load until a time, N s, and how far sums over single steps may be off it: they take the

@@ -87,7 +87,7 @@ class CaseMaker {
   /// An empty label: that of the load and defect.
   void add(std::string label, std::vector<double> coordinates, SceneFile scene) {
     const scene::Scene& s = scene.scene;
-    const materials::ViscoScramParameters& cracks = s.charge.cracks;
+    const materials::ViscoScramParameters& cracks = s.charge().cracks;
     StudyCase made;
     made.peak_pressure = scene::PressureHistory(s.load).stated_peak();
     made.pressure_ratio = made.peak_pressure / own_peak_;
@@ -108,7 +108,7 @@ class CaseMaker {
   }
 
   bool is_own(const StudyCase& made, const std::vector<double>& coordinates) const {
-    const materials::ViscoScramParameters& own = study_.scene.scene.charge.cracks;
+    const materials::ViscoScramParameters& own = study_.scene.scene.charge().cracks;
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
       if (condition_[i] && coordinates[i] != own_[i]) return false;
     }

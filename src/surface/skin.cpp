@@ -52,9 +52,9 @@ bool all_finite(const std::vector<double>& values) {
 SkinModel skin_model(const scene::Scene& scene) {
   SkinModel model;
   model.surface = scene.surface;
-  model.kinetics = scene.charge.kinetics;
-  model.charge_density = scene.charge.eos.initial_density;
-  model.specific_heat = scene.charge.specific_heat;
+  model.kinetics = scene.charge().kinetics;
+  model.charge_density = scene.charge().eos.initial_density;
+  model.specific_heat = scene.charge().specific_heat;
   model.initial_temperature = scene.initial_temperature;
   return model;
 }

@@ -46,7 +46,7 @@ struct Spread {
 };
 
 mpm::Grid grid_with(const Field& field, double cell) {
-  scene::Scene scene = mechanics::block(scene::BodyMaterial::steel, length, radius, cell);
+  scene::Scene scene = mechanics::block("steel", length, radius, cell);
   scene.symmetry = scene::Symmetry::plane_strain;
   mpm::Grid grid = mpm::make_grid(scene);
   for (int j = 0; j < grid.nodes_r; ++j) {

@@ -52,8 +52,8 @@ void conduct(mpm::Conduction& conduction, mpm::Simulation& simulation, double dt
 
 void judge_conduction(Judge& judge, const ConductionLaw& law, double fourier_number) {
   const scene::Scene shell = mechanics::shell_155(cell);
-  const double dt = fourier_number * cell * cell * shell.charge.eos.initial_density *
-                    shell.charge.specific_heat / shell.charge.conductivity;
+  const double dt = fourier_number * cell * cell * shell.charge().eos.initial_density *
+                    shell.charge().specific_heat / shell.charge().conductivity;
   mpm::Simulation simulation(shell);
   make_checkered(simulation);
   mpm::Conduction conduction(simulation);

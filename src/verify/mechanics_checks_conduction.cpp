@@ -13,7 +13,7 @@ constexpr double micrometre = 1e-6, duration = 1e-3;
 
 /// A strip of charge 0.1 mm long, eleven diffusion lengths of 1 ms; its base is the half space's face.
 scene::Scene strip(double cell) {
-  scene::Scene scene = block(scene::BodyMaterial::charge, 100.0 * micrometre, cell, cell);
+  scene::Scene scene = block("charge", 100.0 * micrometre, cell, cell);
   scene.symmetry = scene::Symmetry::plane_strain;
   return scene;
 }
@@ -59,7 +59,7 @@ double half_space_error(double cell, int steps) {
   const double initial = simulation.scene().initial_temperature;
   conduction.hold_base(initial + 1.0);
   conduct(conduction, simulation, duration, steps);
-  const scene::Charge& charge = simulation.scene().charge;
+  const scene::Charge& charge = simulation.scene().charge();
   const double diffusivity = charge.conductivity / (charge.eos.initial_density * charge.specific_heat);
   const mpm::Kinematics& p = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
   const double face = p.lattice.x_begin() + p.lattice.columns() * p.lattice.length_x(0);
@@ -83,7 +83,7 @@ Checks semi_infinite_conduction() {
   const int face = 180;  // 10 um from the base, between two particles
   const double rise =
       0.5 * (p.temperature[p.lattice.slot(face - 1, 0)] + p.temperature[p.lattice.slot(face, 0)]) - 300.0;
-  const scene::Charge& charge = simulation.scene().charge;
+  const scene::Charge& charge = simulation.scene().charge();
   return {{group, "diffusivity of the charge",
            charge.conductivity / (charge.eos.initial_density * charge.specific_heat), 8.049053e-8, 1e-7,
            "m2/s", "k/(rho c)", false},
@@ -101,7 +101,7 @@ Checks conduction_under_flux() {
   // The face lies half a spacing beyond the last particle; the slope there is q/k.
   const double half_spacing = 0.5 * p.lattice.length_x(0);
   const double surface = p.temperature[p.lattice.slot(last, 0)] +
-                         half_spacing * 1e6 / simulation.scene().charge.conductivity - 300.0;
+                         half_spacing * 1e6 / simulation.scene().charge().conductivity - 300.0;
   return {{"conduction", "surface rise under 1 MW/m2 after 1 ms", surface, 41.15213, 1e-3, "K",
            "Carslaw & Jaeger, half space: 2 q sqrt(t/(pi k rho c))", false}};
 }
@@ -122,8 +122,8 @@ Checks conduction_in_long_steps() {
   // Of the charge, alpha dt/h^2; of the steel a hundred times more.
   constexpr double fourier_number = 1e4, cell = 10e-3;
   const scene::Scene shell = shell_155(cell);
-  const double dt = fourier_number * cell * cell * shell.charge.eos.initial_density *
-                    shell.charge.specific_heat / shell.charge.conductivity;
+  const double dt = fourier_number * cell * cell * shell.charge().eos.initial_density *
+                    shell.charge().specific_heat / shell.charge().conductivity;
   mpm::Simulation simulation(shell_155(10e-3));
   make_checkered(simulation);
   mpm::Conduction conduction(simulation);

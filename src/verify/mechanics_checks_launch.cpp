@@ -42,7 +42,7 @@ double measured_acceleration(scene::Symmetry symmetry) {
 /// particles still tile the body.
 double squeeze_radially(mpm::Simulation& simulation) {
   constexpr double mu = 1e-3;
-  const double pressure = materials::mie_gruneisen_pressure(simulation.scene().steel.eos, mu, 0.0);
+  const double pressure = materials::mie_gruneisen_pressure(simulation.scene().steel().eos, mu, 0.0);
   for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) {
     mpm::Kinematics& p = body.kinematics;
     for (std::size_t i = 0; i < p.mass.size(); ++i) {
@@ -112,7 +112,7 @@ Checks rigid_acceleration() {
 }
 
 FlightDrift drift_in_flight(double cell, double way) {
-  scene::Scene bar = block(scene::BodyMaterial::steel, 0.05, 0.02, cell);
+  scene::Scene bar = block("steel", 0.05, 0.02, cell);
   bar.frame = scene::Frame::lab;
   bar.load = ramp(0.0, 1e-4, 1.0);
   mpm::Simulation simulation(bar);
@@ -147,7 +147,7 @@ Checks energy_of_a_pulse() {
   // Steel throughout, so that the waves stay smooth: what is left is what the particles' velocities lose on
   // the grid, 1/2 (sum m_i dv_i^2 - sum m_p dv_p^2) a step, of first order in the step over a given time.
   scene::Scene steel = pulsed_shell(10e-3);
-  for (scene::Body& body : steel.bodies) body.material = scene::BodyMaterial::steel;
+  for (scene::Body& body : steel.bodies) body.material = "steel";
   steel.numerics.time_step_factor = 0.2;
   const double coarse = watch_energy(steel, 4e-4).relative();
   steel.numerics.time_step_factor = 0.05;

@@ -41,7 +41,7 @@ struct Tube {
 Tube relaxed_tube(int radial_cells) {
   constexpr double pressure = -1e5, scale = 100e6 / pressure;
   const double cell_size = outside / radial_cells;
-  scene::Scene ring = block(scene::BodyMaterial::steel, 8.0 * cell_size, outside, cell_size);
+  scene::Scene ring = block("steel", 8.0 * cell_size, outside, cell_size);
   ring.bodies[0].r_begin = bore;
   ring.frame = scene::Frame::lab;
   ring.barrel = scene::Barrel::none;
@@ -68,7 +68,7 @@ Tube relaxed_tube(int radial_cells) {
       radius, displacement, [](double r) { return r; }, [](double r) { return 1.0 / r; });
   const double length = p.x[p.lattice.slot(end, 0)] - p.x[p.lattice.slot(begin, 0)];
   const double axial_strain = length / (p.lattice.x_of(end) - p.lattice.x_of(begin)) - 1.0;
-  const auto& steel = ring.steel;
+  const auto& steel = ring.steel();
   const double bulk = steel.eos.density * steel.eos.sound_speed * steel.eos.sound_speed;
   const double shear = steel.strength.shear_modulus;
   const double poisson = (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear);
@@ -99,7 +99,7 @@ Checks setback_column() {
     scene::Scene shell = shell_155(cell);
     shell.symmetry = symmetry;
     const double pressure = 1717.0 * length * scene::rigid_acceleration(shell, 496e6);
-    scene::Scene column = block(scene::BodyMaterial::charge, length, 2.0 * cell, cell);
+    scene::Scene column = block("charge", length, 2.0 * cell, cell);
     column.symmetry = symmetry;
     column.load = ramp(pressure, 1e-3, 1.0);
     column.numerics.damping_time = 3e-5;

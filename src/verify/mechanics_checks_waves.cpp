@@ -70,10 +70,10 @@ double speed_of_pulse(mpm::Simulation& simulation, double begin, double end) {
 /// particles' velocities (1e-3 of the peak here) is invisible to the grid and acts on nothing.
 WaveError longitudinal_error(int cells) {
   const double length = 1.0;
-  scene::Scene strip = block(scene::BodyMaterial::steel, length, 2.0 / cells, length / cells);
+  scene::Scene strip = block("steel", length, 2.0 / cells, length / cells);
   strip.symmetry = scene::Symmetry::plane_strain;
   strip.frame = scene::Frame::lab;
-  const Elasticity steel = elasticity_of(strip.steel);
+  const Elasticity steel = elasticity_of(strip.steel());
   const double peak_time = 0.5 * length / steel.longitudinal_speed;
   strip.load = pulse(peak_time);
   mpm::Simulation simulation(strip);
@@ -112,7 +112,7 @@ Checks longitudinal_pulse() {
   }
   checks.push_back({group, "relative error of the stress, 400 cells", errors.back().stress, 0.0, 5e-4, "",
                     "d'Alembert", true});
-  scene::Scene strip = block(scene::BodyMaterial::steel, 1.0, 0.01, 0.005);
+  scene::Scene strip = block("steel", 1.0, 0.01, 0.005);
   strip.symmetry = scene::Symmetry::plane_strain;
   strip.frame = scene::Frame::lab;
   strip.load = pulse(4e-5);
@@ -123,7 +123,7 @@ Checks longitudinal_pulse() {
 }
 
 Checks free_bar_pulse() {
-  scene::Scene bar = block(scene::BodyMaterial::steel, 2.0, 0.005, 0.0025);
+  scene::Scene bar = block("steel", 2.0, 0.005, 0.0025);
   bar.frame = scene::Frame::lab;
   bar.barrel = scene::Barrel::none;
   bar.load = pulse(1e-4);
@@ -134,7 +134,7 @@ Checks free_bar_pulse() {
 }
 
 Checks plateau_in_a_bar() {
-  scene::Scene bar = block(scene::BodyMaterial::steel, 1.0, 0.005, 0.0025);
+  scene::Scene bar = block("steel", 1.0, 0.005, 0.0025);
   bar.frame = scene::Frame::lab;
   bar.barrel = scene::Barrel::none;
   bar.load = ramp(peak, 1e-4, 1.0);

@@ -4,19 +4,17 @@
 
 namespace launchsafe::verify::mechanics {
 
-using scene::BodyMaterial;
-
 scene::Scene shell_155(double cell_size) {
   scene::Scene shell;
-  shell.bodies = {{"nose", BodyMaterial::steel, 0.0, 0.118, 0.0, 0.0775},
-                  {"charge", BodyMaterial::charge, 0.118, 0.678, 0.0, 0.065},
-                  {"wall", BodyMaterial::steel, 0.118, 0.678, 0.065, 0.0775},
-                  {"base", BodyMaterial::steel, 0.678, 0.74, 0.0, 0.0775}};
+  shell.bodies = {{"nose", "steel", 0.0, 0.118, 0.0, 0.0775},
+                  {"charge", "charge", 0.118, 0.678, 0.0, 0.065},
+                  {"wall", "steel", 0.118, 0.678, 0.065, 0.0775},
+                  {"base", "steel", 0.678, 0.74, 0.0, 0.0775}};
   shell.numerics.cell_size = cell_size;
   return shell;
 }
 
-scene::Scene block(BodyMaterial material, double length, double radius, double cell_size) {
+scene::Scene block(const std::string& material, double length, double radius, double cell_size) {
   scene::Scene block;
   block.bodies = {{"block", material, 0.0, length, 0.0, radius}};
   block.numerics.cell_size = cell_size;
@@ -38,7 +36,7 @@ scene::Load ramp(double pressure, double rise, double duration) {
   return load;
 }
 
-void make_elastic(scene::Scene& scene) { scene.steel.strength.a = 1e15; }
+void make_elastic(scene::Scene& scene) { scene.steel().strength.a = 1e15; }
 
 double run_to(mpm::Simulation& simulation, double end) {
   const double span = end - simulation.time();

@@ -52,7 +52,7 @@ FlightDrift drift_in_flight(double cell, double way);
 /// The 155 mm shell of model section 1.
 scene::Scene shell_155(double cell_size);
 /// A cylinder or strip of one material.
-scene::Scene block(scene::BodyMaterial material, double length, double radius, double cell_size);
+scene::Scene block(const std::string& material, double length, double radius, double cell_size);
 /// A pressure (Pa) that rises smoothly from 0 over `rise` (s) and then stays.
 scene::Load ramp(double pressure, double rise, double duration);
 /// Steel that never yields.

@@ -11,7 +11,6 @@
 namespace launchsafe::verify {
 namespace {
 
-using scene::BodyMaterial;
 
 /// s: the pressure rises over twice the slowest period of the shell and is then held until damping has taken
 /// what is left of the motion and the charge's Maxwell elements have relaxed (the slowest in 0.14 ms).
@@ -22,8 +21,8 @@ void let_settle(scene::Scene& scene, double pressure) {
   scene.load = mechanics::ramp(pressure, rise, rise + held);
   scene.numerics.damping_time = 5e-5;  // near critical for the slowest mode: 1/(2 omega), omega = 1e4/s
   scene.physics.conduction = scene.physics.bulk_reaction = scene::Switch::off;
-  scene.charge.cracks.flaw_size = 0.0;  // no cracks
-  scene.charge.tension_cutoff = 1e12;   // at the nose the charge hangs on the bond
+  scene.charge().cracks.flaw_size = 0.0;  // no cracks
+  scene.charge().tension_cutoff = 1e12;   // at the nose the charge hangs on the bond
   scene.output.trace_interval = rise;
   scene.output.snapshot_times = {0.0};
   for (int look = 0; look < looks; ++look)
@@ -47,7 +46,7 @@ StaticCase elastic_shell() {
       "and "
       "tension cut-off that has kept only the spring of its Maxwell elements (G = 0.944 GPa).";
   mechanics::make_elastic(elastic.scene);
-  auto& charge = elastic.scene.charge.cracks;
+  auto& charge = elastic.scene.charge().cracks;
   for (std::size_t n = 0; n < materials::maxwell_elements; ++n)
     if (charge.relaxation_rates[n] > 0.0) charge.shear_moduli[n] = 0.0;
   return elastic;
@@ -60,7 +59,7 @@ StaticCase plastic_shell() {
       "The same shell with Johnson-Cook steel without its factor of the rate (C = 0), and a "
       "charge whose Maxwell elements have relaxed (G = 0.944 GPa).";
   // What the ramp adds to the yield stress would leave its mark on the state of rest: 0.2 % of the pressure.
-  plastic.scene.steel.strength.c = 0.0;
+  plastic.scene.steel().strength.c = 0.0;
   return plastic;
 }
 
@@ -73,7 +72,7 @@ StaticCase free_bar() {
       "A steel bar of 100 mm and 40 mm diameter, free all around, under its own weight. Closed form: the "
       "axial "
       "stress falls linearly to 0 at the far end, and there is no other.";
-  bar.scene = mechanics::block(BodyMaterial::steel, length, radius, 2.5e-3);
+  bar.scene = mechanics::block("steel", length, radius, 2.5e-3);
   bar.scene.barrel = scene::Barrel::none;
   bar.pressure = 50e6;
   let_settle(bar.scene, bar.pressure);
@@ -89,14 +88,14 @@ StaticCase free_bar() {
 
 /// Johnson-Cook without its factor of the rate, adiabatic: T rises with the plastic work.
 std::vector<HardeningPoint> hardening_of(const scene::Scene& scene) {
-  const materials::JohnsonCookParameters& law = scene.steel.strength;
+  const materials::JohnsonCookParameters& law = scene.steel().strength;
   if (law.a > 1e14) return {};  // steel that never yields
   std::vector<HardeningPoint> points;
   double temperature = scene.initial_temperature, strain = 0.0, stress = 0.0;
   const auto add = [&](double next_strain) {
     const double next_stress = materials::johnson_cook_flow_stress(law, next_strain, 0.0, temperature);
     const double work = points.empty() ? 0.0 : 0.5 * (stress + next_stress) * (next_strain - strain);
-    temperature += law.taylor_quinney * work / (scene.steel.eos.density * law.specific_heat);
+    temperature += law.taylor_quinney * work / (scene.steel().eos.density * law.specific_heat);
     strain = next_strain;
     stress = materials::johnson_cook_flow_stress(law, strain, 0.0, temperature);
     points.push_back({strain, stress});
@@ -123,8 +122,8 @@ std::vector<double> radial_edges(double radius, double finest) {
 }  // namespace
 
 double bottom_of(const scene::Scene& scene) {
-  return scene::has_material(scene, BodyMaterial::charge)
-             ? scene::extent_of(scene, BodyMaterial::charge).x_end
+  return scene::has_charge(scene)
+             ? scene::charge_extent(scene).x_end
              : scene::extent_of(scene).x_end;
 }
 
@@ -141,11 +140,11 @@ FiniteElementModel finite_element_model(const StaticCase& compared) {
   const scene::Scene& scene = compared.scene;
   const scene::Extent all = scene::extent_of(scene);
   const double bottom = bottom_of(scene);
-  const bool shell = scene::has_material(scene, BodyMaterial::charge);
+  const bool shell = scene::has_charge(scene);
   constexpr double finest = 0.5e-3;
   FiniteElementModel model;
   if (shell) {
-    const scene::Extent charge = scene::extent_of(scene, BodyMaterial::charge);
+    const scene::Extent charge = scene::charge_extent(scene);
     append(model.edges_x, graded_edges(all.x_begin, charge.x_begin, 40e-3, 20e-3));
     append(model.edges_x, graded_edges(charge.x_begin, bottom - stress_box, 50e-3, 3e-3));
     append(model.edges_x, graded_edges(bottom - stress_box, bottom, 3e-3, finest));
@@ -157,12 +156,12 @@ FiniteElementModel finite_element_model(const StaticCase& compared) {
     append(model.edges_x, graded_edges(bottom - stress_box, bottom, 2.5e-3, 2.5e-3));
     append(model.edges_r, radial_edges(all.r_end, 1.25e-3));
   }
-  const auto& steel = scene.steel;
-  const auto& explosive = scene.charge.eos;
+  const auto& steel = scene.steel();
+  const auto& explosive = scene.charge().eos;
   model.materials = {{steel.eos.density * steel.eos.sound_speed * steel.eos.sound_speed,
                       steel.strength.shear_modulus, steel.eos.density, hardening_of(scene)},
                      {materials::jwl_bulk_modulus(explosive, 1.0, explosive.initial_energy),
-                      static_shear_modulus(scene.charge.cracks),
+                      static_shear_modulus(scene.charge().cracks),
                       explosive.initial_density,
                       {}}};
   model.material_of.assign(static_cast<std::size_t>(model.elements()), 0);
@@ -171,7 +170,7 @@ FiniteElementModel finite_element_model(const StaticCase& compared) {
     for (const scene::Body& body : scene.bodies)
       if (inside.x > body.x_begin && inside.x < body.x_end && inside.r > body.r_begin &&
           inside.r < body.r_end)
-        model.material_of[static_cast<std::size_t>(element)] = body.material == BodyMaterial::charge ? 1 : 0;
+        model.material_of[static_cast<std::size_t>(element)] = scene::is_charge(scene, body) ? 1 : 0;
   }
   model.acceleration = scene::rigid_acceleration(scene, compared.pressure);
   model.base_pressure = compared.pressure;

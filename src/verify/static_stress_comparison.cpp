@@ -14,16 +14,16 @@ namespace launchsafe::verify {
 namespace {
 
 /// Pressure (Pa) on the isentrope through rest at a relative volume, by the equation of state.
-double isentrope(const scene::Scene& scene, scene::BodyMaterial material, double volume) {
-  if (material == scene::BodyMaterial::charge) {
-    const materials::JwlParameters& law = scene.charge.eos;
+double isentrope(const scene::Scene& scene, std::string_view material, double volume) {
+  if (material == materials::Charge::name) {
+    const materials::JwlParameters& law = scene.charge().eos;
     return materials::jwl_isentrope(law, 1.0, law.initial_energy, volume).pressure;
   }
-  return materials::mie_gruneisen_compress(scene.steel.eos, 0.0, 0.0, 0.0, 1.0 / volume - 1.0, 0.0).pressure;
+  return materials::mie_gruneisen_compress(scene.steel().eos, 0.0, 0.0, 0.0, 1.0 / volume - 1.0, 0.0).pressure;
 }
 
 /// Relative volume at a pressure (Pa), by bisection.
-double volume_at(const scene::Scene& scene, scene::BodyMaterial material, double pressure) {
+double volume_at(const scene::Scene& scene, std::string_view material, double pressure) {
   double low = 0.8, high = 1.2;
   for (int k = 0; k < 60; ++k) {
     const double volume = 0.5 * (low + high);
@@ -37,7 +37,7 @@ double volume_at(const scene::Scene& scene, scene::BodyMaterial material, double
 /// relative volume, p = K (1 - J) in a neo-Hookean solid, where a small shear meets the modulus G/J, and p =
 /// -K ln J in one that yields.
 FiniteElementMaterial secant_material(const FiniteElementMaterial& at_rest, const scene::Scene& scene,
-                                      scene::BodyMaterial material, double pressure) {
+                                      std::string_view material, double pressure) {
   if (!(std::abs(pressure) > 1e3)) return at_rest;
   const double volume = volume_at(scene, material, pressure);
   FiniteElementMaterial secant = at_rest;
@@ -74,7 +74,7 @@ FiniteElementModel with_secant_moduli(const FiniteElementModel& at_rest, const F
   for (std::size_t m = 0; m < at_rest.materials.size(); ++m)
     for (int k = 0; k < classes; ++k)
       model.materials.push_back(secant_material(
-          at_rest.materials[m], scene, m == 0 ? scene::BodyMaterial::steel : scene::BodyMaterial::charge,
+          at_rest.materials[m], scene, m == 0 ? "steel" : "charge",
           range[m].first + (k + 0.5) / classes * (range[m].second - range[m].first)));
   for (std::size_t element = 0; element < pressure.size(); ++element) {
     const int material = at_rest.material_of[element];

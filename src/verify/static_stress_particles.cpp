@@ -70,12 +70,12 @@ using Shares = std::vector<std::pair<std::size_t, double>>;
 Shares shares_of(const scene::Scene& scene, const run::Snapshot& rest, const std::vector<Cell>& cells,
                  double r) {
   const double bottom = bottom_of(scene);
-  const bool in_charge = scene::has_material(scene, scene::BodyMaterial::charge);
+  const bool in_charge = scene::has_charge(scene);
   Shares shares;
   double total = 0.0;
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const bool charge =
-        scene.bodies[static_cast<std::size_t>(rest.body[k])].material == scene::BodyMaterial::charge;
+        scene.bodies[static_cast<std::size_t>(rest.body[k])].material == materials::Charge::name;
     const double weight = charge == in_charge ? weight_in_box(cells[k], bottom, r) : 0.0;
     if (weight > 1e-12 * stress_box * stress_box * stress_box) shares.emplace_back(k, weight);
     total += weight;

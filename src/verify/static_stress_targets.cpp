@@ -40,7 +40,7 @@ std::vector<std::string> missed_targets(const StaticComparison& comparison, cons
       continue;
     }
     judge_points(comparison, mesh, where, targets, missed);
-    const bool charge = scene::has_material(comparison.compared.scene, scene::BodyMaterial::charge);
+    const bool charge = scene::has_charge(comparison.compared.scene);
     if (charge && exceeds(mesh.alternation, targets.alternation))
       missed.push_back(fmt::format("{}: the pressure alternates by {:.3g} % rms; allowed: {:.3g} %", where,
                                    100.0 * mesh.alternation, 100.0 * targets.alternation));

@@ -95,7 +95,7 @@ TEST(Conduction, DecaysLikeTheFirstRadialMode) {
       }
       return top / bottom;
     };
-    const auto& steel = simulation.scene().steel;
+    const auto& steel = simulation.scene().steel();
     const double rate = steel.strength.conductivity / (steel.eos.density * steel.strength.specific_heat) *
                         std::pow(zero / radius, 2);
     mpm::Conduction conduction(simulation);
@@ -118,9 +118,9 @@ TEST(Conduction, CarriesTheFluxThroughTheInterfacesOfALayer) {
   scene::Scene pair;
   pair.symmetry = scene::Symmetry::plane_strain;
   const double layer_begin = sink_length, layer_end = layer_begin + layer_length;
-  pair.bodies = {{"sink", scene::BodyMaterial::steel, 0.0, layer_begin, 0.0, 1e-3},
-                 {"layer", scene::BodyMaterial::charge, layer_begin, layer_end, 0.0, 1e-3},
-                 {"plate", scene::BodyMaterial::steel, layer_end, layer_end + plate_length, 0.0, 1e-3}};
+  pair.bodies = {{"sink", "steel", 0.0, layer_begin, 0.0, 1e-3},
+                 {"layer", "charge", layer_begin, layer_end, 0.0, 1e-3},
+                 {"plate", "steel", layer_end, layer_end + plate_length, 0.0, 1e-3}};
   pair.numerics.cell_size = 1e-3;
   mpm::Simulation simulation(pair);
   mpm::Conduction conduction(simulation);
@@ -149,7 +149,7 @@ TEST(Conduction, RefreshesTheFlowStressOfHeatedSteel) {
   const std::size_t slot = body.kinematics.lattice.slot(0, 0);
   EXPECT_GT(body.kinematics.temperature[slot], 500.0);
   EXPECT_DOUBLE_EQ(body[materials::Steel::flow_stress][slot],
-                   materials::johnson_cook_flow_stress(simulation.scene().steel.strength, 0.0, 0.0,
+                   materials::johnson_cook_flow_stress(simulation.scene().steel().strength, 0.0, 0.0,
                                                        body.kinematics.temperature[slot]));
 }
 

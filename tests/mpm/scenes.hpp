@@ -9,12 +9,11 @@ namespace launchsafe::test_support {
 
 /// The 155 mm shell of model section 1.
 inline scene::Scene shell_155(double cell_size = 2.5e-3, int particles_per_cell = 1) {
-  using scene::BodyMaterial;
   scene::Scene shell;
-  shell.bodies = {{"nose", BodyMaterial::steel, 0.0, 0.118, 0.0, 0.0775},
-                  {"charge", BodyMaterial::charge, 0.118, 0.678, 0.0, 0.065},
-                  {"wall", BodyMaterial::steel, 0.118, 0.678, 0.065, 0.0775},
-                  {"base", BodyMaterial::steel, 0.678, 0.74, 0.0, 0.0775}};
+  shell.bodies = {{"nose", "steel", 0.0, 0.118, 0.0, 0.0775},
+                  {"charge", "charge", 0.118, 0.678, 0.0, 0.065},
+                  {"wall", "steel", 0.118, 0.678, 0.065, 0.0775},
+                  {"base", "steel", 0.678, 0.74, 0.0, 0.0775}};
   shell.numerics.cell_size = cell_size;
   shell.numerics.particles_per_cell = particles_per_cell;
   return shell;
@@ -23,7 +22,7 @@ inline scene::Scene shell_155(double cell_size = 2.5e-3, int particles_per_cell 
 /// A steel cylinder (or strip) of the given length and radius (m).
 inline scene::Scene steel_bar(double length, double radius, double cell_size, int particles_per_cell = 1) {
   scene::Scene bar;
-  bar.bodies = {{"bar", scene::BodyMaterial::steel, 0.0, length, 0.0, radius}};
+  bar.bodies = {{"bar", "steel", 0.0, length, 0.0, radius}};
   bar.numerics.cell_size = cell_size;
   bar.numerics.particles_per_cell = particles_per_cell;
   return bar;

@@ -13,7 +13,7 @@ using namespace launchsafe;
 /// All steel under one hydrostatic pressure, at rest, with particles that still tile the body. Returns the
 /// pressure.
 double compress(mpm::Simulation& simulation, double mu) {
-  const auto& eos = simulation.scene().steel.eos;
+  const auto& eos = simulation.scene().steel().eos;
   const double pressure = materials::mie_gruneisen_pressure(eos, mu, 0.0);
   for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) {
     mpm::Kinematics& p = body.kinematics;
@@ -35,9 +35,9 @@ std::vector<scene::Scene> patches() {
       for (const int per_cell : {1, 2, 3}) {
         scene::Scene bar = test_support::steel_bar(0.06, 0.02, cell, per_cell);
         // Two bodies whose common face lies inside cells.
-        bar.bodies = {{"front", scene::BodyMaterial::steel, 0.0, 0.0283, 0.0, 0.02},
-                      {"core", scene::BodyMaterial::steel, 0.0283, 0.06, 0.0, 0.0131},
-                      {"wall", scene::BodyMaterial::steel, 0.0283, 0.06, 0.0131, 0.02}};
+        bar.bodies = {{"front", "steel", 0.0, 0.0283, 0.0, 0.02},
+                      {"core", "steel", 0.0283, 0.06, 0.0, 0.0131},
+                      {"wall", "steel", 0.0283, 0.06, 0.0131, 0.02}};
         bar.symmetry = symmetry;
         bar.frame = scene::Frame::lab;
         bar.numerics.formulation = scene::Formulation::updated_lagrangian;
@@ -50,7 +50,7 @@ TEST(PatchTest, PressureOnTheBaseBalancesUniformStress) {
   for (const scene::Scene& bar : patches()) {
     const double mu = 1e-3;
     scene::Scene loaded = bar;
-    loaded.load = test_support::steady_pressure(materials::mie_gruneisen_pressure(bar.steel.eos, mu, 0.0));
+    loaded.load = test_support::steady_pressure(materials::mie_gruneisen_pressure(bar.steel().eos, mu, 0.0));
     mpm::Simulation simulation(loaded);
     compress(simulation, mu);
     const double dt = 1e-12;
@@ -83,7 +83,7 @@ TEST(PatchTest, PressureInTheBoreBalancesUniformStress) {
       ring.frame = scene::Frame::lab;
       ring.numerics.formulation = scene::Formulation::updated_lagrangian;
       const double mu = 1e-3;
-      ring.load = test_support::steady_pressure(materials::mie_gruneisen_pressure(ring.steel.eos, mu, 0.0));
+      ring.load = test_support::steady_pressure(materials::mie_gruneisen_pressure(ring.steel().eos, mu, 0.0));
       mpm::Simulation simulation(ring);
       simulation.press_bore(0, compress(simulation, mu));
       const double dt = 1e-12;

@@ -27,13 +27,13 @@ void run_until(mpm::Simulation& simulation, double end) {
 /// A bar of three bodies whose edges no even grid meets.
 scene::Scene bar_of_three(double growth) {
   scene::Scene bar = test_support::steel_bar(0.2, 0.02, 4e-3);
-  bar.bodies = {{"front", scene::BodyMaterial::steel, 0.0, 0.0883, 0.0, 0.02},
-                {"core", scene::BodyMaterial::steel, 0.0883, 0.2, 0.0, 0.0131},
-                {"wall", scene::BodyMaterial::steel, 0.0883, 0.2, 0.0131, 0.02}};
+  bar.bodies = {{"front", "steel", 0.0, 0.0883, 0.0, 0.02},
+                {"core", "steel", 0.0883, 0.2, 0.0, 0.0131},
+                {"wall", "steel", 0.0883, 0.2, 0.0131, 0.02}};
   bar.numerics.refined_x = {0.2};
   bar.numerics.refined_r = {0.0131};
   bar.numerics.growth_x = bar.numerics.growth_r = growth;
-  bar.steel.strength.a = 1e15;
+  bar.steel().strength.a = 1e15;
   return bar;
 }
 
@@ -143,8 +143,8 @@ TEST(TotalLagrangian, ABodyCutInTwoIsTheSameBody) {
     bar.numerics.refined_x = {0.1};
     bar.numerics.growth_x = 1.2;
     if (cut)
-      bar.bodies = {{"core", scene::BodyMaterial::steel, 0.0, 0.1, 0.0, 0.012},
-                    {"skin", scene::BodyMaterial::steel, 0.0, 0.1, 0.012, 0.02}};
+      bar.bodies = {{"core", "steel", 0.0, 0.1, 0.0, 0.012},
+                    {"skin", "steel", 0.0, 0.1, 0.012, 0.02}};
     bar.load = test_support::steady_pressure(500e6);
     bar.barrel = scene::Barrel::none;
     mpm::Simulation simulation(bar);

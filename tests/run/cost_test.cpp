@@ -39,11 +39,11 @@ TEST(OutOfReach, NamesTheKeyWhoseValueTakesTooLongOrTooMuch) {
   const std::vector<Extreme> extremes{
       {"numerics.time_step_factor", [](auto& s) { s.numerics.time_step_factor = 1e-300; }},
       {"numerics.time_step_factor", [](auto& s) { s.numerics.time_step_factor = 1e-12; }},
-      {"numerics.cell_size", [](auto& s) { s.steel.strength.shear_modulus = 1e36; }},
-      {"numerics.cell_size", [](auto& s) { s.steel.strength.shear_modulus = 1e308; }},
-      {"numerics.cell_size", [](auto& s) { s.steel.eos.density = 1e-300; }},
+      {"numerics.cell_size", [](auto& s) { s.steel().strength.shear_modulus = 1e36; }},
+      {"numerics.cell_size", [](auto& s) { s.steel().strength.shear_modulus = 1e308; }},
+      {"numerics.cell_size", [](auto& s) { s.steel().eos.density = 1e-300; }},
       {"numerics.cell_size",
-       [](auto& s) { s.steel.eos.density = std::numeric_limits<double>::denorm_min(); }},
+       [](auto& s) { s.steel().eos.density = std::numeric_limits<double>::denorm_min(); }},
       {"numerics.cell_size",
        [](auto& s) {
          s.load.duration = 1.0;

@@ -48,7 +48,7 @@ TEST(Doubts, ASoundRunHasNone) {
   EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
   // The extremes of sweep_pressure_defect.toml.
   scene.load.peak = 700e6;
-  scene.charge.cracks.initial_crack_radius = 3e-3;
+  scene.charge().cracks.initial_crack_radius = 3e-3;
   MechanicsResult cracked = sound_run();
   cracked.monitor[2].largest_crack_radius = 3e-3;
   EXPECT_TRUE(doubts_of(scene, cracked).empty());

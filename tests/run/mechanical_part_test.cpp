@@ -19,7 +19,7 @@ class Bits {
   explicit Bits(const MechanicsResult& result) {
     whole({static_cast<std::uint64_t>(result.status), result.steps, result.particles});
     text(result.reason);
-    add({result.end_time, result.mass_steel, result.mass_charge});
+    add({result.end_time, mass_of(result, "steel"), mass_of(result, "charge")});
     trace(result.trace);
     for (const MonitorSample& sample : result.monitor) monitor(sample);
     for (const Snapshot& snapshot : result.snapshots) fields(snapshot);

@@ -135,9 +135,8 @@ void require(bool holds, const std::string& what) {
 }
 
 void check_masses(const scene::Scene& scene, const MechanicsResult& result) {
-  for (const auto& [material, mass] : {std::pair(scene::BodyMaterial::steel, result.mass_steel),
-                                       std::pair(scene::BodyMaterial::charge, result.mass_charge)}) {
-    const double exact = scene::mass_of(scene, material);
+  for (const scene::Material& material : scene::used_materials(scene)) {
+    const double exact = scene::mass_of(scene, material.name), mass = mass_of(result, material.name);
     require(std::abs(mass - exact) <= 1e-12 * exact, fmt::format("mass {} kg instead of {}", mass, exact));
   }
 }

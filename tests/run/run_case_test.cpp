@@ -30,8 +30,8 @@ TEST(RunMechanics, CompletesTheLaunchWithAClosedEnergyBalance) {
   EXPECT_NEAR(result.end_time, 18e-3, 1e-12);
   EXPECT_NEAR(result.trace.time.back(), 18e-3, 1e-12);
   // Masses: model section 1, six digits.
-  EXPECT_NEAR(result.mass_steel, 51.1314, 5e-5);
-  EXPECT_NEAR(result.mass_charge, 12.7625, 5e-5);
+  EXPECT_NEAR(mass_of(result, "steel"), 51.1314, 5e-5);
+  EXPECT_NEAR(mass_of(result, "charge"), 12.7625, 5e-5);
   for (const MonitorSample& sample : result.monitor) {
     if (sample.energy.scale() < 1.0) continue;  // J, of about 1000 at the peak
     EXPECT_LT(std::abs(sample.energy.drift()), 2e-3) << "at " << sample.time;
@@ -146,7 +146,7 @@ TEST(RunMechanics, ForcedConductionAndReactionChangeNoBulkTemperatureOfTheCharge
   const Snapshot &a = without.snapshots.front(), &b = with.snapshots.front();
   double largest = 0.0;
   for (std::size_t i = 0; i < a.temperature.size(); ++i)
-    if (scene.bodies[static_cast<std::size_t>(a.body[i])].material == scene::BodyMaterial::charge)
+    if (scene.bodies[static_cast<std::size_t>(a.body[i])].material == "charge")
       largest = std::max(largest, std::abs(a.temperature[i] - b.temperature[i]));
   EXPECT_GT(largest, 0.0);   // the terms did act
   EXPECT_LT(largest, 0.05);  // K; friction heats the bulk by up to 0.5 K
@@ -171,7 +171,7 @@ TEST(RunCoupled, AgreesWithTheTracedTemperaturesBelowIgnition) {
 TEST(RunCoupled, IgnitesWhenAndWhereTheTraceDoes) {
   scene::Scene scene = coarse_scene();
   scene.surface.localisation = 800.0;
-  scene.charge.kinetics.ignition_temperature = 420.0;  // well inside the heating
+  scene.charge().kinetics.ignition_temperature = 420.0;  // well inside the heating
   const CaseResult coupled = run_coupled(scene, 4e-4);
   const GapResult traced = evaluate_gap(scene, coupled.mechanics.trace, 4e-4);
   ASSERT_TRUE(coupled.gaps.front().skin.ignition.has_value());

@@ -40,7 +40,7 @@ TEST(Mesh, DivisibleLengthsAreNotRoundedUp) {
 
 TEST(Mesh, EveryBodyHasAtLeastOneParticle) {
   const Mesh mesh{0.01, 0.01, 0.0, 0.02};
-  const Body foil{"foil", BodyMaterial::steel, 0.0, 0.1, 0.019, 0.02};
+  const Body foil{"foil", "steel", 0.0, 0.1, 0.019, 0.02};
   EXPECT_EQ(particles_of(mesh, foil, 1).nr, 1);
   EXPECT_EQ(particles_of(mesh, foil, 1).nx, 10);
   EXPECT_EQ(particles_of(mesh, foil, 2).nx, 20);
@@ -48,7 +48,7 @@ TEST(Mesh, EveryBodyHasAtLeastOneParticle) {
 
 TEST(Mesh, SceneWithoutChargeIsFittedAsAWhole) {
   Scene scene;
-  scene.bodies = {{"bar", BodyMaterial::steel, 0.0, 0.1, 0.0, 0.01}};
+  scene.bodies = {{"bar", "steel", 0.0, 0.1, 0.0, 0.01}};
   scene.numerics.cell_size = 0.003;
   const Mesh mesh = fit_mesh(scene);
   EXPECT_DOUBLE_EQ(mesh.dx, 0.1 / 34);
@@ -58,8 +58,7 @@ TEST(Mesh, SceneWithoutChargeIsFittedAsAWhole) {
 
 TEST(Mesh, NamesTheChargeEdgeThatTheGridLinesMiss) {
   Scene scene;
-  scene.bodies = {{"charge", BodyMaterial::charge, 0.0, 0.1, 0.0, 0.065},
-                  {"wall", BodyMaterial::steel, 0.0, 0.1, 0.065, 0.0775}};
+  scene.bodies = {{"charge", "charge", 0.0, 0.1, 0.0, 0.065}, {"wall", "steel", 0.0, 0.1, 0.065, 0.0775}};
   scene.numerics.cell_size = 2.5e-3;  // 26 and 31 cells
   EXPECT_EQ(charge_edges_off_grid(scene), "");
   scene.numerics.cell_size = 1e-3;  // 77.5 mm make 78 cells, 65 mm 65.42

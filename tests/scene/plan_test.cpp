@@ -20,7 +20,7 @@ Scene small() {
 TEST(Plan, LeavesConductionOutBelowItsBound) {
   Scene scene = small();
   scene.load.duration = 18e-3;
-  EXPECT_NEAR(diffusion_length(scene, BodyMaterial::charge), 38.06e-6, 0.01e-6);
+  EXPECT_NEAR(diffusion_length(scene.charge(), scene.load.duration), 38.06e-6, 0.01e-6);
   EXPECT_FALSE(make_plan(scene).conduction.in);
   scene.physics.conduction_bound = 0.01;
   EXPECT_TRUE(make_plan(scene).conduction.in);
@@ -54,27 +54,28 @@ TEST(Plan, CracksNeedFlawsAndARadius) {
   EXPECT_TRUE(make_plan(scene).cracks.in);
   EXPECT_TRUE(make_plan(scene).crack_growth.in);
   EXPECT_TRUE(make_plan(scene).crack_friction.in);
-  scene.charge.cracks.face_friction = 0.0;
+  scene.charge().cracks.face_friction = 0.0;
   EXPECT_FALSE(make_plan(scene).crack_friction.in);
-  scene.charge.cracks.growth = false;
+  scene.charge().cracks.growth = false;
   EXPECT_FALSE(make_plan(scene).crack_growth.in);
   EXPECT_TRUE(make_plan(scene).cracks.in);
-  scene.charge.cracks.flaw_size = 0.0;
+  scene.charge().cracks.flaw_size = 0.0;
   EXPECT_FALSE(make_plan(scene).cracks.in);
   scene = small();
-  scene.charge.cracks.initial_crack_radius = 0.0;
+  scene.charge().cracks.initial_crack_radius = 0.0;
   EXPECT_FALSE(make_plan(scene).cracks.in);
 }
 
 TEST(Plan, SteelAloneHasNoSurface) {
   Scene scene = small();
-  scene.bodies = {{"bar", BodyMaterial::steel, 0.0, 0.1, 0.0, 0.01}};
+  scene.bodies = {{"bar", "steel", 0.0, 0.1, 0.0, 0.01}};
   const Plan plan = make_plan(scene);
   EXPECT_FALSE(plan.surface.in);
   EXPECT_FALSE(plan.air.in);
   EXPECT_FALSE(plan.cracks.in);
   EXPECT_FALSE(plan.bulk_reaction.in);
-  EXPECT_EQ(plan.particles_charge, 0);
+  ASSERT_EQ(plan.by_material.size(), 1U);
+  EXPECT_EQ(plan.by_material[0].material, "steel");
 }
 
 TEST(Plan, CountsParticlesAndStepsAsTheMeshDoes) {

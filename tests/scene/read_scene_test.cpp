@@ -17,7 +17,7 @@ TEST(ReadScene, ShippedSceneIsTheOneOfTheModel) {
   ASSERT_TRUE(file) << file.error().message();
   const Scene& scene = file->scene;
   ASSERT_EQ(scene.bodies.size(), 4u);
-  EXPECT_EQ(scene.bodies[1].material, BodyMaterial::charge);
+  EXPECT_EQ(scene.bodies[1].material, "charge");
   EXPECT_EQ(scene.surface.gaps, (std::vector<double>{0.0, 1e-4, 2e-4, 3e-4, 3.9e-4, 4e-4}));
   ASSERT_EQ(scene.output.observation_points.size(), 13u);
   for (std::size_t i = 0; i < 13; ++i) {
@@ -26,17 +26,17 @@ TEST(ReadScene, ShippedSceneIsTheOneOfTheModel) {
     EXPECT_NEAR(scene.output.observation_points[i].r, 0.0625 - 0.005 * static_cast<double>(i), 1e-15);
   }
   EXPECT_EQ(scene.load.peak, 496e6);
-  EXPECT_EQ(scene.charge.kinetics.name, "comp-b");
-  EXPECT_GT(scene.charge.cracks.face_friction, 0.0);
+  EXPECT_EQ(scene.charge().kinetics.name, "comp-b");
+  EXPECT_GT(scene.charge().cracks.face_friction, 0.0);
 }
 
 TEST(ReadScene, WhatTheShippedSceneLeavesOutIsTheDefault) {
   const auto file = read_scene(shipped);
   ASSERT_TRUE(file);
   const Scene defaults;
-  EXPECT_EQ(file->scene.charge.eos.initial_energy, defaults.charge.eos.initial_energy);
-  EXPECT_EQ(file->scene.charge.tension_cutoff, defaults.charge.tension_cutoff);
-  EXPECT_EQ(file->scene.steel.strength.a, defaults.steel.strength.a);
+  EXPECT_EQ(file->scene.charge().eos.initial_energy, defaults.charge().eos.initial_energy);
+  EXPECT_EQ(file->scene.charge().tension_cutoff, defaults.charge().tension_cutoff);
+  EXPECT_EQ(file->scene.steel().strength.a, defaults.steel().strength.a);
 }
 
 TEST(ReadScene, WrittenSceneReadsBackToTheSame) {
@@ -47,7 +47,7 @@ TEST(ReadScene, WrittenSceneReadsBackToTheSame) {
   file->scene.load.curve_time = {0.0, 1e-3, 0.018};
   file->scene.load.curve_pressure = {1e5, 1e8, 2e8 / 3.0};
   file->scene.output.snapshot_times = {0.0, 5e-3};
-  file->scene.charge.cracks.face_friction = 0.0;
+  file->scene.charge().cracks.face_friction = 0.0;
   const std::string text = to_toml(file->scene);
   const auto again = parse_scene(text, "again.toml");
   ASSERT_TRUE(again) << again.error().message() << text;
@@ -101,7 +101,7 @@ TEST(ReadScene, WrongUnitsAndTypesAreRefused) {
   expect_error(error_of(text), 2, "load.duration", "not a finite number", "a time");
   text = with(small_scene, "material = \"steel\"", "material = \"stele\"");
   expect_error(error_of(text), line_of(text, "stele"), "body.material", "\"stele\"",
-               "\"steel\" or \"charge\"");
+               "\"steel\", \"charge\" or \"elastic\"");
   EXPECT_EQ(error_of(text).suggestion, "\"steel\"");
   text = with(small_scene, "x = \"0 to 1 cm\"", "x = \"1 cm\"");
   expect_error(error_of(text), line_of(text, "x = "), "body.x", "without \"to\"", "a range");

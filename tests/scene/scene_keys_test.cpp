@@ -59,24 +59,24 @@ TEST(SceneKeys, KineticsAreNamedAfterTheirNumbers) {
   const SceneFile file = small();
   const auto printed = with_written_key(file, "kinetics.set", "printed", {});
   ASSERT_TRUE(printed);
-  EXPECT_EQ(printed->scene.charge.kinetics.activation_temperature, 2.7e4);
+  EXPECT_EQ(printed->scene.charge().kinetics.activation_temperature, 2.7e4);
   const auto custom = with_written_key(*printed, "kinetics.activation_temperature", "25000 K", {});
   ASSERT_TRUE(custom);
-  EXPECT_EQ(custom->scene.charge.kinetics.name, "custom");
-  EXPECT_EQ(custom->scene.charge.kinetics.activation_temperature, 2.5e4);
+  EXPECT_EQ(custom->scene.charge().kinetics.name, "custom");
+  EXPECT_EQ(custom->scene.charge().kinetics.activation_temperature, 2.5e4);
   const auto again = with_written_key(*custom, "kinetics.set", "comp-b", {});
   ASSERT_TRUE(again);
-  EXPECT_EQ(again->scene.charge.kinetics.activation_temperature, 2.17e4);
-  EXPECT_EQ(again->scene.charge.kinetics.name, "comp-b");
+  EXPECT_EQ(again->scene.charge().kinetics.activation_temperature, 2.17e4);
+  EXPECT_EQ(again->scene.charge().kinetics.name, "comp-b");
 }
 
 TEST(SceneKeys, CrackFrictionIsSugarForACoefficient) {
   const auto off = with_written_key(small(), "charge.crack_friction", "false", {});
   ASSERT_TRUE(off);
-  EXPECT_EQ(off->scene.charge.cracks.face_friction, 0.0);
+  EXPECT_EQ(off->scene.charge().cracks.face_friction, 0.0);
   const auto coefficient = with_written_key(*off, "charge.face_friction", "0.2", {});
   ASSERT_TRUE(coefficient);
-  EXPECT_EQ(coefficient->scene.charge.cracks.face_friction, 0.2);
+  EXPECT_EQ(coefficient->scene.charge().cracks.face_friction, 0.2);
   const auto text = "charge.crack_friction = true\ncharge.face_friction = 0\n" + small_scene;
   expect_error(error_of(text), 1, "charge.crack_friction", "face_friction = 0",
                "true with a face_friction above 0");
@@ -85,7 +85,7 @@ TEST(SceneKeys, CrackFrictionIsSugarForACoefficient) {
 TEST(SceneKeys, JwlConstantsKeepThePressureOfTheUnloadedChargeZero) {
   const auto changed = with_written_key(small(), "charge.jwl.omega", "0.5", {});
   ASSERT_TRUE(changed);
-  const auto& eos = changed->scene.charge.eos;
+  const auto& eos = changed->scene.charge().eos;
   EXPECT_NEAR(materials::jwl_pressure(eos, 1.0, eos.initial_energy), 0.0, 1e-5);
 }
 

@@ -49,8 +49,7 @@ inline run::MechanicsResult sample_mechanics() {
   mechanics.steps = (std::uint64_t{1} << 53) + 1;
   mechanics.particles = 9021;
   mechanics.wall_time = 61.5;
-  mechanics.mass_steel = 36.1;
-  mechanics.mass_charge = 7.2;
+  mechanics.masses = {{"steel", 36.1}, {"charge", 7.2}};
   mechanics.trace = sample_trace();
   run::MonitorSample sample;
   sample.time = 1e-5;
@@ -98,8 +97,7 @@ inline run::CaseResult sample_case() {
 inline scene::Scene sample_scene() {
   scene::Scene scene;
   scene.title = "155 mm shell";
-  scene.bodies = {{"wall", scene::BodyMaterial::steel, 0, 0.7, 0.065, 0.0775},
-                  {"charge", scene::BodyMaterial::charge, 0.1, 0.6, 0, 0.065}};
+  scene.bodies = {{"wall", "steel", 0, 0.7, 0.065, 0.0775}, {"charge", "charge", 0.1, 0.6, 0, 0.065}};
   scene.output.observation_points = {{"G1", 0.6, 0.0}};
   return scene;
 }

@@ -153,7 +153,7 @@ std::string edited_a_few_times(std::string text) {
 void expect_edit_of_scene_told() {
   const std::string text = edited_a_few_times(scene_text());
   const auto file = scene::parse_scene(text, studies_folder / "scene.toml");
-  if (!file || !scene::has_material(file->scene, scene::BodyMaterial::charge)) return;
+  if (!file || !scene::has_charge(file->scene)) return;
   const GapVerdict row = row_of(*file);
   if (row.judgement.verdict == Verdict::safe) expect_told(file->scene, row);
 }

@@ -29,8 +29,8 @@ std::string case_text(const std::string& keys, const std::string& name = "one") 
 /// A closed-form run that keeps all invariants.
 run::MechanicsResult sound_mechanics(const scene::Scene& scene, double kelvin = 116.1) {
   run::MechanicsResult result = synthetic_mechanics(scene, kelvin);
-  result.mass_steel = scene::mass_of(scene, scene::BodyMaterial::steel);
-  result.mass_charge = scene::mass_of(scene, scene::BodyMaterial::charge);
+  for (const scene::Material& material : scene::used_materials(scene))
+    add_mass(result.masses, material.name, scene::mass_of(scene, material.name));
   result.monitor.assign(2, {});
   result.monitor[1].time = result.end_time;
   result.monitor[1].energy.internal = result.monitor[1].energy.external = 100.0;
@@ -84,8 +84,8 @@ TEST(Stability, ASoundRunIsHeld) {
 TEST(Stability, EveryBrokenInvariantUnderASafeVerdictIsWrong) {
   using run::MechanicsResult;
   const std::vector<std::pair<std::string, std::function<void(MechanicsResult&)>>> breaks{
-      {"mass of charge", [](MechanicsResult& r) { r.mass_charge *= 1.0 + 1e-9; }},
-      {"mass of steel", [](MechanicsResult& r) { r.mass_steel *= 0.999; }},
+      {"mass of charge", [](MechanicsResult& r) { r.masses.at(1).mass *= 1.0 + 1e-9; }},
+      {"mass of steel", [](MechanicsResult& r) { r.masses.at(0).mass *= 0.999; }},
       {"momentum", [](MechanicsResult& r) { r.monitor[1].momentum = 1e3; }},
       {"energy drifts", [](MechanicsResult& r) { r.monitor[1].energy.external = 90.0; }},
       {"plastic dissipation falls", [](MechanicsResult& r) { r.monitor[0].energy.plastic = 6.0; }},

@@ -20,6 +20,8 @@ struct Charge {
 
   static constexpr std::string_view name = "charge";
   static constexpr bool heats_itself = false;
+  static constexpr bool is_explosive = true;
+  static constexpr bool always_written = true;
   /// Maxwell elements S_n first, three components each; then friction heat since the start by closure, J per
   /// m3 of initial volume with localisation 1 (paper Eq. 39).
   enum Field : std::size_t {
@@ -71,6 +73,8 @@ struct Charge {
       total = total + math::Deviator<Real>{s[3 * n], s[3 * n + 1], s[3 * n + 2]};
     return total;
   }
+
+  static std::vector<keys::Key<Charge>> parameters();  ///< keys of scene files
 
   class Integrator;
 };

@@ -24,4 +24,9 @@ inline double arrhenius_heating(const KineticsParameters& k, double specific_hea
 /// Reaction degree of Eq. 38: 0 below T1, linear to 1 at T2.
 double reaction_degree(const KineticsParameters& k, double temperature);
 
+/// The named kinetics: "comp-b", "printed", or "custom", which starts from "comp-b".
+KineticsParameters named_kinetics(const std::string& name);
+/// The name that belongs to the numbers.
+std::string name_of(const KineticsParameters& kinetics);
+
 }  // namespace launchsafe::materials

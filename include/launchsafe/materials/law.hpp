@@ -6,16 +6,22 @@
 //   initial_density(), shear_modulus(), bulk_modulus(), heat_capacity(), heat_conductivity()   at rest, SI
 //   initial_state(temperature)                       std::array<double, N>
 //   static constexpr bool heats_itself               whether update changes the temperature
+//   static constexpr bool is_explosive               whether a body of it is a charge, which may ignite
+//   static constexpr bool always_written             whether a stored scene without it has its keys
+//                                                    (false for a new law: what is stored already has not)
+//   static std::vector<keys::Key<Law>> parameters()  its keys in scene files
 //   Integrator                                       made of the law; set_step(dt), then update(...) by particle
 // and the functions on a particle's state that outputs ask for: deviator(state) and, for the time step,
 // Integrator::bulk_modulus(state, density, pressure). Everything else of a law is its own.
 #pragma once
 
+#include "launchsafe/keys/key.hpp"
 #include "launchsafe/math/deviator.hpp"
 
 #include <array>
 #include <cstddef>
 #include <string_view>
+#include <vector>
 
 namespace launchsafe::materials {
 

@@ -14,6 +14,8 @@ struct LinearElastic {
 
   static constexpr std::string_view name = "elastic";
   static constexpr bool heats_itself = false;
+  static constexpr bool is_explosive = false;
+  static constexpr bool always_written = false;
   enum Field : std::size_t { stress_rr, stress_xx, stress_rx };
   static constexpr std::array<StateField, 3> state{
       {{"deviator_rr", "Pa"}, {"deviator_xx", "Pa"}, {"deviator_rx", "Pa"}}};
@@ -30,6 +32,8 @@ struct LinearElastic {
   static math::Deviator<Real> deviator(const State<LinearElastic, Real>& s) {
     return {s[stress_rr], s[stress_xx], s[stress_rx]};
   }
+
+  static std::vector<keys::Key<LinearElastic>> parameters();  ///< keys of scene files
 
   class Integrator;
 };
@@ -58,5 +62,32 @@ class LinearElastic::Integrator {
  private:
   LinearElastic law_;
 };
+
+inline std::vector<keys::Key<LinearElastic>> LinearElastic::parameters() {
+  using keys::above_to, keys::between, keys::Dimension;
+  const auto number = [](const char* key, Dimension dimension, keys::Limits limits, const char* sentence,
+                         auto member) {
+    return keys::always_plausible(
+        keys::number_key<LinearElastic>(key, dimension, limits, keys::Standing::assumed, sentence, member),
+        "it is for checks against closed forms, and no published launch is of it");
+  };
+  return {
+      number(
+          "elastic.density", Dimension::density, between(500, 25e3), "Density before launch.",
+          [](auto& s) -> auto& { return s.density; }),
+      number(
+          "elastic.bulk_modulus", Dimension::pressure, above_to(0, 1e12), "Bulk modulus K.",
+          [](auto& s) -> auto& { return s.bulk; }),
+      number(
+          "elastic.shear_modulus", Dimension::pressure, above_to(0, 1e12), "Shear modulus G.",
+          [](auto& s) -> auto& { return s.shear; }),
+      number(
+          "elastic.specific_heat", Dimension::specific_heat, between(50, 1e4), "Specific heat.",
+          [](auto& s) -> auto& { return s.specific_heat; }),
+      number(
+          "elastic.conductivity", Dimension::conductivity, between(0, 1e4), "Thermal conductivity.",
+          [](auto& s) -> auto& { return s.conductivity; }),
+  };
+}
 
 }  // namespace launchsafe::materials

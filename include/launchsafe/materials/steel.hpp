@@ -13,6 +13,8 @@ struct Steel {
 
   static constexpr std::string_view name = "steel";
   static constexpr bool heats_itself = true;
+  static constexpr bool is_explosive = false;
+  static constexpr bool always_written = true;
   enum Field : std::size_t { stress_rr, stress_xx, stress_rx, energy, plastic_strain, flow_stress };
   static constexpr std::array<StateField, 6> state{{{"deviator_rr", "Pa"},
                                                     {"deviator_xx", "Pa"},
@@ -50,6 +52,8 @@ struct Steel {
   static math::Deviator<Real> deviator(const State<Steel, Real>& s) {
     return {s[stress_rr], s[stress_xx], s[stress_rx]};
   }
+
+  static std::vector<keys::Key<Steel>> parameters();  ///< keys of scene files
 
   class Integrator;
 };

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace launchsafe::run {
@@ -68,6 +69,14 @@ struct LimiterCounts {
 /// "crack bound 12, tension cut-off 3"; empty where none acted.
 std::string to_string(const LimiterCounts& limiters);
 
+/// Mass of the bodies of one material, kg, summed over the particles.
+struct MaterialMass {
+  std::string material;
+  double mass = 0;
+};
+/// Adds to the entry of a material, at the end where there is none.
+void add_mass(std::vector<MaterialMass>& masses, const std::string& material, double mass);
+
 struct MechanicsResult {
   RunStatus status = RunStatus::completed;
   std::string reason;   ///< when and where, if not completed
@@ -77,12 +86,15 @@ struct MechanicsResult {
   double wall_time = 0;       ///< s
   double processor_time = 0;  ///< s, of the run's threads: what other work on the machine disturbs least
   double update_rate() const { return wall_time > 0 ? double(steps) * double(particles) / wall_time : 0; }
-  double mass_steel = 0, mass_charge = 0;  ///< kg, summed over the particles
+  std::vector<MaterialMass> masses;  ///< by material, in the order of the first body of each
   trace::BottomTrace trace;
   std::vector<MonitorSample> monitor;
   std::vector<Snapshot> snapshots;
   LimiterCounts limiters;
 };
+
+/// 0 for a material without particles.
+double mass_of(const MechanicsResult& mechanics, std::string_view material);
 
 /// Largest absolute energy drift over the monitor's history, as a share of the run's largest energy (in the
 /// first moments all energies are next to nothing); NaN without one.

@@ -9,8 +9,9 @@ namespace launchsafe::scene {
 /// default: title, file names and acceptances; gap, air (but for its initial pressure, below which no bottom
 /// pressure is traced), exchange and localisation; numbers of the analytic load under a measured curve. The
 /// plan's switches stand as decided, without what the decision rests on. Kinetics, heat conduction, friction
-/// closure and specific heat of the charge stay only where the plan, or a snapshot, needs them. Zeros have no
-/// sign. Names of bodies stay: a failed run tells where it failed.
+/// closure and specific heat of laws that do not heat themselves stay only where the plan, or a snapshot,
+/// needs them, materials only where a body is made of them. Zeros have no sign. Names of bodies stay: a
+/// failed run tells where it failed.
 ///
 /// Scenes with equal mechanical parts share one mechanical run, bit by bit. The part of a valid scene is
 /// valid.

@@ -19,6 +19,12 @@ struct Term {
   double bound = 0;     ///< with what
 };
 
+/// How many particles the bodies of one material have.
+struct MaterialParticles {
+  std::string material;
+  std::int64_t particles = 0;
+};
+
 /// What a case will allocate and execute.
 struct Plan {
   Term conduction;        ///< grid heat conduction; value and bound: diffusion length over cell size
@@ -32,9 +38,8 @@ struct Plan {
   Term inertial_scaling;  ///< value: the factor
   Term snapshots;         ///< value: their number
 
-  std::int64_t particles_steel = 0;
-  std::int64_t particles_charge = 0;
-  std::int64_t particles() const { return particles_steel + particles_charge; }
+  std::vector<MaterialParticles> by_material;  ///< of the materials that bodies are made of
+  std::int64_t particles() const;
   std::int64_t cells = 0;  ///< of the fitted grid over the shell at rest
   double time_step = 0;    ///< s, at rest: CFL h/c_L, times sqrt(inertial_scaling)
   /// Duration over time_step, most_counted at most; compression stiffens, so a run takes some more.
@@ -45,13 +50,13 @@ struct Plan {
   double memory = 0;  ///< bytes of particles and grid, estimated
 };
 
-/// Longitudinal sound speed at rest (m/s) of a material of the scene.
-double longitudinal_speed(const Scene& scene, BodyMaterial material);
-/// The largest over the materials the scene has.
+/// Longitudinal sound speed at rest (m/s), sqrt((K + 4/3 G)/rho).
+double longitudinal_speed(const materials::Law& law);
+/// The largest over the materials that bodies are made of.
 double longitudinal_speed(const Scene& scene);
 
-/// Distance (m) heat diffuses in a material over the load's duration: sqrt(k t/(rho c)).
-double diffusion_length(const Scene& scene, BodyMaterial material);
+/// Distance (m) that heat diffuses in a time (s): sqrt(k t/(rho c)).
+double diffusion_length(const materials::Law& law, double time);
 
 /// Hydrostatic setback pressure (Pa) at the charge bottom at the load's peak, rho L a of the rigid
 /// projectile; 0 without a charge.

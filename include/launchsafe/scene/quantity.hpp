@@ -1,6 +1,7 @@
 // Numbers with units, as users write them ("2.5 mm", "0 to 11.8 cm", "0, 0.01, 0.02 cm"), to SI and back.
 #pragma once
 
+#include "launchsafe/keys/key.hpp"
 #include "launchsafe/scene/input_error.hpp"
 
 #include <string>
@@ -9,25 +10,7 @@
 
 namespace launchsafe::scene {
 
-/// What a number measures. `number` is dimensionless, `count` a whole dimensionless number. A `temperature`
-/// is one on a scale, which may be that of Celsius; a `temperature_difference`, such as an uncertainty, is in
-/// K.
-enum class Dimension {
-  number,
-  count,
-  length,
-  time,
-  pressure,
-  temperature,
-  temperature_difference,
-  density,
-  speed,
-  frequency,
-  specific_energy,
-  specific_heat,
-  conductivity,
-  toughness
-};
+using keys::Dimension;
 
 /// What the difference of two quantities measures: of two temperatures, a temperature difference; else the
 /// same.

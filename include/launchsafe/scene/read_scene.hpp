@@ -56,8 +56,9 @@ struct ListedKey {
 };
 std::vector<ListedKey> list_keys(const SceneFile& file);
 
-/// The whole scene as TOML in SI, every key written, measured curves included: reads back to exactly the same
-/// scene. Equal texts are equal scenes, whatever file they came from.
+/// The whole scene as TOML in SI, every key that does something written, measured curves included: reads back
+/// to exactly the same scene, if its materials are those of a file. Equal texts are equal scenes, whatever
+/// file they came from.
 std::string to_toml(const Scene& scene);
 
 /// The first fault that makes a scene unfit to compute, if any (see the places of the file for where).

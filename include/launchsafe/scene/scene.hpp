@@ -5,8 +5,11 @@
 #include "launchsafe/materials/ideal_gas.hpp"
 #include "launchsafe/materials/laws.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 namespace launchsafe::scene {
@@ -14,7 +17,6 @@ namespace launchsafe::scene {
 enum class Symmetry { axisymmetric, plane_strain };
 enum class Frame { co_moving, lab };
 enum class Barrel { rigid, none };
-enum class BodyMaterial { steel, charge };
 /// auto: the plan decides from the scene's own numbers.
 enum class Switch { automatic, on, off };
 /// Which configuration gradients and transfer refer to: the one at rest, or the present one (uGIMP).
@@ -24,10 +26,18 @@ enum class AirPressure { charge_bottom, chamber };
 enum class AirModel { reservoir, balance };
 enum class Exchange { rate, per_step };
 
+/// What bodies are made of: a law with its parameters, under the name that bodies refer to it by.
+struct Material {
+  std::string name;
+  materials::Law law;
+};
+/// One of each law, as it is by default, under the law's own name.
+std::vector<Material> usual_materials();
+
 /// A rectangle of one material in the (x, r) half plane; x grows from nose to base. Lengths in m.
 struct Body {
   std::string name;
-  BodyMaterial material = BodyMaterial::steel;
+  std::string material = std::string(materials::Steel::name);  ///< name of one of the scene's materials
   double x_begin = 0, x_end = 0;
   double r_begin = 0, r_end = 0;
 };
@@ -115,35 +125,68 @@ struct Scene {
   double initial_temperature = 300.0;  ///< K
   std::vector<Body> bodies;
   Load load;
-  Steel steel;
-  Charge charge;
+  std::vector<Material> materials = usual_materials();  ///< each name once; files fill the usual ones
   Surface surface;
   Numerics numerics;
   Output output;
   Physics physics;
   std::vector<Acceptance> accepted;
+
+  /// Parameters of the first material of a law, which the law's keys speak of. The defaults where there is
+  /// none; the second form then adds it.
+  template <class Law>
+  const Law& parameters() const {
+    static const Law usual{};
+    for (const Material& material : materials)
+      if (const Law* law = std::get_if<Law>(&material.law)) return *law;
+    return usual;
+  }
+  template <class Law>
+  Law& parameters() {
+    for (Material& material : materials)
+      if (Law* law = std::get_if<Law>(&material.law)) return *law;
+    return std::get<Law>(materials.emplace_back(Material{std::string(Law::name), Law{}}).law);
+  }
+  const Steel& steel() const { return parameters<Steel>(); }
+  Steel& steel() { return parameters<Steel>(); }
+  const Charge& charge() const { return parameters<Charge>(); }
+  Charge& charge() { return parameters<Charge>(); }
 };
 
-/// The smallest rectangle around all bodies of a material (or all bodies).
+/// The material of a name; none where the scene has none of that name.
+const Material* find_material(const Scene& scene, std::string_view name);
+/// The law of a body's material, which the scene must have.
+const materials::Law& law_of(const Scene& scene, const Body& body);
+/// The materials that bodies are made of, in the scene's order.
+std::vector<Material> used_materials(const Scene& scene);
+/// Whether a body is of that law.
+template <class Law>
+bool has_law(const Scene& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&scene](const Body& body) {
+    const Material* material = find_material(scene, body.material);
+    return material != nullptr && std::holds_alternative<Law>(material->law);
+  });
+}
+/// Whether a body is of an explosive: the charge, whose bottom is looked at.
+bool is_charge(const Scene& scene, const Body& body);
+bool has_charge(const Scene& scene);
+
+/// The smallest rectangle around all bodies, the charges, or the others; nothing at 0 without any.
 struct Extent {
   double x_begin = 0, x_end = 0, r_begin = 0, r_end = 0;
 };
 Extent extent_of(const Scene& scene);
-Extent extent_of(const Scene& scene, BodyMaterial material);
+Extent charge_extent(const Scene& scene);
+Extent inert_extent(const Scene& scene);
 
 /// Masses in kg (axisymmetric: of the whole shell; plane strain: per metre of depth, half model).
-double mass_of(const Scene& scene, BodyMaterial material);
+double mass_of(const Scene& scene, std::string_view material);
 double total_mass(const Scene& scene);
 /// Area of the loaded base face (m2; plane strain: m2 per metre of depth, half model).
 double base_area(const Scene& scene);
 
 /// Axial acceleration (m/s2) of the whole projectile as one rigid body under a pressure (Pa) on its base.
 double rigid_acceleration(const Scene& scene, double pressure);
-
-bool has_material(const Scene& scene, BodyMaterial material);
-
-/// The law of a body's material.
-materials::Law law_of(const Scene& scene, const Body& body);
 
 /// Chamber pressure (Pa) on the base at time t (s); monotone cubic (PCHIP) through a measured curve of at
 /// least two points at increasing times, held constant outside it. Curves of two or three points are joined
