@@ -116,10 +116,12 @@ class Charge::Integrator {
     return response;
   }
 
-  /// Isentropic bulk modulus (Pa).
+  /// Isentropic bulk modulus (Pa); 0 where the isentrope softens, far beyond the tension cut-off.
   template <class Real>
   Real bulk_modulus(const State<Charge, Real>&, Real density, Real) const {
-    return jwl_isentropic_bulk_modulus(charge_.eos, Real(charge_.eos.initial_density) / density);
+    using math::max;
+    return max(jwl_isentropic_bulk_modulus(charge_.eos, Real(charge_.eos.initial_density) / density),
+               Real(0.0));
   }
 
  private:
