@@ -39,11 +39,17 @@ TEST(Mesh, DivisibleLengthsAreNotRoundedUp) {
 }
 
 TEST(Mesh, EveryBodyHasAtLeastOneParticle) {
-  const Mesh mesh{0.01, 0.01, 0.0, 0.02};
-  const Body foil{"foil", "steel", 0.0, 0.1, 0.019, 0.02};
-  EXPECT_EQ(particles_of(mesh, foil, 1).nr, 1);
-  EXPECT_EQ(particles_of(mesh, foil, 1).nx, 10);
-  EXPECT_EQ(particles_of(mesh, foil, 2).nx, 20);
+  Scene scene;
+  scene.numerics.cell_size = 0.01;
+  for (const Formulation formulation : {Formulation::total_lagrangian, Formulation::updated_lagrangian}) {
+    scene.numerics.formulation = formulation;
+    scene.bodies = {{"foil", "steel", 0.0, 0.1, 0.019, 0.02}};
+    scene.numerics.particles_per_cell = 1;
+    EXPECT_EQ(particles_of(scene, scene.bodies[0]).nr, 1);
+    EXPECT_EQ(particles_of(scene, scene.bodies[0]).nx, 10);
+    scene.numerics.particles_per_cell = 2;
+    EXPECT_EQ(particles_of(scene, scene.bodies[0]).nx, 20);
+  }
 }
 
 TEST(Mesh, SceneWithoutChargeIsFittedAsAWhole) {
@@ -58,6 +64,7 @@ TEST(Mesh, SceneWithoutChargeIsFittedAsAWhole) {
 
 TEST(Mesh, NamesTheChargeEdgeThatTheGridLinesMiss) {
   Scene scene;
+  scene.numerics.formulation = Formulation::updated_lagrangian;  // the other grid runs along all edges
   scene.bodies = {{"charge", "charge", 0.0, 0.1, 0.0, 0.065}, {"wall", "steel", 0.0, 0.1, 0.065, 0.0775}};
   scene.numerics.cell_size = 2.5e-3;  // 26 and 31 cells
   EXPECT_EQ(charge_edges_off_grid(scene), "");
