@@ -44,11 +44,10 @@ struct Body {
 
   [[gnu::flatten]] void step(const Increment<Pack>& increment, Pack& total) {
     for (std::size_t slot = 0; slot < particles; slot += math::pack_width) {
-      materials::State<Law, Pack> s;
-      for (std::size_t f = 0; f < s.size(); ++f) s[f] = Pack::load(&state[f][slot]);
+      auto s = materials::load_state<Law>([&](std::size_t f) { return Pack::load(&state[f][slot]); });
       Pack heat = Pack::load(&temperature[slot]);
       const auto response = integrator.update(increment, s, Pack::load(&pressure[slot]), heat);
-      for (std::size_t f = 0; f < s.size(); ++f) s[f].store(&state[f][slot]);
+      materials::store_state<Law>(s, [&](std::size_t f, Pack value) { value.store(&state[f][slot]); });
       response.pressure.store(&pressure[slot]);
       if constexpr (Law::heats_itself) heat.store(&temperature[slot]);
       total += contract(response.deviator_before + response.deviator, increment.deviator) +

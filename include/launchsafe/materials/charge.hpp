@@ -5,7 +5,7 @@
 #include "launchsafe/materials/jwl_isentrope.hpp"
 #include "launchsafe/materials/kinetics.hpp"
 #include "launchsafe/materials/law.hpp"
-#include "launchsafe/materials/visco_scram.hpp"
+#include "launchsafe/materials/visco_scram_step.hpp"
 
 namespace launchsafe::materials {
 
@@ -22,30 +22,32 @@ struct Charge {
   static constexpr bool heats_itself = false;
   static constexpr bool is_explosive = true;
   static constexpr bool always_written = true;
-  /// Maxwell elements S_n first, three components each; then friction heat since the start by closure, J per
-  /// m3 of initial volume with localisation 1 (paper Eq. 39).
+  /// The deviator S, then those of the Maxwell elements but the first, which is what they leave of S; all by
+  /// orthonormal components (math::DeviatorVector). Then friction heat since the start by closure, J per m3
+  /// of initial volume with localisation 1 (paper Eq. 39).
   enum Field : std::size_t {
-    first_element = 0,
+    stress = 0,
+    second_element = 3,
     crack_radius = 3 * maxwell_elements,
     friction_literal,
     friction_inelastic,
     fields
   };
-  static constexpr std::array<StateField, fields> state{{{"element_1_rr", "Pa"},
-                                                         {"element_1_xx", "Pa"},
-                                                         {"element_1_rx", "Pa"},
-                                                         {"element_2_rr", "Pa"},
-                                                         {"element_2_xx", "Pa"},
-                                                         {"element_2_rx", "Pa"},
-                                                         {"element_3_rr", "Pa"},
-                                                         {"element_3_xx", "Pa"},
-                                                         {"element_3_rx", "Pa"},
-                                                         {"element_4_rr", "Pa"},
-                                                         {"element_4_xx", "Pa"},
-                                                         {"element_4_rx", "Pa"},
-                                                         {"element_5_rr", "Pa"},
-                                                         {"element_5_xx", "Pa"},
-                                                         {"element_5_rx", "Pa"},
+  static constexpr std::array<StateField, fields> state{{{"deviator_hoop", "Pa"},
+                                                         {"deviator_difference", "Pa"},
+                                                         {"deviator_shear", "Pa"},
+                                                         {"element_2_hoop", "Pa"},
+                                                         {"element_2_difference", "Pa"},
+                                                         {"element_2_shear", "Pa"},
+                                                         {"element_3_hoop", "Pa"},
+                                                         {"element_3_difference", "Pa"},
+                                                         {"element_3_shear", "Pa"},
+                                                         {"element_4_hoop", "Pa"},
+                                                         {"element_4_difference", "Pa"},
+                                                         {"element_4_shear", "Pa"},
+                                                         {"element_5_hoop", "Pa"},
+                                                         {"element_5_difference", "Pa"},
+                                                         {"element_5_shear", "Pa"},
                                                          {"crack_radius", "m"},
                                                          {"friction_literal", "J/m3"},
                                                          {"friction_inelastic", "J/m3"}}};
@@ -68,10 +70,7 @@ struct Charge {
 
   template <class Real>
   static math::Deviator<Real> deviator(const State<Charge, Real>& s) {
-    math::Deviator<Real> total{};
-    for (std::size_t n = 0; n < maxwell_elements; ++n)
-      total = total + math::Deviator<Real>{s[3 * n], s[3 * n + 1], s[3 * n + 2]};
-    return total;
+    return deviator_of(math::DeviatorVector<Real>{s[stress], s[stress + 1], s[stress + 2]});
   }
 
   static std::vector<keys::Key<Charge>> parameters();  ///< keys of scene files
@@ -81,9 +80,11 @@ struct Charge {
 
 class Charge::Integrator {
  public:
-  explicit Integrator(const Charge& charge) : charge_(charge), isentrope_(charge.eos) {}
+  explicit Integrator(const Charge& charge)
+      : charge_(charge), isentrope_(charge.eos), solid_(charge.cracks) {}
   void set_step(double dt) {
-    if (dt < relaxation_.dt || dt > relaxation_.dt) relaxation_ = relaxation(charge_.cracks, dt);
+    if (dt < dt_ || dt > dt_) solid_.set_step(dt);
+    dt_ = dt;
   }
 
   /// Advances state and pressure (Pa) of a particle by one step. The temperature is the bulk's own matter.
@@ -91,51 +92,72 @@ class Charge::Integrator {
   Response<Real> update(const Increment<Real>& increment, State<Charge, Real>& s, Real, Real&) const {
     using math::max;
     using math::select;
-    const double reference = charge_.eos.initial_density;
+    using math::sqrt;
+    const Real reference(charge_.eos.initial_density);
     Response<Real> response;
-    const Real per_density = Real(1.0) / increment.density_after;
     // V - 1, from the difference of the densities so that rest is exact.
-    const Real isentropic = isentrope_.pressure((Real(reference) - increment.density_after) * per_density);
+    const Real volume_strain = (reference - increment.density_after) / increment.density_after;
+    const Real isentropic = isentrope_.pressure(volume_strain);
     const Real cutoff(-charge_.tension_cutoff);
     response.tension_cutoff = select(isentropic < cutoff, Real(1.0), Real(0.0));
     response.pressure = max(isentropic, cutoff);
 
-    ViscoScramState<Real> cracked;
-    for (std::size_t n = 0; n < maxwell_elements; ++n)
-      cracked.elements[n] =
-          math::rotate(math::Deviator<Real>{s[3 * n], s[3 * n + 1], s[3 * n + 2]}, increment.rotation);
-    cracked.crack_radius = s[crack_radius];
-    response.deviator_before = total_deviator(cracked);
-    const auto loss =
-        visco_scram_update(charge_.cracks, relaxation_, cracked, increment.deviator, response.pressure);
-    for (std::size_t n = 0; n < maxwell_elements; ++n) {
-      s[3 * n] = cracked.elements[n].rr;
-      s[3 * n + 1] = cracked.elements[n].xx;
-      s[3 * n + 2] = cracked.elements[n].rx;
-    }
-    s[crack_radius] = cracked.crack_radius;
-    response.deviator = total_deviator(cracked);
-    response.viscous = loss.viscous;
-    response.crack = loss.crack;
+    const ViscoScramStep::State<Real> turned = solid_state(s, twice(increment.rotation));
+    const math::DeviatorVector<Real> strain = vector_of(increment.deviator);
+    const auto end = solid_.update(turned, strain, response.pressure);
+    keep(s, end.state);
+    response.deviator_before = deviator_of(turned.total);
+    response.deviator = deviator_of(end.state.total);
+    response.viscous = end.viscous;
+    response.crack = end.crack;
     response.crack_at_bound =
-        select(cracked.crack_radius >= Real(charge_.cracks.largest_crack_radius), Real(1.0), Real(0.0));
+        select(end.state.crack_radius >= Real(charge_.cracks.largest_crack_radius), Real(1.0), Real(0.0));
+    // mu_d p per volume at rest, V times that per volume now; and equivalent strains sqrt(2/3 e:e).
     const Real sliding =
-        Real(charge_.sliding_friction * reference) * max(response.pressure, Real(0.0)) * per_density;
-    s[friction_literal] = s[friction_literal] + sliding * math::equivalent_strain(increment.deviator);
-    s[friction_inelastic] = s[friction_inelastic] + sliding * loss.inelastic_strain;
+        Real(charge_.sliding_friction) * max(response.pressure, Real(0.0)) * (Real(1.0) + volume_strain);
+    s[friction_literal] += sliding * sqrt(Real(2.0 / 3.0) * contract(strain, strain));
+    s[friction_inelastic] += sliding * sqrt(end.inelastic);
     return response;
   }
 
-  /// Isentropic bulk modulus (Pa).
+  /// Isentropic bulk modulus (Pa); 0 where the isentrope softens, far beyond the tension cut-off.
   template <class Real>
   Real bulk_modulus(const State<Charge, Real>&, Real density, Real) const {
-    return jwl_isentropic_bulk_modulus(charge_.eos, Real(charge_.eos.initial_density) / density);
+    using math::max;
+    return max(jwl_isentropic_bulk_modulus(charge_.eos, Real(charge_.eos.initial_density) / density),
+               Real(0.0));
   }
 
  private:
+  /// What Visco-SCRAM needs of a particle's state, turned; `q` is twice the step's rotation.
+  template <class Real>
+  static ViscoScramStep::State<Real> solid_state(const State<Charge, Real>& s, math::Rotation<Real> q) {
+    const auto turned = [&](std::size_t field) {
+      return rotate_by_twice(math::DeviatorVector<Real>{s[field], s[field + 1], s[field + 2]}, q);
+    };
+    ViscoScramStep::State<Real> result;
+    result.total = turned(stress);
+    for (std::size_t n = 0; n < result.elements.size(); ++n)
+      result.elements[n] = turned(second_element + 3 * n);
+    result.crack_radius = s[crack_radius];
+    return result;
+  }
+  template <class Real>
+  static void keep(State<Charge, Real>& s, const ViscoScramStep::State<Real>& solid) {
+    const auto put = [&](std::size_t field, const math::DeviatorVector<Real>& value) {
+      s[field] = value.hoop;
+      s[field + 1] = value.difference;
+      s[field + 2] = value.shear;
+    };
+    put(stress, solid.total);
+    for (std::size_t n = 0; n < solid.elements.size(); ++n) put(second_element + 3 * n, solid.elements[n]);
+    s[crack_radius] = solid.crack_radius;
+  }
+
   Charge charge_;
   JwlIsentrope isentrope_;
-  Relaxation<double> relaxation_{};
+  ViscoScramStep solid_;
+  double dt_ = 0;
 };
 
 }  // namespace launchsafe::materials

@@ -21,6 +21,7 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace launchsafe::materials {
@@ -45,6 +46,21 @@ constexpr std::size_t field_index(std::string_view name) {
 template <class Law>
 constexpr bool has_field(std::string_view name) {
   return field_index<Law>(name) < Law::state.size();
+}
+
+/// The state that `load(field index)` gives, or what `store(field index, value)` takes. Written out field by
+/// field: a compiler gives up on a loop over more than sixteen and then keeps the state in memory.
+template <class Law, class Load>
+auto load_state(Load&& load) {
+  return [&]<std::size_t... field>(std::index_sequence<field...>) {
+    return State<Law, decltype(load(std::size_t{}))>{load(field)...};
+  }(std::make_index_sequence<Law::state.size()>{});
+}
+template <class Law, class Real, class Store>
+void store_state(const State<Law, Real>& state, Store&& store) {
+  [&]<std::size_t... field>(std::index_sequence<field...>) {
+    (store(field, state[field]), ...);
+  }(std::make_index_sequence<Law::state.size()>{});
 }
 
 /// The deformation of one step as laws want it.

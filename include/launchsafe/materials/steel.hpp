@@ -69,7 +69,7 @@ class Steel::Integrator {
                         Real& temperature) const {
     using math::any;
     using math::select;
-    const double per_reference = 1.0 / steel_.eos.density;
+    const double reference = steel_.eos.density;
     Response<Real> response;
     const math::Deviator<Real> old = math::rotate(deviator(s), increment.rotation);
     math::Deviator<Real> stress = old + Real(2.0 * steel_.strength.shear_modulus) * increment.deviator;
@@ -83,11 +83,14 @@ class Steel::Integrator {
       heat = Real(steel_.strength.taylor_quinney) * flow.plastic_work / increment.density_after;
       s[plastic_strain] = s[plastic_strain] + flow.plastic_strain_increment;
       temperature = temperature + heat * Real(1.0 / steel_.strength.specific_heat);
-      s[flow_stress] = steel_.quasi_static_flow_stress(s[plastic_strain], temperature);
+      // Of elastic lanes it stays to the bit, whatever their neighbours do.
+      s[flow_stress] =
+          select(elastic, s[flow_stress], steel_.quasi_static_flow_stress(s[plastic_strain], temperature));
       response.plastic = flow.plastic_work;
     }
-    const Real mu0 = increment.density_before * Real(per_reference) - Real(1.0),
-               mu1 = increment.density_after * Real(per_reference) - Real(1.0);
+    // rho/rho0 - 1, from the difference so that rest is exact.
+    const Real mu0 = (increment.density_before - Real(reference)) * Real(1.0 / reference),
+               mu1 = (increment.density_after - Real(reference)) * Real(1.0 / reference);
     const auto compressed = mie_gruneisen_compress(steel_.eos, mu0, pressure, s[energy], mu1, heat);
     response.pressure_guard = select(mie_gruneisen_is_valid(steel_.eos, mu1), Real(0.0), Real(1.0));
     s[energy] = compressed.energy;

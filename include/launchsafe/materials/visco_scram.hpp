@@ -42,6 +42,17 @@ namespace detail {
 
 inline constexpr double pi = 3.14159265358979323846;
 
+/// x^n for a whole n >= 0.
+template <class Real>
+Real whole_power(Real x, int n) {
+  Real result(1.0);
+  for (; n > 0; n /= 2) {
+    if (n % 2 == 1) result = result * x;
+    x = x * x;
+  }
+  return result;
+}
+
 /// x^exponent for x >= 0; by multiplication where the exponent is a small whole number, as it is for known
 /// explosives.
 template <class Real>
@@ -50,13 +61,7 @@ Real power(Real x, double exponent) {
   if (static_cast<double>(whole) < exponent || static_cast<double>(whole) > exponent) {
     return math::pow(x, Real(exponent));
   }
-  Real result(1.0);
-  for (int bit = 64; bit > 0; bit /= 2) {
-    if (whole < bit) continue;
-    result = result * result;
-    if ((whole & bit) != 0) result = result * x;
-  }
-  return result;
+  return whole_power(x, whole);
 }
 
 /// A/K0 of the crack-face friction, A = mu' p sqrt(c), mu' = mu_s sqrt(45/(2 (3 - 2 mu_s^2))); 0 under
@@ -138,11 +143,14 @@ Relaxation<Factor> relaxation(const ViscoScramParameters& m, Factor dt) {
     const Factor safe = max(x, Factor(1e-2));
     step.decay[n] = exp(-x);
     const Factor mean_series =
-        Factor(1.0) -
-        x * (Factor(0.5) - x * (Factor(1.0 / 6.0) - x * (Factor(1.0 / 24.0) - x * Factor(1.0 / 120.0))));
+        Factor(1.0) - x * (Factor(0.5) - x * (Factor(1.0 / 6.0) -
+                                              x * (Factor(1.0 / 24.0) -
+                                                   x * (Factor(1.0 / 120.0) - x * Factor(1.0 / 720.0)))));
     const Factor response_series =
-        Factor(0.5) - x * (Factor(1.0 / 6.0) -
-                           x * (Factor(1.0 / 24.0) - x * (Factor(1.0 / 120.0) - x * Factor(1.0 / 720.0))));
+        Factor(0.5) -
+        x * (Factor(1.0 / 6.0) -
+             x * (Factor(1.0 / 24.0) -
+                  x * (Factor(1.0 / 120.0) - x * (Factor(1.0 / 720.0) - x * Factor(1.0 / 5040.0)))));
     const auto small = x < Factor(1e-2);
     step.mean[n] = select(small, mean_series, (Factor(1.0) - exp(-safe)) / safe);
     step.mean_response[n] = select(small, response_series, (Factor(1.0) - step.mean[n]) / safe);
@@ -242,7 +250,9 @@ void relax(const ViscoScramParameters& m, ViscoScramState<Real>& state, math::De
         Real(step.decay[n]) * old + (Real(2.0 * m.shear_moduli[n]) * Real(step.mean[n])) * applied;
     mean_stress = mean_stress + Real(step.mean[n]) * old +
                   (Real(2.0 * m.shear_moduli[n]) * Real(step.mean_response[n])) * applied;
-    stored += Real(0.25 / m.shear_moduli[n]) * contract(next - old, next + old);
+    // An element without stiffness stores nothing.
+    const double compliance_of = m.shear_moduli[n] > 0.0 ? 0.25 / m.shear_moduli[n] : 0.0;
+    stored += Real(compliance_of) * contract(next - old, next + old);
     state.elements[n] = next;
   }
   dissipation.viscous += contract(mean_stress, applied) - stored;
@@ -293,6 +303,21 @@ Real longest_coupled_step(Real q) {
   return min(Real(largest_coupling) * stiffening * sqrt(share), Real(largest_crack_relaxation) * share);
 }
 
+/// Copies state and losses in the lanes that are true.
+template <class Condition, class Real>
+void take(Condition lanes, const ViscoScramState<Real>& from, const ViscoScramDissipation<Real>& lost,
+          ViscoScramState<Real>& to, ViscoScramDissipation<Real>& dissipation) {
+  using math::select;
+  for (std::size_t n = 0; n < maxwell_elements; ++n) {
+    to.elements[n].rr = select(lanes, from.elements[n].rr, to.elements[n].rr);
+    to.elements[n].xx = select(lanes, from.elements[n].xx, to.elements[n].xx);
+    to.elements[n].rx = select(lanes, from.elements[n].rx, to.elements[n].rx);
+  }
+  to.crack_radius = select(lanes, from.crack_radius, to.crack_radius);
+  dissipation.viscous = select(lanes, lost.viscous, dissipation.viscous);
+  dissipation.crack = select(lanes, lost.crack, dissipation.crack);
+}
+
 /// Heun sub-steps with their own length in every lane, until the whole step is done. Growth is geometric and
 /// bounded, and a sub-step never shorter than a share of the shortest relaxation time or, later, of the time
 /// since the begin, so their number is bounded too.
@@ -335,14 +360,8 @@ void substep(const ViscoScramParameters& m, ViscoScramState<Real>& state, math::
     trial = state;
     trial_loss = dissipation;
     relax(m, trial, part, q0, crack_strain_ratio(m, corrected), step, trial_loss);
-    for (std::size_t n = 0; n < maxwell_elements; ++n) {
-      state.elements[n].rr = select(active, trial.elements[n].rr, state.elements[n].rr);
-      state.elements[n].xx = select(active, trial.elements[n].xx, state.elements[n].xx);
-      state.elements[n].rx = select(active, trial.elements[n].rx, state.elements[n].rx);
-    }
-    dissipation.viscous = select(active, trial_loss.viscous, dissipation.viscous);
-    dissipation.crack = select(active, trial_loss.crack, dissipation.crack);
-    state.crack_radius = select(active, corrected, c0);
+    trial.crack_radius = corrected;
+    take(active, trial, trial_loss, state, dissipation);
     remaining = select(last, Real(0.0), remaining - h);
   }
 }
@@ -352,6 +371,8 @@ void substep(const ViscoScramParameters& m, ViscoScramState<Real>& state, math::
 /// Advances the state by a deviatoric strain increment `de` over step.dt under the pressure p (Pa,
 /// compression positive, held over the step). Rotate the state first (Jaumann). One step where cracks hardly
 /// grow, by the midpoint rule for c; Heun sub-steps with lane-wise length where they do. Second order in dt.
+/// The plain form: what the charge's law takes where it divides steps, and what its leaner step is held
+/// against.
 template <class Real>
 ViscoScramDissipation<Real> visco_scram_update(const ViscoScramParameters& m, const Relaxation<double>& step,
                                                ViscoScramState<Real>& state, math::Deviator<Real> de,
@@ -368,14 +389,20 @@ ViscoScramDissipation<Real> visco_scram_update(const ViscoScramParameters& m, co
   const Real speed = crack_growth_speed_under(m, middle, pressure, c0);
   const Real growth = Real(step.dt) * speed;
   ViscoScramDissipation<Real> dissipation;
-  if (any((growth > Real(detail::growth_of_whole_step) * c0) |
-          detail::couples_too_strongly(step.dt * fastest_rate, q0))) {
-    detail::substep(m, state, de, pressure, step.dt, fastest_rate, dissipation);
-  } else {
+  const auto divided = (growth > Real(detail::growth_of_whole_step) * c0) |
+                       detail::couples_too_strongly(step.dt * fastest_rate, q0);
+  const ViscoScramState<Real> start = state;
+  if (any(!divided)) {
     const Real sensitivity = detail::growth_sensitivity(m, pressure, c0, speed);
     const Real curved = Real(1.0) + Real(0.5) * sensitivity * growth / max(c0, Real(1e-300));
     state.crack_radius = max(c0, min(c0 + growth * curved, Real(max(m.largest_crack_radius, 0.0))));
     relax(m, state, de, q0, crack_strain_ratio(m, state.crack_radius), step, dissipation);
+  }
+  if (any(divided)) {
+    ViscoScramState<Real> parts = start;
+    ViscoScramDissipation<Real> lost;
+    detail::substep(m, parts, de, pressure, step.dt, fastest_rate, lost);
+    detail::take(divided, parts, lost, state, dissipation);
   }
   const math::Deviator<Real> elastic =
       Real(0.5 / m.shear_modulus()) * (total_deviator(state) - response.before);

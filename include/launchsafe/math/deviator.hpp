@@ -59,4 +59,52 @@ Deviator<Real> rotate(Deviator<Real> s, Rotation<Real> q) {
           cs * (s.xx - s.rr) + (cc - ss) * s.rx};
 }
 
+/// A deviator by orthonormal components, so that its double contraction is a sum of three products and the
+/// in-plane rotation leaves the first component alone: sqrt(3/2) tt, (rr - xx)/sqrt(2), sqrt(2) rx.
+template <class Real>
+struct DeviatorVector {
+  Real hoop{0.0}, difference{0.0}, shear{0.0};
+
+  friend DeviatorVector operator+(DeviatorVector a, DeviatorVector b) {
+    return {a.hoop + b.hoop, a.difference + b.difference, a.shear + b.shear};
+  }
+  friend DeviatorVector operator-(DeviatorVector a, DeviatorVector b) {
+    return {a.hoop - b.hoop, a.difference - b.difference, a.shear - b.shear};
+  }
+  friend DeviatorVector operator*(Real factor, DeviatorVector a) {
+    return {factor * a.hoop, factor * a.difference, factor * a.shear};
+  }
+};
+
+template <class Real>
+DeviatorVector<Real> vector_of(Deviator<Real> a) {
+  return {Real(-1.2247448713915890491) * (a.rr + a.xx), Real(0.70710678118654752440) * (a.rr - a.xx),
+          Real(1.4142135623730950488) * a.rx};
+}
+
+template <class Real>
+Deviator<Real> deviator_of(DeviatorVector<Real> a) {
+  const Real in_plane = Real(-0.40824829046386301637) * a.hoop;  // (rr + xx)/2
+  const Real half = Real(0.70710678118654752440) * a.difference;
+  return {in_plane + half, in_plane - half, Real(0.70710678118654752440) * a.shear};
+}
+
+/// Double contraction A : B.
+template <class Real>
+Real contract(DeviatorVector<Real> a, DeviatorVector<Real> b) {
+  return a.hoop * b.hoop + a.difference * b.difference + a.shear * b.shear;
+}
+
+/// R S R^T, given the rotation by twice the angle of R: difference and shear turn by that.
+template <class Real>
+DeviatorVector<Real> rotate_by_twice(DeviatorVector<Real> a, Rotation<Real> q) {
+  return {a.hoop, q.cosine * a.difference + q.sine * a.shear, q.cosine * a.shear - q.sine * a.difference};
+}
+
+/// The rotation by twice the angle.
+template <class Real>
+Rotation<Real> twice(Rotation<Real> q) {
+  return {q.cosine * q.cosine - q.sine * q.sine, Real(2.0) * q.cosine * q.sine};
+}
+
 }  // namespace launchsafe::math

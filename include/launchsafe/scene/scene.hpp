@@ -68,9 +68,9 @@ struct Surface {
   AirModel air_model = AirModel::reservoir;
   Exchange exchange = Exchange::rate;
   double skin_thickness = 1e-4;       ///< h_ex, m
-  double exchange_time = 2.97513e-4;  ///< tau_ex, s [C]
+  double exchange_time = 2.98911e-4;  ///< tau_ex, s [C]
   FrictionClosure friction = FrictionClosure::literal;
-  double localisation = 802.835;  ///< [C]
+  double localisation = 713.434;  ///< [C]
 };
 
 struct Numerics {
