@@ -14,7 +14,7 @@ namespace {
 StaticCase block() {
   StaticCase block;
   block.name = "block";
-  block.scene.bodies = {{"charge", scene::BodyMaterial::charge, 0.0, 0.02, 0.0, 0.02}};
+  block.scene.bodies = {{"charge", "charge", 0.0, 0.02, 0.0, 0.02}};
   block.stations = {{"S", 0.01}};
   return block;
 }
