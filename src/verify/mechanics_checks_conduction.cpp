@@ -73,7 +73,7 @@ double half_space_error(double cell, int steps) {
   return std::sqrt(difference / scale);
 }
 
-Checks semi_infinite_conduction() {
+Checks semi_infinite_conduction(scene::Formulation) {
   const std::string group = "conduction", half_space = "Carslaw & Jaeger, half space";
   mpm::Simulation simulation(strip(0.5 * micrometre));
   mpm::Conduction conduction(simulation);
@@ -91,7 +91,7 @@ Checks semi_infinite_conduction() {
            half_space + ": erfc", true}};
 }
 
-Checks conduction_under_flux() {
+Checks conduction_under_flux(scene::Formulation) {
   mpm::Simulation simulation(strip(0.5 * micrometre));
   mpm::Conduction conduction(simulation);
   conduction.heat_base(1e6);
@@ -106,7 +106,7 @@ Checks conduction_under_flux() {
            "Carslaw & Jaeger, half space: 2 q sqrt(t/(pi k rho c))", false}};
 }
 
-Checks conduction_keeps_heat() {
+Checks conduction_keeps_heat(scene::Formulation) {
   mpm::Simulation simulation(shell_155(10e-3));
   make_checkered(simulation);
   mpm::Conduction conduction(simulation);
@@ -116,7 +116,7 @@ Checks conduction_keeps_heat() {
            conduction.heat(simulation) / before - 1.0, 0.0, 1e-12, "", "adiabatic faces", true}};
 }
 
-Checks conduction_in_long_steps() {
+Checks conduction_in_long_steps(scene::Formulation) {
   const std::string group = "conduction";
   Checks checks;
   // Of the charge, alpha dt/h^2; of the steel a hundred times more.

@@ -26,8 +26,8 @@ double centre_of_mass(const mpm::Simulation& simulation) {
 }
 
 /// Acceleration of the projectile's centre of mass under a steady 496 MPa in the lab frame, m/s2.
-double measured_acceleration(scene::Symmetry symmetry) {
-  scene::Scene shell = shell_155(5e-3);
+double measured_acceleration(scene::Formulation formulation, scene::Symmetry symmetry) {
+  scene::Scene shell = shell_155(5e-3, formulation);
   shell.symmetry = symmetry;
   shell.frame = scene::Frame::lab;
   shell.load = ramp(496e6, 2e-5, 1.0);
@@ -78,8 +78,8 @@ Imbalance watch_energy(const scene::Scene& scene, double end) {
 }
 
 /// The shell under a pulse of 0.2 ms, two transits of its sound.
-scene::Scene pulsed_shell(double cell_size) {
-  scene::Scene shell = shell_155(cell_size);
+scene::Scene pulsed_shell(scene::Formulation formulation, double cell_size) {
+  scene::Scene shell = shell_155(cell_size, formulation);
   shell.load.base = 0.0;
   shell.load.peak = 100e6;
   shell.load.peak_time = 2e-4;
@@ -100,9 +100,9 @@ double bottom_pressure(const mpm::Simulation& simulation) {
 
 }  // namespace
 
-Checks rigid_acceleration() {
-  const double round = measured_acceleration(scene::Symmetry::axisymmetric);
-  const double plane = measured_acceleration(scene::Symmetry::plane_strain);
+Checks rigid_acceleration(scene::Formulation formulation) {
+  const double round = measured_acceleration(formulation, scene::Symmetry::axisymmetric);
+  const double plane = measured_acceleration(formulation, scene::Symmetry::plane_strain);
   return {{"launch", "acceleration of the 155 mm shell at 496 MPa, lab frame", round, 1.46479e5, 4e-6, "m/s2",
            "p A/m", false},
           {"launch", "hydrostatic setback pressure of that acceleration", 1717.0 * 0.56 * round / 1e6,
@@ -112,7 +112,7 @@ Checks rigid_acceleration() {
 }
 
 FlightDrift drift_in_flight(double cell, double way) {
-  scene::Scene bar = block("steel", 0.05, 0.02, cell);
+  scene::Scene bar = block("steel", 0.05, 0.02, cell, scene::Formulation::updated_lagrangian);
   bar.frame = scene::Frame::lab;
   bar.load = ramp(0.0, 1e-4, 1.0);
   mpm::Simulation simulation(bar);
@@ -132,7 +132,7 @@ FlightDrift drift_in_flight(double cell, double way) {
           simulation.energy().internal / kinetic, (begin - centre_of_mass(simulation)) / way - 1.0};
 }
 
-Checks free_flight() {
+Checks free_flight(scene::Formulation) {
   const FlightDrift drift = drift_in_flight(2.7e-3, 1.0);
   const std::string group = "free flight", source = "a uniform stress in balance does nothing; round-off";
   return {{group, "drift of the momentum over 1 m, 378 cells at 500 m/s", drift.momentum, 0.0, 1e-12, "",
@@ -142,19 +142,22 @@ Checks free_flight() {
           {group, "work of the stress, of the kinetic energy", drift.work, 0.0, 1e-12, "", source, true}};
 }
 
-Checks energy_of_a_pulse() {
+Checks energy_of_a_pulse(scene::Formulation formulation) {
   const std::string group = "energy";
+  const std::string name = "imbalance of the 155 mm shell under a pulse of 100 MPa, h = 5 mm, of the largest energy";
+  const double imbalance = watch_energy(pulsed_shell(formulation, 5e-3), 4e-4).relative();
+  if (formulation == scene::Formulation::total_lagrangian)
+    return {{group, name, imbalance, 0.0, 1e-7, "", "conservation of energy, losses of the velocity update booked", true}};
   // Steel throughout, so that the waves stay smooth: what is left is what the particles' velocities lose on
   // the grid, 1/2 (sum m_i dv_i^2 - sum m_p dv_p^2) a step, of first order in the step over a given time.
-  scene::Scene steel = pulsed_shell(10e-3);
+  scene::Scene steel = pulsed_shell(formulation, 10e-3);
   for (scene::Body& body : steel.bodies) body.material = "steel";
   steel.numerics.time_step_factor = 0.2;
   const double coarse = watch_energy(steel, 4e-4).relative();
   steel.numerics.time_step_factor = 0.05;
   const double fine = watch_energy(steel, 4e-4).relative();
   return {
-      {group, "imbalance of the 155 mm shell under a pulse of 100 MPa, h = 5 mm, of the largest energy",
-       watch_energy(pulsed_shell(5e-3), 4e-4).relative(), 0.0, 1e-3, "", "conservation of energy", true},
+      {group, name, imbalance, 0.0, 1e-3, "", "conservation of energy", true},
       {group, "order of the imbalance in the step, a projectile of steel", observed_order(coarse, fine, 4.0),
        1.0, 0.1, "", "loss of the velocity update, of first order", true}};
 }
@@ -162,8 +165,8 @@ Checks energy_of_a_pulse() {
 namespace {
 
 /// Largest difference of the charge-bottom pressure between the frames over 0.4 ms, of its largest value.
-double frame_difference(double pressure) {
-  scene::Scene shell = shell_155(5e-3);
+double frame_difference(scene::Formulation formulation, double pressure) {
+  scene::Scene shell = shell_155(5e-3, formulation);
   shell.load = ramp(pressure, 2e-4, 1.0);
   mpm::Simulation co_moving(shell);
   shell.frame = scene::Frame::lab;
@@ -180,13 +183,17 @@ double frame_difference(double pressure) {
 
 }  // namespace
 
-Checks lab_against_co_moving() {
+Checks lab_against_co_moving(scene::Formulation formulation) {
   const std::string group = "frames";
+  // On the lattice at rest frames differ by round-off. The grid's charge bottom lies on a line at rest and
+  // inside a cell in flight.
+  const bool lattice = formulation == scene::Formulation::total_lagrangian;
   return {{group, "charge-bottom pressure, lab against co-moving over 0.4 ms, 2 MPa: 0.04 mm of travel",
-           frame_difference(2e6), 0.0, 1e-3, "", "an accelerated frame with its body force", true},
-          // The charge bottom lies on a grid line at rest and inside a cell in flight.
-          {group, "the same at 200 MPa: 4 mm of travel, 0.8 of a cell", frame_difference(200e6), 0.0, 0.03,
-           "", "an accelerated frame; the place in the cell is an error of discretisation", true}};
+           frame_difference(formulation, 2e6), 0.0, lattice ? 1e-8 : 1e-3, "",
+           "an accelerated frame with its body force", true},
+          {group, "the same at 200 MPa: 4 mm of travel, 0.8 of a cell", frame_difference(formulation, 200e6), 0.0,
+           lattice ? 1e-8 : 0.03, "",
+           "an accelerated frame; on a grid the place in the cell is an error of discretisation", true}};
 }
 
 }  // namespace launchsafe::verify::mechanics

@@ -4,20 +4,23 @@
 
 namespace launchsafe::verify::mechanics {
 
-scene::Scene shell_155(double cell_size) {
+scene::Scene shell_155(double cell_size, scene::Formulation formulation) {
   scene::Scene shell;
   shell.bodies = {{"nose", "steel", 0.0, 0.118, 0.0, 0.0775},
                   {"charge", "charge", 0.118, 0.678, 0.0, 0.065},
                   {"wall", "steel", 0.118, 0.678, 0.065, 0.0775},
                   {"base", "steel", 0.678, 0.74, 0.0, 0.0775}};
   shell.numerics.cell_size = cell_size;
+  shell.numerics.formulation = formulation;
   return shell;
 }
 
-scene::Scene block(const std::string& material, double length, double radius, double cell_size) {
+scene::Scene block(const std::string& material, double length, double radius, double cell_size,
+                   scene::Formulation formulation) {
   scene::Scene block;
   block.bodies = {{"block", material, 0.0, length, 0.0, radius}};
   block.numerics.cell_size = cell_size;
+  block.numerics.formulation = formulation;
   block.load.base = 0.0;
   return block;
 }

@@ -55,7 +55,7 @@ store::Result<TubeComparison> compare_tube(const ComparisonOptions& options) {
   tube.exact_outside = 2.0 * lame;
   tube.element_bore = hoop_at(model, *result, 0, bore);
   tube.element_outside = hoop_at(model, *result, model.rows() - 1, outside);
-  const mechanics::Checks checks = mechanics::thick_walled_tube();
+  const mechanics::Checks checks = mechanics::thick_walled_tube(scene::Formulation::total_lagrangian);
   tube.particle_bore = computed(checks, "hoop stress at the bore");
   tube.particle_outside = computed(checks, "hoop stress outside");
   return tube;

@@ -23,6 +23,7 @@ TEST_P(Mechanics, ComputesTheExpectedNumbers) {
 
 std::string test_name(const testing::TestParamInfo<Computation>& info) {
   std::string name = info.param.name;
+  if (info.param.formulation == launchsafe::scene::Formulation::updated_lagrangian) name += " updated";
   for (char& letter : name)
     if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
   return name;

@@ -27,12 +27,12 @@ template <class Law>
 [[gnu::always_inline]] inline Stressed update_material(Body<Law>& body, std::size_t slot,
                                                        const Deformation& d, ParticleTotals& totals) {
   Kinematics& p = body.kinematics;
-  materials::State<Law, Pack> state;
-  for (std::size_t f = 0; f < state.size(); ++f) state[f] = load(body.state[f], slot);
+  auto state = materials::load_state<Law>([&](std::size_t field) { return load(body.state[field], slot); });
   const Pack pressure_before = load(p.pressure, slot);
   Pack temperature = load(p.temperature, slot);
   const auto response = body.integrator.update(d.increment, state, pressure_before, temperature);
-  for (std::size_t f = 0; f < state.size(); ++f) store(body.state[f], slot, state[f]);
+  materials::store_state<Law>(state,
+                              [&](std::size_t field, Pack value) { store(body.state[field], slot, value); });
   store(p.pressure, slot, response.pressure);
   store(p.density, slot, d.increment.density_after);
   if constexpr (Law::heats_itself) store(p.temperature, slot, temperature);
@@ -69,8 +69,7 @@ template <class Law>
 template <class Law>
 Pack sound_speed_squared(const Body<Law>& body, std::size_t slot) {
   const Kinematics& p = body.kinematics;
-  materials::State<Law, Pack> state;
-  for (std::size_t f = 0; f < state.size(); ++f) state[f] = load(body.state[f], slot);
+  auto state = materials::load_state<Law>([&](std::size_t field) { return load(body.state[field], slot); });
   const Pack density = load(p.density, slot);
   const Pack modulus =
       body.integrator.bulk_modulus(state, density, load(p.pressure, slot)) + (4.0 / 3.0) * body.law.shear_modulus();

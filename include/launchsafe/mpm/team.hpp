@@ -46,4 +46,20 @@ class Team {
   std::atomic<bool> ends_{false};
 };
 
+/// Whether to work together or alone, by what was faster of late: on a machine that is busy otherwise, threads
+/// that wait for each other lose more than they gain. Every so many steps some are timed in both ways.
+class FasterWay {
+ public:
+  /// Whether the next step is to be done together.
+  bool together() const { return step_ < trial ? true : step_ < 2 * trial ? false : together_is_faster_; }
+  /// Takes in how long (s) it took.
+  void took(double seconds);
+
+ private:
+  static constexpr int trial = 32, between_trials = 2000;  ///< steps
+  int step_ = 0;
+  double together_ = 0, alone_ = 0;  ///< s, of the last trials
+  bool together_is_faster_ = true;
+};
+
 }  // namespace launchsafe::mpm

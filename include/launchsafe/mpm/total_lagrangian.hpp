@@ -80,6 +80,7 @@ class TotalLagrangian {
   void for_each_bore_share(F&& f) const;
   void move_row(Nodes& nodes, int row, const Drive& drive, NodeTotals& totals) const;
   void advance_rows(const Rows& rows, const Drive& drive);
+  void work_through(const Drive& drive);
 
   const scene::Scene& scene_;
   std::vector<AnyBody>& bodies_;
@@ -95,6 +96,7 @@ class TotalLagrangian {
   std::vector<std::vector<NodeTotals>> node_totals_;                ///< by body and row
   double damped_before_ = 0;  ///< 1/keep - 1 of the last step
   std::unique_ptr<Team> team_;
+  FasterWay faster_way_;
 };
 
 }  // namespace launchsafe::mpm

@@ -2,6 +2,7 @@
 // each computed by a small simulation and compared with its closed form.
 #pragma once
 
+#include "launchsafe/scene/scene.hpp"
 #include "launchsafe/verify/check.hpp"
 
 #include <string>
@@ -12,7 +13,10 @@ namespace launchsafe::verify {
 /// One simulation (or a series of meshes) and the numbers that it must reproduce.
 struct Computation {
   std::string name;
-  std::vector<Check> (*run)();
+  scene::Formulation formulation = scene::Formulation::total_lagrangian;
+  std::vector<Check> (*compute)(scene::Formulation) = nullptr;
+  /// The checks; groups of the updated-Lagrangian form say so.
+  std::vector<Check> run() const;
 };
 
 /// All of them, not yet run, so that each can be a test of its own.
