@@ -15,8 +15,10 @@ namespace {
 /// Numbers of 8 bytes that the mechanics holds for a particle beside the state of its law, with what pads
 /// rows: place, velocity, mass, density, pressure, temperature, stiffness against hourglassing. And bytes for
 /// a cell, about.
-constexpr double numbers_per_particle = 10.0;
+constexpr double numbers_per_particle = 12.0;
 constexpr double bytes_per_number = 8.0;
+/// The matrix of conduction, for a particle, measured: it is held twice while it is made.
+constexpr double bytes_of_conduction = 340.0;
 constexpr double bytes_per_cell = 128.0;
 
 std::string length_text(double length) { return format_quantity(length, Dimension::length); }
@@ -171,8 +173,10 @@ void count_particles(const Scene& scene, Plan& plan) {
       if (body.material != material.name) continue;
       count.particles += particles_of(scene, body).total();
     }
-    plan.memory += bytes_per_number * (numbers_per_particle + static_cast<double>(state_size(material.law))) *
-                   static_cast<double>(count.particles);
+    const double bytes =
+        bytes_per_number * (numbers_per_particle + static_cast<double>(state_size(material.law))) +
+        (plan.conduction.in ? bytes_of_conduction : 0.0);
+    plan.memory += bytes * static_cast<double>(count.particles);
   }
 }
 

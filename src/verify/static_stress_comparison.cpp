@@ -14,8 +14,8 @@ namespace launchsafe::verify {
 namespace {
 
 /// Pressure (Pa) on the isentrope through rest at a relative volume, by the equation of state.
-double isentrope(const scene::Scene& scene, std::string_view material, double volume) {
-  if (material == materials::Charge::name) {
+double isentrope(const scene::Scene& scene, bool of_charge, double volume) {
+  if (of_charge) {
     const materials::JwlParameters& law = scene.charge().eos;
     return materials::jwl_isentrope(law, 1.0, law.initial_energy, volume).pressure;
   }
@@ -23,11 +23,11 @@ double isentrope(const scene::Scene& scene, std::string_view material, double vo
 }
 
 /// Relative volume at a pressure (Pa), by bisection.
-double volume_at(const scene::Scene& scene, std::string_view material, double pressure) {
+double volume_at(const scene::Scene& scene, bool of_charge, double pressure) {
   double low = 0.8, high = 1.2;
   for (int k = 0; k < 60; ++k) {
     const double volume = 0.5 * (low + high);
-    (isentrope(scene, material, volume) > pressure ? low : high) = volume;
+    (isentrope(scene, of_charge, volume) > pressure ? low : high) = volume;
   }
   return 0.5 * (low + high);
 }
@@ -37,9 +37,9 @@ double volume_at(const scene::Scene& scene, std::string_view material, double pr
 /// relative volume, p = K (1 - J) in a neo-Hookean solid, where a small shear meets the modulus G/J, and p =
 /// -K ln J in one that yields.
 FiniteElementMaterial secant_material(const FiniteElementMaterial& at_rest, const scene::Scene& scene,
-                                      std::string_view material, double pressure) {
+                                      bool of_charge, double pressure) {
   if (!(std::abs(pressure) > 1e3)) return at_rest;
-  const double volume = volume_at(scene, material, pressure);
+  const double volume = volume_at(scene, of_charge, pressure);
   FiniteElementMaterial secant = at_rest;
   secant.bulk_modulus = at_rest.hardening.empty() ? pressure / (1.0 - volume) : -pressure / std::log(volume);
   secant.shear_modulus = at_rest.shear_modulus * volume;
@@ -74,7 +74,7 @@ FiniteElementModel with_secant_moduli(const FiniteElementModel& at_rest, const F
   for (std::size_t m = 0; m < at_rest.materials.size(); ++m)
     for (int k = 0; k < classes; ++k)
       model.materials.push_back(secant_material(
-          at_rest.materials[m], scene, m == 0 ? "steel" : "charge",
+          at_rest.materials[m], scene, m == 1,
           range[m].first + (k + 0.5) / classes * (range[m].second - range[m].first)));
   for (std::size_t element = 0; element < pressure.size(); ++element) {
     const int material = at_rest.material_of[element];

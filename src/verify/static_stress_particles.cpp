@@ -74,8 +74,7 @@ Shares shares_of(const scene::Scene& scene, const run::Snapshot& rest, const std
   Shares shares;
   double total = 0.0;
   for (std::size_t k = 0; k < cells.size(); ++k) {
-    const bool charge =
-        scene.bodies[static_cast<std::size_t>(rest.body[k])].material == materials::Charge::name;
+    const bool charge = scene::is_charge(scene, scene.bodies[static_cast<std::size_t>(rest.body[k])]);
     const double weight = charge == in_charge ? weight_in_box(cells[k], bottom, r) : 0.0;
     if (weight > 1e-12 * stress_box * stress_box * stress_box) shares.emplace_back(k, weight);
     total += weight;
