@@ -98,9 +98,13 @@ double rise_of(const AccuracyRecord& record) {
 
 Exactness exactness_of(const std::string& key) {
   using Kind = Exactness::Kind;
-  if (key == "numerics.cell_size" || key == "numerics.particles_per_cell" ||
-      key == "numerics.time_step_factor")
-    return {Kind::with_the_cell, {}};
+  for (const char* each : {"numerics.formulation", "numerics.cell_size", "numerics.particles_per_cell",
+                           "numerics.time_step_factor", "numerics.hourglass_stiffness",
+                           // Where cells do not grow, at growth_x and growth_r 1, these say nothing.
+                           "numerics.largest_cell", "numerics.refined_x", "numerics.refined_r"})
+    if (key == each) return {Kind::with_the_cell, {}};
+  if (key == "numerics.growth_x" || key == "numerics.growth_r" || key == "numerics.steel_inertia")
+    return {Kind::at_a_value, scene::Value(1.0)};
   if (key == "output.trace_interval") return {Kind::in_each_case, {}};
   if (key == "numerics.inertial_scaling") return {Kind::at_a_value, scene::Value(1.0)};
   if (key == "numerics.damping_time" || key == "numerics.pic_fraction")

@@ -213,6 +213,7 @@ bool may_take(const scene::KeyDescription& key, const scene::Value& value) {
   if (std::holds_alternative<bool>(value)) return key.kind == scene::KeyKind::flag;
   const double number = std::get<double>(value);
   const bool whole = key.dimension != scene::Dimension::count || number == std::round(number);
+  if (std::holds_alternative<std::vector<double>>(value)) return key.kind == scene::KeyKind::list;
   return key.kind == scene::KeyKind::number && std::isfinite(number) && whole && key.limits.contain(number);
 }
 
@@ -231,6 +232,10 @@ Setting setting_from(const ordered_json& object, const std::string& path, Record
     if (given.is_number()) value = given.get<double>();
     if (given.is_string()) value = given.get<std::string>();
     const auto& description = *scene::find_key(scene::scene_keys(), key);
+    if (given.is_array()) {
+      constexpr std::size_t most_places = 1000;
+      value = reader.numbers(given, path + "." + key, description.limits, 0, most_places);
+    }
     if (!may_take(description, value))
       reader.refuse(path + "." + key, found_in(given), scene::allowed_text(description));
     setting[key] = std::move(value);
