@@ -35,6 +35,7 @@ ordered_json json_of(const Setting& setting) {
     if (const auto* number = std::get_if<double>(&value)) object[key] = *number;
     if (const auto* flag = std::get_if<bool>(&value)) object[key] = *flag;
     if (const auto* word = std::get_if<std::string>(&value)) object[key] = *word;
+    if (const auto* places = std::get_if<std::vector<double>>(&value)) object[key] = *places;
   }
   return object;
 }
@@ -211,9 +212,9 @@ bool may_take(const scene::KeyDescription& key, const scene::Value& value) {
     return key.kind == scene::KeyKind::word &&
            std::find(key.words.begin(), key.words.end(), *word) != key.words.end();
   if (std::holds_alternative<bool>(value)) return key.kind == scene::KeyKind::flag;
+  if (std::holds_alternative<std::vector<double>>(value)) return key.kind == scene::KeyKind::list;
   const double number = std::get<double>(value);
   const bool whole = key.dimension != scene::Dimension::count || number == std::round(number);
-  if (std::holds_alternative<std::vector<double>>(value)) return key.kind == scene::KeyKind::list;
   return key.kind == scene::KeyKind::number && std::isfinite(number) && whole && key.limits.contain(number);
 }
 

@@ -147,7 +147,7 @@ Checks energy_of_a_pulse(scene::Formulation formulation) {
   const std::string name = "imbalance of the 155 mm shell under a pulse of 100 MPa, h = 5 mm, of the largest energy";
   const double imbalance = watch_energy(pulsed_shell(formulation, 5e-3), 4e-4).relative();
   if (formulation == scene::Formulation::total_lagrangian)
-    return {{group, name, imbalance, 0.0, 1e-7, "", "conservation of energy, losses of the velocity update booked", true}};
+    return {{group, name, imbalance, 0.0, 1e-6, "", "conservation of energy, losses of the velocity update booked", true}};
   // Steel throughout, so that the waves stay smooth: what is left is what the particles' velocities lose on
   // the grid, 1/2 (sum m_i dv_i^2 - sum m_p dv_p^2) a step, of first order in the step over a given time.
   scene::Scene steel = pulsed_shell(formulation, 10e-3);

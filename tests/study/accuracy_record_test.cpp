@@ -44,7 +44,11 @@ struct Shared {
 AccuracyRecord sharing(const Shared& shared) {
   AccuracyRecord record = made_record();
   record.settings.resize(3);
-  for (RecordedSetting& each : record.settings) each.setting[shared.key] = shared.value;
+  for (RecordedSetting& each : record.settings) {
+    each.setting = setting_of(even(own_scene()));
+    each.setting["numerics.cell_size"] = each.cell / 0.99;
+    each.setting[shared.key] = shared.value;
+  }
   find_bounds(record);
   return record;
 }
@@ -63,7 +67,7 @@ TEST(AccuracyRecord, VouchesForNothingThatAllItsRunsShareAndThatIsNotExact) {
     EXPECT_EQ(most_accurate(record), nullptr);
     EXPECT_NE(why_foreign(record, own_scene()).find(shared.key), std::string::npos);
     // A setting with the exact value is compared with the same inexact limit: by itself it does not help.
-    RecordedSetting exact = made_setting("exact", own_scene(), 1.0, 1.0);
+    RecordedSetting exact = made_setting("exact", even(own_scene()), 1.0, 1.0);
     exact.setting["numerics.time_step_factor"] = 0.25;
     record.settings.push_back(exact);
     find_bounds(record);
@@ -75,7 +79,7 @@ TEST(AccuracyRecord, WhatASharedKeyChangesIsAddedWhereASettingTells) {
   for (const Shared& shared : inexact) {
     AccuracyRecord record = sharing(shared);
     // The scene's own cells with the exact value are 1.5 K hotter: three times that counts.
-    record.settings.push_back(made_setting("exact", own_scene(), 3.5, 1.0));
+    record.settings.push_back(made_setting("exact", even(own_scene()), 3.5, 1.0));
     find_bounds(record);
     EXPECT_TRUE(record.unvaried.empty()) << shared.key;
     EXPECT_NEAR(record.settings[2].temperature_bound, own_bound + 4.5, 1e-6) << shared.key;
