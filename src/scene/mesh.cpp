@@ -142,6 +142,12 @@ CellRange cells_of(const Scene& scene) {
   return cells_of(scene, Body{{}, {}, all.x_begin, all.x_end, all.r_begin, all.r_end});
 }
 
+CellRange cells_of_charge(const Scene& scene) {
+  if (!has_charge(scene)) return cells_of(scene);
+  const Extent charge = charge_extent(scene);
+  return cells_of(scene, Body{{}, {}, charge.x_begin, charge.x_end, charge.r_begin, charge.r_end});
+}
+
 CellRange cells_of(const Scene& scene, const Body& body) {
   if (scene.numerics.formulation == Formulation::updated_lagrangian) {
     const Mesh mesh = fit_mesh(scene);

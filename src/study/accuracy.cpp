@@ -49,7 +49,7 @@ AccuracyMeasurement measure(const Study& study, const StudyCase& input, const Ca
                             const run::MechanicsResult& mechanics) {
   AccuracyMeasurement measured;
   measured.failure = detail::failure_of(mechanics, {true, {}});
-  const scene::CellRange mesh = scene::cells_of(input.scene.scene);
+  const scene::CellRange mesh = scene::cells_of_charge(input.scene.scene);
   measured.cell = std::sqrt(mesh.shortest_x * mesh.shortest_r);
   measured.wall_time = mechanics.wall_time;
   measured.processor_time = mechanics.processor_time > 0 ? mechanics.processor_time : mechanics.wall_time;

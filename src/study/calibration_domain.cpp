@@ -147,6 +147,7 @@ Scene calibration_scene() {
                   {"base", "steel", 0.678, 0.74, 0.0, 0.0775}};
   scene.numerics.growth_x = 1.3;
   scene.numerics.largest_cell = 20e-3;
+  scene.numerics.time_step_factor = 0.65;
   for (int point = 1; point <= 13; ++point) {
     scene.output.observation_points.push_back(
         {fmt::format("G{}", point), 0.6775, 0.0675 - 0.005 * static_cast<double>(point)});

@@ -29,7 +29,7 @@ AccuracyResult made_accuracy(bool fails = false) {
   return run_accuracy(study_of("kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\ngaps = \"0, 0.02 cm\"\n"
                                "reference_cell_sizes = \"0.625, 1.25, 2.5 mm\"\ntimes = \"10 ms\"\n"
                                "settings = [ { numerics.time_step_factor = [0.25] } ]\n" +
-                               synthetic_constants),
+                               constants_on_even_lattice),
                       options);
 }
 

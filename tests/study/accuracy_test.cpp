@@ -18,16 +18,16 @@ const std::string accuracy_text =
     "times = \"10, 18 ms\"\n"
     "settings = [ { \"numerics.cell_size\" = \"2.5, 5 mm\", \"numerics.inertial_scaling\" = [1, 16] },\n"
     "             { friction.closure = [\"inelastic\"] } ]\n" +
-    synthetic_constants;
+    constants_on_even_lattice;
 
 constexpr double heated_by = 116.1;  // K, of the synthetic friction on an infinitely fine mesh
 
 /// Kelvin of friction heat on a mesh: an error of the order 1.5 that is 2 K at 2.5 mm, and one of 1 K a
 /// factor four of inertial scaling. A run costs what cells and steps cost.
 run::MechanicsResult converging(const scene::Scene& scene) {
-  const scene::Mesh mesh = scene::fit_mesh(scene);
+  const scene::CellRange mesh = scene::cells_of_charge(scene);
   const double scaling = scene.numerics.inertial_scaling;
-  const double size = std::sqrt(mesh.dx * mesh.dr) / 2.5e-3;
+  const double size = std::sqrt(mesh.shortest_x * mesh.shortest_r) / 2.5e-3;
   run::MechanicsResult result =
       synthetic_mechanics(scene, heated_by + 2.0 * std::pow(size, 1.5) + 0.5 * std::log2(scaling));
   result.processor_time = std::pow(size, -3.0) / std::sqrt(scaling);

@@ -94,8 +94,10 @@ inline Runners synthetic_runners(double kelvin = 116.1) {
 
 /// The constants that the synthetic launch is made for, on the hot side of the calibrated ones.
 inline const std::string synthetic_constants =
-    "[set]\nnumerics.growth_x = 1\nfriction.closure = \"literal\"\nfriction.localisation = 900\ngap.exchange_time = \"0.29 ms\"\n"
+    "[set]\nfriction.closure = \"literal\"\nfriction.localisation = 900\ngap.exchange_time = \"0.29 ms\"\n"
     "kinetics.set = \"comp-b\"\nkinetics.ignition_temperature = \"521 K\"\n";
+/// On a lattice whose cells do not grow, which needs no setting that tells what growth changes.
+inline const std::string constants_on_even_lattice = synthetic_constants + "numerics.growth_x = 1\n";
 
 inline StudyOptions synthetic_options(int jobs = 1) {
   StudyOptions options;

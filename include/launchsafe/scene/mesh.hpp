@@ -75,6 +75,8 @@ struct CellRange {
 CellRange cells_of(const Scene& scene);
 /// Of the part of it that lies in a body.
 CellRange cells_of(const Scene& scene, const Body& body);
+/// Of the part in the charge, which stands for how fine a computation is; of all without a charge.
+CellRange cells_of_charge(const Scene& scene);
 
 /// Particles of all bodies.
 std::int64_t particle_count(const Scene& scene);
