@@ -54,7 +54,8 @@ Kinematics make_kinematics(const scene::Scene& scene, int index, double density)
 
 template <class Law>
 Body<Law> make_body_of(const Law& law, const scene::Scene& scene, int index) {
-  Body<Law> body{law, typename Law::Integrator(law), make_kinematics(scene, index, law.initial_density()), {}};
+  Body<Law> body{
+      law, typename Law::Integrator(law), make_kinematics(scene, index, law.initial_density()), {}};
   const auto start = law.initial_state(scene.initial_temperature);
   for (std::size_t f = 0; f < start.size(); ++f)
     body.state[f].assign(body.kinematics.lattice.slots(), start[f]);

@@ -21,7 +21,10 @@ struct Thermal {
 };
 Thermal thermal_of(const AnyBody& any) {
   return std::visit(
-      [](const auto& body) { return Thermal{body.law.heat_conductivity(), body.law.heat_capacity()}; }, any);
+      [](const auto& body) {
+        return Thermal{body.law.heat_conductivity(), body.law.heat_capacity()};
+      },
+      any);
 }
 
 Eigen::Index particles_of(const Lattice& lattice) {
@@ -140,24 +143,22 @@ class Network {
   void link_axially(const Part& a, const Part& b) {
     const Lattice &la = a.lattice, &lb = b.lattice;
     if (std::abs(la.x_end() - lb.x_begin()) > tolerance_) return;
-    const double resistance = 0.5 * (la.length_x(la.columns() - 1) / a.conductivity + lb.length_x(0) / b.conductivity);
-    for_each_overlap(la.r_edges, lb.r_edges,
-                     [&](int ja, int jb, double begin, double end) {
-                       link(a.number(la.columns() - 1, ja), b.number(0, jb),
-                            axial_area(begin, end) / resistance);
-                     });
+    const double resistance =
+        0.5 * (la.length_x(la.columns() - 1) / a.conductivity + lb.length_x(0) / b.conductivity);
+    for_each_overlap(la.r_edges, lb.r_edges, [&](int ja, int jb, double begin, double end) {
+      link(a.number(la.columns() - 1, ja), b.number(0, jb), axial_area(begin, end) / resistance);
+    });
   }
 
   /// The outer face of `a` against the inner face of `b`.
   void link_radially(const Part& a, const Part& b) {
     const Lattice &la = a.lattice, &lb = b.lattice;
     if (std::abs(la.r_end() - lb.r_begin()) > tolerance_) return;
-    const double resistance = 0.5 * (la.length_r(la.rows() - 1) / a.conductivity + lb.length_r(0) / b.conductivity);
-    for_each_overlap(la.x_edges, lb.x_edges,
-                     [&](int ia, int ib, double begin, double end) {
-                       link(a.number(ia, la.rows() - 1), b.number(ib, 0),
-                            radial_area(lb.r_begin(), end - begin) / resistance);
-                     });
+    const double resistance =
+        0.5 * (la.length_r(la.rows() - 1) / a.conductivity + lb.length_r(0) / b.conductivity);
+    for_each_overlap(la.x_edges, lb.x_edges, [&](int ia, int ib, double begin, double end) {
+      link(a.number(ia, la.rows() - 1), b.number(ib, 0), radial_area(lb.r_begin(), end - begin) / resistance);
+    });
   }
 
   bool axisymmetric_;

@@ -55,7 +55,8 @@ double Team::helpers_processor_time() const {
   for (std::thread& helper : helpers_) {
     clockid_t clock{};
     timespec time{};
-    if (pthread_getcpuclockid(helper.native_handle(), &clock) != 0 || clock_gettime(clock, &time) != 0) continue;
+    if (pthread_getcpuclockid(helper.native_handle(), &clock) != 0 || clock_gettime(clock, &time) != 0)
+      continue;
     total += static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
   }
   return total;

@@ -97,7 +97,10 @@ TotalLagrangian::Part TotalLagrangian::make_part(const AnyBody& any, const Nodes
   part.inertial_factor = numerics.inertial_scaling * (metal ? numerics.steel_inertia : 1.0);
   if (lattice.stride > 1 || !(numerics.hourglass_stiffness > 0.0)) return part;
   const auto [shear, density] = std::visit(
-      [](const auto& body) { return std::pair{body.law.shear_modulus(), body.law.initial_density()}; }, any);
+      [](const auto& body) {
+        return std::pair{body.law.shear_modulus(), body.law.initial_density()};
+      },
+      any);
   part.hourglass.assign(lattice.slots(), 0.0);
   for (int j = 0; j < lattice.rows(); ++j)
     for (int i = 0; i < lattice.columns(); ++i) {
@@ -140,7 +143,8 @@ void TotalLagrangian::share_work() {
   std::vector<double> particle_work, node_work;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Lattice& lattice = kinematics_of(bodies_[b]).lattice;
-    const double fields = std::visit([](const auto& body) { return 8.0 + static_cast<double>(body.state.size()); }, bodies_[b]);
+    const double fields =
+        std::visit([](const auto& body) { return 8.0 + static_cast<double>(body.state.size()); }, bodies_[b]);
     particle_work.push_back(fields * lattice.padded_columns);
     node_work.push_back(static_cast<double>(nodes_[b].stride));
     // Rows of particles in one row of cells write the same nodes and stay together.
@@ -180,7 +184,11 @@ void TotalLagrangian::restart() {
   Drive still;
   damped_before_ = 0.0;
   for (std::size_t b = 0; b < bodies_.size(); ++b)
-    std::visit([&](auto& body) { scatter_at_rest(body.kinematics, nodes_[b], parts_[b].rows, parts_[b].inertial_factor); }, bodies_[b]);
+    std::visit(
+        [&](auto& body) {
+          scatter_at_rest(body.kinematics, nodes_[b], parts_[b].rows, parts_[b].inertial_factor);
+        },
+        bodies_[b]);
   bond(ties_, nodes_);
   for (Nodes& n : nodes_)
     for (std::size_t node = 0; node < n.mass.size(); ++node) {
@@ -214,7 +222,8 @@ void TotalLagrangian::for_each_bore_share(F&& f) const {
       const auto line = static_cast<std::size_t>(n.first_x + i);
       const std::size_t node = n.index(i, 0);
       const double face = r + 0.5 * (n.displacement_r[node] + n.displacement_r[node + 1]);
-      const double force = 0.5 * bore.pressure * radial_measure(axisymmetric_, face) * (lines_.x[line + 1] - lines_.x[line]);
+      const double force =
+          0.5 * bore.pressure * radial_measure(axisymmetric_, face) * (lines_.x[line + 1] - lines_.x[line]);
       f(b, node, force);
       f(b, node + 1, force);
     }
@@ -244,9 +253,9 @@ double TotalLagrangian::bore_work(double dt) const {
   return work;
 }
 
-/// Moves a row of nodes. The losses keep the leapfrog balance of centred kinetic energy with mean forces exact:
-/// with the change D of velocity in a step, the velocity v that the step moved by, and the momentum p that came
-/// back from the particles, the way there and back took (D_old + D_new) (m v_old - p)/2 away.
+/// Moves a row of nodes. The losses keep the leapfrog balance of centred kinetic energy with mean forces
+/// exact: with the change D of velocity in a step, the velocity v that the step moved by, and the momentum p
+/// that came back from the particles, the way there and back took (D_old + D_new) (m v_old - p)/2 away.
 void TotalLagrangian::move_row(Nodes& n, int row, const Drive& drive, NodeTotals& totals) const {
   const double dt = drive.dt, damped = 1.0 / drive.keep - 1.0;
   totals = {};
@@ -258,7 +267,8 @@ void TotalLagrangian::move_row(Nodes& n, int row, const Drive& drive, NodeTotals
     const Pack gained_x = load(n.change_x, i), gained_r = load(n.change_r, i);
     const Pack old_x = (load(n.inside.momentum_x, i) + load(n.outside.momentum_x, i)) * inverse;
     const Pack old_r = (load(n.inside.momentum_r, i) + load(n.outside.momentum_r, i)) * inverse;
-    const Pack push_x = (load(n.inside.force_x, i) + load(n.outside.force_x, i)) * inverse + drive.acceleration * share;
+    const Pack push_x =
+        (load(n.inside.force_x, i) + load(n.outside.force_x, i)) * inverse + drive.acceleration * share;
     const Pack push_r = (load(n.inside.force_r, i) + load(n.outside.force_r, i)) * inverse;
     const Pack new_x = (old_x + dt * push_x) * drive.keep;
     const Pack new_r = load(n.moves_r, i) * (old_r + dt * push_r) * drive.keep;
@@ -273,7 +283,7 @@ void TotalLagrangian::move_row(Nodes& n, int row, const Drive& drive, NodeTotals
     totals.lost_before +=
         half * ((gained_x + change_x) * (before_x - old_x) + (gained_r + change_r) * (before_r - old_r));
     totals.lost_before += half * ((damped_before_ * before_x + damped * new_x) * before_x +
-                              (damped_before_ * before_r + damped * new_r) * before_r);
+                                  (damped_before_ * before_r + damped * new_r) * before_r);
     totals.old_momentum += mass * old_x;
     totals.momentum += mass * new_x;
   }
@@ -286,8 +296,14 @@ void TotalLagrangian::advance_rows(const Rows& rows, const Drive& drive) {
         for (int j = rows.begin; j < rows.end; ++j) {
           ParticleTotals& totals = particle_totals_[rows.body][static_cast<std::size_t>(j)];
           totals = {};
-          const RowStep step{j, part.rows[static_cast<std::size_t>(j)], part.inverse_length, part.hourglass,
-                             part.inertial_factor, drive.dt, drive.pic_fraction, j == rows.begin};
+          const RowStep step{j,
+                             part.rows[static_cast<std::size_t>(j)],
+                             part.inverse_length,
+                             part.hourglass,
+                             part.inertial_factor,
+                             drive.dt,
+                             drive.pic_fraction,
+                             j == rows.begin};
           advance_row(body, nodes_[rows.body], step, totals);
         }
       },
@@ -324,8 +340,7 @@ void TotalLagrangian::work_through(const Drive& drive) {
 
 StepTotals TotalLagrangian::step(const Drive& drive) {
   load_nodes(drive);
-  for (AnyBody& any : bodies_)
-    std::visit([&](auto& body) { body.integrator.set_step(drive.dt); }, any);
+  for (AnyBody& any : bodies_) std::visit([&](auto& body) { body.integrator.set_step(drive.dt); }, any);
   work_through(drive);
   damped_before_ = 1.0 / drive.keep - 1.0;
   StepTotals totals;

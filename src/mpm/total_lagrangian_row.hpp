@@ -20,7 +20,7 @@ struct RowStep {
   const math::AlignedArray& inverse_length;  ///< of the cells along x, 1/m
   const math::AlignedArray& hourglass;       ///< N/m by slot; empty without
   double inertial_factor;
-  double dt;            ///< s
+  double dt;  ///< s
   double pic_fraction;
   bool first;  ///< in its row of cells: it writes the nodes' sums anew, later ones add to them
 };
@@ -38,7 +38,8 @@ struct Corners {
     return ((1.0 - s) * (left[1] - left[0]) + s * (right[1] - right[0])) * w.inverse_length;
   }
   Pack mean(const double weight[2], double s) const {
-    return weight[0] * ((1.0 - s) * left[0] + s * right[0]) + weight[1] * ((1.0 - s) * left[1] + s * right[1]);
+    return weight[0] * ((1.0 - s) * left[0] + s * right[0]) +
+           weight[1] * ((1.0 - s) * left[1] + s * right[1]);
   }
   /// Amplitude of the hourglass mode, a quarter of the corners' alternating sum.
   Pack hourglass() const { return 0.25 * ((left[0] - right[0]) - (left[1] - right[1])); }
@@ -65,7 +66,8 @@ class NodeRow {
  public:
   NodeRow(double* sums, bool first) : sums_(sums), first_(first) {}
   void add(std::size_t i, Pack left, Pack right) {
-    const Pack before = Pack(__builtin_shufflevector(carried_.lanes, right.lanes, 7, 8, 9, 10, 11, 12, 13, 14));
+    const Pack before =
+        Pack(__builtin_shufflevector(carried_.lanes, right.lanes, 7, 8, 9, 10, 11, 12, 13, 14));
     carried_ = right;
     const Pack both = left + before;
     (first_ ? both : Pack::load(sums_ + i) + both).store(sums_ + i);
@@ -138,7 +140,8 @@ struct CornerForces {
 
 /// Advances one row of particles by a step and gives it to the nodes.
 template <class Law>
-[[gnu::flatten]] void advance_row(Body<Law>& body, Nodes& nodes, const RowStep& step, ParticleTotals& totals) {
+[[gnu::flatten]] void advance_row(Body<Law>& body, Nodes& nodes, const RowStep& step,
+                                  ParticleTotals& totals) {
   Kinematics& p = body.kinematics;
   const RowWeights& w = step.weights;
   const Lattice& lattice = p.lattice;
@@ -202,12 +205,13 @@ template <class Law>
         on_r.hourglass = stiffness * qr;
         const Pack half_step(0.5 * step.dt);
         const Pack dqx = vx.hourglass(), dqr = vr.hourglass();
-        totals.hourglass += Pack(4.0 * step.dt) * stiffness *
-                            ((qx - half_step * dqx) * dqx + (qr - half_step * dqr) * dqr);
+        totals.hourglass +=
+            Pack(4.0 * step.dt) * stiffness * ((qx - half_step * dqx) * dqx + (qr - half_step * dqr) * dqr);
       }
       on_x.give(w, s, i, to_inner.force_x, to_outer.force_x);
       on_r.give(w, s, i, to_inner.force_r, to_outer.force_r);
-      const Pack momentum_x = inertia * load(p.velocity_x, slot), momentum_r = inertia * load(p.velocity_r, slot);
+      const Pack momentum_x = inertia * load(p.velocity_x, slot),
+                 momentum_r = inertia * load(p.velocity_r, slot);
       to_inner.momentum_x.add(i, (w.value[0] * (1.0 - s)) * momentum_x, (w.value[0] * s) * momentum_x);
       to_inner.momentum_r.add(i, (w.value[0] * (1.0 - s)) * momentum_r, (w.value[0] * s) * momentum_r);
       to_outer.momentum_x.add(i, (w.value[1] * (1.0 - s)) * momentum_x, (w.value[1] * s) * momentum_x);

@@ -155,7 +155,8 @@ double UpdatedLagrangian::stable_time_step() const {
           const Kinematics& p = body.kinematics;
           for (std::size_t slot = 0; slot < p.x.size(); slot += math::pack_width) {
             sound = max(sound_speed_squared(body, slot), sound);
-            particle = max(math::abs(load(p.velocity_x, slot)) + math::abs(load(p.velocity_r, slot)), particle);
+            particle =
+                max(math::abs(load(p.velocity_x, slot)) + math::abs(load(p.velocity_r, slot)), particle);
           }
         },
         any);
@@ -227,7 +228,8 @@ void UpdatedLagrangian::update_grid(const Drive& drive, NodeTotals& totals) {
     const Pack inverse = select(used, 1.0 / mass, none);
     const Pack old_x = Pack::load(&grid_.momentum_x[n]) * inverse,
                old_r = Pack::load(&grid_.momentum_r[n]) * inverse;
-    const Pack push_x = Pack::load(&grid_.force_x[n]) * inverse + select(used, Pack(drive.acceleration), none);
+    const Pack push_x =
+        Pack::load(&grid_.force_x[n]) * inverse + select(used, Pack(drive.acceleration), none);
     const Pack push_r = Pack::load(&grid_.force_r[n]) * inverse;
     const Pack free_x = old_x + push_x * (dt / scaling), free_r = moves_r * (old_r + push_r * (dt / scaling));
     const Pack new_x = free_x * keep, new_r = free_r * keep;

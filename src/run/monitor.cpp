@@ -90,7 +90,8 @@ Snapshot take_snapshot(const mpm::Simulation& simulation) {
   };
   for (const mpm::AnyBody& any : simulation.bodies()) {
     const mpm::Kinematics& p = mpm::kinematics_of(any);
-    const math::AlignedArray *crack = field_of(any, "crack_radius"), *plastic = field_of(any, "plastic_strain");
+    const math::AlignedArray *crack = field_of(any, "crack_radius"),
+                             *plastic = field_of(any, "plastic_strain");
     for (int j = 0; j < p.lattice.rows(); ++j)
       for (int i = 0; i < p.lattice.columns(); ++i) {
         const std::size_t slot = p.lattice.slot(i, j);
@@ -130,9 +131,10 @@ std::optional<Stop> reason_to_stop(const mpm::Simulation& simulation, const Ener
     return stop(RunStatus::particles_left_grid,
                 fmt::format("particles left the grid ({:.0f} particle-steps)", simulation.events().off_grid));
   if (simulation.events().distorted > 0.0)
-    return stop(RunStatus::cells_distorted,
-                fmt::format("cells are inverted or stretched beyond what strains mean ({:.0f} particle-steps)",
-                            simulation.events().distorted));
+    return stop(
+        RunStatus::cells_distorted,
+        fmt::format("cells are inverted or stretched beyond what strains mean ({:.0f} particle-steps)",
+                    simulation.events().distorted));
   if (!std::isfinite(energy.kinetic + energy.internal + energy.external))
     return stop(RunStatus::non_finite,
                 "the computation is no longer finite, " + first_broken_particle(simulation));

@@ -9,7 +9,8 @@ namespace {
 
 /// A place between two neighbouring centres of a lattice: the lower index and the share of the upper one.
 /// Beyond the first and the last centre, up to half a cell, the share lies outside of 0 to 1: values are
-/// continued by the straight line through the two nearest centres, so that they are of second order everywhere.
+/// continued by the straight line through the two nearest centres, so that they are of second order
+/// everywhere.
 struct Bracket {
   int lower;
   double share;
@@ -40,6 +41,7 @@ TraceRecorder::TraceRecorder(const mpm::Simulation& simulation, const scene::Sce
   for (Share& share : bottom_) share.weight /= area;
   if (!bottom_.empty())
     for (const scene::ObservationPoint& point : scene.output.observation_points) add_observation_point(point);
+  for (auto* energies : {&energy_, &heat_}) energies->fill(std::vector<double>(trace_.stations.size(), 0.0));
   bottom_pressure_ = measure_bottom_pressure(simulation);
   chamber_pressure_ = simulation.chamber_pressure();
   sample(simulation);
@@ -52,9 +54,9 @@ std::vector<TraceRecorder::Share> TraceRecorder::shares_at(const Charge& charge,
   std::vector<Share> shares;
   for (int i = 0; i < std::min(2, lattice.columns()); ++i)
     for (int j = 0; j < std::min(2, lattice.rows()); ++j)
-      shares.push_back({&charge, lattice.slot(along.lower + i, across.lower + j),
-                        (i == 0 ? 1.0 - along.share : along.share) *
-                            (j == 0 ? 1.0 - across.share : across.share)});
+      shares.push_back(
+          {&charge, lattice.slot(along.lower + i, across.lower + j),
+           (i == 0 ? 1.0 - along.share : along.share) * (j == 0 ? 1.0 - across.share : across.share)});
   std::erase_if(shares, [](const Share& share) { return std::abs(share.weight) <= 0.0; });
   return shares;
 }
@@ -99,6 +101,7 @@ void TraceRecorder::accumulate(const mpm::Simulation& simulation, double dt) {
   chamber_integral_ += 0.5 * dt * (chamber_pressure_ + chamber);
   bottom_pressure_ = bottom;
   chamber_pressure_ = chamber;
+  heat_stations();
   steps_ += 1.0;
 }
 
@@ -117,7 +120,19 @@ void TraceRecorder::sample(const mpm::Simulation& simulation) {
   bottom_integral_ = chamber_integral_ = 0.0;
 }
 
-double TraceRecorder::friction(std::size_t closure, std::size_t station) const {
+/// Friction only heats: where the straight line through the gains of two neighbours falls below nothing,
+/// nothing is gained.
+void TraceRecorder::heat_stations() {
+  for (std::size_t closure = 0; closure < trace::traced_closures; ++closure)
+    for (std::size_t station = 0; station < trace_.stations.size(); ++station) {
+      const double now = energy_at(closure, station);
+      double& before = energy_[closure][station];
+      if (!(now <= before)) heat_[closure][station] += now - before;
+      before = now;
+    }
+}
+
+double TraceRecorder::energy_at(std::size_t closure, std::size_t station) const {
   double energy = 0.0;
   for (const Share& share : shares_[station])
     energy += share.weight * (*share.charge)[materials::Charge::friction_literal + closure][share.slot];

@@ -4,6 +4,7 @@
 #include "launchsafe/mpm/simulation.hpp"
 #include "launchsafe/trace/bottom_trace.hpp"
 
+#include <array>
 #include <vector>
 
 namespace launchsafe::run {
@@ -22,7 +23,7 @@ class TraceRecorder {
 
   double bottom_pressure() const { return bottom_pressure_; }  ///< Pa, at the present state
   /// Friction energy since the start at a station, J/m3, by closure index.
-  double friction(std::size_t closure, std::size_t station) const;
+  double friction(std::size_t closure, std::size_t station) const { return heat_[closure][station]; }
   const trace::BottomTrace& trace() const { return trace_; }
   trace::BottomTrace take() { return std::move(trace_); }
 
@@ -38,12 +39,17 @@ class TraceRecorder {
   static std::vector<Share> shares_at(const Charge& charge, double x, double r);
   void add_bottom_row(const Charge& charge, bool axisymmetric);
   void add_observation_point(const scene::ObservationPoint& point);
+  void heat_stations();
+  /// What a straight line through the particles' friction energies reads, J/m3.
+  double energy_at(std::size_t closure, std::size_t station) const;
   double measure_bottom_pressure(const mpm::Simulation& simulation) const;
 
   trace::BottomTrace trace_;
   std::vector<const Charge*> charges_;
-  std::vector<Share> bottom_;                          ///< weights sum to 1
-  std::vector<std::vector<Share>> shares_;             ///< by station
+  std::vector<Share> bottom_;               ///< weights sum to 1
+  std::vector<std::vector<Share>> shares_;  ///< by station
+  /// By closure and station, J/m3: as read after the last step, and what was gained.
+  std::array<std::vector<double>, trace::traced_closures> energy_, heat_;
   double floor_ = 0;                                   ///< Pa: the air's initial pressure
   double bottom_pressure_ = 0, chamber_pressure_ = 0;  ///< Pa, at the present state
   double bottom_integral_ = 0, chamber_integral_ = 0;  ///< Pa s, over the present interval

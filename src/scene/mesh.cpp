@@ -121,8 +121,10 @@ GridLines grid_lines(const Scene& scene) {
   }
   if (refined_x.empty() && has_charge(scene)) refined_x = {charge_extent(scene).x_end};
   const double size = size_of(scene);
-  return {lines_through(std::move(x), size, CellDensity(scene.numerics, scene.numerics.growth_x, std::move(refined_x))),
-          lines_through(std::move(r), size, CellDensity(scene.numerics, scene.numerics.growth_r, std::move(refined_r)))};
+  return {lines_through(std::move(x), size,
+                        CellDensity(scene.numerics, scene.numerics.growth_x, std::move(refined_x))),
+          lines_through(std::move(r), size,
+                        CellDensity(scene.numerics, scene.numerics.growth_r, std::move(refined_r)))};
 }
 
 GridLines particle_edges(const Scene& scene, const Body& body) {
@@ -151,8 +153,12 @@ CellRange cells_of_charge(const Scene& scene) {
 CellRange cells_of(const Scene& scene, const Body& body) {
   if (scene.numerics.formulation == Formulation::updated_lagrangian) {
     const Mesh mesh = fit_mesh(scene);
-    return {parts_of(body.x_end - body.x_begin, mesh.dx), parts_of(body.r_end - body.r_begin, mesh.dr),
-            mesh.dx, mesh.dx, mesh.dr, mesh.dr};
+    return {parts_of(body.x_end - body.x_begin, mesh.dx),
+            parts_of(body.r_end - body.r_begin, mesh.dr),
+            mesh.dx,
+            mesh.dx,
+            mesh.dr,
+            mesh.dr};
   }
   const GridLines lines = grid_lines(scene);
   const double size = size_of(scene);

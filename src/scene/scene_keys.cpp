@@ -185,14 +185,16 @@ Keys numerics_keys() {
   return {
       word_key<Scene, Formulation>(
           "numerics.formulation", Standing::assumed,
-          "Gradients on the lattice at rest, whose lines run through all edges of bodies, or uGIMP on an even "
+          "Gradients on the lattice at rest, whose lines run through all edges of bodies, or uGIMP on an "
+          "even "
           "background grid (the paper's method).",
           {{"total-lagrangian", Formulation::total_lagrangian},
            {"updated-lagrangian", Formulation::updated_lagrangian}},
           [](auto& s) -> auto& { return s.numerics.formulation; }),
       number_key<Scene>(
           "numerics.cell_size", Dimension::length, between(1e-5, 1), Standing::assumed,
-          "Largest cell length at the refined lines, and everywhere on an even grid; the grid is fitted to the "
+          "Largest cell length at the refined lines, and everywhere on an even grid; the grid is fitted to "
+          "the "
           "bodies with cells no longer than this.",
           [](auto& s) -> auto& { return s.numerics.cell_size; }),
       number_key<Scene>(

@@ -136,7 +136,8 @@ Fault check_formulation(const SceneFile& file) {
   const Numerics usual;
   const auto other = [&](const char* key, bool given) -> Fault {
     if (!given) return std::nullopt;
-    return fault_at(file, key, "a value with numerics.formulation = \"updated-lagrangian\", which has an even grid "
+    return fault_at(file, key,
+                    "a value with numerics.formulation = \"updated-lagrangian\", which has an even grid "
                     "without hourglass stiffness and one factor on all inertia",
                     "the key only with \"total-lagrangian\"");
   };
@@ -153,9 +154,8 @@ Fault check_refinement(const SceneFile& file) {
   const Extent all = extent_of(file.scene);
   const double tolerance = tolerance_of(file);
   const auto outside = [&](const std::vector<double>& places, double begin, double end) {
-    return std::find_if(places.begin(), places.end(), [&](double place) {
-      return place < begin - tolerance || place > end + tolerance;
-    });
+    return std::find_if(places.begin(), places.end(),
+                        [&](double place) { return place < begin - tolerance || place > end + tolerance; });
   };
   const Numerics& numerics = file.scene.numerics;
   if (const auto x = outside(numerics.refined_x, all.x_begin, all.x_end); x != numerics.refined_x.end())
@@ -406,10 +406,10 @@ Fault check_output(const SceneFile& file) {
 }  // namespace
 
 std::optional<InputError> validate(const SceneFile& file) {
-  for (const auto check : {check_names, check_charge_fits, check_overlaps, check_cell_size, check_load,
-                           check_kinetics, check_jwl, check_steel, check_crack_friction, check_gaps,
-                           check_observation_points, check_formulation, check_inertia, check_refinement,
-                           check_output}) {
+  for (const auto check :
+       {check_names, check_charge_fits, check_overlaps, check_cell_size, check_load, check_kinetics,
+        check_jwl, check_steel, check_crack_friction, check_gaps, check_observation_points, check_formulation,
+        check_inertia, check_refinement, check_output}) {
     if (Fault fault = check(file)) return fault;
   }
   return std::nullopt;

@@ -119,10 +119,10 @@ class Answering {
     std::vector<ObtainedRun> obtained(open.size()), raised(open.size());
     const bool propagated = propagates_spread(study_.study);
     for (std::size_t task = 0; task < open.size(); ++task) {
-      tasks.push_back(
-          task_of(needed_by(study_.cases[open[task].front()]), options_, [&, task](const Allotment& allotment) {
-            obtained[task] = answer_group(open[task], allotment, raised[task]);
-          }));
+      tasks.push_back(task_of(needed_by(study_.cases[open[task].front()]), options_,
+                              [&, task](const Allotment& allotment) {
+                                obtained[task] = answer_group(open[task], allotment, raised[task]);
+                              }));
       if (propagated) tasks.back().cost *= 2.0;
       tracker_.expect(1, tasks.back().cost);
     }
@@ -141,8 +141,8 @@ class Answering {
 
   /// Runs the mechanics or takes them from the store, and draws the answers. What is returned is for the
   /// account alone: its histories are gone.
-  ObtainedRun answer_group(const std::vector<std::size_t>& cases,
-                           const Allotment& allotment, ObtainedRun& raised) {
+  ObtainedRun answer_group(const std::vector<std::size_t>& cases, const Allotment& allotment,
+                           ObtainedRun& raised) {
     ObtainedRun run = obtain(needed_by(study_.cases[cases.front()]), options_, allotment);
     run::MechanicsResult& mechanics = run.result.mechanics;
     std::optional<run::MechanicsResult> raised_mechanics;

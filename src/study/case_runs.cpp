@@ -15,10 +15,10 @@ Runners simulation_runners() { return {run::run_mechanics, run::run_coupled}; }
 namespace detail {
 namespace {
 
-run::CaseResult compute(const NeededRun& needed, const StudyOptions& options,
-                        const Allotment& allotment) {
+run::CaseResult compute(const NeededRun& needed, const StudyOptions& options, const Allotment& allotment) {
   const scene::Scene scene = scene_of(needed);
-  const run::RunOptions run_options{options.stop, options.time_limit, allotment.report_share, allotment.threads};
+  const run::RunOptions run_options{options.stop, options.time_limit, allotment.report_share,
+                                    allotment.threads};
   if (needed.coupled_gap) return options.runners.coupled(scene, *needed.coupled_gap, run_options);
   run::CaseResult result;
   result.mechanics = options.runners.mechanics(scene, run_options);
@@ -90,8 +90,7 @@ store::CaseIdentity identity_of(const NeededRun& needed) {
                                          scene::to_toml(scene_of(needed))));
 }
 
-ObtainedRun obtain(const NeededRun& needed, const StudyOptions& options,
-                   const Allotment& allotment) {
+ObtainedRun obtain(const NeededRun& needed, const StudyOptions& options, const Allotment& allotment) {
   if (options.store == nullptr) return {compute(needed, options, allotment), false};
   const store::CaseIdentity identity = identity_of(needed);
   if (options.store->holds(identity.hash())) {

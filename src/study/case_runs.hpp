@@ -30,8 +30,7 @@ struct ObtainedRun {
 
 /// The result from the store, or computed and handed to it. A case that was timed out before under a limit no
 /// smaller than today's is not tried again. Throws what the runner throws, after journaling it.
-ObtainedRun obtain(const NeededRun& needed, const StudyOptions& options,
-                   const Allotment& allotment);
+ObtainedRun obtain(const NeededRun& needed, const StudyOptions& options, const Allotment& allotment);
 
 /// Relative cost of a run: predicted particle updates, > 0.
 double cost_of(const scene::Scene& scene);

@@ -117,8 +117,7 @@ Confirmation expectation(double gap, bool ignition) {
 }
 
 Confirmation confirm(const CaseOutcome& outcome, double gap, const StudyOptions& options,
-                     const Allotment& allotment, detail::ObtainedRun& run,
-                     bool expected) {
+                     const Allotment& allotment, detail::ObtainedRun& run, bool expected) {
   const scene::Scene& scene = outcome.input.scene.scene;
   run = detail::obtain(coupled_of(outcome, gap), options, allotment);
   const run::CaseResult& coupled = run.result;

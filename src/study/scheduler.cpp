@@ -167,8 +167,8 @@ std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, const Resourc
   const auto pull = [&] {
     while (const auto task = queue.take(stop)) {
       const bool refused = queue.is_refused(*task);
-      perform(refused ? refusal(tasks[*task], memory) : tasks[*task], refused ? 1 : queue.threads_of_one(jobs),
-              outcomes[*task], tracker);
+      perform(refused ? refusal(tasks[*task], memory) : tasks[*task],
+              refused ? 1 : queue.threads_of_one(jobs), outcomes[*task], tracker);
       queue.give_back(*task);
     }
   };

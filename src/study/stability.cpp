@@ -89,9 +89,9 @@ class Launching {
     std::vector<detail::ObtainedRun> obtained(runs.size());
     std::vector<Task> tasks;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      tasks.push_back(detail::task_of(
-          needed_by(study_.cases[runs[i].cases.front()]), options_,
-          [&, i](const Allotment& allotment) { obtained[i] = run_one(runs[i], allotment); }));
+      tasks.push_back(
+          detail::task_of(needed_by(study_.cases[runs[i].cases.front()]), options_,
+                          [&, i](const Allotment& allotment) { obtained[i] = run_one(runs[i], allotment); }));
       tracker.expect(1, tasks.back().cost);
     }
     const auto outcomes = run_tasks(tasks, detail::resources_of(options_), tracker, options_.stop);
@@ -106,8 +106,7 @@ class Launching {
   }
 
  private:
-  detail::ObtainedRun run_one(const detail::MechanicalRun& run,
-                              const Allotment& allotment) {
+  detail::ObtainedRun run_one(const detail::MechanicalRun& run, const Allotment& allotment) {
     detail::ObtainedRun obtained =
         detail::obtain(needed_by(study_.cases[run.cases.front()]), options_, allotment);
     run::MechanicsResult& mechanics = obtained.result.mechanics;

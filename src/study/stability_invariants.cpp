@@ -132,18 +132,11 @@ void check_dissipation(const MechanicsResult& mechanics, Violations& violations)
   check("crack", &run::EnergyBalance::crack);
 }
 
-/// Of its largest value: at a station, a straight line through particles that is continued to the surface, heat
-/// may fall by this while that of no particle does.
-constexpr double fall_of_a_straight_line = 1e-3;
-
 void check_friction(const trace::BottomTrace& trace, Violations& violations) {
   const std::size_t stations = trace.stations.size();
   for (const auto& friction : trace.friction) {
-    if (friction.empty()) continue;
-    const double allowed =
-        fall_of_a_straight_line * std::abs(*std::max_element(friction.begin(), friction.end()));
     for (std::size_t i = stations; stations > 0 && i < friction.size(); ++i) {
-      if (friction[i] >= friction[i - stations] - allowed) continue;
+      if (friction[i] >= friction[i - stations]) continue;
       violations.push_back(
           fmt::format("friction heat falls at station {}", trace.stations[i % stations].name));
       return;

@@ -81,7 +81,8 @@ Fault check_reference_grids(const StudyFile& study) {
                       fmt::format("{}, whose fitted grid is not coarser than the one before it", size),
                       "cell sizes that make different grids");
     if (mesh.shortest_r >= least_refinement * finer.shortest_r &&
-        mesh.shortest_x >= least_refinement * finer.shortest_x) continue;
+        mesh.shortest_x >= least_refinement * finer.shortest_x)
+      continue;
     return fault_at(study, "reference_cell_sizes",
                     fmt::format("{}, whose fitted grid is less than {} times as coarse as the one before it",
                                 size, least_refinement),

@@ -35,8 +35,10 @@ std::vector<Setting> conduction_spacings() {
 std::vector<Setting> wave_meshes(double mechanics::WaveError::*error) {
   std::vector<Setting> settings;
   for (const int cells : {25, 50, 100, 200, 400}) {
-    settings.push_back({fmt::format("cell {:g} mm", 1e3 / cells), 1.0 / cells,
-                        [=] { return mechanics::longitudinal_error(scene::Formulation::total_lagrangian, cells).*error; }});
+    settings.push_back({fmt::format("cell {:g} mm", 1e3 / cells), 1.0 / cells, [=] {
+                          return mechanics::longitudinal_error(scene::Formulation::total_lagrangian, cells).*
+                                 error;
+                        }});
   }
   return settings;
 }

@@ -21,15 +21,15 @@ std::vector<Computation> mechanics_computations() {
   using Named = std::pair<const char*, Compute>;
   std::vector<Computation> all;
   for (const scene::Formulation formulation : {total_lagrangian, updated_lagrangian})
-    for (const auto& [name, compute] : {Named{"longitudinal pulse", mechanics::longitudinal_pulse},
-                                        Named{"pulse in a free bar", mechanics::free_bar_pulse},
-                                        Named{"plateau in a free bar", mechanics::plateau_in_a_bar},
-                                        Named{"thick-walled tube", mechanics::thick_walled_tube},
-                                        Named{"setback of a column", mechanics::setback_column},
-                                        Named{"rigid acceleration", mechanics::rigid_acceleration},
-                                        Named{"energy of a pulse", mechanics::energy_of_a_pulse},
-                                        Named{"lab frame against co-moving frame",
-                                                  mechanics::lab_against_co_moving}})
+    for (const auto& [name, compute] :
+         {Named{"longitudinal pulse", mechanics::longitudinal_pulse},
+          Named{"pulse in a free bar", mechanics::free_bar_pulse},
+          Named{"plateau in a free bar", mechanics::plateau_in_a_bar},
+          Named{"thick-walled tube", mechanics::thick_walled_tube},
+          Named{"setback of a column", mechanics::setback_column},
+          Named{"rigid acceleration", mechanics::rigid_acceleration},
+          Named{"energy of a pulse", mechanics::energy_of_a_pulse},
+          Named{"lab frame against co-moving frame", mechanics::lab_against_co_moving}})
       all.push_back({name, formulation, compute});
   all.push_back({"free flight", updated_lagrangian, mechanics::free_flight});
   // Conduction is a scheme of its own on the bodies' particles.

@@ -144,10 +144,12 @@ Checks free_flight(scene::Formulation) {
 
 Checks energy_of_a_pulse(scene::Formulation formulation) {
   const std::string group = "energy";
-  const std::string name = "imbalance of the 155 mm shell under a pulse of 100 MPa, h = 5 mm, of the largest energy";
+  const std::string name =
+      "imbalance of the 155 mm shell under a pulse of 100 MPa, h = 5 mm, of the largest energy";
   const double imbalance = watch_energy(pulsed_shell(formulation, 5e-3), 4e-4).relative();
   if (formulation == scene::Formulation::total_lagrangian)
-    return {{group, name, imbalance, 0.0, 1e-6, "", "conservation of energy, losses of the velocity update booked", true}};
+    return {{group, name, imbalance, 0.0, 1e-6, "",
+             "conservation of energy, losses of the velocity update booked", true}};
   // Steel throughout, so that the waves stay smooth: what is left is what the particles' velocities lose on
   // the grid, 1/2 (sum m_i dv_i^2 - sum m_p dv_p^2) a step, of first order in the step over a given time.
   scene::Scene steel = pulsed_shell(formulation, 10e-3);
@@ -191,8 +193,8 @@ Checks lab_against_co_moving(scene::Formulation formulation) {
   return {{group, "charge-bottom pressure, lab against co-moving over 0.4 ms, 2 MPa: 0.04 mm of travel",
            frame_difference(formulation, 2e6), 0.0, lattice ? 1e-8 : 1e-3, "",
            "an accelerated frame with its body force", true},
-          {group, "the same at 200 MPa: 4 mm of travel, 0.8 of a cell", frame_difference(formulation, 200e6), 0.0,
-           lattice ? 1e-8 : 0.03, "",
+          {group, "the same at 200 MPa: 4 mm of travel, 0.8 of a cell", frame_difference(formulation, 200e6),
+           0.0, lattice ? 1e-8 : 0.03, "",
            "an accelerated frame; on a grid the place in the cell is an error of discretisation", true}};
 }
 

@@ -59,7 +59,8 @@ Tube relaxed_tube(scene::Formulation formulation, int radial_cells) {
     for (int i = begin; i <= end; ++i) {
       const std::size_t slot = p.lattice.slot(i, j);
       radius.push_back(p.lattice.r_of(j));
-      hoop.push_back(-body[materials::Steel::stress_rr][slot] - body[materials::Steel::stress_xx][slot] - p.pressure[slot]);
+      hoop.push_back(-body[materials::Steel::stress_rr][slot] - body[materials::Steel::stress_xx][slot] -
+                     p.pressure[slot]);
       displacement.push_back(p.r[slot] - p.lattice.r_of(j));
     }
   const auto stress = fit(

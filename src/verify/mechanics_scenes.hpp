@@ -47,11 +47,13 @@ struct FlightDrift {
   double work = 0;      ///< of the stress, over the kinetic energy
   double place = 0;     ///< of the centre of mass, over the way flown
 };
-/// A block of 50 mm flies `way` (m) through the cells, of `cell` (m), of an updated-Lagrangian grid at 500 m/s.
+/// A block of 50 mm flies `way` (m) through the cells, of `cell` (m), of an updated-Lagrangian grid at 500
+/// m/s.
 FlightDrift drift_in_flight(double cell, double way);
 
 /// The 155 mm shell of model section 1.
-scene::Scene shell_155(double cell_size, scene::Formulation formulation = scene::Formulation::total_lagrangian);
+scene::Scene shell_155(double cell_size,
+                       scene::Formulation formulation = scene::Formulation::total_lagrangian);
 /// A cylinder or strip of one material.
 scene::Scene block(const std::string& material, double length, double radius, double cell_size,
                    scene::Formulation formulation = scene::Formulation::total_lagrangian);

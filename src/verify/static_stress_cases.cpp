@@ -11,7 +11,6 @@
 namespace launchsafe::verify {
 namespace {
 
-
 /// s: the pressure rises over twice the slowest period of the shell and is then held until damping has taken
 /// what is left of the motion and the charge's Maxwell elements have relaxed (the slowest in 0.14 ms).
 constexpr double rise = 1e-3, held = 2.5e-3, observed = 0.5e-3;
@@ -122,9 +121,7 @@ std::vector<double> radial_edges(double radius, double finest) {
 }  // namespace
 
 double bottom_of(const scene::Scene& scene) {
-  return scene::has_charge(scene)
-             ? scene::charge_extent(scene).x_end
-             : scene::extent_of(scene).x_end;
+  return scene::has_charge(scene) ? scene::charge_extent(scene).x_end : scene::extent_of(scene).x_end;
 }
 
 double static_shear_modulus(const materials::ViscoScramParameters& charge) {

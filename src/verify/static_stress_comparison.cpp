@@ -19,7 +19,8 @@ double isentrope(const scene::Scene& scene, bool of_charge, double volume) {
     const materials::JwlParameters& law = scene.charge().eos;
     return materials::jwl_isentrope(law, 1.0, law.initial_energy, volume).pressure;
   }
-  return materials::mie_gruneisen_compress(scene.steel().eos, 0.0, 0.0, 0.0, 1.0 / volume - 1.0, 0.0).pressure;
+  return materials::mie_gruneisen_compress(scene.steel().eos, 0.0, 0.0, 0.0, 1.0 / volume - 1.0, 0.0)
+      .pressure;
 }
 
 /// Relative volume at a pressure (Pa), by bisection.
@@ -73,9 +74,9 @@ FiniteElementModel with_secant_moduli(const FiniteElementModel& at_rest, const F
   model.materials.clear();
   for (std::size_t m = 0; m < at_rest.materials.size(); ++m)
     for (int k = 0; k < classes; ++k)
-      model.materials.push_back(secant_material(
-          at_rest.materials[m], scene, m == 1,
-          range[m].first + (k + 0.5) / classes * (range[m].second - range[m].first)));
+      model.materials.push_back(
+          secant_material(at_rest.materials[m], scene, m == 1,
+                          range[m].first + (k + 0.5) / classes * (range[m].second - range[m].first)));
   for (std::size_t element = 0; element < pressure.size(); ++element) {
     const int material = at_rest.material_of[element];
     const auto [low, high] = range[static_cast<std::size_t>(material)];

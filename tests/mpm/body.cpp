@@ -1,5 +1,6 @@
 // Particles tile their bodies exactly, whatever the grid.
 #include "launchsafe/mpm/body.hpp"
+
 #include "launchsafe/mpm/simulation.hpp"
 #include "scenes.hpp"
 

@@ -135,7 +135,8 @@ TEST(Conduction, CarriesTheFluxThroughTheInterfacesOfALayer) {
   const double through_middle = (at(in_layer, 1) - at(in_layer, 0)) * 0.246 / in_layer.lattice.length_x(0);
   EXPECT_NEAR(through_middle / flux, (sink + 0.5 * layer) / (sink + layer + plate), 1e-4);
   // From the layer's last particle to the plate's first: two half spacings in series.
-  const double resistance = 0.5 * (in_layer.lattice.length_x(0) / 0.246 + in_plate.lattice.length_x(0) / 38.0);
+  const double resistance =
+      0.5 * (in_layer.lattice.length_x(0) / 0.246 + in_plate.lattice.length_x(0) / 38.0);
   EXPECT_NEAR((at(in_plate, 0) - at(in_layer, 1)) / resistance / flux,
               (sink + layer) / (sink + layer + plate), 1e-4);
 }

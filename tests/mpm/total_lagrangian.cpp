@@ -38,8 +38,8 @@ scene::Scene bar_of_three(double growth) {
 }
 
 TEST(TotalLagrangian, AccelerationMakesAStressThatGrowsLinearlyFromTheNose) {
-  // Statics in the accelerated frame: the force on a section carries the mass before it, P_xX = -p X/L. Linear
-  // elements have one axial stress a cell, that of its middle.
+  // Statics in the accelerated frame: the force on a section carries the mass before it, P_xX = -p X/L.
+  // Linear elements have one axial stress a cell, that of its middle.
   for (const double growth : {1.0, 1.25})
     for (const int per_cell : {1, 2}) {
       scene::Scene bar = bar_of_three(growth);
@@ -109,8 +109,7 @@ TEST(TotalLagrangian, ClosesItsEnergyBalance) {
       while (simulation.time() < 2e-3) {
         simulation.step(simulation.stable_time_step());
         const mpm::EnergyTotals& e = simulation.energy();
-        largest = std::max(largest,
-                           std::abs(e.kinetic + e.internal + e.damping - e.external - e.body_force));
+        largest = std::max(largest, std::abs(e.kinetic + e.internal + e.damping - e.external - e.body_force));
         scale = std::max(scale, e.kinetic + e.internal);
       }
       // What is left is the third power of a step's strain, and in the lab frame round-off of the flight.
@@ -142,9 +141,7 @@ TEST(TotalLagrangian, ABodyCutInTwoIsTheSameBody) {
     scene::Scene bar = test_support::steel_bar(0.1, 0.02, 4e-3);
     bar.numerics.refined_x = {0.1};
     bar.numerics.growth_x = 1.2;
-    if (cut)
-      bar.bodies = {{"core", "steel", 0.0, 0.1, 0.0, 0.012},
-                    {"skin", "steel", 0.0, 0.1, 0.012, 0.02}};
+    if (cut) bar.bodies = {{"core", "steel", 0.0, 0.1, 0.0, 0.012}, {"skin", "steel", 0.0, 0.1, 0.012, 0.02}};
     bar.load = test_support::steady_pressure(500e6);
     bar.barrel = scene::Barrel::none;
     mpm::Simulation simulation(bar);

@@ -45,12 +45,8 @@ TEST(RunMechanics, CompletesTheLaunchWithAClosedEnergyBalance) {
 TEST(RunMechanics, FrictionEnergyNeverFallsAndTheBottomPressureFollowsTheLoad) {
   const trace::BottomTrace trace = run_mechanics(coarse_scene()).trace;
   const std::size_t stations = trace.stations.size();
-  // That of particles never falls; between and beyond their centres a straight line may, by next to nothing.
-  for (const auto& friction : trace.friction) {
-    const double least = -1e-6 * *std::max_element(friction.begin(), friction.end());
-    for (std::size_t i = stations; i < friction.size(); ++i)
-      EXPECT_GE(friction[i] - friction[i - stations], least);
-  }
+  for (const auto& friction : trace.friction)
+    for (std::size_t i = stations; i < friction.size(); ++i) EXPECT_GE(friction[i], friction[i - stations]);
   // The wall carries part of the charge's weight, so the bottom sees less than the setback pressure of the
   // charge alone, 140.843 MPa (model section 1), and well over half of it.
   const double peak = *std::max_element(trace.bottom_pressure.begin(), trace.bottom_pressure.end());

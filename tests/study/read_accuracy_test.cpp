@@ -39,8 +39,9 @@ TEST(ReadAccuracy, RefusesReferencesThatCannotBeExtrapolated) {
                   {3, "reference_cell_sizes", "2 cell sizes", "at least 3"});
   expect_error_in(start, {0, "reference_cell_sizes", "0 cell sizes", "at least 3"});
   // 1 mm does not divide the radius of the charge, 65 mm, on an even grid of 78 cells over 77.5 mm.
-  expect_error_in(start + "reference_cell_sizes = \"1, 1.25, 2.5 mm\"\n[set]\nnumerics.formulation = "
-                          "\"updated-lagrangian\"\nnumerics.growth_x = 1\n",
+  expect_error_in(start +
+                      "reference_cell_sizes = \"1, 1.25, 2.5 mm\"\n[set]\nnumerics.formulation = "
+                      "\"updated-lagrangian\"\nnumerics.growth_x = 1\n",
                   {3, "reference_cell_sizes", "65.42 cells", "divide"});
   expect_error_in(start + "reference_cell_sizes = \"1.25, 2.5, 2.5 mm\"\n",
                   {3, "reference_cell_sizes", "twice", "once"});

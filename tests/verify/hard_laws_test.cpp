@@ -289,7 +289,8 @@ TEST(BrokenLaw, ConductionThatMakesHeatOrNone) {
   const ConductionLaw none = [](mpm::Conduction&, mpm::Simulation&, double) {};
   const ConductionLaw hotter = [](mpm::Conduction& conduction, mpm::Simulation& simulation, double dt) {
     conduction.advance(simulation, dt);
-    for (double& temperature : simulation.bodies_of<materials::Charge>()[0].get().kinematics.temperature) temperature += 1e-6;
+    for (double& temperature : simulation.bodies_of<materials::Charge>()[0].get().kinematics.temperature)
+      temperature += 1e-6;
   };
   EXPECT_EQ(outcome_of(judge_conduction, none, 1.0), Outcome::wrong);
   EXPECT_EQ(outcome_of(judge_conduction, none, 1e4), Outcome::wrong);

@@ -10,7 +10,8 @@
 //   static constexpr bool always_written             whether a stored scene without it has its keys
 //                                                    (false for a new law: what is stored already has not)
 //   static std::vector<keys::Key<Law>> parameters()  its keys in scene files
-//   Integrator                                       made of the law; set_step(dt), then update(...) by particle
+//   Integrator                                       made of the law; set_step(dt), then update(...) by
+//   particle
 // and the functions on a particle's state that outputs ask for: deviator(state) and, for the time step,
 // Integrator::bulk_modulus(state, density, pressure). Everything else of a law is its own.
 #pragma once
@@ -54,13 +55,13 @@ template <class Law, class Load>
 auto load_state(Load&& load) {
   return [&]<std::size_t... field>(std::index_sequence<field...>) {
     return State<Law, decltype(load(std::size_t{}))>{load(field)...};
-  }(std::make_index_sequence<Law::state.size()>{});
+  }
+  (std::make_index_sequence<Law::state.size()>{});
 }
 template <class Law, class Real, class Store>
 void store_state(const State<Law, Real>& state, Store&& store) {
-  [&]<std::size_t... field>(std::index_sequence<field...>) {
-    (store(field, state[field]), ...);
-  }(std::make_index_sequence<Law::state.size()>{});
+  [&]<std::size_t... field>(std::index_sequence<field...>) { (store(field, state[field]), ...); }
+  (std::make_index_sequence<Law::state.size()>{});
 }
 
 /// The deformation of one step as laws want it.

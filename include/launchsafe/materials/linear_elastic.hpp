@@ -6,11 +6,11 @@
 namespace launchsafe::materials {
 
 struct LinearElastic {
-  double density = 7830.0;          ///< kg/m3
-  double bulk = 166.4e9;            ///< K, Pa
-  double shear = 80e9;              ///< G, Pa
-  double specific_heat = 460.0;     ///< J/(kg K)
-  double conductivity = 38.0;       ///< W/(m K)
+  double density = 7830.0;       ///< kg/m3
+  double bulk = 166.4e9;         ///< K, Pa
+  double shear = 80e9;           ///< G, Pa
+  double specific_heat = 460.0;  ///< J/(kg K)
+  double conductivity = 38.0;    ///< W/(m K)
 
   static constexpr std::string_view name = "elastic";
   static constexpr bool heats_itself = false;

@@ -23,17 +23,28 @@ struct Lattice {
 
   int columns() const { return static_cast<int>(x_edges.size()) - 1; }
   int rows() const { return static_cast<int>(r_edges.size()) - 1; }
-  std::size_t slots() const { return static_cast<std::size_t>(padded_columns) * r_edges.size() - static_cast<std::size_t>(padded_columns); }
+  std::size_t slots() const {
+    return static_cast<std::size_t>(padded_columns) * r_edges.size() -
+           static_cast<std::size_t>(padded_columns);
+  }
   std::size_t slot(int i, int j) const;
   double x_begin() const { return x_edges.front(); }
   double x_end() const { return x_edges.back(); }
   double r_begin() const { return r_edges.front(); }
   double r_end() const { return r_edges.back(); }
   /// Lengths of column i and row j, and their centres, m.
-  double length_x(int i) const { return x_edges[static_cast<std::size_t>(i) + 1] - x_edges[static_cast<std::size_t>(i)]; }
-  double length_r(int j) const { return r_edges[static_cast<std::size_t>(j) + 1] - r_edges[static_cast<std::size_t>(j)]; }
-  double x_of(int i) const { return 0.5 * (x_edges[static_cast<std::size_t>(i)] + x_edges[static_cast<std::size_t>(i) + 1]); }
-  double r_of(int j) const { return 0.5 * (r_edges[static_cast<std::size_t>(j)] + r_edges[static_cast<std::size_t>(j) + 1]); }
+  double length_x(int i) const {
+    return x_edges[static_cast<std::size_t>(i) + 1] - x_edges[static_cast<std::size_t>(i)];
+  }
+  double length_r(int j) const {
+    return r_edges[static_cast<std::size_t>(j) + 1] - r_edges[static_cast<std::size_t>(j)];
+  }
+  double x_of(int i) const {
+    return 0.5 * (x_edges[static_cast<std::size_t>(i)] + x_edges[static_cast<std::size_t>(i) + 1]);
+  }
+  double r_of(int j) const {
+    return 0.5 * (r_edges[static_cast<std::size_t>(j)] + r_edges[static_cast<std::size_t>(j) + 1]);
+  }
 };
 
 /// What every body has. Massless slots have mass 0 and never change.

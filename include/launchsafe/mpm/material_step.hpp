@@ -6,8 +6,12 @@
 
 namespace launchsafe::mpm {
 
-inline Pack load(const math::AlignedArray& field, std::size_t slot) { return Pack::load(field.data() + slot); }
-inline void store(math::AlignedArray& field, std::size_t slot, Pack value) { value.store(field.data() + slot); }
+inline Pack load(const math::AlignedArray& field, std::size_t slot) {
+  return Pack::load(field.data() + slot);
+}
+inline void store(math::AlignedArray& field, std::size_t slot, Pack value) {
+  value.store(field.data() + slot);
+}
 
 /// Deformation of a step at a Pack of particles.
 struct Deformation {
@@ -52,12 +56,13 @@ template <class Law>
 
 /// FLIP velocity update with an optional share of PIC. Books the kinetic energy that the share takes out, and
 /// the time-centred kinetic energy of the step's begin. `inertia` is the mass in that balance, kg.
-[[gnu::always_inline]] inline void update_velocity(Kinematics& p, std::size_t slot, Pack inertia, Pack change_x,
-                                                   Pack change_r, Pack grid_x, Pack grid_r,
+[[gnu::always_inline]] inline void update_velocity(Kinematics& p, std::size_t slot, Pack inertia,
+                                                   Pack change_x, Pack change_r, Pack grid_x, Pack grid_r,
                                                    double pic_fraction, ParticleTotals& totals) {
   const Pack old_x = load(p.velocity_x, slot), old_r = load(p.velocity_r, slot);
   const Pack flip_x = old_x + change_x, flip_r = old_r + change_r;
-  const Pack new_x = flip_x + pic_fraction * (grid_x - flip_x), new_r = flip_r + pic_fraction * (grid_r - flip_r);
+  const Pack new_x = flip_x + pic_fraction * (grid_x - flip_x),
+             new_r = flip_r + pic_fraction * (grid_r - flip_r);
   store(p.velocity_x, slot, new_x);
   store(p.velocity_r, slot, new_r);
   const Pack half = 0.5 * inertia;
@@ -71,8 +76,8 @@ Pack sound_speed_squared(const Body<Law>& body, std::size_t slot) {
   const Kinematics& p = body.kinematics;
   auto state = materials::load_state<Law>([&](std::size_t field) { return load(body.state[field], slot); });
   const Pack density = load(p.density, slot);
-  const Pack modulus =
-      body.integrator.bulk_modulus(state, density, load(p.pressure, slot)) + (4.0 / 3.0) * body.law.shear_modulus();
+  const Pack modulus = body.integrator.bulk_modulus(state, density, load(p.pressure, slot)) +
+                       (4.0 / 3.0) * body.law.shear_modulus();
   return modulus / density;
 }
 

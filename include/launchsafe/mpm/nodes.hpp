@@ -11,9 +11,9 @@
 namespace launchsafe::mpm {
 
 /// What particles add up on the nodes of a body in a step. Along each row of cells they write the nodes on
-/// both sides of it, each side to its own array, so that no node row has two writers and the order of addition
-/// is fixed for any number of threads. A node's sum is `towards_axis` (of the cells inside) plus `outwards`
-/// (of the cells outside).
+/// both sides of it, each side to its own array, so that no node row has two writers and the order of
+/// addition is fixed for any number of threads. A node's sum is `towards_axis` (of the cells inside) plus
+/// `outwards` (of the cells outside).
 struct NodeSums {
   math::AlignedArray momentum_x, momentum_r;  ///< kg m/s, of the inertial mass
   math::AlignedArray force_x, force_r;        ///< N, internal
@@ -21,18 +21,18 @@ struct NodeSums {
 
 /// Nodal fields of one body; row j of nodes begins at j * stride. Per radian or per metre of depth.
 struct Nodes {
-  int body = 0;                    ///< index into Scene::bodies
-  int columns = 0, rows = 0;       ///< of nodes
-  int first_x = 0, first_r = 0;    ///< index of the first line in the lattice
-  std::size_t stride = 0;          ///< columns, padded to whole Packs with one to spare
-  NodeSums inside, outside;        ///< from the cells towards the axis and away from it
-  math::AlignedArray mass;         ///< kg, of this body
-  math::AlignedArray inertia;      ///< kg, of this body, with inertial factors
-  math::AlignedArray inverse_inertia;  ///< 1/kg, of all that is tied at the place; 0 beyond the body
-  math::AlignedArray mass_share;   ///< true over inertial mass of all that is tied at the place
-  math::AlignedArray moves_r;      ///< 1 where v_r is free, 0 on the axis and at the barrel
-  math::AlignedArray velocity_x, velocity_r;          ///< m/s, which the step moves by
-  math::AlignedArray change_x, change_r;              ///< m/s, gained in the step
+  int body = 0;                               ///< index into Scene::bodies
+  int columns = 0, rows = 0;                  ///< of nodes
+  int first_x = 0, first_r = 0;               ///< index of the first line in the lattice
+  std::size_t stride = 0;                     ///< columns, padded to whole Packs with one to spare
+  NodeSums inside, outside;                   ///< from the cells towards the axis and away from it
+  math::AlignedArray mass;                    ///< kg, of this body
+  math::AlignedArray inertia;                 ///< kg, of this body, with inertial factors
+  math::AlignedArray inverse_inertia;         ///< 1/kg, of all that is tied at the place; 0 beyond the body
+  math::AlignedArray mass_share;              ///< true over inertial mass of all that is tied at the place
+  math::AlignedArray moves_r;                 ///< 1 where v_r is free, 0 on the axis and at the barrel
+  math::AlignedArray velocity_x, velocity_r;  ///< m/s, which the step moves by
+  math::AlignedArray change_x, change_r;      ///< m/s, gained in the step
   math::AlignedArray displacement_x, displacement_r;  ///< m, since the start
 
   std::size_t index(int i, int j) const {

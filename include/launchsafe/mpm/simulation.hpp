@@ -22,7 +22,8 @@ struct EnergyTotals {
   double kinetic = 0;
   double internal = 0;  ///< stress power, and what is stored against hourglassing
   double external = 0, body_force = 0;
-  double damping = 0;   ///< taken out by damping, the PIC share and FLIP's way from nodes to particles and back
+  double damping =
+      0;  ///< taken out by damping, the PIC share and FLIP's way from nodes to particles and back
   double plastic = 0, viscous = 0, crack = 0;
   double hourglass = 0;  ///< stored against hourglassing (part of `internal`)
 };

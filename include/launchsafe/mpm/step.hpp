@@ -19,7 +19,8 @@ struct Drive {
   double pic_fraction = 0;  ///< share of the grid velocity in the particle velocity
 };
 
-/// What particles add to the energy balance (J per radian, or per metre) and to the limiters (particle-steps).
+/// What particles add to the energy balance (J per radian, or per metre) and to the limiters
+/// (particle-steps).
 struct ParticleTotals {
   Pack internal{0.0}, hourglass{0.0}, plastic{0.0}, viscous{0.0}, crack{0.0}, pic_loss{0.0},
       centred_kinetic{0.0};
@@ -34,8 +35,8 @@ struct ParticleTotals {
 struct NodeTotals {
   Pack damping{0.0};       ///< taken out by damping in the step
   Pack lost_before{0.0};   ///< total-Lagrangian: taken out by damping and FLIP until the step's begin
-  Pack old_momentum{0.0};   ///< axial, at the begin, true mass
-  Pack momentum{0.0};       ///< axial, with the velocity that the step moves by
+  Pack old_momentum{0.0};  ///< axial, at the begin, true mass
+  Pack momentum{0.0};      ///< axial, with the velocity that the step moves by
 
   void add(const NodeTotals& other);
 };

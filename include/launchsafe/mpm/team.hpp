@@ -39,15 +39,16 @@ class Team {
   mutable std::vector<std::thread> helpers_;
   std::fenv_t environment_{};
   const std::function<void(int)>* work_ = nullptr;
-  std::atomic<unsigned> call_{0};       ///< number of calls so far
-  std::atomic<int> running_{0};         ///< helpers that have not finished the present call
-  std::atomic<int> arrived_{0};         ///< members at the present barrier
-  std::atomic<unsigned> barrier_{0};    ///< number of barriers passed
+  std::atomic<unsigned> call_{0};     ///< number of calls so far
+  std::atomic<int> running_{0};       ///< helpers that have not finished the present call
+  std::atomic<int> arrived_{0};       ///< members at the present barrier
+  std::atomic<unsigned> barrier_{0};  ///< number of barriers passed
   std::atomic<bool> ends_{false};
 };
 
-/// Whether to work together or alone, by what was faster of late: on a machine that is busy otherwise, threads
-/// that wait for each other lose more than they gain. Every so many steps some are timed in both ways.
+/// Whether to work together or alone, by what was faster of late: on a machine that is busy otherwise,
+/// threads that wait for each other lose more than they gain. Every so many steps some are timed in both
+/// ways.
 class FasterWay {
  public:
   /// Whether the next step is to be done together.

@@ -2,10 +2,10 @@
 // configuration at rest, so that weights are constants of a rectilinear lattice whose lines run through every
 // edge of every body, and no particle ever crosses a cell.
 //
-// A step is a row of stages: the base's and bores' pressure on the nodes, the interfaces between bodies (here:
-// bonded), the nodes' motion, and one pass over the particles, which read the nodes, take on the deformation,
-// advance their law and add themselves to the next step's sums. With the deformation gradient F of a particle
-// and its Cauchy stress sigma, forces come from P = J sigma F^-T: f = -sum V0 P grad0 N.
+// A step is a row of stages: the base's and bores' pressure on the nodes, the interfaces between bodies
+// (here: bonded), the nodes' motion, and one pass over the particles, which read the nodes, take on the
+// deformation, advance their law and add themselves to the next step's sums. With the deformation gradient F
+// of a particle and its Cauchy stress sigma, forces come from P = J sigma F^-T: f = -sum V0 P grad0 N.
 #pragma once
 
 #include "launchsafe/mpm/body.hpp"
@@ -22,9 +22,10 @@ namespace launchsafe::mpm {
 /// Constant weights of one row of particles on the node rows towards the axis (0) and away from it (1).
 struct RowWeights {
   int cell_row = 0;
-  double value[2] = {0, 0};  ///< mean of the hat function over the particle, weighted with r where axisymmetric
-  double hoop[2] = {0, 0};   ///< mean of N/r, 1/m; 0 in plane strain
-  double inverse_length = 0; ///< 1/m, of the cell along r
+  double value[2] = {0,
+                     0};  ///< mean of the hat function over the particle, weighted with r where axisymmetric
+  double hoop[2] = {0, 0};    ///< mean of N/r, 1/m; 0 in plane strain
+  double inverse_length = 0;  ///< 1/m, of the cell along r
 };
 
 class TotalLagrangian {
@@ -35,8 +36,8 @@ class TotalLagrangian {
   /// Gives the nodes the particles' momentum again, after velocities were set.
   void restart();
   void press_bore(const Bore& bore) { bores_.push_back(bore); }
-  /// Largest stable step (s): CFL times the smallest height of a cell, as it is deformed, over the sound speed
-  /// in it, with the inertial factors.
+  /// Largest stable step (s): CFL times the smallest height of a cell, as it is deformed, over the sound
+  /// speed in it, with the inertial factors.
   double stable_time_step() const;
   StepTotals step(const Drive& drive);
 
@@ -52,8 +53,9 @@ class TotalLagrangian {
   /// What a body's rows share.
   struct Part {
     std::vector<RowWeights> rows;
-    math::AlignedArray inverse_length;  ///< 1/m by slot column within a sub-row, of the cell along x; 0: no cell
-    math::AlignedArray hourglass;       ///< N/m by slot: kappa G V/(3 L^2); empty without
+    math::AlignedArray
+        inverse_length;            ///< 1/m by slot column within a sub-row, of the cell along x; 0: no cell
+    math::AlignedArray hourglass;  ///< N/m by slot: kappa G V/(3 L^2); empty without
     double inertial_factor = 1;
   };
   /// Rows of one body that a thread works through.
@@ -91,10 +93,10 @@ class TotalLagrangian {
   std::vector<Tie> ties_;
   std::vector<LoadShare> base_;
   std::vector<Bore> bores_;
-  std::vector<std::vector<Rows>> particle_rows_, node_rows_;        ///< by thread
-  std::vector<std::vector<ParticleTotals>> particle_totals_;        ///< by body and row
-  std::vector<std::vector<NodeTotals>> node_totals_;                ///< by body and row
-  double damped_before_ = 0;  ///< 1/keep - 1 of the last step
+  std::vector<std::vector<Rows>> particle_rows_, node_rows_;  ///< by thread
+  std::vector<std::vector<ParticleTotals>> particle_totals_;  ///< by body and row
+  std::vector<std::vector<NodeTotals>> node_totals_;          ///< by body and row
+  double damped_before_ = 0;                                  ///< 1/keep - 1 of the last step
   std::unique_ptr<Team> team_;
   FasterWay faster_way_;
 };

@@ -22,9 +22,10 @@ namespace launchsafe::run {
 /// A = 4/L^2, as a finite element with one point has: c dt sqrt(1/dx^2 + 1/dr^2) <= 1, or 0.707.
 /// The hoop strain adds to A_r about 1/r^2, which next to the axis is less than what the fixed node there
 /// takes away. More particles a cell share their nodes, so the true limit is higher than this one.
-/// In the total-Lagrangian form particles do not move in their cells: A = (1/S_0 + 1/S_1)/L^2 with the constant
-/// weights S of a cell's two nodes, 4/L^2 for one particle a cell but for the row beside the axis, where the
-/// weight with r makes it 4.5/L^2; the factor is 0.686. What holds hourglassing back is softer by far.
+/// In the total-Lagrangian form particles do not move in their cells: A = (1/S_0 + 1/S_1)/L^2 with the
+/// constant weights S of a cell's two nodes, 4/L^2 for one particle a cell but for the row beside the axis,
+/// where the weight with r makes it 4.5/L^2; the factor is 0.686. What holds hourglassing back is softer by
+/// far.
 double proved_time_step_factor(const scene::Scene& scene);
 
 /// "; the time step factor 0.8 is above 0.577, up to which ...": what a run that broke must say of its steps;

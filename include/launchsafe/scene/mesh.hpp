@@ -9,8 +9,8 @@
 
 namespace launchsafe::scene {
 
-/// Cells of the even grid of the updated-Lagrangian form. An axial grid line runs through `x_anchor` and a radial one through r = 0 and r
-/// = radius.
+/// Cells of the even grid of the updated-Lagrangian form. An axial grid line runs through `x_anchor` and a
+/// radial one through r = 0 and r = radius.
 struct Mesh {
   double dx = 0;        ///< axial cell length, m, at most the nominal cell size
   double dr = 0;        ///< radial cell length, m, at most the nominal cell size
@@ -25,12 +25,12 @@ struct GridLines {
 
 /// The reference grid of the total-Lagrangian form: lines through all edges of all bodies, and between two
 /// neighbouring edges cells whose length follows `numerics`: `cell_size` at the refined lines, growing away
-/// from them by the ratio `growth_x` or `growth_r` from cell to cell up to `largest_cell`. An interval gets the
-/// smallest whole number of cells that keeps them from being longer than that.
+/// from them by the ratio `growth_x` or `growth_r` from cell to cell up to `largest_cell`. An interval gets
+/// the smallest whole number of cells that keeps them from being longer than that.
 GridLines grid_lines(const Scene& scene);
 
-/// Edges of the particles of one body: total-Lagrangian the grid's lines, updated-Lagrangian an even division,
-/// each cut into `particles_per_cell`.
+/// Edges of the particles of one body: total-Lagrangian the grid's lines, updated-Lagrangian an even
+/// division, each cut into `particles_per_cell`.
 GridLines particle_edges(const Scene& scene, const Body& body);
 
 /// Particles of one body in each direction, each at least 1. They tile the body exactly, whatever the grid.
@@ -62,8 +62,8 @@ Mesh fit_mesh(const Scene& scene);
 /// that fits do not carry over.
 std::string charge_edges_off_grid(const Scene& scene);
 
-/// Particles of one body with `particles_per_cell` >= 1 in each direction: of the lattice's cells in it or, in
-/// the updated-Lagrangian form, the body's length over the cell's, rounded up.
+/// Particles of one body with `particles_per_cell` >= 1 in each direction: of the lattice's cells in it or,
+/// in the updated-Lagrangian form, the body's length over the cell's, rounded up.
 ParticleCount particles_of(const Scene& scene, const Body& body);
 
 /// Cells of the scene's grid, and the lengths of the shortest and longest ones in each direction, m.

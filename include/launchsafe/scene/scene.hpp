@@ -79,16 +79,17 @@ struct Numerics {
   double cell_size = 2.5e-3;
   /// Ratio of neighbouring cells away from the refined lines, by direction; 1 = even.
   double growth_x = 1.0, growth_r = 1.0;
-  double largest_cell = 10e-3;       ///< m, where cells grow
-  std::vector<double> refined_x;     ///< m; empty: the charge's bottom
-  std::vector<double> refined_r;     ///< m; empty: the charge's edges
-  double hourglass_stiffness = 0.1;  ///< share of the shear stiffness against hourglassing, one particle a cell
-  int particles_per_cell = 1;        ///< in each direction
-  double time_step_factor = 0.5;     ///< CFL
-  double inertial_scaling = 1.0;     ///< s >= 1
-  double steel_inertia = 1.0;        ///< >= 1; factor on the inertia of metal bodies beside the scaling
-  double damping_time = 0.0;         ///< s; decay time of the relative velocity, 0 = no damping
-  double pic_fraction = 0.0;         ///< share of PIC in the velocity update, 0 = pure FLIP
+  double largest_cell = 10e-3;    ///< m, where cells grow
+  std::vector<double> refined_x;  ///< m; empty: the charge's bottom
+  std::vector<double> refined_r;  ///< m; empty: the charge's edges
+  double hourglass_stiffness =
+      0.1;                        ///< share of the shear stiffness against hourglassing, one particle a cell
+  int particles_per_cell = 1;     ///< in each direction
+  double time_step_factor = 0.5;  ///< CFL
+  double inertial_scaling = 1.0;  ///< s >= 1
+  double steel_inertia = 1.0;     ///< >= 1; factor on the inertia of metal bodies beside the scaling
+  double damping_time = 0.0;      ///< s; decay time of the relative velocity, 0 = no damping
+  double pic_fraction = 0.0;      ///< share of PIC in the velocity update, 0 = pure FLIP
   double energy_drift_limit = 0.05;  ///< of the energy scale; past it the run is stopped and indeterminate
 };
 

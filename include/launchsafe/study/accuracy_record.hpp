@@ -27,15 +27,17 @@ bool same_setting(const Setting& a, const Setting& b);
 struct Exactness {
   /// with_the_cell: the limit of the reference meshes is free of it, as what it stands for shrinks with the
   /// cells: the cells, the particles, which are a share of one, and the time step, a share of the time that
-  /// sound takes through one, the stiffness against hourglassing, which acts on what smooth fields lose as the
-  /// square of the cell, and the formulation, as both have one limit. in_each_case: it is measured in every case, as its sampling error.
-  /// at_a_value: a value of the key is exact, and the limit of meshes with another one is off.
+  /// sound takes through one, the stiffness against hourglassing, which acts on what smooth fields lose as
+  /// the square of the cell, and the formulation, as both have one limit. in_each_case: it is measured in
+  /// every case, as its sampling error. at_a_value: a value of the key is exact, and the limit of meshes with
+  /// another one is off.
   enum class Kind { with_the_cell, in_each_case, at_a_value };
   Kind kind = Kind::at_a_value;
   std::optional<scene::Value> value;  ///< of at_a_value; none where no value is known to be exact
 };
 /// inertial_scaling and steel_inertia are exact at 1, and so is the growth of the cells, since those far away
-/// stay as large as they may where the smallest are refined; damping_time and pic_fraction at 0, the frame where it moves along.
+/// stay as large as they may where the smallest are refined; damping_time and pic_fraction at 0, the frame
+/// where it moves along.
 Exactness exactness_of(const std::string& key);
 
 /// One setting that ran soundly: what came of it, how good it thus is, and what it costs.

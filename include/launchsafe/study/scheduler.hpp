@@ -76,7 +76,8 @@ struct Resources {
 
 /// Runs all tasks, the most costly first. A task that would not fit into the memory limit beside those that
 /// run waits, and less costly ones that fit go first; one that is too large even alone fails. Never throws
-/// for a task's exception. Where there are fewer tasks left than jobs, they share the jobs' threads. Once `stop` is set no further task starts. Outcomes are in the order of the tasks.
+/// for a task's exception. Where there are fewer tasks left than jobs, they share the jobs' threads. Once
+/// `stop` is set no further task starts. Outcomes are in the order of the tasks.
 std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, const Resources& resources,
                                    ProgressTracker& tracker, const std::atomic<bool>* stop = nullptr);
 
