@@ -96,9 +96,10 @@ report::Table run_table(const FiniteElementComparison& comparison) {
     }
   }
   table.notes = {
-      fmt::format("Alternation: root mean square of (p[j-1] - 2 p[j] + p[j+1])/4 along r for r < {:.3g} cm, "
-                  "in all rows of the boxes, as a share of the pressure's.",
-                  100.0 * verify::alternation_radius),
+      fmt::format(
+          "Alternation: root mean square of (p[j-2] - 4 p[j-1] + 6 p[j] - 4 p[j+1] + p[j+2])/16 along "
+          "r for r < {:.3g} cm, in all rows of the boxes, as a share of the pressure's.",
+          100.0 * verify::alternation_radius),
       "Motion left: the largest departure of a point's stress from its mean over the last 0.5 ms."};
   return table;
 }

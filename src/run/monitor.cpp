@@ -102,8 +102,11 @@ Snapshot take_snapshot(const mpm::Simulation& simulation) {
         shot.density.push_back(p.density[slot]);
         shot.pressure.push_back(p.pressure[slot]);
         shot.temperature.push_back(p.temperature[slot]);
-        shot.von_mises.push_back(
-            std::visit([&](const auto& body) { return math::von_mises(body.deviator(slot)); }, any));
+        const auto deviator = std::visit([&](const auto& body) { return body.deviator(slot); }, any);
+        shot.von_mises.push_back(math::von_mises(deviator));
+        shot.deviator_rr.push_back(deviator.rr);
+        shot.deviator_xx.push_back(deviator.xx);
+        shot.deviator_rx.push_back(deviator.rx);
         shot.crack_radius.push_back(value(crack, slot));
         shot.plastic_strain.push_back(value(plastic, slot));
         shot.body.push_back(p.body);

@@ -239,6 +239,10 @@ void lay_out_snapshot(Archive& archive, Value& snapshot) {
   history(archive, "density", snapshot.density, count, {"kg/m3", "density"});
   history(archive, "pressure", snapshot.pressure, count, {"Pa", "pressure, compression positive"});
   history(archive, "von_mises", snapshot.von_mises, count, {"Pa", "von Mises stress"});
+  history(archive, "deviator_rr", snapshot.deviator_rr, count,
+          {"Pa", "radial stress deviator; hoop is -(rr + xx)"});
+  history(archive, "deviator_xx", snapshot.deviator_xx, count, {"Pa", "axial stress deviator"});
+  history(archive, "deviator_rx", snapshot.deviator_rx, count, {"Pa", "shear stress"});
   history(archive, "temperature", snapshot.temperature, count, {"K", "temperature"});
   history(archive, "crack_radius", snapshot.crack_radius, count, {"m", "crack radius"});
   history(archive, "plastic_strain", snapshot.plastic_strain, count, {"1", "equivalent plastic strain"});

@@ -52,10 +52,13 @@ std::string grid_of(const run::Snapshot& snapshot, const std::string& group) {
         "        <Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Node\">{}</Attribute>\n",
         vector_item(group + "/velocity", count));
   }
-  const std::array<std::pair<const char*, const std::vector<double>*>, 6> scalars{{
+  const std::array<std::pair<const char*, const std::vector<double>*>, 9> scalars{{
       {"density", &snapshot.density},
       {"pressure", &snapshot.pressure},
       {"von_mises", &snapshot.von_mises},
+      {"deviator_rr", &snapshot.deviator_rr},
+      {"deviator_xx", &snapshot.deviator_xx},
+      {"deviator_rx", &snapshot.deviator_rx},
       {"temperature", &snapshot.temperature},
       {"crack_radius", &snapshot.crack_radius},
       {"plastic_strain", &snapshot.plastic_strain},

@@ -109,19 +109,21 @@ store::Result<FiniteElementMeans> means_of(const StaticCase& compared, const Fin
 StressMeasures box_mean(const FiniteElementModel& model, const FiniteElementResult& result,
                         const scene::Scene& scene, const StressStation& station) {
   const double bottom = bottom_of(scene);
-  StressMeasures mean;
+  CauchyStress mean;
   double total = 0.0;
   for (int element = 0; element < model.elements(); ++element)
     for (int point = 0; point < integration_points; ++point) {
       const IntegrationPoint at = integration_point(model, element, point);
       if (at.x > bottom || at.x < bottom - stress_box || std::abs(at.r - station.r) > 0.5 * stress_box)
         continue;
-      const StressMeasures stress = result.at(element, point).measures();
-      mean.pressure += at.weight * stress.pressure;
-      mean.von_mises += at.weight * stress.von_mises;
+      const CauchyStress& stress = result.at(element, point);
+      mean.rr += at.weight * stress.rr;
+      mean.xx += at.weight * stress.xx;
+      mean.tt += at.weight * stress.tt;
+      mean.rx += at.weight * stress.rx;
       total += at.weight;
     }
-  return {mean.pressure / total, mean.von_mises / total};
+  return CauchyStress{mean.rr / total, mean.xx / total, mean.tt / total, mean.rx / total}.measures();
 }
 
 store::Result<StaticComparison> compare_static_stresses(const StaticCase& compared,

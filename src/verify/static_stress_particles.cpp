@@ -84,12 +84,14 @@ Shares shares_of(const scene::Scene& scene, const run::Snapshot& rest, const std
 }
 
 StressMeasures mean_of(const Shares& shares, const run::Snapshot& at) {
-  StressMeasures mean;
+  double pressure = 0.0;
+  math::Deviator<double> deviator;
   for (const auto& [particle, weight] : shares) {
-    mean.pressure += weight * at.pressure[particle];
-    mean.von_mises += weight * at.von_mises[particle];
+    pressure += weight * at.pressure[particle];
+    deviator = deviator + weight * math::Deviator<double>{at.deviator_rr[particle], at.deviator_xx[particle],
+                                                          at.deviator_rx[particle]};
   }
-  return mean;
+  return {pressure, math::von_mises(deviator)};
 }
 
 /// Rows of neighbours along r within the boxes of all stations, by their x.
@@ -111,9 +113,11 @@ double alternation_of(const StaticCase& compared, const run::Snapshot& rest, con
                       const std::vector<double>& pressure) {
   double alternating = 0.0, whole = 0.0;
   for (const auto& [x, row] : rows_along_r(compared, rest, cells))
-    for (std::size_t j = 1; j + 1 < row.size() && rest.r[row[j]] < alternation_radius; ++j) {
+    for (std::size_t j = 2; j + 2 < row.size() && rest.r[row[j]] < alternation_radius; ++j) {
       const double p = pressure[row[j]];
-      const double part = 0.25 * (pressure[row[j - 1]] - 2.0 * p + pressure[row[j + 1]]);
+      const double part = (pressure[row[j - 2]] - 4.0 * pressure[row[j - 1]] + 6.0 * p -
+                           4.0 * pressure[row[j + 1]] + pressure[row[j + 2]]) /
+                          16.0;
       alternating += part * part;
       whole += p * p;
     }

@@ -63,6 +63,9 @@ inline void expect_same(const run::Snapshot& a, const run::Snapshot& b) {
   EXPECT_EQ(bits(a.density), bits(b.density));
   EXPECT_EQ(bits(a.pressure), bits(b.pressure));
   EXPECT_EQ(bits(a.von_mises), bits(b.von_mises));
+  EXPECT_EQ(bits(a.deviator_rr), bits(b.deviator_rr));
+  EXPECT_EQ(bits(a.deviator_xx), bits(b.deviator_xx));
+  EXPECT_EQ(bits(a.deviator_rx), bits(b.deviator_rx));
   EXPECT_EQ(bits(a.temperature), bits(b.temperature));
   EXPECT_EQ(bits(a.crack_radius), bits(b.crack_radius));
   EXPECT_EQ(bits(a.plastic_strain), bits(b.plastic_strain));

@@ -35,6 +35,9 @@ inline run::Snapshot sample_snapshot(double time) {
   snapshot.density = {7830, 7830, 1717};
   snapshot.pressure = {1e8, 2e8, 3e8};
   snapshot.von_mises = {4e8, 5e8, 1e6};
+  snapshot.deviator_rr = {-1e8, 1e8, 2e5};
+  snapshot.deviator_xx = {2e8, -3e8, not_a_number};
+  snapshot.deviator_rx = {-0.0, 2e8, 1e5};
   snapshot.temperature = {300, 301, 302};
   snapshot.plastic_strain = {0, 0.01, 0};
   snapshot.body = {0, 0, 1};

@@ -21,7 +21,8 @@ StaticCase block() {
 
 using Field = std::function<double(double x, double r)>;
 
-/// Particles in the middle of cells between these lines, with a pressure, and a von Mises stress twice that.
+/// Particles in the middle of cells between these lines, with a pressure, and a shear stress that makes the
+/// von Mises stress twice that.
 run::Snapshot snapshot(const std::vector<double>& edges_x, const std::vector<double>& edges_r,
                        const Field& pressure) {
   run::Snapshot snapshot;
@@ -30,7 +31,9 @@ run::Snapshot snapshot(const std::vector<double>& edges_x, const std::vector<dou
       snapshot.x.push_back(0.5 * (edges_x[i - 1] + edges_x[i]));
       snapshot.r.push_back(0.5 * (edges_r[j - 1] + edges_r[j]));
       snapshot.pressure.push_back(pressure(snapshot.x.back(), snapshot.r.back()));
-      snapshot.von_mises.push_back(2.0 * snapshot.pressure.back());
+      snapshot.deviator_rr.push_back(0.0);
+      snapshot.deviator_xx.push_back(0.0);
+      snapshot.deviator_rx.push_back(2.0 / std::sqrt(3.0) * snapshot.pressure.back());
       snapshot.body.push_back(0);
     }
   return snapshot;
@@ -78,9 +81,19 @@ TEST(ParticleMeans, FindTheAmplitudeByWhichNeighboursAlternate) {
   };
   const ParticleMeans checkered = particle_means(compared, {rest, snapshot(lines, lines, field)});
   EXPECT_NEAR(checkered.alternation, 5e-3, 1e-6);
-  const ParticleMeans linear = particle_means(
-      compared, {rest, snapshot(lines, lines, [](double, double r) { return 1e6 + 1e8 * r; })});
-  EXPECT_NEAR(linear.alternation, 0.0, 1e-12);
+  const ParticleMeans cubic = particle_means(
+      compared, {rest, snapshot(lines, lines, [](double, double r) { return 1e6 + 1e12 * r * r * r; })});
+  EXPECT_NEAR(cubic.alternation, 0.0, 1e-12);
+}
+
+TEST(ParticleMeans, AreOfStressesNotOfTheirVonMises) {
+  const run::Snapshot rest = snapshot(graded_x, graded_r, [](double, double) { return 0.0; });
+  run::Snapshot sheared =
+      snapshot(graded_x, graded_r, [](double, double r) { return r < 0.011 ? 1e6 : -1e6; });
+  const ParticleMeans means = particle_means(block(), {rest, sheared});
+  // 7.5 to 11 mm one way, 11 to 12.5 mm the other, weighed by differences of r^2/2.
+  const double one_way = 11.0 * 11.0 - 7.5 * 7.5, other_way = 12.5 * 12.5 - 11.0 * 11.0;
+  EXPECT_NEAR(means.means[0].von_mises, 2e6 * (one_way - other_way) / (one_way + other_way), 1e-3);
 }
 
 StaticComparison compared_by(double pressure_error, double alternation) {

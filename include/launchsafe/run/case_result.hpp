@@ -56,6 +56,7 @@ struct Snapshot {
   double time = 0;
   std::vector<double> x, r, velocity_x, velocity_r, density, pressure, von_mises, temperature, crack_radius,
       plastic_strain;
+  std::vector<double> deviator_rr, deviator_xx, deviator_rx;  ///< stress deviator, Pa; tt = -(rr + xx)
   std::vector<int> body;  ///< index into Scene::bodies
 };
 

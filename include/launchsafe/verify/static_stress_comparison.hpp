@@ -54,7 +54,8 @@ struct ParticleMeans {
   /// Largest departure of a station's value from that mean in time, as a share of it.
   double ringing_pressure = 0, ringing_von_mises = 0;
   /// Root mean square over the cells of all stations within `alternation_radius`, as a share of the
-  /// pressure's: (p[j-1] - 2 p[j] + p[j+1])/4 along r, which is +-a where neighbours alternate by a.
+  /// pressure's: the fourth difference (p[j-2] - 4 p[j-1] + 6 p[j] - 4 p[j+1] + p[j+2])/16 along r, which is
+  /// +-a where neighbours alternate by a, and nothing of a pressure that is cubic over five cells.
   double alternation = 0;
   double wall_time = 0;  ///< s
 };
