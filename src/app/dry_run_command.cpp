@@ -39,7 +39,7 @@ void remark_obstacle(const study::StudyFile& file, const StudyArguments& argumen
     console.remark(*obstacle);
 }
 
-study::StudyOptions options_of(const StudyArguments& arguments, store::CaseStore* store) {
+study::StudyOptions dry_run_options(const StudyArguments& arguments, store::CaseStore* store) {
   study::StudyOptions options;
   options.jobs = arguments.jobs;
   options.time_limit = arguments.time_limit.value_or(options.time_limit);
@@ -71,7 +71,8 @@ ExitCode dry_run_command(const StudyArguments& arguments, Console& console) {
     console.error("interrupted while measuring the speed of this machine; there is nothing to keep");
     return ExitCode::interrupted;
   }
-  const study::Foresight foresight = study::foresee(*file, options_of(arguments, store->get()), update_rate);
+  const study::Foresight foresight =
+      study::foresee(*file, dry_run_options(arguments, store->get()), update_rate);
   if (*store) {
     for (const std::string& remark : (*store)->remarks()) console.remark(remark);
   }

@@ -66,7 +66,7 @@ store::MaybeError compare(const Wanted& wanted, Progress& progress, FiniteElemen
   return std::nullopt;
 }
 
-std::string remaking_command(const VerifyArguments& arguments) {
+std::string stress_command(const VerifyArguments& arguments) {
   return std::string("launchsafe verify --finite-elements") +
          (arguments.filter.empty() ? "" : " --filter " + shell_quoted(arguments.filter)) +
          (arguments.output ? " -o DIR" : "");
@@ -80,7 +80,7 @@ bool misses_a_target(const FiniteElementComparison& comparison) {
 
 ExitCode present(const FiniteElementComparison& comparison, const VerifyArguments& arguments,
                  Console& console) {
-  const std::string command = remaking_command(arguments);
+  const std::string command = stress_command(arguments);
   console.print_text(finite_element_text(comparison, command));
   console.print_json(finite_element_json(comparison, command));
   if (arguments.output) {

@@ -15,9 +15,9 @@ namespace {
 
 using verify::ParticleMeans, verify::StaticComparison, verify::StressMeasures;
 
-constexpr const char *page_name = "summary.md", *csv_name = "stresses.csv";
+constexpr const char *stress_page_name = "summary.md", *stress_csv_name = "stresses.csv";
 
-const char* const title = "Static stresses at the charge bottom against finite elements";
+const char* const stress_title = "Static stresses at the charge bottom against finite elements";
 
 std::string millimetres(double length) { return report::significant(1e3 * length, 4) + " mm"; }
 
@@ -186,7 +186,7 @@ std::string page_of(const FiniteElementComparison& comparison, const std::string
       "and von Mises stress. The elements (axisymmetric, quadratic, reduced integration) are of large "
       "strain, neo-Hookean where they do not yield; each has the secant bulk modulus of its equation "
       "of state at its own pressure.\n\n{}\n\n",
-      title, command, comparison.version, targets_text());
+      stress_title, command, comparison.version, targets_text());
   const std::vector<std::string> missed = missed_by(comparison);
   page += missed.empty() ? "All are met.\n" : fmt::format("{} are missed:\n\n", missed.size());
   for (const std::string& sentence : missed) page += "- " + sentence + "\n";
@@ -216,7 +216,7 @@ nlohmann::ordered_json finite_element_json(const FiniteElementComparison& compar
 }
 
 std::optional<std::string> obstacle_to_finite_element_files(const std::filesystem::path& folder) {
-  for (const char* name : {csv_name, page_name}) {
+  for (const char* name : {stress_csv_name, stress_page_name}) {
     if (const auto error = store::obstacle_to_own_file(folder / name)) return error->message;
   }
   return std::nullopt;
@@ -226,8 +226,9 @@ store::Result<report::WrittenFiles> write_finite_element_files(const FiniteEleme
                                                                const std::string& command,
                                                                const std::filesystem::path& folder) {
   report::WrittenFiles written;
-  const std::pair<const char*, std::string> texts[] = {{csv_name, report::to_csv(whole_table(comparison))},
-                                                       {page_name, page_of(comparison, command)}};
+  const std::pair<const char*, std::string> texts[] = {
+      {stress_csv_name, report::to_csv(whole_table(comparison))},
+      {stress_page_name, page_of(comparison, command)}};
   for (const auto& [name, text] : texts) {
     if (auto error = store::write_own_file(folder / name, {text})) return *error;
     written.files.push_back(name);

@@ -32,7 +32,7 @@ report::Table run_table(const Foresight& foresight) {
   return table;
 }
 
-std::string line(std::string_view label, const std::string& value) {
+std::string foresight_line(std::string_view label, const std::string& value) {
   return fmt::format("  {:<21} {}\n", label, value);
 }
 
@@ -98,19 +98,20 @@ std::string foresight_text(const study::StudyFile& file, const Foresight& foresi
                            const std::filesystem::path& folder) {
   std::string text = file.study.title.empty() ? std::string{} : file.study.title + "\n\n";
   text += "Study\n";
-  text += line("kind", study::to_string(file.study.kind));
-  text += line("scene", file.study.scene);
-  for (const auto& [key, value] : file.overrides) text += line("  " + key, value);
-  text += line("mechanical runs", runs_text(foresight));
+  text += foresight_line("kind", study::to_string(file.study.kind));
+  text += foresight_line("scene", file.study.scene);
+  for (const auto& [key, value] : file.overrides) text += foresight_line("  " + key, value);
+  text += foresight_line("mechanical runs", runs_text(foresight));
   if (foresight.confirmations > 0)
-    text += line("coupled runs",
-                 fmt::format("at most {} more, to confirm the critical gap; their time comes on top",
-                             foresight.confirmations));
+    text += foresight_line(
+        "coupled runs", fmt::format("at most {} more, to confirm the critical gap; their time comes on top",
+                                    foresight.confirmations));
   if (judges_gaps(file.study.kind))
-    text += line("gaps", fmt::format("{} on the trace of each run, then a bisection", gaps_of(file)));
-  text += line("at a time", fmt::format("{}", foresight.jobs));
-  text += line("memory", fmt::format("about {:.3g} MB", foresight.memory / 1e6));
-  text += line("time", time_text(foresight, folder));
+    text +=
+        foresight_line("gaps", fmt::format("{} on the trace of each run, then a bisection", gaps_of(file)));
+  text += foresight_line("at a time", fmt::format("{}", foresight.jobs));
+  text += foresight_line("memory", fmt::format("about {:.3g} MB", foresight.memory / 1e6));
+  text += foresight_line("time", time_text(foresight, folder));
   return text + "\n" + report::to_text(run_table(foresight));
 }
 

@@ -13,7 +13,7 @@
 namespace launchsafe::app {
 namespace {
 
-ExitCode exit_code_of(const store::Error& error) {
+ExitCode import_exit_code(const store::Error& error) {
   const bool folder_is_wrong =
       error.kind == store::Error::Kind::conflict || error.kind == store::Error::Kind::missing;
   return folder_is_wrong ? ExitCode::bad_input : ExitCode::failed;
@@ -26,7 +26,7 @@ ExitCode import_folders(const std::vector<std::filesystem::path>& folders, Study
     session.print_remarks();
     if (!imported) {
       console.error(imported.error().message);
-      return exit_code_of(imported.error());
+      return import_exit_code(imported.error());
     }
     console.remark(fmt::format("{}: copied {} cases and {} answers, {} cases were there already",
                                folder.string(), imported->cases, imported->answers, imported->already_there));

@@ -71,7 +71,7 @@ ExitCode report_interruption(const RunArguments& arguments, const run::Mechanics
   return ExitCode::interrupted;
 }
 
-ExitCode exit_code_of(const store::Error& error) {
+ExitCode write_exit_code(const store::Error& error) {
   return error.kind == store::Error::Kind::conflict || error.kind == store::Error::Kind::corrupt
              ? ExitCode::bad_input
              : ExitCode::failed;
@@ -116,7 +116,7 @@ ExitCode run_command(const RunArguments& arguments, Console& console) {
   if (!target.empty()) {
     if (const auto error = store::write_case_file(target, scene, result, manifest)) {
       console.error(error->message);
-      return exit_code_of(*error);
+      return write_exit_code(*error);
     }
     console.remark(fmt::format("wrote {}", target.string()));
   }

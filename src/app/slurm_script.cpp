@@ -135,8 +135,8 @@ struct Unit {
   double size;
   std::string_view name;
 };
-constexpr std::array<Unit, 4> size_units{{{1e9, "GB"}, {1e6, "MB"}, {1e3, "kB"}, {1, "B"}}};
-constexpr std::array<Unit, 3> duration_units{{{3600, "h"}, {60, "min"}, {1, "s"}}};
+constexpr std::array<Unit, 4> slurm_sizes{{{1e9, "GB"}, {1e6, "MB"}, {1e3, "kB"}, {1, "B"}}};
+constexpr std::array<Unit, 3> slurm_durations{{{3600, "h"}, {60, "min"}, {1, "s"}}};
 
 /// The number in the largest unit of which it is a whole multiple, as the program reads it: "8GB", "90s".
 std::string amount(double value, std::span<const Unit> units) {
@@ -179,7 +179,7 @@ std::string paths(const SlurmStudy& study) {
 std::string memory_remark(const SlurmStudy& study) {
   if (study.memory_limit) {
     return fmt::format("{} as given, nine tenths of it for the cases that run side by side.",
-                       amount(*study.memory_limit, size_units));
+                       amount(*study.memory_limit, slurm_sizes));
   }
   return fmt::format(
       "{:.1f} MiB are predicted for the cases that run side by side; asked for are a quarter more and {} "
@@ -227,9 +227,9 @@ std::string shard_command(const SlurmStudy& study) {
       R"sh(exec "$program" study "$study" -o "$output" --shard "$SLURM_ARRAY_TASK_ID/{}" --jobs {})sh",
       study.shards, study.jobs);
   if (study.memory_limit) {
-    command += " --memory " + amount(std::floor(share_for_cases * *study.memory_limit), size_units);
+    command += " --memory " + amount(std::floor(share_for_cases * *study.memory_limit), slurm_sizes);
   }
-  if (study.time_limit) command += " --time-limit " + amount(*study.time_limit, duration_units);
+  if (study.time_limit) command += " --time-limit " + amount(*study.time_limit, slurm_durations);
   return fmt::format("run_shard() {{\n  {}\n}}\n", command);
 }
 

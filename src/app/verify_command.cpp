@@ -176,7 +176,7 @@ std::vector<Failure> failures_of(const std::vector<MeasuredSeries>& results) {
 }
 
 /// The command that makes the table again, on any machine.
-std::string remaking_command(const VerifyArguments& arguments) {
+std::string errors_command(const VerifyArguments& arguments) {
   return std::string("launchsafe verify --error-against-time") +
          (arguments.filter.empty() ? "" : " --filter " + shell_quoted(arguments.filter)) +
          (arguments.output ? " -o DIR" : "");
@@ -196,7 +196,7 @@ ExitCode tabulate_errors(const VerifyArguments& arguments, Console& console) {
   }
   const auto results =
       unless_stopped(console, "error", [&](Progress& progress) { return measured(wanted, progress); });
-  const std::string command = remaking_command(arguments);
+  const std::string command = errors_command(arguments);
   console.print_text(error_table_text(results, command));
   console.print_json(error_table_json(results, command));
   const std::vector<Failure> failures = failures_of(results);

@@ -14,7 +14,7 @@ struct Corner {
 };
 
 /// A cell with the values at its corners: lower left, lower right, upper left, upper right.
-struct Cell {
+struct GridCell {
   double x0, x1, y0, y1;
   std::array<double, 4> z;
 
@@ -33,7 +33,7 @@ class Builder {
   }
 
   /// The part of a cell from share u, v on, `size` of it long.
-  void add(const Cell& cell, double u, double v, double size, int depth) {
+  void add(const GridCell& cell, double u, double v, double size, int depth) {
     const Corner a = cell.at(u, v), b = cell.at(u + size, v), c = cell.at(u, v + size),
                  d = cell.at(u + size, v + size);
     const auto [low, high] = std::minmax({a.z, b.z, c.z, d.z});
@@ -211,11 +211,11 @@ Bands bands_of(const Contour& contour, int quarterings) {
     for (std::size_t i = 0; i + 1 < width; ++i) {
       const double* lower = &contour.z[j * width + i];
       const double* upper = lower + width;
-      const Cell cell{to_plane(contour.x_values[i], contour.x.scale),
-                      to_plane(contour.x_values[i + 1], contour.x.scale),
-                      to_plane(contour.y_values[j], contour.y.scale),
-                      to_plane(contour.y_values[j + 1], contour.y.scale),
-                      {lower[0], lower[1], upper[0], upper[1]}};
+      const GridCell cell{to_plane(contour.x_values[i], contour.x.scale),
+                          to_plane(contour.x_values[i + 1], contour.x.scale),
+                          to_plane(contour.y_values[j], contour.y.scale),
+                          to_plane(contour.y_values[j + 1], contour.y.scale),
+                          {lower[0], lower[1], upper[0], upper[1]}};
       const bool whole = std::all_of(cell.z.begin(), cell.z.end(), [](double z) { return std::isfinite(z); });
       if (whole) builder.add(cell, 0.0, 0.0, 1.0, 0);
     }

@@ -23,7 +23,7 @@ using study::OutputSensitivity, study::SensitivityMethod, study::SensitivityResu
 /// Below this share of the variance with all interactions an input does not matter.
 constexpr double negligible_share = 0.05;
 /// Evaluations on the page; the file has all.
-constexpr std::size_t most_rows = 200;
+constexpr std::size_t most_evaluation_rows = 200;
 
 std::string joined(const std::vector<std::string>& names) {
   if (names.size() < 2) return names.empty() ? std::string{} : names.front();
@@ -184,7 +184,7 @@ std::string to_markdown(const SensitivityResult& result, const std::vector<std::
       "The indices are those of these distributions: another range of an input gives it another share. Bound "
       "critical gaps have no number, and where there are any no indices are given.\n\n";
   text += "## Setup\n\n" + detail::setup_text(result.study) + "\n";
-  text += to_markdown(detail::first_rows(evaluation_table(result), most_rows, "evaluations.csv"));
+  text += to_markdown(detail::first_rows(evaluation_table(result), most_evaluation_rows, "evaluations.csv"));
   return text;
 }
 

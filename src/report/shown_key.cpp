@@ -79,8 +79,8 @@ std::string key_text(const std::string& text) {
   return result;
 }
 
-ShownKey shown(const std::string& name, const scene::KeyDescription& key,
-               const std::vector<double>& si_values) {
+ShownKey shown_numbers(const std::string& name, const scene::KeyDescription& key,
+                       const std::vector<double>& si_values) {
   ShownKey result;
   result.name = name;
   // An alias such as peak_pressure is words; a dotted name is shown as it is to be written.
@@ -105,9 +105,9 @@ std::vector<double> marks_of(const math::Distribution& distribution) {
 
 }  // namespace
 
-double as_written(double si_value, scene::Dimension dimension, std::string_view unit) {
-  if (unit.empty()) return si_value;
-  return shifted(si_value, static_cast<int>(std::lround(std::log10(scene::in_unit(1.0, dimension, unit)))));
+double as_written(double value_si, scene::Dimension dimension, std::string_view unit) {
+  if (unit.empty()) return value_si;
+  return shifted(value_si, static_cast<int>(std::lround(std::log10(scene::in_unit(1.0, dimension, unit)))));
 }
 
 std::string unit_for(const std::vector<double>& si_values, scene::Dimension dimension) {
@@ -124,18 +124,18 @@ std::string unit_for(const std::vector<double>& si_values, scene::Dimension dime
   return best;
 }
 
-std::string ShownKey::text(double si_value) const {
-  return significant(value(si_value), 6) + (unit.empty() ? "" : " " + unit);
+std::string ShownKey::text(double value_si) const {
+  return significant(value(value_si), 6) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string ShownKey::heading() const { return unit.empty() ? name : name + " [" + unit + "]"; }
 
 Column ShownKey::column() const { return {name, unit, Alignment::right, 6, Notation::significant, key}; }
 
-ShownKey shown(const study::Axis& axis) { return shown(axis.name, axis.key, axis.values); }
+ShownKey shown(const study::Axis& axis) { return shown_numbers(axis.name, axis.key, axis.values); }
 
 ShownKey shown(const study::UncertainInput& input) {
-  return shown(input.name, input.key, marks_of(input.distribution));
+  return shown_numbers(input.name, input.key, marks_of(input.distribution));
 }
 
 std::vector<ShownKey> shown_axes(const study::Study& study) {
@@ -164,7 +164,7 @@ std::string values_text(const ShownKey& key, const std::vector<double>& si_value
 }
 
 std::string distribution_text(const ShownKey& key, const math::Distribution& distribution) {
-  const auto number = [&key](double si_value) { return significant(key.value(si_value), 6); };
+  const auto number = [&key](double value_si) { return significant(key.value(value_si), 6); };
   const std::string unit = key.unit.empty() ? "" : " " + key.unit;
   if (distribution.kind != math::Distribution::Kind::normal) {
     const bool uniform = distribution.kind == math::Distribution::Kind::uniform;

@@ -11,7 +11,7 @@
 namespace launchsafe::report::detail {
 
 /// A value in a unit of its dimension, as if it had been written so: 3e-05 m is 30 um, to the last digit.
-double as_written(double si_value, scene::Dimension dimension, std::string_view unit);
+double as_written(double value_si, scene::Dimension dimension, std::string_view unit);
 
 /// A gap in cm, likewise.
 inline double in_centimetres(double metres) { return as_written(metres, scene::Dimension::length, "cm"); }
@@ -26,8 +26,8 @@ struct ShownKey {
   std::string scene_key;  ///< "load.peak"
   scene::Dimension dimension = scene::Dimension::number;
 
-  double value(double si_value) const { return as_written(si_value, dimension, unit); }
-  std::string text(double si_value) const;  ///< "496 MPa"
+  double value(double value_si) const { return as_written(value_si, dimension, unit); }
+  std::string text(double value_si) const;  ///< "496 MPa"
   std::string heading() const;              ///< "peak pressure [MPa]"
   Column column() const;
 };

@@ -55,7 +55,7 @@ class CellDensity {
 };
 
 /// The place between two lines up to which there are so many cells.
-double place_of(const CellDensity& density, double from, double to, double cells) {
+double position_of(const CellDensity& density, double from, double to, double cells) {
   double low = from, high = to;
   for (int halving = 0; halving < 60; ++halving) {
     const double middle = 0.5 * (low + high);
@@ -75,7 +75,7 @@ std::vector<double> lines_through(std::vector<double> edges, double size, const 
     const int count = std::max(1, static_cast<int>(std::ceil(all - 1e-9)));
     for (int i = 1; i < count; ++i)
       lines.push_back(density.even() ? from + (to - from) * i / count
-                                     : place_of(density, from, to, all * i / count));
+                                     : position_of(density, from, to, all * i / count));
     lines.push_back(to);
   }
   return lines;

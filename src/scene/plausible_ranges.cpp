@@ -13,7 +13,7 @@ struct PlausibleKey {
   std::string key;
   Plausible values;
 };
-using Keys = std::vector<PlausibleKey>;
+using PlausibleKeys = std::vector<PlausibleKey>;
 
 PlausibleKey in(std::string key, Limits limits, std::string because) {
   return {std::move(key), {.limits = limits, .because = std::move(because)}};
@@ -29,7 +29,7 @@ PlausibleKey any(std::string key, std::string because) {
   return {std::move(key), {.because = std::move(because)}};
 }
 
-Keys of_scene_and_load() {
+PlausibleKeys of_scene_and_load() {
   return {
       any("title", "it is for people"),
       any("symmetry", "both are shapes that are asked about"),
@@ -51,7 +51,7 @@ Keys of_scene_and_load() {
   };
 }
 
-Keys of_gap() {
+PlausibleKeys of_gap() {
   return {
       any("gap.thickness", "each gap is judged for itself, and a larger one is hotter"),
       any("gap.pressure", "both are readings of the published model"),
@@ -74,7 +74,7 @@ Keys of_gap() {
   };
 }
 
-Keys of_computation() {
+PlausibleKeys of_computation() {
   return {
       in("numerics.cell_size", between(1e-4, 1e-2),
          "shells are some cells thick, and cells hold many grains"),
@@ -106,7 +106,7 @@ Keys of_computation() {
   };
 }
 
-Keys of_geometry() {
+PlausibleKeys of_geometry() {
   return {
       any("body.name", "it is for people"),
       any("body.material", "the constants of each are judged"),
@@ -119,9 +119,9 @@ Keys of_geometry() {
   };
 }
 
-Keys all_keys() {
-  Keys keys;
-  for (Keys part : {of_scene_and_load(), of_gap(), of_computation(), of_geometry()})
+PlausibleKeys all_keys() {
+  PlausibleKeys keys;
+  for (PlausibleKeys part : {of_scene_and_load(), of_gap(), of_computation(), of_geometry()})
     std::move(part.begin(), part.end(), std::back_inserter(keys));
   return keys;
 }
@@ -129,7 +129,7 @@ Keys all_keys() {
 }  // namespace
 
 Plausible plausible_values_of(std::string_view key) {
-  static const Keys keys = all_keys();
+  static const PlausibleKeys keys = all_keys();
   const auto found =
       std::find_if(keys.begin(), keys.end(), [key](const PlausibleKey& each) { return each.key == key; });
   return found == keys.end() ? Plausible{} : found->values;

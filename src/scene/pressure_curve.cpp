@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view allowed_header =
     "a header that names quantities and units, such as time_ms,pressure_MPa or \"Time (ms);Pressure (bar)\"";
 
-std::string lower_case(std::string_view text) {
+std::string lower_case_of(std::string_view text) {
   std::string result(text);
   for (char& letter : result) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
   return result;
@@ -57,7 +57,7 @@ Column column_of(const std::string& cell, std::size_t index) {
 
 /// Whether a column's name is the word, whatever its case and the words that follow, or its letter.
 bool is_named(const Column& column, std::string_view word) {
-  const std::string name = lower_case(column.name);
+  const std::string name = lower_case_of(column.name);
   if (name == word.substr(0, 1)) return true;
   const auto may_belong = [](char c) {
     return c == ' ' || c == '-' || std::isalpha(static_cast<unsigned char>(c)) != 0;

@@ -274,7 +274,7 @@ double scaled(std::string_view number, int power) {
 }
 
 /// A number as written to SI.
-double si_value(std::string_view number, const Unit& unit) {
+double value_in_si(std::string_view number, const Unit& unit) {
   if (unit.decimal) return scaled(number, unit.power);
   long double value = 0;
   std::from_chars(number.data(), number.data() + number.size(), value);
@@ -298,7 +298,7 @@ Expected<double, QuantityFault> convert(const Token& token, std::string_view who
     return fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit, dimension)), dimension,
                  near.empty() ? std::string{} : fmt::format("\"{} {}\"", token.number, near));
   }
-  const double value = si_value(token.number, *unit);
+  const double value = value_in_si(token.number, *unit);
   if (!std::isfinite(value))
     return fault(fmt::format("\"{}\", which is not a finite number", whole), dimension);
   return value;
@@ -378,28 +378,28 @@ Expected<std::vector<double>, QuantityFault> parse_list(std::string_view text, D
   return convert_all(parts, text, dimension);
 }
 
-std::string format_quantity(double si_value, Dimension dimension) {
+std::string format_quantity(double value_si, Dimension dimension) {
   const DimensionInfo& info = info_of(dimension);
   for (const Unit& unit : info.display) {
-    const double value = in_unit(si_value, dimension, unit.name);
-    if (si_value == 0.0 || (std::abs(value) >= 0.0999999 && std::abs(value) < 999.9999)) {
+    const double value = in_unit(value_si, dimension, unit.name);
+    if (value_si == 0.0 || (std::abs(value) >= 0.0999999 && std::abs(value) < 999.9999)) {
       return fmt::format("{:.6g} {}", value, unit.name);
     }
   }
-  return fmt::format("{:.6g}{}{}", si_value, info.si_unit.empty() ? "" : " ", info.si_unit);
+  return fmt::format("{:.6g}{}{}", value_si, info.si_unit.empty() ? "" : " ", info.si_unit);
 }
 
-std::string exact_quantity(double si_value, Dimension dimension) {
+std::string exact_quantity(double value_si, Dimension dimension) {
   const std::string_view unit = si_unit_of(dimension);
-  return fmt::format("{}{}{}", si_value, unit.empty() ? "" : " ", unit);
+  return fmt::format("{}{}{}", value_si, unit.empty() ? "" : " ", unit);
 }
 
-double in_unit(double si_value, Dimension dimension, std::string_view unit_name) {
+double in_unit(double value_si, Dimension dimension, std::string_view unit_name) {
   const std::optional<Unit> unit = find_unit(dimension, unit_name);
   if (!unit) return std::numeric_limits<double>::quiet_NaN();
-  if (!unit->decimal) return static_cast<double>(si_value / unit->factor - unit->shift);
+  if (!unit->decimal) return static_cast<double>(value_si / unit->factor - unit->shift);
   const double factor = std::pow(10.0, std::abs(unit->power));
-  return unit->power > 0 ? si_value / factor : si_value * factor;
+  return unit->power > 0 ? value_si / factor : value_si * factor;
 }
 
 }  // namespace launchsafe::scene

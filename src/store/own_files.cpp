@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view line_begin = R"({"file":)";
 
-fs::path folder_of(const fs::path& path) {
+fs::path folder_with(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
@@ -129,13 +129,13 @@ MaybeError write_own_file(const fs::path& path, std::initializer_list<std::strin
   const std::string content = content_of(parts);
   const WrittenFile file{path.filename(), sha256(content)};
   for (int attempt = 1;; ++attempt) {
-    const Result<OwnFiles> own = OwnFiles::read(folder_of(path));
+    const Result<OwnFiles> own = OwnFiles::read(folder_with(path));
     if (!own) return own.error();
     const FileState state = own->state_of(file.name);
     if (const auto present = read_file(path); present && *present == content) return {};
     if (!is_replaceable(state)) return not_ours(path, state);
     if (!own->knows(file)) {
-      if (MaybeError error = append(folder_of(path), line_of(file))) return error;
+      if (MaybeError error = append(folder_with(path), line_of(file))) return error;
     }
     const IfExists if_exists = state == FileState::absent ? IfExists::refuse : IfExists::replace;
     MaybeError error = write_file_atomically(path, {content}, if_exists);
@@ -146,7 +146,7 @@ MaybeError write_own_file(const fs::path& path, std::initializer_list<std::strin
 }
 
 MaybeError obstacle_to_own_file(const fs::path& path) {
-  const Result<OwnFiles> own = OwnFiles::read(folder_of(path));
+  const Result<OwnFiles> own = OwnFiles::read(folder_with(path));
   if (!own) return own.error();
   const FileState state = own->state_of(path.filename());
   return is_replaceable(state) ? MaybeError() : not_ours(path, state);

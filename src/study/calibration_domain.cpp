@@ -68,7 +68,7 @@ Role role_of(std::string_view key) {
 
 bool same_number(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
 
-bool same_value(const Value& a, const Value& b) {
+bool same_constant(const Value& a, const Value& b) {
   if (a.index() != b.index()) return false;
   if (const auto* number = std::get_if<double>(&a)) return same_number(*number, std::get<double>(b));
   const auto* list = std::get_if<std::vector<double>>(&a);
@@ -165,7 +165,7 @@ CalibrationDistance distance_to_calibration(const Scene& scene) {
   }
   for (const auto& key : scene::scene_keys()) {
     const Value value = key.get(scene), wanted = key.get(calibrated);
-    if (!same_value(value, wanted)) add_difference(distance, key.name, value, wanted);
+    if (!same_constant(value, wanted)) add_difference(distance, key.name, value, wanted);
   }
   const double peak = scene::PressureHistory(scene.load).stated_peak();
   if (!scene.load.curve_time.empty() && !same_number(peak, calibrated.load.peak))

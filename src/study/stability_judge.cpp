@@ -10,7 +10,7 @@ namespace {
 
 using verify::Finding, verify::Outcome;
 
-std::string joined(const std::vector<std::string>& parts) {
+std::string sentences(const std::vector<std::string>& parts) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
@@ -47,7 +47,7 @@ std::string gap_text(const HardGap& gap) {
 std::string gaps_text(const std::vector<HardGap>& gaps) {
   std::vector<std::string> texts;
   for (const HardGap& gap : gaps) texts.push_back(gap_text(gap));
-  return joined(texts);
+  return sentences(texts);
 }
 
 /// Why a completed run does not stand for itself; empty where it does.
@@ -86,9 +86,9 @@ Finding judge_completed(const HardRow& row, bool compared) {
   if (!faults.empty()) {
     const bool wrong = decides_wrongly(row);
     return {wrong ? Outcome::wrong : Outcome::degraded,
-            joined(faults) + (reserves.empty() ? "" : "; " + joined(reserves)) + "; " + numbers};
+            sentences(faults) + (reserves.empty() ? "" : "; " + sentences(reserves)) + "; " + numbers};
   }
-  if (!reserves.empty()) return {Outcome::degraded, joined(reserves) + "; " + numbers};
+  if (!reserves.empty()) return {Outcome::degraded, sentences(reserves) + "; " + numbers};
   if (!compared) return {Outcome::degraded, "the safe computation is not there to compare with; " + numbers};
   return {Outcome::held, numbers};
 }

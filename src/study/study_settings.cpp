@@ -102,9 +102,9 @@ std::string label_of(const std::vector<Change>& changes) {
 }
 
 /// Makes cases of valid scenes, each once.
-class CaseMaker {
+class AccuracyCaseMaker {
  public:
-  explicit CaseMaker(StudyFile& study) : study_(study) {}
+  explicit AccuracyCaseMaker(StudyFile& study) : study_(study) {}
 
   Fault add(std::string label, const std::vector<Change>& changes) {
     ChangedScene scene(study_.scene);
@@ -134,7 +134,8 @@ Change change_of(const StudyFile& study, const KeyDescription& key, const Value&
 }
 
 /// Every combination of the values of a block, the last key fastest.
-Fault add_block(const StudyFile& study, std::size_t block, std::vector<Change> changes, CaseMaker& maker) {
+Fault add_block(const StudyFile& study, std::size_t block, std::vector<Change> changes,
+                AccuracyCaseMaker& maker) {
   const std::vector<SettingsAxis>& axes = study.study.settings[block];
   if (changes.size() == axes.size()) return maker.add(label_of(changes), changes);
   const SettingsAxis& axis = axes[changes.size()];
@@ -179,7 +180,7 @@ Fault read_settings(const toml::table& root, StudyFile& study) {
 }
 
 Fault make_accuracy_cases(StudyFile& study) {
-  CaseMaker maker(study);
+  AccuracyCaseMaker maker(study);
   const KeyDescription description = *scene::find_key(scene::scene_keys(), cell_size);
   for (const double size : study.study.reference_cell_sizes) {
     const Change change = change_of(study, description, size, "reference_cell_sizes");

@@ -81,8 +81,8 @@ bool read_stresses(std::string_view& text, int elements, std::vector<CauchyStres
     if (n[1] > integration_points) continue;
     const auto slot = static_cast<std::size_t>((n[0] - 1) * integration_points + (n[1] - 1));
     // Points 1 to 4 lie at negative angles: the turn has the other sign.
-    const auto pascal = [&](std::size_t k) { return n[k] * deck_stress_unit; };
-    stress[slot] = in_own_plane(pascal(2), pascal(3), pascal(4), pascal(5), -pascal(6));
+    const auto in_pascal = [&](std::size_t k) { return n[k] * deck_stress_unit; };
+    stress[slot] = in_own_plane(in_pascal(2), in_pascal(3), in_pascal(4), in_pascal(5), -in_pascal(6));
     ++found;
   }
   return found == stress.size();

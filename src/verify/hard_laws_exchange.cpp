@@ -12,7 +12,7 @@ namespace launchsafe::verify::hard {
 namespace {
 
 constexpr double gap = 4e-4, duration = 18e-3;  // m, s
-constexpr long most_calls = 20000;
+constexpr long most_exchange_calls = 20000;
 constexpr double round_off = 2.3e-16;
 
 surface::SkinModel inert_model(double exchange_time) {
@@ -63,7 +63,8 @@ void judge_exchange(Judge& judge, const SkinLaw& law, double exchange_time, doub
   };
   const surface::SkinModel model = inert_model(exchange_time);
   const double rate = surface::heat_capacity_ratio(model, gap) / exchange_time;
-  const long calls = static_cast<long>(std::min(std::ceil(duration / step), static_cast<double>(most_calls)));
+  const long calls =
+      static_cast<long>(std::min(std::ceil(duration / step), static_cast<double>(most_exchange_calls)));
   const double start = 300.0;
   for (const Air air : {Air{1500.0, 0.0}, Air{300.0, 2000.0 / duration}, Air{250.0, 0.0}}) {
     surface::SkinPoint point{start};

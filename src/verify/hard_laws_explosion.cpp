@@ -14,7 +14,7 @@ namespace {
 /// Share of the elapsed time by which an arrival may be early or late.
 constexpr double time_tolerance = 1e-6;
 /// Calls at most: with more the outer step is so fine that fewer calls of a launch show the same.
-constexpr long most_calls = 10000;
+constexpr long most_explosion_calls = 10000;
 constexpr double launch = 18e-3;  // s
 
 /// Where ignition is flagged: T1, or T2 where T1 is not below it or the reaction too weak to run through.
@@ -98,7 +98,7 @@ void judge_explosion(Judge& judge, const SkinLaw& law, const surface::SkinModel&
   const double ignition = ignition_of(model);
   const double due = temperature < ignition ? exact_time(model, temperature, ignition, heating) : 0.0;
   const double wanted = std::ceil(std::min(1.1 * due, launch) / step) + 1.0;
-  const long calls = static_cast<long>(std::min(wanted, static_cast<double>(most_calls)));
+  const long calls = static_cast<long>(std::min(wanted, static_cast<double>(most_explosion_calls)));
   const long every = std::max(1L, calls / 32);
   surface::SkinPoint point{temperature};
   double sampled = temperature, sampled_time = 0.0;  // the quadrature goes on from here

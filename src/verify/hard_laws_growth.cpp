@@ -12,8 +12,8 @@ namespace {
 
 constexpr double runaway = 24e6;  // Pa, model section 4
 
-materials::ViscoScramDissipation<double> solid_step(const Solid& solid, double dt, SolidState& state,
-                                                    math::Deviator<double> strain, double pressure) {
+materials::ViscoScramDissipation<double> growth_step(const Solid& solid, double dt, SolidState& state,
+                                                     math::Deviator<double> strain, double pressure) {
   return materials::visco_scram_update<double>(solid, materials::relaxation(solid, dt), state, strain,
                                                pressure);
 }
@@ -102,7 +102,7 @@ Cases growth_cases() {
            [factor, pressure] {
              Judge judge;
              for (const double step : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4})
-               judge_growth(judge, solid_step, factor * runaway, pressure, step);
+               judge_growth(judge, growth_step, factor * runaway, pressure, step);
              return judge.finding();
            }});
     }

@@ -25,8 +25,8 @@ Solid solid_with(double tau) {
   return solid;
 }
 
-materials::ViscoScramDissipation<double> solid_step(const Solid& solid, double dt, SolidState& state,
-                                                    math::Deviator<double> strain, double pressure) {
+materials::ViscoScramDissipation<double> relaxation_step(const Solid& solid, double dt, SolidState& state,
+                                                         math::Deviator<double> strain, double pressure) {
   return materials::visco_scram_update<double>(solid, materials::relaxation(solid, dt), state, strain,
                                                pressure);
 }
@@ -147,7 +147,7 @@ Cases relaxation_cases() {
          "energy back; work is stored or lost to 1e-12.",
          [tau] {
            Judge judge;
-           for (const double step : steps_of_case) judge_relaxation(judge, solid_step, tau, step);
+           for (const double step : steps_of_case) judge_relaxation(judge, relaxation_step, tau, step);
            return judge.finding();
          }});
     if (tau > 1e-6) continue;  // slower than the law's own fastest element
@@ -159,7 +159,7 @@ Cases relaxation_cases() {
            [tau, q] {
              Judge judge;
              for (const double step : steps_of_case)
-               judge_cracked_relaxation(judge, solid_step, tau, step, q);
+               judge_cracked_relaxation(judge, relaxation_step, tau, step, q);
              return judge.finding();
            }});
     }

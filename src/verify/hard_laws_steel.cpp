@@ -11,7 +11,7 @@ namespace launchsafe::verify::hard {
 
 namespace {
 
-constexpr double round_off = 2.3e-16;
+constexpr double steel_round_off = 2.3e-16;
 const materials::JohnsonCookParameters strength;
 const materials::MieGruneisenParameters pressure_law;
 
@@ -40,13 +40,14 @@ double flow_packed(const materials::JohnsonCookParameters& k, double strain, dou
   return materials::johnson_cook_flow_stress<Pack>(k, Pack(strain), Pack(rate), Pack(temperature))[0];
 }
 
-materials::MieGruneisenState<double> compress(const materials::MieGruneisenParameters& m, double mu0,
-                                              double p0, double energy0, double mu1) {
+materials::MieGruneisenState<double> compress_steel(const materials::MieGruneisenParameters& m, double mu0,
+                                                    double p0, double energy0, double mu1) {
   return materials::mie_gruneisen_compress<double>(m, mu0, p0, energy0, mu1, 0.0);
 }
 
-materials::MieGruneisenState<double> compress_packed(const materials::MieGruneisenParameters& m, double mu0,
-                                                     double p0, double energy0, double mu1) {
+materials::MieGruneisenState<double> compress_steel_packed(const materials::MieGruneisenParameters& m,
+                                                           double mu0, double p0, double energy0,
+                                                           double mu1) {
   using math::Pack;
   const auto state =
       materials::mie_gruneisen_compress<Pack>(m, Pack(mu0), Pack(p0), Pack(energy0), Pack(mu1), Pack(0.0));
@@ -158,8 +159,8 @@ void add_pressure(Cases& cases) {
          [path] {
            Judge judge;
            for (const int steps : {1, 10, 100, 10000}) {
-             judge_steel_pressure(judge, compress, path.mu0, path.mu1, steps);
-             judge_steel_pressure(judge, compress_packed, path.mu0, path.mu1, steps);
+             judge_steel_pressure(judge, compress_steel, path.mu0, path.mu1, steps);
+             judge_steel_pressure(judge, compress_steel_packed, path.mu0, path.mu1, steps);
            }
            return judge.finding();
          }});
@@ -216,16 +217,17 @@ void judge_return(Judge& judge, const ReturnLaw& law, double q, double plastic_s
   judge.never("plastic work is negative", result.plastic_work < 0.0);
   const double yield = materials::johnson_cook_flow_stress(k, plastic_strain, 0.0, temperature);
   if (q <= yield) {
-    judge.at_most("elastic state changed, Pa", std::abs(stress - q), 4.0 * round_off * q);
+    judge.at_most("elastic state changed, Pa", std::abs(stress - q), 4.0 * steel_round_off * q);
     judge.never("an elastic state flows", strain > 0.0);
     return;
   }
   const double flow =
       materials::johnson_cook_flow_stress(k, plastic_strain + strain, strain / dt, temperature);
   // q - 3 G d cancels: round-off of both remains, also in the argument of the flow stress.
-  judge.at_most("distance from the yield surface, share of flow stress and round-off of the trial",
-                std::abs(stress - flow) / (1e-9 * flow + 1e-9 * std::min(q, 1e3 * k.a) + 8.0 * round_off * q),
-                1.0);
+  judge.at_most(
+      "distance from the yield surface, share of flow stress and round-off of the trial",
+      std::abs(stress - flow) / (1e-9 * flow + 1e-9 * std::min(q, 1e3 * k.a) + 8.0 * steel_round_off * q),
+      1.0);
   judge.at_most("plastic work against stress times strain, share",
                 std::abs(result.plastic_work - stress * strain) / (q * strain + 1e-300), 1e-12);
   const auto across = (1.0 / q) * (result.stress - (stress / math::von_mises(shape)) * shape);

@@ -9,7 +9,7 @@ namespace launchsafe::verify {
 namespace {
 
 constexpr double bore = 0.065, outside = 0.0775;  // m
-constexpr double pressure = 100e6;                // Pa
+constexpr double tube_pressure = 100e6;           // Pa
 
 FiniteElementModel tube_model(const scene::Steel& steel) {
   FiniteElementModel model;
@@ -21,7 +21,7 @@ FiniteElementModel tube_model(const scene::Steel& steel) {
                       {}}};
   model.material_of.assign(static_cast<std::size_t>(model.elements()), 0);
   // The laws are linear at a thousandth of the load only.
-  model.bore_pressure = 1e-3 * pressure;
+  model.bore_pressure = 1e-3 * tube_pressure;
   model.ends_held = true;
   return model;
 }
@@ -50,7 +50,7 @@ store::Result<TubeComparison> compare_tube(const ComparisonOptions& options) {
   const auto result = run_finite_elements(model, {.time = 60.0, .stop = options.stop});
   if (!result) return result.error();
   TubeComparison tube;
-  const double lame = pressure * bore * bore / (outside * outside - bore * bore);
+  const double lame = tube_pressure * bore * bore / (outside * outside - bore * bore);
   tube.exact_bore = lame * (1.0 + outside * outside / (bore * bore));
   tube.exact_outside = 2.0 * lame;
   tube.element_bore = hoop_at(model, *result, 0, bore);

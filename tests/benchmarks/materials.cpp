@@ -14,14 +14,14 @@ using namespace launchsafe::materials;
 using launchsafe::math::Deviator;
 using launchsafe::math::Pack;
 
-constexpr std::size_t particles = 4096;  // fits the second-level cache
+constexpr std::size_t law_particles = 4096;  // fits the second-level cache
 
 template <class Real>
 constexpr std::size_t lanes = sizeof(Real) / sizeof(double);
 
 template <class Real>
 void count_particles(benchmark::State& state) {
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(particles));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(law_particles));
 }
 
 /// Closed cracks under setback pressure that grow slowly: what most of the charge does most of the time.
@@ -31,7 +31,7 @@ void visco_scram(benchmark::State& state) {
   const auto step = relaxation(law, 2e-7);
   ViscoScramState<Real> virgin{};
   virgin.crack_radius = Real(law.initial_crack_radius);
-  std::vector<ViscoScramState<Real>> points(particles / lanes<Real>, virgin);
+  std::vector<ViscoScramState<Real>> points(law_particles / lanes<Real>, virgin);
   const Deviator<Real> de{Real(1e-9), Real(-3e-9), Real(2e-9)};
   Real total(0.0);
   for (auto _ : state) {
@@ -54,7 +54,7 @@ void visco_scram_runaway(benchmark::State& state) {
   virgin.crack_radius = Real(law.initial_crack_radius);
   for (auto& element : virgin.elements) element.rx = Real(3e6);
   for (auto _ : state) {
-    for (std::size_t k = 0; k < particles / lanes<Real>; ++k) {
+    for (std::size_t k = 0; k < law_particles / lanes<Real>; ++k) {
       auto point = virgin;
       auto lost = visco_scram_update(law, step, point, {Real(0.0), Real(0.0), Real(1e-4)}, Real(0.0));
       benchmark::DoNotOptimize(lost);
@@ -69,7 +69,7 @@ void johnson_cook(benchmark::State& state) {
   const JohnsonCookParameters law;
   const double stress = 792e6 * static_cast<double>(state.range(0)) / 100.0;
   const std::vector<Deviator<Real>> trials(
-      particles / lanes<Real>, Deviator<Real>{Real(0.0), Real(0.0), Real(stress / std::sqrt(3.0))});
+      law_particles / lanes<Real>, Deviator<Real>{Real(0.0), Real(0.0), Real(stress / std::sqrt(3.0))});
   for (auto _ : state) {
     for (const auto& trial : trials) {
       auto result = johnson_cook_return(law, trial, Real(1e-3), Real(320.0), Real(2e-7));
@@ -85,7 +85,7 @@ void jwl(benchmark::State& state) {
   for (auto _ : state) {
     JwlState<Real> point{Real(0.0), Real(law.initial_energy)};
     Real v(1.0);
-    for (std::size_t k = 0; k < particles / lanes<Real>; ++k) {
+    for (std::size_t k = 0; k < law_particles / lanes<Real>; ++k) {
       const Real next = v - Real(1e-6);
       point = jwl_compress(law, v, point.pressure, point.energy, next);
       Real modulus = jwl_bulk_modulus(law, next, point.energy);
@@ -103,7 +103,7 @@ void mie_gruneisen(benchmark::State& state) {
   for (auto _ : state) {
     MieGruneisenState<Real> point{Real(0.0), Real(0.0)};
     Real mu(0.0);
-    for (std::size_t k = 0; k < particles / lanes<Real>; ++k) {
+    for (std::size_t k = 0; k < law_particles / lanes<Real>; ++k) {
       const Real next = mu + Real(1e-6);
       point = mie_gruneisen_compress(law, mu, point.pressure, point.energy, next, Real(0.0));
       Real modulus = mie_gruneisen_bulk_modulus(law, next, point.pressure);

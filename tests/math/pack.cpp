@@ -12,11 +12,11 @@ namespace {
 using launchsafe::math::Pack;
 namespace math = launchsafe::math;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double pack_infinity = std::numeric_limits<double>::infinity();
 
 /// Distance in units in the last place of the expected value.
 double ulps(double computed, double expected) {
-  const double place = std::nextafter(std::abs(expected), infinity) - std::abs(expected);
+  const double place = std::nextafter(std::abs(expected), pack_infinity) - std::abs(expected);
   return std::abs(computed - expected) / place;
 }
 
@@ -52,9 +52,9 @@ TEST(PackExp, AgreesWithTheLibraryToTwoUlp) {
 
 TEST(PackExp, EndsAreZeroInfinityAndNotANumber) {
   EXPECT_EQ(math::exp(Pack(-1000.0))[0], 0.0);
-  EXPECT_EQ(math::exp(Pack(-infinity))[0], 0.0);
-  EXPECT_EQ(math::exp(Pack(1000.0))[0], infinity);
-  EXPECT_EQ(math::exp(Pack(infinity))[0], infinity);
+  EXPECT_EQ(math::exp(Pack(-pack_infinity))[0], 0.0);
+  EXPECT_EQ(math::exp(Pack(1000.0))[0], pack_infinity);
+  EXPECT_EQ(math::exp(Pack(pack_infinity))[0], pack_infinity);
   EXPECT_EQ(math::exp(Pack(0.0))[3], 1.0);
   EXPECT_TRUE(std::isnan(math::exp(Pack(std::nan("")))[7]));
 }
@@ -70,8 +70,8 @@ TEST(PackLog, AgreesWithTheLibraryToTwoUlp) {
 }
 
 TEST(PackLog, EndsAreInfinityAndNotANumber) {
-  EXPECT_EQ(math::log(Pack(0.0))[0], -infinity);
-  EXPECT_EQ(math::log(Pack(infinity))[0], infinity);
+  EXPECT_EQ(math::log(Pack(0.0))[0], -pack_infinity);
+  EXPECT_EQ(math::log(Pack(pack_infinity))[0], pack_infinity);
   EXPECT_EQ(math::log(Pack(1.0))[0], 0.0);
   EXPECT_TRUE(std::isnan(math::log(Pack(-1.0))[0]));
   EXPECT_TRUE(std::isnan(math::log(Pack(std::nan("")))[0]));

@@ -1,6 +1,8 @@
 // Contour maps: what is filled, what is not, and the pictures themselves.
 #include "launchsafe/report/contour.hpp"
 
+#include "report/gnuplot.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -74,8 +76,6 @@ Contour plane() {
   contour.levels = contour_levels(contour.z);
   return contour;
 }
-
-bool gnuplot_is_there() { return std::system("command -v gnuplot >/dev/null 2>&1") == 0; }
 
 TEST(Contour, FillsAllCellsOnce) { EXPECT_NEAR(area_of(polygons_of(to_gnuplot(plane()))), 6.0, 1e-6); }
 

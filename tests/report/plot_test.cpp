@@ -1,9 +1,10 @@
 #include "launchsafe/report/plot.hpp"
 
+#include "report/gnuplot.hpp"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 
@@ -18,8 +19,6 @@ Plot sample() {
   plot.series = {{"computed", {0, 0.01, 0.02, 0.03}, {416, 442, 468, 493}}};
   return plot;
 }
-
-bool gnuplot_is_there() { return std::system("command -v gnuplot >/dev/null 2>&1") == 0; }
 
 /// Tests that draw; skipped, and said so, where gnuplot is not installed.
 class DrawnPlot : public ::testing::Test {

@@ -1,6 +1,7 @@
 // The tables, page, JSON and pictures of sensitivity studies made by hand.
 #include "launchsafe/report/sensitivity_report.hpp"
 
+#include "report/gnuplot.hpp"
 #include "report/made_studies.hpp"
 
 #include <gtest/gtest.h>
@@ -23,8 +24,6 @@ bool has_note(const Table& table, const std::string& part) {
   return std::any_of(table.notes.begin(), table.notes.end(),
                      [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
-
-bool gnuplot_is_there() { return std::system("command -v gnuplot >/dev/null 2>&1") == 0; }
 
 TEST(SensitivityReport, IndicesStandWithTheirIntervalsAndN) {
   const SensitivityResult result = made_sensitivity(SensitivityMethod::sobol);

@@ -1,6 +1,7 @@
 // The tables, page, JSON and pictures of sweeps made by hand.
 #include "launchsafe/report/sweep_report.hpp"
 
+#include "report/gnuplot.hpp"
 #include "report/made_studies.hpp"
 
 #include <gtest/gtest.h>
@@ -27,14 +28,12 @@ const Cell& cell(const Table& table, std::size_t row, const std::string& key) {
   return table.rows.at(row).at(column_of(table, key));
 }
 
-std::string text_of(const Cell& cell) {
+std::string shown_text(const Cell& cell) {
   const auto* text = std::get_if<std::string>(&cell);
   return text == nullptr ? "no text" : *text;
 }
 
 bool is_empty(const Cell& cell) { return std::holds_alternative<std::monostate>(cell); }
-
-bool gnuplot_is_there() { return std::system("command -v gnuplot >/dev/null 2>&1") == 0; }
 
 /// One axis of crack radii with every kind of answer.
 SweepResult one_axis() {
@@ -58,7 +57,7 @@ TEST(SweepReport, EveryCaseIsARowInTheUnitsPeopleUse) {
   EXPECT_EQ(std::get<double>(cell(table, 7, "peak_pressure_MPa")), 400.0);
   EXPECT_EQ(std::get<double>(cell(table, 8, "crack_radius_um")), 30.0) << "exactly, as it was written";
   EXPECT_NEAR(std::get<double>(cell(table, 8, "critical_gap_cm")), 100 * closed_form(400e6, 30e-6), 1e-12);
-  EXPECT_EQ(text_of(cell(table, 8, "kind")), "value");
+  EXPECT_EQ(shown_text(cell(table, 8, "kind")), "value");
 }
 
 TEST(SweepReport, ABoundIsNeverANumberAmongTheValues) {
@@ -71,15 +70,15 @@ TEST(SweepReport, ABoundIsNeverANumberAmongTheValues) {
   const Table table = critical_gap_table(result);
   std::size_t bounds = 0;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    if (text_of(cell(table, row, "kind")) == "value") continue;
+    if (shown_text(cell(table, row, "kind")) == "value") continue;
     ++bounds;
     EXPECT_TRUE(is_empty(cell(table, row, "critical_gap_cm")));
     EXPECT_TRUE(is_empty(cell(table, row, "anywhere_cm")));
   }
   EXPECT_EQ(bounds, 5u);
-  EXPECT_EQ(text_of(cell(table, 0, "reads_as")), "> 0.1 cm");
-  EXPECT_EQ(text_of(cell(table, 35, "reads_as")), "ignites without a gap");
-  EXPECT_EQ(text_of(cell(table, 16, "reads_as")), "indeterminate");
+  EXPECT_EQ(shown_text(cell(table, 0, "reads_as")), "> 0.1 cm");
+  EXPECT_EQ(shown_text(cell(table, 35, "reads_as")), "ignites without a gap");
+  EXPECT_EQ(shown_text(cell(table, 16, "reads_as")), "indeterminate");
   const auto json = to_json(result);
   EXPECT_EQ(json.dump().find("0.077"), std::string::npos);
   EXPECT_TRUE(json["cases"][0]["critical_gap"]["value_cm"].is_null());
@@ -89,14 +88,14 @@ TEST(SweepReport, ABoundIsNeverANumberAmongTheValues) {
 
 TEST(SweepReport, AFailedCaseHasItsReasonAndNoNumbers) {
   const Table table = critical_gap_table(made_sweep());
-  EXPECT_EQ(text_of(cell(table, 16, "status")), "energy drift");
-  EXPECT_EQ(text_of(cell(table, 16, "reason")), "energy drift 0.2 at 3 ms");
+  EXPECT_EQ(shown_text(cell(table, 16, "status")), "energy drift");
+  EXPECT_EQ(shown_text(cell(table, 16, "reason")), "energy drift 0.2 at 3 ms");
   EXPECT_TRUE(is_empty(cell(table, 16, "T_max_smallest_gap_K")));
   EXPECT_TRUE(is_empty(cell(table, 16, "energy_drift")));
   const Table matrix = verdict_matrix(made_sweep());
-  EXPECT_EQ(text_of(matrix.rows[16].back()), "INDET.");
-  EXPECT_EQ(text_of(matrix.rows[0].back()), "SAFE");
-  EXPECT_EQ(text_of(matrix.rows[35].back()), "UNSAFE");
+  EXPECT_EQ(shown_text(matrix.rows[16].back()), "INDET.");
+  EXPECT_EQ(shown_text(matrix.rows[0].back()), "SAFE");
+  EXPECT_EQ(shown_text(matrix.rows[35].back()), "UNSAFE");
   EXPECT_EQ(matrix.columns.back().name, "0.04 cm");
 }
 
@@ -107,7 +106,7 @@ TEST(SweepReport, TheLongTableHasARowForEveryGap) {
   EXPECT_EQ((std::vector<std::string>{keys.begin(), keys.begin() + 4}),
             (std::vector<std::string>{"peak_pressure_MPa", "crack_radius_um", "gap_cm", "T_max_K"}));
   EXPECT_EQ(std::get<double>(cell(table, 8, "gap_cm")), 0.039);
-  EXPECT_EQ(text_of(cell(table, 179, "ignition")), "T1 at 17.86 ms, G1");
+  EXPECT_EQ(shown_text(cell(table, 179, "ignition")), "T1 at 17.86 ms, G1");
   const std::string csv = to_csv(table);
   EXPECT_NE(csv.find("\r\n350,10,0,416.1,G1,"), std::string::npos);
   EXPECT_NE(csv.find("\r\n450,100,0.01,NaN,"), std::string::npos);

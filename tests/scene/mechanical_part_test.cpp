@@ -19,10 +19,10 @@
 namespace launchsafe::scene {
 namespace {
 
-using Names = std::vector<std::string>;
+using KeyNames = std::vector<std::string>;
 
 /// The list without some of its names.
-Names without(Names names, const Names& kept) {
+KeyNames without(KeyNames names, const KeyNames& kept) {
   std::erase_if(names, [&kept](const std::string& name) {
     return std::find(kept.begin(), kept.end(), name) != kept.end();
   });
@@ -30,52 +30,52 @@ Names without(Names names, const Names& kept) {
 }
 
 /// What a launch without snapshots, conduction and bulk reaction leaves out.
-const Names most_dropped{"title",
-                         "steel.conductivity",
-                         "charge.specific_heat",
-                         "charge.conductivity",
-                         "kinetics.set",
-                         "kinetics.heat_of_reaction",
-                         "kinetics.frequency",
-                         "kinetics.activation_temperature",
-                         "kinetics.ignition_temperature",
-                         "kinetics.burnt_temperature",
-                         "elastic.density",
-                         "elastic.bulk_modulus",
-                         "elastic.shear_modulus",
-                         "elastic.specific_heat",
-                         "elastic.conductivity",
-                         "gap.thickness",
-                         "gap.pressure",
-                         "gap.air",
-                         "gap.exchange",
-                         "gap.skin_thickness",
-                         "gap.exchange_time",
-                         "gap.air_density",
-                         "gap.air_specific_heat",
-                         "gap.air_heat_ratio",
-                         "gap.air_temperature",
-                         "friction.closure",
-                         "friction.localisation",
-                         "physics.conduction_bound",
-                         "physics.reaction_bound"};
-const Names conductivities{"steel.conductivity", "charge.conductivity"};
-const Names of_temperatures{"charge.specific_heat", "friction.closure"};
-const Names of_reaction{"kinetics.set",
-                        "kinetics.heat_of_reaction",
-                        "kinetics.frequency",
-                        "kinetics.activation_temperature",
-                        "kinetics.ignition_temperature",
-                        "kinetics.burnt_temperature"};
+const KeyNames most_dropped{"title",
+                            "steel.conductivity",
+                            "charge.specific_heat",
+                            "charge.conductivity",
+                            "kinetics.set",
+                            "kinetics.heat_of_reaction",
+                            "kinetics.frequency",
+                            "kinetics.activation_temperature",
+                            "kinetics.ignition_temperature",
+                            "kinetics.burnt_temperature",
+                            "elastic.density",
+                            "elastic.bulk_modulus",
+                            "elastic.shear_modulus",
+                            "elastic.specific_heat",
+                            "elastic.conductivity",
+                            "gap.thickness",
+                            "gap.pressure",
+                            "gap.air",
+                            "gap.exchange",
+                            "gap.skin_thickness",
+                            "gap.exchange_time",
+                            "gap.air_density",
+                            "gap.air_specific_heat",
+                            "gap.air_heat_ratio",
+                            "gap.air_temperature",
+                            "friction.closure",
+                            "friction.localisation",
+                            "physics.conduction_bound",
+                            "physics.reaction_bound"};
+const KeyNames conductivities{"steel.conductivity", "charge.conductivity"};
+const KeyNames of_temperatures{"charge.specific_heat", "friction.closure"};
+const KeyNames of_reaction{"kinetics.set",
+                           "kinetics.heat_of_reaction",
+                           "kinetics.frequency",
+                           "kinetics.activation_temperature",
+                           "kinetics.ignition_temperature",
+                           "kinetics.burnt_temperature"};
 
 /// A key that is new among these is a decision: tests/run/mechanical_part_test.cpp shows whether it is right.
 TEST(MechanicalPart, LeavesOutTheseKeys) {
-  Names under_curve = most_dropped;
-  const Names of_shape{"load.base", "load.peak_time", "load.exponent"};
+  KeyNames under_curve = most_dropped;
+  const KeyNames of_shape{"load.base", "load.peak_time", "load.exponent"};
   under_curve.insert(under_curve.begin() + 1, of_shape.begin(), of_shape.end());
-  Names under_own_curve = under_curve;
+  KeyNames under_own_curve = under_curve;
   under_own_curve.insert(under_own_curve.begin() + 1, "load.peak");
-  const std::map<std::string, Names> expected{
+  const std::map<std::string, KeyNames> expected{
       {"plain", most_dropped},
       {"snapshots", without(most_dropped, of_temperatures)},
       {"conduction", without(without(most_dropped, of_temperatures), conductivities)},

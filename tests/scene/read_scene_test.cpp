@@ -10,10 +10,10 @@
 namespace launchsafe::scene {
 namespace {
 
-const std::string shipped = LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml";
+const std::string shipped_file = LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml";
 
 TEST(ReadScene, ShippedSceneIsTheOneOfTheModel) {
-  const auto file = read_scene(shipped);
+  const auto file = read_scene(shipped_file);
   ASSERT_TRUE(file) << file.error().message();
   const Scene& scene = file->scene;
   ASSERT_EQ(scene.bodies.size(), 4u);
@@ -31,7 +31,7 @@ TEST(ReadScene, ShippedSceneIsTheOneOfTheModel) {
 }
 
 TEST(ReadScene, WhatTheShippedSceneLeavesOutIsTheDefault) {
-  const auto file = read_scene(shipped);
+  const auto file = read_scene(shipped_file);
   ASSERT_TRUE(file);
   const Scene defaults;
   EXPECT_EQ(file->scene.charge().eos.initial_energy, defaults.charge().eos.initial_energy);
@@ -40,7 +40,7 @@ TEST(ReadScene, WhatTheShippedSceneLeavesOutIsTheDefault) {
 }
 
 TEST(ReadScene, WrittenSceneReadsBackToTheSame) {
-  auto file = read_scene(shipped);
+  auto file = read_scene(shipped_file);
   ASSERT_TRUE(file);
   file->scene.surface.localisation = 1.0 / 3.0;
   file->scene.title = "a \"quoted\" title\nof two lines";

@@ -9,7 +9,7 @@
 namespace launchsafe::scene {
 namespace {
 
-SceneFile small() {
+SceneFile small_file() {
   auto file = parse_scene(small_scene, "shell.toml");
   EXPECT_TRUE(file) << file.error().message();
   return *file;
@@ -56,7 +56,7 @@ TEST(SceneKeys, EveryKeyReadsWhatItSets) {
 }
 
 TEST(SceneKeys, KineticsAreNamedAfterTheirNumbers) {
-  const SceneFile file = small();
+  const SceneFile file = small_file();
   const auto printed = with_written_key(file, "kinetics.set", "printed", {});
   ASSERT_TRUE(printed);
   EXPECT_EQ(printed->scene.charge().kinetics.activation_temperature, 2.7e4);
@@ -71,7 +71,7 @@ TEST(SceneKeys, KineticsAreNamedAfterTheirNumbers) {
 }
 
 TEST(SceneKeys, CrackFrictionIsSugarForACoefficient) {
-  const auto off = with_written_key(small(), "charge.crack_friction", "false", {});
+  const auto off = with_written_key(small_file(), "charge.crack_friction", "false", {});
   ASSERT_TRUE(off);
   EXPECT_EQ(off->scene.charge().cracks.face_friction, 0.0);
   const auto coefficient = with_written_key(*off, "charge.face_friction", "0.2", {});
@@ -83,14 +83,14 @@ TEST(SceneKeys, CrackFrictionIsSugarForACoefficient) {
 }
 
 TEST(SceneKeys, JwlConstantsKeepThePressureOfTheUnloadedChargeZero) {
-  const auto changed = with_written_key(small(), "charge.jwl.omega", "0.5", {});
+  const auto changed = with_written_key(small_file(), "charge.jwl.omega", "0.5", {});
   ASSERT_TRUE(changed);
   const auto& eos = changed->scene.charge().eos;
   EXPECT_NEAR(materials::jwl_pressure(eos, 1.0, eos.initial_energy), 0.0, 1e-5);
 }
 
 TEST(SceneKeys, GapAirStartsAtTheInitialTemperatureUnlessSaid) {
-  const auto warm = with_written_key(small(), "initial_temperature", "320 K", {});
+  const auto warm = with_written_key(small_file(), "initial_temperature", "320 K", {});
   ASSERT_TRUE(warm);
   EXPECT_EQ(warm->scene.surface.air.initial_temperature, 320.0);
   const auto cold_air = with_written_key(*warm, "gap.air_temperature", "290 K", {});
@@ -100,7 +100,7 @@ TEST(SceneKeys, GapAirStartsAtTheInitialTemperatureUnlessSaid) {
 }
 
 TEST(SceneKeys, ChangedSceneIsValidatedAtThePlaceOfTheChange) {
-  const SceneFile file = small();
+  const SceneFile file = small_file();
   const auto thick = with_written_key(file, "body.filling.r", "0 to 1.8 cm", {"sweep.toml", 7, 1});
   ASSERT_FALSE(thick);
   EXPECT_NE(thick.error().found.find("overlaps"), std::string::npos);
@@ -117,7 +117,7 @@ TEST(SceneKeys, ChangedSceneIsValidatedAtThePlaceOfTheChange) {
 }
 
 TEST(SceneKeys, ListingTellsInputFromDefault) {
-  const SceneFile file = small();
+  const SceneFile file = small_file();
   const auto listed = list_keys(file);
   EXPECT_EQ(listed.size(), scene_keys().size());
   for (const ListedKey& key : listed) {

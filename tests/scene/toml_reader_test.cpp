@@ -38,7 +38,7 @@ std::vector<Key<Thing>> thing_keys() {
   };
 }
 
-Expected<Thing> read(std::string_view text) {
+Expected<Thing> read_thing(std::string_view text) {
   const auto table = parse_toml(text, "thing.toml");
   if (!table) return table.error();
   Thing thing;
@@ -48,7 +48,7 @@ Expected<Thing> read(std::string_view text) {
 }
 
 TEST(TomlReader, FillsTheBoundMembers) {
-  const auto thing = read(R"(
+  const auto thing = read_thing(R"(
 length = "11.8 cm"
 colour = "green"
 times = ["1 ms", "20 us"]
@@ -67,14 +67,14 @@ anything = "is read by others"
 }
 
 TEST(TomlReader, LeavesDefaultsWhereNothingIsSaid) {
-  const auto thing = read("");
+  const auto thing = read_thing("");
   ASSERT_TRUE(thing);
   EXPECT_EQ(thing->length, 2.5e-3);
   EXPECT_EQ(std::get<double>(thing_keys()[0].default_value()), 2.5e-3);
 }
 
 TEST(TomlReader, ReportsTheFirstFaultByLine) {
-  const auto thing = read("share = 2\nlength = \"5 ms\"\n");
+  const auto thing = read_thing("share = 2\nlength = \"5 ms\"\n");
   ASSERT_FALSE(thing);
   EXPECT_EQ(thing.error().line, 1);
   EXPECT_EQ(thing.error().key, "share");
@@ -103,7 +103,7 @@ TEST(TomlReader, RefusesWrongTypes) {
                          {"times = [\"1 cm\"]", "times", "which is a length", "time"},
                          {"part = 3", "part", "3", "a table, written [part]"},
                          {"length = 1979-05-27", "length", "1979-05-27", "a length"}}) {
-    const auto thing = read(wrong.text);
+    const auto thing = read_thing(wrong.text);
     ASSERT_FALSE(thing) << wrong.text;
     const InputError& error = thing.error();
     EXPECT_EQ(error.key, wrong.key) << error.message();
@@ -114,11 +114,11 @@ TEST(TomlReader, RefusesWrongTypes) {
 }
 
 TEST(TomlReader, SuggestsTheNearestWordAndKey) {
-  EXPECT_EQ(read("colour = \"gren\"").error().suggestion, "\"green\"");
-  EXPECT_EQ(read("lenght = \"1 cm\"").error().suggestion, "length");
-  EXPECT_EQ(read("[prat]\ncount = 2").error().suggestion, "part.count");
-  EXPECT_EQ(read("[colours]").error().suggestion, "colour");
-  EXPECT_EQ(read("quite_different = 1").error().suggestion, "");
+  EXPECT_EQ(read_thing("colour = \"gren\"").error().suggestion, "\"green\"");
+  EXPECT_EQ(read_thing("lenght = \"1 cm\"").error().suggestion, "length");
+  EXPECT_EQ(read_thing("[prat]\ncount = 2").error().suggestion, "part.count");
+  EXPECT_EQ(read_thing("[colours]").error().suggestion, "colour");
+  EXPECT_EQ(read_thing("quite_different = 1").error().suggestion, "");
 }
 
 TEST(TomlReader, ReadsSeveralValuesForASweep) {

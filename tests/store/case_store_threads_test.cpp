@@ -11,12 +11,12 @@ namespace {
 using namespace launchsafe::testing;
 using StoreThreads = StoreFixture;
 
-constexpr int threads = 8, cases = 24;
+constexpr int threads = 8, stored_cases = 24;
 
 /// Every thread saves every case and asks for what any of them may have saved.
 void use(CaseStore& store, int thread, std::atomic<int>& faults) {
-  for (int step = 0; step < cases; ++step) {
-    const int number = (step * 5 + thread * 3) % cases;
+  for (int step = 0; step < stored_cases; ++step) {
+    const int number = (step * 5 + thread * 3) % stored_cases;
     const std::string hash = identity_of(number).hash();
     if (!store.holds(hash)) save(store, number);
     store.save_answer(hash, std::to_string(number));
@@ -41,8 +41,8 @@ TEST_F(StoreThreads, SaveLoadAndAskAtTheSameTime) {
   }
   EXPECT_EQ(faults, 0);
   const auto store = opened();
-  EXPECT_EQ(store->entries().size(), static_cast<std::size_t>(cases));
-  for (int number = 0; number < cases; ++number) {
+  EXPECT_EQ(store->entries().size(), static_cast<std::size_t>(stored_cases));
+  for (int number = 0; number < stored_cases; ++number) {
     EXPECT_TRUE(store->holds(identity_of(number).hash()));
     EXPECT_EQ(store->answer(identity_of(number).hash()), std::to_string(number));
   }

@@ -9,12 +9,12 @@ namespace {
 using namespace launchsafe;
 using namespace launchsafe::study;
 
-const std::string gaps = "gaps = \"0, 0.01, 0.02, 0.03, 0.06 cm\"\n";
+const std::string gap_keys = "gaps = \"0, 0.01, 0.02, 0.03, 0.06 cm\"\n";
 
 /// Silence about the mesh is no certainty: the same gaps as above, nothing stated.
 TEST(CriticalGapStudy, WithoutAStatedUncertaintyASmallMarginIsNotSafe) {
   const auto result =
-      run_critical_gap(study_of(critical_text + gaps + synthetic_constants), synthetic_options());
+      run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), synthetic_options());
   for (const GapVerdict& row : result.cases.front().verdicts)
     if (row.judgement.verdict == Verdict::safe) {
       EXPECT_GT(row.margin, assumed_numerical_uncertainty);
@@ -24,7 +24,7 @@ TEST(CriticalGapStudy, WithoutAStatedUncertaintyASmallMarginIsNotSafe) {
 
 TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
   const CriticalGapResult result = run_critical_gap(
-      study_of(critical_text + gaps + "numerical_uncertainty = \"1 K\"\n" + synthetic_constants),
+      study_of(critical_text + gap_keys + "numerical_uncertainty = \"1 K\"\n" + synthetic_constants),
       synthetic_options());
   ASSERT_EQ(result.cases.size(), 1u);
   const CaseOutcome& outcome = result.cases[0];
@@ -53,7 +53,7 @@ TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
 
 TEST(CriticalGapStudy, TheResultDoesNotDependOnTheNumberOfThreads) {
   const StudyFile study =
-      study_of(critical_text + gaps + "peak_pressures = \"300, 496, 450 MPa\"\n" + synthetic_constants);
+      study_of(critical_text + gap_keys + "peak_pressures = \"300, 496, 450 MPa\"\n" + synthetic_constants);
   const CriticalGapResult one = run_critical_gap(study, synthetic_options(1));
   const CriticalGapResult many = run_critical_gap(study, synthetic_options(4));
   ASSERT_EQ(one.cases.size(), 3u);
@@ -83,7 +83,7 @@ TEST(CriticalGapStudy, AFailingCaseIsIndeterminateAndTheOthersGoOn) {
       return result;
     };
     const CriticalGapResult result = run_critical_gap(
-        study_of(critical_text + gaps + "peak_pressures = \"400, 450, 496 MPa\"\n" + synthetic_constants),
+        study_of(critical_text + gap_keys + "peak_pressures = \"400, 450, 496 MPa\"\n" + synthetic_constants),
         options);
     EXPECT_TRUE(result.any_failed());
     const CaseOutcome& broken = result.cases[1];
@@ -109,7 +109,7 @@ TEST(CriticalGapStudy, ACoupledRunThatDisagreesMakesItIndeterminate) {
   StudyOptions options = synthetic_options();
   options.runners.coupled = synthetic_runners(160.0).coupled;
   const CriticalGapResult result =
-      run_critical_gap(study_of(critical_text + gaps + synthetic_constants), options);
+      run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
   const CaseOutcome& outcome = result.cases[0];
   EXPECT_EQ(outcome.critical.kind, CriticalGapKind::indeterminate);
   EXPECT_TRUE(std::isnan(outcome.critical.value));
@@ -129,7 +129,7 @@ TEST(CriticalGapStudy, ACoupledRunThatFailsMakesItIndeterminate) {
       return result;
     };
     const CriticalGapResult result =
-        run_critical_gap(study_of(critical_text + gaps + synthetic_constants), options);
+        run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
     EXPECT_EQ(result.cases[0].critical.kind, CriticalGapKind::indeterminate);
     EXPECT_NE(result.cases[0].critical.reason.find(throws ? "broken" : "non-finite"), std::string::npos);
     EXPECT_TRUE(result.any_failed());
@@ -155,7 +155,7 @@ TEST(CriticalGapStudy, BoundsAreNotConfirmedAndNotNumbers) {
 
 TEST(CriticalGapStudy, TheStatedMeshUncertaintyCanMakeAGapIndeterminate) {
   const CriticalGapResult result = run_critical_gap(
-      study_of(critical_text + gaps + "numerical_uncertainty = \"60 K\"\n" + synthetic_constants),
+      study_of(critical_text + gap_keys + "numerical_uncertainty = \"60 K\"\n" + synthetic_constants),
       synthetic_options());
   const auto& rows = result.cases[0].verdicts;
   EXPECT_EQ(rows[0].judgement.verdict, Verdict::safe) << rows[0].judgement.reason;
@@ -172,7 +172,7 @@ TEST(CriticalGapStudy, AnEmptyOrBrokenTraceIsIndeterminate) {
       return result;
     };
     const CriticalGapResult result =
-        run_critical_gap(study_of(critical_text + gaps + synthetic_constants), options);
+        run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
     EXPECT_EQ(result.cases[0].critical.kind, CriticalGapKind::indeterminate);
     for (const GapVerdict& row : result.cases[0].verdicts) {
       if (row.gap > 0 || empty) {
@@ -187,7 +187,7 @@ TEST(CriticalGapStudy, StoppedBeforeItBeganNothingIsSafe) {
   StudyOptions options = synthetic_options();
   options.stop = &stop;
   const CriticalGapResult result =
-      run_critical_gap(study_of(critical_text + gaps + synthetic_constants), options);
+      run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(result.timing.runs, 0u);
   for (const GapVerdict& row : result.cases[0].verdicts)
@@ -196,7 +196,7 @@ TEST(CriticalGapStudy, StoppedBeforeItBeganNothingIsSafe) {
 
 TEST(CriticalGapStudy, ComparesWithPublishedRows) {
   const CriticalGapResult result =
-      run_critical_gap(study_of(critical_text + gaps +
+      run_critical_gap(study_of(critical_text + gap_keys +
                                 "reference = [{ gap = \"0.01 cm\", maximum_temperature = \"442.2 K\", "
                                 "early_temperature = \"339.1 K\" }]\n" +
                                 synthetic_constants),

@@ -10,11 +10,11 @@ namespace {
 using namespace launchsafe;
 using namespace launchsafe::study;
 
-const std::string start = "kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\n";
+const std::string accuracy_start = "kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\n";
 const std::string meshes = "reference_cell_sizes = \"1.25, 2.5, 0.834 mm\"\n";
 
 TEST(ReadAccuracy, MakesTheReferenceMeshesFinestFirstThenEverySetting) {
-  const StudyFile study = study_of(start + meshes +
+  const StudyFile study = study_of(accuracy_start + meshes +
                                    "[[settings]]\nnumerics.time_step_factor = [0.25, 0.65]\n"
                                    "numerics.cell_size = \"2.5, 5 mm\"\n"
                                    "[[settings]]\nframe = [\"lab\"]\n");
@@ -29,32 +29,32 @@ TEST(ReadAccuracy, MakesTheReferenceMeshesFinestFirstThenEverySetting) {
 }
 
 TEST(ReadAccuracy, TheSceneAsItIsHasACaseOfItsOwn) {
-  const StudyFile study = study_of(start + meshes + "[set]\nnumerics.cell_size = \"5 mm\"\n");
+  const StudyFile study = study_of(accuracy_start + meshes + "[set]\nnumerics.cell_size = \"5 mm\"\n");
   ASSERT_EQ(study.cases.size(), 4u);
   EXPECT_EQ(study.cases.back().label, "as in the scene");
 }
 
 TEST(ReadAccuracy, RefusesReferencesThatCannotBeExtrapolated) {
-  expect_error_in(start + "reference_cell_sizes = \"1.25, 2.5 mm\"\n",
+  expect_error_in(accuracy_start + "reference_cell_sizes = \"1.25, 2.5 mm\"\n",
                   {3, "reference_cell_sizes", "2 cell sizes", "at least 3"});
-  expect_error_in(start, {0, "reference_cell_sizes", "0 cell sizes", "at least 3"});
+  expect_error_in(accuracy_start, {0, "reference_cell_sizes", "0 cell sizes", "at least 3"});
   // 1 mm does not divide the radius of the charge, 65 mm, on an even grid of 78 cells over 77.5 mm.
-  expect_error_in(start +
+  expect_error_in(accuracy_start +
                       "reference_cell_sizes = \"1, 1.25, 2.5 mm\"\n[set]\nnumerics.formulation = "
                       "\"updated-lagrangian\"\nnumerics.growth_x = 1\n",
                   {3, "reference_cell_sizes", "65.42 cells", "divide"});
-  expect_error_in(start + "reference_cell_sizes = \"1.25, 2.5, 2.5 mm\"\n",
+  expect_error_in(accuracy_start + "reference_cell_sizes = \"1.25, 2.5, 2.5 mm\"\n",
                   {3, "reference_cell_sizes", "twice", "once"});
-  expect_error_in(start + "reference_cell_sizes = \"1.25, 1.26, 2.5 mm\"\n",
+  expect_error_in(accuracy_start + "reference_cell_sizes = \"1.25, 1.26, 2.5 mm\"\n",
                   {3, "reference_cell_sizes", "not coarser", "different grids"});
   // 2.5 mm over 7 and over 6: a ratio of 1.17 shows ripple rather than convergence.
-  expect_error_in(start + "reference_cell_sizes = \"0.3572, 0.4168, 2.5 mm\"\n",
+  expect_error_in(accuracy_start + "reference_cell_sizes = \"0.3572, 0.4168, 2.5 mm\"\n",
                   {3, "reference_cell_sizes", "less than 1.2 times", "far enough apart"});
 }
 
 TEST(ReadAccuracy, RefusesSettingsThatMeanNothing) {
   const auto refuse = [](const std::string& settings, const ExpectedError& expected) {
-    expect_error_in(start + meshes + settings, expected);
+    expect_error_in(accuracy_start + meshes + settings, expected);
   };
   refuse("[[settings]]\nnumerics.cel_size = \"5 mm\"\n",
          {5, "settings.numerics.cel_size", "unknown", "", "numerics.cell_size"});

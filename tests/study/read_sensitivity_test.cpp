@@ -15,7 +15,8 @@ using namespace launchsafe::study;
 using math::Distribution;
 
 /// Three lines.
-const std::string start = "kind = \"sensitivity\"\nscene = \"scene_155mm.toml\"\ngap = \"0.02 cm\"\n";
+const std::string sensitivity_start =
+    "kind = \"sensitivity\"\nscene = \"scene_155mm.toml\"\ngap = \"0.02 cm\"\n";
 
 std::string input(const std::string& rest) { return "[[input]]\n" + rest + "\n"; }
 
@@ -28,20 +29,20 @@ const std::string flaw =
 
 /// One [[input]] after the first three lines; its own first line is line 5.
 void expect_input_error(const std::string& rest, const ExpectedError& expected) {
-  expect_error_in(start + input(rest), expected);
+  expect_error_in(sensitivity_start + input(rest), expected);
 }
 
 /// One line of the study, line 4, before a good input.
 void expect_line_error(const std::string& line, const ExpectedError& expected) {
-  expect_error_in(start + line + "\n" + crack, expected);
+  expect_error_in(sensitivity_start + line + "\n" + crack, expected);
 }
 
 // 252 degrees Celsius are 525.15 K, a deviation of 5 degrees Celsius would be one of 278 K.
 TEST(ReadSensitivity, ATemperatureMayBeInCelsiusButItsDeviationMayNot) {
   const std::string ignition = "key = \"kinetics.ignition_temperature\"\ndistribution = \"normal\"\n";
-  const StudyFile file =
-      study_of(start + input(ignition +
-                             "mean = \"252 \u00b0C\"\nrange = \"250 to 254 \u00b0C\"\ndeviation = \"5 K\""));
+  const StudyFile file = study_of(
+      sensitivity_start +
+      input(ignition + "mean = \"252 \u00b0C\"\nrange = \"250 to 254 \u00b0C\"\ndeviation = \"5 K\""));
   ASSERT_EQ(file.study.inputs.size(), 1u);
   EXPECT_EQ(file.study.inputs[0].distribution.centre, 525.15);
   EXPECT_EQ(file.study.inputs[0].distribution.lower, 523.15);
@@ -51,7 +52,7 @@ TEST(ReadSensitivity, ATemperatureMayBeInCelsiusButItsDeviationMayNot) {
 }
 
 TEST(ReadSensitivity, ReadsInputsAndMethod) {
-  const StudyFile file = study_of(start +
+  const StudyFile file = study_of(sensitivity_start +
                                   "method = \"sobol\"\ndesign = \"latin-hypercube\"\nsamples = 8\nseed = 7\n"
                                   "resamples = 500\nconfidence = 0.9\ntolerance = \"2 um\"\n" +
                                   crack + exponent + flaw);
@@ -81,16 +82,16 @@ TEST(ReadSensitivity, ReadsInputsAndMethod) {
 }
 
 TEST(ReadSensitivity, HasDefaults) {
-  const StudyFile file = study_of(start + crack);
+  const StudyFile file = study_of(sensitivity_start + crack);
   EXPECT_EQ(file.study.method, SensitivityMethod::sobol);
   EXPECT_EQ(file.study.design, Study{}.design);
   EXPECT_EQ(file.cases.size(), 64u * 3u);
 }
 
 TEST(ReadSensitivity, ANormalMayBeCutOff) {
-  const StudyFile file =
-      study_of(start + input("key = \"initial_temperature\"\ndistribution = \"normal\"\nmean = \"300 K\"\n"
-                             "deviation = \"40 K\"\nrange = \"250 to 350 K\""));
+  const StudyFile file = study_of(
+      sensitivity_start + input("key = \"initial_temperature\"\ndistribution = \"normal\"\nmean = \"300 K\"\n"
+                                "deviation = \"40 K\"\nrange = \"250 to 350 K\""));
   const Distribution& distribution = file.study.inputs.at(0).distribution;
   EXPECT_EQ(distribution.lower, 250.0);
   EXPECT_EQ(distribution.upper, 350.0);
@@ -112,8 +113,8 @@ void expect_scenes_of_coordinates(const StudyFile& file) {
 }
 
 TEST(ReadSensitivity, SobolCasesFollowTheDesign) {
-  const StudyFile file =
-      study_of(start + "design = \"scrambled-sobol\"\nsamples = 4\nseed = 3\n" + crack + exponent + flaw);
+  const StudyFile file = study_of(
+      sensitivity_start + "design = \"scrambled-sobol\"\nsamples = 4\nseed = 3\n" + crack + exponent + flaw);
   const auto design = math::saltelli_design(math::Design::scrambled_sobol, 4, 3, 3);
   ASSERT_EQ(file.cases.size(), design.evaluations());
   for (std::size_t evaluation = 0; evaluation < file.cases.size(); ++evaluation) {
@@ -130,8 +131,8 @@ TEST(ReadSensitivity, SobolCasesFollowTheDesign) {
 }
 
 TEST(ReadSensitivity, MorrisCasesFollowTheDesign) {
-  const StudyFile file =
-      study_of(start + "method = \"morris\"\ntrajectories = 5\nlevels = 6\nseed = 3\n" + crack + flaw);
+  const StudyFile file = study_of(
+      sensitivity_start + "method = \"morris\"\ntrajectories = 5\nlevels = 6\nseed = 3\n" + crack + flaw);
   const auto design = math::morris_design(5, 6, 2, 3);
   ASSERT_EQ(file.cases.size(), design.evaluations());
   for (std::size_t evaluation = 0; evaluation < file.cases.size(); ++evaluation) {
@@ -147,7 +148,7 @@ TEST(ReadSensitivity, MorrisCasesFollowTheDesign) {
 }
 
 TEST(ReadSensitivity, TheGapIsTheScenesOnlyOne) {
-  const std::string without = start.substr(0, start.find("gap = "));
+  const std::string without = sensitivity_start.substr(0, sensitivity_start.find("gap = "));
   expect_error_in(without + crack, {0, "gap", "no gap, and 6 gaps in the scene", "one gap", "gap = \""});
   const StudyFile file = study_of(without + crack + "[set]\ngap.thickness = \"0.03 cm\"\n");
   EXPECT_EQ(file.study.gaps, std::vector<double>{3e-4});
@@ -155,10 +156,10 @@ TEST(ReadSensitivity, TheGapIsTheScenesOnlyOne) {
 
 TEST(ReadSensitivity, UncertainNumericsHaveNoStatedUncertainty) {
   const std::string uncertainty = "numerical_uncertainty = \"1 K\"\n";
-  EXPECT_FALSE(study_of(start + uncertainty + crack).study.numerical_uncertainty_assumed);
+  EXPECT_FALSE(study_of(sensitivity_start + uncertainty + crack).study.numerical_uncertainty_assumed);
   const std::string cells =
       input("key = \"numerics.cell_size\"\ndistribution = \"uniform\"\nrange = \"2 to 3 mm\"");
-  EXPECT_TRUE(study_of(start + uncertainty + cells).study.numerical_uncertainty_assumed);
+  EXPECT_TRUE(study_of(sensitivity_start + uncertainty + cells).study.numerical_uncertainty_assumed);
 }
 
 TEST(ReadSensitivity, FaultsOfKeysNameFileLineKeyFoundAndAllowed) {
@@ -181,14 +182,15 @@ TEST(ReadSensitivity, FaultsOfKeysNameFileLineKeyFoundAndAllowed) {
   expect_line_error("gaps = \"1 mm\"", {4, "gaps", "kind \"critical-gap\"", "sensitivity", "gap"});
   expect_line_error("axes = { }", {4, "axes", "kind \"sweep\"", "sensitivity"});
   expect_line_error("reference = [{ gap = \"0 cm\" }]", {4, "reference", "\"sweep\"", "sensitivity"});
-  expect_error_in(start + "gap = \"0 cm\"\n" + crack, {4, "", "not TOML"});
+  expect_error_in(sensitivity_start + "gap = \"0 cm\"\n" + crack, {4, "", "not TOML"});
 }
 
 TEST(ReadSensitivity, ThereIsAnInput) {
-  expect_error_in(start, {1, "input", "no input", "[[input]]"});
-  expect_error_in(start + "input = []\n", {4, "input", "no input", "[[input]]"});
-  expect_error_in(start + "input = 3\n", {4, "input", "3", "[[input]]"});
-  expect_error_in(start + "[input]\nkey = \"crack_radius\"\n", {4, "input", "a table", "[[input]]"});
+  expect_error_in(sensitivity_start, {1, "input", "no input", "[[input]]"});
+  expect_error_in(sensitivity_start + "input = []\n", {4, "input", "no input", "[[input]]"});
+  expect_error_in(sensitivity_start + "input = 3\n", {4, "input", "3", "[[input]]"});
+  expect_error_in(sensitivity_start + "[input]\nkey = \"crack_radius\"\n",
+                  {4, "input", "a table", "[[input]]"});
 }
 
 TEST(ReadSensitivity, FaultsOfInputsNameFileLineKeyFoundAndAllowed) {
@@ -215,10 +217,10 @@ TEST(ReadSensitivity, FaultsOfInputsNameFileLineKeyFoundAndAllowed) {
                      {8, "input.mean", "distribution \"normal\"", "range alone"});
   expect_input_error(radius + "distribution = \"log-uniform\"\nrange = \"0 to 10 um\"",
                      {7, "input.range", "no logarithm", "above 0"});
-  expect_error_in(
-      start + crack + input("key = \"charge.crack_radius\"\n" + uniform + "range = \"1 to 2 um\""),
-      {9, "input.key", "second time, after crack_radius", "once"});
-  expect_error_in(start + crack + "[set]\ncharge.crack_radius = \"1 um\"\n",
+  expect_error_in(sensitivity_start + crack +
+                      input("key = \"charge.crack_radius\"\n" + uniform + "range = \"1 to 2 um\""),
+                  {9, "input.key", "second time, after crack_radius", "once"});
+  expect_error_in(sensitivity_start + crack + "[set]\ncharge.crack_radius = \"1 um\"\n",
                   {5, "input.key", "[set]", "either"});
 }
 
@@ -232,10 +234,11 @@ TEST(ReadSensitivity, FaultsOfNormalsAskForARange) {
       normal + "mean = \"30 um\"\ndeviation = \"10 um\"",
       {8, "input.deviation", "within 4 deviations", "a range that cuts", "range = \"0 cm to 70 um\""});
   const std::string narrow = normal + "mean = \"30 um\"\ndeviation = \"5 um\"\n";
-  EXPECT_TRUE(parse_here(start + input(narrow)));
-  expect_error_in(start + "method = \"morris\"\n" + input(narrow),
+  EXPECT_TRUE(parse_here(sensitivity_start + input(narrow)));
+  expect_error_in(sensitivity_start + "method = \"morris\"\n" + input(narrow),
                   {7, "input.distribution", "without ends", "with a range", "range = \"10 um to 50 um\""});
-  EXPECT_TRUE(parse_here(start + "method = \"morris\"\n" + input(narrow + "range = \"10 to 50 um\"")));
+  EXPECT_TRUE(
+      parse_here(sensitivity_start + "method = \"morris\"\n" + input(narrow + "range = \"10 to 50 um\"")));
   expect_input_error(narrow + "range = \"50 to 60 cm\"", {9, "input.range", "has no share", "near the mean"});
 }
 
@@ -247,13 +250,13 @@ TEST(ReadSensitivity, AValueThatTheSceneCannotHaveNamesTheInput) {
 TEST(ReadSensitivity, TheAnalyticLoadIsNotUncertainUnderAMeasuredCurve) {
   const std::string file = ::testing::TempDir() + "read_sensitivity_curve.csv";
   std::ofstream(file) << "time_ms,pressure_MPa\n0,0\n5,400\n18,0\n";
-  expect_error_in(start + exponent + "[set]\nload.curve = \"" + file + "\"\n",
+  expect_error_in(sensitivity_start + exponent + "[set]\nload.curve = \"" + file + "\"\n",
                   {5, "input.key", "which a measured curve does not have"});
 }
 
 TEST(ReadSensitivity, TenThousandEvaluationsAreReadWithoutADelay) {
   const std::clock_t begin = std::clock();
-  const StudyFile file = study_of(start + "samples = 2048\n" + crack + exponent + flaw);
+  const StudyFile file = study_of(sensitivity_start + "samples = 2048\n" + crack + exponent + flaw);
   const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   EXPECT_EQ(file.cases.size(), 10240u);
   RecordProperty("milliseconds", static_cast<int>(1e3 * seconds));

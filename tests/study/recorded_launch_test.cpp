@@ -15,12 +15,12 @@ namespace {
 using namespace launchsafe;
 using namespace launchsafe::study;
 
-const std::vector<double> gaps{0.0, 4e-4};
+const std::vector<double> recorded_gaps{0.0, 4e-4};
 
 Coverage coverage_of_changed(const std::function<void(scene::Scene&)>& change) {
   scene::Scene scene = own_scene();
   change(scene);
-  return coverage_of(launch_of(own_scene(), gaps), launch_of(scene, gaps));
+  return coverage_of(launch_of(own_scene(), recorded_gaps), launch_of(scene, recorded_gaps));
 }
 
 /// The scene's own load as a measured curve at some points, each off by a share of the peak, up and down.
@@ -88,15 +88,17 @@ TEST(RecordedLaunch, GrowsWithWhatDrivesTheErrorsAndNeverShrinks) {
 TEST(RecordedLaunch, SaysNothingOfWhatTheRecordDoesNotHave) {
   scene::Scene none = own_scene();
   none.charge().cracks.initial_crack_radius = 0.0;
-  EXPECT_NE(coverage_of(launch_of(none, gaps), launch_of(own_scene(), gaps)).reason.find("without cracks"),
+  EXPECT_NE(coverage_of(launch_of(none, recorded_gaps), launch_of(own_scene(), recorded_gaps))
+                .reason.find("without cracks"),
             std::string::npos);
-  const Coverage no_gap = coverage_of(launch_of(own_scene(), {0.0}), launch_of(own_scene(), gaps));
+  const Coverage no_gap = coverage_of(launch_of(own_scene(), {0.0}), launch_of(own_scene(), recorded_gaps));
   EXPECT_NE(no_gap.reason.find("gap"), std::string::npos) << no_gap.reason;
   EXPECT_EQ(no_gap.growth, 1.0);
   none = own_scene();
   none.surface.localisation = 0.0;
-  EXPECT_FALSE(coverage_of(launch_of(none, gaps), launch_of(own_scene(), gaps)).reason.empty());
-  EXPECT_EQ(coverage_of(launch_of(own_scene(), gaps), launch_of(own_scene(), {0.0})).reason, "");
+  EXPECT_FALSE(
+      coverage_of(launch_of(none, recorded_gaps), launch_of(own_scene(), recorded_gaps)).reason.empty());
+  EXPECT_EQ(coverage_of(launch_of(own_scene(), recorded_gaps), launch_of(own_scene(), {0.0})).reason, "");
 }
 
 TEST(RecordedLaunch, DoesNotCoverAnotherLoad) {

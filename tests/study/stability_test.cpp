@@ -18,7 +18,7 @@ using namespace launchsafe;
 using namespace launchsafe::study;
 using verify::Outcome;
 
-const std::string head =
+const std::string stability_head =
     "kind = \"stability\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = \"3 K\"\n"
     "gaps = \"0.01 cm\"\nlaws = false\n";
 
@@ -52,8 +52,8 @@ StudyOptions options_with(Mechanics mechanics) {
 
 /// The one row of a study of one case.
 HardRow row_of(const std::string& keys, Mechanics mechanics) {
-  const StabilityResult result = run_stability(study_of(head + case_text(keys) + synthetic_constants),
-                                               options_with(std::move(mechanics)));
+  const StabilityResult result = run_stability(
+      study_of(stability_head + case_text(keys) + synthetic_constants), options_with(std::move(mechanics)));
   EXPECT_EQ(result.rows.size(), 1u);
   return result.rows.empty() ? HardRow{} : result.rows.front();
 }
@@ -166,9 +166,9 @@ TEST(Stability, AStoppedRunIsCaughtAndALateOneSaysSo) {
 }
 
 TEST(Stability, WhatIsExpectedAndDoesNotComeIsNotAsExpected) {
-  const StabilityResult result =
-      run_stability(study_of(head + case_text("expect = [\"caught\", \"degraded\"]") + synthetic_constants),
-                    options_with([](const scene::Scene& scene) { return sound_mechanics(scene); }));
+  const StabilityResult result = run_stability(
+      study_of(stability_head + case_text("expect = [\"caught\", \"degraded\"]") + synthetic_constants),
+      options_with([](const scene::Scene& scene) { return sound_mechanics(scene); }));
   EXPECT_EQ(result.unexpected(), 1u);
   EXPECT_EQ(result.wrong(), 0u);
   EXPECT_EQ(result.count(Outcome::held), 1u);
@@ -176,7 +176,7 @@ TEST(Stability, WhatIsExpectedAndDoesNotComeIsNotAsExpected) {
 
 TEST(Stability, ARunThatThrowsIsARowThatWasNotComputed) {
   const StabilityResult result =
-      run_stability(study_of(head + case_text("set = { load.peak = \"400 MPa\" }", "broken") +
+      run_stability(study_of(stability_head + case_text("set = { load.peak = \"400 MPa\" }", "broken") +
                              case_text("", "sound") + synthetic_constants),
                     options_with([](const scene::Scene& scene) {
                       if (scene.load.peak == 400e6) throw std::runtime_error("no more");
@@ -190,11 +190,12 @@ TEST(Stability, ARunThatThrowsIsARowThatWasNotComputed) {
 
 TEST(Stability, WhatTheReaderTakesThoughItMustNotIsWrong) {
   const std::string reader = "refused = \"to 2\"\nset = { numerics.time_step_factor = ";
-  const StabilityResult result = run_stability(
-      study_of(
-          head + case_text("") + case_text(reader + "3 }", "too long") + case_text(reader + "1 }", "fine") +
-          case_text("refused = \"to 2\"\nset = { load.peak = \"11 GPa\" }", "another") + synthetic_constants),
-      options_with([](const scene::Scene& scene) { return sound_mechanics(scene); }));
+  const StabilityResult result =
+      run_stability(study_of(stability_head + case_text("") + case_text(reader + "3 }", "too long") +
+                             case_text(reader + "1 }", "fine") +
+                             case_text("refused = \"to 2\"\nset = { load.peak = \"11 GPa\" }", "another") +
+                             synthetic_constants),
+                    options_with([](const scene::Scene& scene) { return sound_mechanics(scene); }));
   ASSERT_EQ(result.rows.size(), 4u);
   expect_outcome(result.rows[1], Outcome::caught, "refused before anything was computed");
   expect_outcome(result.rows[2], Outcome::wrong, "the reader took the scene");
@@ -202,7 +203,8 @@ TEST(Stability, WhatTheReaderTakesThoughItMustNotIsWrong) {
 }
 
 TEST(Stability, TheImpulseOfTheLoadIsTheMomentumInTheLabFrame) {
-  const StudyFile study = study_of(head + case_text("set = { frame = \"lab\" }") + synthetic_constants);
+  const StudyFile study =
+      study_of(stability_head + case_text("set = { frame = \"lab\" }") + synthetic_constants);
   const scene::Scene& scene = study.cases[0].scene.scene;
   // Simpson's rule on the load in closed form.
   const scene::PressureHistory load(scene.load);
@@ -220,7 +222,7 @@ TEST(Stability, TheImpulseOfTheLoadIsTheMomentumInTheLabFrame) {
 }
 
 TEST(Stability, LawsComeFirst) {
-  std::string text = head + case_text("") + synthetic_constants;
+  std::string text = stability_head + case_text("") + synthetic_constants;
   text.replace(text.find("laws = false"), 12, "laws = true");
   StudyOptions options = options_with([](const scene::Scene& scene) { return sound_mechanics(scene); });
   const StabilityResult result = run_stability(study_of(text), options);
@@ -249,7 +251,7 @@ class StoredStability : public launchsafe::testing::TemporaryFolder {
 
 TEST_F(StoredStability, ComputesNothingASecondTimeAndSharesSafeComputations) {
   const std::string against = "against = { numerics.time_step_factor = 0.1 }";
-  const StudyFile study = study_of(head + case_text(against) +
+  const StudyFile study = study_of(stability_head + case_text(against) +
                                    case_text("set = { numerics.time_step_factor = 0.3 }\n" + against, "two") +
                                    synthetic_constants);
   StudyOptions options;

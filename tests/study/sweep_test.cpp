@@ -28,7 +28,7 @@ std::string constants_beside(const std::string& axes) {
   return text;
 }
 
-std::string sweep_text(const std::string& axes, const std::string& more = {}) {
+std::string text_of_sweep(const std::string& axes, const std::string& more = {}) {
   return "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\nlargest_gap = \"0.2 cm\"\n"
          "numerical_uncertainty = \"1 K\"\n" +
          synthetic_statements +
@@ -85,7 +85,7 @@ std::vector<std::string> lines_of(const SweepResult& result) {
 }
 
 TEST(Sweep, CasesThatDifferInThermalKeysShareOneMechanicalRun) {
-  const StudyFile study = study_of(sweep_text(two_by_two_by_two));
+  const StudyFile study = study_of(text_of_sweep(two_by_two_by_two));
   ASSERT_EQ(study.cases.size(), 8u);
   Counting counting;
   const SweepResult result = run_sweep(study, counting.options());
@@ -101,14 +101,14 @@ TEST(Sweep, CasesThatDifferInThermalKeysShareOneMechanicalRun) {
 }
 
 TEST(Sweep, IsTheSameWithAnyNumberOfJobs) {
-  const StudyFile study = study_of(sweep_text(two_by_two_by_two));
+  const StudyFile study = study_of(text_of_sweep(two_by_two_by_two));
   Counting counting;
   EXPECT_EQ(lines_of(run_sweep(study, counting.options(1))), lines_of(run_sweep(study, counting.options(4))));
 }
 
 TEST(Sweep, AFailingCaseIsItsRowAndNoOther) {
   const StudyFile study =
-      study_of(sweep_text("gap = \"0, 0.02 cm\"\npeak_pressure = \"400, 496, 550, 600 MPa\"\n"));
+      study_of(text_of_sweep("gap = \"0, 0.02 cm\"\npeak_pressure = \"400, 496, 550, 600 MPa\"\n"));
   Counting counting;
   counting.outcome = [](const scene::Scene& scene) {
     if (scene.load.peak == 496e6) throw std::bad_alloc();
@@ -134,7 +134,7 @@ TEST(Sweep, AFailingCaseIsItsRowAndNoOther) {
 
 TEST(Sweep, BracketsWithoutAChangeAreBoundsAndNoNumbers) {
   std::string text =
-      sweep_text("gap = \"0, 0.01 cm\"\nkinetics.ignition_temperature = \"400, 425, 700 K\"\n");
+      text_of_sweep("gap = \"0, 0.01 cm\"\nkinetics.ignition_temperature = \"400, 425, 700 K\"\n");
   text.replace(text.find("0.2 cm"), 6, "0.02 cm");
   const StudyFile study = study_of(text);
   Counting counting;
@@ -185,7 +185,7 @@ class StoredSweep : public launchsafe::testing::TemporaryFolder {
 };
 
 TEST_F(StoredSweep, ComputesNothingASecondTime) {
-  const StudyFile study = study_of(sweep_text(two_by_two_by_two));
+  const StudyFile study = study_of(text_of_sweep(two_by_two_by_two));
   Counting first, second;
   const auto fresh = lines_of(run(study, first));
   const SweepResult again = run(study, second);
@@ -199,20 +199,20 @@ TEST_F(StoredSweep, ComputesNothingASecondTime) {
 
 TEST_F(StoredSweep, JudgesNewThermalValuesOnStoredRuns) {
   Counting first, second;
-  run(study_of(sweep_text(two_by_two_by_two)), first);
+  run(study_of(text_of_sweep(two_by_two_by_two)), first);
   std::string other = two_by_two_by_two;
   other.replace(other.find("0.3, 0.4 ms"), 11, "0.3, 0.5 ms");
-  const SweepResult result = run(study_of(sweep_text(other)), second);
+  const SweepResult result = run(study_of(text_of_sweep(other)), second);
   EXPECT_EQ(second.runs(), 0);
   Counting unstored;
-  EXPECT_EQ(lines_of(result), lines_of(run_sweep(study_of(sweep_text(other)), unstored.options())));
+  EXPECT_EQ(lines_of(result), lines_of(run_sweep(study_of(text_of_sweep(other)), unstored.options())));
 }
 
 // A row that the constants were calibrated on and that is missed costs 60 K of uncertainty; whether it counts
 // as missed hangs on whether it ignited in the reference.
 TEST_F(StoredSweep, NeverUsesAnAnswerThatOtherReferencesLedTo) {
   const auto with_reference = [](const std::string& more) {
-    return study_of(sweep_text("gap = \"0, 0.02 cm\"\n") +
+    return study_of(text_of_sweep("gap = \"0, 0.02 cm\"\n") +
                     "[[reference]]\ngap = \"0 cm\"\nmaximum_temperature = \"416.1 K\"\ncalibrated = true\n" +
                     more);
   };
@@ -226,13 +226,13 @@ TEST_F(StoredSweep, NeverUsesAnAnswerThatOtherReferencesLedTo) {
 }
 
 TEST_F(StoredSweep, WhereNothingMayBeComputedOnlyWhatIsStoredCounts) {
-  const StudyFile study = study_of(sweep_text("gap = \"0 cm\"\npeak_pressure = \"400, 496, 550 MPa\"\n"));
+  const StudyFile study = study_of(text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496, 550 MPa\"\n"));
   Counting first, second;
   first.outcome = [](const scene::Scene& scene) {
     if (scene.load.peak == 400e6) throw std::bad_alloc();
     return synthetic_mechanics(scene);
   };
-  run(study_of(sweep_text("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n")), first);
+  run(study_of(text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n")), first);
   auto store = store::CaseStore::open(folder() / "results", {"", run::model_version, {}});
   StudyOptions options = second.options();
   options.store = store->get();
@@ -248,7 +248,7 @@ TEST_F(StoredSweep, WhereNothingMayBeComputedOnlyWhatIsStoredCounts) {
 }
 
 TEST_F(StoredSweep, ComputesADamagedCaseAgain) {
-  const StudyFile study = study_of(sweep_text(two_by_two_by_two));
+  const StudyFile study = study_of(text_of_sweep(two_by_two_by_two));
   Counting first, second;
   const auto fresh = lines_of(run(study, first));
   const auto damaged = case_files().front();
@@ -261,7 +261,7 @@ TEST_F(StoredSweep, ComputesADamagedCaseAgain) {
 }
 
 TEST_F(StoredSweep, KeepsARunThatDriftedButTriesOneThatThrewAgain) {
-  const StudyFile study = study_of(sweep_text("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n"));
+  const StudyFile study = study_of(text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n"));
   Counting first, second;
   first.outcome = [](const scene::Scene& scene) {
     if (scene.load.peak == 400e6) throw std::bad_alloc();
@@ -278,7 +278,7 @@ TEST_F(StoredSweep, KeepsARunThatDriftedButTriesOneThatThrewAgain) {
 }
 
 TEST_F(StoredSweep, TriesATimedOutCaseAgainOnlyUnderALongerLimit) {
-  const StudyFile study = study_of(sweep_text("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n"));
+  const StudyFile study = study_of(text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n"));
   const auto slow = [](const scene::Scene& scene) {
     run::MechanicsResult result = synthetic_mechanics(scene);
     if (scene.load.peak == 496e6) {
@@ -297,7 +297,7 @@ TEST_F(StoredSweep, TriesATimedOutCaseAgainOnlyUnderALongerLimit) {
 }
 
 TEST_F(StoredSweep, ShardsTogetherAreTheWhole) {
-  const StudyFile study = study_of(sweep_text(two_by_two_by_two));
+  const StudyFile study = study_of(text_of_sweep(two_by_two_by_two));
   Counting whole, merged;
   const auto expected = lines_of(run_sweep(study, whole.options()));
   int runs = 0;
@@ -313,7 +313,7 @@ TEST_F(StoredSweep, ShardsTogetherAreTheWhole) {
 }
 
 TEST_F(StoredSweep, ForeseesWhatHasToRunAndWhy) {
-  const StudyFile study = study_of(sweep_text(two_by_two_by_two));
+  const StudyFile study = study_of(text_of_sweep(two_by_two_by_two));
   StudyOptions unstored;
   unstored.jobs = 2;
   const Foresight before = foresee(study, unstored, 1e6);
@@ -341,9 +341,9 @@ TEST_F(StoredSweep, ForeseesWhatHasToRunAndWhy) {
 
 TEST_F(StoredSweep, NamesTheKeyThatMakesARunNecessary) {
   Counting counting;
-  run(study_of(sweep_text("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n")), counting);
-  const std::string finer =
-      sweep_text("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n") + "numerics.cell_size = \"1.25 mm\"\n";
+  run(study_of(text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n")), counting);
+  const std::string finer = text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n") +
+                            "numerics.cell_size = \"1.25 mm\"\n";
   const Foresight foresight = foresee_in_store(study_of(finer));
   ASSERT_EQ(foresight.runs.size(), 2u);
   for (const ForeseenRun& each : foresight.runs) {

@@ -68,7 +68,7 @@ TEST_P(ErrorAgainstTime, FallsAsTheMethodsTheorySays) {
 }
 
 /// "bar_wave_velocity": part and quantity in letters and digits.
-std::string test_name(const testing::TestParamInfo<ErrorSeries>& info) {
+std::string series_name(const testing::TestParamInfo<ErrorSeries>& info) {
   std::string name;
   for (const char letter : info.param.part + " " + info.param.quantity) {
     const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
@@ -79,7 +79,7 @@ std::string test_name(const testing::TestParamInfo<ErrorSeries>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Parts, ErrorAgainstTime, testing::ValuesIn(launchsafe::verify::error_series()),
-                         test_name);
+                         series_name);
 
 TEST(ErrorSeries, CoverEveryPartWithAnExactSolutionAndSayWhatTheyAre) {
   std::set<std::string> parts, names;

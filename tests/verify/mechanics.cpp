@@ -21,7 +21,7 @@ TEST_P(Mechanics, ComputesTheExpectedNumbers) {
                               << check.tolerance;
 }
 
-std::string test_name(const testing::TestParamInfo<Computation>& info) {
+std::string computation_name(const testing::TestParamInfo<Computation>& info) {
   std::string name = info.param.name;
   if (info.param.formulation == launchsafe::scene::Formulation::updated_lagrangian) name += " updated";
   for (char& letter : name)
@@ -30,6 +30,6 @@ std::string test_name(const testing::TestParamInfo<Computation>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Closed, Mechanics, testing::ValuesIn(launchsafe::verify::mechanics_computations()),
-                         test_name);
+                         computation_name);
 
 }  // namespace

@@ -45,12 +45,12 @@ Expected<std::vector<double>, QuantityFault> parse_range(std::string_view text, 
 Expected<std::vector<double>, QuantityFault> parse_list(std::string_view text, Dimension dimension);
 
 /// For people: six digits in the unit that reads best, such as "0.25 cm", "18 ms", "496 MPa".
-std::string format_quantity(double si_value, Dimension dimension);
+std::string format_quantity(double value_si, Dimension dimension);
 /// For programs: the shortest decimal that reads back to the same double, in SI.
-std::string exact_quantity(double si_value, Dimension dimension);
+std::string exact_quantity(double value_si, Dimension dimension);
 
 /// A value in a named unit of the dimension ("cm"), as a number; NaN for a unit that the dimension does not
 /// have.
-double in_unit(double si_value, Dimension dimension, std::string_view unit);
+double in_unit(double value_si, Dimension dimension, std::string_view unit);
 
 }  // namespace launchsafe::scene
