@@ -14,6 +14,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <system_error>
+
 namespace launchsafe::app {
 namespace {
 
@@ -58,7 +60,8 @@ std::optional<std::string> obstacle_to_picture(const std::optional<std::filesyst
   const std::string found = fmt::format("--grid: found \"{}\"", picture.string());
   if (picture.extension() != ".svg") return found + "; allowed: the name of an SVG file, such as grid.svg";
   const std::filesystem::path folder = picture.has_parent_path() ? picture.parent_path() : ".";
-  if (!std::filesystem::is_directory(folder))
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(folder, unknown))
     return fmt::format("{}, and {} is no folder; allowed: a file in a folder that is there", found,
                        folder.string());
   if (::access(folder.c_str(), W_OK | X_OK) != 0)

@@ -24,7 +24,8 @@ std::optional<std::string> prepare_output_folder(const std::filesystem::path& fo
 }
 
 std::optional<std::string> obstacle_to_file(const std::filesystem::path& file, std::string_view content) {
-  if (std::filesystem::is_symlink(file))
+  std::error_code unknown;  // a name that is too long, say: reading it tells
+  if (std::filesystem::is_symlink(file, unknown))
     return fmt::format("{} is a link, and nothing is written through one; move it away", file.string());
   const auto present = store::read_file(file);
   if (present && *present == content) return std::nullopt;

@@ -89,6 +89,7 @@ TEST_F(ExplainedGrid, IsNotDrawnWhereItMayNotBe) {
   write("mine.svg", "mine");
   std::filesystem::create_directory(folder() / "folder.svg");
   std::filesystem::create_symlink("elsewhere.svg", folder() / "link.svg");
+  const std::string too_long(300, 'a');
   struct Wrong {
     std::vector<std::string> arguments;
     std::string part;  ///< of the message
@@ -103,7 +104,9 @@ TEST_F(ExplainedGrid, IsNotDrawnWhereItMayNotBe) {
         Wrong{{"shell.toml", "--grid", "shell.toml/grid.svg"}, "shell.toml is no folder"},
         Wrong{{"shell.toml", "--grid", "mine.svg"}, "mine.svg is there"},
         Wrong{{"shell.toml", "--grid", "folder.svg"}, "folder.svg"},
-        Wrong{{"shell.toml", "--grid", "link.svg"}, "link.svg is a link"}}) {
+        Wrong{{"shell.toml", "--grid", "link.svg"}, "link.svg is a link"},
+        Wrong{{"shell.toml", "--grid", too_long + ".svg"}, "too long"},
+        Wrong{{"shell.toml", "--grid", too_long + "/grid.svg"}, "is no folder"}}) {
     std::vector<std::string> arguments = wrong.arguments;
     arguments.insert(arguments.begin(), "explain");
     const Outcome outcome = run(arguments);
