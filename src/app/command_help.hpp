@@ -16,7 +16,8 @@ Examples:
   launchsafe verify
   launchsafe explain studies/scene_155mm.toml
 
-Results go to stdout, progress and messages to stderr. Nothing is written but under the folder of --output.
+Results go to stdout, progress and messages to stderr. Nothing is written but under the folder of --output, and
+the picture of explain --grid.
 Exit codes: 0 done, 2 bad usage or input, 3 some cases or checks failed, 4 a verdict is indeterminate,
 70 the machine or the program failed (memory, disk, internal error), 75 interrupted.)";
 
@@ -69,8 +70,12 @@ Examples:
 
 inline constexpr const char* explain_footer = R"(
 Examples:
-  launchsafe explain studies/scene_155mm.toml            physics in and out, particles, steps, time, memory
+  launchsafe explain studies/scene_155mm.toml            physics in and out, grid, steps, time, memory
+  launchsafe explain studies/scene_155mm.toml --grid grid.svg
+                                                         draws bodies, grid and observation points as well
   launchsafe explain studies/critical_gap_155mm.toml     the runs that the study needs
-  launchsafe explain --keys                              every key of a scene file)";
+  launchsafe explain --keys                              every key of a scene file
+
+Nothing is overwritten: a FILE.svg that holds something else is refused.)";
 
 }  // namespace launchsafe::app

@@ -184,6 +184,10 @@ CLI::App* add_explain(CLI::App& app, Parsed& parsed) {
   command->add_option("file", parsed.explain.file, "Scene or study file")->type_name("SCENE.toml|STUDY.toml");
   command->add_flag("--keys", parsed.explain.keys,
                     "List every key of a scene file: unit, range, default, standing, meaning");
+  command
+      ->add_option("--grid", parsed.explain.picture,
+                   "File to draw the half section of a scene and its grid to")
+      ->type_name("FILE.svg");
   add_output_options(*command, parsed);
   command->footer(explain_footer);
   return command;
@@ -203,6 +207,26 @@ bool asks_for_json(int argument_count, const char* const* arguments) {
     if (argument == "--json") return true;
   }
   return false;
+}
+
+/// `-o --json` would name a folder that nobody means.
+std::optional<UsageError> option_taken_for_place(const Parsed& parsed) {
+  struct Place {
+    const char *option, *kind;
+    std::filesystem::path path;
+  };
+  for (const auto& [option, kind, path] :
+       {Place{"--output", "folder", parsed.run.output.value_or("")},
+        Place{"--output", "folder", parsed.study.output}, Place{"--output", "folder", parsed.merge.output},
+        Place{"--output", "folder", parsed.emit.output},
+        Place{"--output", "folder", parsed.verify.output.value_or("")},
+        Place{"--grid", "file", parsed.explain.picture.value_or("")}}) {
+    if (!path.string().starts_with("-")) continue;
+    return UsageError{
+        fmt::format("{0}: found {2}, which is an option; allowed: a {1} (./{2} for one of this name)", option,
+                    kind, path.string())};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -233,13 +257,8 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     line.json = asks_for_json(argument_count, arguments);
     return line;
   }
-  for (const std::filesystem::path& output :
-       {parsed.run.output.value_or(""), parsed.study.output, parsed.merge.output, parsed.emit.output,
-        parsed.verify.output.value_or("")}) {
-    if (!output.string().starts_with("-")) continue;
-    line.request =
-        UsageError{"--output: found " + output.string() + ", which is an option; allowed: a folder (./" +
-                   output.string() + " for one of this name)"};
+  if (const auto mistake = option_taken_for_place(parsed)) {
+    line.request = *mistake;
     line.json = asks_for_json(argument_count, arguments);
     return line;
   }
@@ -263,6 +282,8 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     line.request = parsed.verify;
   } else if (parsed.explain.keys != parsed.explain.file.empty()) {
     line.request = UsageError{"explain: allowed: either a scene or study file, or --keys"};
+  } else if (parsed.explain.keys && parsed.explain.picture) {
+    line.request = UsageError{"explain: --grid draws the grid of a scene; allowed: with a scene file"};
   } else {
     line.request = parsed.explain;
   }

@@ -69,6 +69,7 @@ ExitCode verify_command(const VerifyArguments& arguments, Console& console);
 struct ExplainArguments {
   std::filesystem::path file;  ///< scene or study; empty with `keys`
   bool keys = false;
+  std::optional<std::filesystem::path> picture;  ///< SVG file for the scene's grid; none: nothing is written
 };
 ExitCode explain_command(const ExplainArguments& arguments, Console& console);
 

@@ -1,7 +1,6 @@
 // launchsafe emit: scripts that run a study elsewhere.
 #include "commands.hpp"
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/study/foresight.hpp"
 #include "output_folder.hpp"
 #include "shell_words.hpp"
@@ -121,30 +120,14 @@ ExitCode refuse(const std::string& message, Console& console) {
 std::optional<std::string> obstacle_in(const path& folder, const std::vector<SlurmScript>& scripts) {
   if (std::filesystem::is_symlink(folder))
     return fmt::format("{} is a link, and nothing is written through one; move it away", folder.string());
-  for (const SlurmScript& script : scripts) {
-    const auto present = store::read_file(folder / script.name);
-    if (std::filesystem::is_symlink(folder / script.name))
-      return fmt::format("{} is a link, and nothing is written through one; move it away",
-                         (folder / script.name).string());
-    if (present && *present == script.text) continue;
-    if (!present && present.error().kind == store::Error::Kind::missing) continue;
-    if (!present) return present.error().message;
-    return fmt::format(
-        "{} is there with another content, and nothing is overwritten; move it away or name "
-        "another folder",
-        (folder / script.name).string());
-  }
+  for (const SlurmScript& script : scripts)
+    if (auto obstacle = obstacle_to_file(folder / script.name, script.text)) return obstacle;
   return std::nullopt;
 }
 
-/// Those that are there already are as they should be.
 store::MaybeError write_scripts(const path& folder, const std::vector<SlurmScript>& scripts) {
-  for (const SlurmScript& script : scripts) {
-    const path target = folder / script.name;
-    if (std::filesystem::exists(target)) continue;
-    if (auto error = store::write_file_atomically(target, {script.text}, store::IfExists::refuse))
-      return error;
-  }
+  for (const SlurmScript& script : scripts)
+    if (auto error = write_where_absent(folder / script.name, script.text)) return error;
   using std::filesystem::perms;
   std::error_code failed;  // submit.sh can be given to a shell all the same
   std::filesystem::permissions(folder / submit_name,

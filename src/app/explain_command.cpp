@@ -2,13 +2,19 @@
 #include "commands.hpp"
 #include "explain_scene.hpp"
 #include "foresight_text.hpp"
+#include "launchsafe/report/section_drawing.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/study/foresight.hpp"
+#include "output_folder.hpp"
 #include "plausibility_text.hpp"
 #include "signals.hpp"
 #include "update_rate.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <system_error>
 
 namespace launchsafe::app {
 namespace {
@@ -28,7 +34,8 @@ bool is_study(const std::filesystem::path& path) {
   return table && (table->contains("kind") || table->contains("scene"));
 }
 
-ExitCode refuse(const scene::InputError& error, Console& console) {
+template <class Error>
+ExitCode refuse(const Error& error, Console& console) {
   console.error(error);
   return ExitCode::bad_input;
 }
@@ -45,11 +52,39 @@ std::string section_of(const std::vector<std::string>& lines) {
   return text;
 }
 
-ExitCode explain_scene(const std::filesystem::path& path, Console& console) {
-  const auto file = scene::read_scene(path);
+/// Why the picture of a grid cannot be written; found before anything is measured.
+std::optional<std::string> obstacle_to_picture(const std::optional<std::filesystem::path>& wanted,
+                                               const std::string& svg) {
+  if (!wanted) return std::nullopt;
+  const std::filesystem::path& picture = *wanted;
+  const std::string found = fmt::format("--grid: found \"{}\"", picture.string());
+  if (picture.extension() != ".svg") return found + "; allowed: the name of an SVG file, such as grid.svg";
+  const std::filesystem::path folder = picture.has_parent_path() ? picture.parent_path() : ".";
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(folder, unknown))
+    return fmt::format("{}, and {} is no folder; allowed: a file in a folder that is there", found,
+                       folder.string());
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    return fmt::format("{}, and {} may not be written to; allowed: a file in a folder of yours", found,
+                       folder.string());
+  if (auto obstacle = obstacle_to_file(picture, svg)) return "--grid: " + *obstacle;
+  return std::nullopt;
+}
+
+ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
+  const auto file = scene::read_scene(arguments.file);
   if (!file) return refuse(file.error(), console);
+  const std::string svg = arguments.picture ? report::section_svg(file->scene) : std::string{};
+  if (const auto obstacle = obstacle_to_picture(arguments.picture, svg)) return refuse(*obstacle, console);
   const double update_rate = measured_update_rate(file->scene);
   if (stop_requested()) return interrupted(console);
+  if (arguments.picture) {
+    if (const auto error = write_where_absent(*arguments.picture, svg)) {
+      console.error(error->message);
+      return ExitCode::failed;
+    }
+    console.remark(fmt::format("wrote {}", arguments.picture->string()));
+  }
   console.print_text(scene_text(file->scene, update_rate) + section_of(plausibility_lines(file->scene)));
   nlohmann::ordered_json object = scene_json(file->scene, update_rate);
   object["implausible"] = plausibility_json(file->scene);
@@ -75,8 +110,12 @@ ExitCode explain_study(const std::filesystem::path& path, Console& console) {
 
 ExitCode explain_command(const ExplainArguments& arguments, Console& console) {
   if (arguments.keys) return explain_keys(console);
-  return is_study(arguments.file) ? explain_study(arguments.file, console)
-                                  : explain_scene(arguments.file, console);
+  if (!is_study(arguments.file)) return explain_scene(arguments, console);
+  if (arguments.picture)
+    return refuse(
+        "--grid: found the study " + arguments.file.string() + "; allowed: a scene, such as the study's",
+        console);
+  return explain_study(arguments.file, console);
 }
 
 }  // namespace launchsafe::app

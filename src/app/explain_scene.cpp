@@ -43,7 +43,7 @@ run::Reach reach_here() { return {.memory = study::available_memory(), .keeps_sk
 }  // namespace
 
 std::string scene_text(const scene::Scene& scene, double update_rate) {
-  std::string text = scene::to_text(scene::make_plan(scene), scene, update_rate);
+  std::string text = scene::to_text(scene::make_plan(scene), scene, update_rate) + "\n" + grid_text(scene);
   if (const auto refusal = run::out_of_reach(scene, reach_here()))
     text += fmt::format("\nRefused by launchsafe run\n  {}\n", refusal->message());
   return text;
@@ -66,6 +66,7 @@ nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate)
           {"physics", physics_json(plan)},
           {"particles", particles_json(plan)},
           {"cells", plan.cells},
+          {"grid", grid_json(scene)},
           {"time_step_s", plan.time_step},
           {"steps", plan.steps},
           {"memory_bytes", plan.memory},

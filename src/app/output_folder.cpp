@@ -1,5 +1,7 @@
 #include "output_folder.hpp"
 
+#include "launchsafe/store/atomic_file.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -19,6 +21,24 @@ std::optional<std::string> prepare_output_folder(const std::filesystem::path& fo
                        folder.string());
   }
   return std::nullopt;
+}
+
+std::optional<std::string> obstacle_to_file(const std::filesystem::path& file, std::string_view content) {
+  std::error_code unknown;  // a name that is too long, say: reading it tells
+  if (std::filesystem::is_symlink(file, unknown))
+    return fmt::format("{} is a link, and nothing is written through one; move it away", file.string());
+  const auto present = store::read_file(file);
+  if (present && *present == content) return std::nullopt;
+  if (!present && present.error().kind == store::Error::Kind::missing) return std::nullopt;
+  if (!present) return present.error().message;
+  return fmt::format(
+      "{} is there with another content, and nothing is overwritten; move it away or name another place",
+      file.string());
+}
+
+store::MaybeError write_where_absent(const std::filesystem::path& file, std::string_view content) {
+  if (std::filesystem::exists(file)) return {};
+  return store::write_file_atomically(file, {content}, store::IfExists::refuse);
 }
 
 }  // namespace launchsafe::app

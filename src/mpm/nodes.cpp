@@ -38,7 +38,6 @@ Nodes make_nodes(const scene::Scene& scene, const scene::GridLines& lines, int i
   for (auto* field : {&n.mass, &n.inertia, &n.inverse_inertia, &n.mass_share, &n.moves_r, &n.velocity_x,
                       &n.velocity_r, &n.change_x, &n.change_r, &n.displacement_x, &n.displacement_r})
     field->assign(size, 0.0);
-  const bool axisymmetric = scene.symmetry == scene::Symmetry::axisymmetric;
   const double outer = scene::extent_of(scene).r_end;
   for (int j = 0; j < n.rows; ++j) {
     const double r = lines.r[static_cast<std::size_t>(n.first_r + j)];
@@ -46,7 +45,6 @@ Nodes make_nodes(const scene::Scene& scene, const scene::GridLines& lines, int i
     const bool held = !(r > 0.0) || (scene.barrel == scene::Barrel::rigid && !(r < outer));
     if (!held) std::fill_n(n.moves_r.begin() + static_cast<std::ptrdiff_t>(n.index(0, j)), n.columns, 1.0);
   }
-  static_cast<void>(axisymmetric);
   return n;
 }
 

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace launchsafe::scene {
 namespace {
@@ -101,6 +102,12 @@ std::vector<double> even(double from, double to, int count) {
   return edges;
 }
 
+/// Whole cells of the even grid from the line it is anchored at to the shell's two ends.
+std::pair<int, int> cells_beside_anchor(const Mesh& mesh, const Extent& shell) {
+  const auto cells = [&mesh](double length) { return length > 0.0 ? parts_of(length, mesh.dx) : 0; };
+  return {cells(mesh.x_anchor - shell.x_begin), cells(shell.x_end - mesh.x_anchor)};
+}
+
 double size_of(const Scene& scene) {
   const Extent all = extent_of(scene);
   return std::max(all.x_end - all.x_begin, all.r_end);
@@ -127,6 +134,14 @@ GridLines grid_lines(const Scene& scene) {
                         CellDensity(scene.numerics, scene.numerics.growth_r, std::move(refined_r)))};
 }
 
+GridLines lines_at_rest(const Scene& scene) {
+  if (scene.numerics.formulation == Formulation::total_lagrangian) return grid_lines(scene);
+  const Mesh mesh = fit_mesh(scene);
+  const auto [before, after] = cells_beside_anchor(mesh, extent_of(scene));
+  return {even(mesh.x_anchor - before * mesh.dx, mesh.x_anchor + after * mesh.dx, before + after),
+          even(0.0, mesh.radius, parts_of(mesh.radius, mesh.dr))};
+}
+
 GridLines particle_edges(const Scene& scene, const Body& body) {
   const int per_cell = scene.numerics.particles_per_cell;
   if (scene.numerics.formulation == Formulation::updated_lagrangian) {
@@ -141,6 +156,11 @@ GridLines particle_edges(const Scene& scene, const Body& body) {
 
 CellRange cells_of(const Scene& scene) {
   const Extent all = extent_of(scene);
+  if (scene.numerics.formulation == Formulation::updated_lagrangian) {
+    const Mesh mesh = fit_mesh(scene);
+    const auto [before, after] = cells_beside_anchor(mesh, all);
+    return {before + after, parts_of(mesh.radius, mesh.dr), mesh.dx, mesh.dx, mesh.dr, mesh.dr};
+  }
   return cells_of(scene, Body{{}, {}, all.x_begin, all.x_end, all.r_begin, all.r_end});
 }
 

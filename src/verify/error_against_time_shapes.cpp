@@ -35,16 +35,6 @@ struct ReadError {
   double value = 0, slope = 0;
 };
 
-/// Collects a relative root mean square.
-struct Spread {
-  double difference = 0, scale = 0;
-  void add(double computed, double exact) {
-    difference += (computed - exact) * (computed - exact);
-    scale += exact * exact;
-  }
-  double relative() const { return std::sqrt(difference / scale); }
-};
-
 mpm::Grid grid_with(const Field& field, double cell) {
   scene::Scene scene = mechanics::block("steel", length, radius, cell);
   scene.symmetry = scene::Symmetry::plane_strain;
@@ -74,7 +64,7 @@ ReadError read_error(const Field& field, const mpm::Grid& grid) {
   constexpr mpm::Mask everyone{mpm::Mask::Lanes{-1, -1, -1, -1, -1, -1, -1, -1}};
   constexpr int width = static_cast<int>(math::pack_width);
   const int eights = static_cast<int>(std::lround(length / grid.dx)) / width;
-  Spread value, slope;
+  mechanics::RelativeError value, slope;
   for (int k = 0; k < particles / width; ++k) {
     const double begin = grid.dx * (width * (k % eights) + even_share(k / eights));
     const double r = half_r + (radius - 2.0 * half_r) * even_share(7 * k + 3);
@@ -87,7 +77,7 @@ ReadError read_error(const Field& field, const mpm::Grid& grid) {
       slope.add(read.rate_xx[lane], field.slope(x[lane], r));
     }
   }
-  return {value.relative(), slope.relative()};
+  return {value.value(), slope.value()};
 }
 
 std::vector<Setting> meshes(const Field& field, double ReadError::*error) {

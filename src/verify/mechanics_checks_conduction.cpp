@@ -63,14 +63,12 @@ double half_space_error(double cell, int steps) {
   const double diffusivity = charge.conductivity / (charge.eos.initial_density * charge.specific_heat);
   const mpm::Kinematics& p = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
   const double face = p.lattice.x_begin() + p.lattice.columns() * p.lattice.length_x(0);
-  double difference = 0.0, scale = 0.0;
+  RelativeError error;
   for (int i = 0; i < p.lattice.columns(); ++i) {
     const double exact = std::erfc((face - p.lattice.x_of(i)) / (2.0 * std::sqrt(diffusivity * duration)));
-    const double rise = p.temperature[p.lattice.slot(i, 0)] - initial;
-    difference += (rise - exact) * (rise - exact);
-    scale += exact * exact;
+    error.add(p.temperature[p.lattice.slot(i, 0)] - initial, exact);
   }
-  return std::sqrt(difference / scale);
+  return error.value();
 }
 
 Checks semi_infinite_conduction(scene::Formulation) {

@@ -3,6 +3,21 @@
 #include <cmath>
 
 namespace launchsafe::verify::mechanics {
+namespace {
+
+/// Place of the pulse, the centre of its momentum, m from the nose.
+double centre_of_momentum(const mpm::Simulation& simulation) {
+  double moment = 0.0, momentum = 0.0;
+  simulation.for_each_body([&](const mpm::Kinematics& p) {
+    for (std::size_t i = 0; i < p.mass.size(); ++i) {
+      momentum += p.mass[i] * p.velocity_x[i];
+      moment += p.mass[i] * p.velocity_x[i] * p.x[i];
+    }
+  });
+  return moment / momentum;
+}
+
+}  // namespace
 
 scene::Scene shell_155(double cell_size, scene::Formulation formulation) {
   scene::Scene shell;
@@ -39,6 +54,15 @@ scene::Load ramp(double pressure, double rise, double duration) {
   return load;
 }
 
+scene::Load pulse(double peak, double peak_time) {
+  scene::Load load;
+  load.base = 0.0;
+  load.peak = peak;
+  load.peak_time = peak_time;
+  load.duration = 10.0 * peak_time;
+  return load;
+}
+
 void make_elastic(scene::Scene& scene) { scene.steel().strength.a = 1e15; }
 
 double run_to(mpm::Simulation& simulation, double end) {
@@ -47,6 +71,13 @@ double run_to(mpm::Simulation& simulation, double end) {
   const double dt = span / steps;
   for (double step = 0.0; step < steps; step += 1.0) simulation.step(dt);
   return dt;
+}
+
+double speed_of_pulse(mpm::Simulation& simulation, double begin, double end) {
+  run_to(simulation, begin);
+  const double from = centre_of_momentum(simulation);
+  run_to(simulation, end);
+  return (from - centre_of_momentum(simulation)) / (end - begin);
 }
 
 double axial_stress(const mpm::Body<materials::Steel>& body, std::size_t slot) {

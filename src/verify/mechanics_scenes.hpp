@@ -4,6 +4,7 @@
 #include "launchsafe/mpm/simulation.hpp"
 #include "launchsafe/verify/check.hpp"
 
+#include <cmath>
 #include <vector>
 
 namespace launchsafe::verify::mechanics {
@@ -62,12 +63,33 @@ scene::Load ramp(double pressure, double rise, double duration);
 /// Steel that never yields.
 void make_elastic(scene::Scene& scene);
 
+/// Weak and smooth from the first instant, with its peak (Pa) at `peak_time` (s), and done after ten times
+/// that.
+scene::Load pulse(double peak, double peak_time);
+
 /// Runs to `end` (s) in equal steps no longer than the stable one at rest; returns the step (s).
 double run_to(mpm::Simulation& simulation, double end);
+
+/// Speed (m/s) towards the nose of a pulse between two times (s) at which it is whole and inside: of the
+/// centre of its momentum. Runs to `end`.
+double speed_of_pulse(mpm::Simulation& simulation, double begin, double end);
 
 /// Axial Cauchy stress of a steel or charge particle, tension positive, Pa.
 double axial_stress(const mpm::Body<materials::Steel>& body, std::size_t slot);
 double axial_stress(const mpm::Body<materials::Charge>& body, std::size_t slot);
+
+/// Collects the root mean square of what is computed less what is exact, over that of what is exact.
+class RelativeError {
+ public:
+  void add(double computed, double exact) {
+    difference_ += (computed - exact) * (computed - exact);
+    scale_ += exact * exact;
+  }
+  double value() const { return std::sqrt(difference_ / scale_); }
+
+ private:
+  double difference_ = 0, scale_ = 0;
+};
 
 /// Observed order of convergence from two errors and the ratio of their mesh sizes (> 1).
 double observed_order(double coarse_error, double fine_error, double ratio);

@@ -29,6 +29,10 @@ struct GridLines {
 /// the smallest whole number of cells that keeps them from being longer than that.
 GridLines grid_lines(const Scene& scene);
 
+/// The lines of the grid over the shell at rest, whichever the form: those of `grid_lines`, or of the even
+/// grid, from the last one at or before the shell to the first one at or behind it.
+GridLines lines_at_rest(const Scene& scene);
+
 /// Edges of the particles of one body: total-Lagrangian the grid's lines, updated-Lagrangian an even
 /// division, each cut into `particles_per_cell`.
 GridLines particle_edges(const Scene& scene, const Body& body);

@@ -1,0 +1,366 @@
+#include "launchsafe/report/section_drawing.hpp"
+
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/scene/quantity.hpp"
+#include "svg_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace launchsafe::report {
+namespace {
+
+using detail::svg_line, detail::svg_rectangle, detail::svg_text, detail::text_width;
+
+// Pixels.
+constexpr double page_width = 1400, margin = 88;
+constexpr double panel_width = page_width - 2 * margin, most_height = 460;
+constexpr double below_panel = 78, row_height = 24;
+
+constexpr std::string_view ink = "#263238", soft_ink = "#546e7a", axis_colour = "#b23a48";
+
+/// Cool for what is inert, warm for charges; a scene with more bodies begins again.
+std::string_view colour_of(bool charge, std::size_t index) {
+  constexpr std::array<std::string_view, 5> inert{"#c5d3e0", "#d9d4e7", "#c3dcd3", "#aebfce", "#dfe3e6"};
+  constexpr std::array<std::string_view, 3> warm{"#f5d49a", "#f2b99b", "#efe3a4"};
+  return charge ? warm[index % warm.size()] : inert[index % inert.size()];
+}
+
+struct DrawnBody {
+  const scene::Body* body;
+  std::string_view colour;
+};
+
+std::vector<DrawnBody> drawn_bodies(const scene::Scene& scene) {
+  std::vector<DrawnBody> bodies;
+  std::size_t charges = 0, others = 0;
+  for (const scene::Body& body : scene.bodies) {
+    const bool charge = scene::is_charge(scene, body);
+    bodies.push_back({&body, colour_of(charge, charge ? charges++ : others++)});
+  }
+  return bodies;
+}
+
+/// All that is drawn, whole or in part.
+struct Section {
+  const scene::Scene& scene;
+  std::vector<DrawnBody> bodies;
+  scene::GridLines lines;  ///< as many as are drawn
+  std::size_t every = 1;   ///< of the grid's lines that one is drawn of
+  double x_begin = 0, x_end = 0, r_end = 0;
+};
+
+Section section_of(const scene::Scene& scene) {
+  Section section{scene, drawn_bodies(scene), scene::lines_at_rest(scene)};
+  const scene::Extent extent = scene::extent_of(scene);
+  section.x_begin = std::min(extent.x_begin, section.lines.x.front());
+  section.x_end = std::max(extent.x_end, section.lines.x.back());
+  section.r_end = std::max(extent.r_end, section.lines.r.back());
+  constexpr std::size_t most_lines = 4000;
+  section.every = 1 + (std::max(section.lines.x.size(), section.lines.r.size()) - 1) / most_lines;
+  for (std::vector<double>* lines : {&section.lines.x, &section.lines.r}) {
+    std::vector<double> drawn;
+    for (std::size_t i = 0; i < lines->size(); i += section.every) drawn.push_back((*lines)[i]);
+    *lines = std::move(drawn);
+  }
+  return section;
+}
+
+/// A window of the section on the page: places in m, and where they are in pixels.
+struct Panel {
+  std::string id;
+  double x_begin = 0, x_end = 0, r_end = 0;  ///< m
+  double scale = 0;                          ///< pixels per m
+  double top = 0;                            ///< pixels
+
+  double width() const { return scale * (x_end - x_begin); }
+  double height() const { return scale * r_end; }
+  double left() const { return 0.5 * (page_width - width()); }
+  double bottom() const { return top + height(); }
+  double x(double place) const { return left() + scale * (place - x_begin); }
+  double y(double radius) const { return bottom() - scale * radius; }
+  bool shows(double place) const { return place >= x_begin && place <= x_end; }
+};
+
+Panel whole_panel(const Section& section, double top) {
+  const double scale = std::min(panel_width / (section.x_end - section.x_begin), most_height / section.r_end);
+  return {"whole", section.x_begin, section.x_end, section.r_end, scale, top};
+}
+
+/// Around the bottom of the charge, where the whole is so slender that its cells are hard to see.
+std::optional<Panel> enlarged_panel(const Section& section, const Panel& whole, double top) {
+  constexpr double slender = 200, height = 380, share_before_bottom = 0.7;
+  if (whole.height() > slender || !scene::has_charge(section.scene)) return {};
+  const double scale = height / section.r_end, length = panel_width / scale;
+  const double bottom = scene::charge_extent(section.scene).x_end;
+  const double begin =
+      std::clamp(bottom - share_before_bottom * length, section.x_begin, section.x_end - length);
+  return Panel{"enlarged", begin, begin + length, section.r_end, scale, top};
+}
+
+// --- what a panel holds ---
+
+/// Thin enough that lines one beside the other leave the colour between them visible.
+double line_width(const Panel& panel, const scene::GridLines& lines) {
+  double closest = panel.height();
+  for (const auto* each : {&lines.x, &lines.r})
+    for (std::size_t i = 0; i + 1 < each->size(); ++i)
+      closest = std::min(closest, panel.scale * ((*each)[i + 1] - (*each)[i]));
+  const double share = closest < 2.0 ? 0.11 : 0.16;
+  return std::clamp(share * closest, 0.055, 0.8);
+}
+
+std::string grid_elements(const Section& section, const Panel& panel) {
+  std::string text = fmt::format("<g class=\"grid\" stroke=\"{}\" stroke-width=\"{:.2f}\">\n", soft_ink,
+                                 line_width(panel, section.lines));
+  for (const double x : section.lines.x) {
+    if (!panel.shows(x)) continue;
+    text += svg_line(panel.x(x), panel.y(section.lines.r.front()), panel.x(x),
+                     panel.y(section.lines.r.back()), "class=\"x\"");
+  }
+  const double from = std::max(panel.x_begin, section.lines.x.front()),
+               to = std::min(panel.x_end, section.lines.x.back());
+  for (const double r : section.lines.r)
+    text += svg_line(panel.x(from), panel.y(r), panel.x(to), panel.y(r), "class=\"r\"");
+  return text + "</g>\n";
+}
+
+std::string body_elements(const Section& section, const Panel& panel, bool filled) {
+  std::string text;
+  for (const DrawnBody& each : section.bodies) {
+    const scene::Body& body = *each.body;
+    const std::string look =
+        filled ? fmt::format("class=\"body\" fill=\"{}\"", each.colour)
+               : fmt::format("class=\"edge\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.3\"", ink);
+    text +=
+        svg_rectangle(panel.x(body.x_begin), panel.y(body.r_end), panel.scale * (body.x_end - body.x_begin),
+                      panel.scale * (body.r_end - body.r_begin), look);
+  }
+  return text;
+}
+
+/// On white, so that the edges of bodies do not fill its gaps.
+std::string symmetry_elements(const Panel& panel) {
+  constexpr double overhang = 16;
+  std::string text;
+  for (const std::string& look :
+       {std::string("stroke=\"#ffffff\" stroke-width=\"2.4\""),
+        fmt::format("class=\"symmetry\" stroke=\"{}\" stroke-width=\"1.6\" stroke-dasharray=\"16 4 3 4\"",
+                    axis_colour)})
+    text += svg_line(panel.left() - overhang, panel.bottom(), panel.left() + panel.width() + overhang,
+                     panel.bottom(), look);
+  return text;
+}
+
+/// Distance in m of the marks on an axis: 1, 2 or 5 times a power of ten mm, at least so many pixels.
+double tic_distance(const Panel& panel, double pixels) {
+  const double least = pixels / panel.scale;
+  const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * decade >= least * (1 - 1e-9)) return factor * decade;
+  return 10.0 * decade;
+}
+
+std::string millimetres(double length) { return significant(1e3 * length, 6); }
+
+std::string axis_elements(const Panel& panel) {
+  constexpr double away = 12, tic = 6, size = 13;
+  const double y = panel.bottom() + away, x = panel.left() - 2 * away;
+  const std::string look = fmt::format("stroke=\"{}\"", soft_ink);
+  std::string text = svg_line(panel.left(), y, panel.left() + panel.width(), y, look) +
+                     svg_line(x, panel.bottom(), x, panel.top, look);
+  const double dx = tic_distance(panel, 64), dr = tic_distance(panel, 26);
+  for (double i = std::ceil(panel.x_begin / dx - 1e-9); i * dx <= panel.x_end + 1e-9 * dx; ++i) {
+    text += svg_line(panel.x(i * dx), y, panel.x(i * dx), y + tic, look);
+    text += svg_text(panel.x(i * dx), y + tic + size, size, "middle", soft_ink, millimetres(i * dx));
+  }
+  for (double i = 0; i * dr <= panel.r_end * (1 + 1e-9); ++i) {
+    text += svg_line(x, panel.y(i * dr), x - tic, panel.y(i * dr), look);
+    text += svg_text(x - tic - 4, panel.y(i * dr) + 0.35 * size, size, "end", soft_ink, millimetres(i * dr));
+  }
+  text += svg_text(panel.left() + 0.5 * panel.width(), y + tic + 2.6 * size, size, "middle", ink, "x [mm]");
+  return text + svg_text(x - tic, panel.top - size, size, "end", ink, "r [mm]");
+}
+
+// --- observation points ---
+
+/// A name beside its point, moved up until it covers no other.
+struct Label {
+  const scene::ObservationPoint* point;
+  double left = 0, width = 0, middle = 0;  ///< pixels
+};
+
+constexpr double label_size = 12, label_height = 13, label_distance = 16;
+
+bool overlap(const Label& a, const Label& b) {
+  return a.left < b.left + b.width && b.left < a.left + a.width &&
+         std::abs(a.middle - b.middle) < label_height - 1e-6;
+}
+
+/// Those for which there is room, from the axis outward.
+std::vector<Label> placed_labels(const Panel& panel, std::vector<const scene::ObservationPoint*> points) {
+  std::stable_sort(points.begin(), points.end(), [](const auto* a, const auto* b) { return a->r < b->r; });
+  std::vector<Label> placed;
+  for (const scene::ObservationPoint* point : points) {
+    Label label{point, panel.x(point->x) + label_distance, text_width(point->name, label_size),
+                std::min(panel.y(point->r), panel.bottom() - 0.5 * label_height)};
+    const auto in_the_way = [&] {
+      return std::find_if(placed.begin(), placed.end(),
+                          [&label](const Label& other) { return overlap(label, other); });
+    };
+    for (auto other = in_the_way(); other != placed.end(); other = in_the_way())
+      label.middle = other->middle - label_height;
+    if (label.middle > panel.top - 2 * label_height) placed.push_back(label);
+  }
+  return placed;
+}
+
+struct DrawnPoints {
+  std::string elements;
+  std::size_t unnamed = 0;
+};
+
+DrawnPoints point_elements(const Panel& panel, const std::vector<const scene::ObservationPoint*>& points,
+                           bool named) {
+  DrawnPoints drawn;
+  const std::vector<Label> labels = named ? placed_labels(panel, points) : std::vector<Label>{};
+  drawn.unnamed = points.size() - labels.size();
+  for (const Label& label : labels)
+    drawn.elements += svg_line(panel.x(label.point->x), panel.y(label.point->r), label.left - 2, label.middle,
+                               fmt::format("stroke=\"{}\" stroke-width=\"0.7\"", ink));
+  const double radius = named ? 3.2 : 2.0;
+  for (const scene::ObservationPoint* point : points)
+    drawn.elements += detail::svg_circle(panel.x(point->x), panel.y(point->r), radius, ink);
+  for (const Label& label : labels)
+    drawn.elements += detail::svg_haloed_text(label.left, label.middle + 0.35 * label_size, label_size, ink,
+                                              label.point->name);
+  return drawn;
+}
+
+std::vector<const scene::ObservationPoint*> points_in(const scene::Scene& scene, const Panel& panel) {
+  std::vector<const scene::ObservationPoint*> points;
+  for (const scene::ObservationPoint& point : scene.output.observation_points)
+    if (panel.shows(point.x)) points.push_back(&point);
+  return points;
+}
+
+/// Bodies, grid and edges, cut off at the window, and around them axis and scales.
+std::string panel_elements(const Section& section, const Panel& panel) {
+  return detail::svg_clipped(panel.id, panel.left() - 1, panel.top - 1, panel.width() + 2, panel.height() + 2,
+                             body_elements(section, panel, true) + grid_elements(section, panel) +
+                                 body_elements(section, panel, false)) +
+         symmetry_elements(panel) + axis_elements(panel);
+}
+
+// --- the page ---
+
+struct LegendEntry {
+  std::string label;
+  std::string sample;  ///< elements in a square of 16 pixels whose upper left corner is the origin
+};
+
+std::vector<LegendEntry> legend_entries(const Section& section) {
+  std::vector<LegendEntry> entries;
+  const std::string edge = fmt::format("stroke=\"{}\"", ink);
+  for (const DrawnBody& each : section.bodies)
+    entries.push_back({each.body->name == each.body->material
+                           ? each.body->name
+                           : fmt::format("{} ({})", each.body->name, each.body->material),
+                       svg_rectangle(0, 1, 16, 14, fmt::format("fill=\"{}\" {}", each.colour, edge))});
+  entries.push_back({"line of the grid", svg_line(0, 8, 16, 8, fmt::format("stroke=\"{}\"", soft_ink))});
+  if (!section.scene.output.observation_points.empty())
+    entries.push_back({"observation point", detail::svg_circle(8, 8, 3.2, ink)});
+  entries.push_back(
+      {section.scene.symmetry == scene::Symmetry::axisymmetric ? "axis of symmetry" : "plane of symmetry",
+       svg_line(0, 8, 16, 8,
+                fmt::format("stroke=\"{}\" stroke-width=\"1.6\" "
+                            "stroke-dasharray=\"8 2 2 2\"",
+                            axis_colour))});
+  return entries;
+}
+
+/// Row by row; `top` moves to below the last.
+std::string legend_elements(const std::vector<LegendEntry>& entries, double& top) {
+  constexpr double size = 14, sample = 24, between = 26;
+  std::string text;
+  double left = margin;
+  for (const LegendEntry& entry : entries) {
+    const double width = sample + text_width(entry.label, size) + between;
+    if (left > margin && left + width - between > page_width - margin) {
+      left = margin;
+      top += row_height;
+    }
+    text += fmt::format("<g transform=\"translate({:.2f} {:.2f})\">\n{}</g>\n", left, top, entry.sample);
+    text += svg_text(left + sample, top + 13, size, "start", ink, entry.label);
+    left += width;
+  }
+  top += row_height;
+  return text;
+}
+
+std::string caption_of(const Section& section) {
+  const scene::Plan plan = scene::make_plan(section.scene);
+  const scene::CellRange cells = scene::cells_of(section.scene);
+  std::string text =
+      fmt::format("{} x {} cells, {} particles; time step {} at rest", cells.nx, cells.nr, plan.particles(),
+                  scene::format_quantity(plan.time_step, scene::Dimension::time));
+  if (section.every > 1) text += fmt::format("; one in {} lines of the grid is drawn", section.every);
+  return text;
+}
+
+/// Around what is enlarged, a little larger than the section so that it covers no edge along it.
+std::string window_frame(const Panel& whole, const Panel& enlarged) {
+  constexpr double above = 7, below = 5;
+  return svg_rectangle(
+      whole.x(enlarged.x_begin), whole.top - above, whole.scale * (enlarged.x_end - enlarged.x_begin),
+      whole.height() + above + below,
+      fmt::format("class=\"window\" fill=\"none\" stroke=\"{}\" stroke-dasharray=\"4 3\"", ink));
+}
+
+/// The panels one below the other; `bottom` moves to below the last.
+std::string panels(const Section& section, double& bottom) {
+  const Panel whole = whole_panel(section, bottom);
+  bottom = whole.bottom() + below_panel;
+  std::string text = panel_elements(section, whole);
+  auto points = points_in(section.scene, whole);
+  std::size_t unnamed = 0;
+  if (const auto enlarged = enlarged_panel(section, whole, bottom + 64)) {
+    const auto inside = points_in(section.scene, *enlarged);
+    const DrawnPoints named = point_elements(*enlarged, inside, true);
+    text += window_frame(whole, *enlarged) + panel_elements(section, *enlarged);
+    text += svg_text(enlarged->left(), enlarged->top - 34, 16, "start", ink,
+                     fmt::format("At the bottom of the charge, enlarged {} times",
+                                 significant(enlarged->scale / whole.scale, 2)));
+    text += named.elements + point_elements(whole, inside, false).elements;
+    unnamed = named.unnamed;
+    std::erase_if(points, [&](const auto* point) { return enlarged->shows(point->x); });
+    bottom = enlarged->bottom() + below_panel;
+  }
+  const DrawnPoints named = point_elements(whole, points, true);
+  unnamed += named.unnamed;
+  if (unnamed > 0)
+    text += svg_text(page_width - margin, bottom - 8, 13, "end", soft_ink,
+                     fmt::format("without a name for want of room: {} observation points", unnamed));
+  return text + named.elements;
+}
+
+}  // namespace
+
+std::string section_svg(const scene::Scene& scene) {
+  const Section section = section_of(scene);
+  double bottom = 88;
+  std::string text = svg_text(margin, 44, 21, "start", ink, scene.title.empty() ? "grid" : scene.title);
+  text += svg_text(margin, 68, 14, "start", soft_ink, caption_of(section));
+  text += legend_elements(legend_entries(section), bottom);
+  bottom += 46;
+  text += panels(section, bottom);
+  return detail::svg_page(page_width, bottom, text);
+}
+
+}  // namespace launchsafe::report
