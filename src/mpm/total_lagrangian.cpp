@@ -96,9 +96,9 @@ TotalLagrangian::Part TotalLagrangian::make_part(const AnyBody& any, const Nodes
   const bool metal = !scene::is_charge(scene_, scene_.bodies[static_cast<std::size_t>(p.body)]);
   part.inertial_factor = numerics.inertial_scaling * (metal ? numerics.steel_inertia : 1.0);
   if (lattice.stride > 1 || !(numerics.hourglass_stiffness > 0.0)) return part;
-  const auto [shear, density] = std::visit(
+  const auto [modulus, density] = std::visit(
       [](const auto& body) {
-        return std::pair{body.law.shear_modulus(), body.law.initial_density()};
+        return std::pair{body.law.hourglass_modulus(), body.law.initial_density()};
       },
       any);
   part.hourglass.assign(lattice.slots(), 0.0);
@@ -106,7 +106,7 @@ TotalLagrangian::Part TotalLagrangian::make_part(const AnyBody& any, const Nodes
     for (int i = 0; i < lattice.columns(); ++i) {
       const double a = lattice.length_x(i), b = lattice.length_r(j);
       const std::size_t slot = lattice.slot(i, j);
-      part.hourglass[slot] = numerics.hourglass_stiffness * shear * p.mass[slot] / density *
+      part.hourglass[slot] = numerics.hourglass_stiffness * modulus * p.mass[slot] / density *
                              (1.0 / (a * a) + 1.0 / (b * b)) / 6.0;
     }
   return part;

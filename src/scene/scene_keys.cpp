@@ -218,7 +218,8 @@ Keys numerics_keys() {
           [](auto& s) -> auto& { return s.numerics.refined_r; })),
       number_key<Scene>(
           "numerics.hourglass_stiffness", Dimension::number, between(0, 10), Standing::assumed,
-          "Stiffness against hourglassing as a share of the shear stiffness, with one particle a cell.",
+          "Stiffness against hourglassing with one particle a cell, as a share of the shear stiffness, in a "
+          "charge of a fifth of it.",
           [](auto& s) -> auto& { return s.numerics.hourglass_stiffness; }),
       number_key<Scene>(
           "numerics.particles_per_cell", Dimension::count, between(1, 16), Standing::assumed,

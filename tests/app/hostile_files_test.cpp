@@ -102,7 +102,7 @@ class CurveProgram : public Program {
   Outcome explained(const std::string& curve, const std::string& more = "") {
     write("curve.csv", curve);
     write("scene.toml",
-          with(tiny_scene, "base = \"0 Pa\"\npeak = \"50 MPa\"\npeak_time = \"0.03 ms\"\nexponent = 3",
+          with(tiny_scene, "base = \"0 Pa\"\npeak = \"50 MPa\"\npeak_time = \"0.035 ms\"\nexponent = 3",
                "curve = \"curve.csv\"\n" + more));
     return run({"explain", "scene.toml"});
   }

@@ -29,7 +29,7 @@ inline const std::string tiny_scene = R"(title = "a small shell"
 duration = "0.05 ms"
 base = "0 Pa"
 peak = "50 MPa"
-peak_time = "0.03 ms"
+peak_time = "0.035 ms"
 exponent = 3
 
 [gap]

@@ -62,7 +62,7 @@ TEST_F(ChangedStudy, UpdateOfTheSameStudyMovesNothing) {
 }
 
 TEST_F(ChangedStudy, ExplainsWhyARunRuns) {
-  write("shell.toml", with(tiny_scene, "peak_time = \"0.03 ms\"", "peak_time = \"0.035 ms\""));
+  write("shell.toml", with(tiny_scene, "peak_time = \"0.035 ms\"", "peak_time = \"0.036 ms\""));
   const Outcome updated = run({"study", "study.toml", "-o", "out", "--update", "--explain"});
   EXPECT_EQ(updated.code, 0) << updated.err;
   EXPECT_TRUE(

@@ -188,22 +188,22 @@ TEST(Plausibility, JudgesAMeasuredCurveByItsLargestPressureAndByWhatIsSimulated)
     EXPECT_TRUE(file) << (file ? "" : file.error().message());
     return file ? implausible_keys(file->scene) : std::set<std::string>{};
   };
-  using Names = std::set<std::string>;
+  using Keys = std::set<std::string>;
   // The small shell is light: 20 MPa launch it with 360 m/s.
-  EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 20, 5 MPa")), Names{});
-  const Names none{"load.launch_speed", "load.measured_peak"};
+  EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 20, 5 MPa")), Keys{});
+  const Keys none{"load.launch_speed", "load.measured_peak"};
   EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 496, 100 Pa")), none) << "MPa labelled Pa";
   EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 496, 100 kPa")), none) << "MPa labelled kPa";
   EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 0, 0 MPa")), none) << "zero load";
   EXPECT_EQ(keys_of(with_curve("0, 20, 25, 30 ms", "0, 0, 20, 5 MPa")),
-            (Names{"load.launch_speed", "load.simulated_peak"}))
+            (Keys{"load.launch_speed", "load.simulated_peak"}))
       << "the pulse comes after the end";
   EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 496, 100 Pa",
                                "load.rescale_to_peak = true\nload.peak = \"20 MPa\"\n")),
-            (Names{"load.measured_peak", "load.rescaling"}))
+            (Keys{"load.measured_peak", "load.rescaling"}))
       << "a wrong label stays in doubt where the curve is scaled";
   // Numbers of the analytic shape do nothing under a curve.
-  EXPECT_EQ(keys_of("load.exponent = 999\n" + with_curve("0, 5, 10 ms", "0, 20, 5 MPa")), Names{});
+  EXPECT_EQ(keys_of("load.exponent = 999\n" + with_curve("0, 5, 10 ms", "0, 20, 5 MPa")), Keys{});
 }
 
 TEST(Plausibility, AValueThatIsAcceptedKeepsItsReason) {

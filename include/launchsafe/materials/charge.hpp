@@ -54,6 +54,11 @@ struct Charge {
 
   double initial_density() const { return eos.initial_density; }
   double shear_modulus() const { return cracks.shear_modulus(); }
+  /// A soft body takes on what hourglassing a stiff neighbour has left, without stress; where it resists
+  /// that, the pattern turns into pressure. A tenth of the shear modulus, in both, lets the pressure at the
+  /// bottom of the 155 mm shell alternate by 0.17 %, a tenth in steel and a fiftieth here by 0.09 %, none
+  /// here by 0.05 %, on cells of 2.5 mm under 50 MPa; G1 changes by 0.4 K, other points by 0.04 K.
+  double hourglass_modulus() const { return 0.2 * shear_modulus(); }
   double bulk_modulus() const { return jwl_bulk_modulus(eos, 1.0, eos.initial_energy); }
   double heat_capacity() const { return specific_heat; }
   double heat_conductivity() const { return conductivity; }

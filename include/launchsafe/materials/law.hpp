@@ -4,6 +4,7 @@
 //   static constexpr std::string_view name           the word that bodies refer to it by
 //   static constexpr std::array<StateField, N> state what a particle of it carries, in this order
 //   initial_density(), shear_modulus(), bulk_modulus(), heat_capacity(), heat_conductivity()   at rest, SI
+//   hourglass_modulus()                              Pa; numerics.hourglass_stiffness is a share of it
 //   initial_state(temperature)                       std::array<double, N>
 //   static constexpr bool heats_itself               whether update changes the temperature
 //   static constexpr bool is_explosive               whether a body of it is a charge, which may ignite

@@ -22,6 +22,7 @@ struct LinearElastic {
 
   double initial_density() const { return density; }
   double shear_modulus() const { return shear; }
+  double hourglass_modulus() const { return shear; }
   double bulk_modulus() const { return bulk; }
   double heat_capacity() const { return specific_heat; }
   double heat_conductivity() const { return conductivity; }

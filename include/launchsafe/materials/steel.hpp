@@ -25,6 +25,7 @@ struct Steel {
 
   double initial_density() const { return eos.density; }
   double shear_modulus() const { return strength.shear_modulus; }
+  double hourglass_modulus() const { return strength.shear_modulus; }
   double bulk_modulus() const { return eos.density * eos.sound_speed * eos.sound_speed; }
   double heat_capacity() const { return strength.specific_heat; }
   double heat_conductivity() const { return strength.conductivity; }

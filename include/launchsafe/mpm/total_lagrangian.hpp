@@ -55,7 +55,7 @@ class TotalLagrangian {
     std::vector<RowWeights> rows;
     math::AlignedArray
         inverse_length;            ///< 1/m by slot column within a sub-row, of the cell along x; 0: no cell
-    math::AlignedArray hourglass;  ///< N/m by slot: kappa G V/(3 L^2); empty without
+    math::AlignedArray hourglass;  ///< N/m by slot: kappa G V/(3 L^2), G the hourglass modulus; empty without
     double inertial_factor = 1;
   };
   /// Rows of one body that a thread works through.

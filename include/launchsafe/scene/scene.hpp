@@ -68,9 +68,9 @@ struct Surface {
   AirModel air_model = AirModel::reservoir;
   Exchange exchange = Exchange::rate;
   double skin_thickness = 1e-4;       ///< h_ex, m
-  double exchange_time = 2.98911e-4;  ///< tau_ex, s [C]
+  double exchange_time = 2.98846e-4;  ///< tau_ex, s [C]
   FrictionClosure friction = FrictionClosure::literal;
-  double localisation = 713.434;  ///< [C]
+  double localisation = 715.788;  ///< [C]
 };
 
 struct Numerics {
@@ -83,13 +83,13 @@ struct Numerics {
   std::vector<double> refined_x;  ///< m; empty: the charge's bottom
   std::vector<double> refined_r;  ///< m; empty: the charge's edges
   double hourglass_stiffness =
-      0.1;                        ///< share of the shear stiffness against hourglassing, one particle a cell
-  int particles_per_cell = 1;     ///< in each direction
-  double time_step_factor = 0.5;  ///< CFL
-  double inertial_scaling = 1.0;  ///< s >= 1
-  double steel_inertia = 1.0;     ///< >= 1; factor on the inertia of metal bodies beside the scaling
-  double damping_time = 0.0;      ///< s; decay time of the relative velocity, 0 = no damping
-  double pic_fraction = 0.0;      ///< share of PIC in the velocity update, 0 = pure FLIP
+      0.1;                     ///< share of the hourglass modulus: that of shear, a fifth of it in a charge
+  int particles_per_cell = 1;  ///< in each direction
+  double time_step_factor = 0.5;     ///< CFL
+  double inertial_scaling = 1.0;     ///< s >= 1
+  double steel_inertia = 1.0;        ///< >= 1; factor on the inertia of metal bodies beside the scaling
+  double damping_time = 0.0;         ///< s; decay time of the relative velocity, 0 = no damping
+  double pic_fraction = 0.0;         ///< share of PIC in the velocity update, 0 = pure FLIP
   double energy_drift_limit = 0.05;  ///< of the energy scale; past it the run is stopped and indeterminate
 };
 
