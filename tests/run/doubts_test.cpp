@@ -320,8 +320,14 @@ TEST(Doubts, CracksThatNoContinuumLawHolds) {
 TEST(Doubts, CracksThatRunAway) {
   MechanicsResult run = sound_run();
   run.monitor[2].largest_crack_radius = 4.43e-3;
+  run.monitor[2].energy.viscous = 3.4;
+  run.monitor[2].energy.crack = 2.5;
   expect_one(doubts_of(shipped_scene(), run), "cracks run away, by 4.4 mm or 4.4 flaw sizes");
   run.monitor[2].largest_crack_radius = 0.4e-3;
+  EXPECT_TRUE(doubts_of(shipped_scene(), run).empty());
+  // In the corner beside the wall, on cells of 0.3125 mm, with friction.
+  run.monitor[2].largest_crack_radius = 0.769e-3;
+  run.monitor[2].energy.crack = 0.02;
   EXPECT_TRUE(doubts_of(shipped_scene(), run).empty());
 }
 
