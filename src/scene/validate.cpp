@@ -134,19 +134,21 @@ Fault check_formulation(const SceneFile& file) {
   const Numerics& numerics = file.scene.numerics;
   if (numerics.formulation == Formulation::total_lagrangian) return std::nullopt;
   const Numerics usual;
-  const auto other = [&](const char* key, bool given) -> Fault {
-    if (!given) return std::nullopt;
-    return fault_at(file, key,
-                    "a value with numerics.formulation = \"updated-lagrangian\", which has an even grid "
-                    "without hourglass stiffness and one factor on all inertia",
-                    "the key only with \"total-lagrangian\"");
+  const std::string even = " with formulation \"updated-lagrangian\", whose grid is even";
+  const auto only = [&](const char* key, double found, double allowed, const std::string& why) -> Fault {
+    if (!(found < allowed || found > allowed)) return std::nullopt;
+    return fault_at(file, key, fmt::format("{:g}", found), fmt::format("{:g}{}", allowed, why));
   };
-  const auto differs = [](double a, double b) { return a < b || a > b; };
-  if (Fault f = other("numerics.growth_x", differs(numerics.growth_x, usual.growth_x))) return f;
-  if (Fault f = other("numerics.growth_r", differs(numerics.growth_r, usual.growth_r))) return f;
-  if (Fault f = other("numerics.refined_x", !numerics.refined_x.empty())) return f;
-  if (Fault f = other("numerics.refined_r", !numerics.refined_r.empty())) return f;
-  return other("numerics.steel_inertia", differs(numerics.steel_inertia, usual.steel_inertia));
+  const auto nothing = [&](const char* key, const std::vector<double>& found) -> Fault {
+    if (found.empty()) return std::nullopt;
+    return fault_at(file, key, centimetres(found.front()), "absent" + even);
+  };
+  if (Fault f = only("numerics.growth_x", numerics.growth_x, usual.growth_x, even)) return f;
+  if (Fault f = only("numerics.growth_r", numerics.growth_r, usual.growth_r, even)) return f;
+  if (Fault f = nothing("numerics.refined_x", numerics.refined_x)) return f;
+  if (Fault f = nothing("numerics.refined_r", numerics.refined_r)) return f;
+  return only("numerics.steel_inertia", numerics.steel_inertia, usual.steel_inertia,
+              " with formulation \"updated-lagrangian\", which has one factor on all inertia");
 }
 
 /// Refined lines belong to the bodies.

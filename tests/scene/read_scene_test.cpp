@@ -171,6 +171,19 @@ TEST(ReadScene, InertialScalingNeedsTheCoMovingFrame) {
   expect_error(error_of(text), 2, "numerics.inertial_scaling", "4 in the lab frame", "co-moving");
 }
 
+TEST(ReadScene, WhatTheUpdatedLagrangianFormLacksIsRefusedWithIt) {
+  const std::string form = "numerics.formulation = \"updated-lagrangian\"\n";
+  EXPECT_TRUE(parse_scene(form + small_scene, "shell.toml"));
+  expect_error(error_of(form + "numerics.growth_x = 1.3\n" + small_scene), 2, "numerics.growth_x", "1.3",
+               "1 with formulation");
+  expect_error(error_of(form + "numerics.growth_r = 1.2\n" + small_scene), 2, "numerics.growth_r", "1.2",
+               "whose grid is even");
+  expect_error(error_of(form + "numerics.refined_x = \"2 cm\"\n" + small_scene), 2, "numerics.refined_x",
+               "2 cm", "absent");
+  expect_error(error_of(form + "numerics.steel_inertia = 4\n" + small_scene), 2, "numerics.steel_inertia",
+               "4", "one factor on all inertia");
+}
+
 TEST(ReadScene, ACurveInTheSceneMustLastUntilTheEnd) {
   const auto text =
       "load.curve_time = \"0, 0.5 ms\"\nload.curve_pressure = \"0, 300 MPa\"\nload.duration = \"1 ms\"\n" +
