@@ -82,12 +82,12 @@ std::string Sha256::finish() {
     padding[padding.size() - 1 - i] = static_cast<char>(static_cast<unsigned char>(bits >> (8 * i)));
   }
   update(padding);
-  constexpr std::string_view digits = "0123456789abcdef";
-  std::string hexadecimal;
+  constexpr std::string_view hex_digits = "0123456789abcdef";
+  std::string text;
   for (const std::uint32_t word : state_) {
-    for (int shift = 28; shift >= 0; shift -= 4) hexadecimal += digits[(word >> shift) & 0xf];
+    for (int shift = 28; shift >= 0; shift -= 4) text += hex_digits[(word >> shift) & 0xf];
   }
-  return hexadecimal;
+  return text;
 }
 
 std::string sha256(std::string_view bytes) {
