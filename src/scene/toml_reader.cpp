@@ -4,6 +4,9 @@
 // that parses.
 // The order matters.
 // clang-format off
+#ifdef TOML_ASSERT
+#error "toml++ was included before it could be changed: this file must be compiled by itself"
+#endif
 #include <cstdint>
 #define TOML_ASSERT(condition) static_assert(true)
 #include <toml++/impl/preprocessor.h>
