@@ -141,7 +141,7 @@ void doubt_cracks(const Scene& scene, const MechanicsResult& mechanics, Doubts& 
 double largest_rise(const scene::Load& load, double window) {
   const scene::PressureHistory history(load);
   std::vector<double> times = history.marks();
-  const double between = std::max(window / 8.0, load.duration * 1e-5);
+  const double between = std::max(window / 8.0, load.duration * 1e-6);
   for (double time = 0.0; time < load.duration; time += between) times.push_back(time);
   double rise = 0.0;
   for (const double time : times) {

@@ -13,13 +13,18 @@ namespace {
 using namespace launchsafe;
 using namespace launchsafe::study;
 
+StabilityResult all_rows_of(const StudyFile& study) {
+  StudyOptions options;
+  options.jobs = 2;
+  StabilityResult result = run_stability(study, options);
+  EXPECT_EQ(result.rows.size(), study.launches.size());
+  return result;
+}
+
 TEST(StabilityMatrix, HasNoCaseThatIsWrongOrUnexpected) {
   const auto study = read_study(studies_folder / "stability" / "smoke.toml");
   ASSERT_TRUE(study) << study.error().message();
-  StudyOptions options;
-  options.jobs = 2;
-  const StabilityResult result = run_stability(*study, options);
-  EXPECT_EQ(result.rows.size(), study->launches.size());
+  const StabilityResult result = all_rows_of(*study);
   for (const HardRow& row : result.rows)
     EXPECT_TRUE(row.is_as_expected())
         << row.group << ", " << row.name << ": " << to_string(row.finding.outcome) << ", " << row.finding.text
@@ -41,10 +46,7 @@ TEST(StabilityMatrixSlow, HasNoCaseThatIsWrongInTheUpdatedLagrangianForm) {
                "set = { numerics.formulation = \"updated-lagrangian\", numerics.growth_x = 1 }\n#");
   const auto study = parse_study(text, file);
   ASSERT_TRUE(study) << study.error().message();
-  StudyOptions options;
-  options.jobs = 2;
-  const StabilityResult result = run_stability(*study, options);
-  EXPECT_EQ(result.rows.size(), study->launches.size());
+  const StabilityResult result = all_rows_of(*study);
   for (const HardRow& row : result.rows)
     EXPECT_NE(row.finding.outcome, verify::Outcome::wrong)
         << row.group << ", " << row.name << ": " << row.finding.text;

@@ -57,7 +57,7 @@ struct Snapshot {
   std::vector<double> x, r, velocity_x, velocity_r, density, pressure, von_mises, temperature, crack_radius,
       plastic_strain;
   std::vector<double> deviator_rr, deviator_xx, deviator_rx;  ///< stress deviator, Pa; tt = -(rr + xx)
-  std::vector<int> body;  ///< index into Scene::bodies
+  std::vector<int> body;                                      ///< index into Scene::bodies
 };
 
 /// On how many particle-steps limiters acted; a verdict that depended on one says so.
