@@ -57,7 +57,8 @@ void ViscoScramStep::set_step(double dt) {
   }
   strain_response_ = 2.0 * effective;
   share_response_ = effective / p.shear_modulus();
-  slow_growth_ = dt * p.largest_growth_speed / (1.0 + half_exponent_);
+  const double growth = dt * p.largest_growth_speed / (1.0 + half_exponent_);  // in a step at K', m
+  idle_share_ = std::min(1.0, std::pow(0x1p-54 * p.initial_crack_radius / growth, 1.0 / half_exponent_));
   // With x = dt/tau q/(1 + q)^3 is at most 4/27, at q = 1/2, and q/(1 + q) below 1.
   const double x = dt * fastest_rate_;
   couples_ =

@@ -38,7 +38,7 @@ Kinematics make_kinematics(const scene::Scene& scene, int index, double density)
   p.velocity_x.assign(slots, 0.0);
   p.velocity_r.assign(slots, 0.0);
   p.mass.assign(slots, 0.0);
-  p.density.assign(slots, density);
+  p.volume_ratio.assign(slots, 1.0);
   p.pressure.assign(slots, 0.0);
   p.temperature.assign(slots, scene.initial_temperature);
   for (int j = 0; j < lattice.rows(); ++j)

@@ -25,28 +25,27 @@ struct RowStep {
   bool first;  ///< in its row of cells: it writes the nodes' sums anew, later ones add to them
 };
 
-/// Values of a nodal field at the corners of eight cells: 0 towards the axis, 1 away; left and right.
-struct Corners {
-  Pack left[2], right[2];
+/// A nodal field in eight cells, at the particles' share `s` of the cells' length from the left: in the row
+/// of nodes towards the axis (0) and in the one away from it (1).
+struct CellField {
+  Pack value[2];       ///< at s
+  Pack difference[2];  ///< right less left
 
-  /// d/dx, from the difference along x in both rows.
+  /// d/dx, 1/m, from the difference along x in both rows.
   Pack slope_x(const RowWeights& w, Pack inverse_length) const {
-    return (w.value[0] * (right[0] - left[0]) + w.value[1] * (right[1] - left[1])) * inverse_length;
+    return (w.value[0] * difference[0] + w.value[1] * difference[1]) * inverse_length;
   }
-  /// d/dr at the share `s` of the cell's length from the left.
-  Pack slope_r(const RowWeights& w, double s) const {
-    return ((1.0 - s) * (left[1] - left[0]) + s * (right[1] - right[0])) * w.inverse_length;
-  }
-  Pack mean(const double weight[2], double s) const {
-    return weight[0] * ((1.0 - s) * left[0] + s * right[0]) +
-           weight[1] * ((1.0 - s) * left[1] + s * right[1]);
-  }
+  Pack slope_r(const RowWeights& w) const { return (value[1] - value[0]) * Pack(w.inverse_length); }
+  Pack mean(const double weight[2]) const { return weight[0] * value[0] + weight[1] * value[1]; }
   /// Amplitude of the hourglass mode, a quarter of the corners' alternating sum.
-  Pack hourglass() const { return 0.25 * ((left[0] - right[0]) - (left[1] - right[1])); }
+  Pack hourglass() const { return 0.25 * (difference[1] - difference[0]); }
 };
 
-inline Corners corners(const math::AlignedArray& field, std::size_t inner, std::size_t outer) {
-  return {{load(field, inner), load(field, outer)}, {load(field, inner + 1), load(field, outer + 1)}};
+/// From the nodes at the left ends of the cells, by row.
+inline CellField cell_field(const math::AlignedArray& field, std::size_t inner, std::size_t outer, double s) {
+  const Pack left[2] = {load(field, inner), load(field, outer)};
+  const Pack difference[2] = {load(field, inner + 1) - left[0], load(field, outer + 1) - left[1]};
+  return {{left[0] + s * difference[0], left[1] + s * difference[1]}, {difference[0], difference[1]}};
 }
 
 /// Deformation gradient dx_i/dX_J, or a change of it: first index the present, second the rest; tt the hoop.
@@ -54,10 +53,10 @@ struct Gradient {
   Pack rr, xx, rx, xr, tt;
 };
 
-inline Gradient gradient_of(const Corners& x, const Corners& r, const RowWeights& w, Pack inverse_length,
-                            double s) {
-  return {r.slope_r(w, s), x.slope_x(w, inverse_length), r.slope_x(w, inverse_length), x.slope_r(w, s),
-          r.mean(w.hoop, s)};
+inline Gradient gradient_of(const CellField& x, const CellField& r, const RowWeights& w,
+                            Pack inverse_length) {
+  return {r.slope_r(w), x.slope_x(w, inverse_length), r.slope_x(w, inverse_length), x.slope_r(w),
+          r.mean(w.hoop)};
 }
 
 /// The alternating writes of a row: a node gets the right share of the cell before it and the left share of
@@ -98,9 +97,9 @@ struct NodeRows {
 };
 
 /// Deformation of the step from F at its end and the change dF in it. With F at the middle, the strain and
-/// spin increments are those of dF F^-1; the volumetric one is taken from the volumes, 2 (J1 - J0)/(J1 + J0).
-inline Deformation deformation_of(const Gradient& f, const Gradient& d, Pack rest_volume, Pack rest_density,
-                                  Pack density_before, Pack area) {
+/// spin increments are those of dF F^-1.
+inline Deformation deformation_of(const Gradient& f, const Gradient& d, Pack rest_volume, Pack volume_before,
+                                  Pack area) {
   const Pack rr = f.rr - 0.5 * d.rr, xx = f.xx - 0.5 * d.xx, rx = f.rx - 0.5 * d.rx, xr = f.xr - 0.5 * d.xr,
              tt = f.tt - 0.5 * d.tt;
   const Pack determinant = rr * xx - rx * xr;
@@ -111,30 +110,24 @@ inline Deformation deformation_of(const Gradient& f, const Gradient& d, Pack res
   const Pack l_xr = (d.xr * xx - d.xx * xr) * plane, l_xx = (d.xx * rr - d.xr * rx) * plane;
   const Pack l_tt = d.tt * hoop;
   const Pack third = (l_rr + l_xx + l_tt) * (1.0 / 3.0);
-  const Pack after = area * f.tt;  // J
-  const Pack before = rest_density / density_before;
   Deformation result;
   result.increment.deviator = {l_rr - third, l_xx - third, 0.5 * (l_rx + l_xr)};
   result.increment.rotation = math::rotation_of(0.5 * (l_rx - l_xr));
-  result.increment.density_before = density_before;
-  result.increment.density_after = rest_density / after;
-  result.volumetric = 2.0 * (after - before) / (after + before);
-  result.volume_before = rest_volume * before;
-  result.volume_after = rest_volume * after;
+  result.increment.volume_before = volume_before;
+  result.increment.volume_after = area * f.tt;  // J
+  result.rest_volume = rest_volume;
   return result;
 }
 
-/// Gives the force of the stress in eight cells to their corners: f = -V0 P grad0 N.
+/// Force of the stress in eight cells on their corners, f = -V0 P grad0 N, of one direction.
 struct CornerForces {
   Pack along_r, along_x, hoop, hourglass;  ///< N: V0 P_iR/dr, V0 P_iX/dx, V0 P_tt (m N), k q
 
   void give(const RowWeights& w, double s, std::size_t i, NodeRow& inner, NodeRow& outer) const {
-    const Pack left = (1.0 - s) * along_r, right = s * along_r;
-    const Pack hoop0 = w.hoop[0] * hoop, hoop1 = w.hoop[1] * hoop;
-    inner.add(i, left + w.value[0] * along_x - (1.0 - s) * hoop0 - hourglass,
-              right - w.value[0] * along_x - s * hoop0 + hourglass);
-    outer.add(i, w.value[1] * along_x - left - (1.0 - s) * hoop1 + hourglass,
-              -(w.value[1] * along_x) - right - s * hoop1 - hourglass);
+    const Pack on_inner = along_r - w.hoop[0] * hoop, on_outer = -along_r - w.hoop[1] * hoop;
+    const Pack apart_inner = w.value[0] * along_x - hourglass, apart_outer = w.value[1] * along_x + hourglass;
+    inner.add(i, (1.0 - s) * on_inner + apart_inner, s * on_inner - apart_inner);
+    outer.add(i, (1.0 - s) * on_outer + apart_outer, s * on_outer - apart_outer);
   }
 };
 
@@ -146,7 +139,6 @@ template <class Law>
   const RowWeights& w = step.weights;
   const Lattice& lattice = p.lattice;
   const std::size_t inner = nodes.index(0, w.cell_row), outer = nodes.index(0, w.cell_row + 1);
-  const Pack density(body.law.initial_density());
   const double per_density = 1.0 / body.law.initial_density();
   const auto columns = static_cast<std::size_t>(lattice.padded_columns / lattice.stride);
   std::size_t slot = static_cast<std::size_t>(step.row) * static_cast<std::size_t>(lattice.padded_columns);
@@ -158,64 +150,65 @@ template <class Law>
       const Pack inverse_length = load(step.inverse_length, i);
       const Mask real = inverse_length > Pack(0.0);
       const Pack mass = load(p.mass, slot);
-      const Corners vx = corners(nodes.velocity_x, inner + i, outer + i);
-      const Corners vr = corners(nodes.velocity_r, inner + i, outer + i);
-      const Corners ux = corners(nodes.displacement_x, inner + i, outer + i);
-      const Corners ur = corners(nodes.displacement_r, inner + i, outer + i);
+      const auto in_cells = [&](const math::AlignedArray& field) {
+        return cell_field(field, inner + i, outer + i, s);
+      };
+      const CellField vx = in_cells(nodes.velocity_x), vr = in_cells(nodes.velocity_r);
+      const CellField ux = in_cells(nodes.displacement_x), ur = in_cells(nodes.displacement_r);
       const auto in_cell = [real](Pack value) { return select(real, value, Pack(0.0)); };
       const auto masked = [&](const Gradient& g) {
         return Gradient{in_cell(g.rr), in_cell(g.xx), in_cell(g.rx), in_cell(g.xr), in_cell(g.tt)};
       };
-      Gradient d = masked(gradient_of(vx, vr, w, inverse_length, s));
+      Gradient d = masked(gradient_of(vx, vr, w, inverse_length));
       for (Pack* part : {&d.rr, &d.xx, &d.rx, &d.xr, &d.tt}) *part *= step.dt;
-      Gradient f = masked(gradient_of(ux, ur, w, inverse_length, s));
+      Gradient f = masked(gradient_of(ux, ur, w, inverse_length));
       f.rr += 1.0;
       f.xx += 1.0;
       f.tt += 1.0;
 
-      const Pack grid_x = in_cell(vx.mean(w.value, s)), grid_r = in_cell(vr.mean(w.value, s));
+      const Pack grid_x = in_cell(vx.mean(w.value)), grid_r = in_cell(vr.mean(w.value));
       const Pack inertia = step.inertial_factor * mass;
-      update_velocity(p, slot, inertia,
-                      in_cell(corners(nodes.change_x, inner + i, outer + i).mean(w.value, s)),
-                      in_cell(corners(nodes.change_r, inner + i, outer + i).mean(w.value, s)), grid_x, grid_r,
-                      step.pic_fraction, totals);
+      update_velocity(p, slot, inertia, in_cell(in_cells(nodes.change_x).mean(w.value)),
+                      in_cell(in_cells(nodes.change_r).mean(w.value)), grid_x, grid_r, step.pic_fraction,
+                      totals);
       store(p.x, slot, load(p.x, slot) + step.dt * grid_x);
       store(p.r, slot, load(p.r, slot) + step.dt * grid_r);
 
-      const Pack volume = mass * per_density;
-      const Pack area = f.rr * f.xx - f.rx * f.xr;
-      const Mask sound = (area > Pack(smallest_stretch)) & (f.tt > Pack(smallest_stretch)) &
-                         (area * f.tt < Pack(1.0 / smallest_stretch));
-      totals.distorted += select(sound, Pack(0.0), Pack(1.0));
-      const Deformation deformation = deformation_of(f, d, volume, density, load(p.density, slot), area);
-      const Stressed stress = update_material(body, slot, deformation, totals);
-
-      // P = J sigma F^-T, in the plane J F^-T = tt [[xx, -xr], [-rx, rr]].
-      const Pack rr = stress.deviator.rr - stress.pressure, xx = stress.deviator.xx - stress.pressure,
-                 rx = stress.deviator.rx, tt = stress.deviator.tt() - stress.pressure;
-      const Pack scaled = volume * f.tt;
-      CornerForces on_x{scaled * (rx * f.xx - xx * f.rx) * w.inverse_length,
-                        scaled * (xx * f.rr - rx * f.xr) * inverse_length, Pack(0.0), Pack(0.0)};
-      CornerForces on_r{scaled * (rr * f.xx - rx * f.rx) * w.inverse_length,
-                        scaled * (rx * f.rr - rr * f.xr) * inverse_length, volume * tt * area, Pack(0.0)};
-      if (!step.hourglass.empty()) {
-        const Pack stiffness = load(step.hourglass, slot);
-        const Pack qx = ux.hourglass(), qr = ur.hourglass();
-        on_x.hourglass = stiffness * qx;
-        on_r.hourglass = stiffness * qr;
-        const Pack half_step(0.5 * step.dt);
-        const Pack dqx = vx.hourglass(), dqr = vr.hourglass();
-        totals.hourglass +=
-            Pack(4.0 * step.dt) * stiffness * ((qx - half_step * dqx) * dqx + (qr - half_step * dqr) * dqr);
-      }
-      on_x.give(w, s, i, to_inner.force_x, to_outer.force_x);
-      on_r.give(w, s, i, to_inner.force_r, to_outer.force_r);
       const Pack momentum_x = inertia * load(p.velocity_x, slot),
                  momentum_r = inertia * load(p.velocity_r, slot);
       to_inner.momentum_x.add(i, (w.value[0] * (1.0 - s)) * momentum_x, (w.value[0] * s) * momentum_x);
       to_inner.momentum_r.add(i, (w.value[0] * (1.0 - s)) * momentum_r, (w.value[0] * s) * momentum_r);
       to_outer.momentum_x.add(i, (w.value[1] * (1.0 - s)) * momentum_x, (w.value[1] * s) * momentum_x);
       to_outer.momentum_r.add(i, (w.value[1] * (1.0 - s)) * momentum_r, (w.value[1] * s) * momentum_r);
+
+      Pack hourglass_x(0.0), hourglass_r(0.0);
+      if (!step.hourglass.empty()) {
+        const Pack stiffness = load(step.hourglass, slot), half_step(0.5 * step.dt);
+        const Pack qx = ux.hourglass(), qr = ur.hourglass(), dqx = vx.hourglass(), dqr = vr.hourglass();
+        hourglass_x = stiffness * qx;
+        hourglass_r = stiffness * qr;
+        totals.hourglass +=
+            Pack(4.0 * step.dt) * stiffness * ((qx - half_step * dqx) * dqx + (qr - half_step * dqr) * dqr);
+      }
+
+      const Pack volume = mass * per_density;
+      const Pack area = f.rr * f.xx - f.rx * f.xr;
+      const Mask sound = (area > Pack(smallest_stretch)) & (f.tt > Pack(smallest_stretch)) &
+                         (area * f.tt < Pack(1.0 / smallest_stretch));
+      totals.distorted += select(sound, Pack(0.0), Pack(1.0));
+      const Deformation deformation = deformation_of(f, d, volume, load(p.volume_ratio, slot), area);
+      const Stressed stress = update_material(body, slot, deformation, totals);
+
+      // P = J sigma F^-T, in the plane J F^-T = tt [[xx, -xr], [-rx, rr]].
+      const Pack rr = stress.deviator.rr - stress.pressure, xx = stress.deviator.xx - stress.pressure,
+                 rx = stress.deviator.rx, tt = stress.deviator.tt() - stress.pressure;
+      const Pack scaled = volume * f.tt, per_r = scaled * w.inverse_length, per_x = scaled * inverse_length;
+      CornerForces on_x{per_r * (rx * f.xx - xx * f.rx), per_x * (xx * f.rr - rx * f.xr), Pack(0.0),
+                        hourglass_x};
+      CornerForces on_r{per_r * (rr * f.xx - rx * f.rx), per_x * (rx * f.rr - rr * f.xr), volume * tt * area,
+                        hourglass_r};
+      on_x.give(w, s, i, to_inner.force_x, to_outer.force_x);
+      on_r.give(w, s, i, to_inner.force_r, to_outer.force_r);
     }
     if (static_cast<std::size_t>(nodes.columns) == columns + 1) {
       to_inner.finish(columns);
@@ -265,8 +258,8 @@ double shortest_sound_time(const Body<Law>& body, const Nodes& nodes, const std:
                           outer = nodes.index(static_cast<int>(i), w.cell_row + 1);
         const Pack inverse_length = load(inverse_lengths, i);
         const Mask real = inverse_length > Pack(0.0);
-        const Gradient g = gradient_of(corners(nodes.displacement_x, inner, outer),
-                                       corners(nodes.displacement_r, inner, outer), w, inverse_length, s);
+        const Gradient g = gradient_of(cell_field(nodes.displacement_x, inner, outer, s),
+                                       cell_field(nodes.displacement_r, inner, outer, s), w, inverse_length);
         const Pack rr = 1.0 + g.rr, xx = 1.0 + g.xx;
         const Pack area = rr * xx - g.rx * g.xr;
         // Height along x: area over the edge along r, and the other way round.

@@ -38,22 +38,19 @@ struct Transfer {
   bool axisymmetric = true;
 };
 
-/// Density after a volumetric strain increment: rho exp(-tr) to second order.
-Pack compressed(Pack density, Pack volumetric) {
-  return density * (1.0 - 0.5 * volumetric) / (1.0 + 0.5 * volumetric);
+/// Volume after a volumetric strain increment: V exp(tr) to second order.
+Pack strained(Pack volume, Pack volumetric) {
+  return volume * (1.0 + 0.5 * volumetric) / (1.0 - 0.5 * volumetric);
 }
 
-Deformation deformation_of(const Gathered& g, double dt, Pack mass, Pack density) {
+Deformation deformation_of(const Gathered& g, double dt, Pack rest_volume, Pack volume) {
   const Pack volumetric = (g.rate_rr + g.rate_xx + g.rate_tt) * dt;
   const Pack third = volumetric * (1.0 / 3.0);
-  const Pack after = compressed(density, volumetric);
   return {{{g.rate_rr * dt - third, g.rate_xx * dt - third, (g.vr_by_x + g.vx_by_r) * (0.5 * dt)},
            math::rotation_of((g.vr_by_x - g.vx_by_r) * (0.5 * dt)),
-           density,
-           after},
-          volumetric,
-          mass / density,
-          mass / after};
+           volume,
+           strained(volume, volumetric)},
+          rest_volume};
 }
 
 /// Everything but the rare sub-steps is inlined: a call would pass its Packs through memory.
@@ -74,7 +71,8 @@ template <class Law>
     const Pack x1 = x0 + transfer.dt * g.velocity_x, r1 = r0 + transfer.dt * g.velocity_r;
     store(p.x, slot, x1);
     store(p.r, slot, r1);
-    const Deformation deformation = deformation_of(g, transfer.dt, mass, load(p.density, slot));
+    const Pack rest_volume = mass * (1.0 / body.law.initial_density());
+    const Deformation deformation = deformation_of(g, transfer.dt, rest_volume, load(p.volume_ratio, slot));
     const Stressed s = update_material(body, slot, deformation, totals);
 
     const Stencil stencil = stencil_of(writing, x1, r1);
@@ -82,7 +80,7 @@ template <class Law>
     const Scattered given{mass,
                           load(p.velocity_x, slot),
                           load(p.velocity_r, slot),
-                          deformation.volume_after,
+                          rest_volume * deformation.increment.volume_after,
                           s.deviator.rr - s.pressure,
                           s.deviator.xx - s.pressure,
                           s.deviator.tt() - s.pressure,

@@ -24,7 +24,7 @@ std::string first_broken_particle(const mpm::Simulation& simulation) {
     for (int j = 0; j < p.lattice.rows() && !found; ++j)
       for (int i = 0; i < p.lattice.columns() && !found; ++i) {
         const std::size_t slot = p.lattice.slot(i, j);
-        if (std::isfinite(p.velocity_x[slot] + p.velocity_r[slot] + p.pressure[slot] + p.density[slot]))
+        if (std::isfinite(p.velocity_x[slot] + p.velocity_r[slot] + p.pressure[slot] + p.volume_ratio[slot]))
           continue;
         found = true;
         place = fmt::format("first in body \"{}\" at x = {:.4g} cm, r = {:.4g} cm (initial place)",
@@ -92,6 +92,7 @@ Snapshot take_snapshot(const mpm::Simulation& simulation) {
     const mpm::Kinematics& p = mpm::kinematics_of(any);
     const math::AlignedArray *crack = field_of(any, "crack_radius"),
                              *plastic = field_of(any, "plastic_strain");
+    const double density = std::visit([](const auto& body) { return body.law.initial_density(); }, any);
     for (int j = 0; j < p.lattice.rows(); ++j)
       for (int i = 0; i < p.lattice.columns(); ++i) {
         const std::size_t slot = p.lattice.slot(i, j);
@@ -99,7 +100,7 @@ Snapshot take_snapshot(const mpm::Simulation& simulation) {
         shot.r.push_back(p.r[slot]);
         shot.velocity_x.push_back(p.velocity_x[slot]);
         shot.velocity_r.push_back(p.velocity_r[slot]);
-        shot.density.push_back(p.density[slot]);
+        shot.density.push_back(density / p.volume_ratio[slot]);
         shot.pressure.push_back(p.pressure[slot]);
         shot.temperature.push_back(p.temperature[slot]);
         const auto deviator = std::visit([&](const auto& body) { return body.deviator(slot); }, any);

@@ -46,7 +46,7 @@ double squeeze_radially(mpm::Simulation& simulation) {
   for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) {
     mpm::Kinematics& p = body.kinematics;
     for (std::size_t i = 0; i < p.mass.size(); ++i) {
-      p.density[i] *= 1.0 + mu;
+      p.volume_ratio[i] /= 1.0 + mu;
       p.mass[i] *= 1.0 + mu;
       p.pressure[i] = pressure;
       body[materials::Steel::stress_xx][i] = pressure;

@@ -32,4 +32,20 @@ TEST(DeviatorVector, KeepsComponentsContractionAndRotation) {
   }
 }
 
+TEST(Rotation, SmallAndLargeSpinsTurnByTheHalfAngleFormInEveryLane) {
+  // Lanes on both sides of the spin below which the series is taken; reference (1 - h^2, 2 h)/(1 + h^2).
+  math::Pack spins(0.0);
+  const double some[] = {0.0, 1e-9, -1e-5, 1.9e-3, -2.1e-3, 0.1, 1.0, 3.0};
+  for (std::size_t lane = 0; lane < math::pack_width; ++lane) spins.set(lane, some[lane]);
+  const auto packed = math::rotation_of(spins);
+  for (std::size_t lane = 0; lane < math::pack_width; ++lane) {
+    const double h = 0.5 * some[lane], cosine = (1.0 - h * h) / (1.0 + h * h), sine = 2.0 * h / (1.0 + h * h);
+    EXPECT_NEAR(packed.cosine[lane], cosine, 2e-16) << some[lane];
+    EXPECT_NEAR(packed.sine[lane], sine, 2e-16) << some[lane];
+    const auto alone = math::rotation_of(some[lane]);
+    EXPECT_EQ(packed.cosine[lane], alone.cosine) << some[lane];
+    EXPECT_EQ(packed.sine[lane], alone.sine) << some[lane];
+  }
+}
+
 }  // namespace

@@ -98,11 +98,8 @@ class Charge::Integrator {
     using math::max;
     using math::select;
     using math::sqrt;
-    const Real reference(charge_.eos.initial_density);
     Response<Real> response;
-    // V - 1, from the difference of the densities so that rest is exact.
-    const Real volume_strain = (reference - increment.density_after) / increment.density_after;
-    const Real isentropic = isentrope_.pressure(volume_strain);
+    const Real isentropic = isentrope_.pressure(increment.volume_after - Real(1.0));
     const Real cutoff(-charge_.tension_cutoff);
     response.tension_cutoff = select(isentropic < cutoff, Real(1.0), Real(0.0));
     response.pressure = max(isentropic, cutoff);
@@ -119,7 +116,7 @@ class Charge::Integrator {
         select(end.state.crack_radius >= Real(charge_.cracks.largest_crack_radius), Real(1.0), Real(0.0));
     // mu_d p per volume at rest, V times that per volume now; and equivalent strains sqrt(2/3 e:e).
     const Real sliding =
-        Real(charge_.sliding_friction) * max(response.pressure, Real(0.0)) * (Real(1.0) + volume_strain);
+        Real(charge_.sliding_friction) * max(response.pressure, Real(0.0)) * increment.volume_after;
     s[friction_literal] += sliding * sqrt(Real(2.0 / 3.0) * contract(strain, strain));
     s[friction_inelastic] += sliding * sqrt(end.inelastic);
     return response;
@@ -127,10 +124,9 @@ class Charge::Integrator {
 
   /// Isentropic bulk modulus (Pa); 0 where the isentrope softens, far beyond the tension cut-off.
   template <class Real>
-  Real bulk_modulus(const State<Charge, Real>&, Real density, Real) const {
+  Real bulk_modulus(const State<Charge, Real>&, Real volume, Real) const {
     using math::max;
-    return max(jwl_isentropic_bulk_modulus(charge_.eos, Real(charge_.eos.initial_density) / density),
-               Real(0.0));
+    return max(jwl_isentropic_bulk_modulus(charge_.eos, volume), Real(0.0));
   }
 
  private:

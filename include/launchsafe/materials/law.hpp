@@ -14,7 +14,8 @@
 //   Integrator                                       made of the law; set_step(dt), then update(...) by
 //   particle
 // and the functions on a particle's state that outputs ask for: deviator(state) and, for the time step,
-// Integrator::bulk_modulus(state, density, pressure). Everything else of a law is its own.
+// Integrator::bulk_modulus(state, volume, pressure), volume over that at rest. Everything else of a law is
+// its own.
 #pragma once
 
 #include "launchsafe/keys/key.hpp"
@@ -70,8 +71,8 @@ template <class Real>
 struct Increment {
   math::Deviator<Real> deviator;  ///< of the strain increment, at the middle of the step
   math::Rotation<Real> rotation;  ///< of the step (Jaumann)
-  Real density_before;            ///< kg/m3
-  Real density_after;             ///< kg/m3
+  Real volume_before;             ///< V, the volume over that at rest
+  Real volume_after;              ///< V
 };
 
 /// Stress at the end of a step, and what the step did. Energies in J per m3 of volume at the step's begin.

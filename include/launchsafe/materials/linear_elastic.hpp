@@ -50,14 +50,14 @@ class LinearElastic::Integrator {
     Response<Real> response;
     response.deviator_before = math::rotate(deviator(s), increment.rotation);
     response.deviator = response.deviator_before + Real(2.0 * law_.shear) * increment.deviator;
-    response.pressure = Real(law_.bulk) * (increment.density_after * Real(1.0 / law_.density) - Real(1.0));
+    response.pressure = Real(law_.bulk) * ((Real(1.0) - increment.volume_after) / increment.volume_after);
     s = {response.deviator.rr, response.deviator.xx, response.deviator.rx};
     return response;
   }
 
   template <class Real>
-  Real bulk_modulus(const State<LinearElastic, Real>&, Real density, Real) const {
-    return Real(law_.bulk / law_.density) * density;
+  Real bulk_modulus(const State<LinearElastic, Real>&, Real volume, Real) const {
+    return Real(law_.bulk) / volume;
   }
 
  private:

@@ -70,7 +70,6 @@ class Steel::Integrator {
                         Real& temperature) const {
     using math::any;
     using math::select;
-    const double reference = steel_.eos.density;
     Response<Real> response;
     const math::Deviator<Real> old = math::rotate(deviator(s), increment.rotation);
     math::Deviator<Real> stress = old + Real(2.0 * steel_.strength.shear_modulus) * increment.deviator;
@@ -81,7 +80,8 @@ class Steel::Integrator {
       const auto flow =
           johnson_cook_return(steel_.strength, stress, s[plastic_strain], temperature, Real(dt_));
       stress = flow.stress;
-      heat = Real(steel_.strength.taylor_quinney) * flow.plastic_work / increment.density_after;
+      heat = Real(steel_.strength.taylor_quinney) * Real(1.0 / steel_.eos.density) * flow.plastic_work *
+             increment.volume_after;
       s[plastic_strain] = s[plastic_strain] + flow.plastic_strain_increment;
       temperature = temperature + heat * Real(1.0 / steel_.strength.specific_heat);
       // Of elastic lanes it stays to the bit, whatever their neighbours do.
@@ -89,9 +89,7 @@ class Steel::Integrator {
           select(elastic, s[flow_stress], steel_.quasi_static_flow_stress(s[plastic_strain], temperature));
       response.plastic = flow.plastic_work;
     }
-    // rho/rho0 - 1, from the difference so that rest is exact.
-    const Real mu0 = (increment.density_before - Real(reference)) * Real(1.0 / reference),
-               mu1 = (increment.density_after - Real(reference)) * Real(1.0 / reference);
+    const Real mu0 = compression(increment.volume_before), mu1 = compression(increment.volume_after);
     const auto compressed = mie_gruneisen_compress(steel_.eos, mu0, pressure, s[energy], mu1, heat);
     response.pressure_guard = select(mie_gruneisen_is_valid(steel_.eos, mu1), Real(0.0), Real(1.0));
     s[energy] = compressed.energy;
@@ -106,12 +104,17 @@ class Steel::Integrator {
 
   /// Isentropic bulk modulus (Pa).
   template <class Real>
-  Real bulk_modulus(const State<Steel, Real>&, Real density, Real pressure) const {
-    return mie_gruneisen_bulk_modulus(steel_.eos, density * Real(1.0 / steel_.eos.density) - Real(1.0),
-                                      pressure);
+  Real bulk_modulus(const State<Steel, Real>&, Real volume, Real pressure) const {
+    return mie_gruneisen_bulk_modulus(steel_.eos, compression(volume), pressure);
   }
 
  private:
+  /// mu = rho/rho0 - 1 = 1/V - 1, from the difference so that rest is exact.
+  template <class Real>
+  static Real compression(Real volume) {
+    return (Real(1.0) - volume) / volume;
+  }
+
   Steel steel_;
   double dt_ = 0;
 };

@@ -95,19 +95,16 @@ class ViscoScramStep {
   double largest_radius_;                                                 ///< m
   double fastest_rate_ = 0;                                               ///< 1/s
   double strain_response_ = 0, share_response_ = 0, loss_of_strain_ = 0;  ///< 2 G r, r, sum of loss_of_strain
-  double slow_growth_ = 0;                                                ///< growth of a step at K', m
+  double idle_share_ = 0;  ///< (K/K')^2 below which c stays as it is
 };
 
-/// True where cracks would grow by less than half of the last digit of c, so that c stays as it is. An upper
-/// bound of the growth without roots: the toughness without the friction ratio's linear term, and (K/K')^m
-/// with m rounded down to an even number, which is larger below K'.
+/// True where cracks would grow by less than half of the last digit of c(0), so that c stays as it is. By the
+/// toughness without the friction ratio's linear term, which needs no root and bounds the growth from above.
 template <class Real>
 auto ViscoScramStep::idle(Real crack_radius, Real intensity, Real pressure) const {
   using math::max;
   const Real friction = Real(friction_) * max(pressure, Real(0.0));
-  const Real share = intensity / (Real(1.0) + Real(detail::pi) * friction * friction * crack_radius);
-  return (share <= Real(1.0)) & (Real(slow_growth_) * detail::whole_power(share, whole_half_exponent_) <=
-                                 Real(0x1p-54) * crack_radius);
+  return intensity <= Real(idle_share_) + Real(idle_share_ * detail::pi) * friction * friction * crack_radius;
 }
 
 template <class Real>

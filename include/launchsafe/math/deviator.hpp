@@ -46,9 +46,14 @@ struct Rotation {
 /// the Jaumann rate asks (Hughes & Winget 1980).
 template <class Real>
 Rotation<Real> rotation_of(Real spin) {
-  const Real half = Real(0.5) * spin;
-  const Real scale = Real(1.0) / (Real(1.0) + half * half);
-  return {(Real(1.0) - half * half) * scale, Real(2.0) * half * scale};
+  using math::any;
+  using math::select;
+  const Real half = Real(0.5) * spin, square = half * half;
+  Real scale = Real(1.0) - square + square * square;  // 1/(1 + h^2) where h^6 is below round-off
+  const auto small = square < Real(1e-6);
+  if (any(!small)) [[unlikely]]
+    scale = select(small, scale, Real(1.0) / (Real(1.0) + square));
+  return {(Real(1.0) - square) * scale, Real(2.0) * half * scale};
 }
 
 /// R S R^T for the in-plane rotation with W_rx = 1/2 (dv_r/dx - dv_x/dr).

@@ -2,24 +2,37 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
 namespace launchsafe::math {
 
-/// c[0] + c[1] x + c[2] x^2 + ...; even and odd powers go side by side, which halves the chain of dependent
-/// operations.
-template <class Real, std::size_t count>
-Real polynomial(const std::array<double, count>& c, Real x) {
-  static_assert(count >= 2 && count % 2 == 0);
-  const Real square = x * x;
-  Real even(c[count - 2]), odd(c[count - 1]);
-  for (std::size_t k = count - 2; k >= 2; k -= 2) {
-    even = even * square + Real(c[k - 2]);
-    odd = odd * square + Real(c[k - 1]);
+namespace detail {
+
+template <std::size_t first, std::size_t terms, class Real, std::size_t count>
+[[gnu::always_inline]] inline Real polynomial(const std::array<double, count>& c, const Real* powers) {
+  if constexpr (terms == 1) {
+    return Real(c[first]);
+  } else {
+    return polynomial<first + terms / 2, terms / 2>(c, powers - 1) * *powers +
+           polynomial<first, terms / 2>(c, powers - 1);
   }
-  return odd * x + even;
+}
+
+}  // namespace detail
+
+/// c[0] + c[1] x + c[2] x^2 + ...; halves go side by side (Estrin's scheme), so that the chain of dependent
+/// operations grows with the logarithm of the degree. The number of coefficients is a power of two.
+template <class Real, std::size_t count>
+[[gnu::always_inline]] inline Real polynomial(const std::array<double, count>& c, Real x) {
+  static_assert(count >= 2 && std::has_single_bit(count));
+  constexpr auto squarings = static_cast<std::size_t>(std::countr_zero(count));
+  Real powers[squarings];  // x, x^2, x^4, ...
+  powers[0] = x;
+  for (std::size_t k = 1; k < squarings; ++k) powers[k] = powers[k - 1] * powers[k - 1];
+  return detail::polynomial<0, count>(c, powers + squarings - 1);
 }
 
 /// Coefficients of the polynomial that meets f (long double to long double) at the `count` Chebyshev nodes of

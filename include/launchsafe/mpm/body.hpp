@@ -54,7 +54,7 @@ struct Kinematics {
   math::AlignedArray x, r;                    ///< m
   math::AlignedArray velocity_x, velocity_r;  ///< m/s
   math::AlignedArray mass;                    ///< kg per radian, or per metre of depth
-  math::AlignedArray density;                 ///< kg/m3
+  math::AlignedArray volume_ratio;            ///< V, the volume over that at rest
   math::AlignedArray pressure;                ///< Pa, compression positive
   math::AlignedArray temperature;             ///< K
 };

@@ -16,8 +16,7 @@ inline void store(math::AlignedArray& field, std::size_t slot, Pack value) {
 /// Deformation of a step at a Pack of particles.
 struct Deformation {
   materials::Increment<Pack> increment;
-  Pack volumetric;                   ///< trace of the strain increment
-  Pack volume_before, volume_after;  ///< m3 per radian or metre
+  Pack rest_volume;  ///< m3 per radian or metre
 };
 
 /// Cauchy stress at the end of a step.
@@ -38,16 +37,17 @@ template <class Law>
   materials::store_state<Law>(state,
                               [&](std::size_t field, Pack value) { store(body.state[field], slot, value); });
   store(p.pressure, slot, response.pressure);
-  store(p.density, slot, d.increment.density_after);
+  store(p.volume_ratio, slot, d.increment.volume_after);
   if constexpr (Law::heats_itself) store(p.temperature, slot, temperature);
 
-  const Pack work =
-      contract(Pack(0.5) * (response.deviator_before + response.deviator), d.increment.deviator) -
-      0.5 * (pressure_before + response.pressure) * d.volumetric;
-  totals.internal += 0.5 * (d.volume_before + d.volume_after) * work;
-  totals.plastic += d.volume_before * response.plastic;
-  totals.viscous += d.volume_before * response.viscous;
-  totals.crack += d.volume_before * response.crack;
+  const Pack volume0 = d.increment.volume_before, volume1 = d.increment.volume_after;
+  const Pack work = contract(response.deviator_before + response.deviator, d.increment.deviator);
+  totals.internal += d.rest_volume * (0.25 * (volume0 + volume1) * work -
+                                      0.5 * (pressure_before + response.pressure) * (volume1 - volume0));
+  const Pack volume_before = d.rest_volume * volume0;
+  totals.plastic += volume_before * response.plastic;
+  totals.viscous += volume_before * response.viscous;
+  totals.crack += volume_before * response.crack;
   totals.tension_cutoff += response.tension_cutoff;
   totals.pressure_guard += response.pressure_guard;
   totals.crack_at_bound += response.crack_at_bound;
@@ -75,10 +75,10 @@ template <class Law>
 Pack sound_speed_squared(const Body<Law>& body, std::size_t slot) {
   const Kinematics& p = body.kinematics;
   auto state = materials::load_state<Law>([&](std::size_t field) { return load(body.state[field], slot); });
-  const Pack density = load(p.density, slot);
-  const Pack modulus = body.integrator.bulk_modulus(state, density, load(p.pressure, slot)) +
+  const Pack volume = load(p.volume_ratio, slot);
+  const Pack modulus = body.integrator.bulk_modulus(state, volume, load(p.pressure, slot)) +
                        (4.0 / 3.0) * body.law.shear_modulus();
-  return modulus / density;
+  return modulus * volume * (1.0 / body.law.initial_density());
 }
 
 }  // namespace launchsafe::mpm
