@@ -27,15 +27,12 @@ bool has_observation_points(const trace::BottomTrace& trace) {
 }
 
 bool reaches_early_time(const run::MechanicsResult& mechanics) {
-  return mechanics.end_time >= early_time && has_observation_points(mechanics.trace);
+  return mechanics.end_time >= early_time && !mechanics.trace.stations.empty();
 }
 
-/// An observation point by its name, any other place on the bottom by its radius.
 std::string place_of(const trace::BottomTrace& trace, std::size_t index) {
   if (index >= trace.stations.size()) return "";
-  const trace::Station& station = trace.stations[index];
-  if (station.observation) return station.name;
-  return "r = " + scene::format_quantity(station.r, Dimension::length);
+  return trace.stations[index].name;
 }
 
 std::string_view cause_of(const surface::Ignition& ignition) {
@@ -60,16 +57,18 @@ void add_maximum(std::vector<report::Cell>& row, const surface::Maximum& maximum
   row.emplace_back(1e3 * maximum.time);
 }
 
-std::vector<report::Column> gap_columns(bool early) {
+std::vector<report::Column> gap_columns(bool early, bool points) {
   std::vector<report::Column> columns{
       {.name = "gap", .unit = "cm", .decimals = 5, .notation = report::Notation::significant},
       {.name = "T max", .unit = "K"},
       report::text_column("at"),
       {.name = "time", .unit = "ms", .decimals = 2}};
   if (early) columns.push_back({.name = "T at 10 ms", .unit = "K"});
-  columns.push_back({.name = "T max anywhere", .unit = "K"});
-  columns.push_back(report::text_column("where"));
-  columns.push_back({.name = "when", .unit = "ms", .decimals = 2});
+  if (points) {
+    columns.push_back({.name = "T max at points", .unit = "K"});
+    columns.push_back(report::text_column("where"));
+    columns.push_back({.name = "when", .unit = "ms", .decimals = 2});
+  }
   columns.push_back(report::text_column("ignition"));
   return columns;
 }
@@ -145,14 +144,13 @@ nlohmann::ordered_json gap_json(const run::GapResult& gap, const run::MechanicsR
   const trace::BottomTrace& trace = mechanics.trace;
   const bool observed = has_observation_points(trace);
   nlohmann::ordered_json object{{"gap_cm", scene::in_unit(gap.gap, Dimension::length, "cm")}};
+  object["maximum"] = maximum_json(gap.at_stations, trace);
   object["at_observation_points"] =
       observed ? maximum_json(gap.at_points, trace) : nlohmann::ordered_json(nullptr);
   if (reaches_early_time(mechanics)) {
     object["at_10_ms"] = maximum_json(surface::maximum_at_time(gap.skin, trace, early_time), trace);
   }
-  object["anywhere"] = maximum_json(gap.anywhere, trace);
   object["ignition"] = ignition_json(gap.skin.ignition, trace);
-  object["ignition_anywhere"] = ignition_json(gap.skin.ignition_anywhere, trace);
   object["sampling_error_k"] = gap.sampling_error;
   return object;
 }
@@ -168,13 +166,13 @@ nlohmann::ordered_json energy_json(const run::EnergyBalance& energy) {
 
 report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result) {
   const trace::BottomTrace& trace = result.mechanics.trace;
-  const bool early = reaches_early_time(result.mechanics);
-  report::Table table{scene.title, gap_columns(early), {}};
+  const bool early = reaches_early_time(result.mechanics), points = has_observation_points(trace);
+  report::Table table{scene.title, gap_columns(early, points), {}};
   for (const run::GapResult& gap : result.gaps) {
     std::vector<report::Cell> row{scene::in_unit(gap.gap, Dimension::length, "cm")};
-    add_maximum(row, gap.at_points, trace, has_observation_points(trace));
+    add_maximum(row, gap.at_stations, trace, !trace.stations.empty());
     if (early) row.emplace_back(surface::maximum_at_time(gap.skin, trace, early_time).temperature);
-    add_maximum(row, gap.anywhere, trace, !trace.stations.empty());
+    if (points) add_maximum(row, gap.at_points, trace, true);
     row.emplace_back(ignition_text(gap.skin.ignition, trace));
     table.rows.push_back(std::move(row));
   }
@@ -182,8 +180,8 @@ report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result
     table.notes.push_back("The charge lies off the grid lines (" + edges +
                           "): calibrated constants do not carry over from a grid that fits.");
   table.notes.push_back(
-      "T max is over the observation points, which verdicts use; the place next to the wall is a stress "
-      "singularity, where the maximum anywhere grows with refinement.");
+      "T max is that of the hottest station; stations tile the charge's bottom, S1 at the wall, and verdicts "
+      "use them. At a point beside the wall the stress is singular, and does not settle as cells shrink.");
   return table;
 }
 

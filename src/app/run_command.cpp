@@ -127,7 +127,7 @@ ExitCode run_command(const RunArguments& arguments, Console& console) {
   object["file"] = target.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(target.string());
   console.print_json(object);
   const bool finite = std::all_of(result.gaps.begin(), result.gaps.end(), [](const run::GapResult& gap) {
-    return std::isfinite(gap.anywhere.temperature);
+    return std::isfinite(gap.at_stations.temperature);
   });
   if (!finite) {
     console.error("a skin temperature is not a number; every verdict on it is indeterminate");

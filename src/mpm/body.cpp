@@ -77,6 +77,16 @@ AnyBody make_body(const scene::Scene& scene, int body) {
   return std::visit([&](const auto& each) -> AnyBody { return make_body_of(each, scene, body); }, law);
 }
 
+void record(Kinematics& particles, std::size_t slot) {
+  const std::size_t slots = particles.mass.size();
+  if (particles.recorded.empty()) {
+    particles.recorded.assign(slots / math::pack_width, 0);
+    for (auto* change : {&particles.strain_change, &particles.stress_change})
+      for (math::AlignedArray& component : *change) component.assign(slots, 0.0);
+  }
+  particles.recorded[slot / math::pack_width] = 1;
+}
+
 const Kinematics& kinematics_of(const AnyBody& body) {
   return std::visit([](const auto& each) -> const Kinematics& { return each.kinematics; }, body);
 }

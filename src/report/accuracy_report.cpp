@@ -86,7 +86,7 @@ std::string order_text(const ReferenceValue& value, double scale, const std::str
                      significant(scale * limit.uncertainty, 2), unit, limit.method);
 }
 
-/// Which observation points converge, and which does T max rest on.
+/// Which stations converge, and which does T max rest on.
 std::string points_text(const AccuracyResult& result) {
   const study::AccuracyMeasurement& finest = result.rows.front().measured;
   if (finest.points.empty()) return {};
@@ -100,7 +100,7 @@ std::string points_text(const AccuracyResult& result) {
     least = std::min(least, limit.uncertainty);
     most = std::max(most, limit.uncertainty);
   }
-  std::string text = fmt::format("- T max is that of {}, the hottest of {} observation points. ",
+  std::string text = fmt::format("- T max is that of {}, the hottest of {} stations. ",
                                  finest.points[hottest].name, finest.points.size());
   if (justified == 0) return text + "None of them converges on these meshes.\n";
   return text + fmt::format("{} of them converge; there the finest mesh is within {} to {} of the limit{}.\n",

@@ -99,7 +99,7 @@ Table reference_table(const AccuracyResult& result) {
 }
 
 Table point_table(const AccuracyResult& result) {
-  Table table = quantity_table(result, "T max at the observation points, without reaction");
+  Table table = quantity_table(result, "T max of the stations, without reaction");
   if (!result.reference) return table;
   const study::AccuracyMeasurement& finest = result.rows.front().measured;
   for (std::size_t i = 0; i < finest.points.size(); ++i) {
@@ -108,10 +108,9 @@ Table point_table(const AccuracyResult& result) {
         "K", 1.0, result.reference->points[i]);
   }
   table.notes.push_back(
-      "T max of a study is that of the hottest point. A point beside the corner of charge, wall and base, "
-      "where stresses of the model are singular, need not converge on meshes whose cells are not much "
-      "smaller "
-      "than its distance.");
+      "T max of a study is that of the hottest station. In the corner of charge, wall and base stresses of "
+      "the "
+      "model are singular; the station there averages over them, and converges slowest.");
   return table;
 }
 

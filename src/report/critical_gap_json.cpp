@@ -79,7 +79,6 @@ Json json_of(const CaseOutcome& outcome) {
             {"energy_drift", number(run::largest_energy_drift(run))},
             {"updates_per_second", number(run.update_rate())},
             {"critical_gap", critical_gap_json(outcome.critical)},
-            {"critical_gap_anywhere", critical_gap_json(outcome.critical_anywhere)},
             {"confirmations", Json::array()},
             {"fit", json_of(outcome.fit)}};
   for (const study::Confirmation& each : outcome.confirmations)

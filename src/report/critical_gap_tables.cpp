@@ -44,7 +44,7 @@ Table verdict_table(const CriticalGapResult& result) {
     }
   }
   table.notes = detail::mesh_notes(result.study);
-  table.notes.push_back(detail::anywhere_note());
+  table.notes.push_back(detail::station_note(result.study));
   return table;
 }
 
@@ -126,16 +126,13 @@ Table critical_gap_table(const CriticalGapResult& result) {
                    significant_column("no ignition", "cm", 6, "lower_cm"),
                    significant_column("ignites", "cm", 6, "upper_cm"),
                    significant_column("uncertainty", "cm", 2, "uncertainty_cm"),
-                   significant_column("anywhere", "cm", 6, "anywhere_cm"),
                    named_text("coupled runs", "coupled_runs"),
                    named_text("remark", "reason")};
   for (const CaseOutcome& outcome : result.cases) {
     const study::CriticalGap& gap = outcome.critical;
     table.rows.push_back({outcome.input.label, study::to_string(gap.kind), optional_number(100.0 * gap.value),
                           optional_number(100.0 * gap.lower), optional_number(100.0 * gap.upper),
-                          optional_number(100.0 * gap.uncertainty),
-                          optional_number(100.0 * outcome.critical_anywhere.value),
-                          confirmation_text(outcome), gap.reason});
+                          optional_number(100.0 * gap.uncertainty), confirmation_text(outcome), gap.reason});
   }
   return table;
 }

@@ -73,7 +73,6 @@ Json case_json(const std::vector<detail::ShownKey>& keys, const study::StudyCase
           {"coordinates", coordinates_json(keys, input)},
           {"failure", answer.completed() ? Json(nullptr) : Json(answer.failure)},
           {"critical_gap", critical_json(answer.critical)},
-          {"critical_gap_anywhere", critical_json(answer.critical_anywhere)},
           {"run", run_json(answer)},
           {"verdicts", verdicts_json(answer)}};
 }

@@ -183,7 +183,7 @@ std::string to_markdown(const SweepResult& result, const std::vector<std::string
   for (const std::string& picture : pictures) text += fmt::format("![critical gap]({})\n\n", picture);
   text += matrix_text(result) + "\n";
   text += "## What it rests on\n\n" + detail::friction_remark(result.study) + "\n";
-  text += uncertainty_text(result.study) + "\n" + detail::anywhere_note() + "\n\n";
+  text += uncertainty_text(result.study) + "\n" + detail::station_note(result.study) + "\n\n";
   text += "## Setup\n\n" + detail::setup_text(result.study);
   return text;
 }

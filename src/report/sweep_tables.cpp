@@ -63,7 +63,6 @@ void add_critical_gap_cells(const CaseAnswer& answer, std::vector<Cell>& cells) 
   cells.push_back(optional_number(100.0 * gap.lower));
   cells.push_back(optional_number(100.0 * gap.upper));
   cells.push_back(optional_number(100.0 * gap.uncertainty));
-  cells.push_back(optional_number(100.0 * detail::value_of(answer.critical_anywhere)));
 }
 
 std::string verdict_mark(study::Verdict verdict) {
@@ -88,8 +87,7 @@ Table critical_gap_table(const SweepResult& result) {
          {named_text("kind", "kind"), significant_column("critical gap", "cm", 6, "critical_gap_cm"),
           named_text("reads as", "reads_as"), significant_column("no ignition", "cm", 6, "lower_cm"),
           significant_column("ignites", "cm", 6, "upper_cm"),
-          significant_column("uncertainty", "cm", 2, "uncertainty_cm"),
-          significant_column("anywhere", "cm", 6, "anywhere_cm")});
+          significant_column("uncertainty", "cm", 2, "uncertainty_cm")});
   append(table.columns, outer_gap_columns(gaps));
   append(table.columns,
          {named_text("run", "status"), detail::scientific_column("energy drift", "", 1, "energy_drift"),
@@ -131,7 +129,7 @@ Table verdict_table(const SweepResult& result) {
     }
   });
   table.notes = detail::mesh_notes(result.study);
-  table.notes.push_back(detail::anywhere_note());
+  table.notes.push_back(detail::station_note(result.study));
   return table;
 }
 

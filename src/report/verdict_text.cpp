@@ -3,6 +3,7 @@
 #include "columns.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/stations.hpp"
 #include "launchsafe/study/calibration.hpp"
 #include "launchsafe/study/uncertainty_text.hpp"
 #include "study_text.hpp"
@@ -58,7 +59,6 @@ std::vector<Column> verdict_columns(const study::Study& study) {
           named_text("at", "at"),
           number_column("time", "ms", 2, "time_ms"),
           number_column(fmt::format("T at {:.6g} ms", 1e3 * study.early_time), "K", 1, "T_max_10ms_K"),
-          number_column("anywhere", "K", 1, "anywhere_K"),
           number_column("margin", "K", 2, "margin_K"),
           significant_column("uncertainty", "K", 2, "uncertainty_K"),
           significant_column("of computation", "K", 2, "computation_K"),
@@ -74,7 +74,6 @@ void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells) {
   cells.emplace_back(row.maximum.point);
   cells.emplace_back(1e3 * row.maximum.time);
   cells.emplace_back(row.early.temperature);
-  cells.emplace_back(row.anywhere.temperature);
   cells.emplace_back(row.margin);
   cells.emplace_back(row.uncertainty.total());
   cells.emplace_back(row.uncertainty.computed());
@@ -95,10 +94,13 @@ std::vector<std::string> mesh_notes(const study::StudyFile& study) {
   return notes;
 }
 
-std::string anywhere_note() {
-  return "Verdicts rest on the observation points; \"anywhere\" includes the corner of charge, wall and "
-         "base, "
-         "a stress singularity whose value grows as the mesh is refined.";
+std::string station_note(const study::StudyFile& study) {
+  const scene::Surface& surface = study.scene.scene.surface;
+  const std::size_t count = scene::stations_of(study.scene.scene).size();
+  return fmt::format(
+      "Temperatures are those of the hottest of {} stations that tile the charge's bottom, S1 at the wall, "
+      "each {} mm deep; station.width {} mm.",
+      count, significant(1e3 * surface.station_depth, 4), significant(1e3 * surface.station_width, 4));
 }
 
 void add_verdict(Json& json, const study::GapVerdict& row) {
@@ -109,8 +111,6 @@ void add_verdict(Json& json, const study::GapVerdict& row) {
   json["at_10ms"] = row.early.point;
   json["spread_K"] = number(row.spread);
   json["spread_10ms_K"] = number(row.early_spread);
-  json["anywhere_K"] = number(row.anywhere.temperature);
-  json["anywhere_at"] = row.anywhere.point;
   json["margin_K"] = number(row.margin);
   json["uncertainty_K"] = number(row.uncertainty.total());
   json["uncertainty_of_computation_K"] = number(row.uncertainty.computed());
@@ -120,7 +120,6 @@ void add_verdict(Json& json, const study::GapVerdict& row) {
   json["verdict"] = study::to_string(row.judgement.verdict);
   json["reason"] = row.judgement.reason;
   json["ignition"] = json_of(row.ignition);
-  json["ignition_anywhere"] = json_of(row.ignition_anywhere);
 }
 
 Json critical_gap_json(const study::CriticalGap& gap) {

@@ -18,10 +18,10 @@ void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells);
 
 /// What every table of verdicts must say: an assumed uncertainty, a charge off the grid lines.
 std::vector<std::string> mesh_notes(const study::StudyFile& study);
-/// What the column "anywhere" means.
-std::string anywhere_note();
+/// What temperatures are read over.
+std::string station_note(const study::StudyFile& study);
 
-/// The members of a verdict's object from "T_max_K" to "ignition_anywhere".
+/// The members of a verdict's object from "T_max_K" to "ignition".
 void add_verdict(nlohmann::ordered_json& json, const study::GapVerdict& row);
 /// value, bracket, uncertainty, kind and reason; what is no value is null.
 nlohmann::ordered_json critical_gap_json(const study::CriticalGap& gap);

@@ -2,38 +2,56 @@
 
 #include "launchsafe/surface/skin.hpp"
 #include "launchsafe/trace/bottom_trace.hpp"
+#include "sliding_heat.hpp"
 
 namespace launchsafe::run {
 
-BulkHeat::BulkHeat(const mpm::Simulation& simulation)
+BulkHeat::BulkHeat(mpm::Simulation& simulation)
     : charge_(simulation.scene().charge()),
       closure_(static_cast<std::size_t>(simulation.scene().surface.friction)) {
   const scene::Plan plan = scene::make_plan(simulation.scene());
   reaction_ = plan.bulk_reaction.in;
   if (plan.conduction.in) conduction_.emplace(simulation);
-  for (const Charge& body : simulation.bodies_of<materials::Charge>())
-    friction_before_.emplace_back(body.kinematics.x.size(), 0.0);
+  const bool is_read = reaction_ || conduction_ || !simulation.scene().output.snapshot_times.empty();
+  if (!is_read || closure_ >= trace::traced_closures) return;
+  for (Charge& body : simulation.bodies_of<materials::Charge>()) {
+    for (std::size_t slot = 0; slot < body.kinematics.mass.size(); slot += math::pack_width)
+      mpm::record(body.kinematics, slot);
+    friction_.emplace_back(body.kinematics.mass.size(), 0.0);
+  }
+}
+
+void BulkHeat::accumulate(const mpm::Simulation& simulation) {
+  auto energy = friction_.begin();
+  if (energy == friction_.end()) return;
+  for (const Charge& charge : simulation.bodies_of<materials::Charge>()) {
+    for (std::size_t slot = 0; slot < energy->size(); ++slot) {
+      StepChange change;
+      change.add(charge, slot, 1.0);
+      (*energy)[slot] += sliding_heat(charge.law.sliding_friction, change)[closure_];
+    }
+    ++energy;
+  }
 }
 
 void BulkHeat::advance_to(mpm::Simulation& simulation, double time) {
   const double dt = time - time_;
   time_ = time;
   if (!(dt > 0.0)) return;
-  auto before = friction_before_.begin();
+  auto energy = friction_.begin();
   for (Charge& charge : simulation.bodies_of<materials::Charge>()) {
-    add_friction(charge, *before++);
+    if (energy != friction_.end()) add_friction(charge, *energy++);
     if (reaction_) react(charge, dt);
   }
   if (conduction_) conduction_->advance(simulation, dt);
 }
 
-void BulkHeat::add_friction(Charge& charge, math::AlignedArray& before) const {
-  if (closure_ >= trace::traced_closures) return;
+void BulkHeat::add_friction(Charge& charge, math::AlignedArray& energy) const {
   const double capacity = charge_.eos.initial_density * charge_.specific_heat;
-  const math::AlignedArray& energy = charge[materials::Charge::friction_literal + closure_];
-  for (std::size_t i = 0; i < energy.size(); ++i)
-    charge.kinematics.temperature[i] += (energy[i] - before[i]) / capacity;
-  before = energy;
+  for (std::size_t i = 0; i < energy.size(); ++i) {
+    charge.kinematics.temperature[i] += energy[i] / capacity;
+    energy[i] = 0.0;
+  }
 }
 
 void BulkHeat::react(Charge& charge, double dt) const {

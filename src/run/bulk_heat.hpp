@@ -16,19 +16,22 @@ namespace launchsafe::run {
 /// section 5).
 class BulkHeat {
  public:
-  explicit BulkHeat(const mpm::Simulation& simulation);
+  explicit BulkHeat(mpm::Simulation& simulation);
+  /// Takes in the friction of the step that has just been done.
+  void accumulate(const mpm::Simulation& simulation);
   void advance_to(mpm::Simulation& simulation, double time);
 
  private:
   using Charge = mpm::Body<materials::Charge>;
-  void add_friction(Charge& charge, math::AlignedArray& before) const;
+  void add_friction(Charge& charge, math::AlignedArray& energy) const;
   void react(Charge& charge, double dt) const;
 
   scene::Charge charge_;
   std::size_t closure_;
   bool reaction_;
-  std::optional<mpm::Conduction> conduction_;        ///< only where the plan keeps it
-  std::vector<math::AlignedArray> friction_before_;  ///< J/m3, by charge body
+  std::optional<mpm::Conduction> conduction_;  ///< only where the plan keeps it
+  /// J/m3 since the last advance, by charge body; empty where nobody reads the charge's temperatures.
+  std::vector<math::AlignedArray> friction_;
   double time_ = 0;
 };
 

@@ -91,8 +91,7 @@ class CoupledSurface {
     const double share = points_[station].chemical_share;
     const auto cause = share > 0.5 ? surface::IgnitionCause::arrhenius : surface::IgnitionCause::trigger;
     const surface::Ignition ignition{time, station, cause, share};
-    if (!history_.ignition_anywhere) history_.ignition_anywhere = ignition;
-    if (observation && !history_.ignition) history_.ignition = ignition;
+    if (!observation && !history_.ignition) history_.ignition = ignition;
   }
 
   surface::SkinModel model_;
@@ -159,6 +158,7 @@ class Runner {
     simulation_.step(dt);
     ++result_.steps;
     recorder_.accumulate(simulation_, dt);
+    heat_.accumulate(simulation_);
     if (surface_) surface_->advance(simulation_, recorder_, dt);
     const double time = simulation_.time();
     const bool last = finished();
@@ -260,8 +260,8 @@ class Runner {
 GapResult gap_result(surface::SkinHistory skin, const trace::BottomTrace& trace) {
   GapResult result;
   result.gap = skin.gap;
+  result.at_stations = surface::maximum_at_stations(skin, trace);
   result.at_points = surface::maximum_at_observation_points(skin, trace);
-  result.anywhere = surface::maximum_anywhere(skin);
   result.skin = std::move(skin);
   return result;
 }
@@ -277,8 +277,8 @@ GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trac
   GapResult result = gap_result(surface::integrate_skin(model, trace, gap), trace);
   const trace::BottomTrace coarse = trace::thinned(trace);
   const auto coarse_maximum =
-      surface::maximum_at_observation_points(surface::integrate_skin(model, coarse, gap), coarse);
-  result.sampling_error = std::abs(result.at_points.temperature - coarse_maximum.temperature);
+      surface::maximum_at_stations(surface::integrate_skin(model, coarse, gap), coarse);
+  result.sampling_error = std::abs(result.at_stations.temperature - coarse_maximum.temperature);
   return result;
 }
 

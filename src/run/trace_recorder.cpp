@@ -1,5 +1,8 @@
 #include "trace_recorder.hpp"
 
+#include "launchsafe/scene/stations.hpp"
+#include "sliding_heat.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -23,13 +26,24 @@ Bracket bracket_of(double place, int count, Centre&& centre) {
   return {lower, (place - centre(lower)) / (centre(lower + 1) - centre(lower))};
 }
 
+struct Interval {
+  double begin, end;
+  double length() const { return end - begin; }
+  double middle() const { return 0.5 * (begin + end); }
+};
+/// The part of a lattice's interval `index` between two places.
+Interval overlap(const std::vector<double>& edges, int index, double begin, double end) {
+  const auto i = static_cast<std::size_t>(index);
+  return {std::max(edges[i], begin), std::min(edges[i + 1], end)};
+}
+
 bool contains(const mpm::Lattice& lattice, double x, double r) {
   return x >= lattice.x_begin() && x <= lattice.x_end() && r >= lattice.r_begin() && r <= lattice.r_end();
 }
 
 }  // namespace
 
-TraceRecorder::TraceRecorder(const mpm::Simulation& simulation, const scene::Scene& scene)
+TraceRecorder::TraceRecorder(mpm::Simulation& simulation, const scene::Scene& scene)
     : floor_(scene.surface.air.initial_pressure) {
   for (const Charge& charge : simulation.bodies_of<materials::Charge>()) charges_.push_back(&charge);
   const double bottom = charges_.empty() ? 0.0 : scene::charge_extent(scene).x_end;
@@ -39,9 +53,15 @@ TraceRecorder::TraceRecorder(const mpm::Simulation& simulation, const scene::Sce
   double area = 0.0;
   for (const Share& share : bottom_) area += share.weight;
   for (Share& share : bottom_) share.weight /= area;
-  if (!bottom_.empty())
+  if (!bottom_.empty()) {
+    add_stations(scene);
     for (const scene::ObservationPoint& point : scene.output.observation_points) add_observation_point(point);
-  for (auto* energies : {&energy_, &heat_}) energies->fill(std::vector<double>(trace_.stations.size(), 0.0));
+  }
+  for (Charge& charge : simulation.bodies_of<materials::Charge>())
+    for (const std::vector<Share>& shares : shares_)
+      for (const Share& share : shares)
+        if (share.charge == &charge) mpm::record(charge.kinematics, share.slot);
+  heat_.fill(std::vector<double>(trace_.stations.size(), 0.0));
   bottom_pressure_ = measure_bottom_pressure(simulation);
   chamber_pressure_ = simulation.chamber_pressure();
   sample(simulation);
@@ -66,13 +86,39 @@ void TraceRecorder::add_bottom_row(const Charge& charge, bool axisymmetric) {
   for (int j = 0; j < lattice.rows(); ++j) {
     const double r = lattice.r_of(j);
     const double area = (axisymmetric ? 2.0 * std::numbers::pi * r : 1.0) * lattice.length_r(j);
-    trace_.stations.push_back(
-        {"row " + std::to_string(trace_.stations.size()), lattice.x_end(), r, area, false});
-    shares_.push_back(shares_at(charge, lattice.x_end(), r));
-    for (Share share : shares_.back()) {
+    for (Share share : shares_at(charge, lattice.x_end(), r)) {
       share.weight *= area;
       bottom_.push_back(share);
     }
+  }
+}
+
+/// Particles by the volume of their rectangles at rest that lies in the station.
+void TraceRecorder::add_stations(const scene::Scene& scene) {
+  const bool axisymmetric = scene.symmetry == scene::Symmetry::axisymmetric;
+  for (const scene::StationExtent& extent : scene::stations_of(scene)) {
+    std::vector<Share> shares;
+    double volume = 0.0;
+    for (const Charge* charge : charges_) {
+      const mpm::Lattice& lattice = charge->kinematics.lattice;
+      for (int i = 0; i < lattice.columns(); ++i) {
+        const double length = overlap(lattice.x_edges, i, extent.x_begin, extent.x_end).length();
+        if (!(length > 0.0)) continue;
+        for (int j = 0; j < lattice.rows(); ++j) {
+          const Interval across = overlap(lattice.r_edges, j, extent.r_begin, extent.r_end);
+          if (!(across.length() > 0.0)) continue;
+          const double part = length * across.length() * (axisymmetric ? across.middle() : 1.0);
+          shares.push_back({charge, lattice.slot(i, j), part});
+          volume += part;
+        }
+      }
+    }
+    if (shares.empty()) continue;
+    for (Share& share : shares) share.weight /= volume;
+    const double width = extent.r_end - extent.r_begin, middle = 0.5 * (extent.r_begin + extent.r_end);
+    trace_.stations.push_back({extent.name, extent.x_end, middle,
+                               width * (axisymmetric ? 2.0 * std::numbers::pi * middle : 1.0), false});
+    shares_.push_back(std::move(shares));
   }
 }
 
@@ -120,23 +166,16 @@ void TraceRecorder::sample(const mpm::Simulation& simulation) {
   bottom_integral_ = chamber_integral_ = 0.0;
 }
 
-/// Friction only heats: where the straight line through the gains of two neighbours falls below nothing,
-/// nothing is gained.
+/// Strain is averaged as a tensor before its norm is taken: that of one particle beside a corner never
+/// settles as the mesh is refined.
 void TraceRecorder::heat_stations() {
-  for (std::size_t closure = 0; closure < trace::traced_closures; ++closure)
-    for (std::size_t station = 0; station < trace_.stations.size(); ++station) {
-      const double now = energy_at(closure, station);
-      double& before = energy_[closure][station];
-      if (!(now <= before)) heat_[closure][station] += now - before;
-      before = now;
-    }
-}
-
-double TraceRecorder::energy_at(std::size_t closure, std::size_t station) const {
-  double energy = 0.0;
-  for (const Share& share : shares_[station])
-    energy += share.weight * (*share.charge)[materials::Charge::friction_literal + closure][share.slot];
-  return energy;
+  for (std::size_t station = 0; station < trace_.stations.size(); ++station) {
+    StepChange change;
+    for (const Share& share : shares_[station]) change.add(*share.charge, share.slot, share.weight);
+    const auto heat = sliding_heat(shares_[station].front().charge->law.sliding_friction, change);
+    for (std::size_t closure = 0; closure < trace::traced_closures; ++closure)
+      heat_[closure][station] += heat[closure];
+  }
 }
 
 }  // namespace launchsafe::run

@@ -9,12 +9,12 @@
 
 namespace launchsafe::run {
 
-/// Stations are the radii of the particles of the charge's bottom row, on its bottom, and the scene's
-/// observation points. A scene without
-/// a charge has no stations, and its trace holds the chamber pressure only.
+/// Stations tile the charge's bottom by the width that the scene states, down to the depth that it states;
+/// the scene's observation points come after them. A scene without a charge has none, and its trace holds the
+/// chamber pressure only.
 class TraceRecorder {
  public:
-  TraceRecorder(const mpm::Simulation& simulation, const scene::Scene& scene);
+  TraceRecorder(mpm::Simulation& simulation, const scene::Scene& scene);
 
   /// Takes in the step that has just been done (its end state; dt in s).
   void accumulate(const mpm::Simulation& simulation, double dt);
@@ -38,22 +38,20 @@ class TraceRecorder {
   /// Linear in x and in r between the centres of the four nearest particles, continued to the charge's faces.
   static std::vector<Share> shares_at(const Charge& charge, double x, double r);
   void add_bottom_row(const Charge& charge, bool axisymmetric);
+  void add_stations(const scene::Scene& scene);
   void add_observation_point(const scene::ObservationPoint& point);
   void heat_stations();
-  /// What a straight line through the particles' friction energies reads, J/m3.
-  double energy_at(std::size_t closure, std::size_t station) const;
   double measure_bottom_pressure(const mpm::Simulation& simulation) const;
 
   trace::BottomTrace trace_;
   std::vector<const Charge*> charges_;
-  std::vector<Share> bottom_;               ///< weights sum to 1
-  std::vector<std::vector<Share>> shares_;  ///< by station
-  /// By closure and station, J/m3: as read after the last step, and what was gained.
-  std::array<std::vector<double>, trace::traced_closures> energy_, heat_;
-  double floor_ = 0;                                   ///< Pa: the air's initial pressure
-  double bottom_pressure_ = 0, chamber_pressure_ = 0;  ///< Pa, at the present state
-  double bottom_integral_ = 0, chamber_integral_ = 0;  ///< Pa s, over the present interval
-  double interval_begin_ = 0;                          ///< s
+  std::vector<Share> bottom_;                                     ///< weights sum to 1
+  std::vector<std::vector<Share>> shares_;                        ///< by station
+  std::array<std::vector<double>, trace::traced_closures> heat_;  ///< by closure and station, J/m3
+  double floor_ = 0;                                              ///< Pa: the air's initial pressure
+  double bottom_pressure_ = 0, chamber_pressure_ = 0;             ///< Pa, at the present state
+  double bottom_integral_ = 0, chamber_integral_ = 0;             ///< Pa s, over the present interval
+  double interval_begin_ = 0;                                     ///< s
   double steps_ = 0;
 };
 

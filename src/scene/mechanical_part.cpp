@@ -26,6 +26,8 @@ Load without_unused(Load load) {
 Surface surface_part(const Surface& surface, bool temperatures_matter) {
   Surface part;
   part.air.initial_pressure = surface.air.initial_pressure;
+  part.station_width = surface.station_width;
+  part.station_depth = surface.station_depth;
   if (temperatures_matter) part.friction = surface.friction;
   return part;
 }

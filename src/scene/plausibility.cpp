@@ -126,7 +126,7 @@ std::vector<std::string> acceptable_names(const Scene& scene) {
     names.push_back(fmt::format("body.{}.r", body.name));
   }
   for (const DerivedQuantity& quantity : derived_quantities()) names.push_back(quantity.description.name);
-  names.insert(names.end(), {foreign_calibration, missing_points});
+  names.emplace_back(foreign_calibration);
   return names;
 }
 
@@ -136,8 +136,7 @@ std::vector<std::string> needless_acceptances(const Scene& scene) {
   for (const Acceptance& acceptance : scene.accepted) {
     const bool needed = std::any_of(values.begin(), values.end(),
                                     [&](const Implausible& each) { return each.key == acceptance.key; });
-    if (!needed && acceptance.key != foreign_calibration && acceptance.key != missing_points)
-      needless.push_back(acceptance.key);
+    if (!needed && acceptance.key != foreign_calibration) needless.push_back(acceptance.key);
   }
   return needless;
 }

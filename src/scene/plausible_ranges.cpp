@@ -51,6 +51,19 @@ PlausibleKeys of_scene_and_load() {
   };
 }
 
+PlausibleKeys of_station() {
+  return {
+      in("station.width", between(2e-3, 0.01),
+         "published points are 5 mm apart, a wider station hides a hot place, and beside the wall the stress "
+         "of "
+         "a narrower one grows without bound"),
+      in("station.depth", between(2e-3, 0.01),
+         "a deeper station averages what is not near the bottom, and beside the wall the stress of a "
+         "shallower "
+         "one grows without bound"),
+  };
+}
+
 PlausibleKeys of_gap() {
   return {
       any("gap.thickness", "each gap is judged for itself, and a larger one is hotter"),
@@ -121,7 +134,7 @@ PlausibleKeys of_geometry() {
 
 PlausibleKeys all_keys() {
   PlausibleKeys keys;
-  for (PlausibleKeys part : {of_scene_and_load(), of_gap(), of_computation(), of_geometry()})
+  for (PlausibleKeys part : {of_scene_and_load(), of_gap(), of_station(), of_computation(), of_geometry()})
     std::move(part.begin(), part.end(), std::back_inserter(keys));
   return keys;
 }

@@ -181,6 +181,20 @@ Keys gap_keys() {
   };
 }
 
+Keys station_keys() {
+  return {
+      number_key<Scene>(
+          "station.width", Dimension::length, above_to(0, 1), Standing::assumed,
+          "Width of the stations that tile the charge's bottom, rounded so that a whole number of them does; "
+          "skin temperatures and verdicts are theirs.",
+          [](auto& s) -> auto& { return s.surface.station_width; }),
+      number_key<Scene>(
+          "station.depth", Dimension::length, above_to(0, 1), Standing::assumed,
+          "Depth from the bottom over which stations average pressure and strain.",
+          [](auto& s) -> auto& { return s.surface.station_depth; }),
+  };
+}
+
 Keys numerics_keys() {
   return {
       word_key<Scene, Formulation>(
@@ -302,6 +316,7 @@ Keys all_scene_keys() {
   append(keys, load_keys());
   append(keys, material_keys());
   append(keys, gap_keys());
+  append(keys, station_keys());
   append(keys, numerics_keys());
   append(keys, output_keys());
   return with_plausible(std::move(keys), "");

@@ -343,7 +343,26 @@ bool inside(const Body& body, const ObservationPoint& point, double tolerance) {
          point.r >= body.r_begin - tolerance && point.r <= body.r_end + tolerance;
 }
 
-/// m. Observation points read the skin of the charge's bottom, and verdicts rest on them.
+/// The stations that nothing is said of are as wide as a charge that is narrower, and end with a shorter one.
+Fault check_stations(const SceneFile& file) {
+  if (!has_charge(file.scene)) return std::nullopt;
+  const Extent charge = charge_extent(file.scene);
+  const double tolerance = tolerance_of(file);
+  const auto fault = [&](const char* key, double given, double usual, double largest,
+                         const char* what) -> Fault {
+    if (given <= largest + tolerance || !(given < usual || given > usual)) return std::nullopt;
+    return fault_at(file, key, centimetres(given),
+                    fmt::format("at most the charge's {}, {}", what, centimetres(largest)));
+  };
+  const Surface usual;
+  if (Fault wide = fault("station.width", file.scene.surface.station_width, usual.station_width,
+                         charge.r_end - charge.r_begin, "width"))
+    return wide;
+  return fault("station.depth", file.scene.surface.station_depth, usual.station_depth,
+               charge.x_end - charge.x_begin, "length");
+}
+
+/// m. Observation points read the skin of the charge's bottom.
 constexpr double largest_point_depth = 10e-3;
 
 Fault check_observation_points(const SceneFile& file) {
@@ -410,8 +429,8 @@ Fault check_output(const SceneFile& file) {
 std::optional<InputError> validate(const SceneFile& file) {
   for (const auto check :
        {check_names, check_charge_fits, check_overlaps, check_cell_size, check_load, check_kinetics,
-        check_jwl, check_steel, check_crack_friction, check_gaps, check_observation_points, check_formulation,
-        check_inertia, check_refinement, check_output}) {
+        check_jwl, check_steel, check_crack_friction, check_gaps, check_stations, check_observation_points,
+        check_formulation, check_inertia, check_refinement, check_output}) {
     if (Fault fault = check(file)) return fault;
   }
   return std::nullopt;

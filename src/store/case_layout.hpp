@@ -168,11 +168,11 @@ void lay_out_manifest(Archive& archive, Value& manifest) {
 template <class Archive, class Trace>
 void lay_out_trace(Archive& archive, Trace& trace) {
   using trace::Station;
-  archive.group("stations", "Radial places on the charge bottom", [&] {
+  archive.group("stations", "Rings of the charge's bottom, and observation points", [&] {
     column(archive, "name", trace.stations, &Station::name, {"none", "name"});
     column(archive, "x", trace.stations, &Station::x, {"m", "initial axial position"});
     column(archive, "r", trace.stations, &Station::r, {"m", "initial radial position"});
-    column(archive, "area", trace.stations, &Station::area, {"m2", "share of the bottom"});
+    column(archive, "area", trace.stations, &Station::area, {"m2", "of the ring"});
     column(archive, "observation", trace.stations, &Station::observation, {"1", "1 for observation points"});
   });
   archive.array("time", trace.time, {"s", "time since the start of the load"});
@@ -325,10 +325,10 @@ void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) 
   archive.value("gap", gap.gap, {"m", "thickness of the bottom gap"});
   archive.value("sampling_error", gap.sampling_error, {"K", "change of T_max on a trace thinned by two"});
   integer(archive, "coupled", gap.coupled, {"1", "1 when integrated inside the mechanics"});
+  lay_out_maximum(archive, "maximum_at_stations", "T_max over the stations, which tile the bottom",
+                  gap.at_stations, trace);
   lay_out_maximum(archive, "maximum_at_points", "T_max over the observation points", gap.at_points, trace);
-  lay_out_maximum(archive, "maximum_anywhere", "T_max over the whole bottom", gap.anywhere, trace);
   lay_out_ignition(archive, "ignition", skin.ignition, trace);
-  lay_out_ignition(archive, "ignition_anywhere", skin.ignition_anywhere, trace);
   archive.group("skin", "Skin temperatures", [&] {
     archive.value("gap", skin.gap, {"m", "gap of this history"});
     archive.value("energy_residual", skin.energy_residual,

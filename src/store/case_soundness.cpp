@@ -40,8 +40,9 @@ std::string fault_in_gap(const run::GapResult& gap, const BottomTrace& trace) {
   if (gap.sampling_error < 0.0) return "an error is negative";
   const std::size_t stations = trace.stations.size();
   const auto is_absent = [stations](const auto& place) { return place && place->station >= stations; };
-  if (is_absent(gap.skin.ignition) || is_absent(gap.skin.ignition_anywhere)) return "an ignition is nowhere";
-  if (gap.skin.ignition && !gap.skin.ignition_anywhere) return "an ignition is not on the bottom";
+  if (is_absent(gap.skin.ignition)) return "an ignition is nowhere";
+  if (gap.skin.ignition && trace.stations[gap.skin.ignition->station].observation)
+    return "an ignition is not at a station";
   return {};
 }
 

@@ -37,7 +37,7 @@ void add_first_gap(const Study& study, const StudyCase& input, const trace::Bott
     measured.at_times.push_back(surface::maximum_at_time(skin, trace, time).temperature);
   const std::size_t stations = trace.stations.size();
   for (std::size_t station = 0; station < stations; ++station) {
-    if (!trace.stations[station].observation) continue;
+    if (trace.stations[station].observation) continue;
     PointTemperature point{trace.stations[station].name, 0.0};
     for (std::size_t i = station; i < skin.temperature.size(); i += stations)
       point.temperature = std::max(point.temperature, skin.temperature[i]);

@@ -16,8 +16,7 @@ constexpr double tightness = 1e-7;  ///< K, how well the fitted rows are met at 
 constexpr int most_rounds = 8;      ///< of the two fits in turn
 
 double maximum_at(const surface::SkinModel& model, const trace::BottomTrace& trace, double gap) {
-  return surface::maximum_at_observation_points(surface::integrate_skin(model, trace, gap), trace)
-      .temperature;
+  return surface::maximum_at_stations(surface::integrate_skin(model, trace, gap), trace).temperature;
 }
 
 /// Without the trigger: nothing happens at T1, and self-heating that runs away ends at T2.

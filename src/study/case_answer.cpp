@@ -16,7 +16,6 @@ CaseAnswer without_histories(CaseOutcome& outcome) {
   CaseAnswer answer;
   answer.failure = std::move(outcome.failure);
   answer.critical = std::move(outcome.critical);
-  answer.critical_anywhere = std::move(outcome.critical_anywhere);
   answer.verdicts = std::move(outcome.verdicts);
   return answer;
 }
@@ -99,8 +98,7 @@ bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input) 
   const InputStatements statements = statements_of(study, input);
   for (std::size_t i = 0; i < study.gaps.size(); ++i) {
     const GapVerdict& row = answer.verdicts[i];
-    if (row.gap != study.gaps[i] || is_late(row.maximum) || is_late(row.early) || is_late(row.anywhere))
-      return false;
+    if (row.gap != study.gaps[i] || is_late(row.maximum) || is_late(row.early)) return false;
     // Both are finite or both are not; the subtraction is the one by which the margin came about.
     const double margin = ignition_temperature - row.maximum.temperature;
     if (row.margin != margin && (std::isfinite(row.margin) || std::isfinite(margin))) return false;

@@ -105,11 +105,9 @@ json json_of(const GapVerdict& row) {
           {"maximum", json_of(row.maximum)},
           {"early", json_of(row.early)},
           {"spread", {row.spread, row.early_spread}},
-          {"anywhere", json_of(row.anywhere)},
           {"margin", row.margin},
           {"uncertainty", json_of(row.uncertainty)},
           {"ignition", json_of(row.ignition)},
-          {"ignition_anywhere", json_of(row.ignition_anywhere)},
           {"doubt", row.evidence.doubt},
           {"accepted", row.evidence.accepted},
           {"extrapolated", row.evidence.extrapolated}};
@@ -122,17 +120,12 @@ GapVerdict row_of(const json& value) {
   const json& spread = list_of(value.at("spread"), 2);
   row.spread = amount_of(spread.at(0));
   row.early_spread = amount_of(spread.at(1));
-  row.anywhere = peak_of(value.at("anywhere"));
   row.margin = number_of(value.at("margin"));
   row.uncertainty = uncertainty_of(value.at("uncertainty"));
   row.ignition = ignition_of(value.at("ignition"));
-  row.ignition_anywhere = ignition_of(value.at("ignition_anywhere"));
   row.evidence.doubt = value.at("doubt").get<std::string>();
   row.evidence.accepted = value.at("accepted").get<std::string>();
   row.evidence.extrapolated = value.at("extrapolated").get<std::string>();
-  // The whole bottom holds the observation points.
-  require(!(row.anywhere.temperature < row.maximum.temperature), "the hottest place is not the hottest");
-  require(row.ignition_anywhere || !row.ignition, "an ignition is nowhere");
   return row;
 }
 
@@ -172,7 +165,6 @@ CaseAnswer answer_of(const json& value) {
   answer.failure = value.at("failure").get<std::string>();
   answer.run = run_of(value.at("run"));
   answer.critical = critical_gap_of(value.at("critical"));
-  answer.critical_anywhere = critical_gap_of(value.at("critical_anywhere"));
   for (const json& row : value.at("verdicts")) answer.verdicts.push_back(row_of(row));
   for (const json& heated : list_of(value.at("heated"), answer.verdicts.size()))
     answer.heated_temperature.push_back(amount_of(heated));
@@ -190,7 +182,6 @@ std::string to_json_line(const CaseAnswer& answer) {
   const json line = {{"failure", answer.failure},
                      {"run", json_of(answer.run)},
                      {"critical", json_of(answer.critical)},
-                     {"critical_anywhere", json_of(answer.critical_anywhere)},
                      {"verdicts", std::move(verdicts)},
                      {"heated", answer.heated_temperature}};
   return line.dump(-1, ' ', false, json::error_handler_t::replace);

@@ -7,10 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace launchsafe::study::detail {
 namespace {
@@ -33,12 +31,14 @@ std::optional<NamedIgnition> named(const std::optional<surface::Ignition>& ignit
 }
 
 bool all_finite(const surface::SkinHistory& history) {
-  return !history.temperature.empty() && std::isfinite(surface::maximum_anywhere(history).temperature);
+  return !history.temperature.empty() &&
+         std::all_of(history.temperature.begin(), history.temperature.end(),
+                     [](double temperature) { return std::isfinite(temperature); });
 }
 
-GapState state_of(const surface::SkinHistory& history, bool anywhere) {
+GapState state_of(const surface::SkinHistory& history) {
   if (!all_finite(history)) return GapState::undefined;
-  return (anywhere ? history.ignition_anywhere : history.ignition) ? GapState::ignites : GapState::safe;
+  return history.ignition ? GapState::ignites : GapState::safe;
 }
 
 double largest_gap(const Study& study) {
@@ -52,9 +52,8 @@ double integration_error(const surface::SkinModel& model, const BottomTrace& tra
                          const run::GapResult& gap) {
   surface::SkinModel wide = model;
   wide.relative_tolerance *= 10.0;
-  const auto maximum =
-      surface::maximum_at_observation_points(surface::integrate_skin(wide, trace, gap.gap), trace);
-  return std::abs(maximum.temperature - gap.at_points.temperature);
+  const auto maximum = surface::maximum_at_stations(surface::integrate_skin(wide, trace, gap.gap), trace);
+  return std::abs(maximum.temperature - gap.at_stations.temperature);
 }
 
 const Reference* reference_for(const Study& study, double gap) {
@@ -64,12 +63,11 @@ const Reference* reference_for(const Study& study, double gap) {
   return nullptr;
 }
 
-/// T max (K) at the observation points of a skin that air and friction heat and that neither reacts nor is
+/// T max (K) over the stations of a skin that air and friction heat and that neither reacts nor is
 /// triggered.
 double heated_temperature(const scene::Scene& scene, const BottomTrace& trace, double gap) {
   const surface::SkinModel model = without_reaction(surface::skin_model(scene));
-  return surface::maximum_at_observation_points(surface::integrate_skin(model, trace, gap), trace)
-      .temperature;
+  return surface::maximum_at_stations(surface::integrate_skin(model, trace, gap), trace).temperature;
 }
 
 /// What the rows of a case have in common.
@@ -116,15 +114,13 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGrou
   const BottomTrace& trace = outcome.result.mechanics.trace;
   GapVerdict row;
   row.gap = gap.gap;
-  row.maximum = peak_of(gap.at_points, trace);
-  row.anywhere = peak_of(gap.anywhere, trace);
+  row.maximum = peak_of(gap.at_stations, trace);
   row.early = peak_of(surface::maximum_at_time(gap.skin, trace, study.early_time), trace);
   row.spread = surface::spread_at_time(gap.skin, trace, scene.load.duration);
   row.early_spread = surface::spread_at_time(gap.skin, trace, study.early_time);
-  row.margin = scene.charge().kinetics.ignition_temperature - gap.at_points.temperature;
+  row.margin = scene.charge().kinetics.ignition_temperature - gap.at_stations.temperature;
   row.heated = heated_temperature(scene, trace, gap.gap);
   row.ignition = named(gap.skin.ignition, trace);
-  row.ignition_anywhere = named(gap.skin.ignition_anywhere, trace);
   row.uncertainty.sampling = gap.sampling_error;
   row.uncertainty.integration = integration_error(surface::skin_model(scene), trace, gap);
   add_shares(study, outcome, ground, row);
@@ -152,13 +148,11 @@ void set_gap_uncertainty(const Study& study, CaseOutcome& outcome) {
   const run::GapResult at_lower = run::evaluate_gap(scene, trace, critical.lower);
   const run::GapResult at_below = run::evaluate_gap(scene, trace, below);
   const double slope =
-      (at_lower.at_points.temperature - at_below.at_points.temperature) / (critical.lower - below);
+      (at_lower.at_stations.temperature - at_below.at_stations.temperature) / (critical.lower - below);
   Uncertainty uncertainty = row_of(study, outcome, ground_of(outcome), at_below).uncertainty;
   uncertainty.coupling = coupling_share(outcome);
   const double temperature = uncertainty.total();
   critical.uncertainty = half + (slope > 0 ? temperature / slope : critical.value);
-  if (outcome.critical_anywhere.kind == CriticalGapKind::value)
-    outcome.critical_anywhere.uncertainty = critical.uncertainty;
 }
 
 CriticalGap indeterminate(std::string reason) {
@@ -203,27 +197,15 @@ surface::SkinModel without_reaction(surface::SkinModel model) {
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
   const std::string doubt = doubt_of(study, outcome);
   if (!outcome.completed() || !doubt.empty()) {
-    outcome.critical = outcome.critical_anywhere =
-        indeterminate(outcome.completed() ? "the run is in doubt: " + doubt : outcome.failure);
+    outcome.critical = indeterminate(outcome.completed() ? "the run is in doubt: " + doubt : outcome.failure);
     return;
   }
   const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
-  // Both searches scan the same gaps; one integration answers for both.
-  std::map<double, std::array<GapState, 2>> known;
-  const auto search = [&](bool anywhere) {
-    return find_critical_gap(
-        [&](double gap) {
-          auto [found, is_new] = known.try_emplace(gap);
-          if (is_new) {
-            const auto history = surface::integrate_skin(model, outcome.result.mechanics.trace, gap);
-            found->second = {state_of(history, false), state_of(history, true)};
-          }
-          return found->second[anywhere ? 1 : 0];
-        },
-        largest_gap(study), study.tolerance);
-  };
-  outcome.critical = search(false);
-  outcome.critical_anywhere = search(true);
+  outcome.critical = find_critical_gap(
+      [&](double gap) {
+        return state_of(surface::integrate_skin(model, outcome.result.mechanics.trace, gap));
+      },
+      largest_gap(study), study.tolerance);
 }
 
 void evaluate_gaps(const Study& study, CaseOutcome& outcome) {

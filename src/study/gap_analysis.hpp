@@ -8,7 +8,7 @@ namespace launchsafe::study::detail {
 /// A skin that air and friction heat, and nothing else.
 surface::SkinModel without_reaction(surface::SkinModel model);
 
-/// Critical gap at the observation points and anywhere; both indeterminate for a failed run.
+/// The critical gap, by the hottest station; indeterminate for a failed run.
 void find_critical_gaps(const Study& study, CaseOutcome& outcome);
 
 /// The gaps of the study on the trace: skin histories and the rows without verdict.

@@ -41,7 +41,7 @@ void predict_row(const Study& study, const surface::SkinModel& model, const trac
                  const Reference& reference, CalibrationRow& row) {
   const std::string at_early = fmt::format(" at {:.6g} ms", 1e3 * study.early_time);
   const surface::SkinHistory history = surface::integrate_skin(model, trace, reference.gap);
-  const auto maximum = surface::maximum_at_observation_points(history, trace);
+  const auto maximum = surface::maximum_at_stations(history, trace);
   const auto early = surface::maximum_at_time(history, trace, study.early_time);
   const double end = trace.time.empty() ? 0.0 : trace.time.back();
   Collector collect(row, reference.gap);

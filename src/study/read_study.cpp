@@ -219,10 +219,6 @@ Fault check_scene(const StudyFile& study) {
   const scene::Scene& scene = study.scene.scene;
   if (!scene::has_charge(scene))
     return fault_at(study, "scene", "a scene without a charge", "a scene with a charge");
-  if (scene.output.observation_points.empty()) {
-    return fault_at(study, "scene", "a scene without observation points",
-                    "a scene with observation points at the charge bottom, on which verdicts rest");
-  }
   if (!study.study.peak_pressures.empty() && !scene.load.curve_time.empty() && !scene.load.rescale_to_peak) {
     return fault_at(study, "peak_pressures", "peak pressures for a measured curve that is not rescaled",
                     "peak pressures with load.rescale_to_peak = true in the scene");

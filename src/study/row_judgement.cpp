@@ -20,7 +20,6 @@ Evidence evidence_of(const GapVerdict& row, const std::string& failure, const ru
   if (row.uncertainty.load_curve >= least_told)
     evidence.noise =
         fmt::format("noise and smoothing of the measured curve count {:.2g} K", row.uncertainty.load_curve);
-  if (row.ignition_anywhere) evidence.ignited_elsewhere = row.ignition_anywhere->point;
   return evidence;
 }
 

@@ -265,7 +265,7 @@ std::vector<Key<Reference>> make_reference_keys() {
           "early_point", Standing::paper, "Observation point of the highest temperature at early_time.",
           [](auto& r) -> auto& { return r.early_point; }),
       reference_number("spread", Dimension::temperature_difference,
-                       "Highest minus lowest observation point at the end of the launch.",
+                       "Highest minus lowest published temperature of the bottom at the end of the launch.",
                        &Reference::spread),
       reference_number("early_spread", Dimension::temperature_difference, "The same at early_time.",
                        &Reference::early_spread),

@@ -47,9 +47,6 @@ Judgement judge_distance(const Evidence& evidence, const CriticalGap& critical) 
 
 Judgement judge_sound(const Evidence& evidence, const CriticalGap& critical) {
   if (evidence.ignited) return {Verdict::unsafe, "ignition"};
-  if (!evidence.ignited_elsewhere.empty()) {
-    return indeterminate("the bottom ignites off the observation points, at " + evidence.ignited_elsewhere);
-  }
   if (!(evidence.margin > evidence.uncertainty)) {
     return indeterminate(fmt::format("margin {:.3g} K within the uncertainty, {:.2g} K", evidence.margin,
                                      evidence.uncertainty));

@@ -80,12 +80,9 @@ double per_step_rate(double ratio, double steps, double length) {
 void note_ignition(SkinHistory& history, const trace::BottomTrace& trace, std::size_t station, double time,
                    double chemical_share) {
   const IgnitionCause cause = chemical_share > 0.5 ? IgnitionCause::arrhenius : IgnitionCause::trigger;
-  const Ignition ignition{time, station, cause, chemical_share};
-  const auto keep_first = [&](std::optional<Ignition>& first) {
-    if (!first || time < first->time) first = ignition;
-  };
-  keep_first(history.ignition_anywhere);
-  if (trace.stations[station].observation) keep_first(history.ignition);
+  if (trace.stations[station].observation) return;
+  if (!history.ignition || time < history.ignition->time)
+    history.ignition = Ignition{time, station, cause, chemical_share};
 }
 
 }  // namespace launchsafe::surface::detail

@@ -43,19 +43,19 @@ double temperature_at(const SkinHistory& history, std::size_t stations, std::siz
 
 }  // namespace
 
-Maximum maximum_at_observation_points(const SkinHistory& history, const trace::BottomTrace& trace) {
-  return highest(history, [&](std::size_t station) { return trace.stations[station].observation; });
+Maximum maximum_at_stations(const SkinHistory& history, const trace::BottomTrace& trace) {
+  return highest(history, [&](std::size_t station) { return !trace.stations[station].observation; });
 }
 
-Maximum maximum_anywhere(const SkinHistory& history) {
-  return highest(history, [](std::size_t) { return true; });
+Maximum maximum_at_observation_points(const SkinHistory& history, const trace::BottomTrace& trace) {
+  return highest(history, [&](std::size_t station) { return trace.stations[station].observation; });
 }
 
 Maximum maximum_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time) {
   Maximum most{not_a_number, time, 0};
   bool found = false;
   for (std::size_t station = 0; station < trace.stations.size(); ++station) {
-    if (!trace.stations[station].observation) continue;
+    if (trace.stations[station].observation) continue;
     raise(most, found, {temperature_at(history, trace.stations.size(), station, time), time, station});
   }
   return most;
@@ -64,7 +64,7 @@ Maximum maximum_at_time(const SkinHistory& history, const trace::BottomTrace& tr
 double spread_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time) {
   double least = not_a_number;
   for (std::size_t station = 0; station < trace.stations.size(); ++station) {
-    if (!trace.stations[station].observation) continue;
+    if (trace.stations[station].observation) continue;
     const double value = temperature_at(history, trace.stations.size(), station, time);
     if (!(least <= value)) least = value;
   }

@@ -73,7 +73,6 @@ SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& tra
   history.time = trace.time;
   if (!all_finite(history.temperature) || !all_finite(history.air_temperature)) {
     history.ignition.reset();
-    history.ignition_anywhere.reset();
   }
   return history;
 }

@@ -41,7 +41,7 @@ struct Interval {
 template <class Pressure>
 trace::BottomTrace trace_of(int intervals, Pressure&& pressure) {
   trace::BottomTrace trace;
-  trace.stations = {{"G1", 0.0, 0.0, 0.0, true}, {"row 0", 0.0, 0.0, 0.01, false}};
+  trace.stations = {{"S1", 0.0, 0.0, 0.0, false}, {"S2", 0.0, 0.0, 0.01, false}};
   for (int sample = 0; sample <= intervals; ++sample) {
     const double end = duration * sample / intervals;
     const Interval interval = pressure(duration * std::max(0, sample - 1) / intervals, end);

@@ -114,9 +114,9 @@ void add_exchange(Checks& checks) {
 /// it.
 trace::BottomTrace smooth_launch(int intervals) {
   trace::BottomTrace trace;
-  trace.stations = {{"G1", 0.6775, 0.0625, 0.0, true},
-                    {"G13", 0.6775, 0.0025, 0.0, true},
-                    {"row 0", 0.6775, 0.0325, 0.0133, false}};
+  trace.stations = {{"S1", 0.678, 0.0625, 0.0, false},
+                    {"S2", 0.678, 0.0025, 0.0, false},
+                    {"S3", 0.678, 0.0325, 0.0133, false}};
   const auto pressure = [](double t) {
     const double shape = t / 11e-3 * std::exp(1.0 - t / 11e-3);
     return 101325.0 + 140e6 * std::pow(shape, 12.0);
@@ -147,8 +147,7 @@ trace::BottomTrace smooth_launch(int intervals) {
 }
 
 double hottest(const surface::SkinModel& model, const trace::BottomTrace& trace, double gap) {
-  return surface::maximum_at_observation_points(surface::integrate_skin(model, trace, gap), trace)
-      .temperature;
+  return surface::maximum_at_stations(surface::integrate_skin(model, trace, gap), trace).temperature;
 }
 
 void add_launch(Checks& checks) {

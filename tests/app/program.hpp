@@ -41,11 +41,18 @@ energy_drift_limit = 0.5
 
 [output]
 trace_interval = "5 us"
+
+[station]
+width = "1.5 cm"
+depth = "1 cm"
 )" + testing::small_shell + testing::small_shell_base +
                                       testing::small_shell_point + R"(
 [[accept]]
 key = "calibration"
 because = "the constants are those of another shell"
+[[accept]]
+key = "station.width"
+because = "two coarse cells"
 [[accept]]
 key = "load.duration"
 because = "a launch that takes milliseconds to compute"

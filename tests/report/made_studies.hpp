@@ -47,7 +47,6 @@ inline study::GapVerdict verdict(double gap, study::Verdict verdict, double temp
   row.gap = gap;
   row.maximum = {temperature, 18e-3, "G1"};
   row.early = {350.5, 10e-3, "G1"};
-  row.anywhere = {temperature + 40.0, 18e-3, "row 25"};
   row.margin = 521.52 - temperature;
   row.uncertainty.numerical = 1.2;
   row.judgement = {verdict, verdict == study::Verdict::safe ? "margin over uncertainty" : "ignition"};
@@ -76,8 +75,6 @@ inline study::CaseAnswer value_answer(const study::Study& study, double critical
   answer.critical.lower = critical - 5e-7;
   answer.critical.upper = critical + 5e-7;
   answer.critical.uncertainty = 4e-6;
-  answer.critical_anywhere = answer.critical;
-  answer.critical_anywhere.value = 0.5 * critical;
   return answer;
 }
 
@@ -86,7 +83,6 @@ inline study::CaseAnswer all_safe_answer(const study::Study& study) {
   answer.critical.kind = study::CriticalGapKind::all_safe;
   answer.critical.lower = 1e-3;
   answer.critical.reason = "no ignition up to 0.1 cm, where the search ended";
-  answer.critical_anywhere = answer.critical;
   return answer;
 }
 
@@ -95,7 +91,6 @@ inline study::CaseAnswer all_ignite_answer(const study::Study& study) {
   answer.critical.kind = study::CriticalGapKind::all_ignite;
   answer.critical.upper = 0.0;
   answer.critical.reason = "ignition at every gap, also without one";
-  answer.critical_anywhere = answer.critical;
   return answer;
 }
 
@@ -103,7 +98,7 @@ inline study::CaseAnswer broken_answer(const study::Study& study, const std::str
   study::CaseAnswer answer;
   answer.failure = why;
   answer.run.status = run::RunStatus::energy_drift;
-  answer.critical.reason = answer.critical_anywhere.reason = why;
+  answer.critical.reason = why;
   for (const double gap : study.gaps) {
     study::GapVerdict row;
     row.gap = gap;

@@ -38,15 +38,15 @@ TEST(CriticalGapReport, JsonHasTheKeysThatOtherProgramsReadFrom) {
             1e-4);
   ASSERT_EQ(json["verdicts"].size(), 3u);
   for (const char* key : {"gap_cm", "peak_pressure_MPa", "crack_radius_um", "flaw_size_mm", "T_max_K", "at",
-                          "time_ms", "T_max_10ms_K", "anywhere_K", "margin_K", "uncertainty_K", "verdict",
-                          "reason", "ignition", "paper_K", "misfit_K", "standing"}) {
+                          "time_ms", "T_max_10ms_K", "margin_K", "uncertainty_K", "verdict", "reason",
+                          "ignition", "paper_K", "misfit_K", "standing"}) {
     EXPECT_TRUE(json["verdicts"][0].contains(key)) << key;
   }
   EXPECT_EQ(json["verdicts"][0]["standing"], "calibrated");
   EXPECT_EQ(json["verdicts"][1]["standing"], "hold-out");
   EXPECT_TRUE(json["verdicts"][2]["standing"].is_null());
   EXPECT_TRUE(json["verdicts"][0]["ignition"].is_null());
-  EXPECT_EQ(json["verdicts"][2]["ignition"]["point"], "G2");
+  EXPECT_EQ(json["verdicts"][2]["ignition"]["point"], "S2");
   for (const char* key : {"wall_s", "runs", "updates_per_second"}) EXPECT_TRUE(json["timing"].contains(key));
   EXPECT_TRUE(json["fit"]["slope_standard_error_K_per_cm"].is_null());  // two rows: no degree of freedom left
 }
@@ -100,7 +100,7 @@ TEST(CriticalGapReport, WritesItsFiles) {
   const auto stored = store::read_case_file(folder.path / *file);
   ASSERT_TRUE(stored) << stored.error().message;
   EXPECT_EQ(stored->result.gaps.size(), 3u);
-  EXPECT_EQ(stored->result.gaps[1].at_points.temperature, result.cases[0].verdicts[1].maximum.temperature);
+  EXPECT_EQ(stored->result.gaps[1].at_stations.temperature, result.cases[0].verdicts[1].maximum.temperature);
   EXPECT_EQ(content_of(folder.path / "study.json").find(LAUNCHSAFE_SOURCE_DIR), std::string::npos);
   EXPECT_TRUE(report::write_report(result, folder.path)) << "the same study may be written again";
 }

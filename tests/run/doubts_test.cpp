@@ -23,7 +23,7 @@ scene::Scene shipped_scene() {
 MechanicsResult sound_run() {
   MechanicsResult run;
   run.end_time = 18e-3;
-  run.trace.stations = {{"G1", 0.6775, 0.0625, 0.0, true}};
+  run.trace.stations = {{"S1", 0.678, 0.0625, 0.01, false}};
   for (int i = 0; i <= 900; ++i) {
     run.trace.time.push_back(2e-5 * i);
     for (auto& friction : run.trace.friction) friction.push_back(180.0 * i);
@@ -261,12 +261,12 @@ TEST(Doubts, FewerSamplesThanTheSamplingErrorNeedsCannotFindIt) {
   scene.numerics.cell_size = 10e-3;
   scene.numerics.inertial_scaling = 16.0;
   const trace::BottomTrace fine = run_mechanics(scene).trace;
-  const double exact = evaluate_gap(scene, fine, 3e-4).at_points.temperature;
+  const double exact = evaluate_gap(scene, fine, 3e-4).at_stations.temperature;
   trace::BottomTrace coarse = fine;
   while (coarse.samples() > 2) {
     coarse = trace::thinned(coarse);
     const GapResult gap = evaluate_gap(scene, coarse, 3e-4);
-    const double error = std::abs(gap.at_points.temperature - exact);
+    const double error = std::abs(gap.at_stations.temperature - exact);
     if (coarse.samples() == 2) {
       EXPECT_GT(error, 10.0);
       EXPECT_EQ(gap.sampling_error, 0.0);

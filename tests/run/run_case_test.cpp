@@ -123,7 +123,7 @@ TEST(RunCase, HotterForWiderGapsAndTheSamplingErrorIsSmall) {
   const CaseResult result = run_case(coarse_scene());
   ASSERT_EQ(result.gaps.size(), 6u);
   for (std::size_t i = 1; i < result.gaps.size(); ++i)
-    EXPECT_GT(result.gaps[i].at_points.temperature, result.gaps[i - 1].at_points.temperature);
+    EXPECT_GT(result.gaps[i].at_stations.temperature, result.gaps[i - 1].at_stations.temperature);
   for (const GapResult& gap : result.gaps)
     if (!gap.skin.ignition) {
       EXPECT_LT(gap.sampling_error, 0.02) << gap.gap;
@@ -159,7 +159,7 @@ TEST(RunCoupled, AgreesWithTheTracedTemperaturesBelowIgnition) {
     ASSERT_EQ(coupled.gaps.front().skin.temperature.size(), traced.skin.temperature.size());
     for (std::size_t i = 0; i < traced.skin.temperature.size(); ++i)
       ASSERT_NEAR(coupled.gaps.front().skin.temperature[i], traced.skin.temperature[i], 2e-2);
-    EXPECT_NEAR(coupled.gaps.front().at_points.temperature, traced.at_points.temperature, 1e-3);
+    EXPECT_NEAR(coupled.gaps.front().at_stations.temperature, traced.at_stations.temperature, 1e-3);
     EXPECT_TRUE(coupled.gaps.front().coupled);
   }
 }

@@ -85,7 +85,7 @@ TEST(StableFactor, NothingMovesWithoutALoad) {
   scene.load.curve_pressure = {0.0, 0.0};
   const MechanicsResult run = run_mechanics(scene);
   EXPECT_EQ(run.status, RunStatus::completed) << run.reason;
-  EXPECT_EQ(evaluate_gap(scene, run.trace, 2e-4).at_points.temperature, scene.initial_temperature);
+  EXPECT_EQ(evaluate_gap(scene, run.trace, 2e-4).at_stations.temperature, scene.initial_temperature);
 }
 
 }  // namespace

@@ -106,16 +106,15 @@ inline void expect_same(const std::optional<surface::Ignition>& a,
 inline void expect_same(const run::GapResult& a, const run::GapResult& b) {
   EXPECT_EQ(bits({a.gap, a.sampling_error, a.skin.gap, a.skin.energy_residual}),
             bits({b.gap, b.sampling_error, b.skin.gap, b.skin.energy_residual}));
-  EXPECT_EQ(bits({a.at_points.temperature, a.at_points.time, a.anywhere.temperature, a.anywhere.time}),
-            bits({b.at_points.temperature, b.at_points.time, b.anywhere.temperature, b.anywhere.time}));
+  EXPECT_EQ(bits({a.at_points.temperature, a.at_points.time, a.at_stations.temperature, a.at_stations.time}),
+            bits({b.at_points.temperature, b.at_points.time, b.at_stations.temperature, b.at_stations.time}));
   EXPECT_EQ(a.at_points.station, b.at_points.station);
-  EXPECT_EQ(a.anywhere.station, b.anywhere.station);
+  EXPECT_EQ(a.at_stations.station, b.at_stations.station);
   EXPECT_EQ(a.coupled, b.coupled);
   EXPECT_EQ(bits(a.skin.time), bits(b.skin.time));
   EXPECT_EQ(bits(a.skin.air_temperature), bits(b.skin.air_temperature));
   EXPECT_EQ(bits(a.skin.temperature), bits(b.skin.temperature));
   expect_same(a.skin.ignition, b.skin.ignition);
-  expect_same(a.skin.ignition_anywhere, b.skin.ignition_anywhere);
 }
 
 inline void expect_same(const run::CaseResult& a, const run::CaseResult& b) {

@@ -14,7 +14,7 @@ inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 inline trace::BottomTrace sample_trace() {
   trace::BottomTrace trace;
-  trace.stations = {{"G1", 0.6, 0.0, 0.0, true}, {"row 0", 0.6, 0.00125, 4.9e-6, false}};
+  trace.stations = {{"G1", 0.6, 0.0, 0.0, true}, {"S1", 0.6, 0.00125, 4.9e-6, false}};
   trace.time = {0, 1e-5, 2e-5};
   trace.chamber_pressure = {101325, 2e5, 0.1};
   trace.bottom_pressure = {101325, not_a_number, -0.0};
@@ -82,7 +82,7 @@ inline run::GapResult sample_gap(double thickness) {
   gap.skin.temperature = {300, 300, 310, 311, 320, not_a_number};
   gap.skin.energy_residual = 1e-14;
   gap.at_points = {523.3, 0.0179, 0};
-  gap.anywhere = {530.5, 0.018, 1};
+  gap.at_stations = {530.5, 0.018, 1};
   gap.sampling_error = 0.02;
   return gap;
 }
@@ -92,8 +92,7 @@ inline run::CaseResult sample_case() {
   result.mechanics = sample_mechanics();
   result.gaps = {sample_gap(0.00039), sample_gap(0.0004)};
   result.gaps[1].coupled = true;
-  result.gaps[1].skin.ignition = {0.0177, 0, surface::IgnitionCause::trigger, 0.25};
-  result.gaps[1].skin.ignition_anywhere = {0.0176, 1, surface::IgnitionCause::arrhenius, 0.75};
+  result.gaps[1].skin.ignition = {0.0176, 1, surface::IgnitionCause::arrhenius, 0.75};
   return result;
 }
 

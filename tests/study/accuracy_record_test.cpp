@@ -211,7 +211,7 @@ TEST_F(RecordedStudy, CarriesABoundToOtherLaunchesOnlySoFar) {
                                {"[set]\nload.exponent = 4\n", assumed},
                                {"[set]\nload.peak_time = \"5 ms\"\n", assumed},
                                {"[set]\nload.duration = \"30 ms\"\n", assumed},
-                               {"[set]\nfriction.localisation = 1431.576\n", 2.0 * own},
+                               {"[set]\nfriction.localisation = 2167.14\n", 2.0 * own},
                                {"[set]\nfriction.localisation = 5000\n", assumed},
                                {"[set]\ngap.exchange_time = \"0.05 ms\"\n", assumed}};
   for (const Expected& launch : launches) {

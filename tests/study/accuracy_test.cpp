@@ -18,7 +18,7 @@ const std::string accuracy_text =
     "times = \"10, 18 ms\"\n"
     "settings = [ { \"numerics.cell_size\" = \"2.5, 5 mm\", \"numerics.inertial_scaling\" = [1, 16] },\n"
     "             { friction.closure = [\"inelastic\"] } ]\n" +
-    constants_on_even_lattice;
+    constants_on_even_lattice + "station.width = \"1.3 cm\"\nstation.depth = \"1 cm\"\n";
 
 constexpr double heated_by = 116.1;  // K, of the synthetic friction on an infinitely fine mesh
 

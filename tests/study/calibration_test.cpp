@@ -12,8 +12,7 @@ using namespace launchsafe;
 using namespace launchsafe::study;
 
 double maximum_at(const surface::SkinModel& model, const trace::BottomTrace& trace, double gap) {
-  return surface::maximum_at_observation_points(surface::integrate_skin(model, trace, gap), trace)
-      .temperature;
+  return surface::maximum_at_stations(surface::integrate_skin(model, trace, gap), trace).temperature;
 }
 
 /// Rows as a shell with the given constants would have published them.

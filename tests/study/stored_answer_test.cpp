@@ -66,14 +66,12 @@ TEST(StoredAnswer, ThatContradictsItselfIsNone) {
       {"critical gap surer than its bracket", [](json& a) { a["critical"][4] = 0; }},
       {"critical gap with a part too few", [](json& a) { a["critical"].erase(5); }},
       {"unknown cause of ignition", [](json& a) { a["verdicts"][3]["ignition"][0] = 2; }},
-      {"ignition nowhere", [](json& a) { a["verdicts"][3]["ignition_anywhere"] = nullptr; }},
       {"negative uncertainty", [](json& a) { a["verdicts"][0]["uncertainty"][3] = -50; }},
       {"uncertainty that is a word", [](json& a) { a["verdicts"][0]["uncertainty"][3] = "1"; }},
       {"uncertainty with a part too few", [](json& a) { a["verdicts"][0]["uncertainty"].erase(5); }},
       {"uncertainty with a part too many", [](json& a) { a["verdicts"][0]["uncertainty"].push_back(0); }},
       {"other margin", [](json& a) { a["verdicts"][1]["margin"] = 200; }},
       {"cooler maximum", [](json& a) { a["verdicts"][1]["maximum"][0] = 400; }},
-      {"maximum above that of the bottom", [](json& a) { a["verdicts"][1]["anywhere"][0] = 400; }},
       {"maximum colder than the beginning",
        [](json& a) {
          a["verdicts"][1]["maximum"][0] = 100;

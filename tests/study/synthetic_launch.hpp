@@ -38,10 +38,10 @@ inline const std::string critical_text = critical_kind + synthetic_statements;
 inline trace::BottomTrace synthetic_trace(double peak, double friction) {
   constexpr int intervals = 240;
   trace::BottomTrace trace;
-  trace.stations = {{"G1", 0.6775, 0.0625, 0.0, true},
-                    {"G2", 0.6775, 0.0575, 0.0, true},
-                    {"G13", 0.6775, 0.0025, 0.0, true},
-                    {"row 0", 0.6775, 0.0637, 1e-4, false}};
+  trace.stations = {{"S1", 0.678, 0.0625, 1e-4, false},
+                    {"S2", 0.678, 0.0575, 1e-4, false},
+                    {"S3", 0.678, 0.0025, 1e-4, false},
+                    {"G1", 0.6775, 0.0637, 0.0, true}};
   const double shares[2][4] = {{0.95, 1.0, 0.7, 1.02}, {0.9, 1.0, 0.5, 1.02}};
   const auto pressure = [peak](double t) {
     return 101325.0 + 140.0 / 496.0 * peak * std::pow(t / 11e-3 * std::exp(1.0 - t / 11e-3), 12.0);
@@ -63,8 +63,8 @@ inline trace::BottomTrace synthetic_trace(double peak, double friction) {
   return trace;
 }
 
-/// Friction energy (J/m3, before localisation) that heats by `kelvin` at a localisation of 900.
-inline double friction_for(double kelvin) { return kelvin * 1717.0 * 1780.0 / 900.0; }
+/// Friction energy (J/m3, before localisation) that heats by `kelvin` at a localisation of 1200.
+inline double friction_for(double kelvin) { return kelvin * 1717.0 * 1780.0 / 1200.0; }
 
 inline run::MechanicsResult synthetic_mechanics(const scene::Scene& scene, double kelvin = 116.1) {
   run::MechanicsResult result;
@@ -94,7 +94,7 @@ inline Runners synthetic_runners(double kelvin = 116.1) {
 
 /// The constants that the synthetic launch is made for, on the hot side of the calibrated ones.
 inline const std::string synthetic_constants =
-    "[set]\nfriction.closure = \"literal\"\nfriction.localisation = 900\ngap.exchange_time = \"0.29 ms\"\n"
+    "[set]\nfriction.closure = \"literal\"\nfriction.localisation = 1200\ngap.exchange_time = \"0.29 ms\"\n"
     "kinetics.set = \"comp-b\"\nkinetics.ignition_temperature = \"521 K\"\n";
 /// On a lattice whose cells do not grow, which needs no setting that tells what growth changes.
 inline const std::string constants_on_even_lattice = synthetic_constants + "numerics.growth_x = 1\n";

@@ -51,17 +51,6 @@ TEST(Verdict, IgnitionIsUnsafe) {
   EXPECT_EQ(judge(evidence, critical_at(2e-4, 1e-6)).verdict, Verdict::unsafe);
 }
 
-/// No part of the bottom may ignite under a gap that is called safe, wherever the points are.
-TEST(Verdict, IgnitionOffThePointsIsNeverSafe) {
-  Evidence evidence = calm();
-  evidence.ignited_elsewhere = "row 25";
-  const Judgement judged = judge(evidence, critical_at(3.95e-4, 1e-6));
-  EXPECT_EQ(judged.verdict, Verdict::indeterminate);
-  EXPECT_NE(judged.reason.find("row 25"), std::string::npos) << judged.reason;
-  evidence.ignited = true;
-  EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::unsafe);
-}
-
 TEST(Verdict, WhatIsExtrapolatedStandsInEveryReason) {
   Evidence evidence = calm();
   evidence.extrapolated = "extrapolated: peak pressure";

@@ -10,7 +10,7 @@ using namespace launchsafe::trace;
 
 BottomTrace example(std::size_t samples) {
   BottomTrace trace;
-  trace.stations = {{"G1", 0.6775, 0.0625, 0.0, true}, {"row 0", 0.6775, 0.001, 1e-4, false}};
+  trace.stations = {{"G1", 0.6775, 0.0625, 0.0, true}, {"S1", 0.6775, 0.001, 1e-4, false}};
   double time = 0.0;
   for (std::size_t k = 0; k < samples; ++k) {
     const double value = static_cast<double>(k);

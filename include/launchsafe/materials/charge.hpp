@@ -23,16 +23,8 @@ struct Charge {
   static constexpr bool is_explosive = true;
   static constexpr bool always_written = true;
   /// The deviator S, then those of the Maxwell elements but the first, which is what they leave of S; all by
-  /// orthonormal components (math::DeviatorVector). Then friction heat since the start by closure, J per m3
-  /// of initial volume with localisation 1 (paper Eq. 39).
-  enum Field : std::size_t {
-    stress = 0,
-    second_element = 3,
-    crack_radius = 3 * maxwell_elements,
-    friction_literal,
-    friction_inelastic,
-    fields
-  };
+  /// orthonormal components (math::DeviatorVector).
+  enum Field : std::size_t { stress = 0, second_element = 3, crack_radius = 3 * maxwell_elements, fields };
   static constexpr std::array<StateField, fields> state{{{"deviator_hoop", "Pa"},
                                                          {"deviator_difference", "Pa"},
                                                          {"deviator_shear", "Pa"},
@@ -48,9 +40,7 @@ struct Charge {
                                                          {"element_5_hoop", "Pa"},
                                                          {"element_5_difference", "Pa"},
                                                          {"element_5_shear", "Pa"},
-                                                         {"crack_radius", "m"},
-                                                         {"friction_literal", "J/m3"},
-                                                         {"friction_inelastic", "J/m3"}}};
+                                                         {"crack_radius", "m"}}};
 
   double initial_density() const { return eos.initial_density; }
   double shear_modulus() const { return cracks.shear_modulus(); }
@@ -97,7 +87,6 @@ class Charge::Integrator {
   Response<Real> update(const Increment<Real>& increment, State<Charge, Real>& s, Real, Real&) const {
     using math::max;
     using math::select;
-    using math::sqrt;
     Response<Real> response;
     const Real isentropic = isentrope_.pressure(increment.volume_after - Real(1.0));
     const Real cutoff(-charge_.tension_cutoff);
@@ -105,8 +94,7 @@ class Charge::Integrator {
     response.pressure = max(isentropic, cutoff);
 
     const ViscoScramStep::State<Real> turned = solid_state(s, twice(increment.rotation));
-    const math::DeviatorVector<Real> strain = vector_of(increment.deviator);
-    const auto end = solid_.update(turned, strain, response.pressure);
+    const auto end = solid_.update(turned, vector_of(increment.deviator), response.pressure);
     keep(s, end.state);
     response.deviator_before = deviator_of(turned.total);
     response.deviator = deviator_of(end.state.total);
@@ -114,11 +102,6 @@ class Charge::Integrator {
     response.crack = end.crack;
     response.crack_at_bound =
         select(end.state.crack_radius >= Real(charge_.cracks.largest_crack_radius), Real(1.0), Real(0.0));
-    // mu_d p per volume at rest, V times that per volume now; and equivalent strains sqrt(2/3 e:e).
-    const Real sliding =
-        Real(charge_.sliding_friction) * max(response.pressure, Real(0.0)) * increment.volume_after;
-    s[friction_literal] += sliding * sqrt(Real(2.0 / 3.0) * contract(strain, strain));
-    s[friction_inelastic] += sliding * sqrt(end.inelastic);
     return response;
   }
 

@@ -34,7 +34,6 @@ class ViscoScramStep {
   struct Result {
     State<Real> state;
     Real viscous, crack;  ///< J/m3
-    Real inelastic;       ///< equivalent of the viscous and crack strain increment, squared
   };
 
   explicit ViscoScramStep(const ViscoScramParameters& parameters);
@@ -159,7 +158,6 @@ auto ViscoScramStep::plain_update(const State<Real>& start, math::DeviatorVector
   result.state.crack_radius = plain.crack_radius;
   result.viscous = lost.viscous;
   result.crack = lost.crack;
-  result.inelastic = lost.inelastic_strain * lost.inelastic_strain;
   return result;
 }
 
@@ -235,8 +233,6 @@ auto ViscoScramStep::update(const State<Real>& start, math::DeviatorVector<Real>
   result.state.total = after;
   result.state.crack_radius = end_radius;
   result.viscous = viscous + contract(resisting + Real(loss_of_strain_) * applied, applied);
-  const Vector inelastic = strain - compliance * (after - start.total);
-  result.inelastic = Real(2.0 / 3.0) * contract(inelastic, inelastic);
   if (divides) [[unlikely]] {
     // Copied part by part and without a loop, which stays one in a rare branch: states that are indexed or
     // passed on as a whole would live in memory in every step.
@@ -251,7 +247,6 @@ auto ViscoScramStep::update(const State<Real>& start, math::DeviatorVector<Real>
     result.state.crack_radius = select(divided, parts.state.crack_radius, end_radius);
     result.viscous = select(divided, parts.viscous, result.viscous);
     result.crack = select(divided, parts.crack, result.crack);
-    result.inelastic = select(divided, parts.inelastic, result.inelastic);
   }
   return result;
 }

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace launchsafe::mpm {
@@ -57,7 +58,16 @@ struct Kinematics {
   math::AlignedArray volume_ratio;            ///< V, the volume over that at rest
   math::AlignedArray pressure;                ///< Pa, compression positive
   math::AlignedArray temperature;             ///< K
+
+  /// What a step did to particles that somebody reads between steps (see `record`); empty without.
+  std::vector<std::uint8_t> recorded;               ///< by Pack of slots
+  std::array<math::AlignedArray, 3> strain_change;  ///< deviatoric strain increment rr, xx, rx
+  /// Pa: stress deviator rr, xx, rx less the one before, turned with the step's rotation.
+  std::array<math::AlignedArray, 3> stress_change;
 };
+
+/// Makes steps keep what they do to the particle in a slot, and to the others of its Pack.
+void record(Kinematics& particles, std::size_t slot);
 
 /// A body of particles of its material.
 template <class Law>

@@ -25,6 +25,17 @@ struct Stressed {
   Pack pressure;
 };
 
+/// Keeps what a step did to a Pack of particles.
+inline void keep_changes(Kinematics& p, std::size_t slot, const math::Deviator<Pack>& strain,
+                         const math::Deviator<Pack>& stress) {
+  store(p.strain_change[0], slot, strain.rr);
+  store(p.strain_change[1], slot, strain.xx);
+  store(p.strain_change[2], slot, strain.rx);
+  store(p.stress_change[0], slot, stress.rr);
+  store(p.stress_change[1], slot, stress.xx);
+  store(p.stress_change[2], slot, stress.rx);
+}
+
 /// Advances the law of a Pack of particles, keeps what they carry and books what it did.
 template <class Law>
 [[gnu::always_inline]] inline Stressed update_material(Body<Law>& body, std::size_t slot,
@@ -39,6 +50,8 @@ template <class Law>
   store(p.pressure, slot, response.pressure);
   store(p.volume_ratio, slot, d.increment.volume_after);
   if constexpr (Law::heats_itself) store(p.temperature, slot, temperature);
+  if (!p.recorded.empty() && p.recorded[slot / math::pack_width] != 0)
+    keep_changes(p, slot, d.increment.deviator, response.deviator - response.deviator_before);
 
   const Pack volume0 = d.increment.volume_before, volume1 = d.increment.volume_after;
   const Pack work = contract(response.deviator_before + response.deviator, d.increment.deviator);

@@ -22,7 +22,7 @@ Table setting_table(const study::AccuracyResult& result);
 /// A row for every setting: error of the temperature at Study::times; without rows where there are none.
 Table time_table(const study::AccuracyResult& result);
 
-/// A row for every observation point: T max on the reference meshes, order, limit, uncertainty.
+/// A row for every station: T max on the reference meshes, order, limit, uncertainty.
 Table point_table(const study::AccuracyResult& result);
 
 nlohmann::ordered_json to_json(const study::AccuracyResult& result);

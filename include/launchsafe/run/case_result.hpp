@@ -105,10 +105,10 @@ double largest_energy_drift(const MechanicsResult& mechanics);
 struct GapResult {
   double gap = 0;  ///< m
   surface::SkinHistory skin;
-  surface::Maximum at_points;  ///< T_max over the observation points: what verdicts use
-  surface::Maximum anywhere;   ///< over the whole bottom
-  double sampling_error = 0;   ///< K, |T_max - T_max on the thinned trace|
-  bool coupled = false;        ///< integrated inside the mechanics rather than on its trace
+  surface::Maximum at_stations;  ///< T_max over the stations, the whole bottom: what verdicts use
+  surface::Maximum at_points;    ///< over the observation points; NaN without any
+  double sampling_error = 0;     ///< K, |T_max - T_max on the thinned trace|
+  bool coupled = false;          ///< integrated inside the mechanics rather than on its trace
 };
 
 struct CaseResult {

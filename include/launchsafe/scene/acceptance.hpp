@@ -13,9 +13,6 @@ namespace launchsafe::scene {
 /// Accepts no value but the use of constants outside of what they were calibrated on, which only a study
 /// knows.
 inline constexpr const char* foreign_calibration = "calibration";
-/// Accepts that points at which the constants were calibrated are missing: where T max is read decides how
-/// high it is.
-inline constexpr const char* missing_points = "observation_point";
 
 const std::vector<Key<Acceptance>>& acceptance_keys();
 

@@ -68,9 +68,11 @@ struct Surface {
   AirModel air_model = AirModel::reservoir;
   Exchange exchange = Exchange::rate;
   double skin_thickness = 1e-4;       ///< h_ex, m
-  double exchange_time = 2.98846e-4;  ///< tau_ex, s [C]
+  double exchange_time = 2.98962e-4;  ///< tau_ex, s [C]
+  /// Stations tile the charge's bottom by about this width and this depth, m.
+  double station_width = 5e-3, station_depth = 5e-3;
   FrictionClosure friction = FrictionClosure::literal;
-  double localisation = 715.788;  ///< [C]
+  double localisation = 1083.57;  ///< [C]
 };
 
 struct Numerics {

@@ -22,7 +22,6 @@ struct CaseAnswer {
   std::string failure;               ///< why every verdict is indeterminate; empty for a completed run
   RunSummary run;                    ///< of a case that ran
   CriticalGap critical;              ///< at the observation points
-  CriticalGap critical_anywhere;     ///< if ignition anywhere on the bottom counted
   std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps
   std::vector<double>
       heated_temperature;  ///< K, of every gap: T max at the observation points of a skin that

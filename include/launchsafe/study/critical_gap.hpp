@@ -35,13 +35,11 @@ struct GapVerdict {
   Peak early;                          ///< the same at Study::early_time
   double spread = not_a_number;        ///< K, over the observation points at the end
   double early_spread = not_a_number;  ///< K, at Study::early_time
-  Peak anywhere;                       ///< over the whole bottom
   double margin = not_a_number;        ///< K, to the ignition temperature
   double heated = not_a_number;  ///< K, T max of a skin that air and friction heat and that never reacts
   Uncertainty uncertainty;
-  std::optional<NamedIgnition> ignition;           ///< at an observation point
-  std::optional<NamedIgnition> ignition_anywhere;  ///< on the whole bottom
-  Evidence evidence;                               ///< what the judgement rests on
+  std::optional<NamedIgnition> ignition;  ///< at an observation point
+  Evidence evidence;                      ///< what the judgement rests on
   Judgement judgement;
   std::optional<Reference> reference;
   /// K, this minus the reference; NaN without one or where either ignited
@@ -73,8 +71,7 @@ struct CaseOutcome {
   /// The mechanics under the raised load that shows what the inputs do, where the study states no uncertainty
   /// of them; empty for the others.
   std::optional<run::MechanicsResult> raised;
-  CriticalGap critical;           ///< at the observation points
-  CriticalGap critical_anywhere;  ///< if ignition anywhere on the bottom counted
+  CriticalGap critical;  ///< at the observation points
   std::vector<Confirmation> confirmations;
   std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps
   std::optional<GapFit> fit;         ///< over the rows that do not ignite

@@ -23,7 +23,7 @@ std::vector<std::string> violations_of(const scene::Scene& scene, const run::Mec
 /// One gap of a hard launch beside the safe computation of the same launch.
 struct HardGap {
   double gap = 0;                        ///< m
-  double temperature = not_a_number;     ///< K, T max at the observation points
+  double temperature = not_a_number;     ///< K, T max over the stations
   double heated = not_a_number;          ///< K, the same of a skin that neither reacts nor is triggered
   double heated_against = not_a_number;  ///< K, of the safe computation; NaN without one
   double ignition = not_a_number;        ///< K, ignition temperature

@@ -32,15 +32,13 @@ struct Uncertainty {
 struct Evidence {
   bool completed = false;          ///< the run ended as it should
   std::string failure;             ///< why not, otherwise
-  bool ignited = false;            ///< at an observation point
+  bool ignited = false;            ///< at a station
   double gap = 0;                  ///< m
-  double maximum_temperature = 0;  ///< K, at the observation points
+  double maximum_temperature = 0;  ///< K, over the stations
   double margin = 0;               ///< K, ignition temperature minus maximum temperature
   double uncertainty = 0;          ///< K
-  std::string doubt = {};    ///< why a completed run is no basis (see run::doubts_of); empty for a sound one
-  std::string limited = {};  ///< limiters that acted, for people; empty where none did
-  std::string ignited_elsewhere =
-      {};                     ///< where the bottom ignites off the observation points; empty: nowhere
+  std::string doubt = {};     ///< why a completed run is no basis (see run::doubts_of); empty for a sound one
+  std::string limited = {};   ///< limiters that acted, for people; empty where none did
   std::string noise = {};     ///< what the noise of a measured curve counts, for people; empty for nothing
   std::string accepted = {};  ///< what is not plausible and why it is meant, for people; empty: nothing
   std::string extrapolated = {};  ///< what lies outside the calibration's domain, for people; empty: nothing

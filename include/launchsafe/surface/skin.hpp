@@ -21,13 +21,12 @@ struct Ignition {
 
 /// The skin of one gap over the whole launch.
 struct SkinHistory {
-  double gap = 0;                             ///< m
-  std::vector<double> time;                   ///< s, those of the trace
-  std::vector<double> air_temperature;        ///< K
-  std::vector<double> temperature;            ///< K, [sample * stations + station]
-  std::optional<Ignition> ignition;           ///< the first over all observation stations
-  std::optional<Ignition> ignition_anywhere;  ///< the first over all stations
-  double energy_residual = 0;  ///< J/m2, relative to the heat exchanged; only for AirModel::balance
+  double gap = 0;                       ///< m
+  std::vector<double> time;             ///< s, those of the trace
+  std::vector<double> air_temperature;  ///< K
+  std::vector<double> temperature;      ///< K, [sample * stations + station]
+  std::optional<Ignition> ignition;     ///< the first over the stations that tile the bottom
+  double energy_residual = 0;           ///< J/m2, relative to the heat exchanged; only for AirModel::balance
 };
 
 /// All that the skin equation needs from a scene.
@@ -68,9 +67,10 @@ struct Maximum {
   double time = 0;         ///< s
   std::size_t station = 0;
 };
+/// Over the stations that tile the bottom; over the observation points. NaN without any.
+Maximum maximum_at_stations(const SkinHistory& history, const trace::BottomTrace& trace);
 Maximum maximum_at_observation_points(const SkinHistory& history, const trace::BottomTrace& trace);
-Maximum maximum_anywhere(const SkinHistory& history);
-/// Highest observation-point temperature at time t (s), and the spread (max - min) over those points.
+/// Highest temperature of the stations at time t (s), and the spread (max - min) over them.
 Maximum maximum_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time);
 double spread_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time);
 

@@ -8,12 +8,14 @@
 
 namespace launchsafe::trace {
 
-/// A radial place on the charge bottom at which skin temperatures are integrated.
+/// A ring of the charge's bottom, over which pressure and strain are averaged before the skin's temperature
+/// is integrated; or an observation point, at which they are read. Verdicts rest on the rings, which tile the
+/// whole bottom.
 struct Station {
-  std::string name;     ///< "G1".. for observation points, "row 0".. for the particles of the bottom row
-  double x = 0, r = 0;  ///< initial position, m
-  double area = 0;      ///< share of the bottom, m2; 0 for observation points, which are interpolated
-  bool observation = false;
+  std::string name;          ///< "S1".. from the wall to the axis; of observation points that of the scene
+  double x = 0, r = 0;       ///< initial position; of a ring the middle of its width, on the bottom, m
+  double area = 0;           ///< of the ring, m2 (per metre in plane strain); 0 for observation points
+  bool observation = false;  ///< false for a ring
 };
 
 /// Friction closures whose heat a trace carries, in this order (see scene::FrictionClosure).
