@@ -18,7 +18,7 @@ namespace {
 std::string reason_for(const StudyCase& input, const std::string& difference) {
   const auto& accepted = input.scene.scene.accepted;
   const std::string of_key = scene::reason_for(accepted, difference);
-  const bool alone = difference == "kinetics.ignition_temperature";
+  const bool alone = difference == "kinetics.ignition_temperature" || difference.starts_with("station.");
   return of_key.empty() && !alone ? scene::reason_for(accepted, scene::foreign_calibration) : of_key;
 }
 

@@ -44,7 +44,7 @@ trace_interval = "5 us"
 
 [station]
 width = "1.5 cm"
-depth = "1 cm"
+depth = "1.5 cm"
 )" + testing::small_shell + testing::small_shell_base +
                                       testing::small_shell_point + R"(
 [[accept]]
@@ -52,6 +52,9 @@ key = "calibration"
 because = "the constants are those of another shell"
 [[accept]]
 key = "station.width"
+because = "two coarse cells"
+[[accept]]
+key = "station.depth"
 because = "two coarse cells"
 [[accept]]
 key = "load.duration"
