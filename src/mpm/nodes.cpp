@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace launchsafe::mpm {
@@ -16,6 +17,36 @@ int line_index(const std::vector<double>& lines, double place) {
   auto nearest = after == lines.end() ? after - 1 : after;
   if (nearest != lines.begin() && std::abs(*(nearest - 1) - place) < std::abs(*nearest - place)) --nearest;
   return static_cast<int>(nearest - lines.begin());
+}
+
+/// The bodies at one place in sets that hold each other. Without faces that part, all do.
+std::vector<Tie> parts_of_tie(const Tie& tie, const std::vector<Nodes>& nodes,
+                              const std::function<bool(std::size_t, std::size_t)>& parts) {
+  const std::size_t count = tie.members.size();
+  const auto any_parts = [&] {
+    for (std::size_t a = 0; a < count; ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (parts(tie.members[a].nodes, tie.members[b].nodes)) return true;
+    return false;
+  };
+  if (!any_parts()) return {tie};
+  std::vector<std::size_t> set(count);
+  std::iota(set.begin(), set.end(), std::size_t{0});
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const std::size_t one = tie.members[a].nodes, two = tie.members[b].nodes;
+      if (parts(one, two) || side_towards(nodes[one], nodes[two]) == Side::none) continue;
+      const std::size_t from = std::max(set[a], set[b]), to = std::min(set[a], set[b]);
+      std::replace(set.begin(), set.end(), from, to);
+    }
+  std::vector<Tie> found;
+  for (std::size_t s = 0; s < count; ++s) {
+    Tie part;
+    for (std::size_t a = 0; a < count; ++a)
+      if (set[a] == s) part.members.push_back(tie.members[a]);
+    if (!part.members.empty()) found.push_back(std::move(part));
+  }
+  return found;
 }
 
 }  // namespace
@@ -48,7 +79,8 @@ Nodes make_nodes(const scene::Scene& scene, const scene::GridLines& lines, int i
   return n;
 }
 
-std::vector<Tie> find_ties(const std::vector<Nodes>& nodes) {
+std::vector<Tie> find_ties(const std::vector<Nodes>& nodes,
+                           const std::function<bool(std::size_t, std::size_t)>& parts) {
   std::map<std::pair<int, int>, Tie> places;
   for (std::size_t b = 0; b < nodes.size(); ++b) {
     const Nodes& n = nodes[b];
@@ -60,8 +92,25 @@ std::vector<Tie> find_ties(const std::vector<Nodes>& nodes) {
   }
   std::vector<Tie> ties;
   for (auto& [place, tie] : places)
-    if (tie.members.size() > 1) ties.push_back(std::move(tie));
+    for (Tie& part : parts_of_tie(tie, nodes, parts))
+      if (part.members.size() > 1) ties.push_back(std::move(part));
   return ties;
+}
+
+Side side_towards(const Nodes& of, const Nodes& other) {
+  const auto overlap = [](int a, int a_count, int b, int b_count) {
+    return std::min(a + a_count, b + b_count) - std::max(a, b) > 1;  // more than one common line of nodes
+  };
+  const int x_end = of.first_x + of.columns - 1, r_end = of.first_r + of.rows - 1;
+  if (overlap(of.first_r, of.rows, other.first_r, other.rows)) {
+    if (x_end == other.first_x) return Side::x_end;
+    if (of.first_x == other.first_x + other.columns - 1) return Side::x_begin;
+  }
+  if (overlap(of.first_x, of.columns, other.first_x, other.columns)) {
+    if (r_end == other.first_r) return Side::r_end;
+    if (of.first_r == other.first_r + other.rows - 1) return Side::r_begin;
+  }
+  return Side::none;
 }
 
 void bond(const std::vector<Tie>& ties, std::vector<Nodes>& nodes) {

@@ -1,6 +1,7 @@
 #include "launchsafe/mpm/simulation.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace launchsafe::mpm {
@@ -42,6 +43,12 @@ void Simulation::press_bore(int body, double pressure) {
   with(form_, [&](auto& form) { form.press_bore({body, pressure}); });
 }
 
+void Simulation::pull(int body, double acceleration_x, double acceleration_r) {
+  const Kinematics& p = kinematics_of(bodies_[static_cast<std::size_t>(body)]);
+  pulled_ += acceleration_x * std::accumulate(p.mass.begin(), p.mass.end(), 0.0);
+  std::get<TotalLagrangian>(form_).pull({body, acceleration_x, acceleration_r});
+}
+
 double Simulation::stable_time_step() const {
   return with(form_, [](const auto& form) { return form.stable_time_step(); });
 }
@@ -74,13 +81,15 @@ void Simulation::book(const StepTotals& totals, double dt) {
   const NodeTotals& n = totals.nodes;
   // The motion of the mass centre takes its energy from the work on it to the last digit and says nothing of
   // the computation; in the lab frame it would drown what does. Its velocity is that of the whole momentum.
+  const double momentum = sum(n.momentum) + totals.contact.momentum;
   const double bulk_kinetic =
-      0.5 * scene_.numerics.inertial_scaling * sum(n.old_momentum) * sum(n.momentum) / total_mass_;
+      0.5 * scene_.numerics.inertial_scaling * sum(n.old_momentum) * momentum / total_mass_;
   balance_.kinetic = sum(p.centred_kinetic) - bulk_kinetic;
   const bool lab = scene_.frame == scene::Frame::lab;
-  const double bulk_flow = lab ? -loaded_area_ * sum(n.momentum) / total_mass_ : 0.0;
+  const double bulk_flow = lab ? -loaded_area_ * momentum / total_mass_ : 0.0;
   energy_.external += pressure * (totals.base_flow - bulk_flow) * dt + totals.bore_work;
-  energy_.body_force += acceleration * sum(n.momentum) * dt;
+  energy_.external += totals.pull_work - pulled_ * momentum / total_mass_ * dt;
+  energy_.body_force += acceleration * momentum * dt;
   energy_.internal += sum(p.internal) + sum(p.hourglass);
   energy_.hourglass += sum(p.hourglass);
   energy_.plastic += sum(p.plastic);
@@ -88,6 +97,10 @@ void Simulation::book(const StepTotals& totals, double dt) {
   energy_.crack += sum(p.crack);
   energy_.damping += sum(n.lost_before) + sum(n.damping) + sum(p.pic_loss);
   balance_.damping += sum(n.lost_before);
+  for (EnergyTotals* energy : {&energy_, &balance_}) {
+    energy->damping += totals.contact.way_back_loss;
+    energy->contact += totals.contact.loss;
+  }
   events_.tension_cutoff += sum(p.tension_cutoff);
   events_.pressure_guard += sum(p.pressure_guard);
   events_.crack_at_bound += sum(p.crack_at_bound);

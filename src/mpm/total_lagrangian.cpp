@@ -57,7 +57,10 @@ TotalLagrangian::TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>
     parts_.push_back(make_part(bodies[b], nodes_[b]));
   }
   weigh_nodes();
-  ties_ = find_ties(nodes_);
+  ties_ = find_ties(nodes_, [&scene](std::size_t a, std::size_t b) {
+    const scene::Interface* faces = scene::interface_between(scene, a, b);
+    return faces != nullptr && scene::can_slide(*faces);
+  });
   for (const Tie& tie : ties_) {
     double mass = 0.0, inertia = 0.0;
     for (const Tie::Member& m : tie.members) {
@@ -69,6 +72,7 @@ TotalLagrangian::TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>
       nodes_[m.nodes].mass_share[m.index] = mass / inertia;
     }
   }
+  contact_ = std::make_unique<Contact>(scene, lines_, nodes_, ties_);
   find_base();
   share_work();
   restart();
@@ -196,6 +200,7 @@ void TotalLagrangian::restart() {
       n.velocity_r[node] = (n.inside.momentum_r[node] + n.outside.momentum_r[node]) * n.inverse_inertia[node];
       n.change_x[node] = n.change_r[node] = 0.0;
     }
+  if (contact_->any()) contact_->restart(nodes_);
 }
 
 double TotalLagrangian::stable_time_step() const {
@@ -236,6 +241,15 @@ void TotalLagrangian::load_nodes(const Drive& drive) {
   for_each_bore_share([&](std::size_t body, std::size_t node, double force) {
     nodes_[body].written(0).force_r[node] += force;
   });
+  for (const Pull& pull : pulls_) {
+    Nodes& n = nodes_[static_cast<std::size_t>(pull.body)];
+    for (int j = 0; j < n.rows; ++j)
+      for (int i = 0; i < n.columns; ++i) {
+        const std::size_t node = n.index(i, j);
+        n.written(j).force_x[node] += pull.acceleration_x * n.mass[node];
+        n.written(j).force_r[node] += pull.acceleration_r * n.mass[node];
+      }
+  }
   bond(ties_, nodes_);
 }
 
@@ -250,6 +264,17 @@ double TotalLagrangian::bore_work(double dt) const {
   for_each_bore_share([&](std::size_t body, std::size_t node, double force) {
     work += force * nodes_[body].velocity_r[node] * dt;
   });
+  return work;
+}
+
+double TotalLagrangian::pull_work(double dt) const {
+  double work = 0.0;
+  for (const Pull& pull : pulls_) {
+    const Nodes& n = nodes_[static_cast<std::size_t>(pull.body)];
+    for (std::size_t node = 0; node < n.mass.size(); ++node)
+      work += n.mass[node] * dt *
+              (pull.acceleration_x * n.velocity_x[node] + pull.acceleration_r * n.velocity_r[node]);
+  }
   return work;
 }
 
@@ -310,7 +335,12 @@ void TotalLagrangian::advance_rows(const Rows& rows, const Drive& drive) {
       bodies_[rows.body]);
 }
 
-/// The nodes of all rows, and then the particles of all rows: which thread does which changes no number.
+void TotalLagrangian::touch(const Drive& drive) {
+  if (contact_->any()) contact_totals_ = contact_->act(nodes_, drive.dt, drive.keep);
+}
+
+/// The nodes of all rows, contact, and then the particles of all rows: which thread does which changes no
+/// number.
 void TotalLagrangian::work_through(const Drive& drive) {
   const auto nodes = [&](std::size_t share) {
     for (const Rows& rows : node_rows_[share])
@@ -322,6 +352,7 @@ void TotalLagrangian::work_through(const Drive& drive) {
   };
   const auto alone = [&] {
     for (std::size_t share = 0; share < node_rows_.size(); ++share) nodes(share);
+    touch(drive);
     for (std::size_t share = 0; share < particle_rows_.size(); ++share) particles(share);
   };
   if (team_->threads() == 1) return alone();
@@ -330,6 +361,10 @@ void TotalLagrangian::work_through(const Drive& drive) {
     team_->run([&](int member) {
       nodes(static_cast<std::size_t>(member));
       team_->wait_for_all();
+      if (contact_->any()) {
+        if (member == 0) touch(drive);
+        team_->wait_for_all();
+      }
       particles(static_cast<std::size_t>(member));
     });
   } else {
@@ -350,6 +385,8 @@ StepTotals TotalLagrangian::step(const Drive& drive) {
     for (const NodeTotals& row : body) totals.nodes.add(row);
   totals.base_flow = base_flow();
   totals.bore_work = bore_work(drive.dt);
+  totals.pull_work = pull_work(drive.dt);
+  totals.contact = contact_totals_;
   return totals;
 }
 

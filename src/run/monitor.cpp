@@ -59,7 +59,7 @@ EnergyBalance energy_of(const mpm::Simulation& simulation) {
   energy.internal = whole * totals.internal;
   energy.external = whole * totals.external;
   energy.body_force = whole * totals.body_force;
-  energy.damping = whole * totals.damping;
+  energy.damping = whole * (totals.damping + totals.contact);  // all that leaves the balance
   energy.hourglass = whole * totals.hourglass;
   energy.plastic = whole * totals.plastic;
   energy.viscous = whole * totals.viscous;

@@ -81,6 +81,21 @@ bool has_charge(const Scene& scene) {
                      [&](const Body& body) { return is_charge(scene, body); });
 }
 
+bool can_slide(const Interface& faces) {
+  return faces.condition == Condition::sliding || faces.tension_strength || faces.shear_strength;
+}
+
+const Interface* interface_between(const Scene& scene, std::size_t a, std::size_t b) {
+  const auto speaks_of = [&](const Interface& faces, const Body& body, const Body& other) {
+    if (faces.body != body.name) return false;
+    return faces.against.empty() ? is_charge(scene, other) : faces.against == other.name;
+  };
+  const Body &one = scene.bodies[a], &two = scene.bodies[b];
+  for (const Interface& faces : scene.interfaces)
+    if (speaks_of(faces, one, two) || speaks_of(faces, two, one)) return &faces;
+  return nullptr;
+}
+
 Extent extent_of(const Scene& scene) {
   return extent_where(scene, [](const Body&) { return true; });
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace launchsafe::mpm {
@@ -54,7 +55,15 @@ struct Tie {
   };
   std::vector<Member> members;
 };
-std::vector<Tie> find_ties(const std::vector<Nodes>& nodes);
+/// Ties of all bodies that meet at a place. Where faces can part, `parts(a, b)` for the indices of two
+/// bodies' nodes, only bodies hold each other that share a face there which cannot, directly or through
+/// others.
+std::vector<Tie> find_ties(const std::vector<Nodes>& nodes,
+                           const std::function<bool(std::size_t, std::size_t)>& parts);
+
+/// The side of a body's nodes that faces another body: they share more than a point of it.
+enum class Side { none, x_begin, x_end, r_begin, r_end };
+Side side_towards(const Nodes& of, const Nodes& other);
 
 /// Bonding: every member of a tie gets the sum over all, so that all move alike.
 void bond(const std::vector<Tie>& ties, std::vector<Nodes>& nodes);

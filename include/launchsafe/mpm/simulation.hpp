@@ -26,6 +26,7 @@ struct EnergyTotals {
       0;  ///< taken out by damping, the PIC share and FLIP's way from nodes to particles and back
   double plastic = 0, viscous = 0, crack = 0;
   double hourglass = 0;  ///< stored against hourglassing (part of `internal`)
+  double contact = 0;    ///< taken out by contact: friction, and faces that close
 };
 
 /// Particle-steps on which a limiter acted, a particle was off the grid or its cell beyond what strains mean.
@@ -99,6 +100,9 @@ class Simulation {
   /// Puts a steady pressure (Pa) on the inner radial face of a body (index into Scene::bodies) from now on.
   /// Its work counts as external. No scene asks for it; the thick-walled tube of `launchsafe verify` does.
   void press_bore(int body, double pressure);
+  /// Puts a steady body force, in m/s2 of the true mass, on a body (index into Scene::bodies) from now on;
+  /// total-Lagrangian only. Its work counts as external. No scene asks for it; checks of contact do.
+  void pull(int body, double acceleration_x, double acceleration_r);
 
  private:
   /// Inertial over true mass of a body.
@@ -111,6 +115,7 @@ class Simulation {
   std::variant<std::monostate, TotalLagrangian, UpdatedLagrangian> form_;
   double total_mass_ = 0;   ///< kg per radian or metre
   double loaded_area_ = 0;  ///< m2 per radian or metre
+  double pulled_ = 0;       ///< N per radian or metre, axial, of body forces on single bodies
   double time_ = 0;
   std::uint64_t particles_ = 0;
   EnergyTotals energy_;   ///< at the present time, without the kinetic energy

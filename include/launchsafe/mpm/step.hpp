@@ -41,18 +41,33 @@ struct NodeTotals {
   void add(const NodeTotals& other);
 };
 
+/// What contact of faces that can slide adds, per radian or per metre of depth.
+struct ContactTotals {
+  double loss = 0;           ///< J, taken out by contact until the step's begin
+  double way_back_loss = 0;  ///< J, what NodeTotals::lost_before lacks, as it knows no contact
+  double momentum = 0;       ///< kg m/s, axial, of the true mass; 0 where inertia is that
+};
+
 /// All of a step.
 struct StepTotals {
   ParticleTotals particles;
   NodeTotals nodes;
   double base_flow = 0;  ///< of the loaded face against unit pressure, m3/s
   double bore_work = 0;  ///< of bore pressures, J
+  double pull_work = 0;  ///< of body forces on single bodies, J
+  ContactTotals contact;
 };
 
 /// A body whose inner radial face carries a steady pressure.
 struct Bore {
   int body = 0;         ///< index into Scene::bodies
   double pressure = 0;  ///< Pa
+};
+
+/// A steady body force on one body.
+struct Pull {
+  int body = 0;                                   ///< index into Scene::bodies
+  double acceleration_x = 0, acceleration_r = 0;  ///< m/s2, of its true mass
 };
 
 inline void ParticleTotals::add(const ParticleTotals& other) {

@@ -2,13 +2,15 @@
 // configuration at rest, so that weights are constants of a rectilinear lattice whose lines run through every
 // edge of every body, and no particle ever crosses a cell.
 //
-// A step is a row of stages: the base's and bores' pressure on the nodes, the interfaces between bodies
-// (here: bonded), the nodes' motion, and one pass over the particles, which read the nodes, take on the
-// deformation, advance their law and add themselves to the next step's sums. With the deformation gradient F
-// of a particle and its Cauchy stress sigma, forces come from P = J sigma F^-T: f = -sum V0 P grad0 N.
+// A step is a row of stages: the base's and bores' pressure on the nodes, the ties between bodies that are
+// bonded for good, the nodes' motion, the contact of faces that can slide, and one pass over the particles,
+// which read the nodes, take on the deformation, advance their law and add themselves to the next step's
+// sums. With the deformation gradient F of a particle and its Cauchy stress sigma, forces come from P = J
+// sigma F^-T: f = -sum V0 P grad0 N.
 #pragma once
 
 #include "launchsafe/mpm/body.hpp"
+#include "launchsafe/mpm/contact.hpp"
 #include "launchsafe/mpm/nodes.hpp"
 #include "launchsafe/mpm/step.hpp"
 #include "launchsafe/mpm/team.hpp"
@@ -36,6 +38,7 @@ class TotalLagrangian {
   /// Gives the nodes the particles' momentum again, after velocities were set.
   void restart();
   void press_bore(const Bore& bore) { bores_.push_back(bore); }
+  void pull(const Pull& pull) { pulls_.push_back(pull); }
   /// Largest stable step (s): CFL times the smallest height of a cell, as it is deformed, over the sound
   /// speed in it, with the inertial factors.
   double stable_time_step() const;
@@ -46,6 +49,7 @@ class TotalLagrangian {
 
   const std::vector<Nodes>& nodes() const { return nodes_; }
   const std::vector<Tie>& ties() const { return ties_; }
+  const Contact& contact() const { return *contact_; }
   /// Inertial over true mass of a body.
   double inertial_factor(const Kinematics& body) const;
 
@@ -78,10 +82,12 @@ class TotalLagrangian {
   void load_nodes(const Drive& drive);
   double base_flow() const;
   double bore_work(double dt) const;
+  double pull_work(double dt) const;
   template <class F>
   void for_each_bore_share(F&& f) const;
   void move_row(Nodes& nodes, int row, const Drive& drive, NodeTotals& totals) const;
   void advance_rows(const Rows& rows, const Drive& drive);
+  void touch(const Drive& drive);
   void work_through(const Drive& drive);
 
   const scene::Scene& scene_;
@@ -92,7 +98,10 @@ class TotalLagrangian {
   std::vector<Part> parts_;   ///< by body
   std::vector<Tie> ties_;
   std::vector<LoadShare> base_;
+  std::unique_ptr<Contact> contact_;
+  ContactTotals contact_totals_;  ///< of the step
   std::vector<Bore> bores_;
+  std::vector<Pull> pulls_;
   std::vector<std::vector<Rows>> particle_rows_, node_rows_;  ///< by thread
   std::vector<std::vector<ParticleTotals>> particle_totals_;  ///< by body and row
   std::vector<std::vector<NodeTotals>> node_totals_;          ///< by body and row

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -95,6 +96,26 @@ struct Numerics {
   double energy_drift_limit = 0.05;  ///< of the energy scale; past it the run is stopped and indeterminate
 };
 
+/// How two bodies hold each other where they touch.
+enum class Condition { bonded, sliding };
+
+/// The faces between a body and the charge. Faces that no interface speaks of are bonded for good.
+///
+/// Sliding faces bear no tension, may open and close, and resist sliding by Coulomb's law. Faces with
+/// strengths are bonded until the traction at a node passes one of them, and from then on slide there.
+struct Interface {
+  std::string body;  ///< name of the body that touches the charge
+  Condition condition = Condition::bonded;
+  std::optional<double> friction = {};          ///< Coulomb's coefficient; given where the faces can slide
+  std::optional<double> tension_strength = {};  ///< Pa, of the bond; both strengths or none
+  std::optional<double> shear_strength = {};    ///< Pa
+  /// Name of the other body; empty: every charge that `body` touches. For checks of contact against closed
+  /// forms, which have no charge; no file says it.
+  std::string against = {};
+};
+/// Largest coefficient of friction; beyond it faces stick for any load.
+inline constexpr double largest_friction = 10.0;
+
 struct ObservationPoint {
   std::string name;
   double x = 0, r = 0;  ///< m
@@ -127,6 +148,7 @@ struct Scene {
   Barrel barrel = Barrel::rigid;
   double initial_temperature = 300.0;  ///< K
   std::vector<Body> bodies;
+  std::vector<Interface> interfaces;
   Load load;
   std::vector<Material> materials = usual_materials();  ///< each name once; files fill the usual ones
   Surface surface;
@@ -173,6 +195,11 @@ bool has_law(const Scene& scene) {
 /// Whether a body is of an explosive: the charge, whose bottom is looked at.
 bool is_charge(const Scene& scene, const Body& body);
 bool has_charge(const Scene& scene);
+
+/// Whether the faces can part and slide, now or once their bond has broken.
+bool can_slide(const Interface& faces);
+/// The interface that speaks of two bodies (indices into Scene::bodies); none where they are bonded for good.
+const Interface* interface_between(const Scene& scene, std::size_t a, std::size_t b);
 
 /// The smallest rectangle around all bodies, the charges, or the others; nothing at 0 without any.
 struct Extent {

@@ -1,0 +1,160 @@
+// Faces that can part and slide, as a stage of the total-Lagrangian step beside the tie.
+//
+// It acts once all nodes have moved freely. Every node of the charge's face has one pair of impulses, along
+// the normal and along the face, which act on it and on the nodes of the other face that it meets (see
+// contact_pairing.hpp) with opposite signs. The normal one keeps the gap at the step's end from falling below
+// 0 and never pulls; the one along the face stops sliding as far as friction times the step's own normal
+// impulse allows. A node at an edge that two faces share obeys both, each by its own rows.
+//
+// Nodal velocities come from particles and do not agree to the last digit between two faces even where they
+// are bonded. There, momentum is first exchanged so that they do, as a tie does. That exchange is no force:
+// particles and energies do not know of it. Where faces can slide, the impulses make it good.
+//
+// A step's impulse J on a pair works J (v_before + v_after)/2, with the relative velocities that the step
+// before and this one move by: that closes the leapfrog balance to round-off. A pair that closes exactly
+// takes J gap_before/(2 dt) >= 0 out of it.
+#pragma once
+
+#include "launchsafe/mpm/contact_pairing.hpp"
+#include "launchsafe/mpm/nodes.hpp"
+#include "launchsafe/mpm/step.hpp"
+#include "launchsafe/scene/scene.hpp"
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace launchsafe::mpm {
+
+/// A node of a face that can slide, for reports and tests. Tractions are those of the last step.
+struct FaceState {
+  double place = 0;          ///< m, at rest: x along a side, r along an end
+  double area = 0;           ///< m2 per radian or metre, 0 where it meets nothing
+  double gap = 0;            ///< m
+  double pressure = 0;       ///< Pa, compression positive
+  double shear = 0;          ///< Pa, on the other body: along x on a side, along r on an end
+  double sliding_speed = 0;  ///< m/s, of the other body against the charge, in the same direction
+  double friction_heat = 0;  ///< J/m2, since the start
+  bool bonded = false;
+};
+
+class Contact {
+ public:
+  /// Contact of all interfaces of the scene that can slide. `lines` are those of `nodes`.
+  Contact(const scene::Scene& scene, const scene::GridLines& lines, const std::vector<Nodes>& nodes,
+          const std::vector<Tie>& ties);
+
+  /// Whether any faces can slide: without, nothing else may be called.
+  bool any() const { return !faces_.empty(); }
+  /// Takes the nodes' velocities as those of the step before, which had no impulses. Broken bonds stay so.
+  void restart(const std::vector<Nodes>& nodes);
+  /// Acts on nodes that a step of dt (s) has moved freely, with damping that kept the share `keep` of their
+  /// velocity. Tractions are those that the step would have had to apply before damping, as it does forces.
+  ContactTotals act(std::vector<Nodes>& nodes, double dt, double keep);
+
+  /// Faces in the order of the scene's interfaces.
+  std::size_t faces() const { return faces_.size(); }
+  /// Index into Scene::interfaces of a face.
+  std::size_t interface_of(std::size_t face) const { return faces_[face].interface; }
+  /// Work of friction on a face since the start, J per radian or metre, turned into heat.
+  double friction_work(std::size_t face) const;
+  std::vector<FaceState> state_of(std::size_t face) const;
+
+ private:
+  struct Velocity {
+    double x, r;
+  };
+  /// A node, or all nodes of a tie: they move alike.
+  struct Point {
+    std::size_t first_member, end_member;  ///< in members_
+    double inertia, mass;                  ///< kg
+    double inverse;                        ///< 1/kg
+    double inverse_r;                      ///< 1/kg; 0 where it does not move along r
+  };
+  /// The nodes of one body along a face.
+  struct FaceSide {
+    std::size_t nodes = 0;             ///< index into the bodies' nodes
+    std::vector<std::size_t> indices;  ///< of the nodes, in order
+    std::vector<std::size_t> points;
+    std::vector<double> rest;   ///< m, along the face
+    double across_rest = 0;     ///< m
+    FaceLine line;              ///< present places
+    std::vector<double> shift;  ///< m, displacement across the face
+  };
+  struct Face {
+    std::size_t interface;
+    bool along_x;
+    double outward;  ///< 1 or -1: from the charge, across the face
+    FaceMeasure measure;
+    std::size_t first_row = 0;  ///< of as many rows as the own side has nodes
+    FaceSide own, other;
+  };
+  struct Share {
+    std::uint32_t point;
+    double share;  ///< in the relative velocity, other face less own one
+  };
+  /// A node of the charge's face with what it meets.
+  struct Row {
+    std::uint32_t begin = 0, end = 0;   ///< in shares_
+    double normal_x = 0, normal_r = 0;  ///< from the charge to the other body
+    double friction = 0;
+    double inertia = 0, normal_inertia = 0,
+           slide_inertia = 0;  ///< kg: impulse for a unit of relative velocity, were all free to move, along
+                               ///< the normal and across it
+    double area = 0;
+    double gap = 0;                                   ///< m, at the begin of the step
+    double target = 0;                                ///< m/s, least opening speed
+    double normal = 0, slide = 0;                     ///< kg m/s, impulses of the step, positive as pressure
+    double last_slide = 0;                            ///< of the step before
+    double tension_strength = 0, shear_strength = 0;  ///< Pa, while bonded
+    double opening = 0, sliding = 0;                  ///< m/s, at the end of the last step
+    double friction_work = 0;                         ///< J
+    bool bonded = false;
+  };
+
+  void add_face(const scene::Scene& scene, const scene::GridLines& lines, const std::vector<Nodes>& nodes,
+                const std::vector<Tie>& ties, std::size_t own, std::size_t other);
+  void pair(const std::vector<Nodes>& nodes);
+  FaceSide face_side(const scene::GridLines& lines, const std::vector<Nodes>& nodes,
+                     const std::vector<Tie>& ties, std::size_t of, Side side);
+  std::size_t point_of(const std::vector<Nodes>& nodes, const std::vector<Tie>& ties, Tie::Member node);
+  void pair_face(Face& face, const std::vector<Nodes>& nodes);
+  void set_row(const Face& face, std::size_t node, const PairRow& paired, Row& row);
+  Velocity relative(const Row& row, const std::vector<Velocity>& velocity) const;
+  void set_speeds(Row& row) const;
+  Velocity impulse(const Row& row, double normal, double slide) const;
+  void push(const Row& row, double normal, double slide);
+  void hand_over(const Row& row, double normal, double slide);
+  void read_nodes(const std::vector<Nodes>& nodes);
+  void exchange();
+  void press(double dt);
+  double sweep();
+  bool break_bonds(double dt);
+  ContactTotals write_nodes(std::vector<Nodes>& nodes, double dt);
+  void settle_rows(double dt);
+
+  std::vector<Face> faces_;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> tie_of_, point_of_;  ///< by nodes and index
+  std::vector<Point> points_;
+  std::vector<Tie::Member> members_;
+  std::vector<Row> rows_;
+  std::vector<Share> shares_;
+  std::vector<PairRow> paired_;  ///< of one face, used again
+  // By point.
+  std::vector<Velocity> velocity_;  ///< m/s, which the step moves by
+  std::vector<Velocity> free_;      ///< m/s, without contact
+  std::vector<Velocity> brought_;   ///< m/s, that came back from the particles
+  std::vector<Velocity> matched_;   ///< m/s, the same after the exchange
+  std::vector<Velocity> start_;     ///< m/s, of the free motion after it
+  std::vector<Velocity> before_;    ///< m/s, which the last step moved by
+  std::vector<Velocity> impulse_;   ///< kg m/s, of the last step
+  double last_dt_ = 0;              ///< s
+  double keep_ = 1;                 ///< share of the velocity that damping leaves
+  double slid_ = 0;                 ///< m, since the faces were paired
+  double shortest_cell_ = 0;        ///< m, of the faces
+  int steps_ = 0;                   ///< since the faces were paired
+  bool has_bonds_ = false;
+};
+
+}  // namespace launchsafe::mpm

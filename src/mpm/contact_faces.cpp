@@ -1,0 +1,204 @@
+// Contact's faces: which nodes they are made of, and how they are paired at present.
+#include "launchsafe/mpm/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::mpm {
+namespace {
+
+/// A relative motion that so little of the inverse inertia takes part in cannot be changed: both nodes are
+/// held, or are one.
+constexpr double least_mobility = 1e-9;
+
+Side opposite(Side side) {
+  switch (side) {
+    case Side::x_begin:
+      return Side::x_end;
+    case Side::x_end:
+      return Side::x_begin;
+    case Side::r_begin:
+      return Side::r_end;
+    case Side::r_end:
+      return Side::r_begin;
+    default:
+      return Side::none;
+  }
+}
+
+bool runs_along_x(Side side) { return side == Side::r_begin || side == Side::r_end; }
+
+}  // namespace
+
+Contact::Contact(const scene::Scene& scene, const scene::GridLines& lines, const std::vector<Nodes>& nodes,
+                 const std::vector<Tie>& ties) {
+  for (std::size_t t = 0; t < ties.size(); ++t)
+    for (const Tie::Member& m : ties[t].members) tie_of_[{m.nodes, m.index}] = t;
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const scene::Interface* faces = scene::interface_between(scene, a, b);
+      if (faces == nullptr || !scene::can_slide(*faces)) continue;
+      const bool a_is_named = scene.bodies[a].name == faces->body;
+      add_face(scene, lines, nodes, ties, a_is_named ? b : a, a_is_named ? a : b);
+    }
+  if (!any()) return;
+  shortest_cell_ = std::numeric_limits<double>::infinity();
+  for (const Face& face : faces_)
+    for (const FaceSide* side : {&face.own, &face.other})
+      for (std::size_t i = 0; i + 1 < side->rest.size(); ++i)
+        shortest_cell_ = std::min(shortest_cell_, side->rest[i + 1] - side->rest[i]);
+  for (auto* field : {&velocity_, &free_, &start_, &brought_, &matched_, &before_, &impulse_})
+    field->assign(points_.size(), {0.0, 0.0});
+  shares_.reserve(16 * rows_.size());
+}
+
+std::size_t Contact::point_of(const std::vector<Nodes>& nodes, const std::vector<Tie>& ties,
+                              Tie::Member node) {
+  const auto known = point_of_.find({node.nodes, node.index});
+  if (known != point_of_.end()) return known->second;
+  const auto tie = tie_of_.find({node.nodes, node.index});
+  const std::vector<Tie::Member> alone{node};
+  const std::vector<Tie::Member>& members = tie == tie_of_.end() ? alone : ties[tie->second].members;
+  const Nodes& n = nodes[node.nodes];
+  Point point{members_.size(),
+              members_.size() + members.size(),
+              0.0,
+              0.0,
+              n.inverse_inertia[node.index],
+              n.inverse_inertia[node.index]};
+  for (const Tie::Member& m : members) {
+    members_.push_back(m);
+    point.inertia += nodes[m.nodes].inertia[m.index];
+    point.mass += nodes[m.nodes].mass[m.index];
+    point.inverse_r *= nodes[m.nodes].moves_r[m.index];
+    point_of_[{m.nodes, m.index}] = points_.size();
+  }
+  points_.push_back(point);
+  return points_.size() - 1;
+}
+
+Contact::FaceSide Contact::face_side(const scene::GridLines& lines, const std::vector<Nodes>& nodes,
+                                     const std::vector<Tie>& ties, std::size_t of, Side side) {
+  const Nodes& n = nodes[of];
+  const bool along_x = runs_along_x(side);
+  const int column = side == Side::x_end ? n.columns - 1 : 0, row = side == Side::r_end ? n.rows - 1 : 0;
+  FaceSide face;
+  face.nodes = of;
+  for (int k = 0; k < (along_x ? n.columns : n.rows); ++k) {
+    const int i = along_x ? k : column, j = along_x ? row : k;
+    face.indices.push_back(n.index(i, j));
+    face.points.push_back(point_of(nodes, ties, {of, n.index(i, j), j}));
+    face.rest.push_back(along_x ? lines.x[static_cast<std::size_t>(n.first_x + i)]
+                                : lines.r[static_cast<std::size_t>(n.first_r + j)]);
+  }
+  face.across_rest = along_x ? lines.r[static_cast<std::size_t>(n.first_r + row)]
+                             : lines.x[static_cast<std::size_t>(n.first_x + column)];
+  face.line.along = face.rest;
+  face.line.across.assign(face.rest.size(), face.across_rest);
+  face.shift.assign(face.rest.size(), 0.0);
+  return face;
+}
+
+void Contact::add_face(const scene::Scene& scene, const scene::GridLines& lines,
+                       const std::vector<Nodes>& nodes, const std::vector<Tie>& ties, std::size_t own,
+                       std::size_t other) {
+  const Side side = side_towards(nodes[own], nodes[other]);
+  if (side == Side::none) return;
+  const scene::Interface& law = *scene::interface_between(scene, own, other);
+  Face face;
+  face.interface = static_cast<std::size_t>(&law - scene.interfaces.data());
+  face.along_x = runs_along_x(side);
+  face.outward = side == Side::x_end || side == Side::r_end ? 1.0 : -1.0;
+  face.measure = scene.symmetry == scene::Symmetry::plane_strain ? FaceMeasure::unit_depth
+                 : face.along_x                                  ? FaceMeasure::radius_across
+                                                                 : FaceMeasure::radius_along;
+  face.first_row = rows_.size();
+  face.own = face_side(lines, nodes, ties, own, side);
+  face.other = face_side(lines, nodes, ties, other, opposite(side));
+  Row row;
+  row.friction = law.friction.value_or(0.0);
+  row.bonded = law.tension_strength || law.shear_strength;
+  row.tension_strength = law.tension_strength.value_or(std::numeric_limits<double>::infinity());
+  row.shear_strength = law.shear_strength.value_or(std::numeric_limits<double>::infinity());
+  has_bonds_ = has_bonds_ || row.bonded;
+  rows_.resize(rows_.size() + face.own.indices.size(), row);
+  faces_.push_back(std::move(face));
+}
+
+/// Pairs all faces at the places that the nodes have now.
+void Contact::pair(const std::vector<Nodes>& nodes) {
+  shares_.clear();
+  for (Face& face : faces_) pair_face(face, nodes);
+  for (Row& row : rows_) set_speeds(row);
+  slid_ = 0.0;
+  steps_ = 0;
+}
+
+void Contact::pair_face(Face& face, const std::vector<Nodes>& nodes) {
+  for (FaceSide* side : {&face.own, &face.other}) {
+    const Nodes& n = nodes[side->nodes];
+    for (std::size_t k = 0; k < side->indices.size(); ++k) {
+      const double x = n.displacement_x[side->indices[k]], r = n.displacement_r[side->indices[k]];
+      side->line.along[k] = side->rest[k] + (face.along_x ? x : r);
+      side->shift[k] = face.along_x ? r : x;
+      side->line.across[k] = side->across_rest + side->shift[k];
+    }
+  }
+  pair_faces(face.own.line, face.other.line, face.measure, paired_);
+  for (std::size_t i = 0; i < paired_.size(); ++i) set_row(face, i, paired_[i], rows_[face.first_row + i]);
+}
+
+void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired, Row& row) {
+  row.area = paired.area;
+  row.begin = row.end = static_cast<std::uint32_t>(shares_.size());
+  row.gap = 0.0;
+  if (!(paired.area > 0.0)) {
+    row.normal = row.slide = row.inertia = row.normal_inertia = row.slide_inertia = 0.0;
+    return;
+  }
+  // Where a node is held along r, by symmetry or by the barrel, the face runs along a line of the grid.
+  const auto held = [&](const FaceSide& side, const PairShare& each) {
+    return !(points_[side.points[each.node]].inverse_r > 0.0);
+  };
+  const auto any_held = [&](const FaceSide& side, const std::vector<PairShare>& shares) {
+    return std::any_of(shares.begin(), shares.end(), [&](const PairShare& each) { return held(side, each); });
+  };
+  const double slope =
+      any_held(face.own, paired.own) || any_held(face.other, paired.other) ? 0.0 : paired.slope;
+  const double cosine = face.outward / std::sqrt(1.0 + slope * slope);
+  const double across = cosine, along = -cosine * slope;
+  row.normal_x = face.along_x ? along : across;
+  row.normal_r = face.along_x ? across : along;
+  const double here = face.own.line.along[node];
+  const auto take = [&](const FaceSide& side, const PairShare& each, double sign) {
+    const auto point = static_cast<std::uint32_t>(side.points[each.node]);
+    row.gap +=
+        sign * each.share * (across * side.shift[each.node] + along * (side.line.along[each.node] - here));
+    for (std::size_t s = row.begin; s < shares_.size(); ++s)
+      if (shares_[s].point == point) {
+        shares_[s].share += sign * each.share;
+        return;
+      }
+    shares_.push_back({point, sign * each.share});
+  };
+  for (const PairShare& each : paired.own) take(face.own, each, -1.0);
+  for (const PairShare& each : paired.other) take(face.other, each, 1.0);
+  row.end = static_cast<std::uint32_t>(shares_.size());
+  double all = 0.0, normal = 0.0, slide = 0.0;
+  const double nx = row.normal_x * row.normal_x, nr = row.normal_r * row.normal_r;
+  for (std::size_t s = row.begin; s < row.end; ++s) {
+    const Point& point = points_[shares_[s].point];
+    const double square = shares_[s].share * shares_[s].share;
+    all += square * point.inverse;
+    normal += square * (nx * point.inverse + nr * point.inverse_r);
+    slide += square * (nr * point.inverse + nx * point.inverse_r);
+  }
+  const double least = least_mobility * points_[face.own.points[node]].inverse;
+  const auto inertia = [least](double mobility) { return mobility > least ? 1.0 / mobility : 0.0; };
+  row.inertia = inertia(all);
+  row.normal_inertia = inertia(normal);
+  row.slide_inertia = inertia(slide);
+}
+
+}  // namespace launchsafe::mpm

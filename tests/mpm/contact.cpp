@@ -1,0 +1,358 @@
+// Contact of faces that can slide: against the tie, closed solutions, and its own balance.
+#include "launchsafe/mpm/simulation.hpp"
+#include "scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace {
+
+using namespace launchsafe;
+
+/// The shell on a coarse graded lattice, under a load that is over within two milliseconds.
+scene::Scene held_shell() {
+  scene::Scene shell = test_support::shell_155(5e-3);
+  shell.numerics.growth_x = 1.3;
+  shell.numerics.growth_r = 1.2;
+  shell.load.duration = 2e-3;
+  shell.load.peak_time = 1e-3;
+  return shell;
+}
+
+scene::Interface sliding(const std::string& body, double friction) {
+  return {.body = body, .condition = scene::Condition::sliding, .friction = friction};
+}
+
+/// A bond that nothing breaks, held by contact rather than by the tie.
+scene::Interface held(const std::string& body) {
+  return {.body = body,
+          .condition = scene::Condition::bonded,
+          .friction = 0.1,
+          .tension_strength = 1e18,
+          .shear_strength = 1e18};
+}
+
+void go_until(mpm::Simulation& simulation, double end) {
+  while (simulation.time() < end) simulation.step(simulation.stable_time_step());
+}
+
+double ledger(const mpm::EnergyTotals& e) {
+  return e.kinetic + e.internal + e.damping + e.contact - e.external - e.body_force;
+}
+
+/// A plain elastic material by its shear modulus (Pa), Poisson's ratio and density (kg/m3).
+scene::Material plain(const std::string& name, double shear, double poisson, double density) {
+  return {name,
+          materials::LinearElastic{.density = density,
+                                   .bulk = shear * 2.0 * (1.0 + poisson) / (3.0 * (1.0 - 2.0 * poisson)),
+                                   .shear = shear}};
+}
+
+constexpr double block_height = 0.01, block_length = 0.04, block_density = 2000.0;  // m, kg/m3
+
+/// A block (body 1) on a floor (body 0) a million times as heavy and stiff, in plane strain: the floor rests
+/// on the plane r = 0. Poisson's ratio is 0, so that a body force across makes uniform sections.
+scene::Scene block_on_floor(scene::Interface faces) {
+  scene::Scene scene;
+  scene.symmetry = scene::Symmetry::plane_strain;
+  scene.barrel = scene::Barrel::none;
+  scene.load = test_support::steady_pressure(0.0);
+  scene.materials = {plain("floor", 1e15, 0.0, 2e9), plain("block", 1e9, 0.0, block_density)};
+  scene.bodies = {{"floor", "floor", 0.0, 0.1, 0.0, 0.01},
+                  {"block", "block", 0.02, 0.02 + block_length, 0.01, 0.01 + block_height}};
+  faces.body = "floor";
+  faces.against = "block";
+  scene.interfaces = {faces};
+  scene.numerics.cell_size = 2.5e-3;
+  return scene;
+}
+
+/// Turns the block's body force (m/s2) on in equal parts over some steps.
+void pull_slowly(mpm::Simulation& simulation, double along, double across, int steps) {
+  for (int step = 0; step < steps; ++step) {
+    simulation.pull(1, along / steps, across / steps);
+    simulation.step(simulation.stable_time_step());
+  }
+}
+
+/// Mean velocity (m/s) of a body along x.
+double velocity_of(const mpm::Simulation& simulation, std::size_t body) {
+  const mpm::Kinematics& p = mpm::kinematics_of(simulation.bodies()[body]);
+  const double mass = std::accumulate(p.mass.begin(), p.mass.end(), 0.0);
+  return std::inner_product(p.mass.begin(), p.mass.end(), p.velocity_x.begin(), 0.0) / mass;
+}
+
+TEST(Contact, ABondHeldByContactIsTheTie) {
+  const auto run = [](bool by_contact, double keep) {
+    scene::Scene shell = held_shell();
+    shell.numerics.damping_time = keep;
+    shell.load = test_support::steady_pressure(300e6);
+    shell.numerics.inertial_scaling = 4.0;
+    if (by_contact) shell.interfaces = {held("wall"), held("base"), held("nose")};
+    mpm::Simulation simulation(shell);
+    go_until(simulation, 2e-4);
+    std::vector<double> all;
+    simulation.for_each_body(
+        [&](const mpm::Kinematics& p) { all.insert(all.end(), p.pressure.begin(), p.pressure.end()); });
+    all.push_back(simulation.energy().internal);
+    return all;
+  };
+  for (const double keep : {0.0, 1e-4}) {
+    const std::vector<double> tied = run(false, keep), held = run(true, keep);
+    const double largest = *std::max_element(tied.begin(), tied.end());
+    double worst = 0.0;
+    for (std::size_t i = 0; i < tied.size(); ++i)
+      worst = std::max(worst, std::abs(held[i] - tied[i]) / largest);
+    EXPECT_LT(worst, 1e-12);
+  }
+}
+
+TEST(Contact, ClosesTheEnergyBalance) {
+  for (const double friction : {0.0, 0.05, 0.1, 1.0})
+    for (const int per_cell : {1, 2}) {
+      scene::Scene shell = held_shell();
+      shell.numerics.particles_per_cell = per_cell;
+      shell.interfaces = {sliding("wall", friction), sliding("base", friction), sliding("nose", friction)};
+      mpm::Simulation simulation(shell);
+      double largest = 0.0, scale = 0.0;
+      while (simulation.time() < 2e-3) {
+        simulation.step(simulation.stable_time_step());
+        const mpm::EnergyTotals& e = simulation.energy();
+        largest = std::max(largest, std::abs(ledger(e)));
+        scale = std::max(scale, e.kinetic + e.internal);
+      }
+      EXPECT_LT(largest / scale,
+                1e-7);  // what is left is the third power of a step's strain, as without contact
+      EXPECT_GE(simulation.energy().contact, 0.0);
+      EXPECT_GE(simulation.energy().damping, 0.0);
+      // Of a momentum to and fro of about 50 kg m/s.
+      EXPECT_NEAR(simulation.axial_momentum(), 0.0, 1e-9);
+    }
+}
+
+TEST(Contact, ABlockOnAnInclineSticksOrSlides) {
+  // g (sin a - mu cos a) where tan a > mu, else rest.
+  const double g = 1e4;
+  for (const double friction : {0.0, 0.1, 0.3, 0.7})
+    for (const double slope : {0.05, 0.25, 0.5}) {
+      mpm::Simulation simulation(block_on_floor(sliding("", friction)));
+      const double angle = std::atan(slope);
+      pull_slowly(simulation, g * std::sin(angle), -g * std::cos(angle), 400);
+      const double begin = simulation.time(), before = velocity_of(simulation, 1);
+      while (simulation.time() < begin + 1e-3) simulation.step(simulation.stable_time_step());
+      const double measured = (velocity_of(simulation, 1) - before) / (simulation.time() - begin);
+      const double expected = std::max(0.0, g * (std::sin(angle) - friction * std::cos(angle)));
+      EXPECT_NEAR(measured, expected, 2e-4 * g) << friction << ' ' << slope;
+    }
+}
+
+TEST(Contact, UniformPressurePassesASlippedInterface) {
+  // The block is drawn over the floor, across several of its graded cells.
+  scene::Scene scene = block_on_floor(sliding("", 0.0));
+  scene.numerics.damping_time = 2e-5;
+  scene.numerics.growth_x = 1.2;
+  scene.numerics.refined_x = {0.03};
+  scene.numerics.largest_cell = 5e-3;
+  mpm::Simulation simulation(scene);
+  const double pressure = 1e5 * block_density * block_height;
+  pull_slowly(simulation, 1e5, -1e5, 400);
+  double worst = 0.0;
+  const auto moved = [&] {
+    const mpm::Kinematics& p = mpm::kinematics_of(simulation.bodies()[1]);
+    return p.x[0] - p.lattice.x_of(0);
+  };
+  while (moved() < 8e-3) {
+    simulation.step(simulation.stable_time_step());
+    if (moved() < 1e-3) continue;
+    for (const mpm::FaceState& node : simulation.total_lagrangian()->contact().state_of(0))
+      worst = std::max(worst, std::abs(node.pressure / pressure - 1.0));
+  }
+  EXPECT_LT(worst, 2e-4);  // ripple of the block, whose force is turned on in 400 steps
+}
+
+TEST(Contact, ABouncingBlockGainsNoEnergy) {
+  // Thrown up askew and drawn back, it falls on one edge, tilts, slides and bounces.
+  mpm::Simulation simulation(block_on_floor(sliding("", 0.3)));
+  simulation.pull(1, 0.0, -1e4);
+  std::visit(
+      [](auto& body) {
+        mpm::Kinematics& block = body.kinematics;
+        for (std::size_t i = 0; i < block.mass.size(); ++i) {
+          if (!(block.mass[i] > 0.0)) continue;
+          block.velocity_r[i] = 0.3 + 2.0 * (block.x[i] - 0.04);
+          block.velocity_x[i] = 2.0;
+        }
+      },
+      simulation.bodies()[1]);
+  simulation.restart();
+  double drift = 0.0, initial = 0.0, deepest = 0.0;
+  int parted = 0;
+  bool touched = true;
+  while (simulation.time() < 3e-3) {
+    simulation.step(simulation.stable_time_step());
+    const mpm::EnergyTotals& e = simulation.energy();
+    if (initial == 0.0) initial = e.kinetic;
+    drift = std::max(drift, std::abs(ledger(e) - initial) / initial);
+    EXPECT_GT(e.contact, -1e-9 * initial);
+    bool touches = false;
+    for (const mpm::FaceState& node : simulation.total_lagrangian()->contact().state_of(0)) {
+      touches = touches || node.pressure > 0.0;
+      deepest = std::min(deepest, node.gap);
+    }
+    parted += touched && !touches ? 1 : 0;
+    touched = touches;
+  }
+  EXPECT_GE(parted, 2);
+  EXPECT_GT(deepest, -1e-9);  // m, of flights of some micrometres
+  EXPECT_LT(drift, 1e-5);     // the second power of strains of some 1e-4
+}
+
+TEST(Contact, ABondBreaksAtItsStrength) {
+  // The block's body force pulls with rho h a everywhere; along the face more at its ends, where it unzips.
+  const double strength = 5e6, full = strength / (block_density * block_height);
+  for (const bool shear : {false, true}) {
+    scene::Interface bond = sliding("", 0.0);
+    bond.tension_strength = shear ? 1e12 : strength;
+    bond.shear_strength = shear ? strength : 1e12;
+    scene::Scene scene = block_on_floor(bond);
+    scene.numerics.damping_time = 2e-5;
+    mpm::Simulation simulation(scene);
+    const auto pull = [&](double force, int steps) {
+      pull_slowly(simulation, shear ? force : 0.0, shear ? 0.0 : force, steps);
+      const auto nodes = simulation.total_lagrangian()->contact().state_of(0);
+      return std::count_if(nodes.begin(), nodes.end(), [](const auto& node) { return !node.bonded; });
+    };
+    double force = 0.8 * full;
+    EXPECT_EQ(pull(force, 1000), 0);
+    while (pull(1e-3 * full, 10) == 0) force += 1e-3 * full;
+    if (shear) {
+      EXPECT_LT(force / full, 1.0);
+    } else {
+      EXPECT_NEAR(force / full, 1.0, 0.01);
+    }
+    EXPECT_EQ(pull(1e-3 * full, 500), 17);
+  }
+}
+
+/// Sum of the normal forces on a face, N per radian or per metre.
+double normal_force(const std::vector<mpm::FaceState>& nodes) {
+  double force = 0.0;
+  for (const mpm::FaceState& node : nodes) force += node.pressure * node.area;
+  return force;
+}
+
+TEST(Contact, ABarIsHeldBackInASleeveByFrictionTimesItsGrip) {
+  // The sleeve is pressed on the bar by its own body force: p = rho t a. It is shorter than the bar, whose
+  // nodes come in at one end and leave at the other.
+  scene::Scene scene;
+  scene.symmetry = scene::Symmetry::plane_strain;
+  scene.barrel = scene::Barrel::none;
+  scene.load = test_support::steady_pressure(0.0);
+  scene.materials = {plain("bar", 1e9, 0.0, 2000.0), plain("sleeve", 1e11, 0.0, 8000.0)};
+  scene.bodies = {{"bar", "bar", 0.0, 0.2, 0.0, 0.01}, {"sleeve", "sleeve", 0.08, 0.12, 0.01, 0.02}};
+  scene.interfaces = {sliding("sleeve", 0.3)};
+  scene.interfaces[0].against = "bar";
+  mpm::Simulation simulation(scene);
+  const double grip = 8000.0 * 0.01 * 1e4 * 0.04, friction = 0.3 * grip, mass = 2000.0 * 0.2 * 0.01;
+  for (int step = 0; step < 400; ++step) {
+    simulation.pull(0, 5e3 / 400, 0.0);
+    simulation.pull(1, -friction / (8000.0 * 0.01 * 0.04) / 400, -1e4 / 400);
+    simulation.step(simulation.stable_time_step());
+  }
+  const auto inward = [&] {
+    const mpm::Kinematics& p = mpm::kinematics_of(simulation.bodies()[1]);
+    return -std::inner_product(p.mass.begin(), p.mass.end(), p.velocity_r.begin(), 0.0);
+  };
+  const double begin = simulation.time(), before = velocity_of(simulation, 0), inward_before = inward();
+  double given = 0.0;
+  while (simulation.time() < begin + 2.5e-3) {
+    const double dt = simulation.stable_time_step();
+    simulation.step(dt);
+    given += dt * normal_force(simulation.total_lagrangian()->contact().state_of(0));
+  }
+  const double time = simulation.time() - begin;
+  const double gained = velocity_of(simulation, 0) - before;
+  const mpm::Kinematics& bar = mpm::kinematics_of(simulation.bodies()[0]);
+  // The sleeve's edges press dents into the bar, so that pressure is not quite across.
+  EXPECT_NEAR(gained / time, 5e3 - 0.3 * given / time / mass, 2e-4 * 5e3);
+  EXPECT_NEAR(given, grip * time - (inward() - inward_before), 1e-3 * grip * time);
+  EXPECT_GT(bar.x[0] - bar.lattice.x_of(0), 5e-3);
+}
+
+/// A column of a charge (body 1) of Poisson's ratio 0.25 in a stiff tube under the setback that presses with
+/// `whole` (Pa) on its bottom without friction.
+scene::Scene column_in_tube(double friction, double whole) {
+  scene::Scene scene;
+  scene.materials = {plain("stiff", 1e12, 0.25, 1e5), plain("soft", 2e9, 0.25, 1700.0)};
+  scene.bodies = {{"tube", "stiff", 0.0, 0.1, 0.02, 0.03},
+                  {"column", "soft", 0.0, 0.1, 0.0, 0.02},
+                  {"base", "stiff", 0.1, 0.12, 0.0, 0.03}};
+  for (const char* body : {"tube", "base"}) {
+    scene.interfaces.push_back(sliding(body, body[0] == 'b' ? 0.0 : friction));
+    scene.interfaces.back().against = "column";
+  }
+  scene.numerics.cell_size = 2e-3;
+  scene.numerics.damping_time = 5e-5;
+  const double pressure = whole / (1700.0 * 0.1) * scene::total_mass(scene) / scene::base_area(scene);
+  scene.load = test_support::steady_pressure(pressure);
+  scene.load.curve_time = {0.0, 1.5e-3, 1.0};
+  scene.load.curve_pressure = {0.0, pressure, pressure};
+  return scene;
+}
+
+/// Force on the column's bottom and along its side, over that of the whole column without friction.
+std::pair<double, double> bottom_and_side(double friction) {
+  const double whole = 1e6, area = 0.5 * 0.02 * 0.02;
+  mpm::Simulation simulation(column_in_tube(friction, whole));
+  go_until(simulation, 2.5e-3);
+  const mpm::Contact& contact = simulation.total_lagrangian()->contact();
+  std::pair<double, double> shares;
+  for (std::size_t f = 0; f < contact.faces(); ++f) {
+    const auto nodes = contact.state_of(f);
+    if (simulation.scene().interfaces[contact.interface_of(f)].body == "base") {
+      shares.first = normal_force(nodes) / (whole * area);
+    } else {
+      for (const mpm::FaceState& node : nodes) shares.second += node.shear * node.area / (whole * area);
+    }
+  }
+  return shares;
+}
+
+TEST(Contact, AColumnWithoutFrictionStandsOnItsBottomAlone) {
+  // rho L a.
+  const auto [bottom, side] = bottom_and_side(0.0);
+  EXPECT_NEAR(bottom, 1.0, 1e-5);
+  EXPECT_EQ(side, 0.0);
+}
+
+TEST(Contact, FrictionCarriesAColumnInATubeAsInASilo) {
+  // Janssen 1895 with the elastic ratio of pressures k = nu/(1 - nu): the mean axial stress at depth z under
+  // the free top is rho a R/(2 mu k) (1 - exp(-2 mu k z/R)). It takes plane sections; shear bends them, by
+  // more the larger the friction, and sticking begins near the bottom.
+  for (const auto& [friction, allowed] : {std::pair{0.05, 0.004}, {0.1, 0.004}, {0.2, 0.004}, {0.4, 0.04}}) {
+    const auto [bottom, side] = bottom_and_side(friction);
+    const double depth = 2.0 * friction * (0.25 / 0.75) * 0.1 / 0.02;
+    EXPECT_NEAR(bottom, (1.0 - std::exp(-depth)) / depth, allowed) << friction;
+    EXPECT_NEAR(bottom + side, 1.0, 1e-4) << friction;
+  }
+}
+
+TEST(Contact, NoNumberOfThreadsChangesABitOfSliding) {
+  const auto run = [](int threads) {
+    scene::Scene shell = held_shell();
+    shell.interfaces = {sliding("wall", 0.1), sliding("base", 0.1), sliding("nose", 0.1)};
+    mpm::Simulation simulation(shell, threads);
+    for (int step = 0; step < 300; ++step) simulation.step(simulation.stable_time_step());
+    math::AlignedArray all = mpm::kinematics_of(simulation.bodies()[1]).velocity_r;
+    all.push_back(simulation.energy().contact);
+    all.push_back(simulation.energy().kinetic);
+    return all;
+  };
+  const math::AlignedArray alone = run(1);
+  for (const int threads : {2, 3, 7}) EXPECT_EQ(run(threads), alone) << threads;
+}
+
+}  // namespace
