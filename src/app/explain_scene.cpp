@@ -1,6 +1,7 @@
 #include "explain_scene.hpp"
 
 #include "launchsafe/run/cost.hpp"
+#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/study/scheduler.hpp"
@@ -38,6 +39,13 @@ nlohmann::ordered_json particles_json(const scene::Plan& plan) {
   return json;
 }
 
+nlohmann::ordered_json interfaces_json(const scene::Scene& scene) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const scene::InterfaceText& each : scene::describe_interfaces(scene))
+    list.push_back({{"body", each.body}, {"condition", each.condition}, {"assumes", each.assumes}});
+  return list;
+}
+
 run::Reach reach_here() { return {.memory = study::available_memory(), .keeps_skins = true}; }
 
 }  // namespace
@@ -63,6 +71,7 @@ nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate)
   const auto refusal = run::out_of_reach(scene, reach_here());
   return {{"title", scene.title},
           {"load", load_json(scene.load)},
+          {"interfaces", interfaces_json(scene)},
           {"physics", physics_json(plan)},
           {"particles", particles_json(plan)},
           {"cells", plan.cells},

@@ -94,6 +94,8 @@ void clear_signs_of_zeros(const std::vector<Key<Owner>>& keys, Owner& owner) {
 void clear_signs_of_zeros(Scene& scene) {
   clear_signs_of_zeros(scene_keys(), scene);
   for (Body& body : scene.bodies) clear_signs_of_zeros(body_keys(), body);
+  for (Interface& faces : scene.interfaces)
+    if (faces.friction) clear_sign(*faces.friction);
   for (ObservationPoint& point : scene.output.observation_points)
     clear_signs_of_zeros(observation_point_keys(), point);
 }
@@ -109,6 +111,10 @@ Scene mechanical_part(const Scene& scene) {
   Scene part = scene;
   part.title.clear();
   part.accepted.clear();
+  // Those that cannot slide do nothing; their order does nothing either.
+  std::erase_if(part.interfaces, [](const Interface& faces) { return !can_slide(faces); });
+  std::sort(part.interfaces.begin(), part.interfaces.end(),
+            [](const Interface& a, const Interface& b) { return a.body < b.body; });
   part.load = without_unused(std::move(part.load));
   part.surface = surface_part(scene.surface, temperatures_matter);
   settle_materials(part, plan.conduction.in, temperatures_matter);

@@ -1,4 +1,5 @@
 // The plan as people read it.
+#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
@@ -75,6 +76,13 @@ std::string physics_text(const Plan& plan) {
   return text;
 }
 
+std::string interfaces_text(const Scene& scene) {
+  std::string text;
+  for (const InterfaceText& each : describe_interfaces(scene))
+    text += row(each.body, each.condition + ": " + each.assumes);
+  return text.empty() ? text : "Interfaces of the charge\n" + text + "\n";
+}
+
 std::string duration_text(double seconds) {
   if (seconds < 100.0) return fmt::format("{:.1f} s", seconds);
   if (seconds < 6000.0) return fmt::format("{:.0f} min", seconds / 60.0);
@@ -116,7 +124,8 @@ std::string cost_text(const Plan& plan, const Scene& scene, double update_rate) 
 
 std::string to_text(const Plan& plan, const Scene& scene, double update_rate) {
   std::string text = scene.title.empty() ? std::string{} : scene.title + "\n\n";
-  text += bodies_text(scene) + "\n" + load_text(scene) + "\n" + physics_text(plan) + "\n";
+  text += bodies_text(scene) + "\n" + interfaces_text(scene) + load_text(scene) + "\n" + physics_text(plan) +
+          "\n";
   return text + cost_text(plan, scene, update_rate);
 }
 

@@ -1,6 +1,7 @@
 #include "launchsafe/scene/plausibility.hpp"
 
 #include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 
@@ -50,6 +51,13 @@ void judge_bodies(const Scene& scene, Judge& judge) {
     for (const Key<Body>& key : body_keys())
       judge.key(key, fmt::format("body.{}.{}", body.name, key.name), key.get(body));
   }
+}
+
+void judge_interfaces(const Scene& scene, Judge& judge) {
+  for (const Interface& faces : scene.interfaces)
+    for (const Key<Interface>& key : interface_keys())
+      if (!key.is_written || key.is_written(faces))
+        judge.key(key, fmt::format("interface.{}.{}", faces.body, key.name), key.get(faces));
 }
 
 /// Physics that the plan would have in.
@@ -111,6 +119,7 @@ std::vector<Implausible> implausible_values(const Scene& scene) {
   judge_crack_bound(scene, judge);
   judge_switches(scene, judge);
   judge_bodies(scene, judge);
+  judge_interfaces(scene, judge);
   for (const DerivedQuantity& quantity : derived_quantities()) {
     if (const auto value = quantity.value(scene))
       judge.key(quantity.description, quantity.description.name, Value(*value));
@@ -125,6 +134,9 @@ std::vector<std::string> acceptable_names(const Scene& scene) {
     names.push_back(fmt::format("body.{}.x", body.name));
     names.push_back(fmt::format("body.{}.r", body.name));
   }
+  for (const Interface& faces : scene.interfaces)
+    for (const Key<Interface>& key : interface_keys())
+      names.push_back(fmt::format("interface.{}.{}", faces.body, key.name));
   for (const DerivedQuantity& quantity : derived_quantities()) names.push_back(quantity.description.name);
   names.emplace_back(foreign_calibration);
   return names;

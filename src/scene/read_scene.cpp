@@ -2,6 +2,7 @@
 
 #include "key_text.hpp"
 #include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 
@@ -13,7 +14,7 @@
 namespace launchsafe::scene {
 namespace {
 
-const std::vector<std::string> tables_read_apart{"body", "observation_point", "accept"};
+const std::vector<std::string> tables_read_apart{"body", "observation_point", "accept", "interface"};
 
 /// Reads [[name]] tables into `owners`; the places become "name.<name of the owner>.<key>".
 template <class Owner>
@@ -77,6 +78,7 @@ std::optional<InputError> rebuild(SceneFile& file, bool has_curve) {
   fresh.bodies = std::move(file.scene.bodies);
   fresh.output.observation_points = std::move(file.scene.output.observation_points);
   fresh.accepted = std::move(file.scene.accepted);
+  fresh.interfaces = std::move(file.scene.interfaces);
   for (const Key<Scene>& key : scene_keys()) {
     const auto given = file.given.find(key.name);
     if (given != file.given.end()) key.set(fresh, given->second.value);
@@ -106,6 +108,22 @@ std::optional<BodyKey> find_body_key(const Scene& scene, const std::string& name
   return std::nullopt;
 }
 
+/// "interface.<name>.<key>" taken apart, of an interface that the scene has.
+struct InterfaceKey {
+  std::size_t index = 0;
+  const Key<Interface>* key = nullptr;
+};
+
+std::optional<InterfaceKey> find_interface_key(const Scene& scene, const std::string& name) {
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    const std::string prefix = "interface." + scene.interfaces[i].body + ".";
+    if (!name.starts_with(prefix)) continue;
+    if (const Key<Interface>* key = find_key(interface_keys(), name.substr(prefix.size())))
+      return InterfaceKey{i, key};
+  }
+  return std::nullopt;
+}
+
 std::vector<std::string> names_of_keys(const Scene& scene) {
   std::vector<std::string> names;
   for (const Key<Scene>& key : scene_keys()) names.push_back(key.name);
@@ -113,6 +131,9 @@ std::vector<std::string> names_of_keys(const Scene& scene) {
     names.push_back(fmt::format("body.{}.x", body.name));
     names.push_back(fmt::format("body.{}.r", body.name));
   }
+  for (const Interface& faces : scene.interfaces)
+    for (const Key<Interface>& key : interface_keys())
+      names.push_back(fmt::format("interface.{}.{}", faces.body, key.name));
   return names;
 }
 
@@ -138,6 +159,9 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
                                scene.output.observation_points, file.places)) {
     return *error;
   }
+  auto interfaces = read_interfaces(*table, file.file, file.places);
+  if (!interfaces) return interfaces.error();
+  scene.interfaces = std::move(*interfaces);
   auto accepted = read_acceptances(*table, acceptable_names(scene), file.file);
   if (!accepted) return accepted.error();
   scene.accepted = std::move(*accepted);
@@ -158,6 +182,11 @@ Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& 
     description.name = name;
     return description;
   }
+  if (const auto found = find_interface_key(file.scene, name)) {
+    KeyDescription description = *found->key;
+    description.name = name;
+    return description;
+  }
   return unknown_key(place, name, names_of_keys(file.scene));
 }
 
@@ -168,6 +197,9 @@ Expected<SceneFile> with_key(const SceneFile& file, const std::string& name, con
   SceneFile changed = file;
   if (const auto found = find_body_key(file.scene, name)) {
     found->key->set(changed.scene.bodies[found->body], value);
+    changed.places[name] = place;
+  } else if (const auto faces = find_interface_key(file.scene, name)) {
+    faces->key->set(changed.scene.interfaces[faces->index], value);
     changed.places[name] = place;
   } else {
     for (const std::string& overridden : description->overrides) changed.given.erase(overridden);
@@ -249,6 +281,7 @@ std::string to_toml(const Scene& scene) {
     append(text, "\n");
   }
   append_own_materials(text, scene);
+  append_interfaces(text, scene.interfaces);
   append_inline_tables(text, "body", body_keys(), scene.bodies);
   append_inline_tables(text, "observation_point", observation_point_keys(), scene.output.observation_points);
   if (!scene.accepted.empty()) append_inline_tables(text, "accept", acceptance_keys(), scene.accepted);

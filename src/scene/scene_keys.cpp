@@ -1,6 +1,7 @@
 #include "launchsafe/scene/scene_keys.hpp"
 
 #include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "plausible_ranges.hpp"
 
@@ -326,7 +327,9 @@ template <class Owner>
 void document(std::vector<DocumentedKey>& documented, const std::vector<Key<Owner>>& keys,
               const std::string& prefix) {
   for (const Key<Owner>& key : keys) {
-    DocumentedKey entry{key, key.required ? std::string{} : format_value(key, key.default_value())};
+    // What only the user can say has no default, even where it may be left out.
+    const bool no_default = key.required || key.standing == Standing::input;
+    DocumentedKey entry{key, no_default ? std::string{} : format_value(key, key.default_value())};
     entry.description.name = prefix + key.name;
     documented.push_back(std::move(entry));
   }
@@ -379,6 +382,7 @@ std::vector<DocumentedKey> describe_keys() {
   std::vector<DocumentedKey> documented;
   document(documented, scene_keys(), "");
   document(documented, body_keys(), "body.");
+  document(documented, interface_keys(), "interface.NAME.");
   document(documented, observation_point_keys(), "observation_point.");
   document(documented, acceptance_keys(), "accept.");
   return documented;

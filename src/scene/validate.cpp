@@ -1,4 +1,5 @@
 // What a scene must satisfy beyond the range of each key, before anything is computed.
+#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/read_scene.hpp"
@@ -428,9 +429,9 @@ Fault check_output(const SceneFile& file) {
 
 std::optional<InputError> validate(const SceneFile& file) {
   for (const auto check :
-       {check_names, check_charge_fits, check_overlaps, check_cell_size, check_load, check_kinetics,
-        check_jwl, check_steel, check_crack_friction, check_gaps, check_stations, check_observation_points,
-        check_formulation, check_inertia, check_refinement, check_output}) {
+       {check_names, check_charge_fits, check_overlaps, check_interfaces, check_cell_size, check_load,
+        check_kinetics, check_jwl, check_steel, check_crack_friction, check_gaps, check_stations,
+        check_observation_points, check_formulation, check_inertia, check_refinement, check_output}) {
     if (Fault fault = check(file)) return fault;
   }
   return std::nullopt;

@@ -23,7 +23,8 @@ struct DocumentedKey {
   KeyDescription description;
   std::string default_text;
 };
-/// All keys of a scene file, those of its tables as "body.x", "observation_point.x" and "accept.key".
+/// All keys of a scene file, those of its tables as "body.x", "interface.NAME.friction",
+/// "observation_point.x" and "accept.key".
 std::vector<DocumentedKey> describe_keys();
 
 }  // namespace launchsafe::scene

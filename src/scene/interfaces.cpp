@@ -1,0 +1,228 @@
+#include "launchsafe/scene/interfaces.hpp"
+
+#include "key_text.hpp"
+#include "launchsafe/scene/read_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace launchsafe::scene {
+namespace {
+
+/// A number that may be absent.
+template <class Member>
+Key<Interface> optional_number_key(std::string name, Dimension dimension, Limits limits, std::string sentence,
+                                   Member member) {
+  Key<Interface> key{
+      {std::move(name), KeyKind::number, dimension, limits, {}, 0, Standing::input, std::move(sentence)},
+      {},
+      {}};
+  key.set = [member](Interface& faces, const Value& value) { faces.*member = std::get<double>(value); };
+  key.get = [member](const Interface& faces) { return Value((faces.*member).value_or(0.0)); };
+  key.is_written = [member](const Interface& faces) { return (faces.*member).has_value(); };
+  return key;
+}
+
+/// A fault of one interface, at the first of its keys that the file has.
+class FaultOf {
+ public:
+  FaultOf(const SceneFile& file, const Interface& faces) : file_(file), table_("interface." + faces.body) {}
+
+  InputError operator()(const std::string& key, std::string found, std::string allowed,
+                        std::string suggestion = {}) const {
+    const std::string name = key.empty() ? table_ : table_ + "." + key;
+    for (const std::string& each : {name, table_ + ".condition", table_})
+      if (const auto place = file_.places.find(each); place != file_.places.end())
+        return error_at(place->second, name, found, allowed, suggestion);
+    return error_at(Place{file_.file}, name, found, allowed, suggestion);
+  }
+
+ private:
+  const SceneFile& file_;
+  std::string table_;
+};
+
+std::optional<InputError> check_body(const SceneFile& file, const Interface& faces) {
+  const Scene& scene = file.scene;
+  const std::vector<std::string> touching = bodies_at_the_charge(scene);
+  if (std::find(touching.begin(), touching.end(), faces.body) != touching.end()) return std::nullopt;
+  const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                 [&](const Body& each) { return each.name == faces.body; });
+  const char* what = body == scene.bodies.end() ? "which no body is called"
+                     : is_charge(scene, *body)  ? "which is a charge itself"
+                                                : "which does not touch the charge";
+  const std::string nearest = nearest_of(faces.body, touching);
+  return FaultOf(file, faces)("", fmt::format("\"{}\", {}", faces.body, what),
+                              touching.empty() ? "no interface: no body touches a charge"
+                                               : "a body that touches the charge: " + quoted_list(touching),
+                              nearest.empty() ? nearest : "interface." + nearest);
+}
+
+std::optional<InputError> check_law(const SceneFile& file, const Interface& faces) {
+  const FaultOf fault(file, faces);
+  const bool slides = faces.condition == Condition::sliding;
+  const bool breaks = faces.tension_strength || faces.shear_strength;
+  const std::string friction = fmt::format("a friction from 0 (smooth) to {:g}", largest_friction);
+  if (slides && !faces.friction)
+    return fault("friction", "nothing: faces that slide without their friction", friction, "friction = 0.1");
+  if (breaks && !faces.friction)
+    return fault("friction", "nothing: a bond that can break without the friction of the faces after it",
+                 friction, "friction = 0.1");
+  if (breaks && !(faces.tension_strength && faces.shear_strength))
+    return fault(faces.tension_strength ? "shear_strength" : "tension_strength",
+                 "nothing, beside the other strength of the bond", "both strengths of a bond, or none");
+  if (faces.friction && !slides && !breaks)
+    return fault("friction", fmt::format("{:g} on faces that are bonded for good", *faces.friction),
+                 "friction with condition = \"sliding\", or with the strengths of a bond that can break",
+                 "condition = \"sliding\"");
+  return std::nullopt;
+}
+
+}  // namespace
+
+const std::vector<Key<Interface>>& interface_keys() {
+  static const std::vector<Key<Interface>> keys = {
+      keys::always_plausible(
+          required(word_key<Interface, Condition>(
+              "condition", Standing::input,
+              "How a body and the charge hold each other: bonded, or sliding with friction, free to part. "
+              "Bodies without a table are bonded.",
+              {{"bonded", Condition::bonded}, {"sliding", Condition::sliding}},
+              [](auto& faces) -> auto& { return faces.condition; })),
+          "launches are published with bonded charges, and shells are loaded with and without a bond"),
+      plausibly(optional_number_key("friction", Dimension::number, between(0, largest_friction),
+                                    "Coulomb's coefficient between the faces; to be given where they can "
+                                    "slide, 0 for smooth ones.",
+                                    &Interface::friction),
+                between(0, 1), "explosives on metals and lacquers are measured between 0.05 and 0.6"),
+      plausibly(optional_number_key("tension_strength", Dimension::pressure, above_to(0, 1e12),
+                                    "Tension at which the bond breaks for good; none: it never does.",
+                                    &Interface::tension_strength),
+                above_to(0, 100e6), "no explosive or lacquer bears more"),
+      plausibly(optional_number_key("shear_strength", Dimension::pressure, above_to(0, 1e12),
+                                    "Shear at which the bond breaks for good; none: it never does.",
+                                    &Interface::shear_strength),
+                above_to(0, 100e6), "no explosive or lacquer bears more"),
+  };
+  return keys;
+}
+
+bool share_a_face(const Scene& scene, const Body& a, const Body& b) {
+  const Extent all = extent_of(scene);
+  const double tolerance = 1e-9 * std::max(all.x_end - all.x_begin, all.r_end);
+  const auto meet = [&](double end, double begin) { return std::abs(end - begin) <= tolerance; };
+  const double common_x = std::min(a.x_end, b.x_end) - std::max(a.x_begin, b.x_begin);
+  const double common_r = std::min(a.r_end, b.r_end) - std::max(a.r_begin, b.r_begin);
+  const bool ends = meet(a.x_end, b.x_begin) || meet(b.x_end, a.x_begin);
+  const bool sides = meet(a.r_end, b.r_begin) || meet(b.r_end, a.r_begin);
+  return (ends && common_r > tolerance) || (sides && common_x > tolerance);
+}
+
+std::vector<std::string> bodies_at_the_charge(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Body& body : scene.bodies) {
+    if (is_charge(scene, body)) continue;
+    const bool touches = std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& other) {
+      return is_charge(scene, other) && share_a_face(scene, body, other);
+    });
+    if (touches) names.push_back(body.name);
+  }
+  return names;
+}
+
+Expected<std::vector<Interface>> read_interfaces(const toml::table& root, const std::string& file,
+                                                 std::map<std::string, Place>& places) {
+  std::vector<Interface> interfaces;
+  const toml::node* node = root.get("interface");
+  if (node == nullptr) return interfaces;
+  const auto no_table = [&](const toml::node& found, const std::string& key) {
+    return error_at(
+        place_of(found, file), key, found_text(found),
+        "tables, each written [interface.NAME] with the name of the body that touches the charge");
+  };
+  if (!node->is_table()) return no_table(*node, "interface");
+  for (const auto& [name, inner] : *node->as_table()) {
+    const std::string table = "interface." + std::string(name.str());
+    if (!inner.is_table()) return no_table(inner, table);
+    Interface faces;
+    faces.body = std::string(name.str());
+    const auto read = read_table(*inner.as_table(), interface_keys(), {}, file, faces);
+    if (!read) {
+      InputError error = read.error();
+      error.key = table + "." + error.key;
+      return error;
+    }
+    places[table] = place_of(inner, file);
+    for (const auto& [key, place] : *read) places[table + "." + key] = place;
+    interfaces.push_back(std::move(faces));
+  }
+  return interfaces;
+}
+
+std::optional<InputError> check_interfaces(const SceneFile& file) {
+  for (const Interface& faces : file.scene.interfaces) {
+    if (auto error = check_body(file, faces)) return error;
+    if (auto error = check_law(file, faces)) return error;
+    if (!can_slide(faces) || file.scene.numerics.formulation == Formulation::total_lagrangian) continue;
+    return FaultOf(file, faces)("condition", "faces that can slide with formulation \"updated-lagrangian\"",
+                                "faces bonded for good with \"updated-lagrangian\", which has one velocity a "
+                                "place; sliding with numerics.formulation = \"total-lagrangian\"",
+                                "formulation = \"total-lagrangian\"");
+  }
+  return std::nullopt;
+}
+
+void append_interfaces(fmt::memory_buffer& text, const std::vector<Interface>& interfaces) {
+  const KeyDescription name{.kind = KeyKind::text};
+  for (const Interface& faces : interfaces) {
+    const auto begin = [&](std::string_view key) {
+      append(text, "interface.");
+      append_exact_toml(text, name, Value(faces.body));
+      append(text, ".");
+      append(text, key);
+      append(text, " = ");
+    };
+    for (const Key<Interface>& key : interface_keys()) {
+      if (key.is_written && !key.is_written(faces)) continue;
+      begin(key.name);
+      append_exact_toml(text, key, key.get(faces));
+      append(text, "\n");
+    }
+    if (faces.against.empty()) continue;
+    // Only programs make these; files cannot say them, but texts of different scenes differ.
+    begin("against");
+    append_exact_toml(text, name, Value(faces.against));
+    append(text, "\n");
+  }
+}
+
+std::vector<InterfaceText> describe_interfaces(const Scene& scene) {
+  std::vector<InterfaceText> described;
+  for (const std::string& body : bodies_at_the_charge(scene)) {
+    const auto faces = std::find_if(scene.interfaces.begin(), scene.interfaces.end(),
+                                    [&](const Interface& each) { return each.body == body; });
+    if (faces == scene.interfaces.end() || !can_slide(*faces)) {
+      described.push_back(
+          {body, "bonded", "charge and body never part or slide, and the bond bears any tension and shear"});
+      continue;
+    }
+    const std::string sliding =
+        fmt::format("Coulomb's friction {:g} on the pressure of the same instant, no tension, faces may part",
+                    faces->friction.value_or(0.0));
+    if (!faces->tension_strength) {
+      described.push_back({body, "sliding", sliding});
+      continue;
+    }
+    described.push_back(
+        {body, "bonded until it breaks",
+         fmt::format(
+             "past {} of tension or {} of shear at a node, each by itself, the bond is gone there for "
+             "good; then {}",
+             format_quantity(*faces->tension_strength, Dimension::pressure),
+             format_quantity(faces->shear_strength.value_or(0.0), Dimension::pressure), sliding)});
+  }
+  return described;
+}
+
+}  // namespace launchsafe::scene

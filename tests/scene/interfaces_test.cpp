@@ -1,0 +1,139 @@
+// Interfaces in scene files: read, written back, refused.
+#include "launchsafe/scene/interfaces.hpp"
+
+#include "launchsafe/scene/mechanical_part.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/scene/plausibility.hpp"
+#include "scene/scene_text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace launchsafe::scene {
+namespace {
+
+const std::string sliding_wall = R"(
+[interface.wall]
+condition = "sliding"
+friction = 0.05
+)";
+const std::string breaking_cup = R"(
+[interface.cup]
+condition = "bonded"
+friction = 0.2
+tension_strength = "1.5 MPa"
+shear_strength = "2 MPa"
+)";
+
+TEST(Interfaces, AreReadAndWrittenBack) {
+  const auto file = parse_scene(small_scene + sliding_wall + breaking_cup, "shell.toml");
+  ASSERT_TRUE(file) << file.error().message();
+  ASSERT_EQ(file->scene.interfaces.size(), 2u);
+  const Interface &cup = file->scene.interfaces[0], &wall = file->scene.interfaces[1];
+  EXPECT_EQ(wall.body, "wall");
+  EXPECT_EQ(wall.condition, Condition::sliding);
+  EXPECT_EQ(wall.friction, 0.05);
+  EXPECT_FALSE(wall.tension_strength);
+  EXPECT_EQ(cup.condition, Condition::bonded);
+  EXPECT_EQ(cup.tension_strength, 1.5e6);
+  EXPECT_EQ(cup.shear_strength, 2e6);
+  const std::string text = to_toml(file->scene);
+  const auto again = parse_scene(text, "again.toml");
+  ASSERT_TRUE(again) << again.error().message() << text;
+  EXPECT_EQ(to_toml(again->scene), text);
+}
+
+TEST(Interfaces, AreNotWrittenWhereThereAreNone) {
+  const auto file = parse_scene(small_scene, "shell.toml");
+  ASSERT_TRUE(file);
+  EXPECT_EQ(to_toml(file->scene).find("interface"), std::string::npos);
+}
+
+TEST(Interfaces, ThatCannotSlideChangeNoMechanics) {
+  const auto plain = parse_scene(small_scene, "shell.toml");
+  const auto bonded = parse_scene(small_scene + "[interface.wall]\ncondition = \"bonded\"\n", "shell.toml");
+  const auto slides = parse_scene(small_scene + sliding_wall, "shell.toml");
+  ASSERT_TRUE(plain && bonded && slides);
+  EXPECT_EQ(to_toml(mechanical_part(bonded->scene)), to_toml(mechanical_part(plain->scene)));
+  EXPECT_NE(to_toml(mechanical_part(slides->scene)), to_toml(mechanical_part(plain->scene)));
+}
+
+TEST(Interfaces, OfBodiesAwayFromTheChargeAreRefused) {
+  auto text = small_scene + testing::small_shell_base + with(sliding_wall, "wall", "wal");
+  auto error = error_of(text);
+  expect_error(error, line_of(text, "[interface"), "interface.wal", "which no body is called",
+               "\"cup\", \"wall\" or \"base\"");
+  EXPECT_EQ(error.suggestion, "interface.wall");
+  text = small_scene + with(sliding_wall, "wall", "filling");
+  expect_error(error_of(text), line_of(text, "[interface"), "interface.filling", "a charge itself", "cup");
+  text = small_scene +
+         "[[body]]\nname = \"lid\"\nmaterial = \"steel\"\nx = \"4 to 5 cm\"\nr = \"1.5 to 2 cm\"\n" +
+         with(sliding_wall, "wall", "lid");
+  expect_error(error_of(text), line_of(text, "[interface"), "interface.lid", "does not touch the charge",
+               "cup");
+}
+
+TEST(Interfaces, WithKeysMissingOrOutOfRangeAreRefused) {
+  auto text = small_scene + with(sliding_wall, "0.05", "10.5");
+  expect_error(error_of(text), line_of(text, "friction ="), "interface.wall.friction", "10.5", "0 to 10");
+  text = small_scene + with(sliding_wall, "0.05", "-0.1");
+  expect_error(error_of(text), line_of(text, "friction ="), "interface.wall.friction", "-0.1", "0 to 10");
+  text = small_scene + with(sliding_wall, "friction = 0.05\n", "");
+  expect_error(error_of(text), line_of(text, "condition"), "interface.wall.friction",
+               "without their friction", "from 0");
+  EXPECT_EQ(error_of(text).suggestion, "friction = 0.1");
+  text = small_scene + with(breaking_cup, "friction = 0.2\n", "");
+  expect_error(error_of(text), line_of(text, "condition"), "interface.cup.friction", "without the friction",
+               "from 0");
+  text = small_scene + with(breaking_cup, "shear_strength = \"2 MPa\"\n", "");
+  expect_error(error_of(text), line_of(text, "condition"), "interface.cup.shear_strength",
+               "the other strength", "both");
+  text = small_scene + with(sliding_wall, "sliding", "bonded");
+  expect_error(error_of(text), line_of(text, "friction ="), "interface.wall.friction", "bonded for good",
+               "sliding");
+  text = small_scene + with(sliding_wall, "sliding", "glued");
+  expect_error(error_of(text), line_of(text, "condition"), "interface.wall.condition", "glued", "\"bonded\"");
+  text = small_scene + with(sliding_wall, "condition = \"sliding\"\n", "");
+  expect_error(error_of(text), line_of(text, "[interface"), "interface.wall.condition", "missing", "sliding");
+  text = small_scene + with(sliding_wall, "friction", "fricton");
+  EXPECT_EQ(error_of(text).suggestion, "friction");
+  text = "interface = 3\n" + small_scene;
+  expect_error(error_of(text), 1, "interface", "3", "[interface.NAME]");
+}
+
+TEST(Interfaces, DoNotSlideInTheUpdatedLagrangianForm) {
+  const std::string form = "[numerics]\nformulation = \"updated-lagrangian\"\n";
+  const std::string text = small_scene + form + sliding_wall;
+  expect_error(error_of(text), line_of(text, "condition"), "interface.wall.condition", "updated-lagrangian",
+               "total-lagrangian");
+  EXPECT_TRUE(parse_scene(small_scene + form + "[interface.wall]\ncondition = \"bonded\"\n", "shell.toml"));
+}
+
+TEST(Interfaces, TakeOtherValuesInStudies) {
+  const auto file = parse_scene(small_scene + sliding_wall, "shell.toml");
+  ASSERT_TRUE(file);
+  const auto rough = with_written_key(*file, "interface.wall.friction", "0.3", {});
+  ASSERT_TRUE(rough) << rough.error().message();
+  EXPECT_EQ(rough->scene.interfaces[0].friction, 0.3);
+  EXPECT_FALSE(with_written_key(*file, "interface.wall.friction", "11", {}));
+  EXPECT_FALSE(with_written_key(*file, "interface.cup.friction", "0.1", {}));
+}
+
+TEST(Interfaces, AreExplainedWithWhatTheyAssume) {
+  const auto file = parse_scene(small_scene + sliding_wall + breaking_cup, "shell.toml");
+  ASSERT_TRUE(file);
+  const std::string text = to_text(make_plan(file->scene), file->scene);
+  for (const char* part : {"Interfaces of the charge", "sliding: Coulomb's friction 0.05", "no tension",
+                           "bonded until it breaks: past 1.5 MPa"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
+}
+
+TEST(Interfaces, OfImplausibleFrictionPutVerdictsInDoubt) {
+  const auto file = parse_scene(small_scene + with(sliding_wall, "0.05", "3"), "shell.toml");
+  ASSERT_TRUE(file);
+  const auto found = implausible_values(file->scene);
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                          [](const Implausible& each) { return each.key == "interface.wall.friction"; }));
+}
+
+}  // namespace
+}  // namespace launchsafe::scene
