@@ -61,20 +61,17 @@ std::size_t Contact::point_of(const std::vector<Nodes>& nodes, const std::vector
   const std::vector<Tie::Member> alone{node};
   const std::vector<Tie::Member>& members = tie == tie_of_.end() ? alone : ties[tie->second].members;
   const Nodes& n = nodes[node.nodes];
-  Point point{members_.size(),
-              members_.size() + members.size(),
-              0.0,
-              0.0,
-              n.inverse_inertia[node.index],
-              n.inverse_inertia[node.index]};
+  Point point{members_.size(), members_.size() + members.size(), 0.0, 0.0};
+  Mobility mobility{n.inverse_inertia[node.index], n.inverse_inertia[node.index]};
   for (const Tie::Member& m : members) {
     members_.push_back(m);
     point.inertia += nodes[m.nodes].inertia[m.index];
     point.mass += nodes[m.nodes].mass[m.index];
-    point.inverse_r *= nodes[m.nodes].moves_r[m.index];
+    mobility.r *= nodes[m.nodes].moves_r[m.index];
     point_of_[{m.nodes, m.index}] = points_.size();
   }
   points_.push_back(point);
+  mobility_.push_back(mobility);
   return points_.size() - 1;
 }
 
@@ -159,7 +156,7 @@ void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired,
   }
   // Where a node is held along r, by symmetry or by the barrel, the face runs along a line of the grid.
   const auto held = [&](const FaceSide& side, const PairShare& each) {
-    return !(points_[side.points[each.node]].inverse_r > 0.0);
+    return !(mobility_[side.points[each.node]].r > 0.0);
   };
   const auto any_held = [&](const FaceSide& side, const std::vector<PairShare>& shares) {
     return std::any_of(shares.begin(), shares.end(), [&](const PairShare& each) { return held(side, each); });
@@ -188,13 +185,13 @@ void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired,
   double all = 0.0, normal = 0.0, slide = 0.0;
   const double nx = row.normal_x * row.normal_x, nr = row.normal_r * row.normal_r;
   for (std::size_t s = row.begin; s < row.end; ++s) {
-    const Point& point = points_[shares_[s].point];
+    const Mobility& point = mobility_[shares_[s].point];
     const double square = shares_[s].share * shares_[s].share;
-    all += square * point.inverse;
-    normal += square * (nx * point.inverse + nr * point.inverse_r);
-    slide += square * (nr * point.inverse + nx * point.inverse_r);
+    all += square * point.x;
+    normal += square * (nx * point.x + nr * point.r);
+    slide += square * (nr * point.x + nx * point.r);
   }
-  const double least = least_mobility * points_[face.own.points[node]].inverse;
+  const double least = least_mobility * mobility_[face.own.points[node]].x;
   const auto inertia = [least](double mobility) { return mobility > least ? 1.0 / mobility : 0.0; };
   row.inertia = inertia(all);
   row.normal_inertia = inertia(normal);

@@ -69,8 +69,10 @@ class Contact {
   struct Point {
     std::size_t first_member, end_member;  ///< in members_
     double inertia, mass;                  ///< kg
-    double inverse;                        ///< 1/kg
-    double inverse_r;                      ///< 1/kg; 0 where it does not move along r
+  };
+  /// How readily a point moves, 1/kg; `r` is 0 where it is held along r.
+  struct Mobility {
+    double x, r;
   };
   /// The nodes of one body along a face.
   struct FaceSide {
@@ -137,6 +139,7 @@ class Contact {
   std::vector<Face> faces_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> tie_of_, point_of_;  ///< by nodes and index
   std::vector<Point> points_;
+  std::vector<Mobility> mobility_;  ///< by point
   std::vector<Tie::Member> members_;
   std::vector<Row> rows_;
   std::vector<Share> shares_;
@@ -153,7 +156,7 @@ class Contact {
   double keep_ = 1;                 ///< share of the velocity that damping leaves
   double slid_ = 0;                 ///< m, since the faces were paired
   double shortest_cell_ = 0;        ///< m, of the faces
-  int steps_ = 0;                   ///< since the faces were paired
+  int steps_ = 0;  ///< since the faces were paired; their impulses are known by point from 1 on
   bool has_bonds_ = false;
 };
 
