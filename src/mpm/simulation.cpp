@@ -79,17 +79,16 @@ void Simulation::book(const StepTotals& totals, double dt) {
   const double acceleration = 0.5 * (frame_acceleration(time_) + frame_acceleration(time_ + dt));
   const ParticleTotals& p = totals.particles;
   const NodeTotals& n = totals.nodes;
-  // The motion of the mass centre takes its energy from the work on it to the last digit and says nothing of
-  // the computation; in the lab frame it would drown what does. Its velocity is that of the whole momentum.
-  const double momentum = sum(n.momentum) + totals.contact.momentum;
-  const double bulk_kinetic =
-      0.5 * scene_.numerics.inertial_scaling * sum(n.old_momentum) * momentum / total_mass_;
-  balance_.kinetic = sum(p.centred_kinetic) - bulk_kinetic;
+  // The motion of all as one mass takes its energy from the work on it to the last digit and says nothing of
+  // the computation; in the lab frame it would drown what does.
+  const BulkMotion& bulk = totals.bulk;
+  const double bulk_velocity = bulk.momentum / bulk.inertia;
+  balance_.kinetic = sum(p.centred_kinetic) - 0.5 * bulk.old_momentum * bulk_velocity;
   const bool lab = scene_.frame == scene::Frame::lab;
-  const double bulk_flow = lab ? -loaded_area_ * momentum / total_mass_ : 0.0;
+  const double bulk_flow = lab ? -loaded_area_ * bulk_velocity : 0.0;
   energy_.external += pressure * (totals.base_flow - bulk_flow) * dt + totals.bore_work;
-  energy_.external += totals.pull_work - pulled_ * momentum / total_mass_ * dt;
-  energy_.body_force += acceleration * momentum * dt;
+  energy_.external += totals.pull_work - pulled_ * bulk_velocity * dt;
+  energy_.body_force += acceleration * (sum(n.momentum) + totals.contact.momentum) * dt;
   energy_.internal += sum(p.internal) + sum(p.hourglass);
   energy_.hourglass += sum(p.hourglass);
   energy_.plastic += sum(p.plastic);

@@ -135,6 +135,7 @@ void TotalLagrangian::weigh_nodes() {
       }
     for (std::size_t node = 0; node < n.mass.size(); ++node) {
       n.inertia[node] = part.inertial_factor * n.mass[node];
+      inertia_ += n.inertia[node];
       if (!(n.mass[node] > 0.0)) continue;
       n.inverse_inertia[node] = 1.0 / n.inertia[node];
       n.mass_share[node] = 1.0 / part.inertial_factor;
@@ -381,8 +382,15 @@ StepTotals TotalLagrangian::step(const Drive& drive) {
   StepTotals totals;
   for (const auto& body : particle_totals_)
     for (const ParticleTotals& row : body) totals.particles.add(row);
-  for (const auto& body : node_totals_)
-    for (const NodeTotals& row : body) totals.nodes.add(row);
+  totals.bulk.inertia = inertia_;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    NodeTotals body;
+    for (const NodeTotals& row : node_totals_[b]) body.add(row);
+    totals.nodes.add(body);
+    // Contact's impulses are equal and opposite: they do not change the whole momentum.
+    totals.bulk.old_momentum += parts_[b].inertial_factor * sum(body.old_momentum);
+    totals.bulk.momentum += parts_[b].inertial_factor * sum(body.momentum);
+  }
   totals.base_flow = base_flow();
   totals.bore_work = bore_work(drive.dt);
   totals.pull_work = pull_work(drive.dt);

@@ -48,10 +48,19 @@ struct ContactTotals {
   double momentum = 0;       ///< kg m/s, axial, of the true mass; 0 where inertia is that
 };
 
+/// Axial motion of all as one mass: of the inertial masses, on which forces act. Where the inertia of some
+/// bodies is scaled more than that of others, their centre is not the true masses'.
+struct BulkMotion {
+  double inertia = 0;       ///< kg per radian or metre
+  double old_momentum = 0;  ///< kg m/s, at the begin of the step
+  double momentum = 0;      ///< kg m/s, with the velocity that the step moves by
+};
+
 /// All of a step.
 struct StepTotals {
   ParticleTotals particles;
   NodeTotals nodes;
+  BulkMotion bulk;
   double base_flow = 0;  ///< of the loaded face against unit pressure, m3/s
   double bore_work = 0;  ///< of bore pressures, J
   double pull_work = 0;  ///< of body forces on single bodies, J

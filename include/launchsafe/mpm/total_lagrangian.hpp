@@ -96,6 +96,7 @@ class TotalLagrangian {
   scene::GridLines lines_;
   std::vector<Nodes> nodes_;  ///< by body
   std::vector<Part> parts_;   ///< by body
+  double inertia_ = 0;        ///< kg per radian or metre, of all bodies
   std::vector<Tie> ties_;
   std::vector<LoadShare> base_;
   std::unique_ptr<Contact> contact_;
