@@ -36,6 +36,7 @@ void Contact::restart(const std::vector<Nodes>& nodes) {
 }
 
 ContactTotals Contact::act(std::vector<Nodes>& nodes, double dt, double keep) {
+  keep_before_ = keep_;
   keep_ = keep;
   read_nodes(nodes);
   exchange();
@@ -113,8 +114,8 @@ void Contact::exchange() {
 void Contact::press(double dt) {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const double moves_r = mobility_[p].r > 0.0 ? 1.0 : 0.0;
-    start_[p] = {free_[p].x + (matched_[p].x - brought_[p].x),
-                 free_[p].r + moves_r * (matched_[p].r - brought_[p].r)};
+    start_[p] = {free_[p].x + keep_ * (matched_[p].x - brought_[p].x),
+                 free_[p].r + keep_ * moves_r * (matched_[p].r - brought_[p].r)};
   }
   const double longer = last_dt_ > 0.0 ? dt / last_dt_ : 0.0;
   // The same impulses on the same pairs as in the last step, which are known by point.
@@ -192,7 +193,11 @@ ContactTotals Contact::write_nodes(std::vector<Nodes>& nodes, double dt) {
     const Velocity impulse{point.inertia * (v.x - start_[p].x), point.inertia * (v.r - start_[p].r)};
     const Velocity change{v.x - matched_[p].x, v.r - matched_[p].r};
     const Velocity free_change{free_[p].x - brought_[p].x, free_[p].r - brought_[p].r};
-    totals.loss -= 0.5 * ((impulse_[p].x + impulse.x) * before.x + (impulse_[p].r + impulse.r) * before.r);
+    // Impulses count as if damping came after them: J/keep each, of which this step's damping takes its part.
+    const double old_work = impulse_[p].x * before.x + impulse_[p].r * before.r;
+    const double work = impulse.x * before.x + impulse.r * before.r;
+    totals.loss -= 0.5 * (old_work / keep_before_ + work / keep_);
+    totals.way_back_loss += 0.5 * work * (1.0 / keep_ - 1.0);
     totals.way_back_loss += 0.5 * point.inertia *
                             ((change.x - free_change.x) * (before.x - brought_[p].x) +
                              (change.r - free_change.r) * (before.r - brought_[p].r));
@@ -210,9 +215,6 @@ ContactTotals Contact::write_nodes(std::vector<Nodes>& nodes, double dt) {
       n.displacement_r[i] += dt * more.r;
     }
   }
-  // What damping takes from the impulses is its loss.
-  totals.way_back_loss += totals.loss * (1.0 - 1.0 / keep_);
-  totals.loss /= keep_;
   return totals;
 }
 
@@ -220,7 +222,7 @@ ContactTotals Contact::write_nodes(std::vector<Nodes>& nodes, double dt) {
 void Contact::settle_rows(double dt) {
   double fastest = 0.0;
   for (Row& row : rows_) {
-    row.friction_work -= 0.5 * (row.last_slide + row.slide) / keep_ * row.sliding;
+    row.friction_work -= 0.5 * (row.last_slide / keep_before_ + row.slide / keep_) * row.sliding;
     set_speeds(row);
     row.gap += dt * row.opening;
     fastest = std::max(fastest, std::abs(row.sliding));

@@ -150,7 +150,12 @@ void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired,
   row.area = paired.area;
   row.begin = row.end = static_cast<std::uint32_t>(shares_.size());
   row.gap = 0.0;
-  if (!(paired.area > 0.0)) {
+  // A node tied to the other body, as at the corner where sliding faces end at bonded ones, does not move
+  // against it: the tie holds its part of the face. Its row would turn round-off of places into any impulse.
+  const bool tied = std::any_of(paired.other.begin(), paired.other.end(), [&](const PairShare& each) {
+    return face.other.points[each.node] == face.own.points[node];
+  });
+  if (!(paired.area > 0.0) || tied) {
     row.normal = row.slide = row.inertia = row.normal_inertia = row.slide_inertia = 0.0;
     return;
   }

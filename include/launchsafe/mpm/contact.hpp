@@ -154,6 +154,7 @@ class Contact {
   std::vector<Velocity> impulse_;   ///< kg m/s, of the last step
   double last_dt_ = 0;              ///< s
   double keep_ = 1;                 ///< share of the velocity that damping leaves
+  double keep_before_ = 1;          ///< the same of the last step
   double slid_ = 0;                 ///< m, since the faces were paired
   double shortest_cell_ = 0;        ///< m, of the faces
   int steps_ = 0;  ///< since the faces were paired; their impulses are known by point from 1 on
