@@ -18,7 +18,9 @@ constexpr double settled = 1e-2;
 constexpr int most_sweeps = 2;
 
 /// Part of an overlap, which only pairing anew can make, that a step takes back: all at once would be a blow.
-constexpr double overlap_taken_back = 0.1;
+/// And at most this part of the shortest cell, which is about this part of the speed of sound: where a face
+/// that bulged out past the other one's end is driven back over it, overlaps are as large as the bulge.
+constexpr double overlap_taken_back = 0.1, most_taken_back = 1e-4;
 
 }  // namespace
 
@@ -47,6 +49,11 @@ ContactTotals Contact::act(std::vector<Nodes>& nodes, double dt, double keep) {
   if (slid_ > pairing_slide * shortest_cell_ || steps_ >= pairing_steps) pair(nodes);
   last_dt_ = dt;
   return totals;
+}
+
+/// How far (m) faces with a gap must open in a step.
+double Contact::least_opening(double gap) const {
+  return gap > 0.0 ? -gap : std::min(-overlap_taken_back * gap, most_taken_back * shortest_cell_);
 }
 
 Contact::Velocity Contact::relative(const Row& row, const std::vector<Velocity>& velocity) const {
@@ -128,7 +135,7 @@ void Contact::press(double dt) {
     row.last_slide = row.slide;
     row.normal *= longer;
     row.slide *= longer;
-    row.target = row.bonded ? 0.0 : -(row.gap < 0.0 ? overlap_taken_back : 1.0) * row.gap / dt;
+    row.target = row.bonded ? 0.0 : least_opening(row.gap) / dt;
     if (!same_pairs) push(row, row.normal, row.slide);
   }
   const auto settle = [&] {
@@ -174,7 +181,7 @@ bool Contact::break_bonds(double dt) {
       continue;
     any = true;
     row.bonded = false;
-    row.target = -row.gap / dt;
+    row.target = least_opening(row.gap) / dt;
     const double normal = std::max(row.normal, 0.0), limit = row.friction * normal;
     const double slide = std::clamp(row.slide, -limit, limit);
     push(row, normal - row.normal, slide - row.slide);

@@ -1,6 +1,5 @@
 // Contact of faces that can slide: against the tie, closed solutions, and its own balance.
-#include "launchsafe/mpm/simulation.hpp"
-#include "scenes.hpp"
+#include "contact_scenes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,85 +10,13 @@
 namespace {
 
 using namespace launchsafe;
-
-/// The shell on a coarse graded lattice, under a load that is over within two milliseconds.
-scene::Scene held_shell() {
-  scene::Scene shell = test_support::shell_155(5e-3);
-  shell.numerics.growth_x = 1.3;
-  shell.numerics.growth_r = 1.2;
-  shell.load.duration = 2e-3;
-  shell.load.peak_time = 1e-3;
-  return shell;
-}
-
-scene::Interface sliding(const std::string& body, double friction) {
-  return {.body = body, .condition = scene::Condition::sliding, .friction = friction};
-}
-
-/// A bond that nothing breaks, held by contact rather than by the tie.
-scene::Interface held(const std::string& body) {
-  return {.body = body,
-          .condition = scene::Condition::bonded,
-          .friction = 0.1,
-          .tension_strength = 1e18,
-          .shear_strength = 1e18};
-}
-
-void go_until(mpm::Simulation& simulation, double end) {
-  while (simulation.time() < end) simulation.step(simulation.stable_time_step());
-}
-
-double ledger(const mpm::EnergyTotals& e) {
-  return e.kinetic + e.internal + e.damping + e.contact - e.external - e.body_force;
-}
-
-/// A plain elastic material by its shear modulus (Pa), Poisson's ratio and density (kg/m3).
-scene::Material plain(const std::string& name, double shear, double poisson, double density) {
-  return {name,
-          materials::LinearElastic{.density = density,
-                                   .bulk = shear * 2.0 * (1.0 + poisson) / (3.0 * (1.0 - 2.0 * poisson)),
-                                   .shear = shear}};
-}
-
-constexpr double block_height = 0.01, block_length = 0.04, block_density = 2000.0;  // m, kg/m3
-
-/// A block (body 1) on a floor (body 0) a million times as heavy and stiff, in plane strain: the floor rests
-/// on the plane r = 0. Poisson's ratio is 0, so that a body force across makes uniform sections.
-scene::Scene block_on_floor(scene::Interface faces) {
-  scene::Scene scene;
-  scene.symmetry = scene::Symmetry::plane_strain;
-  scene.barrel = scene::Barrel::none;
-  scene.load = test_support::steady_pressure(0.0);
-  scene.materials = {plain("floor", 1e15, 0.0, 2e9), plain("block", 1e9, 0.0, block_density)};
-  scene.bodies = {{"floor", "floor", 0.0, 0.1, 0.0, 0.01},
-                  {"block", "block", 0.02, 0.02 + block_length, 0.01, 0.01 + block_height}};
-  faces.body = "floor";
-  faces.against = "block";
-  scene.interfaces = {faces};
-  scene.numerics.cell_size = 2.5e-3;
-  return scene;
-}
-
-/// Turns the block's body force (m/s2) on in equal parts over some steps.
-void pull_slowly(mpm::Simulation& simulation, double along, double across, int steps) {
-  for (int step = 0; step < steps; ++step) {
-    simulation.pull(1, along / steps, across / steps);
-    simulation.step(simulation.stable_time_step());
-  }
-}
-
-/// Mean velocity (m/s) of a body along x.
-double velocity_of(const mpm::Simulation& simulation, std::size_t body) {
-  const mpm::Kinematics& p = mpm::kinematics_of(simulation.bodies()[body]);
-  const double mass = std::accumulate(p.mass.begin(), p.mass.end(), 0.0);
-  return std::inner_product(p.mass.begin(), p.mass.end(), p.velocity_x.begin(), 0.0) / mass;
-}
+using namespace launchsafe::test_support;
 
 TEST(Contact, ABondHeldByContactIsTheTie) {
   const auto run = [](bool by_contact, double keep) {
     scene::Scene shell = held_shell();
     shell.numerics.damping_time = keep;
-    shell.load = test_support::steady_pressure(300e6);
+    shell.load = steady_pressure(300e6);
     shell.numerics.inertial_scaling = 4.0;
     if (by_contact) shell.interfaces = {held("wall"), held("base"), held("nose")};
     mpm::Simulation simulation(shell);
@@ -237,20 +164,13 @@ TEST(Contact, ABondBreaksAtItsStrength) {
   }
 }
 
-/// Sum of the normal forces on a face, N per radian or per metre.
-double normal_force(const std::vector<mpm::FaceState>& nodes) {
-  double force = 0.0;
-  for (const mpm::FaceState& node : nodes) force += node.pressure * node.area;
-  return force;
-}
-
 TEST(Contact, ABarIsHeldBackInASleeveByFrictionTimesItsGrip) {
   // The sleeve is pressed on the bar by its own body force: p = rho t a. It is shorter than the bar, whose
   // nodes come in at one end and leave at the other.
   scene::Scene scene;
   scene.symmetry = scene::Symmetry::plane_strain;
   scene.barrel = scene::Barrel::none;
-  scene.load = test_support::steady_pressure(0.0);
+  scene.load = steady_pressure(0.0);
   scene.materials = {plain("bar", 1e9, 0.0, 2000.0), plain("sleeve", 1e11, 0.0, 8000.0)};
   scene.bodies = {{"bar", "bar", 0.0, 0.2, 0.0, 0.01}, {"sleeve", "sleeve", 0.08, 0.12, 0.01, 0.02}};
   scene.interfaces = {sliding("sleeve", 0.3)};
@@ -297,7 +217,7 @@ scene::Scene column_in_tube(double friction, double whole) {
   scene.numerics.cell_size = 2e-3;
   scene.numerics.damping_time = 5e-5;
   const double pressure = whole / (1700.0 * 0.1) * scene::total_mass(scene) / scene::base_area(scene);
-  scene.load = test_support::steady_pressure(pressure);
+  scene.load = steady_pressure(pressure);
   scene.load.curve_time = {0.0, 1.5e-3, 1.0};
   scene.load.curve_pressure = {0.0, pressure, pressure};
   return scene;

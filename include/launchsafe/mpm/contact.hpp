@@ -123,6 +123,7 @@ class Contact {
   std::size_t point_of(const std::vector<Nodes>& nodes, const std::vector<Tie>& ties, Tie::Member node);
   void pair_face(Face& face, const std::vector<Nodes>& nodes);
   void set_row(const Face& face, std::size_t node, const PairRow& paired, Row& row);
+  double least_opening(double gap) const;
   Velocity relative(const Row& row, const std::vector<Velocity>& velocity) const;
   void set_speeds(Row& row) const;
   Velocity impulse(const Row& row, double normal, double slide) const;
