@@ -25,16 +25,15 @@ constexpr double overlap_taken_back = 0.1, most_taken_back = 1e-4;
 }  // namespace
 
 void Contact::restart(const std::vector<Nodes>& nodes) {
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const Tie::Member& m = members_[points_[p].first_member];
-    before_[p] = {nodes[m.nodes].velocity_x[m.index], nodes[m.nodes].velocity_r[m.index]};
-    impulse_[p] = {0.0, 0.0};
+  impulse_.resize(points_);
+  for (const Member& m : members_) {
+    before_.x(m.point) = nodes[m.nodes].velocity_x[m.index];
+    before_.r(m.point) = nodes[m.nodes].velocity_r[m.index];
   }
   pair(nodes);
   last_dt_ = 0.0;
-  for (Row& row : rows_) {
-    row.normal = row.slide = row.last_slide = 0.0;
-  }
+  keep_ = 1.0;
+  for (Row& row : rows_) row.normal = row.slide = row.last_slide = 0.0;
 }
 
 ContactTotals Contact::act(std::vector<Nodes>& nodes, double dt, double keep) {
@@ -43,7 +42,8 @@ ContactTotals Contact::act(std::vector<Nodes>& nodes, double dt, double keep) {
   read_nodes(nodes);
   exchange();
   press(dt);
-  const ContactTotals totals = write_nodes(nodes, dt);
+  const ContactTotals totals = book();
+  write_nodes(nodes, dt);
   ++steps_;
   settle_rows(dt);
   if (slid_ > pairing_slide * shortest_cell_ || steps_ >= pairing_steps) pair(nodes);
@@ -56,11 +56,11 @@ double Contact::least_opening(double gap) const {
   return gap > 0.0 ? -gap : std::min(-overlap_taken_back * gap, most_taken_back * shortest_cell_);
 }
 
-Contact::Velocity Contact::relative(const Row& row, const std::vector<Velocity>& velocity) const {
+Contact::Velocity Contact::relative(const Row& row, const Field& velocity) const {
   Velocity v{0.0, 0.0};
   for (std::size_t s = row.begin; s < row.end; ++s) {
-    v.x += shares_[s].share * velocity[shares_[s].point].x;
-    v.r += shares_[s].share * velocity[shares_[s].point].r;
+    v.x += shares_[s].share * velocity.x(shares_[s].point);
+    v.r += shares_[s].share * velocity.r(shares_[s].point);
   }
   return v;
 }
@@ -79,9 +79,9 @@ Contact::Velocity Contact::impulse(const Row& row, double normal, double slide) 
 void Contact::push(const Row& row, double normal, double slide) {
   const Velocity j = impulse(row, normal, slide);
   for (std::size_t s = row.begin; s < row.end; ++s) {
-    const std::size_t p = shares_[s].point;
-    velocity_[p].x += shares_[s].share * j.x * mobility_[p].x;
-    velocity_[p].r += shares_[s].share * j.r * mobility_[p].r;
+    const Share& each = shares_[s];
+    velocity_.x(each.point) += each.give_x * j.x;
+    velocity_.r(each.point) += each.give_r * j.r;
   }
 }
 
@@ -89,18 +89,20 @@ void Contact::push(const Row& row, double normal, double slide) {
 void Contact::hand_over(const Row& row, double normal, double slide) {
   const Velocity j = impulse(row, normal, slide);
   for (std::size_t s = row.begin; s < row.end; ++s) {
-    const std::size_t p = shares_[s].point;
-    matched_[p].x += shares_[s].share * j.x * mobility_[p].x;
-    matched_[p].r += shares_[s].share * j.r * mobility_[p].x;
+    const Share& each = shares_[s];
+    matched_.x(each.point) += each.give_x * j.x;
+    matched_.r(each.point) += each.give_x * j.r;
   }
 }
 
 void Contact::read_nodes(const std::vector<Nodes>& nodes) {
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const Tie::Member& m = members_[points_[p].first_member];
+  for (const Member& m : members_) {
     const Nodes& n = nodes[m.nodes];
-    free_[p] = {n.velocity_x[m.index], n.velocity_r[m.index]};
-    brought_[p] = {free_[p].x - n.change_x[m.index], free_[p].r - n.change_r[m.index]};
+    const double x = n.velocity_x[m.index], r = n.velocity_r[m.index];
+    free_.x(m.point) = x;
+    free_.r(m.point) = r;
+    brought_.x(m.point) = x - n.change_x[m.index];
+    brought_.r(m.point) = r - n.change_r[m.index];
   }
 }
 
@@ -117,20 +119,22 @@ void Contact::exchange() {
   }
 }
 
+/// Begins with the last step's impulses on all points: where the pairs are the same, the rows' are known
+/// there.
+void Contact::begin_impulses(double longer) {
+  for (std::size_t i = 0; i < start_.size(); i += math::pack_width) {
+    const Pack handed = keep_ * moves_.load(i) * (matched_.load(i) - brought_.load(i));
+    const Pack start = free_.load(i) + handed;
+    start_.store(i, start);
+    velocity_.store(i, start + longer * impulse_.load(i) * mobility_.load(i));
+  }
+}
+
 /// Finds the impulses, from those of the last step on.
 void Contact::press(double dt) {
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const double moves_r = mobility_[p].r > 0.0 ? 1.0 : 0.0;
-    start_[p] = {free_[p].x + keep_ * (matched_[p].x - brought_[p].x),
-                 free_[p].r + keep_ * moves_r * (matched_[p].r - brought_[p].r)};
-  }
   const double longer = last_dt_ > 0.0 ? dt / last_dt_ : 0.0;
-  // The same impulses on the same pairs as in the last step, which are known by point.
   const bool same_pairs = steps_ > 0;
-  const double begin = same_pairs ? longer : 0.0;
-  for (std::size_t p = 0; p < points_.size(); ++p)
-    velocity_[p] = {start_[p].x + begin * impulse_[p].x * mobility_[p].x,
-                    start_[p].r + begin * impulse_[p].r * mobility_[p].r};
+  begin_impulses(same_pairs ? longer : 0.0);
   for (Row& row : rows_) {
     row.last_slide = row.slide;
     row.normal *= longer;
@@ -191,38 +195,37 @@ bool Contact::break_bonds(double dt) {
   return any;
 }
 
-ContactTotals Contact::write_nodes(std::vector<Nodes>& nodes, double dt) {
-  ContactTotals totals;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const Point& point = points_[p];
-    const Velocity v = velocity_[p], more{v.x - free_[p].x, v.r - free_[p].r};
-    const Velocity before = before_[p];
-    const Velocity impulse{point.inertia * (v.x - start_[p].x), point.inertia * (v.r - start_[p].r)};
-    const Velocity change{v.x - matched_[p].x, v.r - matched_[p].r};
-    const Velocity free_change{free_[p].x - brought_[p].x, free_[p].r - brought_[p].r};
+/// What the impulses took out of the energies.
+ContactTotals Contact::book() {
+  Pack loss(0.0), damping(0.0), way_back(0.0), momentum(0.0);
+  for (std::size_t i = 0; i < velocity_.size(); i += math::pack_width) {
+    const Pack inertia = inertia_.load(i), v = velocity_.load(i), before = before_.load(i);
+    const Pack brought = brought_.load(i), free = free_.load(i);
+    const Pack impulse = inertia * (v - start_.load(i)), more = v - free;
+    const Pack work = impulse * before;
     // Impulses count as if damping came after them: J/keep each, of which this step's damping takes its part.
-    const double old_work = impulse_[p].x * before.x + impulse_[p].r * before.r;
-    const double work = impulse.x * before.x + impulse.r * before.r;
-    totals.loss -= 0.5 * (old_work / keep_before_ + work / keep_);
-    totals.way_back_loss += 0.5 * work * (1.0 / keep_ - 1.0);
-    totals.way_back_loss += 0.5 * point.inertia *
-                            ((change.x - free_change.x) * (before.x - brought_[p].x) +
-                             (change.r - free_change.r) * (before.r - brought_[p].r));
-    totals.momentum += point.mass * more.x;
-    impulse_[p] = impulse;
-    before_[p] = v;
-    for (std::size_t k = point.first_member; k < point.end_member; ++k) {
-      Nodes& n = nodes[members_[k].nodes];
-      const std::size_t i = members_[k].index;
-      n.velocity_x[i] = v.x;
-      n.velocity_r[i] = v.r;
-      n.change_x[i] = change.x;
-      n.change_r[i] = change.r;
-      n.displacement_x[i] += dt * more.x;
-      n.displacement_r[i] += dt * more.r;
-    }
+    loss += (0.5 / keep_before_) * (impulse_.load(i) * before) + (0.5 / keep_) * work;
+    damping += work;
+    way_back += inertia * (more + brought - matched_.load(i)) * (before - brought);
+    momentum += mass_.load(i) * more;
+    impulse_.store(i, impulse);
+    before_.store(i, v);
   }
-  return totals;
+  return {-sum(loss), 0.5 * (sum(way_back) + (1.0 / keep_ - 1.0) * sum(damping)), sum(momentum)};
+}
+
+void Contact::write_nodes(std::vector<Nodes>& nodes, double dt) const {
+  for (const Member& m : members_) {
+    Nodes& n = nodes[m.nodes];
+    const std::size_t i = m.index, p = m.point;
+    const double x = velocity_.x(p), r = velocity_.r(p);
+    n.velocity_x[i] = x;
+    n.velocity_r[i] = r;
+    n.change_x[i] = x - matched_.x(p);
+    n.change_r[i] = r - matched_.r(p);
+    n.displacement_x[i] += dt * (x - free_.x(p));
+    n.displacement_r[i] += dt * (r - free_.r(p));
+  }
 }
 
 /// Takes the rows to the end of the step.

@@ -48,31 +48,39 @@ Contact::Contact(const scene::Scene& scene, const scene::GridLines& lines, const
     for (const FaceSide* side : {&face.own, &face.other})
       for (std::size_t i = 0; i + 1 < side->rest.size(); ++i)
         shortest_cell_ = std::min(shortest_cell_, side->rest[i + 1] - side->rest[i]);
-  for (auto* field : {&velocity_, &free_, &start_, &brought_, &matched_, &before_, &impulse_})
-    field->assign(points_.size(), {0.0, 0.0});
+  make_fields(nodes);
   shares_.reserve(16 * rows_.size());
 }
 
-std::size_t Contact::point_of(const std::vector<Nodes>& nodes, const std::vector<Tie>& ties,
-                              Tie::Member node) {
+std::size_t Contact::point_of(const std::vector<Tie>& ties, Tie::Member node) {
   const auto known = point_of_.find({node.nodes, node.index});
   if (known != point_of_.end()) return known->second;
   const auto tie = tie_of_.find({node.nodes, node.index});
   const std::vector<Tie::Member> alone{node};
   const std::vector<Tie::Member>& members = tie == tie_of_.end() ? alone : ties[tie->second].members;
-  const Nodes& n = nodes[node.nodes];
-  Point point{members_.size(), members_.size() + members.size(), 0.0, 0.0};
-  Mobility mobility{n.inverse_inertia[node.index], n.inverse_inertia[node.index]};
   for (const Tie::Member& m : members) {
-    members_.push_back(m);
-    point.inertia += nodes[m.nodes].inertia[m.index];
-    point.mass += nodes[m.nodes].mass[m.index];
-    mobility.r *= nodes[m.nodes].moves_r[m.index];
-    point_of_[{m.nodes, m.index}] = points_.size();
+    members_.push_back({m.nodes, m.index, points_});
+    point_of_[{m.nodes, m.index}] = points_;
   }
-  points_.push_back(point);
-  mobility_.push_back(mobility);
-  return points_.size() - 1;
+  return points_++;
+}
+
+void Contact::make_fields(const std::vector<Nodes>& nodes) {
+  std::stable_sort(members_.begin(), members_.end(),
+                   [](const Member& a, const Member& b) { return a.nodes < b.nodes; });
+  for (Field* field : {&inertia_, &mass_, &mobility_, &moves_, &velocity_, &free_, &brought_, &matched_,
+                       &start_, &before_, &impulse_})
+    field->resize(points_);
+  for (std::size_t p = 0; p < points_; ++p) moves_.x(p) = moves_.r(p) = 1.0;
+  for (const Member& m : members_) {
+    const Nodes& n = nodes[m.nodes];
+    inertia_.x(m.point) += n.inertia[m.index];
+    inertia_.r(m.point) += n.inertia[m.index];
+    mass_.x(m.point) += n.mass[m.index];
+    moves_.r(m.point) *= n.moves_r[m.index];
+    mobility_.x(m.point) = n.inverse_inertia[m.index];
+    mobility_.r(m.point) = n.inverse_inertia[m.index] * moves_.r(m.point);
+  }
 }
 
 Contact::FaceSide Contact::face_side(const scene::GridLines& lines, const std::vector<Nodes>& nodes,
@@ -85,7 +93,7 @@ Contact::FaceSide Contact::face_side(const scene::GridLines& lines, const std::v
   for (int k = 0; k < (along_x ? n.columns : n.rows); ++k) {
     const int i = along_x ? k : column, j = along_x ? row : k;
     face.indices.push_back(n.index(i, j));
-    face.points.push_back(point_of(nodes, ties, {of, n.index(i, j), j}));
+    face.points.push_back(point_of(ties, {of, n.index(i, j), j}));
     face.rest.push_back(along_x ? lines.x[static_cast<std::size_t>(n.first_x + i)]
                                 : lines.r[static_cast<std::size_t>(n.first_r + j)]);
   }
@@ -161,7 +169,7 @@ void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired,
   }
   // Where a node is held along r, by symmetry or by the barrel, the face runs along a line of the grid.
   const auto held = [&](const FaceSide& side, const PairShare& each) {
-    return !(mobility_[side.points[each.node]].r > 0.0);
+    return !(moves_.r(side.points[each.node]) > 0.0);
   };
   const auto any_held = [&](const FaceSide& side, const std::vector<PairShare>& shares) {
     return std::any_of(shares.begin(), shares.end(), [&](const PairShare& each) { return held(side, each); });
@@ -182,7 +190,7 @@ void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired,
         shares_[s].share += sign * each.share;
         return;
       }
-    shares_.push_back({point, sign * each.share});
+    shares_.push_back({point, sign * each.share, 0.0, 0.0});
   };
   for (const PairShare& each : paired.own) take(face.own, each, -1.0);
   for (const PairShare& each : paired.other) take(face.other, each, 1.0);
@@ -190,13 +198,14 @@ void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired,
   double all = 0.0, normal = 0.0, slide = 0.0;
   const double nx = row.normal_x * row.normal_x, nr = row.normal_r * row.normal_r;
   for (std::size_t s = row.begin; s < row.end; ++s) {
-    const Mobility& point = mobility_[shares_[s].point];
-    const double square = shares_[s].share * shares_[s].share;
-    all += square * point.x;
-    normal += square * (nx * point.x + nr * point.r);
-    slide += square * (nr * point.x + nx * point.r);
+    Share& each = shares_[s];
+    each.give_x = each.share * mobility_.x(each.point);
+    each.give_r = each.share * mobility_.r(each.point);
+    all += each.share * each.give_x;
+    normal += each.share * (nx * each.give_x + nr * each.give_r);
+    slide += each.share * (nr * each.give_x + nx * each.give_r);
   }
-  const double least = least_mobility * mobility_[face.own.points[node]].x;
+  const double least = least_mobility * mobility_.x(face.own.points[node]);
   const auto inertia = [least](double mobility) { return mobility > least ? 1.0 / mobility : 0.0; };
   row.inertia = inertia(all);
   row.normal_inertia = inertia(normal);

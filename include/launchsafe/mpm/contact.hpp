@@ -15,6 +15,8 @@
 // takes J gap_before/(2 dt) >= 0 out of it.
 #pragma once
 
+#include "launchsafe/math/aligned_array.hpp"
+#include "launchsafe/math/pack.hpp"
 #include "launchsafe/mpm/contact_pairing.hpp"
 #include "launchsafe/mpm/nodes.hpp"
 #include "launchsafe/mpm/step.hpp"
@@ -65,14 +67,26 @@ class Contact {
   struct Velocity {
     double x, r;
   };
-  /// A node, or all nodes of a tie: they move alike.
-  struct Point {
-    std::size_t first_member, end_member;  ///< in members_
-    double inertia, mass;                  ///< kg
+  /// A point is a node, or all nodes of a tie: they move alike.
+  struct Member {
+    std::size_t nodes, index, point;
   };
-  /// How readily a point moves, 1/kg; `r` is 0 where it is held along r.
-  struct Mobility {
-    double x, r;
+  /// A quantity of all points, x and r of each in turn, padded to whole Packs.
+  class Field {
+   public:
+    void resize(std::size_t points) {
+      values_.assign((2 * points + math::pack_width - 1) / math::pack_width * math::pack_width, 0.0);
+    }
+    double& x(std::size_t point) { return values_[2 * point]; }
+    double& r(std::size_t point) { return values_[2 * point + 1]; }
+    double x(std::size_t point) const { return values_[2 * point]; }
+    double r(std::size_t point) const { return values_[2 * point + 1]; }
+    std::size_t size() const { return values_.size(); }
+    Pack load(std::size_t i) const { return Pack::load(&values_[i]); }
+    void store(std::size_t i, Pack value) { value.store(&values_[i]); }
+
+   private:
+    math::AlignedArray values_;
   };
   /// The nodes of one body along a face.
   struct FaceSide {
@@ -94,7 +108,8 @@ class Contact {
   };
   struct Share {
     std::uint32_t point;
-    double share;  ///< in the relative velocity, other face less own one
+    double share;           ///< in the relative velocity, other face less own one
+    double give_x, give_r;  ///< 1/kg, velocity that a unit impulse of the row gives to the point
   };
   /// A node of the charge's face with what it meets.
   struct Row {
@@ -120,45 +135,50 @@ class Contact {
   void pair(const std::vector<Nodes>& nodes);
   FaceSide face_side(const scene::GridLines& lines, const std::vector<Nodes>& nodes,
                      const std::vector<Tie>& ties, std::size_t of, Side side);
-  std::size_t point_of(const std::vector<Nodes>& nodes, const std::vector<Tie>& ties, Tie::Member node);
+  std::size_t point_of(const std::vector<Tie>& ties, Tie::Member node);
   void pair_face(Face& face, const std::vector<Nodes>& nodes);
   void set_row(const Face& face, std::size_t node, const PairRow& paired, Row& row);
   double least_opening(double gap) const;
-  Velocity relative(const Row& row, const std::vector<Velocity>& velocity) const;
+  Velocity relative(const Row& row, const Field& velocity) const;
   void set_speeds(Row& row) const;
   Velocity impulse(const Row& row, double normal, double slide) const;
   void push(const Row& row, double normal, double slide);
   void hand_over(const Row& row, double normal, double slide);
+  void make_fields(const std::vector<Nodes>& nodes);
   void read_nodes(const std::vector<Nodes>& nodes);
   void exchange();
+  void begin_impulses(double longer);
   void press(double dt);
   double sweep();
   bool break_bonds(double dt);
-  ContactTotals write_nodes(std::vector<Nodes>& nodes, double dt);
+  ContactTotals book();
+  void write_nodes(std::vector<Nodes>& nodes, double dt) const;
   void settle_rows(double dt);
 
   std::vector<Face> faces_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> tie_of_, point_of_;  ///< by nodes and index
-  std::vector<Point> points_;
-  std::vector<Mobility> mobility_;  ///< by point
-  std::vector<Tie::Member> members_;
+  std::size_t points_ = 0;
+  std::vector<Member> members_;  ///< by nodes
   std::vector<Row> rows_;
   std::vector<Share> shares_;
   std::vector<PairRow> paired_;  ///< of one face, used again
-  // By point.
-  std::vector<Velocity> velocity_;  ///< m/s, which the step moves by
-  std::vector<Velocity> free_;      ///< m/s, without contact
-  std::vector<Velocity> brought_;   ///< m/s, that came back from the particles
-  std::vector<Velocity> matched_;   ///< m/s, the same after the exchange
-  std::vector<Velocity> start_;     ///< m/s, of the free motion after it
-  std::vector<Velocity> before_;    ///< m/s, which the last step moved by
-  std::vector<Velocity> impulse_;   ///< kg m/s, of the last step
-  double last_dt_ = 0;              ///< s
-  double keep_ = 1;                 ///< share of the velocity that damping leaves
-  double keep_before_ = 1;          ///< the same of the last step
-  double slid_ = 0;                 ///< m, since the faces were paired
-  double shortest_cell_ = 0;        ///< m, of the faces
-  int steps_ = 0;  ///< since the faces were paired; their impulses are known by point from 1 on
+  Field inertia_;                ///< kg
+  Field mass_;                   ///< kg, along x alone
+  Field mobility_;               ///< 1/kg, how readily a point moves; 0 where it is held along r
+  Field moves_;                  ///< 1, or 0 where it is held along r
+  Field velocity_;               ///< m/s, which the step moves by
+  Field free_;                   ///< m/s, without contact
+  Field brought_;                ///< m/s, that came back from the particles
+  Field matched_;                ///< m/s, the same after the exchange
+  Field start_;                  ///< m/s, of the free motion after it
+  Field before_;                 ///< m/s, which the last step moved by
+  Field impulse_;                ///< kg m/s, of the last step
+  double last_dt_ = 0;           ///< s
+  double keep_ = 1;              ///< share of the velocity that damping leaves
+  double keep_before_ = 1;       ///< the same of the last step
+  double slid_ = 0;              ///< m, since the faces were paired
+  double shortest_cell_ = 0;     ///< m, of the faces
+  int steps_ = 0;                ///< since the faces were paired; their impulses are known by point from 1 on
   bool has_bonds_ = false;
 };
 
