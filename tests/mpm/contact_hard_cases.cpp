@@ -1,0 +1,385 @@
+// Hard cases of contact: scaled inertia, corners, edges that faces leave, inner faces, blows, and what a user
+// may ask of a launch.
+#include "contact_scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::test_support;
+
+/// What a computation with contact must keep to at all times.
+struct ContactWatch {
+  double initial = 0, scale = 0, drift = 0;  ///< J: of the ledger, and the largest energy
+  double least_loss = 0;                     ///< J
+  double deepest = 0;                        ///< m, smallest gap of faces that are free to part
+  double least_pressure = 0, largest = 0;    ///< Pa
+  bool sound = true;
+
+  void look(const mpm::Simulation& simulation) {
+    const mpm::EnergyTotals& e = simulation.energy();
+    scale = std::max(scale, std::abs(e.kinetic) + e.internal);
+    drift = std::max(drift, std::abs(ledger(e) - initial));
+    least_loss = std::min(least_loss, e.contact);
+    sound = sound && std::isfinite(e.kinetic) && !(simulation.events().distorted > 0.0);
+    const mpm::Contact& contact = simulation.total_lagrangian()->contact();
+    for (std::size_t f = 0; f < contact.faces(); ++f)
+      for (const mpm::FaceState& node : contact.state_of(f)) {
+        if (node.bonded) continue;
+        deepest = std::min(deepest, node.gap);
+        least_pressure = std::min(least_pressure, node.pressure);
+        largest = std::max(largest, node.pressure);
+      }
+  }
+};
+
+ContactWatch watched(mpm::Simulation& simulation, double end) {
+  ContactWatch watch;
+  for (bool first = true; simulation.time() < end && watch.sound; first = false) {
+    simulation.step(simulation.stable_time_step());
+    if (first) watch.initial = ledger(simulation.energy());
+    watch.look(simulation);
+  }
+  return watch;
+}
+
+ContactWatch watched_launch(const std::function<void(scene::Scene&)>& change) {
+  scene::Scene shell = held_shell();
+  shell.interfaces = {sliding("wall", 0.1), sliding("base", 0.1), sliding("nose", 0.1)};
+  change(shell);
+  mpm::Simulation simulation(shell);
+  return watched(simulation, shell.load.duration);
+}
+
+void set_friction(scene::Scene& scene, double friction) {
+  for (scene::Interface& faces : scene.interfaces) faces.friction = friction;
+}
+
+void throw_block(mpm::Simulation& simulation, double along, double across) {
+  std::visit(
+      [&](auto& body) {
+        mpm::Kinematics& block = body.kinematics;
+        for (std::size_t i = 0; i < block.mass.size(); ++i) {
+          if (!(block.mass[i] > 0.0)) continue;
+          block.velocity_x[i] = along;
+          block.velocity_r[i] = across;
+        }
+      },
+      simulation.bodies()[1]);
+  simulation.restart();
+}
+
+TEST(ContactHardCases, TheLedgerClosesWithScaledInertiaAndWithDamping) {
+  // What is left is the third power of a step's strain: a few 1e-6 for the longest steps, as without contact.
+  struct Case {
+    double scaling, steel, damping_time;
+  };
+  for (const Case& each : {Case{1, 2, 0}, {1, 4, 0}, {16, 1, 0}, {16, 2, 0}, {1, 1, 1e-5}, {1, 2, 1e-4}})
+    for (const double friction : {0.0, 0.1}) {
+      const ContactWatch watch = watched_launch([&](scene::Scene& shell) {
+        set_friction(shell, friction);
+        shell.numerics.inertial_scaling = each.scaling;
+        shell.numerics.steel_inertia = each.steel;
+        shell.numerics.damping_time = each.damping_time;
+      });
+      EXPECT_LT(watch.drift / watch.scale, 1e-5) << each.scaling << ' ' << each.steel << ' ' << friction;
+    }
+  scene::Scene shell = held_shell();
+  shell.numerics.steel_inertia = 4.0;
+  mpm::Simulation tied(shell);
+  const ContactWatch watch = watched(tied, 2e-3);
+  EXPECT_LT(watch.drift / watch.scale, 1e-5);
+}
+
+TEST(ContactHardCases, ATiedCornerTakesNoPart) {
+  // Charge and body are one node there. Nothing in the shell is pressed by more than its load's peak.
+  for (const char* smooth : {"wall", "base", "nose"}) {
+    const ContactWatch watch =
+        watched_launch([&](scene::Scene& shell) { shell.interfaces = {sliding(smooth, 0.0)}; });
+    EXPECT_LT(watch.largest, 496e6) << smooth;
+    EXPECT_GT(watch.least_loss / watch.scale, -1e-5) << smooth;
+    EXPECT_GT(watch.deepest, -1e-7) << smooth;
+  }
+}
+
+TEST(ContactHardCases, ABlockThatLeavesTheFloorMeetsNothing) {
+  // Either face may be the one that has the tractions.
+  for (const double friction : {0.0, 0.1})
+    for (const bool floor_has_rows : {false, true}) {
+      scene::Scene scene = block_on_floor(sliding("", friction));
+      if (floor_has_rows) std::swap(scene.interfaces[0].body, scene.interfaces[0].against);
+      mpm::Simulation simulation(scene);
+      simulation.pull(1, 0.0, -1e4);
+      throw_block(simulation, 25.0, 0.0);
+      const ContactWatch watch = watched(simulation, 6e-3);
+      EXPECT_TRUE(watch.sound);
+      EXPECT_LT(watch.drift / watch.scale, 1e-5);
+      EXPECT_GT(watch.least_loss / watch.scale, -1e-4);
+      EXPECT_GT(watch.deepest, -1e-4);  // m, of a block that tilts over the last cell, by 2.5 mm long
+      EXPECT_EQ(watch.least_pressure, 0.0);
+      for (const mpm::FaceState& node : simulation.total_lagrangian()->contact().state_of(0)) {
+        EXPECT_EQ(node.area, 0.0);
+        EXPECT_EQ(node.pressure, 0.0);
+      }
+    }
+}
+
+TEST(ContactHardCases, AChargePastTheEndOfItsWallIsHeldByTheRestOfIt) {
+  for (const double friction : {0.0, 0.1, 10.0}) {
+    scene::Scene shell = held_shell();
+    shell.load.peak = 50e6;
+    shell.bodies[2].x_begin = 0.2;
+    shell.interfaces = {sliding("wall", friction), sliding("base", friction), sliding("nose", friction)};
+    mpm::Simulation simulation(shell);
+    const ContactWatch watch = watched(simulation, 2e-3);
+    EXPECT_TRUE(watch.sound);
+    EXPECT_LT(watch.drift / watch.scale, 1e-4);
+    // Over the edge the charge bulges: sliding past it costs or gives the pressure on a cell times the
+    // bulge's slope along it.
+    EXPECT_GT(watch.least_loss / watch.scale, -2e-3);
+    EXPECT_GT(watch.deepest, -1e-6);
+    EXPECT_LT(watch.largest, 2.0 * 50e6);
+    const mpm::Contact& contact = simulation.total_lagrangian()->contact();
+    for (std::size_t f = 0; f < contact.faces(); ++f) {
+      if (shell.interfaces[contact.interface_of(f)].body != "wall") continue;
+      for (const mpm::FaceState& node : contact.state_of(f))
+        if (node.place < 0.2 - 20e-3) {
+          EXPECT_EQ(node.area, 0.0);
+        }
+    }
+  }
+}
+
+TEST(ContactHardCases, LargeOverlapsAreNoBlow) {
+  // The charge flows out past the wall and is driven back over its end: soon its cells are inverted, but
+  // until then contact may not be a source of energy.
+  const ContactWatch watch = watched_launch([](scene::Scene& shell) {
+    set_friction(shell, 0.0);
+    shell.bodies[2].x_end = 0.6;
+  });
+  EXPECT_GT(watch.least_loss / watch.scale, -0.1);
+}
+
+TEST(ContactHardCases, TheFirstBounceCostsTheMotionOfTheNodesThatMeet) {
+  // An elastic bar on a rigid floor leaves it after 2 h/c, c = sqrt(2 G/rho). The nodes of its face stop at
+  // once: of the kinetic energy of n cells, half a cell's is gone. Nothing more is.
+  for (const int cells : {4, 16}) {
+    scene::Scene scene = block_on_floor(sliding("", 0.2));
+    scene.numerics.cell_size = block_height / cells;
+    mpm::Simulation simulation(scene);
+    throw_block(simulation, 0.0, -0.1);
+    const double thrown = 0.5 * block_density * block_height * block_length * 0.1 * 0.1;
+    double contact_time = 0.0;
+    while (simulation.time() < 60e-6) {
+      const double dt = simulation.stable_time_step();
+      simulation.step(dt);
+      const auto nodes = simulation.total_lagrangian()->contact().state_of(0);
+      if (normal_force(nodes) > 0.0) contact_time += dt;
+    }
+    const double way = 2.0 * block_height / std::sqrt(2.0 * 1e9 / block_density);
+    EXPECT_NEAR(contact_time / way, 1.0, 0.5 / cells);
+    EXPECT_NEAR(simulation.energy().contact / thrown, 0.5 / cells, 1e-4);
+  }
+}
+
+TEST(ContactHardCases, ManyBouncesGainNoEnergy) {
+  for (const double poisson : {0.0, 0.3})
+    for (const double friction : {0.0, 0.3}) {
+      scene::Scene scene = block_on_floor(sliding("", friction));
+      scene.materials[1] = plain("block", 1e9, poisson, block_density);
+      mpm::Simulation simulation(scene);
+      simulation.pull(1, 0.0, -1e5);
+      throw_block(simulation, 0.3, -0.3);
+      const ContactWatch watch = watched(simulation, 3e-3);
+      EXPECT_LT(watch.drift / watch.scale, 1e-4);  // the third power of strains of 1e-3
+      EXPECT_GE(watch.least_loss / watch.scale, -1e-9);
+      EXPECT_GT(watch.deepest, -1e-9);
+    }
+}
+
+TEST(ContactHardCases, AHeavyBlockRestsOnASoftLightFloor) {
+  // rho h a, whichever is the softer: here the floor, by a thousand, under a strain of 1 %.
+  scene::Scene scene = block_on_floor(sliding("", 0.1));
+  scene.materials[0] = plain("floor", 1e6, 0.0, 200.0);
+  scene.numerics.damping_time = 2e-4;
+  mpm::Simulation simulation(scene);
+  const double acceleration = 1e-2 * 2e6 / (block_density * block_height);
+  for (int part = 0; part < 100; ++part) {
+    simulation.pull(1, 0.0, -acceleration / 100);
+    go_until(simulation, (part + 1) * 5e-5);
+  }
+  go_until(simulation, 8e-3);
+  const double weight = block_density * block_height * acceleration * block_length;
+  EXPECT_NEAR(normal_force(simulation.total_lagrangian()->contact().state_of(0)) / weight, 1.0, 1e-2);
+}
+
+/// Force on the bottom of a charge with a bore, along the rod in it and across it, over the force on the
+/// bottom without friction. The charge is in a smooth stiff tube; its body force grows from nothing.
+struct RodForces {
+  double bottom, along, across;
+};
+RodForces forces_round_a_rod(double friction) {
+  const double whole = 1e6, area = 0.5 * (0.02 * 0.02 - 0.01 * 0.01);  // Pa, m2 per radian
+  scene::Scene scene;
+  scene.materials = {plain("stiff", 1e13, 0.0, 1e7), plain("soft", 2e9, 0.25, 1700.0)};
+  scene.bodies = {{"tube", "stiff", 0.0, 0.1, 0.02, 0.03},
+                  {"column", "soft", 0.0, 0.1, 0.01, 0.02},
+                  {"base", "stiff", 0.1, 0.12, 0.0, 0.03},
+                  {"rod", "stiff", 0.0, 0.1, 0.0, 0.01}};
+  for (const char* body : {"tube", "base", "rod"}) {
+    scene.interfaces.push_back(sliding(body, body[0] == 'r' ? friction : 0.0));
+    scene.interfaces.back().against = "column";
+  }
+  scene.numerics.damping_time = 5e-5;
+  scene.load = steady_pressure(0.0);
+  mpm::Simulation simulation(scene);
+  // Slower and slower, so that nothing slides back at the end.
+  const int parts = 400;
+  for (int part = 0; part < parts; ++part) {
+    simulation.pull(1, whole / (1700.0 * 0.1) * (2.0 * (parts - part) - 1.0) / (parts * parts), 0.0);
+    go_until(simulation, (part + 1) * 1.5e-3 / parts);
+  }
+  go_until(simulation, 1.7e-3);
+  RodForces forces{};
+  const mpm::Contact& contact = simulation.total_lagrangian()->contact();
+  for (std::size_t f = 0; f < contact.faces(); ++f) {
+    const auto nodes = contact.state_of(f);
+    const std::string& body = simulation.scene().interfaces[contact.interface_of(f)].body;
+    if (body == "base") forces.bottom = normal_force(nodes) / (whole * area);
+    if (body != "rod") continue;
+    forces.across = normal_force(nodes) / (whole * area);
+    for (const mpm::FaceState& node : nodes) forces.along += node.shear * node.area / (whole * area);
+  }
+  return forces;
+}
+
+TEST(ContactHardCases, ARodInTheChargeCarriesItByFriction) {
+  // Janssen for a ring that rubs on its inside: the mean axial stress at depth z is rho a/m (1 - exp(-m z)),
+  // m = 2 mu k r_in/(r_out^2 - r_in^2), k = nu/(1 - nu). Sections bend a little, by more the larger mu.
+  for (const auto& [friction, allowed] : {std::pair{0.05, 0.003}, {0.1, 0.004}, {0.2, 0.006}}) {
+    const double ratio = 0.25 / 0.75;
+    const double depth = 2.0 * friction * ratio * 0.01 / (0.02 * 0.02 - 0.01 * 0.01) * 0.1;
+    const RodForces forces = forces_round_a_rod(friction);
+    EXPECT_NEAR(forces.bottom, (1.0 - std::exp(-depth)) / depth, allowed) << friction;
+    EXPECT_NEAR(forces.bottom + forces.along, 1.0, 2e-4) << friction;
+    EXPECT_LE(forces.along, friction * forces.across) << friction;
+  }
+}
+
+TEST(ContactHardCases, ASmoothRodCarriesNothing) {
+  // Its pressure is k rho a z: half of k rho a L times L r_in in all.
+  const RodForces forces = forces_round_a_rod(0.0);
+  EXPECT_NEAR(forces.bottom, 1.0, 2e-4);
+  EXPECT_EQ(forces.along, 0.0);
+  EXPECT_NEAR(forces.across, 0.5 * (0.25 / 0.75) * 0.1 * 0.01 / (0.5 * (0.02 * 0.02 - 0.01 * 0.01)), 5e-3);
+}
+
+TEST(ContactHardCases, TheLargestFrictionIsABond) {
+  // Pressed on everywhere, and drawn along by a tenth of that, the block's face never slides or parts.
+  const auto run = [](const scene::Interface& faces) {
+    scene::Scene scene = block_on_floor(faces);
+    scene.numerics.damping_time = 2e-5;
+    mpm::Simulation simulation(scene);
+    pull_slowly(simulation, 0.0, -1e5, 400);
+    pull_slowly(simulation, 1e4, 0.0, 400);
+    go_until(simulation, simulation.time() + 5e-4);
+    math::AlignedArray all = mpm::kinematics_of(simulation.bodies()[1]).pressure;
+    for (const mpm::FaceState& node : simulation.total_lagrangian()->contact().state_of(0))
+      all.push_back(node.shear);
+    return all;
+  };
+  const math::AlignedArray bonded = run(held("")), rubbing = run(sliding("", 10.0));
+  for (std::size_t i = 0; i < bonded.size(); ++i)
+    EXPECT_NEAR(rubbing[i], bonded[i],
+                1e-5 * block_density * block_height * 1e5);  // a little sliding while it settles
+}
+
+void break_bonds_of(scene::Scene& shell, double strength) {
+  for (scene::Interface& faces : shell.interfaces) {
+    faces.condition = scene::Condition::bonded;
+    faces.tension_strength = faces.shear_strength = strength;
+  }
+}
+
+/// A load that jumps between nothing and 496 MPa.
+void saw_load(scene::Scene& shell, double period) {
+  for (int k = 0; k * period / 2 < shell.load.duration + period; ++k) {
+    shell.load.curve_time.push_back(k * period / 2);
+    shell.load.curve_pressure.push_back(k % 2 == 0 ? 1e5 : 496e6);
+  }
+}
+
+TEST(ContactHardCases, LaunchesOfManyKindsKeepTheLedgerAndTheFaces) {
+  struct Case {
+    const char* name;
+    std::function<void(scene::Scene&)> change;
+  };
+  const std::vector<Case> cases = {
+      {"pressure to and fro in 0.2 ms", [](scene::Scene& s) { saw_load(s, 2e-4); }},
+      {"pressure gone in 10 us",
+       [](scene::Scene& s) {
+         s.load.curve_time = {0, 1e-3, 1.01e-3, 1};
+         s.load.curve_pressure = {1e5, 496e6, 0, 0};
+       }},
+      {"pressure at once", [](scene::Scene& s) { s.load = steady_pressure(496e6, 2e-3); }},
+      {"one cell long",
+       [](scene::Scene& s) { s.bodies[0].x_end = s.bodies[1].x_begin = s.bodies[2].x_begin = 0.675; }},
+      {"one cell wide", [](scene::Scene& s) { s.bodies[1].r_end = s.bodies[2].r_begin = 0.004; }},
+      {"strong grading",
+       [](scene::Scene& s) {
+         s.numerics.growth_x = s.numerics.growth_r = 2.0;
+         s.numerics.cell_size = 2e-3;
+         s.numerics.largest_cell = 0.05;
+       }},
+      {"base with a hole", [](scene::Scene& s) { s.bodies[3].r_begin = 0.03; }},
+      {"nose smaller than the charge",
+       [](scene::Scene& s) {
+         s.bodies[0].r_end = 0.03;
+         s.load.peak = 200e6;  // past 400 MPa the charge flows out round it
+       }},
+      {"bonds that break on the way", [](scene::Scene& s) { break_bonds_of(s, 5e6); }},
+      {"bonds that break at once",
+       [](scene::Scene& s) {
+         s.load = steady_pressure(496e6, 2e-3);
+         break_bonds_of(s, 1e6);
+       }},
+      {"plane strain", [](scene::Scene& s) { s.symmetry = scene::Symmetry::plane_strain; }},
+      {"the longest steps that are proved", [](scene::Scene& s) { s.numerics.time_step_factor = 0.68; }},
+  };
+  for (const Case& each : cases)
+    for (const double friction : {0.0, 0.1, 10.0}) {
+      const ContactWatch watch = watched_launch([&](scene::Scene& shell) {
+        set_friction(shell, friction);
+        each.change(shell);
+      });
+      const std::string what = std::string(each.name) + ", friction " + std::to_string(friction);
+      EXPECT_TRUE(watch.sound) << what;
+      EXPECT_LT(watch.drift / watch.scale, 1e-4) << what;
+      EXPECT_GT(watch.least_loss / watch.scale, -1e-5) << what;
+      EXPECT_GT(watch.deepest, -1e-6) << what;
+      EXPECT_GE(watch.least_pressure, 0.0) << what;
+    }
+}
+
+TEST(ContactHardCases, NoNumberOfThreadsChangesABitOfBreakingBonds) {
+  const auto run = [](int threads) {
+    scene::Scene shell = held_shell();
+    shell.interfaces = {sliding("wall", 0.1), sliding("base", 0.1), sliding("nose", 0.1)};
+    shell.bodies[2].x_begin = 0.2;
+    shell.load = steady_pressure(100e6);
+    break_bonds_of(shell, 1e6);
+    mpm::Simulation simulation(shell, threads);
+    for (int step = 0; step < 400; ++step) simulation.step(simulation.stable_time_step());
+    math::AlignedArray all = mpm::kinematics_of(simulation.bodies()[1]).velocity_r;
+    all.push_back(simulation.energy().contact);
+    return all;
+  };
+  EXPECT_EQ(run(2), run(1));
+}
+
+}  // namespace
