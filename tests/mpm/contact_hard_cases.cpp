@@ -314,57 +314,62 @@ void saw_load(scene::Scene& shell, double period) {
   }
 }
 
-TEST(ContactHardCases, LaunchesOfManyKindsKeepTheLedgerAndTheFaces) {
-  struct Case {
-    const char* name;
-    std::function<void(scene::Scene&)> change;
-  };
-  const std::vector<Case> cases = {
-      {"pressure to and fro in 0.2 ms", [](scene::Scene& s) { saw_load(s, 2e-4); }},
-      {"pressure gone in 10 us",
-       [](scene::Scene& s) {
-         s.load.curve_time = {0, 1e-3, 1.01e-3, 1};
-         s.load.curve_pressure = {1e5, 496e6, 0, 0};
-       }},
-      {"pressure at once", [](scene::Scene& s) { s.load = steady_pressure(496e6, 2e-3); }},
-      {"one cell long",
-       [](scene::Scene& s) { s.bodies[0].x_end = s.bodies[1].x_begin = s.bodies[2].x_begin = 0.675; }},
-      {"one cell wide", [](scene::Scene& s) { s.bodies[1].r_end = s.bodies[2].r_begin = 0.004; }},
-      {"strong grading",
-       [](scene::Scene& s) {
-         s.numerics.growth_x = s.numerics.growth_r = 2.0;
-         s.numerics.cell_size = 2e-3;
-         s.numerics.largest_cell = 0.05;
-       }},
-      {"base with a hole", [](scene::Scene& s) { s.bodies[3].r_begin = 0.03; }},
-      {"nose smaller than the charge",
-       [](scene::Scene& s) {
-         s.bodies[0].r_end = 0.03;
-         s.load.peak = 200e6;  // past 400 MPa the charge flows out round it
-       }},
-      {"bonds that break on the way", [](scene::Scene& s) { break_bonds_of(s, 5e6); }},
-      {"bonds that break at once",
-       [](scene::Scene& s) {
-         s.load = steady_pressure(496e6, 2e-3);
-         break_bonds_of(s, 1e6);
-       }},
-      {"plane strain", [](scene::Scene& s) { s.symmetry = scene::Symmetry::plane_strain; }},
-      {"the longest steps that are proved", [](scene::Scene& s) { s.numerics.time_step_factor = 0.68; }},
-  };
-  for (const Case& each : cases)
-    for (const double friction : {0.0, 0.1, 10.0}) {
-      const ContactWatch watch = watched_launch([&](scene::Scene& shell) {
-        set_friction(shell, friction);
-        each.change(shell);
-      });
-      const std::string what = std::string(each.name) + ", friction " + std::to_string(friction);
-      EXPECT_TRUE(watch.sound) << what;
-      EXPECT_LT(watch.drift / watch.scale, 1e-4) << what;
-      EXPECT_GT(watch.least_loss / watch.scale, -1e-5) << what;
-      EXPECT_GT(watch.deepest, -1e-6) << what;
-      EXPECT_GE(watch.least_pressure, 0.0) << what;
-    }
+struct HardLaunch {
+  const char* name;
+  std::function<void(scene::Scene&)> change;
+};
+
+class HardLaunches : public testing::TestWithParam<HardLaunch> {};
+
+TEST_P(HardLaunches, KeepTheLedgerAndTheFaces) {
+  for (const double friction : {0.0, 0.1, 10.0}) {
+    const ContactWatch watch = watched_launch([&](scene::Scene& shell) {
+      set_friction(shell, friction);
+      GetParam().change(shell);
+    });
+    EXPECT_TRUE(watch.sound) << friction;
+    EXPECT_LT(watch.drift / watch.scale, 1e-4) << friction;
+    EXPECT_GT(watch.least_loss / watch.scale, -1e-5) << friction;
+    EXPECT_GT(watch.deepest, -1e-6) << friction;
+    EXPECT_GE(watch.least_pressure, 0.0) << friction;
+  }
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Contact, HardLaunches,
+    testing::Values(
+        HardLaunch{"PressureToAndFroIn200us", [](scene::Scene& s) { saw_load(s, 2e-4); }},
+        HardLaunch{"PressureGoneIn10us",
+                   [](scene::Scene& s) {
+                     s.load.curve_time = {0, 1e-3, 1.01e-3, 1};
+                     s.load.curve_pressure = {1e5, 496e6, 0, 0};
+                   }},
+        HardLaunch{"PressureAtOnce", [](scene::Scene& s) { s.load = steady_pressure(496e6, 2e-3); }},
+        HardLaunch{
+            "OneCellLong",
+            [](scene::Scene& s) { s.bodies[0].x_end = s.bodies[1].x_begin = s.bodies[2].x_begin = 0.675; }},
+        HardLaunch{"OneCellWide", [](scene::Scene& s) { s.bodies[1].r_end = s.bodies[2].r_begin = 0.004; }},
+        HardLaunch{"StrongGrading",
+                   [](scene::Scene& s) {
+                     s.numerics.growth_x = s.numerics.growth_r = 2.0;
+                     s.numerics.cell_size = 2e-3;
+                     s.numerics.largest_cell = 0.05;
+                   }},
+        HardLaunch{"BaseWithAHole", [](scene::Scene& s) { s.bodies[3].r_begin = 0.03; }},
+        HardLaunch{"NoseSmallerThanTheCharge",
+                   [](scene::Scene& s) {
+                     s.bodies[0].r_end = 0.03;
+                     s.load.peak = 200e6;  // past 400 MPa the charge flows out round it
+                   }},
+        HardLaunch{"BondsThatBreakOnTheWay", [](scene::Scene& s) { break_bonds_of(s, 5e6); }},
+        HardLaunch{"BondsThatBreakAtOnce",
+                   [](scene::Scene& s) {
+                     s.load = steady_pressure(496e6, 2e-3);
+                     break_bonds_of(s, 1e6);
+                   }},
+        HardLaunch{"PlaneStrain", [](scene::Scene& s) { s.symmetry = scene::Symmetry::plane_strain; }},
+        HardLaunch{"LongestProvedSteps", [](scene::Scene& s) { s.numerics.time_step_factor = 0.68; }}),
+    [](const auto& each) { return std::string(each.param.name); });
 
 TEST(ContactHardCases, NoNumberOfThreadsChangesABitOfBreakingBonds) {
   const auto run = [](int threads) {
