@@ -1,5 +1,7 @@
 #include "launchsafe/verify/finite_element_deck.hpp"
 
+#include "finite_element_nodes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,34 +11,20 @@
 namespace launchsafe::verify {
 namespace {
 
-/// Nodes lie on a lattice of corners and mid-sides; the places in the middle of elements stay empty.
-struct NodeLattice {
-  int columns, rows;
-  explicit NodeLattice(const FiniteElementModel& model)
-      : columns(2 * model.columns() + 1), rows(2 * model.rows() + 1) {}
-  bool is_node(int a, int b) const { return a % 2 == 0 || b % 2 == 0; }
-  int number(int a, int b) const { return 1 + a + columns * b; }
-};
-
 double place(const std::vector<double>& edges, int half_steps) {
   const auto k = static_cast<std::size_t>(half_steps / 2);
   return half_steps % 2 == 0 ? edges[k] : 0.5 * (edges[k] + edges[k + 1]);
 }
 
-/// Decks are in m, s and MPa, hence units of mass of 1000 t: a compressibility as small as steel's is in
-/// 1/Pa, CalculiX 2.20 takes for none, and puts one of its own in its place.
-constexpr double pascal = 1.0 / deck_stress_unit;
-
-using Text = std::back_insert_iterator<std::string>;
-
 void write_nodes(const FiniteElementModel& model, const NodeLattice& nodes, Text text) {
   fmt::format_to(text, "*NODE\n");
-  for (int b = 0; b < nodes.rows; ++b)
-    for (int a = 0; a < nodes.columns; ++a) {
-      if (!nodes.is_node(a, b)) continue;
-      fmt::format_to(text, "{},{:.12g},{:.12g}\n", nodes.number(a, b), place(model.edges_r, b),
-                     place(model.edges_x, a));
-    }
+  for (int copy = 0; copy < nodes.copies; ++copy)
+    for (int b = 0; b < nodes.rows; ++b)
+      for (int a = 0; a < nodes.columns; ++a) {
+        if (copy >= nodes.copies_at(a, b)) continue;
+        fmt::format_to(text, "{},{:.12g},{:.12g}\n", nodes.number_of_copy(a, b, copy),
+                       place(model.edges_r, b), place(model.edges_x, a));
+      }
 }
 
 /// CalculiX refuses sets without members: a material that no element has is left out.
@@ -55,11 +43,10 @@ void write_elements(const FiniteElementModel& model, const NodeLattice& nodes, T
       for (int i = 0; i < model.columns(); ++i) {
         const int element = model.element(i, j);
         if (model.material_of[static_cast<std::size_t>(element)] != static_cast<int>(material)) continue;
-        const int a = 2 * i, b = 2 * j;
-        fmt::format_to(text, "{},{},{},{},{},{},{},{},{}\n", element + 1, nodes.number(a, b),
-                       nodes.number(a, b + 2), nodes.number(a + 2, b + 2), nodes.number(a + 2, b),
-                       nodes.number(a, b + 1), nodes.number(a + 1, b + 2), nodes.number(a + 2, b + 1),
-                       nodes.number(a + 1, b));
+        const int a = 2 * i, b = 2 * j, body = model.body(element);
+        const auto node = [&](int da, int db) { return nodes.number(a + da, b + db, body); };
+        fmt::format_to(text, "{},{},{},{},{},{},{},{},{}\n", element + 1, node(0, 0), node(0, 2), node(2, 2),
+                       node(2, 0), node(0, 1), node(1, 2), node(2, 1), node(1, 0));
       }
   }
 }
@@ -95,17 +82,20 @@ void write_materials(const FiniteElementModel& model, Text text) {
 void write_supports(const FiniteElementModel& model, const NodeLattice& nodes, Text text) {
   fmt::format_to(text, "*BOUNDARY\n");
   const auto hold_radially = [&](int b) {
-    for (int a = 0; a < nodes.columns; ++a) fmt::format_to(text, "{},1,1\n", nodes.number(a, b));
+    for (int a = 0; a < nodes.columns; ++a)
+      for (int copy = 0; copy < nodes.copies_at(a, b); ++copy)
+        fmt::format_to(text, "{},1,1\n", nodes.number_of_copy(a, b, copy));
   };
-  if (!(model.edges_r.front() > 0.0)) hold_radially(0);
+  if (model.axis_held || !(model.edges_r.front() > 0.0)) hold_radially(0);
   if (model.rigid_barrel) hold_radially(nodes.rows - 1);
   if (model.ends_held) {
     for (int b = 0; b < nodes.rows; ++b)
-      for (const int a : {0, nodes.columns - 1}) fmt::format_to(text, "{},2,2\n", nodes.number(a, b));
+      for (const int a : {0, nodes.columns - 1})
+        fmt::format_to(text, "{},2,2\n", nodes.number_of_copy(a, b, 0));
   } else {
     // Pressure and body force balance; one node keeps the whole from drifting. It bears what the pressed face
     // swells (follower load), hence at the far end.
-    fmt::format_to(text, "{},2,2\n", nodes.number(0, 0));
+    fmt::format_to(text, "{},2,2\n", nodes.number_of_copy(0, 0, 0));
   }
 }
 
@@ -184,6 +174,11 @@ FiniteElementModel refined(const FiniteElementModel& model) {
     for (int i = 0; i < finer.columns(); ++i)
       finer.material_of[static_cast<std::size_t>(finer.element(i, j))] =
           model.material_of[static_cast<std::size_t>(model.element(i / 2, j / 2))];
+  if (model.body_of.empty()) return finer;
+  finer.body_of = finer.material_of;
+  for (int j = 0; j < finer.rows(); ++j)
+    for (int i = 0; i < finer.columns(); ++i)
+      finer.body_of[static_cast<std::size_t>(finer.element(i, j))] = model.body(model.element(i / 2, j / 2));
   return finer;
 }
 
@@ -195,10 +190,11 @@ std::string deck_of(const FiniteElementModel& model) {
   write_elements(model, nodes, text);
   write_materials(model, text);
   write_supports(model, nodes, text);
+  write_contacts(model, text);
   // Little yields under the first half of the load.
   const bool yields = may_yield(model);
   if (yields) write_step(model, 0.5, 0.25, text);
-  write_step(model, 1.0, yields ? 2.0 * model.increment : 0.2, text);
+  write_step(model, 1.0, yields ? 2.0 * model.increment : model.contacts.empty() ? 0.2 : 1.0, text);
   return deck;
 }
 

@@ -30,7 +30,8 @@ void judge_points(const StaticComparison& comparison, const ParticleMeans& mesh,
 
 }  // namespace
 
-std::vector<std::string> missed_targets(const StaticComparison& comparison, const StressTargets& targets) {
+std::vector<std::string> missed_targets(const StaticComparison& comparison) {
+  const StressTargets& targets = comparison.compared.targets;
   std::vector<std::string> missed;
   for (const ParticleMeans& mesh : comparison.meshes) {
     const std::string where =

@@ -2,6 +2,7 @@
 // (Abaqus' format): an independent judge of the stresses at the charge bottom.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,18 +19,30 @@ struct FiniteElementMaterial {
   std::vector<HardeningPoint> hardening;       ///< from plastic strain 0 on; empty: elastic
 };
 
-/// Quadratic elements with reduced integration (CAX8R: 8 nodes, 2 x 2 points). Neighbours share their nodes:
-/// whatever touches is bonded. In the frame of the accelerating body the acceleration is a body force toward
-/// the base (+x).
+/// Faces between two bodies that can part and slide, by their numbers in `FiniteElementModel::body_of`.
+struct FiniteElementContact {
+  int body = 0, other = 0;
+  double friction = 0;  ///< Coulomb's coefficient
+};
+
+/// Quadratic elements with reduced integration (CAX8R: 8 nodes, 2 x 2 points). Neighbours share their nodes,
+/// that is, are bonded, unless a contact says otherwise: there each body has its own nodes, and the faces are
+/// pressed on each other by springs at their integration points (face-to-face penalty). In the frame of the
+/// accelerating body the acceleration is a body force toward the base (+x).
 struct FiniteElementModel {
   std::vector<double> edges_x, edges_r;  ///< lines between elements, m, rising; x grows from nose to base
   std::vector<FiniteElementMaterial> materials;
   std::vector<int> material_of;  ///< of element (i along x, j along r), at `element(i, j)`
-  double acceleration = 0;       ///< m/s2, of the frame
-  double base_pressure = 0;      ///< Pa, on the face at the largest x
-  double bore_pressure = 0;      ///< Pa, on the face at the smallest r
-  bool rigid_barrel = false;     ///< no radial motion, and no friction, at the largest r
-  bool ends_held = false;        ///< no axial motion at either end: plane strain
+  std::vector<int> body_of;      ///< of element, as material_of; empty: all are of body 0
+  std::vector<FiniteElementContact> contacts;
+  double contact_stiffness = 1e15;  ///< Pa/m, pressure for an overlap
+  double stick_stiffness = 1e14;    ///< Pa/m, shear traction for a sliding that friction still holds
+  double acceleration = 0;          ///< m/s2, of the frame
+  double base_pressure = 0;         ///< Pa, on the face at the largest x
+  double bore_pressure = 0;         ///< Pa, on the face at the smallest r
+  bool axis_held = false;           ///< no radial motion at the smallest r, which stands for the axis
+  bool rigid_barrel = false;        ///< no radial motion, and no friction, at the largest r
+  bool ends_held = false;           ///< no axial motion at either end: plane strain
 
   /// Of the load, at a time where something may yield. Plastic flow is integrated from one increment to the
   /// next: a fifth of the load at a time costs 0.3 % of the pressure at the charge bottom, the default a
@@ -40,6 +53,9 @@ struct FiniteElementModel {
   int rows() const { return static_cast<int>(edges_r.size()) - 1; }
   int elements() const { return columns() * rows(); }
   int element(int i, int j) const { return i + columns() * j; }
+  int body(int element) const { return body_of.empty() ? 0 : body_of[static_cast<std::size_t>(element)]; }
+  /// The contact between two bodies; none where they are bonded, or one.
+  const FiniteElementContact* contact_between(int a, int b) const;
 };
 
 /// Integration points of an element, in the order in which CalculiX prints them: x outer, r inner.
