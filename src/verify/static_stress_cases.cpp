@@ -11,9 +11,6 @@
 namespace launchsafe::verify {
 namespace {
 
-/// Share of a station at a wall on which the charge can slide.
-constexpr double sliding_outer_target = 0.03;
-
 /// s: the pressure rises over twice the slowest period of the shell and is then held until damping has taken
 /// what is left of the motion and the charge's Maxwell elements have relaxed (the slowest in 0.14 ms).
 constexpr double rise = 1e-3, held = 2.5e-3, observed = 0.5e-3;

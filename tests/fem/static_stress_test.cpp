@@ -2,7 +2,7 @@
 //
 // The expected numbers are those of CalculiX on a mesh with every element cut in four, of the closed form
 // where there is one. The targets (StressTargets) are the project's: 1 % up to r = 5.75 cm, 4 % beside the
-// wall, alternation at most 0.1 % of the pressure.
+// wall, 3 % where the charge can slide on it, alternation at most 0.1 % of the pressure.
 #include "launchsafe/verify/static_stress_comparison.hpp"
 
 #include <gtest/gtest.h>
@@ -23,15 +23,17 @@ bool is_installed() {
   return version || version.error().kind != store::Error::Kind::missing;
 }
 
-/// A judge that changes, when its elements are cut in four, by at most a fifth of what it judges.
+/// A judge that changes, when its elements are cut in four, by at most a fifth of what it judges, and so when
+/// its springs of contact become rigid.
 void expect_convergence(const StaticComparison& comparison) {
-  const StressTargets targets;
+  const StressTargets& targets = comparison.compared.targets;
   for (std::size_t k = 0; k < comparison.fine.means.size(); ++k) {
     const StressStation& station = comparison.compared.stations[k];
     const double allowed = 0.2 * (station.r < targets.inner_radius + 1e-9 ? targets.inner : targets.outer);
     const StressMeasures &coarse = comparison.coarse.means[k], &fine = comparison.fine.means[k];
     EXPECT_NEAR(coarse.pressure / fine.pressure, 1.0, allowed) << station.name;
     EXPECT_NEAR(coarse.von_mises / fine.von_mises, 1.0, allowed) << station.name;
+    EXPECT_LE(comparison.fine.contact_correction, 0.2 * targets.inner);
     if (comparison.compared.exact.empty()) continue;
     const StressMeasures& exact = comparison.compared.exact[k];
     EXPECT_NEAR(fine.pressure / exact.pressure, 1.0, 1e-4) << station.name;

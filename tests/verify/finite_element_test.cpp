@@ -96,6 +96,66 @@ TEST(FiniteElementDeck, TabulatesWhatYields) {
   EXPECT_EQ(deck_of(yielding).find("PART1"), std::string::npos) << "CalculiX refuses an empty set";
 }
 
+/// Two rings, one around the other, that can slide.
+FiniteElementModel sliding_rings() {
+  FiniteElementModel rings = ring();
+  rings.body_of = {0, 1};
+  rings.contacts = {{1, 0, 0.1}};
+  rings.contact_stiffness = 2e14;
+  rings.stick_stiffness = 3e13;
+  return rings;
+}
+
+TEST(FiniteElementContact, GivesEachBodyItsOwnNodesOnTheirFaces) {
+  const std::string deck = deck_of(sliding_rings());
+  // 15 places for nodes: copies of 7, 8 and 9 are 22, 23 and 24.
+  EXPECT_TRUE(has_line(deck, "1,1,7,9,3,4,8,6,2")) << deck;
+  EXPECT_TRUE(has_line(deck, "2,22,13,15,24,10,14,12,23")) << deck;
+  EXPECT_TRUE(has_line(deck, "7,0.071,0"));
+  EXPECT_TRUE(has_line(deck, "22,0.071,0"));
+  EXPECT_EQ(deck.find("\n16,"), std::string::npos) << "no copies elsewhere";
+}
+
+TEST(FiniteElementContact, PairsTheFacesInMegapascal) {
+  const std::string deck = deck_of(sliding_rings());
+  EXPECT_NE(deck.find("*SURFACE,NAME=OWN0,TYPE=ELEMENT\n2,S4\n*SURFACE,NAME=OTHER0,TYPE=ELEMENT\n1,S2\n"),
+            std::string::npos)
+      << deck;
+  EXPECT_TRUE(has_line(deck, "OWN0,OTHER0"));
+  EXPECT_NE(deck.find("PRESSURE-OVERCLOSURE=LINEAR\n200000000\n*FRICTION\n0.1,30000000\n"), std::string::npos)
+      << deck;
+  FiniteElementModel smooth = sliding_rings();
+  smooth.contacts[0].friction = 0.0;
+  EXPECT_EQ(deck_of(smooth).find("*FRICTION"), std::string::npos);
+}
+
+/// A body (1) in the corner of two that are bonded to each other (0 below, 2 beside).
+FiniteElementModel corner() {
+  FiniteElementModel corner = ring();
+  corner.edges_x = {0.0, 1e-3, 2e-3};
+  corner.material_of = {0, 0, 0, 0};
+  corner.body_of = {1, 0, 2, 0};
+  corner.contacts = {{1, 2, 0.0}};
+  return corner;
+}
+
+TEST(FiniteElementContact, EndsInANodeOfAllWhereABondBegins) {
+  // Places are 5 a row: the corner is 13, the mid-side between 1 and 2 on its left 12, with a copy 12 + 25.
+  const std::string bonded_below = deck_of(corner());
+  EXPECT_EQ(bonded_below.find("\n38,"), std::string::npos) << bonded_below;
+  EXPECT_NE(bonded_below.find("\n37,"), std::string::npos) << bonded_below;
+  FiniteElementModel free = corner();
+  free.contacts.push_back({1, 0, 0.0});
+  const std::string all_around = deck_of(free);
+  EXPECT_NE(all_around.find("\n38,"), std::string::npos) << "two copies of the corner\n" << all_around;
+  EXPECT_EQ(all_around.find("\n63,"), std::string::npos) << "0 and 2 share theirs\n" << all_around;
+}
+
+TEST(FiniteElementContact, StaysInPlaceWhereTheMeshIsRefined) {
+  EXPECT_EQ(refined(sliding_rings()).body_of, (std::vector<int>{0, 0, 0, 0, 1, 1, 1, 1}));
+  EXPECT_EQ(refined(sliding_rings()).contacts.size(), 1U);
+}
+
 TEST(FiniteElementMesh, IsGradedFromOneDistanceToTheOther) {
   const std::vector<double> edges = graded_edges(1.0, 2.0, 0.2, 0.05);
   EXPECT_EQ(edges.front(), 1.0);

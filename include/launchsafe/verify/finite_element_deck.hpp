@@ -35,14 +35,17 @@ struct FiniteElementModel {
   std::vector<int> material_of;  ///< of element (i along x, j along r), at `element(i, j)`
   std::vector<int> body_of;      ///< of element, as material_of; empty: all are of body 0
   std::vector<FiniteElementContact> contacts;
-  double contact_stiffness = 1e15;  ///< Pa/m, pressure for an overlap
-  double stick_stiffness = 1e14;    ///< Pa/m, shear traction for a sliding that friction still holds
-  double acceleration = 0;          ///< m/s2, of the frame
-  double base_pressure = 0;         ///< Pa, on the face at the largest x
-  double bore_pressure = 0;         ///< Pa, on the face at the smallest r
-  bool axis_held = false;           ///< no radial motion at the smallest r, which stands for the axis
-  bool rigid_barrel = false;        ///< no radial motion, and no friction, at the largest r
-  bool ends_held = false;           ///< no axial motion at either end: plane strain
+  /// Pa/m, pressure for an overlap.
+  double contact_stiffness = 1e15;
+  /// Pa/m, shear traction for a sliding that friction still holds. From twice this on, CalculiX finds no
+  /// equilibrium for some coefficients of friction: points of an element stick and slide in turns.
+  double stick_stiffness = 4e13;
+  double acceleration = 0;    ///< m/s2, of the frame
+  double base_pressure = 0;   ///< Pa, on the face at the largest x
+  double bore_pressure = 0;   ///< Pa, on the face at the smallest r
+  bool axis_held = false;     ///< no radial motion at the smallest r, which stands for the axis
+  bool rigid_barrel = false;  ///< no radial motion, and no friction, at the largest r
+  bool ends_held = false;     ///< no axial motion at either end: plane strain
 
   /// Of the load, at a time where something may yield. Plastic flow is integrated from one increment to the
   /// next: a fifth of the load at a time costs 0.3 % of the pressure at the charge bottom, the default a

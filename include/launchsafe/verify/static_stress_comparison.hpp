@@ -34,6 +34,9 @@ struct StressTargets {
   double ringing_share = 0.1;    ///< of these: what motion in time may be left, for the mean to count
 };
 
+/// `StressTargets::outer` of cases whose charge can slide on the wall.
+inline constexpr double sliding_outer_target = 0.03;
+
 /// A body at rest under a steady pressure on its base.
 struct StaticCase {
   std::string name;         ///< for people
@@ -58,7 +61,10 @@ std::vector<StaticCase> static_cases();
 struct FiniteElementMeans {
   int elements = 0;
   std::vector<StressMeasures> means;  ///< of every station
-  double wall_time = 0;               ///< s
+  /// With contact: the largest change of a mean, as a share of it, from faces whose springs give a little to
+  /// faces that do not, which the means are extrapolated to.
+  double contact_correction = 0;
+  double wall_time = 0;  ///< s
 };
 
 /// The particle computation on one mesh.
