@@ -189,7 +189,8 @@ std::string page_of(const FiniteElementComparison& comparison, const std::string
   std::string page = fmt::format(
       "# {}\n\nMade by `{}` with CalculiX {}. Times are of the machine that ran it.\n\n"
       "The bodies rest in the frame that accelerates with them, under a pressure on the base that "
-      "rises over 1 ms and then stays; what moves is damped. Stresses are averaged over 5 mm x 5 mm at "
+      "rises over 1 ms (4 ms with friction, where motion leaves its mark) and then stays; what moves is "
+      "damped. Stresses are averaged over 5 mm x 5 mm at "
       "the bottom with the weight r dr dx: the mean of the particles' or integration points' pressure "
       "and von Mises stress. The elements (axisymmetric, quadratic, reduced integration) are of large "
       "strain, neo-Hookean where they do not yield; each has the secant bulk modulus of its equation "
