@@ -8,6 +8,9 @@
 namespace launchsafe::verify {
 namespace {
 
+/// Coefficient of friction from which on faces that stick do not become stiffer.
+constexpr double stiffest_friction = 0.1;
+
 bool holds(const std::vector<int>& bodies, int body) {
   return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
 }
@@ -110,7 +113,8 @@ void write_contacts(const FiniteElementModel& model, Text text) {
                    "{:.10g}\n",
                    k, k, k, k, model.contact_stiffness * pascal);
     if (contact.friction > 0.0)
-      fmt::format_to(text, "*FRICTION\n{:.10g},{:.10g}\n", contact.friction, model.stick_stiffness * pascal);
+      fmt::format_to(text, "*FRICTION\n{:.10g},{:.10g}\n", contact.friction,
+                     std::min(contact.friction, stiffest_friction) * model.stick_stiffness * pascal);
   }
 }
 

@@ -102,7 +102,7 @@ FiniteElementModel sliding_rings() {
   rings.body_of = {0, 1};
   rings.contacts = {{1, 0, 0.1}};
   rings.contact_stiffness = 2e14;
-  rings.stick_stiffness = 3e13;
+  rings.stick_stiffness = 3e14;
   return rings;
 }
 
@@ -124,6 +124,10 @@ TEST(FiniteElementContact, PairsTheFacesInMegapascal) {
   EXPECT_TRUE(has_line(deck, "OWN0,OTHER0"));
   EXPECT_NE(deck.find("PRESSURE-OVERCLOSURE=LINEAR\n200000000\n*FRICTION\n0.1,30000000\n"), std::string::npos)
       << deck;
+  FiniteElementModel rougher = sliding_rings();
+  rougher.contacts[0].friction = 0.3;
+  EXPECT_NE(deck_of(rougher).find("*FRICTION\n0.3,30000000\n"), std::string::npos)
+      << "no stiffer from 0.1 on";
   FiniteElementModel smooth = sliding_rings();
   smooth.contacts[0].friction = 0.0;
   EXPECT_EQ(deck_of(smooth).find("*FRICTION"), std::string::npos);
