@@ -1,6 +1,7 @@
 #include "case_summary.hpp"
 
 #include "explain_scene.hpp"
+#include "launchsafe/report/interface_table.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
@@ -87,6 +88,7 @@ std::string energy_text(const run::EnergyBalance& energy) {
   text += line("  viscous", kilojoules(energy.viscous));
   text += line("  crack", kilojoules(energy.crack));
   text += line("damping", kilojoules(energy.damping));
+  if (energy.contact != 0.0) text += line("friction and contact", kilojoules(energy.contact));
   text += line("external work", kilojoules(energy.external));
   text += line("frame's body force", kilojoules(energy.body_force));
   text += line("drift", fmt::format("{:.3g} % of {}", 100.0 * energy.drift(), kilojoules(energy.scale())));
@@ -156,10 +158,11 @@ nlohmann::ordered_json gap_json(const run::GapResult& gap, const run::MechanicsR
 }
 
 nlohmann::ordered_json energy_json(const run::EnergyBalance& energy) {
-  return {
-      {"kinetic_j", energy.kinetic},       {"internal_j", energy.internal}, {"external_j", energy.external},
-      {"body_force_j", energy.body_force}, {"damping_j", energy.damping},   {"plastic_j", energy.plastic},
-      {"viscous_j", energy.viscous},       {"crack_j", energy.crack},       {"drift", energy.drift()}};
+  return {{"kinetic_j", energy.kinetic},   {"internal_j", energy.internal},
+          {"external_j", energy.external}, {"body_force_j", energy.body_force},
+          {"damping_j", energy.damping},   {"contact_j", energy.contact},
+          {"plastic_j", energy.plastic},   {"viscous_j", energy.viscous},
+          {"crack_j", energy.crack},       {"drift", energy.drift()}};
 }
 
 }  // namespace
@@ -188,6 +191,8 @@ report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result
 std::string case_text(const scene::Scene& scene, const run::CaseResult& result) {
   std::string text;
   if (!result.gaps.empty()) text += report::to_text(gap_table(scene, result)) + "\n";
+  if (const report::Table faces = report::interface_table(result.mechanics); !faces.rows.empty())
+    text += report::to_text(faces) + "\n";
   const auto& monitor = result.mechanics.monitor;
   if (!monitor.empty()) text += energy_text(monitor.back().energy) + "\n";
   const std::string limiters = limiter_text(result.mechanics.limiters);
@@ -202,6 +207,7 @@ nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResul
                                 {"load", load_json(scene.load)}, {"gaps", nlohmann::ordered_json::array()}};
   for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
   if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
+  object["interfaces"] = report::to_json(report::interface_table(mechanics))["rows"];
   object["limiters"] = {{"crack_at_bound", mechanics.limiters.crack_at_bound},
                         {"tension_cutoff", mechanics.limiters.tension_cutoff},
                         {"hugoniot_guard", mechanics.limiters.hugoniot_guard}};

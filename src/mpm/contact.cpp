@@ -237,9 +237,15 @@ void Contact::write_nodes(std::vector<Nodes>& nodes, double dt) const {
 void Contact::settle_rows(double dt) {
   double fastest = 0.0;
   for (Row& row : rows_) {
-    row.friction_work -= 0.5 * (row.last_slide / keep_before_ + row.slide / keep_) * row.sliding;
+    if (!(row.area > 0.0)) continue;
+    const double work = -0.5 * (row.last_slide / keep_before_ + row.slide / keep_) * row.sliding;
+    row.friction_work += work;
+    row.friction_heat += work / row.area;
     set_speeds(row);
     row.gap += dt * row.opening;
+    row.largest_gap = std::max(row.largest_gap, row.gap);
+    row.overlap = std::max(row.overlap, -row.gap);
+    row.slid += dt * std::abs(row.sliding);
     fastest = std::max(fastest, std::abs(row.sliding));
   }
   slid_ += dt * fastest;
@@ -266,7 +272,10 @@ std::vector<FaceState> Contact::state_of(std::size_t face) const {
     state.pressure = row.normal * per_impulse;
     state.shear = direction * row.slide * per_impulse;
     state.sliding_speed = direction * row.sliding;
-    state.friction_heat = row.area > 0.0 ? row.friction_work / row.area : 0.0;
+    state.friction_heat = row.friction_heat;
+    state.slid = row.slid;
+    state.largest_gap = row.largest_gap;
+    state.overlap = row.overlap;
     state.bonded = row.bonded;
     states.push_back(state);
   }

@@ -121,7 +121,9 @@ double Simulation::kinetic_energy() const {
 double Simulation::axial_momentum() const {
   double total = 0.0;
   for_each_body([&](const Kinematics& p) {
-    for (std::size_t i = 0; i < p.mass.size(); ++i) total += p.mass[i] * p.velocity_x[i];
+    double body = 0.0;
+    for (std::size_t i = 0; i < p.mass.size(); ++i) body += p.mass[i] * p.velocity_x[i];
+    total += inertial_factor(p) / scene_.numerics.inertial_scaling * body;
   });
   return total;
 }

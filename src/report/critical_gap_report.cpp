@@ -1,6 +1,7 @@
 // The page, the picture and the files of a critical-gap study.
 #include "launchsafe/report/critical_gap_report.hpp"
 
+#include "launchsafe/report/interface_table.hpp"
 #include "launchsafe/report/number.hpp"
 #include "study_text.hpp"
 #include "verdict_text.hpp"
@@ -93,6 +94,12 @@ std::string to_markdown(const CriticalGapResult& result, const std::string& pict
   text += uncertainty_text(result) + "\n";
   if (const std::string remark = limiter_remark(result); !remark.empty()) text += remark + "\n";
   text += "## Setup\n\n" + detail::setup_text(result.study) + "\n";
+  for (const CaseOutcome& outcome : result.cases) {
+    Table faces = interface_table(outcome.result.mechanics);
+    if (faces.rows.empty()) continue;
+    if (result.cases.size() > 1) faces.title += ", " + outcome.input.label;
+    text += to_markdown(faces) + "\n";
+  }
   text += to_markdown(run_table(result)) + "\n" + detail::timing_text(result.timing) + "\n";
   return text;
 }

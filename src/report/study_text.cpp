@@ -1,6 +1,7 @@
 #include "study_text.hpp"
 
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/manifest.hpp"
@@ -77,6 +78,8 @@ std::string setup_text(const study::StudyFile& study) {
   }
   if (const std::string measured = scene::measured_load_text(study.scene.scene.load); !measured.empty())
     text += fmt::format("- The measured pressure curve: {}\n", measured);
+  for (const scene::InterfaceText& each : scene::describe_interfaces(study.scene.scene))
+    text += fmt::format("- `interface.{}`: {}; {}\n", each.body, each.condition, each.assumes);
   return text;
 }
 

@@ -117,6 +117,7 @@ void add_verdict(Json& json, const study::GapVerdict& row) {
   json["uncertainty_of_fit_K"] = number(row.uncertainty.fit);
   json["uncertainty_of_inputs_K"] = number(row.uncertainty.inputs());
   json["of_these_load_curve_K"] = number(row.uncertainty.load_curve);
+  json["of_these_sliding_K"] = number(row.uncertainty.sliding);
   json["verdict"] = study::to_string(row.judgement.verdict);
   json["reason"] = row.judgement.reason;
   json["ignition"] = json_of(row.ignition);
@@ -171,7 +172,8 @@ std::string uncertainty_remark(const study::StudyFile& study) {
       "The uncertainty of a margin is the root of the sum of squares (ASME V&V 20) of three shares. Of the "
       "computation: the sum of the trace's sampling error, the integration error, where confirmed the "
       "largest "
-      "difference between traced and coupled runs, and {} K for mesh, step and scaling, {}. Of the fit: {} "
+      "difference between traced and coupled runs, where the charge slides on the base all heat of their "
+      "friction, which the temperatures leave out, and {} K for mesh, step and scaling, {}. Of the fit: {} "
       "Of the "
       "inputs: {}",
       significant(study.study.numerical_uncertainty, 3), study.uncertainty_source,

@@ -42,12 +42,12 @@ std::string to_string(const LimiterCounts& limiters) {
 }
 
 double EnergyBalance::scale() const {
-  return std::max({std::abs(kinetic) + std::abs(internal) + std::abs(damping),
+  return std::max({std::abs(kinetic) + std::abs(internal) + std::abs(damping) + std::abs(contact),
                    std::abs(external) + std::abs(body_force), 1e-300});
 }
 
 double EnergyBalance::drift() const {
-  return (kinetic + internal + damping - external - body_force) / scale();
+  return (kinetic + internal + damping + contact - external - body_force) / scale();
 }
 
 void add_mass(std::vector<MaterialMass>& masses, const std::string& material, double mass) {
@@ -63,6 +63,19 @@ double mass_of(const MechanicsResult& mechanics, std::string_view material) {
   for (const MaterialMass& each : mechanics.masses)
     if (each.material == material) return each.mass;
   return 0.0;
+}
+
+double friction_heat_at_bottom(const MechanicsResult& mechanics, double bottom) {
+  constexpr double touching = 1e-9;  // m
+  double most = 0.0;
+  for (const InterfaceResult& faces : mechanics.interfaces) {
+    if (faces.along_x || std::abs(faces.face - bottom) > touching) continue;
+    for (const double heat : faces.friction_heat) {
+      if (std::isnan(heat)) return heat;
+      most = std::max(most, heat);
+    }
+  }
+  return most;
 }
 
 double largest_energy_drift(const MechanicsResult& mechanics) {

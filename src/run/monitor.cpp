@@ -59,7 +59,8 @@ EnergyBalance energy_of(const mpm::Simulation& simulation) {
   energy.internal = whole * totals.internal;
   energy.external = whole * totals.external;
   energy.body_force = whole * totals.body_force;
-  energy.damping = whole * (totals.damping + totals.contact);  // all that leaves the balance
+  energy.damping = whole * totals.damping;
+  energy.contact = whole * totals.contact;
   energy.hourglass = whole * totals.hourglass;
   energy.plastic = whole * totals.plastic;
   energy.viscous = whole * totals.viscous;
@@ -80,6 +81,30 @@ MonitorSample monitor_sample(const mpm::Simulation& simulation, double time_step
   }
   sample.momentum = whole_shell(simulation) * simulation.axial_momentum();
   return sample;
+}
+
+std::vector<InterfaceResult> interfaces_of(const mpm::Simulation& simulation) {
+  std::vector<InterfaceResult> results;
+  const mpm::TotalLagrangian* form = simulation.total_lagrangian();
+  if (form == nullptr) return results;
+  const mpm::Contact& contact = form->contact();
+  for (std::size_t face = 0; face < contact.faces(); ++face) {
+    InterfaceResult result;
+    result.body = simulation.scene().interfaces[contact.interface_of(face)].body;
+    result.along_x = contact.is_along_x(face);
+    result.face = contact.face_at(face);
+    result.friction_work = whole_shell(simulation) * contact.friction_work(face);
+    for (const mpm::FaceState& node : contact.state_of(face)) {
+      result.place.push_back(node.place);
+      result.friction_heat.push_back(node.friction_heat);
+      result.slid.push_back(node.slid);
+      result.largest_gap.push_back(node.largest_gap);
+      result.overlap.push_back(node.overlap);
+      result.bonded.push_back(node.bonded ? 1.0 : 0.0);
+    }
+    results.push_back(std::move(result));
+  }
+  return results;
 }
 
 Snapshot take_snapshot(const mpm::Simulation& simulation) {

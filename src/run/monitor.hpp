@@ -13,6 +13,9 @@ namespace launchsafe::run {
 EnergyBalance energy_of(const mpm::Simulation& simulation);
 MonitorSample monitor_sample(const mpm::Simulation& simulation, double time_step);
 Snapshot take_snapshot(const mpm::Simulation& simulation);
+/// What became of the faces that can slide.
+std::vector<InterfaceResult> interfaces_of(const mpm::Simulation& simulation);
+
 LimiterCounts count_limited(const mpm::Simulation& simulation);
 
 struct Stop {

@@ -142,6 +142,7 @@ class Runner {
     if (result_.status == RunStatus::completed) check_energy(energy_of(simulation_));
     result_.end_time = simulation_.time();
     result_.limiters = count_limited(simulation_);
+    result_.interfaces = interfaces_of(simulation_);
     result_.wall_time = seconds_since(start_);
     result_.processor_time = thread_processor_time() - processor_start;
     if (const mpm::TotalLagrangian* form = simulation_.total_lagrangian())

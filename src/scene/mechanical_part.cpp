@@ -111,10 +111,7 @@ Scene mechanical_part(const Scene& scene) {
   Scene part = scene;
   part.title.clear();
   part.accepted.clear();
-  // Those that cannot slide do nothing; their order does nothing either.
-  std::erase_if(part.interfaces, [](const Interface& faces) { return !can_slide(faces); });
-  std::sort(part.interfaces.begin(), part.interfaces.end(),
-            [](const Interface& a, const Interface& b) { return a.body < b.body; });
+  part.interfaces = sliding_interfaces(scene);
   part.load = without_unused(std::move(part.load));
   part.surface = surface_part(scene.surface, temperatures_matter);
   settle_materials(part, plan.conduction.in, temperatures_matter);

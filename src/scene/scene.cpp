@@ -1,6 +1,7 @@
 #include "launchsafe/scene/scene.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -83,6 +84,14 @@ bool has_charge(const Scene& scene) {
 
 bool can_slide(const Interface& faces) {
   return faces.condition == Condition::sliding || faces.tension_strength || faces.shear_strength;
+}
+
+std::vector<Interface> sliding_interfaces(const Scene& scene) {
+  std::vector<Interface> sliding;
+  std::copy_if(scene.interfaces.begin(), scene.interfaces.end(), std::back_inserter(sliding), can_slide);
+  std::sort(sliding.begin(), sliding.end(),
+            [](const Interface& a, const Interface& b) { return a.body < b.body; });
+  return sliding;
 }
 
 const Interface* interface_between(const Scene& scene, std::size_t a, std::size_t b) {

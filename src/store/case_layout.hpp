@@ -134,13 +134,11 @@ void plane_vectors(Archive& archive, const std::string& name, Values& along, Val
   }
 }
 
-/// Files of the first days lack it.
-template <class Archive, class Number>
-void lay_out_model_version(Archive& archive, Number& version) {
-  if constexpr (Archive::reading) {
-    if (!archive.has("model_version")) return;
-  }
-  integer(archive, "model_version", version, {"1", "version of the model; others give other numbers"});
+/// Whether to lay out what older files lack: written always, read where it is.
+template <class Archive>
+bool is_stored(Archive& archive, const std::string& name) {
+  if constexpr (Archive::reading) return archive.has(name);
+  return true;
 }
 
 template <class Archive, class Value>
@@ -148,7 +146,9 @@ void lay_out_manifest(Archive& archive, Value& manifest) {
   archive.group("manifest", "Where this result came from", [&] {
     archive.value("input", manifest.input_text, {"none", "all that determines the case"});
     archive.value("input_sha256", manifest.input_sha256, {"none", "SHA-256 of the input"});
-    lay_out_model_version(archive, manifest.model_version);
+    if (is_stored(archive, "model_version"))
+      integer(archive, "model_version", manifest.model_version,
+              {"1", "version of the model; others give other numbers"});
     archive.value("program_version", manifest.program_version, {"none", "version of launchsafe"});
     archive.value("commit", manifest.commit, {"none", "commit that the program was built from"});
     archive.value("compiler", manifest.compiler, {"none", "compiler of the program"});
@@ -206,6 +206,9 @@ void lay_out_energy(Archive& archive, Rows& rows) {
   energy("external_work", &EnergyBalance::external, "work of the chamber pressure");
   energy("body_force_work", &EnergyBalance::body_force, "work of the accelerating frame's body force");
   energy("damping_loss", &EnergyBalance::damping, "taken out by damping and the PIC share");
+  if (is_stored(archive, "contact_loss"))
+    energy("contact_loss", &EnergyBalance::contact,
+           "taken out by friction between bodies, and where their faces close");
   energy("plastic_dissipation", &EnergyBalance::plastic, "dissipated in steel");
   energy("viscous_dissipation", &EnergyBalance::viscous, "dissipated in the charge's Maxwell elements");
   energy("crack_dissipation", &EnergyBalance::crack, "dissipated by crack growth");
@@ -249,6 +252,21 @@ void lay_out_snapshot(Archive& archive, Value& snapshot) {
 }
 
 template <class Archive, class Value>
+void lay_out_interface(Archive& archive, Value& faces) {
+  archive.value("body", faces.body, {"none", "the body that touches the charge"});
+  integer(archive, "along_x", faces.along_x, {"1", "1 for a side of the charge, 0 for an end"});
+  archive.value("face", faces.face, {"m", "initial r of a side, x of an end"});
+  archive.value("friction_work", faces.friction_work, {"J", "work of friction, turned into heat"});
+  archive.array("place", faces.place, {"m", "initial x along a side, r along an end"});
+  const std::size_t nodes = faces.place.size();
+  history(archive, "friction_heat", faces.friction_heat, nodes, {"J/m2", "heat of friction since the start"});
+  history(archive, "slid", faces.slid, nodes, {"m", "way slid since the start, to and fro added up"});
+  history(archive, "largest_gap", faces.largest_gap, nodes, {"m", "by which the faces parted"});
+  history(archive, "overlap", faces.overlap, nodes, {"m", "by which the faces passed into each other"});
+  history(archive, "bonded", faces.bonded, nodes, {"1", "1 where the bond still holds"});
+}
+
+template <class Archive, class Value>
 void lay_out_mechanics(Archive& archive, Value& mechanics) {
   archive.group("mechanics", "The mechanical run", [&] {
     choice(archive, "status", mechanics.status, run_status_names, {"none", "how the run ended"});
@@ -273,6 +291,9 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
       archive.value("hugoniot_guard", limiters.hugoniot_guard,
                     {"1", "particles at the guarded Hugoniot pole"});
     });
+    if (is_stored(archive, "interfaces"))
+      list(archive, "interfaces", "A face of the charge on which a body can slide", mechanics.interfaces,
+           [&](auto& faces) { lay_out_interface(archive, faces); });
     archive.group("monitor", "History of the energy balance and of stability",
                   [&] { lay_out_monitor(archive, mechanics.monitor); });
     archive.group("trace", "History of the charge bottom", [&] { lay_out_trace(archive, mechanics.trace); });

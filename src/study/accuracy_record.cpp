@@ -44,6 +44,7 @@ std::string shell_of(const scene::Scene& scene) {
   const scene::Scene usual;
   shell.title.clear();
   shell.accepted.clear();
+  shell.interfaces = scene::sliding_interfaces(scene);
   shell.frame = usual.frame;
   shell.load = usual.load;
   shell.numerics = usual.numerics;
@@ -66,7 +67,9 @@ std::string why_foreign(const AccuracyRecord& record, const scene::Scene& scene)
     return fmt::format("it was made with model version {}, and this is {}", record.model_version,
                        run::model_version);
   if (record.shell != shell_of(scene) || record.initial_temperature != scene.initial_temperature)
-    return "it was made of another shell, material, initial temperature or closure of friction or air";
+    return "it was made of another shell, material, initial temperature, closure of friction or air, or of a "
+           "charge "
+           "that is held otherwise";
   if (record.unvaried.empty()) return {};
   const std::string& key = record.unvaried.front();
   const auto* description = scene::find_key(scene::scene_keys(), key);

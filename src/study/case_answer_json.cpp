@@ -92,12 +92,12 @@ CriticalGap critical_gap_of(const json& value) {
 }
 
 json json_of(const Uncertainty& u) {
-  return {u.sampling, u.integration, u.coupling, u.numerical, u.fit, u.input, u.load_curve};
+  return {u.sampling, u.integration, u.coupling, u.numerical, u.fit, u.input, u.load_curve, u.sliding};
 }
 Uncertainty uncertainty_of(const json& value) {
-  list_of(value, 7);
+  list_of(value, 8);
   return {amount_of(value.at(0)), amount_of(value.at(1)), amount_of(value.at(2)), amount_of(value.at(3)),
-          amount_of(value.at(4)), amount_of(value.at(5)), amount_of(value.at(6))};
+          amount_of(value.at(4)), amount_of(value.at(5)), amount_of(value.at(6)), amount_of(value.at(7))};
 }
 
 json json_of(const GapVerdict& row) {

@@ -95,6 +95,15 @@ double propagated_share(const CaseOutcome& outcome, const GapVerdict& row) {
   return !row.ignition && reacting.ignition ? std::max(rise, row.margin) : rise;
 }
 
+/// K by which friction between charge and base, which the skin's temperature leaves out, can heat the skin.
+double sliding_share(const CaseOutcome& outcome) {
+  const scene::Scene& scene = outcome.input.scene.scene;
+  const double heat =
+      run::friction_heat_at_bottom(outcome.result.mechanics, scene::charge_extent(scene).x_end);
+  return heat /
+         (scene.charge().eos.initial_density * scene.charge().specific_heat * scene.surface.skin_thickness);
+}
+
 /// The shares of a row that its study, its accuracy record and the calibration's evidence give. Errors grow
 /// with the rise.
 void add_shares(const Study& study, const CaseOutcome& outcome, const CaseGround& ground, GapVerdict& row) {
@@ -106,6 +115,7 @@ void add_shares(const Study& study, const CaseOutcome& outcome, const CaseGround
   row.uncertainty.input =
       outcome.raised ? propagated_share(outcome, row) : stated_input_share(study, outcome.input);
   row.uncertainty.load_curve = ground.load_curve.in_kelvin(rises);
+  row.uncertainty.sliding = sliding_share(outcome);
 }
 
 GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGround& ground,

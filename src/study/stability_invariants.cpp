@@ -30,8 +30,8 @@ bool is_finite(const MonitorSample& sample) {
   const run::EnergyBalance& e = sample.energy;
   return std::isfinite(sample.time + sample.time_step + sample.momentum + sample.largest_crack_radius +
                        sample.largest_plastic_strain) &&
-         std::isfinite(e.kinetic + e.internal + e.external + e.body_force + e.damping + e.plastic +
-                       e.viscous + e.crack);
+         std::isfinite(e.kinetic + e.internal + e.external + e.body_force + e.damping + e.contact +
+                       e.plastic + e.viscous + e.crack);
 }
 
 void check_finite(const MechanicsResult& mechanics, Violations& violations) {

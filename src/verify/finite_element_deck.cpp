@@ -118,7 +118,7 @@ void write_loads(const FiniteElementModel& model, double share, Text text) {
 void write_step(const FiniteElementModel& model, double share, double increment, Text text) {
   fmt::format_to(text, "*STEP,NLGEOM,INC=1000\n*STATIC\n{},1.,1e-5,{}\n", increment, increment);
   // The charge slides by 100 um at the nose, and by less than 1 on the base: CalculiX's usual tolerances of
-  // forces (0.5 %) and displacements (1 % of the largest) leave friction there unsettled, 3 % of the stress.
+  // forces (0.5 %) and displacements (1 % of the largest) would be no better than what is to be compared.
   if (!model.contacts.empty()) fmt::format_to(text, "*CONTROLS,PARAMETERS=FIELD\n1e-4,1e-5,,,1e-4\n");
   write_loads(model, share, text);
   fmt::format_to(text, "*EL PRINT,ELSET=ELEMENTS,FREQUENCY=1000\nS\n*END STEP\n");

@@ -87,6 +87,7 @@ TEST(Doubts, AFlightThroughAGridAtRest) {
   scene::Scene scene = shipped_scene();
   scene.frame = scene::Frame::lab;
   scene.numerics.formulation = scene::Formulation::updated_lagrangian;
+  scene.numerics.cell_size = 2.5e-3;
   // 14.1 mm until 6 ms, 2.9 mm until 5 ms: the double integral of p(t) A/m by another program.
   MechanicsResult run = sound_run();
   run.end_time = 6e-3;
@@ -304,6 +305,7 @@ TEST(Doubts, ALoadThatRisesWhileSoundRunsThroughTheCharge) {
 TEST(Doubts, CracksThatNoContinuumLawHolds) {
   MechanicsResult run = sound_run();
   scene::Scene cracked = shipped_scene();
+  cracked.numerics.cell_size = 2.5e-3;
   cracked.charge().cracks.initial_crack_radius = run.monitor[1].largest_crack_radius = 10.5e-3;
   expect_one(doubts_of(cracked, run), "10.5 flaw sizes");
   scene::Scene fine = shipped_scene();
@@ -314,6 +316,17 @@ TEST(Doubts, CracksThatNoContinuumLawHolds) {
   thin.charge().cracks.initial_crack_radius = 3e-3;
   thin.bodies[1].x_begin = thin.bodies[1].x_end - 2e-3;
   expect_one(doubts_of(thin, run), "more than the charge measures");
+}
+
+TEST(Doubts, FacesThatPassIntoEachOther) {
+  const scene::Scene scene = shipped_scene();
+  MechanicsResult run = sound_run();
+  run.interfaces.resize(1);
+  run.interfaces[0].body = "base";
+  run.interfaces[0].overlap = {0.0, 0.9e-3 * scene.numerics.cell_size};
+  EXPECT_TRUE(doubts_of(scene, run).empty());
+  run.interfaces[0].overlap[0] = 26e-6;
+  expect_one(doubts_of(scene, run), "\"base\" pass into each other by 0.026 mm");
 }
 
 /// As they do without friction between their faces: by 4.4 mm in 18 ms.

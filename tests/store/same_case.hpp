@@ -45,6 +45,7 @@ inline std::vector<double> numbers_of(const run::MonitorSample& sample) {
           energy.external,
           energy.body_force,
           energy.damping,
+          energy.contact,
           energy.plastic,
           energy.viscous,
           energy.crack,
@@ -71,6 +72,18 @@ inline void expect_same(const run::Snapshot& a, const run::Snapshot& b) {
   EXPECT_EQ(bits(a.plastic_strain), bits(b.plastic_strain));
 }
 
+inline void expect_same(const run::InterfaceResult& a, const run::InterfaceResult& b) {
+  EXPECT_EQ(a.body, b.body);
+  EXPECT_EQ(a.along_x, b.along_x);
+  EXPECT_EQ(bits({a.face, a.friction_work}), bits({b.face, b.friction_work}));
+  EXPECT_EQ(bits(a.place), bits(b.place));
+  EXPECT_EQ(bits(a.friction_heat), bits(b.friction_heat));
+  EXPECT_EQ(bits(a.slid), bits(b.slid));
+  EXPECT_EQ(bits(a.largest_gap), bits(b.largest_gap));
+  EXPECT_EQ(bits(a.overlap), bits(b.overlap));
+  EXPECT_EQ(bits(a.bonded), bits(b.bonded));
+}
+
 inline void expect_same(const run::MechanicsResult& a, const run::MechanicsResult& b) {
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.reason, b.reason);
@@ -85,6 +98,8 @@ inline void expect_same(const run::MechanicsResult& a, const run::MechanicsResul
   EXPECT_EQ(a.limiters.crack_at_bound, b.limiters.crack_at_bound);
   EXPECT_EQ(a.limiters.tension_cutoff, b.limiters.tension_cutoff);
   EXPECT_EQ(a.limiters.hugoniot_guard, b.limiters.hugoniot_guard);
+  ASSERT_EQ(a.interfaces.size(), b.interfaces.size());
+  for (std::size_t i = 0; i < a.interfaces.size(); ++i) expect_same(a.interfaces[i], b.interfaces[i]);
   expect_same(a.trace, b.trace);
   ASSERT_EQ(a.monitor.size(), b.monitor.size());
   for (std::size_t i = 0; i < a.monitor.size(); ++i) {

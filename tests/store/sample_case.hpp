@@ -65,12 +65,23 @@ inline run::MechanicsResult sample_mechanics() {
   sample.energy.plastic = 6;
   sample.energy.viscous = 7;
   sample.energy.crack = 8;
+  sample.energy.contact = 9;
   sample.largest_plastic_strain = 0.01;
   sample.largest_crack_radius = 3e-5;
   sample.momentum = -1e-300;
   mechanics.monitor = {run::MonitorSample{}, sample};
   mechanics.snapshots = {sample_snapshot(0.001), sample_snapshot(0.002)};
   mechanics.limiters = {11, 12, 13};
+  mechanics.interfaces = {{.body = "wall",
+                           .along_x = true,
+                           .face = 0.065,
+                           .friction_work = 12.5,
+                           .place = {0.1, 0.6},
+                           .friction_heat = {150, not_a_number},
+                           .slid = {0.0018, 4e-5},
+                           .largest_gap = {0, 1e-6},
+                           .overlap = {1e-9, 0},
+                           .bonded = {0, 1}}};
   return mechanics;
 }
 

@@ -45,6 +45,9 @@ struct FaceState {
   double shear = 0;          ///< Pa, on the other body: along x on a side, along r on an end
   double sliding_speed = 0;  ///< m/s, of the other body against the charge, in the same direction
   double friction_heat = 0;  ///< J/m2, since the start
+  double slid = 0;           ///< m, since the start, to and fro added up
+  double largest_gap = 0;    ///< m, since the start
+  double overlap = 0;        ///< m, the largest since the start
   bool bonded = false;
 };
 
@@ -66,6 +69,9 @@ class Contact {
   std::size_t faces() const { return faces_.size(); }
   /// Index into Scene::interfaces of a face.
   std::size_t interface_of(std::size_t face) const { return faces_[face].interface; }
+  bool is_along_x(std::size_t face) const { return faces_[face].along_x; }
+  /// m, at rest: r of a side, x of an end.
+  double face_at(std::size_t face) const { return faces_[face].own.across_rest; }
   /// Work of friction on a face since the start, J per radian or metre, turned into heat.
   double friction_work(std::size_t face) const;
   std::vector<FaceState> state_of(std::size_t face) const;
@@ -134,6 +140,8 @@ class Contact {
     double tension_strength = 0, shear_strength = 0;  ///< Pa, while bonded
     double opening = 0, sliding = 0;                  ///< m/s, at the end of the last step
     double friction_work = 0;                         ///< J
+    double friction_heat = 0;                         ///< J/m2
+    double slid = 0, largest_gap = 0, overlap = 0;    ///< m, see FaceState
     bool bonded = false;
   };
 

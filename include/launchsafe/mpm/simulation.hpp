@@ -57,7 +57,8 @@ class Simulation {
   const EventCounts& events() const { return events_; }
   /// Kinetic energy of the particles relative to the frame with scaled inertia, J per radian or metre.
   double kinetic_energy() const;
-  /// Axial momentum relative to the frame, kg m/s per radian or metre.
+  /// Axial momentum relative to the frame, kg m/s per radian or metre, of steel with its own inertial factor:
+  /// what no forces between bodies change.
   double axial_momentum() const;
   /// Particles that carry mass.
   std::uint64_t particles() const { return particles_; }

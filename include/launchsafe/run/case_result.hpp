@@ -33,12 +33,13 @@ struct EnergyBalance {
   double external = 0;    ///< work of the chamber pressure
   double body_force = 0;  ///< work of the accelerating frame's body force (co-moving frame only)
   double damping = 0;     ///< taken out by damping, the PIC share and FLIP's filter
+  double contact = 0;     ///< taken out by friction between bodies, and where their faces close
   double plastic = 0;     ///< dissipated in steel
   double viscous = 0;     ///< dissipated in the charge's Maxwell elements
   double crack = 0;       ///< dissipated by crack growth
   double hourglass = 0;   ///< stored against hourglassing, part of the internal energy
   double scale() const;   ///< what drift is measured against, > 0
-  double drift() const;   ///< (kinetic + internal + damping - external - body_force)/scale
+  double drift() const;   ///< (kinetic + internal + damping + contact - external - body_force)/scale
 };
 
 /// A row of the monitor history.
@@ -48,7 +49,7 @@ struct MonitorSample {
   EnergyBalance energy;
   double largest_plastic_strain = 0;
   double largest_crack_radius = 0;  ///< m
-  double momentum = 0;              ///< kg m/s, axial, relative to the frame
+  double momentum = 0;  ///< kg m/s, axial, relative to the frame, of steel with its own inertial factor
 };
 
 /// Particle fields at one instant, in particle order.
@@ -78,6 +79,21 @@ struct MaterialMass {
 /// Adds to the entry of a material, at the end where there is none.
 void add_mass(std::vector<MaterialMass>& masses, const std::string& material, double mass);
 
+/// How one body that can slide on the charge did so until the end of the run, by the nodes of the charge's
+/// face.
+struct InterfaceResult {
+  std::string body;
+  bool along_x = false;               ///< a side of the charge; otherwise one of its ends
+  double face = 0;                    ///< m, at rest: r of a side, x of an end
+  double friction_work = 0;           ///< J, turned into heat (as EnergyBalance: of the whole shell)
+  std::vector<double> place;          ///< m, at rest: x along a side, r along an end
+  std::vector<double> friction_heat;  ///< J/m2, since the start
+  std::vector<double> slid;           ///< m, since the start, to and fro added up
+  std::vector<double> largest_gap;    ///< m, by which the faces parted
+  std::vector<double> overlap;        ///< m, by which they passed into each other
+  std::vector<double> bonded;         ///< 1 where the bond still holds
+};
+
 struct MechanicsResult {
   RunStatus status = RunStatus::completed;
   std::string reason;   ///< when and where, if not completed
@@ -92,10 +108,14 @@ struct MechanicsResult {
   std::vector<MonitorSample> monitor;
   std::vector<Snapshot> snapshots;
   LimiterCounts limiters;
+  std::vector<InterfaceResult> interfaces;  ///< none for bodies that are bonded for good
 };
 
 /// 0 for a material without particles.
 double mass_of(const MechanicsResult& mechanics, std::string_view material);
+
+/// J/m2, the largest heat of friction on the end of the charge at `bottom` (m); 0 where nothing slides there.
+double friction_heat_at_bottom(const MechanicsResult& mechanics, double bottom);
 
 /// Largest absolute energy drift over the monitor's history, as a share of the run's largest energy (in the
 /// first moments all energies are next to nothing); NaN without one.

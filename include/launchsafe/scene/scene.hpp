@@ -69,11 +69,11 @@ struct Surface {
   AirModel air_model = AirModel::reservoir;
   Exchange exchange = Exchange::rate;
   double skin_thickness = 1e-4;       ///< h_ex, m
-  double exchange_time = 2.98962e-4;  ///< tau_ex, s [C]
+  double exchange_time = 2.99944e-4;  ///< tau_ex, s [C]
   /// Stations tile the charge's bottom by about this width and this depth, m.
   double station_width = 5e-3, station_depth = 5e-3;
   FrictionClosure friction = FrictionClosure::literal;
-  double localisation = 1083.57;  ///< [C]
+  double localisation = 1048.1;  ///< [C]
 };
 
 struct Numerics {
@@ -198,6 +198,8 @@ bool has_charge(const Scene& scene);
 
 /// Whether the faces can part and slide, now or once their bond has broken.
 bool can_slide(const Interface& faces);
+/// The interfaces that can slide, by the names of their bodies. All others do nothing.
+std::vector<Interface> sliding_interfaces(const Scene& scene);
 /// The interface that speaks of two bodies (indices into Scene::bodies); none where they are bonded for good.
 const Interface* interface_between(const Scene& scene, std::size_t a, std::size_t b);
 
