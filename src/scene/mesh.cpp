@@ -1,5 +1,7 @@
 #include "launchsafe/scene/mesh.hpp"
 
+#include "launchsafe/scene/stations.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,9 +21,9 @@ constexpr double coincidence = 1e-9;
 /// long as the largest.
 class CellDensity {
  public:
-  CellDensity(const Numerics& numerics, double growth, std::vector<double> refined)
-      : smallest_(numerics.cell_size),
-        largest_(std::max(numerics.largest_cell, numerics.cell_size)),
+  CellDensity(double smallest, double largest, double growth, std::vector<double> refined)
+      : smallest_(smallest),
+        largest_(std::max(smallest, largest)),
         growth_(largest_ > smallest_ ? growth : 1.0),
         refined_(std::move(refined)) {
     std::sort(refined_.begin(), refined_.end());
@@ -127,11 +129,15 @@ GridLines grid_lines(const Scene& scene) {
     }
   }
   if (refined_x.empty() && has_charge(scene)) refined_x = {charge_extent(scene).x_end};
-  const double size = size_of(scene);
+  const double size = size_of(scene), smallest = scene.numerics.cell_size;
+  const double largest_x = scene.numerics.largest_cell;
+  const std::vector<StationExtent> stations = stations_of(scene);
+  const double largest_r =
+      stations.empty() ? largest_x : std::min(largest_x, stations.front().r_end - stations.front().r_begin);
   return {lines_through(std::move(x), size,
-                        CellDensity(scene.numerics, scene.numerics.growth_x, std::move(refined_x))),
+                        CellDensity(smallest, largest_x, scene.numerics.growth_x, std::move(refined_x))),
           lines_through(std::move(r), size,
-                        CellDensity(scene.numerics, scene.numerics.growth_r, std::move(refined_r)))};
+                        CellDensity(smallest, largest_r, scene.numerics.growth_r, std::move(refined_r)))};
 }
 
 GridLines lines_at_rest(const Scene& scene) {

@@ -108,20 +108,27 @@ std::optional<BodyKey> find_body_key(const Scene& scene, const std::string& name
   return std::nullopt;
 }
 
-/// "interface.<name>.<key>" taken apart, of an interface that the scene has.
+/// "interface.<name>.<key>" taken apart, of a body that touches the charge.
 struct InterfaceKey {
-  std::size_t index = 0;
+  std::string body;
   const Key<Interface>* key = nullptr;
 };
 
 std::optional<InterfaceKey> find_interface_key(const Scene& scene, const std::string& name) {
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-    const std::string prefix = "interface." + scene.interfaces[i].body + ".";
+  for (const std::string& body : bodies_at_the_charge(scene)) {
+    const std::string prefix = "interface." + body + ".";
     if (!name.starts_with(prefix)) continue;
     if (const Key<Interface>* key = find_key(interface_keys(), name.substr(prefix.size())))
-      return InterfaceKey{i, key};
+      return InterfaceKey{body, key};
   }
   return std::nullopt;
+}
+
+/// The interface of a body; a bonded one where the scene says nothing of it.
+Interface& interface_of(Scene& scene, const std::string& body) {
+  for (Interface& faces : scene.interfaces)
+    if (faces.body == body) return faces;
+  return scene.interfaces.emplace_back(Interface{.body = body});
 }
 
 std::vector<std::string> names_of_keys(const Scene& scene) {
@@ -131,9 +138,9 @@ std::vector<std::string> names_of_keys(const Scene& scene) {
     names.push_back(fmt::format("body.{}.x", body.name));
     names.push_back(fmt::format("body.{}.r", body.name));
   }
-  for (const Interface& faces : scene.interfaces)
+  for (const std::string& body : bodies_at_the_charge(scene))
     for (const Key<Interface>& key : interface_keys())
-      names.push_back(fmt::format("interface.{}.{}", faces.body, key.name));
+      names.push_back(fmt::format("interface.{}.{}", body, key.name));
   return names;
 }
 
@@ -190,23 +197,31 @@ Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& 
   return unknown_key(place, name, names_of_keys(file.scene));
 }
 
+Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange>& changes) {
+  SceneFile changed = file;
+  bool other_curve = false;
+  for (const auto& [name, value, place] : changes) {
+    const auto description = describe_key(file, name, place);
+    if (!description) return description.error();
+    if (const auto found = find_body_key(file.scene, name)) {
+      found->key->set(changed.scene.bodies[found->body], value);
+      changed.places[name] = place;
+    } else if (const auto faces = find_interface_key(file.scene, name)) {
+      faces->key->set(interface_of(changed.scene, faces->body), value);
+      changed.places[name] = place;
+    } else {
+      for (const std::string& overridden : description->overrides) changed.given.erase(overridden);
+      changed.given[name] = {place, value};
+    }
+    other_curve = other_curve || name == "load.curve";
+  }
+  if (auto error = rebuild(changed, !other_curve)) return *error;
+  return changed;
+}
+
 Expected<SceneFile> with_key(const SceneFile& file, const std::string& name, const Value& value,
                              const Place& place) {
-  const auto description = describe_key(file, name, place);
-  if (!description) return description.error();
-  SceneFile changed = file;
-  if (const auto found = find_body_key(file.scene, name)) {
-    found->key->set(changed.scene.bodies[found->body], value);
-    changed.places[name] = place;
-  } else if (const auto faces = find_interface_key(file.scene, name)) {
-    faces->key->set(changed.scene.interfaces[faces->index], value);
-    changed.places[name] = place;
-  } else {
-    for (const std::string& overridden : description->overrides) changed.given.erase(overridden);
-    changed.given[name] = {place, value};
-  }
-  if (auto error = rebuild(changed, name != "load.curve")) return *error;
-  return changed;
+  return with_keys(file, {{name, value, place}});
 }
 
 Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& name, std::string_view written,

@@ -222,7 +222,8 @@ Keys numerics_keys() {
           [](auto& s) -> auto& { return s.numerics.growth_r; }),
       number_key<Scene>(
           "numerics.largest_cell", Dimension::length, between(1e-5, 1), Standing::assumed,
-          "Length up to which cells grow.", [](auto& s) -> auto& { return s.numerics.largest_cell; }),
+          "Length up to which cells grow; along r no further than station.width.",
+          [](auto& s) -> auto& { return s.numerics.largest_cell; }),
       may_be_empty(list_key<Scene>(
           "numerics.refined_x", Dimension::length, between(-10, 10), Standing::assumed,
           "Places along x where cells are smallest; empty for the charge's bottom.",

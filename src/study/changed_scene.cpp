@@ -12,6 +12,7 @@ void ChangedScene::apply(const Change& change) {
   } else if (!waiting_.empty()) {
     retry();
   }
+  try_all();
 }
 
 std::optional<scene::InputError> ChangedScene::try_to(const Change& change) {
@@ -33,6 +34,21 @@ void ChangedScene::retry() {
       }
     }
   }
+}
+
+/// Those that wait, together. What they lack even so says more than what each lacks alone.
+void ChangedScene::try_all() {
+  if (waiting_.size() < 2) return;
+  std::vector<scene::KeyChange> changes;
+  for (const Waiting& each : waiting_)
+    changes.push_back({each.change.key, each.change.value, each.change.place});
+  auto changed = scene::with_keys(scene_, changes);
+  if (!changed) {
+    waiting_.front().error = std::move(changed.error());
+    return;
+  }
+  scene_ = std::move(*changed);
+  waiting_.clear();
 }
 
 scene::InputError ChangedScene::error() const {

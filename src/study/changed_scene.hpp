@@ -18,8 +18,8 @@ struct Change {
   scene::Place place;     ///< likewise
 };
 
-/// A scene on its way. Two changes may each be valid only after the other one: whichever a scene cannot have
-/// yet waits for those that follow.
+/// A scene on its way. Changes may be valid only after others, or together with them: whichever a scene
+/// cannot have yet waits for those that follow.
 class ChangedScene {
  public:
   explicit ChangedScene(scene::SceneFile scene) : scene_(std::move(scene)) {}
@@ -38,6 +38,7 @@ class ChangedScene {
   };
   std::optional<scene::InputError> try_to(const Change& change);
   void retry();
+  void try_all();
 
   scene::SceneFile scene_;
   std::vector<Waiting> waiting_;

@@ -120,7 +120,7 @@ TEST(CalibrationReport, SaysWhatTheEvidenceSupports) {
   EXPECT_NE(page.find("ignition time"), std::string::npos);
   const auto written = report::write_report(result, folder.path);
   ASSERT_TRUE(written) << written.error().message;
-  EXPECT_EQ(written->files.size(), 6u);
+  EXPECT_EQ(written->files.size(), 7u);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ scene::Scene scene_with(double cell_size) {
   scene::Scene scene = file->scene;
   scene.numerics.growth_x = 1.0;
   scene.numerics.cell_size = cell_size;
+  scene.numerics.growth_r = 1.0;
   return scene;
 }
 

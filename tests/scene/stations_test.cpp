@@ -49,15 +49,17 @@ TEST(Stations, OfAHollowChargeEndAtItsBore) {
 
 TEST(Stations, CountCellsInTheCornerAndWhereTheyAreLongest) {
   Scene scene = shipped();
-  scene.numerics.growth_x = 1.0;
+  scene.numerics.cell_size = 2.5e-3;
+  scene.numerics.growth_x = scene.numerics.growth_r = 1.0;
   StationCells cells = cells_in_stations(scene);
   EXPECT_NEAR(cells.corner_x, 2.0, 1e-9);
   EXPECT_NEAR(cells.corner_r, 2.0, 1e-9);
   EXPECT_NEAR(cells.fewest_r, 2.0, 1e-9);
-  scene.numerics.growth_r = 1.3;  // cells grow towards the axis
+  scene.numerics.growth_r = 1.3;  // cells grow towards the axis, up to the width of a station
   cells = cells_in_stations(scene);
   EXPECT_GE(cells.corner_r, 2.0);
-  EXPECT_LT(cells.fewest_r, 1.0);
+  EXPECT_GE(cells.fewest_r, 1.0);
+  EXPECT_LT(cells.fewest_r, 1.2);
 }
 
 TEST(Stations, WiderOrDeeperThanTheChargeAreRefusedWhereTheyAreAskedFor) {

@@ -119,16 +119,16 @@ TEST(Calibration, MeasuresTheChangeBetweenMeshes) {
   const trace::BottomTrace trace = synthetic_trace(496e6, friction_for(116.1));
   StudyOptions options = synthetic_options(2);
   options.runners.mechanics = [](const scene::Scene& scene, const run::RunOptions&) {
-    return synthetic_mechanics(scene, scene.numerics.cell_size < 2e-3 ? 145.125 : 116.1);
+    return synthetic_mechanics(scene, scene.numerics.cell_size < 1e-3 ? 145.125 : 116.1);
   };
   const CalibrationResult result =
-      run_calibration(study_of(calibration_text + "meshes = \"2.5, 1.25 mm\"\n" +
+      run_calibration(study_of(calibration_text + "meshes = \"1.25, 0.625 mm\"\n" +
                                published({951.0, 4.2e-4, 0}, trace) + synthetic_constants),
                       options);
   ASSERT_EQ(result.convergence.size(), 2u);
   EXPECT_NEAR(result.convergence[0].localisation_change, -0.25, 1e-6);
   ASSERT_TRUE(result.recommendation.row.has_value());
-  EXPECT_EQ(result.rows[*result.recommendation.row].cell_size, 2.5e-3);  // the scene's mesh
+  EXPECT_EQ(result.rows[*result.recommendation.row].cell_size, 1.25e-3);  // the scene's mesh
 }
 
 TEST(Calibration, SaysWhenTheEvidenceDoesNotTellTheClosuresApart) {

@@ -69,7 +69,7 @@ TEST(CaseUncertainty, StatedSharesAreTakenOnTheRowsOfTheCalibration) {
 
 TEST(CaseUncertainty, SilenceAboutTheFitCostsTheLargestMisfitOfTheHoldOuts) {
   const GapVerdict row = first_row("numerical_uncertainty = \"1 K\"\ninput_uncertainty = \"3 K\"\n");
-  EXPECT_NEAR(row.uncertainty.fit, 20.72, 0.01);
+  EXPECT_NEAR(row.uncertainty.fit, 20.93, 0.01);
 }
 
 /// 4 % of pressure are 8.16 % of the friction heat of 116.1 K; 12 K of initial temperature are 12 K.
@@ -125,7 +125,7 @@ TEST(CaseUncertainty, OtherNumericsBringTheMeshErrorOfTheCalibration) {
 
 TEST(CaseUncertainty, AnotherLoadShapeKeepsTheLargestMisfit) {
   const GapVerdict row = first_row(stated + "[set]\nload.exponent = 13\n");
-  EXPECT_NEAR(row.uncertainty.fit, 20.72, 0.02);
+  EXPECT_NEAR(row.uncertainty.fit, 20.93, 0.02);
   EXPECT_NE(row.judgement.reason.find("load shape"), std::string::npos) << row.judgement.reason;
 }
 

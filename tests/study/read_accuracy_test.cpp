@@ -11,20 +11,21 @@ using namespace launchsafe;
 using namespace launchsafe::study;
 
 const std::string accuracy_start = "kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\n";
-const std::string meshes = "reference_cell_sizes = \"1.25, 2.5, 0.834 mm\"\n";
+const std::string meshes = "reference_cell_sizes = \"0.625, 1.25, 0.417 mm\"\n";
 
 TEST(ReadAccuracy, MakesTheReferenceMeshesFinestFirstThenEverySetting) {
   const StudyFile study = study_of(accuracy_start + meshes +
                                    "[[settings]]\nnumerics.time_step_factor = [0.25, 0.65]\n"
-                                   "numerics.cell_size = \"2.5, 5 mm\"\n"
+                                   "numerics.cell_size = \"1.25, 5 mm\"\n"
                                    "[[settings]]\nframe = [\"lab\"]\n");
   std::vector<std::string> labels;
   for (const StudyCase& each : study.cases) labels.push_back(each.label);
-  // The scene has 2.5 mm and a factor of 0.65: that case and the scene as it is equal the coarsest mesh.
-  EXPECT_EQ(labels, (std::vector<std::string>{"cell_size 0.834 mm", "cell_size 0.125 cm", "cell_size 0.25 cm",
-                                              "time_step_factor 0.25, cell_size 0.25 cm",
-                                              "time_step_factor 0.25, cell_size 0.5 cm",
-                                              "time_step_factor 0.65, cell_size 0.5 cm", "frame lab"}));
+  // The scene has 1.25 mm and a factor of 0.65: that case and the scene as it is equal the coarsest mesh.
+  EXPECT_EQ(labels,
+            (std::vector<std::string>{"cell_size 0.417 mm", "cell_size 0.625 mm", "cell_size 0.125 cm",
+                                      "time_step_factor 0.25, cell_size 0.125 cm",
+                                      "time_step_factor 0.25, cell_size 0.5 cm",
+                                      "time_step_factor 0.65, cell_size 0.5 cm", "frame lab"}));
   EXPECT_EQ(study.cases.back().scene.scene.frame, scene::Frame::lab);
 }
 
@@ -41,14 +42,15 @@ TEST(ReadAccuracy, RefusesReferencesThatCannotBeExtrapolated) {
   // 1 mm does not divide the radius of the charge, 65 mm, on an even grid of 78 cells over 77.5 mm.
   expect_error_in(accuracy_start +
                       "reference_cell_sizes = \"1, 1.25, 2.5 mm\"\n[set]\nnumerics.formulation = "
-                      "\"updated-lagrangian\"\nnumerics.growth_x = 1\n",
+                      "\"updated-lagrangian\"\nnumerics.growth_x = 1\nnumerics.growth_r = 1\n",
                   {3, "reference_cell_sizes", "65.42 cells", "divide"});
+  const std::string even_rows = "[set]\nnumerics.growth_r = 1\n";
   expect_error_in(accuracy_start + "reference_cell_sizes = \"1.25, 2.5, 2.5 mm\"\n",
                   {3, "reference_cell_sizes", "twice", "once"});
-  expect_error_in(accuracy_start + "reference_cell_sizes = \"1.25, 1.26, 2.5 mm\"\n",
+  expect_error_in(accuracy_start + "reference_cell_sizes = \"1.25, 1.26, 2.5 mm\"\n" + even_rows,
                   {3, "reference_cell_sizes", "not coarser", "different grids"});
   // 2.5 mm over 7 and over 6: a ratio of 1.17 shows ripple rather than convergence.
-  expect_error_in(accuracy_start + "reference_cell_sizes = \"0.3572, 0.4168, 2.5 mm\"\n",
+  expect_error_in(accuracy_start + "reference_cell_sizes = \"0.3572, 0.4168, 2.5 mm\"\n" + even_rows,
                   {3, "reference_cell_sizes", "less than 1.2 times", "far enough apart"});
 }
 

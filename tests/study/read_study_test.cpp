@@ -36,9 +36,9 @@ TEST(ReadStudy, TheShippedStudiesAreValid) {
   const auto calibration = read_study(studies_folder / "calibrate_table8.toml");
   ASSERT_TRUE(calibration) << calibration.error().message();
   EXPECT_EQ(calibration->study.kind, StudyKind::calibration);
-  ASSERT_EQ(calibration->cases.size(), 2u);
-  EXPECT_EQ(calibration->cases[1].cell_size, 1.25e-3);
-  EXPECT_EQ(calibration->cases[1].scene.scene.numerics.cell_size, 1.25e-3);
+  ASSERT_EQ(calibration->cases.size(), 3u);
+  EXPECT_EQ(calibration->cases[1].cell_size, 2.5e-3);
+  EXPECT_EQ(calibration->cases[1].scene.scene.numerics.cell_size, 2.5e-3);
 }
 
 TEST(ReadStudy, TakesWhatItDoesNotSayFromTheScene) {

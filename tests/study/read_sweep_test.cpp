@@ -126,9 +126,9 @@ TEST(ReadSweep, NumericsOnAnAxisHaveNoStatedUncertainty) {
   EXPECT_EQ(other.study.numerical_uncertainty, assumed_numerical_uncertainty);
   EXPECT_TRUE(other.study.numerical_uncertainty_assumed);
   // An even grid with cells of 5 mm does not run along the charge; a lattice always does.
-  const StudyFile off_grid =
-      study_of(start + sweep_text + "numerics.cell_size = \"2.5, 5 mm\"\n" +
-               "[set]\nnumerics.formulation = \"updated-lagrangian\"\nnumerics.growth_x = 1\n");
+  const StudyFile off_grid = study_of(
+      start + sweep_text + "numerics.cell_size = \"2.5, 5 mm\"\n" +
+      "[set]\nnumerics.formulation = \"updated-lagrangian\"\nnumerics.growth_x = 1\nnumerics.growth_r = 1\n");
   EXPECT_EQ(off_grid.study.numerical_uncertainty, assumed_uncertainty_off_grid);
 }
 

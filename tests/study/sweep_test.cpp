@@ -342,8 +342,8 @@ TEST_F(StoredSweep, ForeseesWhatHasToRunAndWhy) {
 TEST_F(StoredSweep, NamesTheKeyThatMakesARunNecessary) {
   Counting counting;
   run(study_of(text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n")), counting);
-  const std::string finer = text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n") +
-                            "numerics.cell_size = \"1.25 mm\"\n";
+  const std::string finer =
+      text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n") + "numerics.cell_size = \"1 mm\"\n";
   const Foresight foresight = foresee_in_store(study_of(finer));
   ASSERT_EQ(foresight.runs.size(), 2u);
   for (const ForeseenRun& each : foresight.runs) {

@@ -96,8 +96,9 @@ inline Runners synthetic_runners(double kelvin = 116.1) {
 inline const std::string synthetic_constants =
     "[set]\nfriction.closure = \"literal\"\nfriction.localisation = 1200\ngap.exchange_time = \"0.29 ms\"\n"
     "kinetics.set = \"comp-b\"\nkinetics.ignition_temperature = \"521 K\"\n";
-/// On a lattice whose cells do not grow, which needs no setting that tells what growth changes.
-inline const std::string constants_on_even_lattice = synthetic_constants + "numerics.growth_x = 1\n";
+/// On a lattice of 2.5 mm whose cells do not grow, which needs no setting that tells what growth changes.
+inline const std::string constants_on_even_lattice =
+    synthetic_constants + "numerics.cell_size = \"2.5 mm\"\nnumerics.growth_x = 1\nnumerics.growth_r = 1\n";
 
 inline StudyOptions synthetic_options(int jobs = 1) {
   StudyOptions options;

@@ -25,8 +25,9 @@ struct GridLines {
 
 /// The reference grid of the total-Lagrangian form: lines through all edges of all bodies, and between two
 /// neighbouring edges cells whose length follows `numerics`: `cell_size` at the refined lines, growing away
-/// from them by the ratio `growth_x` or `growth_r` from cell to cell up to `largest_cell`. An interval gets
-/// the smallest whole number of cells that keeps them from being longer than that.
+/// from them by the ratio `growth_x` or `growth_r` from cell to cell up to `largest_cell`, along r no further
+/// than a station of the charge's bottom is wide, so that every one has a cell. An interval gets the smallest
+/// whole number of cells that keeps them from being longer than that.
 GridLines grid_lines(const Scene& scene);
 
 /// The lines of the grid over the shell at rest, whichever the form: those of `grid_lines`, or of the even

@@ -34,7 +34,9 @@ Expected<SceneFile> read_scene(const std::filesystem::path& file);
 /// The same from text; `file` is named in errors, and relative paths start from its folder.
 Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& file);
 
-/// The key of a scene by dotted name; for geometry "body.<name>.x" or ".r" of a body that the scene has.
+/// The key of a scene by dotted name; for geometry "body.<name>.x" or ".r" of a body that the scene has,
+/// for what holds the charge "interface.<name>.<key>" of a body that touches it, whether or not the scene has
+/// that table.
 Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& name, const Place& place);
 
 /// The scene with one key changed, validated anew. Keys that would contradict the new one lose their given
@@ -42,6 +44,14 @@ Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& 
 /// the law, ...
 Expected<SceneFile> with_key(const SceneFile& file, const std::string& name, const Value& value,
                              const Place& place);
+/// A key with a new value, and where that was asked for.
+struct KeyChange {
+  std::string name;
+  Value value;
+  Place place;
+};
+/// The same for several keys, which need be valid only together.
+Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange>& changes);
 /// The same with the value as written: "0.1 mm", "true", "comp-b". Sweeps and the command line use it.
 Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& name, std::string_view written,
                                      const Place& place);

@@ -16,7 +16,7 @@ struct CalibrationEvidence {
   double largest_gap = 4e-4;     ///< m, of the rows
   /// K, the largest misfit of a held-out temperature: 10 ms, no gap. Taken where no fit uncertainty is
   /// stated.
-  double largest_misfit = 20.72;
+  double largest_misfit = 20.93;
 };
 
 /// The launch that the constants were calibrated on: the 155 mm shell of the paper.
