@@ -312,10 +312,36 @@ TEST(Doubts, CracksThatNoContinuumLawHolds) {
   fine.numerics.cell_size = 0.5e-3;
   fine.charge().cracks.initial_crack_radius = run.monitor[1].largest_crack_radius = 3e-3;
   expect_one(doubts_of(fine, run), "6 cells");
+  // Grown rather than given, it is doubted where it worked: a twentieth of what viscosity took.
+  fine.charge().cracks.initial_crack_radius = 30e-6;
+  run.monitor[2].energy.viscous = 3.5;
+  run.monitor[2].energy.crack = 0.05 * 3.5;
+  EXPECT_EQ(doubts_of(fine, run).size(), 0u);
+  run.monitor[2].energy.crack = 0.051 * 3.5;
+  expect_one(doubts_of(fine, run), "6 cells");
+  run.monitor[2].energy.crack = 0.0;
   scene::Scene thin = shipped_scene();
   thin.charge().cracks.initial_crack_radius = 3e-3;
   thin.bodies[1].x_begin = thin.bodies[1].x_end - 2e-3;
   expect_one(doubts_of(thin, run), "more than the charge measures");
+}
+
+TEST(Doubts, ScaledInertiaOfAChargeThatSlidesBeyondWhatWasMeasured) {
+  scene::Scene scene = shipped_scene();
+  const auto doubts_with = [&scene](double all, double steel) {
+    scene.numerics.inertial_scaling = all;
+    scene.numerics.steel_inertia = steel;
+    MechanicsResult run = sound_run();
+    run.monitor[1].energy.kinetic = 1.0;  // far from what is doubted of any charge
+    return doubts_of(scene, run);
+  };
+  EXPECT_TRUE(doubts_with(200.0, 8.0).empty());
+  scene.interfaces = {{.body = "wall", .condition = scene::Condition::sliding, .friction = 0.1}};
+  EXPECT_TRUE(doubts_with(100.0, 1.0).empty());
+  EXPECT_TRUE(doubts_with(1.0, 4.0).empty());
+  expect_one(doubts_with(101.0, 1.0), "measured up to 100");
+  expect_one(doubts_with(1.0, 4.1), "measured up to 100");
+  expect_one(doubts_with(16.0, 2.0), "measured up to 100");
 }
 
 TEST(Doubts, FacesThatPassIntoEachOther) {

@@ -131,12 +131,28 @@ TEST(AccuracyRecord, IsForeignToAnotherShellOrClosure) {
       [](auto& s) { s.surface.friction = scene::FrictionClosure::inelastic; },
       [](auto& s) { s.surface.air_model = scene::AirModel::balance; },
       [](auto& s) { s.surface.air_pressure = scene::AirPressure::chamber; },
-      [](auto& s) { s.surface.exchange = scene::Exchange::per_step; }};
+      [](auto& s) { s.surface.exchange = scene::Exchange::per_step; },
+      [](auto& s) {
+        s.interfaces = {{.body = "wall", .condition = scene::Condition::sliding, .friction = 0.1}};
+      }};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     scene::Scene scene = own_scene();
     changes[i](scene);
     EXPECT_NE(why_foreign(made_record(), scene), "") << i;
   }
+}
+
+TEST(AccuracyRecord, BelongsToOneWayOfHoldingTheCharge) {
+  const auto held_by = [](double friction) {
+    scene::Scene scene = own_scene();
+    scene.interfaces = {{.body = "wall", .condition = scene::Condition::sliding, .friction = friction}};
+    return shell_of(scene);
+  };
+  EXPECT_EQ(held_by(0.1), held_by(0.1));
+  EXPECT_NE(held_by(0.1), held_by(0.2));
+  scene::Scene bonded = own_scene();
+  bonded.interfaces = {{.body = "wall"}};
+  EXPECT_EQ(shell_of(bonded), shell_of(own_scene()));
 }
 
 /// A study beside a record in a folder of its own.

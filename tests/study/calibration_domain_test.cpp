@@ -91,6 +91,12 @@ TEST(CalibrationDomain, NamesWhatLiesOutside) {
       {"closure", [](auto& s) { s.surface.friction = scene::FrictionClosure::inelastic; }, "friction.closure",
        ""},
       {"skin", [](auto& s) { s.surface.skin_thickness = 1e-3; }, "gap.skin_thickness", ""},
+      {"a charge that slides",
+       [](auto& s) {
+         s.interfaces = {{.body = "wall", .condition = scene::Condition::sliding, .friction = 0.1}};
+       },
+       "interface.wall.condition", ""},
+      {"a charge that is said to be bonded", [](auto& s) { s.interfaces = {{.body = "wall"}}; }, "", ""},
       {"barrel", [](auto& s) { s.barrel = scene::Barrel::none; }, "barrel", ""},
       {"less friction heat", [](auto& s) { s.surface.localisation = 400.0; }, "friction.localisation", ""},
       {"more friction heat", [](auto& s) { s.surface.localisation = 1200.0; }, "", "friction.localisation"},

@@ -67,6 +67,32 @@ TEST(CaseUncertainty, StatedSharesAreTakenOnTheRowsOfTheCalibration) {
   EXPECT_EQ(row.judgement.reason.find("extrapolated"), std::string::npos) << row.judgement.reason;
 }
 
+/// 0.3 kJ/m2 in a skin of 0.1 mm of 1717 kg/m3 and 1785 J/(kg K) is 0.979 K; the heat at the wall is none of
+/// it.
+TEST(CaseUncertainty, HeatOfFrictionOnTheBottomCountsWhole) {
+  StudyOptions options = quadratic_options();
+  options.runners.mechanics = [](const scene::Scene& scene, const run::RunOptions&) {
+    run::MechanicsResult result = quadratic_launch(scene);
+    result.interfaces.resize(3);
+    result.interfaces[0].face = 0.678;
+    result.interfaces[0].friction_heat = {100.0, 300.0};
+    result.interfaces[1].along_x = true;
+    result.interfaces[1].face = 0.065;
+    result.interfaces[1].friction_heat = {5000.0};
+    result.interfaces[2].face = 0.118;
+    result.interfaces[2].friction_heat = {4000.0};
+    return result;
+  };
+  const CriticalGapResult result =
+      run_critical_gap(study_of(critical_kind + no_confirmation + stated), options);
+  const Uncertainty& shares = result.cases.at(0).verdicts.at(0).uncertainty;
+  const materials::Charge& charge = calibration_scene().charge();
+  EXPECT_NEAR(shares.sliding, 300.0 / (charge.eos.initial_density * charge.specific_heat * 1e-4), 1e-9);
+  EXPECT_GT(shares.sliding, 0.5);
+  EXPECT_EQ(first_row(stated).uncertainty.sliding, 0.0);
+  EXPECT_NEAR(shares.computed() - first_row(stated).uncertainty.computed(), shares.sliding, 1e-9);
+}
+
 TEST(CaseUncertainty, SilenceAboutTheFitCostsTheLargestMisfitOfTheHoldOuts) {
   const GapVerdict row = first_row("numerical_uncertainty = \"1 K\"\ninput_uncertainty = \"3 K\"\n");
   EXPECT_NEAR(row.uncertainty.fit, 20.93, 0.01);

@@ -1,3 +1,4 @@
+#include "study/read_error.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <cstddef>
@@ -23,6 +24,21 @@ void expect_error(const std::string& line, const std::string& key, const std::st
   EXPECT_NE(error.found.find(found), std::string::npos) << error.message();
   EXPECT_NE(error.allowed.find(allowed), std::string::npos) << error.message();
   EXPECT_FALSE(error.allowed.empty()) << error.message();
+}
+
+TEST(ReadStudy, SetsInterfacesThatTheSceneDoesNotHave) {
+  const std::string start = "kind = \"critical-gap\"\nscene = \"scene_155mm.toml\"\n";
+  const StudyFile study =
+      study_of(start + "[set]\ninterface.wall.condition = \"sliding\"\ninterface.wall.friction = 0\n");
+  ASSERT_EQ(study.scene.scene.interfaces.size(), 1u);
+  EXPECT_EQ(study.scene.scene.interfaces[0].body, "wall");
+  EXPECT_EQ(study.scene.scene.interfaces[0].friction, 0.0);
+  expect_error_in(start + "[set]\ninterface.wall.condition = \"sliding\"\n",
+                  {4, "set.interface.wall.condition", "without their friction", "interface.wall.friction"});
+  expect_error_in(start + "[set]\ninterface.barrel.friction = 0.1\n",
+                  {4, "set.interface.barrel.friction", "unknown"});
+  expect_error_in(start + "[set]\ninterface.wall.condition = \"sliding\"\ninterface.wall.friction = 11\n",
+                  {5, "set.interface.wall.friction", "11", "0 to 10"});
 }
 
 TEST(ReadStudy, TheShippedStudiesAreValid) {
