@@ -172,8 +172,9 @@ std::string uncertainty_remark(const study::StudyFile& study) {
       "The uncertainty of a margin is the root of the sum of squares (ASME V&V 20) of three shares. Of the "
       "computation: the sum of the trace's sampling error, the integration error, where confirmed the "
       "largest "
-      "difference between traced and coupled runs, where the charge slides on the base all heat of their "
-      "friction, which the temperatures leave out, and {} K for mesh, step and scaling, {}. Of the fit: {} "
+      "difference between traced and coupled runs, where the charge slides on the base what the "
+      "temperatures leave out of that (the heat of friction, and the gap's growth where the base opens), and "
+      "{} K for mesh, step and scaling, {}. Of the fit: {} "
       "Of the "
       "inputs: {}",
       significant(study.study.numerical_uncertainty, 3), study.uncertainty_source,

@@ -65,17 +65,31 @@ double mass_of(const MechanicsResult& mechanics, std::string_view material) {
   return 0.0;
 }
 
-double friction_heat_at_bottom(const MechanicsResult& mechanics, double bottom) {
+namespace {
+
+/// The largest of a value of nodes on the end of the charge at `bottom` (m); NaN where one is.
+double largest_at_bottom(const MechanicsResult& mechanics, double bottom,
+                         std::vector<double> InterfaceResult::*values) {
   constexpr double touching = 1e-9;  // m
   double most = 0.0;
   for (const InterfaceResult& faces : mechanics.interfaces) {
     if (faces.along_x || std::abs(faces.face - bottom) > touching) continue;
-    for (const double heat : faces.friction_heat) {
-      if (std::isnan(heat)) return heat;
-      most = std::max(most, heat);
+    for (const double value : faces.*values) {
+      if (std::isnan(value)) return value;
+      most = std::max(most, value);
     }
   }
   return most;
+}
+
+}  // namespace
+
+double friction_heat_at_bottom(const MechanicsResult& mechanics, double bottom) {
+  return largest_at_bottom(mechanics, bottom, &InterfaceResult::friction_heat);
+}
+
+double opening_at_bottom(const MechanicsResult& mechanics, double bottom) {
+  return largest_at_bottom(mechanics, bottom, &InterfaceResult::largest_gap);
 }
 
 double largest_energy_drift(const MechanicsResult& mechanics) {

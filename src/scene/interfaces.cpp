@@ -18,7 +18,7 @@ Key<Interface> optional_number_key(std::string name, Dimension dimension, Limits
       {std::move(name), KeyKind::number, dimension, limits, {}, 0, Standing::input, std::move(sentence)},
       {},
       {}};
-  key.set = [member](Interface& faces, const Value& value) { faces.*member = std::get<double>(value); };
+  key.set = [member](Interface& faces, const Value& value) { faces.*member = std::get<double>(value) + 0.0; };
   key.get = [member](const Interface& faces) { return Value((faces.*member).value_or(0.0)); };
   key.is_written = [member](const Interface& faces) { return (faces.*member).has_value(); };
   return key;
@@ -64,11 +64,15 @@ std::optional<InputError> check_law(const SceneFile& file, const Interface& face
   const bool slides = faces.condition == Condition::sliding;
   const bool breaks = faces.tension_strength || faces.shear_strength;
   const std::string friction = fmt::format("a friction from 0 (smooth) to {:g}", largest_friction);
+  if (slides && breaks)
+    return fault(faces.tension_strength ? "tension_strength" : "shear_strength",
+                 "the strength of a bond on faces that slide from the start",
+                 "strengths with condition = \"bonded\", or condition = \"sliding\" without them");
   if (slides && !faces.friction)
-    return fault("friction", "nothing: faces that slide without their friction", friction, "friction = 0.1");
+    return fault("friction", "nothing: faces that slide without their friction", friction);
   if (breaks && !faces.friction)
     return fault("friction", "nothing: a bond that can break without the friction of the faces after it",
-                 friction, "friction = 0.1");
+                 friction);
   if (breaks && !(faces.tension_strength && faces.shear_strength))
     return fault(faces.tension_strength ? "shear_strength" : "tension_strength",
                  "nothing, beside the other strength of the bond", "both strengths of a bond, or none");
@@ -207,9 +211,11 @@ std::vector<InterfaceText> describe_interfaces(const Scene& scene) {
           {body, "bonded", "charge and body never part or slide, and the bond bears any tension and shear"});
       continue;
     }
-    const std::string sliding =
-        fmt::format("Coulomb's friction {:g} on the pressure of the same instant, no tension, faces may part",
-                    faces->friction.value_or(0.0));
+    const std::string sliding = fmt::format(
+        "Coulomb's friction {:g} on the pressure of the same instant, no tension, faces may part; the heat "
+        "of "
+        "friction is told and heats no skin",
+        faces->friction.value_or(0.0));
     if (!faces->tension_strength) {
       described.push_back({body, "sliding", sliding});
       continue;

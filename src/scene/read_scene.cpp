@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <iterator>
 #include <utility>
 
@@ -195,6 +196,14 @@ Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& 
     return description;
   }
   return unknown_key(place, name, names_of_keys(file.scene));
+}
+
+Value value_in(const SceneFile& file, const std::string& name) {
+  if (const Key<Scene>* key = find_key(scene_keys(), name)) return key->get(file.scene);
+  const auto faces = find_interface_key(file.scene, name);
+  assert(faces);
+  Scene scene = file.scene;
+  return faces->key->get(interface_of(scene, faces->body));
 }
 
 Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange>& changes) {

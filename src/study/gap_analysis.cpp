@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace launchsafe::study::detail {
 namespace {
@@ -95,13 +96,31 @@ double propagated_share(const CaseOutcome& outcome, const GapVerdict& row) {
   return !row.ignition && reacting.ignition ? std::max(rise, row.margin) : rise;
 }
 
-/// K by which friction between charge and base, which the skin's temperature leaves out, can heat the skin.
-double sliding_share(const CaseOutcome& outcome) {
+/// K by which all heat of friction between charge and base could heat the charge's surface: in the skin, or,
+/// where that is thinner, as deep as heat diffuses over the launch at a constant rate (Carslaw & Jaeger
+/// 1959, 2.9).
+double friction_share(const CaseOutcome& outcome) {
   const scene::Scene& scene = outcome.input.scene.scene;
+  const materials::Charge& charge = scene.charge();
+  const double capacity = charge.eos.initial_density * charge.specific_heat;  // J/(m3 K)
+  const double diffused =
+      0.5 * std::sqrt(std::numbers::pi * charge.conductivity * scene.load.duration / capacity);
   const double heat =
       run::friction_heat_at_bottom(outcome.result.mechanics, scene::charge_extent(scene).x_end);
-  return heat /
-         (scene.charge().eos.initial_density * scene.charge().specific_heat * scene.surface.skin_thickness);
+  return heat / (capacity * std::min(scene.surface.skin_thickness, diffused));
+}
+
+/// K by which T max of a gap changes where it is thicker by as much as charge and base part. One that ignites
+/// there has no margin left.
+double opening_share(const CaseOutcome& outcome, const GapVerdict& row) {
+  constexpr double least = 1e-9;  // m
+  const scene::Scene& scene = outcome.input.scene.scene;
+  const BottomTrace& trace = outcome.result.mechanics.trace;
+  const double opening = run::opening_at_bottom(outcome.result.mechanics, scene::charge_extent(scene).x_end);
+  if (opening < least) return 0.0;
+  const double rise = std::abs(heated_temperature(scene, trace, row.gap + opening) - row.heated);
+  const auto reacting = surface::integrate_skin(surface::skin_model(scene), trace, row.gap + opening);
+  return !row.ignition && reacting.ignition ? std::max(rise, row.margin) : rise;
 }
 
 /// The shares of a row that its study, its accuracy record and the calibration's evidence give. Errors grow
@@ -115,7 +134,7 @@ void add_shares(const Study& study, const CaseOutcome& outcome, const CaseGround
   row.uncertainty.input =
       outcome.raised ? propagated_share(outcome, row) : stated_input_share(study, outcome.input);
   row.uncertainty.load_curve = ground.load_curve.in_kelvin(rises);
-  row.uncertainty.sliding = sliding_share(outcome);
+  row.uncertainty.sliding = friction_share(outcome) + opening_share(outcome, row);
 }
 
 GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGround& ground,

@@ -3,6 +3,7 @@
 #include "changed_scene.hpp"
 #include "hard_launches.hpp"
 #include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/interfaces.hpp"
 #include "study_axes.hpp"
 #include "study_cases.hpp"
 #include "study_keys.hpp"
@@ -100,7 +101,15 @@ void drop_acceptances_of_other_values(StudyFile& study) {
   if (!study.study.flaw_sizes.empty()) changed.insert("charge.flaw_size");
   for (const Axis& axis : study.study.axes) changed.insert(axis.key.name);
   for (const UncertainInput& input : study.study.inputs) changed.insert(input.key.name);
-  std::erase_if(study.scene.scene.accepted, [&](const auto& each) { return changed.contains(each.key); });
+  // A reason for how the charge is held, or for all that is foreign, was given of the scene's own interfaces.
+  std::set<std::string> dropped = changed;
+  for (const std::string& key : changed) {
+    if (!key.starts_with("interface.")) continue;
+    dropped.insert(scene::foreign_calibration);
+    for (const auto& other : scene::interface_keys())
+      dropped.insert(key.substr(0, key.rfind('.') + 1) + other.name);
+  }
+  std::erase_if(study.scene.scene.accepted, [&](const auto& each) { return dropped.contains(each.key); });
 }
 
 /// The acceptances of the study: those of scene keys go to its scene, those of its own keys beside what it

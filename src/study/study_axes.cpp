@@ -158,16 +158,16 @@ scene::Expected<KeyDescription> varied_key(const StudyFile& study, const std::st
   const auto named = std::find_if(named_axes().begin(), named_axes().end(),
                                   [&](const NamedAxis& axis) { return axis.name == name; });
   const std::string& wanted = named == named_axes().end() ? name : named->key;
-  const auto* key = scene::find_key(scene::scene_keys(), wanted);
+  auto key = scene::describe_key(study.scene, wanted, place);
   if (!key || key->kind != KeyKind::number) {
     for (const NamedAxis& axis : named_axes()) other_names.push_back(axis.name);
     return unfit_key(study, name, faulty_key, place, other_names);
   }
-  return static_cast<const KeyDescription&>(*key);
+  return key;
 }
 
-double number_in(const scene::Scene& scene, const std::string& key) {
-  return std::get<double>(scene::find_key(scene::scene_keys(), key)->get(scene));
+double number_in(const scene::SceneFile& file, const std::string& key) {
+  return std::get<double>(scene::value_in(file, key));
 }
 
 Fault read_axes(const toml::table& root, StudyFile& study) {

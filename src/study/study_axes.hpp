@@ -34,7 +34,7 @@ scene::Expected<scene::KeyDescription> varied_key(const StudyFile& study, const 
                                                   std::vector<std::string> other_names = {});
 
 /// The value of a scene key that takes one number, SI.
-double number_in(const scene::Scene& scene, const std::string& key);
+double number_in(const scene::SceneFile& file, const std::string& key);
 
 /// Reads [axes] into Study::axes and Study::gaps. Needs the study's scene and overrides.
 Fault read_axes(const toml::table& root, StudyFile& study);

@@ -103,7 +103,7 @@ class CaseMaker {
 
  private:
   void add_key(const scene::KeyDescription& key) {
-    own_.push_back(number_in(study_.scene.scene, key.name));
+    own_.push_back(number_in(study_.scene, key.name));
     condition_.push_back(is_condition(key));
   }
 

@@ -14,14 +14,21 @@
 namespace launchsafe::study::detail {
 namespace {
 
-/// Whether any case has other numerics than the scene as it was written.
-bool has_other_numerics(const StudyFile& study) {
-  const auto varies = [](const auto& each) { return belongs_to_setting(each.key.name); };
+/// Whether any case has a key of a kind otherwise than the scene as it was written.
+bool has_other(const StudyFile& study, bool (*is_of_the_kind)(const std::string& key)) {
+  const auto varies = [=](const auto& each) { return is_of_the_kind(each.key.name); };
   const Study& s = study.study;
   return std::any_of(study.overrides.begin(), study.overrides.end(),
-                     [](const auto& each) { return belongs_to_setting(each.first); }) ||
+                     [=](const auto& each) { return is_of_the_kind(each.first); }) ||
          std::any_of(s.axes.begin(), s.axes.end(), varies) ||
          std::any_of(s.inputs.begin(), s.inputs.end(), varies);
+}
+
+bool has_other_numerics(const StudyFile& study) { return has_other(study, belongs_to_setting); }
+
+/// The mesh has another error where the charge is held otherwise.
+bool has_other_interfaces(const StudyFile& study) {
+  return has_other(study, [](const std::string& key) { return key.starts_with("interface."); });
 }
 
 /// K, where nothing is known of the numerics of a scene.
@@ -31,13 +38,13 @@ double assumed_for(const scene::Scene& scene) {
   return as_calibrated ? assumed_numerical_uncertainty : assumed_uncertainty_off_grid;
 }
 
-/// Where a study states a number itself. It belongs to the scene's own numerics on a grid that runs along the
-/// charge's edges.
+/// Where a study states a number itself. It belongs to the scene's own numerics and interfaces on a grid that
+/// runs along the charge's edges.
 void settle_stated(StudyFile& study) {
   Study& s = study.study;
   const double stated = std::isfinite(s.numerical_uncertainty) ? s.numerical_uncertainty : 0.0;
-  const bool own =
-      stated > 0.0 && !has_other_numerics(study) && scene::charge_edges_off_grid(study.scene.scene).empty();
+  const bool own = stated > 0.0 && !has_other_numerics(study) && !has_other_interfaces(study) &&
+                   scene::charge_edges_off_grid(study.scene.scene).empty();
   double largest = stated;
   for (StudyCase& each : study.cases) {
     each.numerical_uncertainty = own ? stated : std::max(stated, assumed_for(each.scene.scene));

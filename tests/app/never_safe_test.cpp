@@ -187,6 +187,21 @@ INSTANTIATE_TEST_SUITE_P(
                 in_scene("[numerics]\n",
                          "[interface.wall]\ncondition = \"sliding\"\nfriction = 0.3\n\n[numerics]\n"),
                 "interface.wall.condition"},
+        Mistake{"ASlidingChargeOfTheStudyUnderAGeneralAcceptance",
+                {{"shell.toml", "title =",
+                  "accept = [{ key = \"calibration\", because = \"everything is much alike\" }]\ntitle ="},
+                 {"study.toml", "confirm = false",
+                  "confirm = false\nset = { interface = { wall = { condition = \"sliding\", friction = 0.1 } "
+                  "} }"}},
+                "interface.wall.condition"},
+        Mistake{
+            "AnotherFrictionThanTheAcceptedOne",
+            {{"shell.toml", "title =",
+              "accept = [{ key = \"interface.wall.condition\", because = \"sliding with 0.1 is meant\" }]\n"
+              "interface = { wall = { condition = \"sliding\", friction = 0.1 } }\ntitle ="},
+             {"study.toml", "confirm = false",
+              "confirm = false\nset = { interface = { wall = { friction = 0 } } }"}},
+            "interface.wall.condition"},
         Mistake{"AnotherExplosive", in_table("charge", "density = \"1.6 g/cm3\""), "charge.density"},
         Mistake{"AnotherClosure", in_scene("closure = \"literal\"", "closure = \"inelastic\""),
                 "friction.closure"},

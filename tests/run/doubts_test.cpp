@@ -355,6 +355,18 @@ TEST(Doubts, FacesThatPassIntoEachOther) {
   expect_one(doubts_of(scene, run), "\"base\" pass into each other by 0.026 mm");
 }
 
+TEST(Doubts, ABondThatBrokeInPart) {
+  MechanicsResult run = sound_run();
+  run.interfaces.resize(1);
+  run.interfaces[0].body = "wall";
+  for (const std::vector<double>& whole : {std::vector{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}}) {
+    run.interfaces[0].bonded = whole;
+    EXPECT_TRUE(doubts_of(shipped_scene(), run).empty());
+  }
+  run.interfaces[0].bonded = {1.0, 0.0, 0.0};
+  expect_one(doubts_of(shipped_scene(), run), "\"wall\" broke at 2 of 3 nodes");
+}
+
 /// As they do without friction between their faces: by 4.4 mm in 18 ms.
 TEST(Doubts, CracksThatRunAway) {
   MechanicsResult run = sound_run();

@@ -57,6 +57,13 @@ TEST(Interfaces, ThatCannotSlideChangeNoMechanics) {
   EXPECT_NE(to_toml(mechanical_part(slides->scene)), to_toml(mechanical_part(plain->scene)));
 }
 
+TEST(Interfaces, ThatSlideFromTheStartHaveNoStrengths) {
+  const auto file = parse_scene(small_scene + sliding_wall + "tension_strength = \"1 MPa\"\n", "shell.toml");
+  ASSERT_FALSE(file);
+  EXPECT_EQ(file.error().key, "interface.wall.tension_strength");
+  EXPECT_NE(file.error().allowed.find("condition = \"bonded\""), std::string::npos);
+}
+
 TEST(Interfaces, OfBodiesAwayFromTheChargeAreRefused) {
   auto text = small_scene + testing::small_shell_base + with(sliding_wall, "wall", "wal");
   auto error = error_of(text);
@@ -80,7 +87,7 @@ TEST(Interfaces, WithKeysMissingOrOutOfRangeAreRefused) {
   text = small_scene + with(sliding_wall, "friction = 0.05\n", "");
   expect_error(error_of(text), line_of(text, "condition"), "interface.wall.friction",
                "without their friction", "from 0");
-  EXPECT_EQ(error_of(text).suggestion, "friction = 0.1");
+  EXPECT_EQ(error_of(text).suggestion, "") << "no friction is usual";
   text = small_scene + with(breaking_cup, "friction = 0.2\n", "");
   expect_error(error_of(text), line_of(text, "condition"), "interface.cup.friction", "without the friction",
                "from 0");

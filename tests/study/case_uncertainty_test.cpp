@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace {
@@ -67,30 +68,55 @@ TEST(CaseUncertainty, StatedSharesAreTakenOnTheRowsOfTheCalibration) {
   EXPECT_EQ(row.judgement.reason.find("extrapolated"), std::string::npos) << row.judgement.reason;
 }
 
-/// 0.3 kJ/m2 in a skin of 0.1 mm of 1717 kg/m3 and 1785 J/(kg K) is 0.979 K; the heat at the wall is none of
-/// it.
-TEST(CaseUncertainty, HeatOfFrictionOnTheBottomCountsWhole) {
+GapVerdict row_with(const std::vector<run::InterfaceResult>& interfaces, std::size_t row = 0) {
   StudyOptions options = quadratic_options();
-  options.runners.mechanics = [](const scene::Scene& scene, const run::RunOptions&) {
+  options.runners.mechanics = [&](const scene::Scene& scene, const run::RunOptions&) {
     run::MechanicsResult result = quadratic_launch(scene);
-    result.interfaces.resize(3);
-    result.interfaces[0].face = 0.678;
-    result.interfaces[0].friction_heat = {100.0, 300.0};
-    result.interfaces[1].along_x = true;
-    result.interfaces[1].face = 0.065;
-    result.interfaces[1].friction_heat = {5000.0};
-    result.interfaces[2].face = 0.118;
-    result.interfaces[2].friction_heat = {4000.0};
+    result.interfaces = interfaces;
     return result;
   };
-  const CriticalGapResult result =
-      run_critical_gap(study_of(critical_kind + no_confirmation + stated), options);
-  const Uncertainty& shares = result.cases.at(0).verdicts.at(0).uncertainty;
+  return run_critical_gap(study_of(critical_kind + no_confirmation + stated), options)
+      .cases.at(0)
+      .verdicts.at(row);
+}
+
+run::InterfaceResult face_at(double place, bool along_x, std::vector<double> heat, double opening = 0.0) {
+  run::InterfaceResult faces;
+  faces.face = place;
+  faces.along_x = along_x;
+  faces.friction_heat = std::move(heat);
+  faces.largest_gap = {opening};
+  return faces;
+}
+
+/// A constant flux heats the surface of a half space by 2 q sqrt(t/(pi k rho c)): 0.3 kJ/m2 in 18 ms by 2.9
+/// K. The heat at wall and nose is none of the bottom's.
+TEST(CaseUncertainty, HeatOfFrictionOnTheBottomCountsWhole) {
+  const Uncertainty shares = row_with({face_at(0.678, false, {100.0, 300.0}), face_at(0.065, true, {5000.0}),
+                                       face_at(0.118, false, {4000.0})})
+                                 .uncertainty;
   const materials::Charge& charge = calibration_scene().charge();
-  EXPECT_NEAR(shares.sliding, 300.0 / (charge.eos.initial_density * charge.specific_heat * 1e-4), 1e-9);
-  EXPECT_GT(shares.sliding, 0.5);
+  const double flux = 300.0 / 18e-3;
+  EXPECT_NEAR(shares.sliding,
+              2.0 * flux *
+                  std::sqrt(18e-3 / (std::numbers::pi * charge.conductivity * charge.eos.initial_density *
+                                     charge.specific_heat)),
+              1e-9);
+  EXPECT_GT(shares.sliding, 2.0);
   EXPECT_EQ(first_row(stated).uncertainty.sliding, 0.0);
   EXPECT_NEAR(shares.computed() - first_row(stated).uncertainty.computed(), shares.sliding, 1e-9);
+}
+
+/// A base that parts by 0.02 cm makes of no gap one of 0.02 cm; parted by 0.03 cm beside 0.02 cm, the gap
+/// ignites.
+TEST(CaseUncertainty, ABaseThatOpensThickensTheGap) {
+  const auto opens = [](double opening) { return std::vector{face_at(0.678, false, {0.0}, opening)}; };
+  const GapVerdict closed = row_with({}), open = row_with(opens(2e-4));
+  EXPECT_NEAR(open.uncertainty.sliding, row_with({}, 1).heated - closed.heated, 1e-6);
+  EXPECT_GT(open.uncertainty.sliding, 40.0);
+  const GapVerdict ignites = row_with(opens(3e-4), 1);
+  EXPECT_GE(ignites.uncertainty.sliding, ignites.margin);
+  EXPECT_NE(ignites.judgement.verdict, Verdict::safe);
 }
 
 TEST(CaseUncertainty, SilenceAboutTheFitCostsTheLargestMisfitOfTheHoldOuts) {

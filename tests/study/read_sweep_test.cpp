@@ -1,3 +1,4 @@
+#include "store/temporary_folder.hpp"
 #include "study/read_error.hpp"
 
 #include <ctime>
@@ -117,6 +118,23 @@ TEST(ReadSweep, OnlyAnotherLaunchIsNotTheReferences) {
   EXPECT_FALSE(own("charge.density = \"1700 kg/m3\""));
   EXPECT_FALSE(own("load.exponent = 10"));
   EXPECT_FALSE(own("initial_temperature = \"310 K\""));
+}
+
+class SlidingSweep : public launchsafe::testing::TemporaryFolder {};
+
+TEST_F(SlidingSweep, FrictionMayVaryAndHasNoStatedUncertainty) {
+  std::ifstream shipped(studies_folder / "scene_155mm.toml");
+  std::ofstream(folder() / "slides.toml")
+      << shipped.rdbuf() << "\n[interface.wall]\ncondition = \"sliding\"\nfriction = 0.1\n";
+  const auto study = parse_study(
+      "kind = \"sweep\"\nscene = \"slides.toml\"\nnumerical_uncertainty = \"1 K\"\n[axes]\n"
+      "interface.wall.friction = [0, 0.3]\n",
+      folder() / "study.toml");
+  ASSERT_TRUE(study) << study.error().message();
+  ASSERT_EQ(study->cases.size(), 2u);
+  EXPECT_EQ(study->cases[0].scene.scene.interfaces.at(0).friction, 0.0);
+  EXPECT_EQ(study->cases[1].scene.scene.interfaces.at(0).friction, 0.3);
+  EXPECT_EQ(study->study.numerical_uncertainty, assumed_numerical_uncertainty);
 }
 
 TEST(ReadSweep, NumericsOnAnAxisHaveNoStatedUncertainty) {

@@ -117,6 +117,9 @@ double mass_of(const MechanicsResult& mechanics, std::string_view material);
 /// J/m2, the largest heat of friction on the end of the charge at `bottom` (m); 0 where nothing slides there.
 double friction_heat_at_bottom(const MechanicsResult& mechanics, double bottom);
 
+/// m, the widest gap between that end and the body it can slide on, likewise.
+double opening_at_bottom(const MechanicsResult& mechanics, double bottom);
+
 /// Largest absolute energy drift over the monitor's history, as a share of the run's largest energy (in the
 /// first moments all energies are next to nothing); NaN without one.
 double largest_energy_drift(const MechanicsResult& mechanics);

@@ -39,6 +39,10 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
 /// that table.
 Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& name, const Place& place);
 
+/// The value of a key that `describe_key` knows and that is no geometry. Numbers of an interface that are not
+/// given are 0.
+Value value_in(const SceneFile& file, const std::string& name);
+
 /// The scene with one key changed, validated anew. Keys that would contradict the new one lose their given
 /// value: setting charge.face_friction drops charge.crack_friction, setting kinetics.set drops the numbers of
 /// the law, ...

@@ -20,7 +20,7 @@ struct Uncertainty {
   double fit = 0;          ///< of the calibrated constants, carried to this case
   double input = 0;        ///< of what is not known of the launch
   double load_curve = 0;   ///< of a measured curve: what its noise heats, and what smoothing took from it
-  double sliding = 0;      ///< heat of friction between charge and base, were all of it to stay in the skin
+  double sliding = 0;  ///< of a base on which the charge slides: all heat of friction, and the gap that opens
   /// Of the computation itself: the sum, since the parts are bounds and have common causes.
   double computed() const { return sampling + integration + coupling + numerical + sliding; }
   /// Of the launch: both may be wrong in the same direction.
