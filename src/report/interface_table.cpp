@@ -34,9 +34,9 @@ Table interface_table(const run::MechanicsResult& mechanics) {
     if (hottest == faces.friction_heat.end()) continue;
     const auto node = static_cast<std::size_t>(hottest - faces.friction_heat.begin());
     const double bonded = std::accumulate(faces.bonded.begin(), faces.bonded.end(), 0.0);
-    table.rows.push_back({faces.body, std::string(faces.along_x ? "along x" : "along r"),
-                          faces.friction_work, 1e-3 * *hottest, 100.0 * faces.place.at(node),
-                          1e3 * largest(faces.slid), 1e3 * largest(faces.largest_gap),
+    table.rows.push_back({faces.body, std::string(faces.along_x ? "along x" : "along r"), faces.friction_work,
+                          1e-3 * *hottest, 100.0 * faces.place.at(node), 1e3 * largest(faces.slid),
+                          1e3 * largest(faces.largest_gap),
                           100.0 * bonded / static_cast<double>(faces.bonded.size())});
   }
   if (!table.rows.empty())
