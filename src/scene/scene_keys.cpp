@@ -135,8 +135,10 @@ Keys gap_keys() {
           {{"charge-bottom", AirPressure::charge_bottom}, {"chamber", AirPressure::chamber}},
           [](auto& s) -> auto& { return s.surface.air_pressure; }),
       word_key<Scene, AirModel>(
-          "gap.air", Standing::paper, "Air that stays on its adiabat, or air that loses what the skin gains.",
-          {{"reservoir", AirModel::reservoir}, {"balance", AirModel::balance}},
+          "gap.air", Standing::paper,
+          "Air that stays on its adiabat, air that loses what the skin gains, or a film that conducts into "
+          "charge and base, the optimistic bound; in the film no exchange, skin or air density counts.",
+          {{"reservoir", AirModel::reservoir}, {"balance", AirModel::balance}, {"film", AirModel::film}},
           [](auto& s) -> auto& { return s.surface.air_model; }),
       word_key<Scene, Exchange>(
           "gap.exchange", Standing::derived,

@@ -9,17 +9,6 @@ namespace launchsafe::surface::detail {
 
 namespace {
 
-/// Area shares of the stations, summing to 1; equal shares where no station has an area.
-std::vector<double> area_shares(const trace::BottomTrace& trace) {
-  double total = 0.0;
-  for (const trace::Station& station : trace.stations) total += station.area;
-  std::vector<double> shares;
-  for (const trace::Station& station : trace.stations) {
-    shares.push_back(total > 0.0 ? station.area / total : 1.0 / static_cast<double>(trace.stations.size()));
-  }
-  return shares;
-}
-
 /// Air and skins at one instant, and the account of what passed between them (J/m2 of bottom).
 struct BalanceState {
   double air = 0;  ///< K
@@ -90,7 +79,7 @@ class BalanceInterval {
       point.temperature = after;
       if (!point.ignited) {
         const double heating = rate_ * (state.air - before) + intervals_.friction_heating(interval_, station);
-        release(point, before, heating, time, h);
+        release(model_, trigger_, point, before, heating, time, h);
       }
     }
     const double air = state.air - loss;
@@ -98,19 +87,6 @@ class BalanceInterval {
     state.taken += capacity_ / ratio_ * gained;
     state.exchanged += capacity_ * std::abs(loss);
     state.air = air;
-  }
-
-  /// Heat of reaction where the exchange carried a skin past the trigger.
-  void release(SkinPoint& point, double before, double outside, double time, double h) const {
-    const double start = std::max(before, trigger_.temperature);
-    if (!(point.temperature > start)) return;
-    const double arrival = (start - before) / (point.temperature - before);
-    if (!trigger_.immediate) point.temperature = start + (point.temperature - start) * trigger_.amplification;
-    if (!trigger_.immediate && point.temperature < model_.kinetics.burnt_temperature) return;
-    point.ignited = true;
-    point.ignition_time = time + arrival * h;
-    point.chemical_share = chemical_share(model_, start, outside);
-    point.temperature = std::max(start, model_.kinetics.burnt_temperature);
   }
 
   void compress(BalanceState& state, double from, double to) const {

@@ -77,6 +77,16 @@ double per_step_rate(double ratio, double steps, double length) {
   return -std::log1p(-ratio) * steps / length;
 }
 
+std::vector<double> area_shares(const trace::BottomTrace& trace) {
+  double total = 0.0;
+  for (const trace::Station& station : trace.stations) total += station.area;
+  std::vector<double> shares;
+  for (const trace::Station& station : trace.stations) {
+    shares.push_back(total > 0.0 ? station.area / total : 1.0 / static_cast<double>(trace.stations.size()));
+  }
+  return shares;
+}
+
 void note_ignition(SkinHistory& history, const trace::BottomTrace& trace, std::size_t station, double time,
                    double chemical_share) {
   const IgnitionCause cause = chemical_share > 0.5 ? IgnitionCause::arrhenius : IgnitionCause::trigger;

@@ -55,6 +55,9 @@ class Intervals {
 /// Rate (1/s) of the printed exchange, a factor 1 - kappa h in each of `steps` steps over `length` seconds.
 double per_step_rate(double ratio, double steps, double length);
 
+/// Area shares of the stations, summing to 1; equal shares where no station has an area.
+std::vector<double> area_shares(const trace::BottomTrace& trace);
+
 /// Integrates all stations with the air losing what the skins gain (AirModel::balance).
 SkinHistory integrate_balance(const SkinModel& model, const trace::BottomTrace& trace, double gap);
 

@@ -1,6 +1,7 @@
 #include "launchsafe/surface/skin.hpp"
 
 #include "intervals.hpp"
+#include "launchsafe/surface/film.hpp"
 #include "skin_equation.hpp"
 
 #include <algorithm>
@@ -47,6 +48,26 @@ bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
+/// The body that the charge's bottom rests on, nearest to the axis; the scene's steel where there is none.
+materials::Law base_under_charge(const scene::Scene& scene) {
+  constexpr double same_place = 1e-6;  // m
+  const double bottom = scene::charge_extent(scene).x_end;
+  const scene::Body* under = nullptr;
+  for (const scene::Body& body : scene.bodies) {
+    if (scene::is_charge(scene, body) || std::abs(body.x_begin - bottom) > same_place) continue;
+    if (under == nullptr || body.r_begin < under->r_begin) under = &body;
+  }
+  return under != nullptr ? scene::law_of(scene, *under) : materials::Law{scene.steel()};
+}
+
+SkinHistory integrate(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
+  if (gap > 0.0 && model.surface.air_model == scene::AirModel::balance)
+    return detail::integrate_balance(model, trace, gap);
+  if (gap > 0.0 && model.surface.air_model == scene::AirModel::film)
+    return integrate_film(model, trace, gap).skin;
+  return integrate_reservoir(model, trace, gap);
+}
+
 }  // namespace
 
 SkinModel skin_model(const scene::Scene& scene) {
@@ -56,6 +77,11 @@ SkinModel skin_model(const scene::Scene& scene) {
   model.charge_density = scene.charge().eos.initial_density;
   model.specific_heat = scene.charge().specific_heat;
   model.initial_temperature = scene.initial_temperature;
+  model.charge_conductivity = scene.charge().conductivity;
+  const materials::Law base = base_under_charge(scene);
+  model.base_density = materials::initial_density(base);
+  model.base_specific_heat = materials::heat_capacity(base);
+  model.base_conductivity = materials::heat_conductivity(base);
   return model;
 }
 
@@ -66,9 +92,7 @@ double heat_capacity_ratio(const SkinModel& model, double gap) {
 }
 
 SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
-  const bool balanced = model.surface.air_model == scene::AirModel::balance && gap > 0.0;
-  SkinHistory history =
-      balanced ? detail::integrate_balance(model, trace, gap) : integrate_reservoir(model, trace, gap);
+  SkinHistory history = integrate(model, trace, gap);
   history.gap = gap;
   history.time = trace.time;
   if (!all_finite(history.temperature) || !all_finite(history.air_temperature)) {

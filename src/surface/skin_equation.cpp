@@ -154,6 +154,19 @@ double chemical_share(const SkinModel& model, double temperature, double outside
   return total > 0.0 ? chemical / total : 0.0;
 }
 
+void release(const SkinModel& model, const Trigger& trigger, SkinPoint& point, double before, double outside,
+             double time, double h) {
+  const double start = std::max(before, trigger.temperature);
+  if (!(point.temperature > start)) return;
+  const double arrival = (start - before) / (point.temperature - before);
+  if (!trigger.immediate) point.temperature = start + (point.temperature - start) * trigger.amplification;
+  if (!trigger.immediate && point.temperature < model.kinetics.burnt_temperature) return;
+  point.ignited = true;
+  point.ignition_time = time + arrival * h;
+  point.chemical_share = chemical_share(model, start, outside);
+  point.temperature = std::max(start, model.kinetics.burnt_temperature);
+}
+
 SkinPoint advance(const SkinModel& model, const SkinEquation& equation, SkinPoint point, double dt) {
   if (!is_finite(equation, point, dt)) {
     point.temperature = not_a_number;

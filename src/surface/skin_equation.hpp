@@ -26,6 +26,11 @@ Trigger trigger_of(const SkinModel& model);
 /// Share of Arrhenius heat in all that heats a solid at temperature T, 0 to 1. `outside` in K/s.
 double chemical_share(const SkinModel& model, double temperature, double outside);
 
+/// Heat of reaction where something outside carried a solid within h (s) from the temperature `before` (K)
+/// past the trigger. It did so at `outside` K/s; `time` (s) is that of the begin.
+void release(const SkinModel& model, const Trigger& trigger, SkinPoint& point, double before, double outside,
+             double time, double h);
+
 /// The point after dt >= 0 (s). A point or an equation that is not finite gives NaN and no ignition.
 SkinPoint advance(const SkinModel& model, const SkinEquation& equation, SkinPoint point, double dt);
 

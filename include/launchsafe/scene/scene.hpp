@@ -24,7 +24,7 @@ enum class Switch { automatic, on, off };
 enum class Formulation { total_lagrangian, updated_lagrangian };
 enum class FrictionClosure { literal, inelastic, none };
 enum class AirPressure { charge_bottom, chamber };
-enum class AirModel { reservoir, balance };
+enum class AirModel { reservoir, balance, film };
 enum class Exchange { rate, per_step };
 
 /// What bodies are made of: a law with its parameters, under the name that bodies refer to it by.

@@ -23,10 +23,12 @@ struct Ignition {
 struct SkinHistory {
   double gap = 0;                       ///< m
   std::vector<double> time;             ///< s, those of the trace
-  std::vector<double> air_temperature;  ///< K
-  std::vector<double> temperature;      ///< K, [sample * stations + station]
+  std::vector<double> air_temperature;  ///< K; of a film the mean over its mass and over the stations' areas
+  std::vector<double> temperature;      ///< K, [sample * stations + station]; under a film the surface's
   std::optional<Ignition> ignition;     ///< the first over the stations that tile the bottom
-  double energy_residual = 0;           ///< J/m2, relative to the heat exchanged; only for AirModel::balance
+  /// Energy made or lost, relative to the heat exchanged; under AirModel::film to all that passed at the
+  /// worst station (FilmEnergy::residual). 0 under AirModel::reservoir.
+  double energy_residual = 0;
 };
 
 /// All that the skin equation needs from a scene.
@@ -35,6 +37,10 @@ struct SkinModel {
   materials::KineticsParameters kinetics;
   double charge_density = 1717.0;      ///< kg/m3
   double specific_heat = 1780.0;       ///< J/(kg K)
+  double charge_conductivity = 0.246;  ///< W/(m K); this and the base count under AirModel::film only
+  double base_density = 7830.0;        ///< kg/m3, of the body under the charge
+  double base_specific_heat = 460.0;   ///< J/(kg K)
+  double base_conductivity = 38.0;     ///< W/(m K)
   double initial_temperature = 300.0;  ///< K
   double relative_tolerance = 1e-8;    ///< of the time integration
 };
@@ -46,7 +52,8 @@ double heat_capacity_ratio(const SkinModel& model, double gap);
 /// Integrates dT/dt = (kappa h/tau_ex)(T_air - T) + friction/(rho c) + (Q Z/c)(1 - lambda) exp(-(E/R)/T) at
 /// every station. The exchange is stiff for small tau_ex and the reaction runs away: an L-stable Rosenbrock
 /// method with step control follows both. At T1 the station ignites and goes to T2; from there only the
-/// exchange acts.
+/// exchange acts. Under AirModel::film it is integrate_film (film.hpp) instead; without a gap friction acts
+/// alone under every model of the air.
 SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap);
 
 /// The same equation for one station over one interval, for the coupled run and for tests: temperature after

@@ -1,0 +1,152 @@
+#include "film_station.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::surface::detail {
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+/// Shortest step as a share of an interval; a step that is still not exact enough is then taken as it is.
+constexpr double shortest_share = 1e-7;
+
+}  // namespace
+
+FilmStation::FilmStation(const SkinModel& model, const FilmGrid& grid, const FilmNumerics& numerics,
+                         double start_pressure)
+    : model_(&model),
+      numerics_(numerics),
+      grid_(&grid),
+      trigger_(trigger_of(model)),
+      reacts_(model.kinetics.heat_of_reaction * model.kinetics.frequency > 0.0),
+      column_(grid, model.surface.air, model.initial_temperature, model.initial_temperature),
+      warmed_(grid.air_begin, 0.0) {
+  failed_ = !std::isfinite(start_pressure);
+  column_.start_at(std::max(start_pressure, model.surface.air.initial_pressure));
+  start_.gas = column_.air_enthalpy();
+  point_.temperature = model.initial_temperature;
+}
+
+void FilmStation::advance(const IntervalPressure& pressure, double length, double heating) {
+  if (point_.ignited || failed_) return;
+  failed_ = !std::isfinite(pressure.begin) || !std::isfinite(pressure.end) || !std::isfinite(pressure.mean) ||
+            !std::isfinite(heating) || !std::isfinite(length);
+  const bool fixed = numerics_.fixed_steps > 0;
+  if (fixed) wanted_ = length / numerics_.fixed_steps;
+  if (!(wanted_ > 0.0)) wanted_ = length;
+  for (double at = 0.0; at < length && !point_.ignited && !failed_;) {
+    const double left = length - at, h = left / std::ceil(left / std::min(wanted_, left) - 1e-9);
+    column_.keep(kept_);
+    const bool finite = try_step(pressure, length, at, h, heating);
+    const bool shortest = h <= shortest_share * length;
+    if (!finite && shortest) failed_ = true;
+    if (!fixed) {
+      const double factor = finite ? 0.9 / std::cbrt(std::max(error_, 1e-3)) : 0.1;
+      wanted_ = std::max(h * std::clamp(factor, 0.1, 5.0), shortest_share * length);
+    }
+    if (finite && (fixed || error_ <= 1.0 || shortest)) {
+      at = left <= h * (1.0 + 1e-9) ? length : at + h;
+      energy_.work += column_.heat().work;
+      energy_.friction += column_.heat().friction;
+      energy_.reaction += reaction_;
+      if (!fixed) wanted_ = std::min(wanted_, longest_step());
+    } else {
+      column_.restore(kept_);
+      point_.ignited = false;
+    }
+  }
+  close_account();
+}
+
+/// Half the reaction, conduction, half the reaction: of second order. False where a state is not finite.
+bool FilmStation::try_step(const IntervalPressure& pressure, double length, double begin, double h,
+                           double heating) {
+  const double rest = model_->surface.air.initial_pressure;
+  const auto at = [&](double share) {
+    return std::max(rest, pressure.at(std::min(1.0, (begin + share * h) / length)));
+  };
+  reaction_ = 0.0;
+  react(begin, 0.5 * h);
+  if (point_.ignited) return true;
+  const double surface_before = column_.charge_surface();
+  for (std::size_t i = 0; i < warmed_.size(); ++i) warmed_[i] = -column_.temperature(i) / h;
+  error_ = column_.step(h, {at(0.0), at(inner_stage), at(1.0)}, heating) / numerics_.tolerance;
+  if (!std::isfinite(error_)) return false;
+  for (std::size_t i = 0; i < warmed_.size(); ++i) warmed_[i] += column_.temperature(i) / h;
+  release_heat(surface_before, begin, h);
+  if (!point_.ignited) react(begin + 0.5 * h, 0.5 * h);
+  return true;
+}
+
+/// Arrhenius heat of all depths over h (s), without conduction.
+void FilmStation::react(double time, double h) {
+  constexpr double negligible = 1e-15, mild = 1e-3;
+  if (!reacts_) return;
+  for (std::size_t i = 0; i < warmed_.size(); ++i) {
+    const double before = column_.temperature(i);
+    const double rate = materials::arrhenius_heating(model_->kinetics, model_->specific_heat, before);
+    if (rate * h < negligible * before && before < trigger_.temperature) continue;
+    const double growth = h * rate * model_->kinetics.activation_temperature / (before * before);
+    SkinPoint point{before + h * rate * (1.0 + 0.5 * growth)};
+    if (!(growth < mild) || !(point.temperature < trigger_.temperature)) {
+      point = detail::advance(*model_, SkinEquation{}, SkinPoint{before}, h);
+      point.chemical_share = surface::detail::chemical_share(*model_, trigger_.temperature, warmed_[i]);
+    }
+    column_.set_temperature(i, point.temperature);
+    reaction_ += grid_->capacity[i] * (point.temperature - before);
+    if (point.ignited) note(point, time + point.ignition_time);
+  }
+}
+
+/// Where conduction and friction carried a depth or the surface past the trigger.
+void FilmStation::release_heat(double surface_before, double time, double h) {
+  for (std::size_t i = 0; i < warmed_.size(); ++i) {
+    SkinPoint point{column_.temperature(i)};
+    if (!(point.temperature > trigger_.temperature)) continue;
+    const double after = point.temperature;
+    release(*model_, trigger_, point, after - warmed_[i] * h, warmed_[i], time, h);
+    column_.set_temperature(i, point.temperature);
+    reaction_ += grid_->capacity[i] * (point.temperature - after);
+    if (point.ignited) note(point, point.ignition_time);
+  }
+  SkinPoint point{column_.charge_surface()};
+  if (!trigger_.immediate || !(point.temperature > trigger_.temperature)) return;
+  release(*model_, trigger_, point, surface_before, (point.temperature - surface_before) / h, time, h);
+  if (point.ignited) note(point, point.ignition_time);
+}
+
+/// The first of those that ignite in a step counts.
+void FilmStation::note(const SkinPoint& ignited, double time) {
+  if (point_.ignited && point_.ignition_time <= time) return;
+  point_ = ignited;
+  point_.ignition_time = time;
+}
+
+/// s; while a runaway begins, conduction must take turns with it often enough.
+double FilmStation::longest_step() const {
+  constexpr double growth = 0.2;
+  if (!reacts_) return std::numeric_limits<double>::infinity();
+  double hottest = 0.0;
+  for (std::size_t i = 0; i < warmed_.size(); ++i) hottest = std::max(hottest, column_.temperature(i));
+  const double rate = materials::arrhenius_heating(model_->kinetics, model_->specific_heat, hottest);
+  return growth * hottest * hottest / (rate * model_->kinetics.activation_temperature);
+}
+
+void FilmStation::close_account() {
+  if (point_.ignited || failed_) return;
+  energy_.charge = column_.charge_heat() - start_.charge;
+  energy_.base = column_.base_heat() - start_.base;
+  energy_.gas = column_.air_enthalpy() - start_.gas;
+}
+
+double FilmStation::surface() const {
+  if (failed_) return not_a_number;
+  return point_.ignited ? std::max(point_.temperature, model_->kinetics.burnt_temperature)
+                        : column_.charge_surface();
+}
+
+double FilmStation::mean_air() const { return failed_ ? not_a_number : column_.mean_air(); }
+
+}  // namespace launchsafe::surface::detail
