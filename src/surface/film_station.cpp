@@ -11,6 +11,22 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 /// Shortest step as a share of an interval; a step that is still not exact enough is then taken as it is.
 constexpr double shortest_share = 1e-7;
+/// Largest ratio of pressures in a step. A thin film only follows the walls: its temperature says nothing of
+/// how well the work is taken.
+constexpr double largest_ratio = 1.1;
+
+/// The length h (s) from `begin` (s) on, shortened until the pressure changes little enough in it.
+double shortened(const IntervalPressure& pressure, double rest, double length, double begin, double h) {
+  const auto at = [&](double time) { return std::max(rest, pressure.at(time / length)); };
+  const double from = at(begin);
+  while (h > shortest_share * length) {
+    const double middle = at(begin + inner_stage * h), to = at(begin + h);
+    const double most = std::max({from, middle, to}), least = std::min({from, middle, to});
+    if (!(most > largest_ratio * least)) break;
+    h *= 0.5;
+  }
+  return h;
+}
 
 }  // namespace
 
@@ -37,7 +53,9 @@ void FilmStation::advance(const IntervalPressure& pressure, double length, doubl
   if (fixed) wanted_ = length / numerics_.fixed_steps;
   if (!(wanted_ > 0.0)) wanted_ = length;
   for (double at = 0.0; at < length && !point_.ignited && !failed_;) {
-    const double left = length - at, h = left / std::ceil(left / std::min(wanted_, left) - 1e-9);
+    const double left = length - at;
+    double h = left / std::ceil(left / std::min(wanted_, left) - 1e-9);
+    if (!fixed) h = shortened(pressure, model_->surface.air.initial_pressure, length, at, h);
     column_.keep(kept_);
     const bool finite = try_step(pressure, length, at, h, heating);
     const bool shortest = h <= shortest_share * length;

@@ -119,7 +119,7 @@ TEST(SkinHistory, NotANumberInTheTraceIsNoVerdict) {
     if (which == 0) trace.bottom_pressure[250] = std::nan("");
     if (which == 1) trace.mean_bottom_pressure[250] = std::nan("");
     if (which == 2) trace.friction[0][250 * 4 + 3] = std::nan("");
-    for (const auto air : {scene::AirModel::reservoir, scene::AirModel::balance}) {
+    for (const auto air : {scene::AirModel::reservoir, scene::AirModel::balance, scene::AirModel::film}) {
       SkinModel model = plain_model();
       model.surface.air_model = air;
       const SkinHistory history = integrate_skin(model, trace, 3e-4);
@@ -140,7 +140,7 @@ TEST(SkinHistory, NoPressureAtAllLeavesAirAndSkinAsTheyWere) {
   trace::BottomTrace trace = launch(10, 1, 0.0);
   for (auto* pressures : {&trace.chamber_pressure, &trace.mean_chamber_pressure})
     std::fill(pressures->begin(), pressures->end(), 0.0);
-  for (const auto air : {scene::AirModel::reservoir, scene::AirModel::balance}) {
+  for (const auto air : {scene::AirModel::reservoir, scene::AirModel::balance, scene::AirModel::film}) {
     SkinModel model = plain_model();
     model.kinetics.frequency = 0.0;
     model.surface.air_pressure = scene::AirPressure::chamber;
