@@ -294,8 +294,9 @@ CaseResult run_case(const scene::Scene& scene, const RunOptions& options) {
 
 CaseResult run_coupled(const scene::Scene& scene, double gap, const RunOptions& options) {
   CaseResult result;
-  if (scene.surface.air_model == scene::AirModel::balance) {
-    // The air's balance couples all stations; it is integrated on a trace with a sample every few steps.
+  if (scene.surface.air_model != scene::AirModel::reservoir) {
+    // The air's balance couples all stations, and a film has a profile of its own at each: they are
+    // integrated on a trace with a sample every few steps.
     scene::Scene fine = scene;
     fine.output.trace_interval = 8.0 * mpm::Simulation(scene).stable_time_step();
     result.mechanics = run_mechanics(fine, options);

@@ -82,7 +82,13 @@ Term plan_air(const Scene& scene) {
   for (const double gap : scene.surface.gaps) largest = std::max(largest, gap);
   if (!has_charge(scene)) return {false, false, "no charge", largest, 0.0};
   if (!(largest > 0.0)) return {false, false, "no gap above 0 cm", largest, 0.0};
-  return {true, false, fmt::format("gaps up to {}", length_text(largest)), largest, 0.0};
+  const std::string gaps = fmt::format("gaps up to {}", length_text(largest));
+  if (scene.surface.air_model != AirModel::film) return {true, false, gaps, largest, 0.0};
+  return {true, false,
+          gaps +
+              ", as a film that conducts into charge and base; gap.exchange, gap.exchange_time, "
+              "gap.skin_thickness and gap.air_density play no part",
+          largest, 0.0};
 }
 
 Term plan_cracks(const Scene& scene) {

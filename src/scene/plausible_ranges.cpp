@@ -68,7 +68,7 @@ PlausibleKeys of_gap() {
   return {
       any("gap.thickness", "each gap is judged for itself, and a larger one is hotter"),
       any("gap.pressure", "both are readings of the published model"),
-      any("gap.air", "both are models of the air; constants are calibrated for one of them"),
+      any("gap.air", "all are models of the air; constants are calibrated for one of them"),
       one_of("gap.exchange", {"rate"}, "the printed share in each step depends on the step"),
       in("gap.skin_thickness", between(3e-5, 1.5e-4),
          "heat goes 40 um deep in a launch, and the published skin is 0.1 mm"),

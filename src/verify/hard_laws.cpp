@@ -72,9 +72,10 @@ std::string duration_text(double seconds) {
 
 std::vector<HardCase> hard_laws() {
   std::vector<HardCase> all;
-  for (const auto topic : {hard::explosion_cases, hard::exchange_cases, hard::relaxation_cases,
-                           hard::growth_cases, hard::conduction_cases, hard::steel_cases,
-                           hard::charge_pressure_cases, hard::gas_cases, hard::denormal_cases}) {
+  for (const auto topic :
+       {hard::explosion_cases, hard::exchange_cases, hard::film_cases, hard::relaxation_cases,
+        hard::growth_cases, hard::conduction_cases, hard::steel_cases, hard::charge_pressure_cases,
+        hard::gas_cases, hard::denormal_cases}) {
     for (HardCase& hard_case : topic()) all.push_back(std::move(hard_case));
   }
   return all;

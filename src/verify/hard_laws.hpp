@@ -96,6 +96,8 @@ void judge_printed_exchange(Judge&, const SkinLaw&, double gap, double step);
 void judge_balance(Judge&, const HistoryLaw&, double exchange_time);
 /// The same while the load rises, on the samples of a run against ten times as many.
 void judge_balance_under_load(Judge&, const HistoryLaw&, double exchange_time);
+/// Inert charge, film of air and base under a load that rises linearly within `rise` (s) to `peak` (Pa).
+void judge_film(Judge&, const HistoryLaw&, double gap, double rise, double peak);
 
 /// A solid without cracks whose last element has the relaxation time `tau` (s): every element against its
 /// exact solution, and the work against what is stored and lost.
@@ -134,6 +136,7 @@ void judge_conduction(Judge&, const ConductionLaw&, double fourier_number);
 using Cases = std::vector<HardCase>;
 Cases explosion_cases();
 Cases exchange_cases();
+Cases film_cases();
 Cases relaxation_cases();
 Cases growth_cases();
 Cases conduction_cases();

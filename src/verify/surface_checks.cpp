@@ -1,8 +1,10 @@
 #include "launchsafe/verify/surface_checks.hpp"
 
+#include "film_checks.hpp"
 #include "launchsafe/surface/skin.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace launchsafe::verify {
 
@@ -194,6 +196,7 @@ std::vector<Check> surface_checks() {
   add_exchange(checks);
   add_launch(checks);
   add_mixture(checks);
+  for (Check& check : film_checks()) checks.push_back(std::move(check));
   return checks;
 }
 

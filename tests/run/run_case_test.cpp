@@ -164,6 +164,20 @@ TEST(RunCoupled, AgreesWithTheTracedTemperaturesBelowIgnition) {
   }
 }
 
+TEST(RunCoupled, AgreesWithTheTracedTemperaturesOfAFilm) {
+  scene::Scene scene = coarse_scene();
+  scene.surface.air_model = scene::AirModel::film;
+  const double gap = 2e-4;
+  const CaseResult coupled = run_coupled(scene, gap);
+  const GapResult traced = evaluate_gap(scene, run_mechanics(scene).trace, gap);
+  ASSERT_EQ(coupled.mechanics.status, RunStatus::completed);
+  EXPECT_TRUE(coupled.gaps.front().coupled);
+  // On many times as many samples.
+  EXPECT_GT(coupled.gaps.front().skin.time.size(), 4 * traced.skin.time.size());
+  EXPECT_NEAR(coupled.gaps.front().at_stations.temperature, traced.at_stations.temperature, 2e-2);
+  EXPECT_LE(coupled.gaps.front().skin.energy_residual, 1e-11);
+}
+
 TEST(RunCoupled, IgnitesWhenAndWhereTheTraceDoes) {
   scene::Scene scene = coarse_scene();
   scene.surface.localisation = 800.0;

@@ -90,6 +90,7 @@ TEST(CalibrationDomain, NamesWhatLiesOutside) {
       {"steel", [](auto& s) { s.steel().strength.a = 1e9; }, "steel.yield_stress", ""},
       {"closure", [](auto& s) { s.surface.friction = scene::FrictionClosure::inelastic; }, "friction.closure",
        ""},
+      {"a film of air", [](auto& s) { s.surface.air_model = scene::AirModel::film; }, "gap.air", ""},
       {"skin", [](auto& s) { s.surface.skin_thickness = 1e-3; }, "gap.skin_thickness", ""},
       {"a charge that slides",
        [](auto& s) {

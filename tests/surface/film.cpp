@@ -228,6 +228,25 @@ TEST(Film, WithoutGapIsFrictionAlone) {
   EXPECT_EQ(film.temperature, integrate_skin(reservoir, trace, 0.0).temperature);
 }
 
+TEST(Film, LiesOnTheBodyUnderTheCharge) {
+  scene::Scene scene;
+  scene.bodies = {{"wall", "steel", 0.0, 0.5, 0.06, 0.07},
+                  {"charge", "charge", 0.1, 0.5, 0.0, 0.06},
+                  {"base", "elastic", 0.5, 0.6, 0.0, 0.07}};
+  auto& elastic = scene.parameters<materials::LinearElastic>();
+  elastic.conductivity = 55.0;
+  elastic.specific_heat = 430.0;
+  elastic.density = 7900.0;
+  scene.charge().conductivity = 0.3;
+  const SkinModel model = skin_model(scene);
+  EXPECT_EQ(model.base_conductivity, 55.0);
+  EXPECT_EQ(model.base_specific_heat, 430.0);
+  EXPECT_EQ(model.base_density, 7900.0);
+  EXPECT_EQ(model.charge_conductivity, 0.3);
+  scene.bodies.pop_back();
+  EXPECT_EQ(skin_model(scene).base_conductivity, scene.steel().strength.conductivity);
+}
+
 TEST(Film, GoesThroughTheSkinsOwnEntry) {
   const trace::BottomTrace trace = film_launch(100, 1.1e6);
   const SkinHistory skin = integrate_skin(film_model(), trace, 1e-3);

@@ -164,6 +164,24 @@ TEST(BrokenLaw, BalanceThatForgetsWhatTheAirLoses) {
   EXPECT_EQ(outcome_of(judge_balance_under_load, shifted, 1e-5), Outcome::wrong);
 }
 
+TEST(BrokenLaw, FilmOfAirThatKeepsItsHeat) {
+  const HistoryLaw reservoir = [](surface::SkinModel model, const trace::BottomTrace& trace, double gap) {
+    model.surface.air_model = scene::AirModel::reservoir;
+    surface::SkinHistory history = surface::integrate_skin(model, trace, gap);
+    // Heat that comes from nowhere, as a ledger would state it.
+    history.energy_residual = 0.5;
+    return history;
+  };
+  EXPECT_EQ(outcome_of(judge_film, reservoir, 1e-4, 1e-2, 1e8), Outcome::wrong);
+  const HistoryLaw cooling = [](const surface::SkinModel& model, const trace::BottomTrace& trace,
+                                double gap) {
+    surface::SkinHistory history = surface::integrate_skin(model, trace, gap);
+    history.temperature.back() -= 1.0;
+    return history;
+  };
+  EXPECT_EQ(outcome_of(judge_film, cooling, 1e-6, 1e-2, 1e8), Outcome::wrong);
+}
+
 TEST(BrokenLaw, RelaxationByExplicitSteps) {
   const SolidLaw explicit_steps = [](const Solid& solid, double dt, SolidState& state,
                                      Deviator<double> strain, double) {
