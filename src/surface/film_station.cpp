@@ -64,15 +64,17 @@ void FilmStation::advance(const IntervalPressure& pressure, double length, doubl
       const double factor = finite ? 0.9 / std::cbrt(std::max(error_, 1e-3)) : 0.1;
       wanted_ = std::max(h * std::clamp(factor, 0.1, 5.0), shortest_share * length);
     }
-    if (finite && (fixed || error_ <= 1.0 || shortest)) {
+    const bool accepted = finite && (fixed || error_ <= 1.0 || shortest);
+    if (accepted && !point_.ignited) {
       at = left <= h * (1.0 + 1e-9) ? length : at + h;
       energy_.work += column_.heat().work;
       energy_.friction += column_.heat().friction;
       energy_.reaction += reaction_;
       if (!fixed) wanted_ = std::min(wanted_, longest_step());
     } else {
+      // Also before the step in which it ignites: what burns is no longer this column's account.
       column_.restore(kept_);
-      point_.ignited = false;
+      point_.ignited = accepted && point_.ignited;
     }
   }
   close_account();
@@ -85,7 +87,7 @@ bool FilmStation::try_step(const IntervalPressure& pressure, double length, doub
   const auto at = [&](double share) {
     return std::max(rest, pressure.at(std::min(1.0, (begin + share * h) / length)));
   };
-  reaction_ = 0.0;
+  reaction_ = error_ = 0.0;
   react(begin, 0.5 * h);
   if (point_.ignited) return true;
   const double surface_before = column_.charge_surface();
@@ -153,7 +155,7 @@ double FilmStation::longest_step() const {
 }
 
 void FilmStation::close_account() {
-  if (point_.ignited || failed_) return;
+  if (failed_) return;
   energy_.charge = column_.charge_heat() - start_.charge;
   energy_.base = column_.base_heat() - start_.base;
   energy_.gas = column_.air_enthalpy() - start_.gas;

@@ -306,6 +306,25 @@ TEST(FilmIgnition, ByFrictionInsideIsThatOfFrictionAlone) {
   ASSERT_TRUE(alone.ignition.has_value() && film.ignition.has_value());
   EXPECT_NEAR(film.ignition->time, alone.ignition->time, 1e-5);  // samples are 6e-5 s apart
   EXPECT_EQ(film.ignition->cause, alone.ignition->cause);
+  EXPECT_LE(film.energy_residual, 1e-12);
+  EXPECT_EQ(film.temperature[2 * 299], 784.0);
+}
+
+TEST(FilmIgnition, ByRunawayBesideColdWallsKeepsTheLedger) {
+  // Without the trigger: inside, where no wall cools, it runs away as under friction alone or before.
+  SkinModel model = film_model();
+  model.kinetics.ignition_temperature = 1e9;
+  model.kinetics.burnt_temperature = 2e9;
+  const trace::BottomTrace trace = film_launch(300, 4.4e6);
+  const SkinHistory alone = integrate_skin(model, trace, 0.0);
+  for (const double gap : {1e-4, 1e-2}) {
+    const FilmHistory film = integrate_film(model, trace, gap);
+    ASSERT_TRUE(alone.ignition.has_value() && film.skin.ignition.has_value());
+    EXPECT_EQ(film.skin.ignition->cause, IgnitionCause::arrhenius);
+    EXPECT_LE(film.skin.ignition->time, alone.ignition->time + 1e-6) << gap;
+    EXPECT_GT(film.energy[0].reaction, 0.0);
+    EXPECT_LE(film.skin.energy_residual, 1e-11);
+  }
 }
 
 TEST(Film, OfThirteenStationsTakesATenthOfASecond) {

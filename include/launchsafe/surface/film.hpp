@@ -33,7 +33,7 @@ struct FilmEnergy {
 
 struct FilmHistory {
   SkinHistory skin;
-  std::vector<FilmEnergy> energy;  ///< by station, up to the end of the trace or its ignition
+  std::vector<FilmEnergy> energy;  ///< by station, up to the end of the trace or the step before ignition
 };
 
 /// Integrates one column of charge, air and steel for every station and a gap (m) > 0: in the air, with mass
@@ -44,7 +44,9 @@ struct FilmHistory {
 /// the energy of an ideal gas at small Mach number (Majda & Sethian, Combust. Sci. Technol. 42, 1985), with k
 /// of materials::air_conductivity; in charge and base rho c dT/dt = k d2T/dx2 + sources. The air's mass is
 /// p0 h/(R T0), so its density at rest is that of the ideal gas. Friction heats the charge evenly in depth
-/// and the base draws on that too. Below p0 the air stays at p0, as in materials::adiabatic_temperature.
+/// and the base draws on that too. Left out: radiation, dissociation, what a gas of such density has beyond
+/// an ideal one, and the jump of temperature at walls nearer to each other than molecules fly. Below p0 the
+/// air stays at p0, as in materials::adiabatic_temperature.
 ///
 /// The skin's temperature is that of the charge's surface; that of the air is the mean over its mass, and
 /// over the stations by their areas. Arrhenius heat acts in the whole depth of the charge, and a station
