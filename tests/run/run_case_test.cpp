@@ -172,8 +172,6 @@ TEST(RunCoupled, AgreesWithTheTracedTemperaturesOfAFilm) {
   const GapResult traced = evaluate_gap(scene, run_mechanics(scene).trace, gap);
   ASSERT_EQ(coupled.mechanics.status, RunStatus::completed);
   EXPECT_TRUE(coupled.gaps.front().coupled);
-  // On many times as many samples.
-  EXPECT_GT(coupled.gaps.front().skin.time.size(), 4 * traced.skin.time.size());
   EXPECT_NEAR(coupled.gaps.front().at_stations.temperature, traced.at_stations.temperature, 2e-2);
   EXPECT_LE(coupled.gaps.front().skin.energy_residual, 1e-11);
 }
