@@ -19,7 +19,8 @@ using namespace launchsafe::surface;
 
 constexpr double rest = 101325.0;  // Pa
 
-/// A trace of `intervals` under a pressure (Pa) at rest(t) + friction that grows with t^3 to `friction` J/m3.
+/// A trace of `intervals` under a pressure (Pa) of time (s), with friction that grows with t^3 to `friction`
+/// J/m3.
 trace::BottomTrace film_trace(int intervals, double duration, double friction,
                               const std::function<double(double)>& pressure) {
   trace::BottomTrace trace;

@@ -48,6 +48,9 @@ struct FilmHistory {
 /// an ideal one, and the jump of temperature at walls nearer to each other than molecules fly. Below p0 the
 /// air stays at p0, as in materials::adiabatic_temperature.
 ///
+/// So the thinnest film is not the missing gap of integrate_skin: there friction heats the surface as if
+/// nothing touched it (416 K on the 155 mm shell), here the base takes that heat (308 K).
+///
 /// The skin's temperature is that of the charge's surface; that of the air is the mean over its mass, and
 /// over the stations by their areas. Arrhenius heat acts in the whole depth of the charge, and a station
 /// ignites where its surface or any depth reaches the trigger: where the base cools the surface below what
