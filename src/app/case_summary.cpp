@@ -1,6 +1,7 @@
 #include "case_summary.hpp"
 
 #include "explain_scene.hpp"
+#include "launchsafe/report/air_energy_table.hpp"
 #include "launchsafe/report/interface_table.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
@@ -127,6 +128,21 @@ std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mec
   return text;
 }
 
+report::Table air_table(const scene::Scene& scene, const run::CaseResult& result) {
+  std::vector<report::AuditedGap> gaps;
+  for (const run::GapResult& gap : result.gaps) gaps.push_back({"", gap.gap, gap.air});
+  return report::air_energy_table(scene.surface.air_model, gaps);
+}
+
+/// What is not a number becomes null when it is written.
+nlohmann::ordered_json air_json(const surface::AirEnergy& air) {
+  return {{"taken_j_per_m2", air.taken},
+          {"supplied_j_per_m2", air.supplied},
+          {"taken_over_supplied", air.ratio()},
+          {"stored_j_per_m2", air.stored},
+          {"isothermal_j_per_m2", air.isothermal}};
+}
+
 nlohmann::ordered_json maximum_json(const surface::Maximum& maximum, const trace::BottomTrace& trace) {
   return {{"temperature_k", maximum.temperature},
           {"at", place_of(trace, maximum.station)},
@@ -153,6 +169,7 @@ nlohmann::ordered_json gap_json(const run::GapResult& gap, const run::MechanicsR
     object["at_10_ms"] = maximum_json(surface::maximum_at_time(gap.skin, trace, early_time), trace);
   }
   object["ignition"] = ignition_json(gap.skin.ignition, trace);
+  object["air_energy"] = air_json(gap.air);
   object["sampling_error_k"] = gap.sampling_error;
   return object;
 }
@@ -190,7 +207,10 @@ report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result
 
 std::string case_text(const scene::Scene& scene, const run::CaseResult& result) {
   std::string text;
-  if (!result.gaps.empty()) text += report::to_text(gap_table(scene, result)) + "\n";
+  if (!result.gaps.empty()) {
+    text += report::to_text(gap_table(scene, result)) + "\n";
+    text += report::to_text(air_table(scene, result)) + "\n";
+  }
   if (const report::Table faces = report::interface_table(result.mechanics); !faces.rows.empty())
     text += report::to_text(faces) + "\n";
   const auto& monitor = result.mechanics.monitor;

@@ -1,5 +1,6 @@
 // The tables of a critical-gap study.
 #include "columns.hpp"
+#include "launchsafe/report/air_energy_table.hpp"
 #include "launchsafe/report/critical_gap_report.hpp"
 #include "study_text.hpp"
 #include "verdict_text.hpp"
@@ -135,6 +136,15 @@ Table critical_gap_table(const CriticalGapResult& result) {
                           optional_number(100.0 * gap.uncertainty), confirmation_text(outcome), gap.reason});
   }
   return table;
+}
+
+Table air_energy_table(const CriticalGapResult& result) {
+  std::vector<AuditedGap> gaps;
+  for (const CaseOutcome& outcome : result.cases) {
+    const std::string label = result.cases.size() > 1 ? outcome.input.label : std::string{};
+    for (const GapVerdict& row : outcome.verdicts) gaps.push_back({label, row.gap, row.air});
+  }
+  return air_energy_table(result.study.scene.scene.surface.air_model, gaps);
 }
 
 Table fit_table(const CaseOutcome& outcome) {

@@ -1,5 +1,6 @@
 // The tables of a sweep.
 #include "columns.hpp"
+#include "launchsafe/report/air_energy_table.hpp"
 #include "launchsafe/report/sweep_report.hpp"
 #include "study_text.hpp"
 #include "sweep_text.hpp"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace launchsafe::report {
 namespace {
@@ -69,6 +71,19 @@ std::string verdict_mark(study::Verdict verdict) {
   return verdict == study::Verdict::indeterminate ? "INDET." : study::to_string(verdict);
 }
 
+/// What the audit of the air says of the gap where most was taken; there may be millions of others.
+std::string air_energy_note(const SweepResult& result, const std::vector<detail::ShownKey>& keys) {
+  std::vector<AuditedGap> worst;
+  for_each_case(result, [&](const study::StudyCase& input, const CaseAnswer& answer) {
+    for (const study::GapVerdict& row : answer.verdicts) {
+      if (!std::isfinite(row.air.ratio())) continue;
+      if (worst.empty() || row.air.ratio() > worst.front().air.ratio())
+        worst = {{detail::name_of(keys, input), row.gap, row.air}};
+    }
+  });
+  return air_energy_statement(result.study.scene.scene.surface.air_model, worst);
+}
+
 /// A table whose rows begin with the values of the axes.
 Table table_by_axes(std::string title, const std::vector<detail::ShownKey>& keys) {
   Table table;
@@ -108,6 +123,7 @@ Table critical_gap_table(const SweepResult& result) {
   table.notes.emplace_back(
       "Only a critical gap of kind value is a number. T max of a gap that ignites is that of the burning "
       "skin.");
+  table.notes.push_back(air_energy_note(result, keys));
   return table;
 }
 

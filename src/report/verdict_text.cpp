@@ -66,7 +66,10 @@ std::vector<Column> verdict_columns(const study::Study& study) {
           significant_column("of inputs", "K", 2, "inputs_K"),
           named_text("verdict", "verdict"),
           named_text("reason", "reason"),
-          named_text("ignition", "ignition")};
+          named_text("ignition", "ignition"),
+          significant_column("skin took", "kJ/m2", 3, "skin_took_kJ_per_m2"),
+          significant_column("compression supplies", "kJ/m2", 3, "compression_supplies_kJ_per_m2"),
+          significant_column("taken over supplied", "", 3, "taken_over_supplied")};
 }
 
 void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells) {
@@ -82,6 +85,9 @@ void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells) {
   cells.emplace_back(study::to_string(row.judgement.verdict));
   cells.emplace_back(row.judgement.reason);
   cells.emplace_back(ignition_text(row));
+  cells.push_back(optional_number(1e-3 * row.air.taken));
+  cells.push_back(optional_number(1e-3 * row.air.supplied));
+  cells.push_back(optional_number(row.air.ratio()));
 }
 
 std::vector<std::string> mesh_notes(const study::StudyFile& study) {
@@ -121,6 +127,9 @@ void add_verdict(Json& json, const study::GapVerdict& row) {
   json["verdict"] = study::to_string(row.judgement.verdict);
   json["reason"] = row.judgement.reason;
   json["ignition"] = json_of(row.ignition);
+  json["skin_took_kJ_per_m2"] = number(1e-3 * row.air.taken);
+  json["compression_supplies_kJ_per_m2"] = number(1e-3 * row.air.supplied);
+  json["taken_over_supplied"] = number(row.air.ratio());
 }
 
 Json critical_gap_json(const study::CriticalGap& gap) {

@@ -11,7 +11,7 @@
 
 namespace launchsafe::report::detail {
 
-/// From T max to ignition: what is known of one gap of one case.
+/// From T max to the energy of the air: what is known of one gap of one case.
 std::vector<Column> verdict_columns(const study::Study& study);
 /// The cells under them, put behind those that a row already has.
 void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells);
@@ -21,7 +21,7 @@ std::vector<std::string> mesh_notes(const study::StudyFile& study);
 /// What temperatures are read over.
 std::string station_note(const study::StudyFile& study);
 
-/// The members of a verdict's object from "T_max_K" to "ignition".
+/// The members of a verdict's object from "T_max_K" to "taken_over_supplied".
 void add_verdict(nlohmann::ordered_json& json, const study::GapVerdict& row);
 /// value, bracket, uncertainty, kind and reason; what is no value is null.
 nlohmann::ordered_json critical_gap_json(const study::CriticalGap& gap);

@@ -258,11 +258,13 @@ class Runner {
   double largest_energy_ = least_judged_energy(simulation_.scene());
 };
 
-GapResult gap_result(surface::SkinHistory skin, const trace::BottomTrace& trace) {
+GapResult gap_result(const surface::SkinModel& model, surface::SkinHistory skin,
+                     const trace::BottomTrace& trace) {
   GapResult result;
   result.gap = skin.gap;
   result.at_stations = surface::maximum_at_stations(skin, trace);
   result.at_points = surface::maximum_at_observation_points(skin, trace);
+  result.air = surface::audit_air(model, trace, skin);
   result.skin = std::move(skin);
   return result;
 }
@@ -275,7 +277,7 @@ MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& optio
 
 GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trace, double gap) {
   const surface::SkinModel model = surface::skin_model(scene);
-  GapResult result = gap_result(surface::integrate_skin(model, trace, gap), trace);
+  GapResult result = gap_result(model, surface::integrate_skin(model, trace, gap), trace);
   const trace::BottomTrace coarse = trace::thinned(trace);
   const auto coarse_maximum =
       surface::maximum_at_stations(surface::integrate_skin(model, coarse, gap), coarse);
@@ -304,7 +306,7 @@ CaseResult run_coupled(const scene::Scene& scene, double gap, const RunOptions& 
   } else {
     Runner runner(scene, options, gap);
     result.mechanics = runner.run();
-    result.gaps.push_back(gap_result(runner.take_skin(), result.mechanics.trace));
+    result.gaps.push_back(gap_result(surface::skin_model(scene), runner.take_skin(), result.mechanics.trace));
   }
   result.gaps.back().coupled = true;
   return result;

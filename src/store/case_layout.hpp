@@ -340,6 +340,17 @@ void lay_out_maximum(Archive& archive, const std::string& name, const std::strin
   });
 }
 
+template <class Archive>
+void lay_out_air_energy(Archive& archive, auto& air) {
+  archive.group("air_energy", "Energies per area of the bottom, until the end or ignition", [&] {
+    archive.value("taken", air.taken,
+                  {"J/m2", "most that the skin of the hottest station took from the air"});
+    archive.value("supplied", air.supplied, {"J/m2", "most that compression can supply to the air"});
+    archive.value("stored", air.stored, {"J/m2", "stored in the air by adiabatic compression"});
+    archive.value("isothermal", air.isothermal, {"J/m2", "work of isothermal compression"});
+  });
+}
+
 template <class Archive, class Value>
 void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) {
   auto& skin = gap.skin;
@@ -350,6 +361,7 @@ void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) 
                   gap.at_stations, trace);
   lay_out_maximum(archive, "maximum_at_points", "T_max over the observation points", gap.at_points, trace);
   lay_out_ignition(archive, "ignition", skin.ignition, trace);
+  if (is_stored(archive, "air_energy")) lay_out_air_energy(archive, gap.air);
   archive.group("skin", "Skin temperatures", [&] {
     archive.value("gap", skin.gap, {"m", "gap of this history"});
     archive.value("energy_residual", skin.energy_residual,

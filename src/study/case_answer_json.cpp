@@ -100,12 +100,19 @@ Uncertainty uncertainty_of(const json& value) {
           amount_of(value.at(4)), amount_of(value.at(5)), amount_of(value.at(6)), amount_of(value.at(7))};
 }
 
+json json_of(const surface::AirEnergy& air) { return {air.taken, air.supplied, air.stored, air.isothermal}; }
+surface::AirEnergy air_of(const json& value) {
+  list_of(value, 4);
+  return {amount_of(value.at(0)), amount_of(value.at(1)), amount_of(value.at(2)), amount_of(value.at(3))};
+}
+
 json json_of(const GapVerdict& row) {
   return {{"gap", row.gap},
           {"maximum", json_of(row.maximum)},
           {"early", json_of(row.early)},
           {"spread", {row.spread, row.early_spread}},
           {"margin", row.margin},
+          {"air", json_of(row.air)},
           {"uncertainty", json_of(row.uncertainty)},
           {"ignition", json_of(row.ignition)},
           {"doubt", row.evidence.doubt},
@@ -121,6 +128,7 @@ GapVerdict row_of(const json& value) {
   row.spread = amount_of(spread.at(0));
   row.early_spread = amount_of(spread.at(1));
   row.margin = number_of(value.at("margin"));
+  row.air = air_of(value.at("air"));
   row.uncertainty = uncertainty_of(value.at("uncertainty"));
   row.ignition = ignition_of(value.at("ignition"));
   row.evidence.doubt = value.at("doubt").get<std::string>();

@@ -149,6 +149,7 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGrou
   row.early_spread = surface::spread_at_time(gap.skin, trace, study.early_time);
   row.margin = scene.charge().kinetics.ignition_temperature - gap.at_stations.temperature;
   row.heated = heated_temperature(scene, trace, gap.gap);
+  row.air = gap.air;
   row.ignition = named(gap.skin.ignition, trace);
   row.uncertainty.sampling = gap.sampling_error;
   row.uncertainty.integration = integration_error(surface::skin_model(scene), trace, gap);

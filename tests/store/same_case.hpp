@@ -119,6 +119,8 @@ inline void expect_same(const std::optional<surface::Ignition>& a,
 }
 
 inline void expect_same(const run::GapResult& a, const run::GapResult& b) {
+  EXPECT_EQ(bits({a.air.taken, a.air.supplied, a.air.stored, a.air.isothermal}),
+            bits({b.air.taken, b.air.supplied, b.air.stored, b.air.isothermal}));
   EXPECT_EQ(bits({a.gap, a.sampling_error, a.skin.gap, a.skin.energy_residual}),
             bits({b.gap, b.sampling_error, b.skin.gap, b.skin.energy_residual}));
   EXPECT_EQ(bits({a.at_points.temperature, a.at_points.time, a.at_stations.temperature, a.at_stations.time}),

@@ -21,6 +21,8 @@ Table verdict_table(const study::CriticalGapResult& result);
 Table comparison_table(const study::CriticalGapResult& result);
 /// Critical gap of every case, with bracket and confirmation.
 Table critical_gap_table(const study::CriticalGapResult& result);
+/// What the skin took from the air of every gap of every case, and what follows from it.
+Table air_energy_table(const study::CriticalGapResult& result);
 /// Lines of one case and their residuals.
 Table fit_table(const study::CaseOutcome& outcome);
 /// Status, energy drift, limiters and speed of every run.

@@ -1,6 +1,7 @@
 // What one case came to: the mechanics once, and a skin history for every gap.
 #pragma once
 
+#include "launchsafe/surface/air_energy.hpp"
 #include "launchsafe/surface/skin.hpp"
 #include "launchsafe/trace/bottom_trace.hpp"
 
@@ -130,6 +131,7 @@ struct GapResult {
   surface::SkinHistory skin;
   surface::Maximum at_stations;  ///< T_max over the stations, the whole bottom: what verdicts use
   surface::Maximum at_points;    ///< over the observation points; NaN without any
+  surface::AirEnergy air;        ///< what the skin took from the air; NaN in files that are older than this
   double sampling_error = 0;     ///< K, |T_max - T_max on the thinned trace|
   bool coupled = false;          ///< integrated inside the mechanics rather than on its trace
 };

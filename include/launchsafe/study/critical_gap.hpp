@@ -37,6 +37,7 @@ struct GapVerdict {
   double early_spread = not_a_number;  ///< K, at Study::early_time
   double margin = not_a_number;        ///< K, to the ignition temperature
   double heated = not_a_number;  ///< K, T max of a skin that air and friction heat and that never reacts
+  surface::AirEnergy air;        ///< what the skin took from the air; NaN where nothing was computed
   Uncertainty uncertainty;
   std::optional<NamedIgnition> ignition;  ///< at an observation point
   Evidence evidence;                      ///< what the judgement rests on
