@@ -34,7 +34,8 @@ std::string beginning_of(report::Table table, const std::filesystem::path& file)
 
 std::string tables_of(const study::CriticalGapResult& result, const std::filesystem::path&) {
   std::string text = text_of(report::verdict_table(result)) + text_of(report::comparison_table(result)) +
-                     text_of(report::critical_gap_table(result)) + text_of(report::air_energy_table(result));
+                     text_of(report::critical_gap_table(result)) +
+                     text_of(report::cited_limit_table(result)) + text_of(report::air_energy_table(result));
   for (const study::CaseOutcome& outcome : result.cases) {
     if (outcome.fit) text += text_of(report::fit_table(outcome));
   }
@@ -52,6 +53,7 @@ std::string tables_of(const study::CalibrationResult& result, const std::filesys
 
 std::string tables_of(const study::SweepResult& result, const std::filesystem::path& folder) {
   return beginning_of(report::critical_gap_table(result), folder / "critical_gaps.csv") +
+         text_of(report::cited_limit_table(result)) +
          beginning_of(report::verdict_matrix(result), folder / "verdicts.csv");
 }
 

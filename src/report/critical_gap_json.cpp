@@ -107,6 +107,7 @@ Json to_json(const study::CriticalGapResult& result) {
             {"title", result.study.study.title},
             {"answer", answer(result)},
             {"critical_gap", overall(result)},
+            {"cited_limits", to_json(cited_limit_table(result))["rows"]},
             {"verdicts", Json::array()},
             {"fit", nullptr},
             {"timing", detail::timing_json(result.timing)},

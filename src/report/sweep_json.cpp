@@ -99,6 +99,7 @@ Json head_json(const SweepResult& result) {
             {"axes", axes_json(result.study.study)},
             {"gaps_cm", Json::array()},
             {"counts", counts_json(detail::counts_of(result.answers))},
+            {"cited_limits", to_json(cited_limit_table(result))["rows"]},
             {"notes", detail::mesh_notes(result.study)}};
   for (const double gap : result.study.study.gaps)
     json["gaps_cm"].push_back(number(detail::in_centimetres(gap)));

@@ -180,6 +180,8 @@ std::string to_markdown(const SweepResult& result, const std::vector<std::string
   std::string text = fmt::format("# {}\n\n{}\n\n    {}\n\n", study.title, answer(result),
                                  detail::remaking_command(result.study));
   text += to_markdown(detail::first_rows(critical_gap_table(result), most_rows, "critical_gaps.csv")) + "\n";
+  if (const Table limits = cited_limit_table(result); !limits.rows.empty())
+    text += to_markdown(limits) + "\n";
   for (const std::string& picture : pictures) text += fmt::format("![critical gap]({})\n\n", picture);
   text += matrix_text(result) + "\n";
   text += "## What it rests on\n\n" + detail::friction_remark(result.study) + "\n";

@@ -1,4 +1,5 @@
 // The keys of a study file as documentation.
+#include "cited_limits.hpp"
 #include "hard_launches.hpp"
 #include "launchsafe/scene/acceptance.hpp"
 #include "study_axes.hpp"
@@ -69,6 +70,7 @@ std::vector<DocumentedKey> describe_study_keys() {
   std::vector<DocumentedKey> documented;
   document(documented, detail::study_keys(), "");
   document(documented, detail::reference_keys(), "reference");
+  document(documented, detail::cited_limit_keys(), "cited_limit");
   document_axes(documented);
   document(documented, detail::input_keys({}), "input");
   document(documented, detail::hard_launch_keys(), "case");

@@ -1,6 +1,7 @@
 #include "launchsafe/study/read_study.hpp"
 
 #include "changed_scene.hpp"
+#include "cited_limits.hpp"
 #include "hard_launches.hpp"
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/interfaces.hpp"
@@ -135,7 +136,7 @@ Fault read_accepted(const toml::table& root, StudyFile& study) {
 
 /// The tables that are read apart from the keys, as far as the file has them.
 void note_tables(const toml::table& root, StudyFile& study) {
-  for (const char* name : {"reference", "axes", "input", "settings", "case"}) {
+  for (const char* name : {"reference", "cited_limit", "axes", "input", "settings", "case"}) {
     if (const toml::node* node = root.get(name)) study.places[name] = scene::place_of(*node, study.file);
   }
 }
@@ -264,15 +265,17 @@ scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesys
   StudyFile study;
   study.file = path.string();
   study.most_cases = request.most_cases;
-  auto read = scene::read_table(*table, detail::study_keys(),
-                                {"set", "reference", "axes", "input", "settings", "case", "accept"},
-                                study.file, study.study);
+  auto read =
+      scene::read_table(*table, detail::study_keys(),
+                        {"set", "reference", "cited_limit", "axes", "input", "settings", "case", "accept"},
+                        study.file, study.study);
   if (!read) return read.error();
   study.places = std::move(*read);
   note_tables(*table, study);
   if (Fault fault = check_kinds(study)) return *fault;
   if (Fault fault = check_method(study)) return *fault;
   if (Fault fault = read_references(*table, study)) return *fault;
+  if (Fault fault = detail::read_cited_limits(*table, study)) return *fault;
   if (Fault fault = check_lists(study)) return *fault;
   if (Fault fault = check_references(study)) return *fault;
   if (Fault fault = read_scene_of(study, path.parent_path())) return *fault;

@@ -364,6 +364,7 @@ std::vector<StudyKind> kinds_of_key(const std::string& name) {
   if (name == "settings") return {accuracy};
   if (name == "case") return {stability};
   if (name == "reference") return {critical_gap, calibration, sweep};
+  if (name == "cited_limit") return {critical_gap, sweep};
   for (const KeyGroup& group : key_groups()) {
     if (scene::find_key(group.keys, name)) return group.kinds;
   }

@@ -30,7 +30,8 @@ struct InputText {
 std::vector<scene::Key<InputText>> input_keys(const scene::KeyDescription& scene_key);
 std::string to_string(math::Distribution::Kind kind);
 
-/// The kinds that a key or a table ("axes", "input", "settings", "case", "reference") belongs to; empty where
+/// The kinds that a key or a table ("axes", "input", "settings", "case",
+/// "reference", "cited_limit") belongs to; empty where
 /// it belongs to every kind.
 std::vector<StudyKind> kinds_of_key(const std::string& name);
 /// The method of a sensitivity study that a key belongs to, if it belongs to one alone.

@@ -21,6 +21,8 @@ Table verdict_table(const study::CriticalGapResult& result);
 Table comparison_table(const study::CriticalGapResult& result);
 /// Critical gap of every case, with bracket and confirmation.
 Table critical_gap_table(const study::CriticalGapResult& result);
+/// The study's cited limits beside the critical gaps of its cases; without rows where it cites none.
+Table cited_limit_table(const study::CriticalGapResult& result);
 /// What the skin took from the air of every gap of every case, and what follows from it.
 Table air_energy_table(const study::CriticalGapResult& result);
 /// Lines of one case and their residuals.

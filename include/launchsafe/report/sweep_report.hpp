@@ -21,6 +21,8 @@ std::string answer(const study::SweepResult& result);
 
 /// A row for every case: its coordinates, critical gap and run. A bound is text, never a number among values.
 Table critical_gap_table(const study::SweepResult& result);
+/// The study's cited limits beside the critical gaps of its cases; without rows where it cites none.
+Table cited_limit_table(const study::SweepResult& result);
 /// A row for every gap of every case, for other programs.
 Table verdict_table(const study::SweepResult& result);
 /// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.

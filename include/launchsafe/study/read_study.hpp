@@ -5,6 +5,7 @@
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/study/cited_limit.hpp"
 #include "launchsafe/verify/hard_case.hpp"
 
 #include <cstddef>
@@ -95,6 +96,7 @@ struct Study {
   double early_time = 10e-3;  ///< s; an instant at which temperatures are compared too
   std::vector<Reference> references;
   ReferenceLine reference_line;
+  std::vector<CitedLimit> cited_limits;  ///< kinds critical-gap and sweep
 
   // every kind that judges gaps
   std::vector<double> gaps;  ///< m; those of the scene where the file has none; one for kind sensitivity
