@@ -102,6 +102,9 @@ bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input) 
     // Both are finite or both are not; the subtraction is the one by which the margin came about.
     const double margin = ignition_temperature - row.maximum.temperature;
     if (row.margin != margin && (std::isfinite(row.margin) || std::isfinite(margin))) return false;
+    if (std::isfinite(row.maximum.temperature) &&
+        !(std::isfinite(row.air.taken) && std::isfinite(row.air.supplied)))
+      return false;
     if (answer.completed() && !says(row, statements, study, input)) return false;
     // Nothing cools a skin below where it began.
     if (row.maximum.temperature < scene.initial_temperature - 1.0) return false;

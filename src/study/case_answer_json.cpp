@@ -103,7 +103,10 @@ Uncertainty uncertainty_of(const json& value) {
 json json_of(const surface::AirEnergy& air) { return {air.taken, air.supplied, air.stored, air.isothermal}; }
 surface::AirEnergy air_of(const json& value) {
   list_of(value, 4);
-  return {amount_of(value.at(0)), amount_of(value.at(1)), amount_of(value.at(2)), amount_of(value.at(3))};
+  const surface::AirEnergy air{amount_of(value.at(0)), amount_of(value.at(1)), amount_of(value.at(2)),
+                               amount_of(value.at(3))};
+  require(!(air.supplied < air.stored), "compression supplies less than the air stores");
+  return air;
 }
 
 json json_of(const GapVerdict& row) {

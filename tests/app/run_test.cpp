@@ -13,8 +13,9 @@ TEST_F(RunProgram, PrintsATableAndWritesACaseFile) {
   write("shell.toml", tiny_scene);
   const Outcome outcome = run({"run", "shell.toml", "-o", "out/deep"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  for (const std::string part : {"a small shell", "T max [K]", "G1", "ignition", "Energy balance", "drift",
-                                 "particles", "steps", "wall time", "million particle updates per second"}) {
+  for (const std::string part :
+       {"a small shell", "T max [K]", "G1", "ignition", "The energy of the air", "Energy balance", "drift",
+        "particles", "steps", "wall time", "million particle updates per second"}) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
   }
   const auto stored = store::read_case_file(folder() / "out/deep/shell.h5");
@@ -41,6 +42,9 @@ TEST_F(RunProgram, JsonIsOneObjectAndNothingElse) {
   EXPECT_EQ(object["gaps"][1]["gap_cm"], 0.01);
   EXPECT_EQ(object["gaps"][1]["at_observation_points"]["at"], "G1");
   EXPECT_TRUE(object["gaps"][1]["ignition"].is_null());
+  EXPECT_GT(object["gaps"][1]["air_energy"]["supplied_j_per_m2"], 0.0);
+  EXPECT_GT(object["gaps"][1]["air_energy"]["taken_over_supplied"], 0.0);
+  EXPECT_TRUE(object["gaps"][0]["air_energy"]["taken_over_supplied"].is_null());
   EXPECT_GT(object["timing"]["updates_per_second"], 0.0);
   EXPECT_TRUE(object["energy"].contains("drift"));
   EXPECT_TRUE(object["file"].is_null());

@@ -161,6 +161,9 @@ TEST(RunCoupled, AgreesWithTheTracedTemperaturesBelowIgnition) {
       ASSERT_NEAR(coupled.gaps.front().skin.temperature[i], traced.skin.temperature[i], 2e-2);
     EXPECT_NEAR(coupled.gaps.front().at_stations.temperature, traced.at_stations.temperature, 1e-3);
     EXPECT_TRUE(coupled.gaps.front().coupled);
+    EXPECT_NEAR(coupled.gaps.front().air.taken, traced.air.taken, 1e-3 * traced.air.taken);
+    EXPECT_EQ(coupled.gaps.front().air.supplied, traced.air.supplied);
+    EXPECT_EQ(traced.air.ratio() > 10.0, gap > 0.0);  // the reservoir gives what no compression can
   }
 }
 

@@ -2,12 +2,14 @@
 
 #include "child_process.hpp"
 #include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/sha256.hpp"
 #include "same_case.hpp"
 #include "sample_case.hpp"
 #include "temporary_folder.hpp"
 
 #include <hdf5.h>
 
+#include <cmath>
 #include <fstream>
 
 namespace launchsafe::store {
@@ -50,6 +52,31 @@ TEST_F(CaseFile, AnEmptyResultIsKeptToo) {
   ASSERT_TRUE(stored) << stored.error().message;
   EXPECT_EQ(stored->result.mechanics.trace.samples(), 0U);
   EXPECT_TRUE(stored->result.gaps.empty());
+}
+
+/// Takes a group out of a case file, and makes its first block true again.
+void remove_group(const std::filesystem::path& path, const char* group) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  EXPECT_GE(H5Ldelete(file, group, H5P_DEFAULT), 0) << group;
+  H5Fclose(file);
+  constexpr std::size_t block_size = 512;
+  const std::string image = read_file(path)->substr(block_size);
+  std::string block =
+      "launchsafe case file 1\nbytes " + std::to_string(image.size()) + "\nsha256 " + sha256(image) + "\n";
+  block.resize(block_size - 1, ' ');
+  std::ofstream(path, std::ios::binary) << block << '\n' << image;
+}
+
+TEST_F(CaseFile, AnOlderOneHasNoEnergyOfTheAir) {
+  write_sample();
+  remove_group(path(), "/gaps/0000/air_energy");
+  const Result<StoredCase> stored = read_case_file(path());
+  ASSERT_TRUE(stored) << stored.error().message;
+  EXPECT_TRUE(std::isnan(stored->result.gaps[0].air.taken));
+  EXPECT_TRUE(std::isnan(stored->result.gaps[0].air.ratio()));
+  EXPECT_EQ(stored->result.gaps[1].air.taken, sample_case().gaps[1].air.taken);
+  EXPECT_EQ(stored->result.gaps[0].at_stations.temperature, sample_case().gaps[0].at_stations.temperature);
 }
 
 TEST_F(CaseFile, EveryLengthOfATruncatedFileIsAnError) {

@@ -73,6 +73,11 @@ TEST(CaseAnswer, ReadsBackFromJsonExactly) {
     EXPECT_EQ(a.maximum.temperature, b.maximum.temperature);
     EXPECT_EQ(a.maximum.point, b.maximum.point);
     EXPECT_EQ(a.uncertainty.total(), b.uncertainty.total());
+    EXPECT_GT(a.air.supplied, a.gap > 0.0 ? 0.0 : -1.0);
+    EXPECT_EQ(a.air.taken, b.air.taken);
+    EXPECT_EQ(a.air.supplied, b.air.supplied);
+    EXPECT_EQ(a.air.stored, b.air.stored);
+    EXPECT_EQ(a.air.isothermal, b.air.isothermal);
     EXPECT_EQ(a.judgement.verdict, b.judgement.verdict);
     EXPECT_EQ(a.judgement.reason, b.judgement.reason);
     ASSERT_EQ(a.ignition.has_value(), b.ignition.has_value());

@@ -84,6 +84,11 @@ TEST(StoredAnswer, ThatContradictsItselfIsNone) {
       {"a gap less", [](json& a) { a["verdicts"].erase(3); }},
       {"heated temperatures of another number", [](json& a) { a["heated"].erase(0); }},
       {"no doubt", [](json& a) { a["verdicts"][0].erase("doubt"); }},
+      {"no energy of the air", [](json& a) { a["verdicts"][0].erase("air"); }},
+      {"energy of the air with a part too few", [](json& a) { a["verdicts"][1]["air"].erase(3); }},
+      {"negative heat from the air", [](json& a) { a["verdicts"][1]["air"][0] = -1; }},
+      {"heat from the air that is no number", [](json& a) { a["verdicts"][1]["air"][0] = nullptr; }},
+      {"compression that supplies less than the air stores", [](json& a) { a["verdicts"][1]["air"][1] = 1; }},
       {"negative limiters", [](json& a) { a["run"]["limiters"][0] = -1; }},
   };
   for (const auto& [name, edit] : edits) {

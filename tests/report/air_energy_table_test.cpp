@@ -1,0 +1,142 @@
+// The energy of the air and the cited limits, in tables and in words.
+#include "launchsafe/report/air_energy_table.hpp"
+
+#include "launchsafe/report/critical_gap_report.hpp"
+#include "launchsafe/report/sweep_report.hpp"
+#include "made_studies.hpp"
+#include "study/synthetic_launch.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace launchsafe::report {
+namespace {
+
+constexpr scene::AirModel reservoir = scene::AirModel::reservoir;
+constexpr scene::AirModel balance = scene::AirModel::balance;
+
+/// An open gap (m) from which the skin took so much and could get so much, J/m2.
+AuditedGap taken(double gap, double energy, double supply) {
+  return {"", gap, {energy, supply, 0.7 * supply, 0.3 * supply}};
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(AirEnergyStatement, NamesTheGapWhereMostWasTakenAgainstItsSupply) {
+  const std::string text = air_energy_statement(
+      reservoir, {taken(0.0, 0.0, 0.0), taken(2e-4, 15000, 500), taken(4e-4, 32700, 925)});
+  EXPECT_TRUE(says(text, "published reservoir")) << text;
+  EXPECT_TRUE(says(text, "At a gap of 0.04 cm the skin took 35 times what compression can supply")) << text;
+  EXPECT_TRUE(says(text, "32.7 kJ/m2 against 0.925 kJ/m2")) << text;
+  EXPECT_TRUE(says(text, "conservative as to the heat of the air")) << text;
+  EXPECT_TRUE(says(text, "calibrated, and not derived")) << text;
+  EXPECT_TRUE(says(text, "closes by impact is not modelled")) << text;
+}
+
+TEST(AirEnergyStatement, SaysOtherwiseWhereNoMoreWasTakenThanCanBe) {
+  for (const scene::AirModel model : {reservoir, balance}) {
+    const std::string text = air_energy_statement(model, {taken(4e-4, 290, 925)});
+    EXPECT_EQ(says(text, "published reservoir"), model == reservoir) << text;
+    EXPECT_TRUE(says(text, "At no gap did the skin take more")) << text;
+    EXPECT_TRUE(says(text, "0.31 times that, at a gap of 0.04 cm")) << text;
+    EXPECT_FALSE(says(text, "calibrated")) << text;
+    EXPECT_TRUE(says(text, "closes by impact is not modelled")) << text;
+  }
+}
+
+TEST(AirEnergyStatement, AnExcessOfConservingAirIsAnError) {
+  const std::string text = air_energy_statement(balance, {taken(4e-4, 1000, 925)});
+  EXPECT_TRUE(says(text, "an error of the computation")) << text;
+  EXPECT_FALSE(says(text, "conservative")) << text;
+}
+
+TEST(AirEnergyStatement, WithoutAComputedGapClaimsNothing) {
+  for (const auto& gaps : {std::vector<AuditedGap>{}, {AuditedGap{"", 4e-4, {}}}, {taken(0.0, 0.0, 0.0)}}) {
+    const std::string text = air_energy_statement(reservoir, gaps);
+    EXPECT_TRUE(says(text, "No gap with air in it was computed")) << text;
+    EXPECT_FALSE(says(text, "times")) << text;
+  }
+}
+
+TEST(AirEnergyTable, HasARowForEveryGapWithUnits) {
+  const Table table = air_energy_table(reservoir, {taken(0.0, 0.0, 0.0), taken(4e-4, 32700, 925)});
+  EXPECT_EQ(table.title, "The energy of the air");
+  const auto rows = to_json(table)["rows"];
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_NEAR(rows[1]["gap_cm"].get<double>(), 0.04, 1e-12);
+  EXPECT_NEAR(rows[1]["skin_took_kJ_per_m2"].get<double>(), 32.7, 1e-12);
+  EXPECT_NEAR(rows[1]["compression_supplies_kJ_per_m2"].get<double>(), 0.925, 1e-12);
+  EXPECT_NEAR(rows[1]["taken_over_supplied"].get<double>(), 35.35, 0.01);
+  EXPECT_TRUE(rows[0]["taken_over_supplied"].is_null());
+  EXPECT_FALSE(rows[0].contains("case"));
+  EXPECT_EQ(table.notes.back(), air_energy_statement(reservoir, {taken(4e-4, 32700, 925)}));
+  EXPECT_TRUE(air_energy_table(reservoir, {}).rows.empty());
+}
+
+const std::string limited_study = study::critical_text + "gaps = \"0, 0.03 cm\"\nconfirm = false\n" +
+                                  "cited_limit = [{ gap = \"0.38 mm\", peak_pressure = \"500 MPa\", source = "
+                                  "\"underwater experiments\" }]\n";
+
+TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
+  const study::StudyFile file = study::study_of(limited_study + study::synthetic_constants);
+  const auto result = study::run_critical_gap(file, study::synthetic_options());
+  const std::string page = to_markdown(result, "");
+  EXPECT_TRUE(says(page, "The energy of the air")) << page;
+  EXPECT_TRUE(says(page, "calibrated, and not derived"));
+  EXPECT_TRUE(says(page, "Cited limits of the gap"));
+  EXPECT_TRUE(says(page, "underwater experiments"));
+  const auto json = to_json(result);
+  EXPECT_GT(json["verdicts"][1]["taken_over_supplied"].get<double>(), 1.0);
+  EXPECT_NEAR(json["verdicts"][1]["skin_took_kJ_per_m2"].get<double>(),
+              1e-3 * result.cases[0].verdicts[1].air.taken, 1e-12);
+  ASSERT_EQ(json["cited_limits"].size(), 1u);
+  EXPECT_NEAR(json["cited_limits"][0]["difference_cm"].get<double>(),
+              100.0 * result.cases[0].critical.value - 0.038, 1e-12);
+  EXPECT_TRUE(says(to_csv(verdict_table(result)), "skin_took_kJ_per_m2,compression_supplies_kJ_per_m2"));
+}
+
+TEST(CriticalGapReport, WithBalancedAirSaysThatEnergyIsConserved) {
+  const study::StudyFile file = study::study_of(
+      study::critical_text + "gaps = \"0, 0.03 cm\"\nconfirm = false\n[set]\ngap.air = \"balance\"\n");
+  const std::string page = to_markdown(study::run_critical_gap(file, study::synthetic_options()), "");
+  EXPECT_TRUE(says(page, "At no gap did the skin take more than compression can supply")) << page;
+}
+
+TEST(CriticalGapReport, WithoutCitedLimitsHasNoTableOfThem) {
+  const study::StudyFile file = study::study_of(study::critical_text + study::synthetic_constants);
+  const auto result = study::run_critical_gap(file, study::synthetic_options());
+  EXPECT_FALSE(says(to_markdown(result, ""), "Cited limits"));
+  EXPECT_TRUE(to_json(result)["cited_limits"].empty());
+}
+
+TEST(SweepReport, SaysWhatTheSkinTookWhereItTookMost) {
+  study::SweepResult result = made_sweep();
+  EXPECT_TRUE(says(critical_gap_table(result).notes.back(), "No gap with air in it was computed"));
+  result.answers[0].verdicts[1].air = {7000, 230, 160, 70};
+  result.answers[3].verdicts[3].air = {32700, 925, 660, 286};
+  const std::string note = critical_gap_table(result).notes.back();
+  EXPECT_TRUE(says(note, "At a gap of 0.039 cm (350 MPa, 50 um) the skin took 35 times")) << note;
+  EXPECT_TRUE(says(to_markdown(result, {}), "calibrated, and not derived"));
+}
+
+// The made sweep has 496 MPa and 30 um, the scene's own, with 0.0395 cm, and no 506 MPa.
+TEST(SweepReport, CitedLimitsStandBesideTheNearestPressure) {
+  study::SweepResult result = made_sweep();
+  for (study::StudyCase& each : result.study.cases) {
+    each.peak_pressure = each.coordinates[0];
+    each.crack_radius = each.coordinates[1];
+    each.flaw_size = 1e-3;
+  }
+  result.study.study.cited_limits = {{0.38e-3, 500e6, "tests"}, {0.381e-3, 506e6, "a simulated pressure"}};
+  const auto rows = to_json(cited_limit_table(result))["rows"];
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_NEAR(rows[0]["peak_pressure_MPa"].get<double>(), 496.0, 1e-9);
+  EXPECT_NEAR(rows[0]["critical_gap_cm"].get<double>(), 0.0395, 1e-9);
+  EXPECT_NEAR(rows[0]["difference_cm"].get<double>(), 0.0015, 1e-9);
+  EXPECT_NEAR(rows[1]["critical_gap_cm"].get<double>(), 0.0395, 1e-9);
+  EXPECT_TRUE(rows[1]["difference_cm"].is_null()) << "2 % off the pressure of the limit";
+  EXPECT_TRUE(says(to_markdown(result, {}), "Cited limits of the gap"));
+}
+
+}  // namespace
+}  // namespace launchsafe::report
