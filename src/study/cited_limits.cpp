@@ -2,6 +2,7 @@
 
 #include "launchsafe/study/bracket.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace launchsafe::study {
