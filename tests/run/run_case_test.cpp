@@ -130,6 +130,33 @@ TEST(RunCase, HotterForWiderGapsAndTheSamplingErrorIsSmall) {
     }  // K
 }
 
+/// rho c h_ex times the integral of (kappa h/tau_ex)(T_air - T) at the hottest station, J/m2: by trapezoids
+/// over the samples, without the energy balance by which the audit finds it.
+double exchanged(const scene::Scene& scene, const GapResult& gap) {
+  const surface::SkinModel model = surface::skin_model(scene);
+  const surface::SkinHistory& skin = gap.skin;
+  const std::size_t stations = skin.temperature.size() / skin.time.size();
+  const auto difference = [&](std::size_t sample) {
+    return skin.air_temperature[sample] - skin.temperature[sample * stations + gap.at_stations.station];
+  };
+  double sum = 0.0;  // K s
+  for (std::size_t i = 1; i < skin.time.size(); ++i)
+    sum += 0.5 * (difference(i) + difference(i - 1)) * (skin.time[i] - skin.time[i - 1]);
+  return model.charge_density * model.specific_heat * model.surface.skin_thickness * sum *
+         surface::heat_capacity_ratio(model, gap.gap) / model.surface.exchange_time;
+}
+
+TEST(RunCase, AuditsTheHeatThatTheSkinTookFromTheAir) {
+  const scene::Scene scene = coarse_scene();
+  int audited = 0;
+  for (const GapResult& gap : run_case(scene).gaps) {
+    if (gap.skin.ignition || gap.gap == 0.0) continue;
+    EXPECT_NEAR(gap.air.taken / exchanged(scene, gap), 1.0, 1e-3) << gap.gap;
+    ++audited;
+  }
+  EXPECT_GE(audited, 3);
+}
+
 /// What the plan leaves out must not matter: conduction moves the bulk of the charge by less than the
 /// friction there.
 TEST(RunMechanics, ForcedConductionAndReactionChangeNoBulkTemperatureOfTheCharge) {
