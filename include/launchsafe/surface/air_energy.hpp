@@ -27,10 +27,12 @@ struct AirEnergy {
 };
 
 /// J/m2: rho c h_ex (T - T0) less the heats of friction and reaction, which is rho c h_ex times the integral
-/// of (kappa h/tau_ex)(T_air - T), without a look at the air: it holds for any AirModel. The largest value
-/// over time, since a net heat is what the first law bounds; heat that went back to the air can be taken
-/// again. Of the station that ignites first, or else of the one where T max is, and until then. Reaction is
-/// integrated along straight lines between the samples of the history, which must be those of the trace.
+/// of (kappa h/tau_ex)(T_air - T), without a look at the air: it holds for every AirModel beside a skin of
+/// one temperature and the thickness h_ex, not for one that resolves the charge in depth, whose heat is its
+/// own to count. The largest value over time, since a net heat is what the first law bounds; heat that went
+/// back to the air can be taken again. Of the station that ignites first, or else of the one where T max is,
+/// and until then. Reaction is integrated along straight lines between the samples of the history, which must
+/// be those of the trace.
 double heat_taken(const SkinModel& model, const trace::BottomTrace& trace, const SkinHistory& history);
 
 /// J/m2, upper bound of the heat that air of m = rho_a0 h kg/m2 can give up under the trace's pressure p(t)
