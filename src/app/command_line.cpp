@@ -23,6 +23,7 @@ struct Parsed {
   StudyArguments study;
   MergeArguments merge;
   EmitArguments emit;
+  ModelFormArguments model_form;
   VerifyArguments verify;
   ExplainArguments explain;
 };
@@ -157,6 +158,25 @@ CLI::App* add_emit(CLI::App& app, Parsed& parsed) {
   return command;
 }
 
+CLI::App* add_model_form(CLI::App& app, Parsed& parsed) {
+  ModelFormArguments& form = parsed.model_form;
+  CLI::App* command = app.add_subcommand(
+      "model-form", "Compare the critical gaps of models, and record how far they move towards ignition");
+  command
+      ->add_option("models", form.folders,
+                   "Folders of models, the default first, each with the report of a calibration in "
+                   "calibration/ and that of its sweep over the peak pressure in sweep/")
+      ->required()
+      ->expected(2, 1000)
+      ->type_name("DIR");
+  command->add_option("-o,--output", form.output, "Folder for table, picture and record")
+      ->required()
+      ->type_name("DIR");
+  add_output_options(*command, parsed);
+  command->footer(model_form_footer);
+  return command;
+}
+
 CLI::App* add_verify(CLI::App& app, Parsed& parsed) {
   CLI::App* command = app.add_subcommand("verify", "Compare the program with closed-form solutions");
   command->add_option("--filter", parsed.verify.filter, "Only checks with this in their name, case ignored")
@@ -219,6 +239,7 @@ std::optional<UsageError> option_taken_for_place(const Parsed& parsed) {
        {Place{"--output", "folder", parsed.run.output.value_or("")},
         Place{"--output", "folder", parsed.study.output}, Place{"--output", "folder", parsed.merge.output},
         Place{"--output", "folder", parsed.emit.output},
+        Place{"--output", "folder", parsed.model_form.output},
         Place{"--output", "folder", parsed.verify.output.value_or("")},
         Place{"--grid", "file", parsed.explain.picture.value_or("")}}) {
     if (!path.string().starts_with("-")) continue;
@@ -241,6 +262,7 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
   const CLI::App* study = add_study(app, parsed);
   const CLI::App* merge = add_merge(app, parsed);
   const CLI::App* emit = add_emit(app, parsed);
+  const CLI::App* model_form = add_model_form(app, parsed);
   const CLI::App* verify = add_verify(app, parsed);
   add_explain(app, parsed);
 
@@ -275,6 +297,8 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     line.request = parsed.merge;
   } else if (emit->parsed()) {
     line.request = parsed.emit;
+  } else if (model_form->parsed()) {
+    line.request = parsed.model_form;
   } else if (verify->parsed() && parsed.verify.output && !parsed.verify.error_against_time &&
              !parsed.verify.finite_elements) {
     line.request = UsageError{"verify: --output requires --error-against-time or --finite-elements"};

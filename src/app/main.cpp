@@ -40,6 +40,9 @@ ExitCode perform(const MergeArguments& arguments, Console& console) {
 ExitCode perform(const EmitArguments& arguments, Console& console) {
   return emit_command(arguments, console);
 }
+ExitCode perform(const ModelFormArguments& arguments, Console& console) {
+  return model_form_command(arguments, console);
+}
 ExitCode perform(const VerifyArguments& arguments, Console& console) {
   return verify_command(arguments, console);
 }

@@ -35,7 +35,8 @@ std::string beginning_of(report::Table table, const std::filesystem::path& file)
 std::string tables_of(const study::CriticalGapResult& result, const std::filesystem::path&) {
   std::string text = text_of(report::verdict_table(result)) + text_of(report::comparison_table(result)) +
                      text_of(report::critical_gap_table(result)) +
-                     text_of(report::cited_limit_table(result)) + text_of(report::air_energy_table(result));
+                     text_of(report::cited_limit_table(result)) + text_of(report::air_model_table(result)) +
+                     text_of(report::air_energy_table(result));
   for (const study::CaseOutcome& outcome : result.cases) {
     if (outcome.fit) text += text_of(report::fit_table(outcome));
   }

@@ -3,6 +3,7 @@
 
 #include "columns.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/study/calibration_record.hpp"
 #include "study_text.hpp"
 
 #include <fmt/format.h>
@@ -53,6 +54,7 @@ Table calibration_table(const CalibrationResult& result) {
                    text_column("published bracket"),
                    number_column("RMS", "K", 2, "rms_K"),
                    number_column("RMS of spreads", "K", 2, "spread_rms_K"),
+                   number_column("RMS of selection", "K", 2, "selection_rms_K"),
                    text_column("remark")};
   for (const CalibrationRow& row : result.rows) {
     const study::CalibratedConstants& fitted = row.calibrated;
@@ -62,7 +64,8 @@ Table calibration_table(const CalibrationResult& result) {
                           optional_number(fitted.constants.ignition_temperature),
                           optional_number(fitted.ignition_lowest), optional_number(fitted.ignition_highest),
                           bracket_check(result.study.study, row), optional_number(row.root_mean_square),
-                          optional_number(row.spread_root_mean_square), remark_of(row)});
+                          optional_number(row.spread_root_mean_square),
+                          optional_number(row.selection_root_mean_square), remark_of(row)});
   }
   table.notes.push_back(
       "RMS: over the temperature hold-outs, predicted minus published. T1 is the middle between "
@@ -73,25 +76,42 @@ Table calibration_table(const CalibrationResult& result) {
 
 Table hold_out_table(const CalibrationResult& result, const CalibrationRow& row) {
   Table table;
-  table.title = fmt::format("Hold-outs: {} mm, {}, {}", significant(1e3 * row.cell_size, 6),
-                            study::to_string(row.closure), row.kinetics);
+  table.title = fmt::format("Against the published results: {} mm, {}, {}",
+                            significant(1e3 * row.cell_size, 6), study::to_string(row.closure), row.kinetics);
   table.columns = {text_column("quantity"),
                    significant_column("gap", "cm", "gap_cm"),
                    number_column("predicted", "", 2, "predicted"),
                    number_column("published", "", 2, "published"),
                    number_column("misfit", "", 2, "misfit"),
-                   text_column("unit")};
+                   text_column("unit"),
+                   text_column("used for")};
   for (const study::HoldOut& each : row.hold_outs) {
     const double scale = each.in_seconds ? 1e3 : 1.0;
     table.rows.push_back({each.quantity, 100.0 * each.gap, optional_number(scale * each.predicted),
                           scale * each.published, optional_number(scale * each.misfit()),
-                          std::string(each.in_seconds ? "ms" : "K")});
+                          std::string(each.in_seconds ? "ms" : "K"), study::to_string(each.use)});
   }
   for (const study::Placement& each : row.placements) {
     table.notes.push_back(fmt::format("Place of {} at {}: predicted {}, published {}.", each.quantity,
                                       detail::centimetres(each.gap), each.predicted, each.published));
   }
   if (result.study.study.references.empty()) table.notes.push_back("The study has no published rows.");
+  return table;
+}
+
+Table selection_table(const CalibrationResult& result) {
+  Table table;
+  if (!result.recommendation.row) return table;
+  const CalibrationRow& row = result.rows[*result.recommendation.row];
+  table.title = "Misfits that choose among models";
+  table.columns = {text_column("quantity"), number_column("misfit", "K", 2, "misfit_K")};
+  for (const study::SelectionMisfit& each : row.selection)
+    table.rows.push_back({each.quantity, optional_number(each.misfit)});
+  table.notes.push_back(
+      fmt::format("Their root mean square is {} K. A spread is the root mean square over the gaps; a hottest "
+                  "place is the "
+                  "temperature of the published place minus the highest.",
+                  significant(row.selection_root_mean_square, 4)));
   return table;
 }
 
@@ -125,6 +145,11 @@ Table constants_table(const CalibrationResult& result) {
   table.rows.push_back({"friction.closure", study::to_string(row.closure), closure_now, Cell()});
   add("friction.localisation", fitted.localisation, now.localisation, 1.0, "");
   add("gap.exchange_time", fitted.exchange_time, now.exchange_time, 1e3, " ms");
+  if (result.load) {
+    const scene::Load& held = result.study.scene.scene.load;
+    add("load.peak_time", result.load->peak_time, held.peak_time, 1e3, " ms");
+    add("load.exponent", result.load->exponent, held.exponent, 1.0, "");
+  }
   add("kinetics.ignition_temperature", fitted.ignition_temperature, now.ignition_temperature, 1.0, " K");
   table.notes.push_back(fmt::format("They belong to cells of {} mm and the scene's other settings.",
                                     significant(1e3 * row.cell_size, 6)));
@@ -148,6 +173,37 @@ std::string answer(const CalibrationResult& result) {
 
 namespace {
 
+/// What was fitted of the load, and how far the stations move from mesh to mesh. Empty without either.
+std::string load_and_stations_text(const CalibrationResult& result) {
+  std::string text;
+  if (result.load && result.load->failure.empty()) {
+    const study::FittedLoad& load = *result.load;
+    const std::vector<double>& rise = result.study.study.fast_rise;
+    text += fmt::format(
+        "Under the fitted load, its peak at {} ms with an exponent of {}, temperatures without a gap rise "
+        "fast "
+        "from {:.2f} to {:.2f} ms (published: {} to {} ms; the time between is fitted), and the highest at "
+        "{} "
+        "ms is {:+.3f} K off the published one.\n\n",
+        significant(1e3 * load.peak_time, 6), significant(load.exponent, 6), 1e3 * load.turning.fast,
+        1e3 * load.turning.slow, significant(1e3 * rise[0], 4), significant(1e3 * rise[1], 4),
+        significant(1e3 * result.study.study.early_time, 4), load.early_misfit);
+  }
+  if (std::isfinite(result.stations.finer)) {
+    text += fmt::format(
+        "With these constants no station without a gap changes by more than {:.2f} K on the next finer mesh, "
+        "and by more than {:.2f} K from the next coarser one: the stations {} by the rule of "
+        "`studies/model_form/README.md`.\n\n",
+        result.stations.finer, result.stations.coarser,
+        result.stations.converges() ? "converge" : "do not converge");
+  }
+  return text;
+}
+
+}  // namespace
+
+namespace {
+
 Json json_of(const CalibrationRow& row, const study::Study& study) {
   Json json{{"cell_size_mm", number(1e3 * row.cell_size)},
             {"closure", study::to_string(row.closure)},
@@ -163,6 +219,7 @@ Json json_of(const CalibrationRow& row, const study::Study& study) {
             {"wide_gap_misfit_K", number(row.calibrated.wide_gap_misfit)},
             {"rms_K", number(row.root_mean_square)},
             {"spread_rms_K", number(row.spread_root_mean_square)},
+            {"selection_rms_K", number(row.selection_root_mean_square)},
             {"reason", remark_of(row)},
             {"hold_outs", Json::array()},
             {"placements", Json::array()}};
@@ -172,7 +229,8 @@ Json json_of(const CalibrationRow& row, const study::Study& study) {
                                  {"unit", each.in_seconds ? "s" : "K"},
                                  {"predicted", number(each.predicted)},
                                  {"published", number(each.published)},
-                                 {"misfit", number(each.misfit())}});
+                                 {"misfit", number(each.misfit())},
+                                 {"used_for", study::to_string(each.use)}});
   }
   for (const study::Placement& each : row.placements) {
     json["placements"].push_back({{"quantity", each.quantity},
@@ -239,6 +297,17 @@ Json to_json(const CalibrationResult& result) {
               {"exchange_time_s", number(result.in_scene.exchange_time)},
               {"ignition_temperature_K", number(result.in_scene.ignition_temperature)}}},
             {"timing", detail::timing_json(result.timing)}};
+  if (result.load) {
+    json["load"] = {{"peak_time_s", number(result.load->peak_time)},
+                    {"exponent", number(result.load->exponent)},
+                    {"rises_fast_from_s", number(result.load->turning.fast)},
+                    {"rises_fast_until_s", number(result.load->turning.slow)},
+                    {"early_misfit_K", number(result.load->early_misfit)},
+                    {"reason", result.load->failure}};
+  }
+  json["stations"] = {{"change_to_finer_K", number(result.stations.finer)},
+                      {"change_from_coarser_K", number(result.stations.coarser)},
+                      {"converge", result.stations.converges()}};
   for (const CalibrationRow& row : result.rows)
     json["calibrations"].push_back(json_of(row, result.study.study));
   return json;
@@ -247,8 +316,10 @@ Json to_json(const CalibrationResult& result) {
 std::string to_markdown(const CalibrationResult& result) {
   std::string text = fmt::format("# {}\n\n{}\n\n    {}\n\n", result.study.study.title, answer(result),
                                  detail::remaking_command(result.study));
+  text += load_and_stations_text(result);
   if (const Table table = constants_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
   text += to_markdown(calibration_table(result)) + "\n";
+  if (const Table table = selection_table(result); table.rows.size() > 1) text += to_markdown(table) + "\n";
   if (!result.convergence.empty()) text += to_markdown(convergence_table(result)) + "\n";
   for (const CalibrationRow& row : result.rows) {
     if (!row.hold_outs.empty()) text += to_markdown(hold_out_table(result, row)) + "\n";
@@ -268,6 +339,11 @@ store::Result<WrittenFiles> write_report(const CalibrationResult& result,
                                         {"study.json", detail::json_file_text(to_json(result))}},
                                        written)) {
     return *error;
+  }
+  if (const auto record = study::record_of(result)) {
+    if (auto error =
+            detail::write_texts(folder, {{"calibration.json", study::to_json_text(*record)}}, written))
+      return *error;
   }
   for (const study::CalibrationRun& run : result.runs) {
     if (run.mechanics.trace.samples() == 0) continue;

@@ -107,6 +107,7 @@ Json to_json(const study::CriticalGapResult& result) {
             {"title", result.study.study.title},
             {"answer", answer(result)},
             {"critical_gap", overall(result)},
+            {"air_models", to_json(air_model_table(result))["rows"]},
             {"cited_limits", to_json(cited_limit_table(result))["rows"]},
             {"verdicts", Json::array()},
             {"fit", nullptr},

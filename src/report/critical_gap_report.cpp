@@ -88,6 +88,7 @@ std::string to_markdown(const CriticalGapResult& result, const std::string& pict
   if (const Table table = comparison_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
   text += to_markdown(critical_gap_table(result)) + "\n";
   if (const Table table = cited_limit_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
+  if (const Table table = air_model_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
   if (const Table table = air_energy_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
   for (const CaseOutcome& outcome : result.cases) {
     if (outcome.fit) text += to_markdown(fit_table(outcome)) + "\n";

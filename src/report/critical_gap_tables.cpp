@@ -22,6 +22,13 @@ std::string standing_of(const GapVerdict& row) {
   return row.reference->calibrated ? "calibrated" : "hold-out";
 }
 
+/// What the published temperature at the early time was used for.
+std::string early_standing_of(const study::Reference& paper) {
+  if (!std::isfinite(paper.early_temperature)) return {};
+  if (paper.early_calibrated) return "calibrated";
+  return paper.selection ? "used for selection" : "hold-out";
+}
+
 /// Misfit (K) of a calibrated row above which the scene's constants are not those of its calibration.
 constexpr double calibration_slack = 0.5;
 
@@ -60,6 +67,7 @@ Table comparison_table(const CriticalGapResult& result) {
                    number_column("misfit", "K", 1, "misfit_K"),
                    named_text("at", "at"),
                    named_text("paper at", "paper_at"),
+                   named_text("standing at " + early, "standing_10ms"),
                    number_column("T at " + early, "K", 1, "T_max_10ms_K"),
                    number_column("paper", "K", 1, "paper_10ms_K"),
                    number_column("misfit", "K", 1, "misfit_10ms_K"),
@@ -78,7 +86,7 @@ Table comparison_table(const CriticalGapResult& result) {
         worst = std::max(worst, std::isfinite(row.misfit()) ? std::abs(row.misfit()) : HUGE_VAL);
       table.rows.push_back({100.0 * row.gap, standing_of(row), row.maximum.temperature,
                             optional_number(paper.maximum_temperature), optional_number(row.misfit()),
-                            row.maximum.point, paper.point, row.early.temperature,
+                            row.maximum.point, paper.point, early_standing_of(paper), row.early.temperature,
                             optional_number(paper.early_temperature), optional_number(row.early_misfit()),
                             row.early.point, paper.early_point,
                             row.ignition ? optional_number(1e3 * row.ignition->time) : Cell(),
@@ -86,8 +94,8 @@ Table comparison_table(const CriticalGapResult& result) {
     }
   }
   table.notes.push_back(
-      "Misfit: predicted minus published. Calibrated: constants were fitted to the T max of "
-      "this row; its other columns, and all of the hold-outs, are predictions.");
+      "Misfit: predicted minus published. Calibrated: constants or the load were fitted to it. Used for "
+      "selection: it chose among models, and is no prediction. Hold-outs are predictions.");
   if (!(worst <= calibration_slack)) {
     table.notes.push_back(fmt::format(
         "The scene's constants do not meet the calibrated rows ({}): they belong to other settings, and no "
@@ -97,9 +105,10 @@ Table comparison_table(const CriticalGapResult& result) {
   }
   if (ignited) {
     table.notes.push_back(
-        "After ignition T max is that of the burning skin; it is not compared. The ignition "
-        "temperature was set between the largest published gap that is safe and the smallest "
-        "that ignites.");
+        "After ignition T max is that of the burning skin; it is not compared. Whether and when the largest "
+        "published gap that is safe and the smallest that ignites do so is calibrated: the ignition "
+        "temperature "
+        "was set between them.");
   }
   return table;
 }
@@ -145,6 +154,32 @@ Table air_energy_table(const CriticalGapResult& result) {
     for (const GapVerdict& row : outcome.verdicts) gaps.push_back({label, row.gap, row.air});
   }
   return air_energy_table(result.study.scene.scene.surface.air_model, gaps);
+}
+
+Table air_model_table(const CriticalGapResult& result) {
+  Table table;
+  table.title = "Under both models of the air";
+  table.columns = {text_column("case"), significant_column("gap", "cm", 6, "gap_cm"),
+                   number_column("T max, reservoir", "K", 1, "T_max_reservoir_K"),
+                   number_column("T max, film", "K", 1, "T_max_film_K")};
+  for (const CaseOutcome& outcome : result.cases) {
+    if (!outcome.film) continue;
+    for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) {
+      const GapVerdict& row = outcome.verdicts[i];
+      table.rows.push_back({outcome.input.label, 100.0 * row.gap, optional_number(row.maximum.temperature),
+                            optional_number(outcome.film->maximum_temperature.at(i))});
+    }
+    table.notes.push_back(fmt::format("Critical gap, {}: {} with the reservoir, {} with the film.",
+                                      outcome.input.label, detail::reads_as(outcome.critical),
+                                      detail::reads_as(outcome.film->critical)));
+  }
+  if (!table.rows.empty()) {
+    table.notes.push_back(
+        "The film conserves energy and conducts into charge and base: an optimistic bound, on which no "
+        "verdict "
+        "rests. Its temperature is that of the charge's surface, which the base cools.");
+  }
+  return table;
 }
 
 Table fit_table(const CaseOutcome& outcome) {

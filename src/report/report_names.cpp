@@ -30,10 +30,20 @@ bool may_write(study::StudyKind kind, std::string_view name) {
           {{"verdicts.csv"}, {"verdicts.md"}, {"temperature.svg"}, {"case_", ".h5"}, {"case_", ".xdmf"}},
           name);
     case study::StudyKind::calibration:
-      return fits_any({{"calibration.csv"}, {"hold_outs.csv"}, {"case_", ".h5"}, {"case_", ".xdmf"}}, name);
+      return fits_any({{"calibration.json"},
+                       {"calibration.csv"},
+                       {"hold_outs.csv"},
+                       {"case_", ".h5"},
+                       {"case_", ".xdmf"}},
+                      name);
     case study::StudyKind::sweep:
-      return fits_any(
-          {{"verdicts.csv"}, {"critical_gaps.csv"}, {"critical_gaps.md"}, {"critical_gap", ".svg"}}, name);
+      return fits_any({{"verdicts.csv"},
+                       {"critical_gaps.json"},
+                       {"critical_gaps.csv"},
+                       {"critical_gaps.md"},
+                       {"critical_gap", ".svg"},
+                       {"safe_gap", ".svg"}},
+                      name);
     case study::StudyKind::sensitivity:
       return fits_any({{"sensitivity.csv"}, {"evaluations.csv"}, {"sensitivity_", ".svg"}}, name);
     case study::StudyKind::accuracy:

@@ -63,8 +63,8 @@ Axis picture_axis(const SweptAxis& swept) {
 }
 
 /// "Critical gap at flaw size 1 mm": with the values of the axes that the picture does not show.
-std::string title_of(const std::vector<SweptAxis>& axes, const std::vector<std::size_t>& shown_axes,
-                     const study::StudyCase& input) {
+std::string title_of(const char* quantity, const std::vector<SweptAxis>& axes,
+                     const std::vector<std::size_t>& shown_axes, const study::StudyCase& input) {
   std::string fixed;
   for (const SweptAxis& axis : axes) {
     const bool is_shown = std::find(shown_axes.begin(), shown_axes.end(), axis.index) != shown_axes.end();
@@ -72,7 +72,7 @@ std::string title_of(const std::vector<SweptAxis>& axes, const std::vector<std::
     fixed += fmt::format("{}{} {}", fixed.empty() ? " at " : ", ", axis.key.name,
                          axis.key.text(input.coordinates[axis.index]));
   }
-  return "Critical gap" + fixed;
+  return quantity + fixed;
 }
 
 // --- marks ---
@@ -107,6 +107,21 @@ CriticalGapKind drawn_kind(const CaseAnswer& answer) {
 
 double value_in_cm(const CaseAnswer& answer) { return 100.0 * detail::value_of(answer.critical); }
 
+/// Up to which gap nothing ignites in spite of the uncertainty, cm.
+double surely_safe_in_cm(const CaseAnswer& answer) {
+  return std::max(0.0, value_in_cm(answer) - 100.0 * answer.critical.uncertainty);
+}
+
+/// What a map shows.
+struct Mapped {
+  const char* title;
+  const char* label;
+  double (*value)(const CaseAnswer&);
+};
+constexpr Mapped critical_gap_map{"Critical gap", "critical gap [cm]", value_in_cm};
+constexpr Mapped surely_safe_map{"Critical gap less its uncertainty",
+                                 "critical gap less its uncertainty [cm]", surely_safe_in_cm};
+
 // --- maps ---
 
 std::size_t place_in(const std::vector<double>& values, double value) {
@@ -116,10 +131,10 @@ std::size_t place_in(const std::vector<double>& values, double value) {
 class MapMaker {
  public:
   MapMaker(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& x,
-           const SweptAxis& y)
-      : result_(result), axes_(axes), x_(x), y_(y) {
+           const SweptAxis& y, const Mapped& mapped)
+      : result_(result), axes_(axes), x_(x), y_(y), mapped_(mapped) {
     std::vector<double> values;
-    for (const CaseAnswer& answer : result.answers) values.push_back(value_in_cm(answer));
+    for (const CaseAnswer& answer : result.answers) values.push_back(mapped.value(answer));
     levels_ = contour_levels(values);  // of all maps, so that their colours compare
     for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) add(i);
   }
@@ -147,7 +162,7 @@ class MapMaker {
     const double x = x_.key.value(input.coordinates[x_.index]);
     const double y = y_.key.value(input.coordinates[y_.index]);
     Contour& map = map_for(input);
-    map.z[place_in(y_.values, y) * x_.values.size() + place_in(x_.values, x)] = value_in_cm(answer);
+    map.z[place_in(y_.values, y) * x_.values.size() + place_in(x_.values, x)] = mapped_.value(answer);
     MarkedPoints& marks = map.marks[static_cast<std::size_t>(drawn_kind(answer))];
     marks.x.push_back(x);
     marks.y.push_back(y);
@@ -166,13 +181,13 @@ class MapMaker {
 
   Contour empty_map(const study::StudyCase& input) const {
     Contour map;
-    map.title = title_of(axes_, {x_.index, y_.index}, input);
+    map.title = title_of(mapped_.title, axes_, {x_.index, y_.index}, input);
     map.x = picture_axis(x_);
     map.y = picture_axis(y_);
     map.x_values = x_.values;
     map.y_values = y_.values;
     map.z.assign(x_.values.size() * y_.values.size(), study::not_a_number);
-    map.z_label = "critical gap [cm]";
+    map.z_label = mapped_.label;
     map.levels = levels_;
     const auto labels = kind_labels(result_);
     for (std::size_t kind = 0; kind < labels.size(); ++kind)
@@ -183,6 +198,7 @@ class MapMaker {
   const SweepResult& result_;
   const std::vector<SweptAxis>& axes_;
   const SweptAxis &x_, &y_;
+  const Mapped& mapped_;
   std::vector<double> levels_;
   std::vector<std::vector<double>> others_;  ///< coordinates of every map, those of its plane zero
   std::vector<Contour> maps_;
@@ -223,7 +239,7 @@ Plot curve_of(const SweepResult& result, const std::vector<SweptAxis>& axes, con
   for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) {
     const study::StudyCase& input = result.study.cases[i];
     if (input.coordinates.size() < axes.size()) continue;
-    if (plot.title.empty()) plot.title = title_of(axes, {axis.index}, input);
+    if (plot.title.empty()) plot.title = title_of("Critical gap", axes, {axis.index}, input);
     const CaseAnswer& answer = result.answers[i];
     const double x = axis.key.value(input.coordinates[axis.index]);
     line.y[place_in(axis.values, x)] = value_in_cm(answer);
@@ -248,8 +264,13 @@ SweepPictures pictures(const SweepResult& result) {
     if (axis.values.size() > 1) several.push_back(&axis);
   }
   if (several.empty() || result.answers.empty()) return {};
-  if (several.size() == 1) return {{}, curve_of(result, axes, *several.front()), {}};
-  return MapMaker(result, axes, *several[0], *several[1]).pictures();
+  if (several.size() == 1) return {{}, {}, curve_of(result, axes, *several.front()), {}};
+  const auto drawn = [&](const Mapped& mapped) {
+    return MapMaker(result, axes, *several[0], *several[1], mapped).pictures();
+  };
+  SweepPictures made = drawn(critical_gap_map);
+  made.surely_safe = drawn(surely_safe_map).maps;
+  return made;
 }
 
 }  // namespace launchsafe::report

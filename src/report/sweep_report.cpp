@@ -139,11 +139,16 @@ std::string matrix_text(const SweepResult& result) {
 store::MaybeError write_pictures(const SweepPictures& pictures, const std::filesystem::path& folder,
                                  WrittenFiles& written, std::vector<std::string>& names,
                                  const DrawingLimits& limits) {
-  const std::size_t count = pictures.maps.size() + (pictures.curve ? 1 : 0);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::string name = i == 0 ? "critical_gap.svg" : fmt::format("critical_gap_{}.svg", i + 1);
-    auto error = i < pictures.maps.size() ? write_svg(pictures.maps[i], folder / name, limits)
-                                          : write_svg(*pictures.curve, folder / name, limits);
+  const std::size_t maps = pictures.maps.size(), safe = pictures.surely_safe.size();
+  for (std::size_t i = 0; i < maps + safe + (pictures.curve ? 1 : 0); ++i) {
+    const bool is_safe = i >= maps && i < maps + safe;
+    const std::size_t number = is_safe ? i - maps : i;
+    const char* stem = is_safe ? "safe_gap" : "critical_gap";
+    const std::string name =
+        number == 0 ? fmt::format("{}.svg", stem) : fmt::format("{}_{}.svg", stem, number + 1);
+    auto error = is_safe    ? write_svg(pictures.surely_safe[number], folder / name, limits)
+                 : i < maps ? write_svg(pictures.maps[i], folder / name, limits)
+                            : write_svg(*pictures.curve, folder / name, limits);
     if (error && !is_of_drawing(*error)) return error;
     if (error) {
       written.remarks.push_back("no picture: " + error->message);
@@ -183,6 +188,7 @@ std::string to_markdown(const SweepResult& result, const std::vector<std::string
   if (const Table limits = cited_limit_table(result); !limits.rows.empty())
     text += to_markdown(limits) + "\n";
   for (const std::string& picture : pictures) text += fmt::format("![critical gap]({})\n\n", picture);
+  if (const Table table = axis_effect_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
   text += matrix_text(result) + "\n";
   text += "## What it rests on\n\n" + detail::friction_remark(result.study) + "\n";
   text += uncertainty_text(result.study) + "\n" + detail::station_note(result.study) + "\n\n";
@@ -201,6 +207,11 @@ store::Result<WrittenFiles> write_report(const SweepResult& result, const std::f
                                         {"verdicts.csv", to_csv(verdict_table(result))}},
                                        written)) {
     return *error;
+  }
+  if (const auto curve = study::critical_gap_curve(result)) {
+    if (auto error =
+            detail::write_texts(folder, {{"critical_gaps.json", study::to_json_text(*curve)}}, written))
+      return *error;
   }
   std::vector<std::string> names;
   const SweepPictures drawn = pictures(result);

@@ -64,6 +64,7 @@ std::vector<Column> verdict_columns(const study::Study& study) {
           significant_column("of computation", "K", 2, "computation_K"),
           significant_column("of fit", "K", 2, "fit_K"),
           significant_column("of inputs", "K", 2, "inputs_K"),
+          significant_column("of model form", "K", 2, "model_form_K"),
           named_text("verdict", "verdict"),
           named_text("reason", "reason"),
           named_text("ignition", "ignition"),
@@ -82,6 +83,7 @@ void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells) {
   cells.emplace_back(row.uncertainty.computed());
   cells.emplace_back(row.uncertainty.fit);
   cells.emplace_back(row.uncertainty.inputs());
+  cells.emplace_back(row.uncertainty.model_form);
   cells.emplace_back(study::to_string(row.judgement.verdict));
   cells.emplace_back(row.judgement.reason);
   cells.emplace_back(ignition_text(row));
@@ -122,6 +124,7 @@ void add_verdict(Json& json, const study::GapVerdict& row) {
   json["uncertainty_of_computation_K"] = number(row.uncertainty.computed());
   json["uncertainty_of_fit_K"] = number(row.uncertainty.fit);
   json["uncertainty_of_inputs_K"] = number(row.uncertainty.inputs());
+  json["uncertainty_of_model_form_K"] = number(row.uncertainty.model_form);
   json["of_these_load_curve_K"] = number(row.uncertainty.load_curve);
   json["of_these_sliding_K"] = number(row.uncertainty.sliding);
   json["verdict"] = study::to_string(row.judgement.verdict);
@@ -178,16 +181,19 @@ std::string friction_remark(const study::StudyFile& study) {
 
 std::string uncertainty_remark(const study::StudyFile& study) {
   return fmt::format(
-      "The uncertainty of a margin is the root of the sum of squares (ASME V&V 20) of three shares. Of the "
+      "The uncertainty of a margin is the root of the sum of squares (ASME V&V 20) of three shares, and on "
+      "top "
+      "a fourth, of the model form. Of the "
       "computation: the sum of the trace's sampling error, the integration error, where confirmed the "
       "largest "
       "difference between traced and coupled runs, where the charge slides on the base what the "
       "temperatures leave out of that (the heat of friction, and the gap's growth where the base opens), and "
       "{} K for mesh, step and scaling, {}. Of the fit: {} "
       "Of the "
-      "inputs: {}",
+      "inputs: {} Of the model form: {}",
       significant(study.study.numerical_uncertainty, 3), study.uncertainty_source,
-      study::fit_uncertainty_text(study.study), study::input_uncertainty_text(study.study));
+      study::fit_uncertainty_text(study.study), study::input_uncertainty_text(study.study),
+      study::model_form_uncertainty_text(study));
 }
 
 bool acted(const run::LimiterCounts& limiters) {

@@ -177,8 +177,11 @@ std::optional<InputError> check_interfaces(const SceneFile& file) {
   return std::nullopt;
 }
 
-void append_interfaces(fmt::memory_buffer& text, const std::vector<Interface>& interfaces) {
+void append_interfaces(fmt::memory_buffer& text, std::vector<Interface> interfaces) {
   const KeyDescription name{.kind = KeyKind::text};
+  // In the order of names, in which files are read: the order in which a program made them says nothing.
+  std::stable_sort(interfaces.begin(), interfaces.end(),
+                   [](const Interface& a, const Interface& b) { return a.body < b.body; });
   for (const Interface& faces : interfaces) {
     const auto begin = [&](std::string_view key) {
       append(text, "interface.");

@@ -83,7 +83,7 @@ PlausibleKeys of_gap() {
       one_of("friction.closure", {"literal", "inelastic"},
              "without friction heat the published temperatures are missed by 80 K"),
       in("friction.localisation", between(250, 2.5e3),
-         "published temperatures ask for 800 to 1150, whatever mesh and closure"),
+         "published temperatures ask for 1100 to 2000, however the shell holds the charge"),
   };
 }
 

@@ -216,7 +216,11 @@ Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange
       found->key->set(changed.scene.bodies[found->body], value);
       changed.places[name] = place;
     } else if (const auto faces = find_interface_key(file.scene, name)) {
-      faces->key->set(interface_of(changed.scene, faces->body), value);
+      Interface& owner = interface_of(changed.scene, faces->body);
+      const bool slid = owner.condition == Condition::sliding;
+      faces->key->set(owner, value);
+      // The friction of faces that slid is none of theirs once they are bonded.
+      if (slid && owner.condition == Condition::bonded) owner.friction.reset();
       changed.places[name] = place;
     } else {
       for (const std::string& overridden : description->overrides) changed.given.erase(overridden);

@@ -1,7 +1,7 @@
 // Accuracy records as JSON, written and read with distrust.
 #include "launchsafe/scene/scene_keys.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
+#include "record_reader.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,8 +15,9 @@
 namespace launchsafe::study {
 namespace {
 
+using detail::RecordReader, detail::found_in, detail::quoted;
 using nlohmann::ordered_json;
-using scene::InputError, scene::Limits;
+using scene::Limits;
 
 constexpr const char* format_name = "launchsafe accuracy record 2";
 constexpr std::size_t fewest_reference_meshes = 3;
@@ -79,132 +80,7 @@ ordered_json content_of(const AccuracyRecord& record) {
           {"settings", std::move(settings)}};
 }
 
-constexpr auto replace = ordered_json::error_handler_t::replace;
-
-std::string digest_of(const ordered_json& content) {
-  return store::sha256(content.dump(-1, ' ', false, replace));
-}
-
 // --- reading ---
-
-std::string quoted(const std::string& text) {
-  constexpr std::size_t longest = 60;
-  return '"' + (text.size() > longest ? text.substr(0, longest) + "..." : text) + '"';
-}
-
-std::string found_in(const ordered_json& value) {
-  if (value.is_object()) return "an object";
-  if (value.is_array()) return fmt::format("{} values", value.size());
-  if (value.is_string()) return quoted(value.get<std::string>());
-  return value.dump(-1, ' ', false, replace);
-}
-
-std::string allowed_by(const Limits& limits) {
-  return fmt::format("a number {} {:g}{}", limits.lowest_allowed ? "from" : "above", limits.lowest,
-                     std::isfinite(limits.highest) ? fmt::format(" to {:g}", limits.highest) : "");
-}
-
-/// Takes the values of a record one by one. The first fault stays; what is read after it means nothing.
-class RecordReader {
- public:
-  explicit RecordReader(std::string file) : file_(std::move(file)) {}
-
-  const std::optional<InputError>& fault() const { return fault_; }
-  void refuse(const std::string& key, std::string found, std::string allowed) {
-    if (!fault_) fault_ = InputError{file_, 0, 0, key, std::move(found), std::move(allowed), {}};
-  }
-
-  /// Whether it is an object with these keys and no others.
-  bool has_keys(const ordered_json& object, const std::string& path, const std::vector<std::string>& keys) {
-    if (!object.is_object()) {
-      refuse(path, found_in(object), "an object");
-      return false;
-    }
-    const std::string inside = path.empty() ? "" : path + ".";
-    for (const auto& [key, value] : object.items()) {
-      if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        refuse(inside + key, "a key that no record has", "only " + scene::quoted_list(keys));
-    }
-    for (const std::string& key : keys) {
-      if (!object.contains(key)) refuse(inside + key, "nothing; the key is missing", "a value");
-    }
-    return !fault_;
-  }
-
-  double number(const ordered_json& value, const std::string& path, const Limits& limits) {
-    const double found = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-    if (!std::isfinite(found) || !limits.contain(found)) refuse(path, found_in(value), allowed_by(limits));
-    return found;
-  }
-  /// NaN for null.
-  double number_or_none(const ordered_json& value, const std::string& path, const Limits& limits) {
-    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : number(value, path, limits);
-  }
-  std::vector<double> numbers(const ordered_json& values, const std::string& path, const Limits& limits,
-                              std::size_t fewest, std::size_t most) {
-    std::vector<double> result;
-    if (!values.is_array() || values.size() < fewest || values.size() > most) {
-      refuse(
-          path, found_in(values),
-          fewest == most ? fmt::format("{} numbers", most) : fmt::format("{} to {} numbers", fewest, most));
-      return result;
-    }
-    for (const ordered_json& value : values)
-      result.push_back(number(value, fmt::format("{}.{}", path, result.size()), limits));
-    return result;
-  }
-  int whole(const ordered_json& value, const std::string& path, int lowest, int highest) {
-    // A larger number would be cut to another one by get<int>.
-    const bool fits = value.is_number_integer() && value >= lowest && value <= highest;
-    if (!fits) refuse(path, found_in(value), fmt::format("a whole number from {} to {}", lowest, highest));
-    return fits ? value.get<int>() : lowest;
-  }
-  bool flag(const ordered_json& value, const std::string& path) {
-    if (!value.is_boolean()) refuse(path, found_in(value), "true or false");
-    return value.is_boolean() && value.get<bool>();
-  }
-  std::string text(const ordered_json& value, const std::string& path) {
-    if (!value.is_string()) refuse(path, found_in(value), "a text");
-    return value.is_string() ? value.get<std::string>() : std::string{};
-  }
-
- private:
-  std::string file_;
-  std::optional<InputError> fault_;
-};
-
-/// The text as JSON without a key given twice in one object, of which the parser would keep the last.
-std::optional<ordered_json> parse(const std::string& text, RecordReader& reader) {
-  std::vector<std::set<std::string>> open;
-  const auto watch = [&](int, ordered_json::parse_event_t event, ordered_json& parsed) {
-    using Event = ordered_json::parse_event_t;
-    if (event == Event::object_start) open.emplace_back();
-    if (event == Event::object_end) open.pop_back();
-    if (event == Event::key && !open.back().insert(parsed.get<std::string>()).second)
-      reader.refuse(parsed.get<std::string>(), "the key twice", "each key once");
-    return true;
-  };
-  try {
-    ordered_json object = ordered_json::parse(text, watch);
-    if (reader.fault()) return std::nullopt;
-    return object;
-  } catch (const ordered_json::exception&) {
-    reader.refuse("", "no JSON", "the accuracy.json of an accuracy study");
-    return std::nullopt;
-  }
-}
-
-bool is_record(const ordered_json& object, RecordReader& reader) {
-  if (!object.is_object() || !object.contains("format")) {
-    reader.refuse("format", "nothing; this is no accuracy record", "the accuracy.json of an accuracy study");
-  } else if (object["format"] != format_name) {
-    reader.refuse("format", found_in(object["format"]),
-                  fmt::format("\"{}\", which `launchsafe study` of this version writes for a study of kind "
-                              "accuracy; make the record anew",
-                              format_name));
-  }
-  return !reader.fault();
-}
 
 /// Whether a key may have a value that no reader of scenes has checked.
 bool may_take(const scene::KeyDescription& key, const scene::Value& value) {
@@ -387,19 +263,16 @@ AccuracyRecord record_from(const ordered_json& object, RecordReader& reader) {
 
 std::string to_json_text(const AccuracyRecord& record) {
   ordered_json object = content_of(record);
-  object["digest"] = digest_of(object);
-  return object.dump(2, ' ', false, replace) + "\n";
+  return detail::record_text(std::move(object));
 }
 
 scene::Expected<AccuracyRecord> parse_accuracy_record(const std::string& text, const std::string& file) {
   RecordReader reader(file);
-  const auto object = parse(text, reader);
-  if (!object || !is_record(*object, reader)) return *reader.fault();
+  const auto object = reader.parse(text, format_name, "accuracy.json", "a study of kind accuracy");
+  if (!object) return *reader.fault();
   AccuracyRecord record = record_from(*object, reader);
   if (!reader.fault()) check_bounds(record, reader);
-  if (!reader.fault() && (*object)["digest"] != digest_of(content_of(record)))
-    reader.refuse("digest", found_in((*object)["digest"]),
-                  "the SHA-256 of the content, which was edited; make the record anew");
+  if (!reader.fault()) reader.check_digest(*object, content_of(record));
   if (reader.fault()) return *reader.fault();
   find_bounds(record);
   return record;

@@ -28,6 +28,12 @@ std::string analysis_text(const Study& study) {
     text += fmt::format("{} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.early_temperature,
                         row.spread, row.early_spread, row.ignition_time, row.calibrated);
   }
+  const CalibrationEvidence& evidence = study.calibration.evidence;
+  text += fmt::format("{} {} {} {}\n", evidence.friction_rise, evidence.air_rise, evidence.largest_gap,
+                      evidence.largest_misfit) +
+          scene::to_toml(study.calibration.scene);
+  text += fmt::format("{}\n", study.model_form_uncertainty);
+  if (study.model_form) text += to_json_text(*study.model_form);
   for (const scene::Implausible& each : study.implausible)
     text += fmt::format("{} {} {}\n", each.key, each.value, each.because);
   return text;

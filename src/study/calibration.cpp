@@ -1,6 +1,7 @@
 #include "launchsafe/study/calibration.hpp"
 
 #include "case_runs.hpp"
+#include "fit_load.hpp"
 #include "hold_outs.hpp"
 #include "launchsafe/store/manifest.hpp"
 
@@ -24,7 +25,25 @@ std::string to_string(scene::FrictionClosure closure) {
   return "none";
 }
 
+std::string to_string(Use use) {
+  switch (use) {
+    case Use::held_out:
+      return "held out";
+    case Use::selection:
+      return "selection";
+    case Use::calibration:
+      return "calibration";
+  }
+  return "held out";
+}
+
+bool StationConvergence::converges() const {
+  constexpr double most = 3.0, small = 1.0;  // K
+  return finer <= most && (finer <= coarser || finer < small);
+}
+
 bool CalibrationResult::any_failed() const {
+  if (load && !load->failure.empty()) return true;
   return std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.failure.empty(); });
 }
 
@@ -32,8 +51,11 @@ namespace {
 
 using scene::FrictionClosure;
 
-constexpr FrictionClosure closures[] = {FrictionClosure::literal, FrictionClosure::inelastic,
-                                        FrictionClosure::none};
+/// A load belongs to the closure that it was fitted with.
+std::vector<FrictionClosure> closures_of(const StudyFile& study) {
+  if (!study.study.fast_rise.empty()) return {study.scene.scene.surface.friction};
+  return {FrictionClosure::literal, FrictionClosure::inelastic, FrictionClosure::none};
+}
 
 /// A kinetics to calibrate with.
 struct NamedKinetics {
@@ -135,7 +157,8 @@ void compare_meshes(CalibrationResult& result, const std::vector<NamedKinetics>&
   const auto [finest, coarsest] = mesh_range(result);
   if (!(finest < coarsest)) return;
   for (const NamedKinetics& set : kinetics) {
-    for (const FrictionClosure closure : {FrictionClosure::literal, FrictionClosure::inelastic}) {
+    for (const FrictionClosure closure : closures_of(result.study)) {
+      if (closure == FrictionClosure::none) continue;
       const CalibrationRow* fine = find_row(result, finest, closure, set.name);
       const CalibrationRow* coarse = find_row(result, coarsest, closure, set.name);
       Convergence convergence{closure, set.name};
@@ -173,6 +196,20 @@ FrictionClosure study_closure(const CalibrationResult& result) {
   return result.study.scene.scene.surface.friction;
 }
 
+/// Of a study that fits the load there is one closure alone.
+void recommend_own(CalibrationResult& result, const std::string& kinetics, double mesh) {
+  const CalibrationRow* own = find_row(result, mesh, study_closure(result), kinetics);
+  if (own == nullptr || !own->failure.empty()) {
+    result.recommendation.reason =
+        "no constants are recommended: " + (own == nullptr ? std::string("no run was made") : own->failure);
+    return;
+  }
+  result.recommendation.row = static_cast<std::size_t>(own - result.rows.data());
+  result.recommendation.reason =
+      fmt::format("The load and the constants of closure \"{}\" were fitted on cells of {:.6g} mm.",
+                  to_string(own->closure), 1e3 * mesh);
+}
+
 /// What the hold-outs and the meshes say of the two closures with the scene's own kinetics.
 void recommend(CalibrationResult& result) {
   const std::string kinetics = result.study.scene.scene.charge().kinetics.name;
@@ -181,6 +218,10 @@ void recommend(CalibrationResult& result) {
   const CalibrationRow* inelastic = find_row(result, finest, FrictionClosure::inelastic, kinetics);
   const auto usable = [](const CalibrationRow* row) { return row && std::isfinite(row->root_mean_square); };
   Recommendation& said = result.recommendation;
+  if (result.load) {
+    recommend_own(result, kinetics, mesh);
+    return;
+  }
   if (!usable(literal) || !usable(inelastic)) {
     said.reason = "no closure is recommended: not both could be calibrated on the finest mesh";
     return;
@@ -215,6 +256,57 @@ void recommend(CalibrationResult& result) {
   if (chosen && chosen->failure.empty()) said.row = static_cast<std::size_t>(chosen - result.rows.data());
 }
 
+/// End temperature (K) of every station without a gap, with constants.
+std::vector<double> end_temperatures(const CalibrationRun& run, const CalibrationRow& constants) {
+  surface::SkinModel model = surface::skin_model(run.input.scene.scene);
+  model.surface.friction = constants.closure;
+  model.surface.localisation = constants.calibrated.constants.localisation;
+  model.kinetics.ignition_temperature = constants.calibrated.constants.ignition_temperature;
+  const trace::BottomTrace& trace = run.mechanics.trace;
+  const auto history = surface::integrate_skin(model, trace, 0.0);
+  std::vector<double> temperatures;
+  for (std::size_t station = 0; station < trace.stations.size(); ++station) {
+    if (!trace.stations[station].observation)
+      temperatures.push_back(surface::temperature_at_time(history, trace, station, trace.time.back()));
+  }
+  return temperatures;
+}
+
+/// NaN where the runs do not have the same stations.
+double largest_change(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) return not_a_number;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double change = std::abs(a[i] - b[i]);
+    if (!(change <= largest)) largest = change;
+  }
+  return largest;
+}
+
+/// The run of the next finer or coarser mesh; nullptr without one.
+const CalibrationRun* neighbour(const CalibrationResult& result, double mesh, bool finer) {
+  const CalibrationRun* next = nullptr;
+  for (const CalibrationRun& run : result.runs) {
+    const double cell = run.input.cell_size;
+    if (!run.failure.empty() || cell == mesh || (cell < mesh) != finer) continue;
+    if (next == nullptr || (cell < next->input.cell_size) != finer) next = &run;
+  }
+  return next;
+}
+
+void compare_stations(CalibrationResult& result) {
+  if (!result.recommendation.row) return;
+  const CalibrationRow& row = result.rows[*result.recommendation.row];
+  const auto own = std::find_if(result.runs.begin(), result.runs.end(),
+                                [&](const auto& run) { return run.input.cell_size == row.cell_size; });
+  const auto temperatures = end_temperatures(*own, row);
+  const auto change_to = [&](bool finer) {
+    const CalibrationRun* other = neighbour(result, row.cell_size, finer);
+    return other == nullptr ? not_a_number : largest_change(temperatures, end_temperatures(*other, row));
+  };
+  result.stations = {change_to(true), change_to(false)};
+}
+
 }  // namespace
 
 CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& options) {
@@ -225,23 +317,30 @@ CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& op
   const scene::Scene& scene = study.scene.scene;
   result.in_scene = {scene.surface.localisation, scene.surface.exchange_time,
                      scene.charge().kinetics.ignition_temperature};
+  const auto targets = calibration_targets(study);
+  if (targets && !study.study.fast_rise.empty())
+    result.load = detail::fit_load(study, *targets, options, result.timing);
   for (const StudyCase& input : study.cases) {
     CalibrationRun run;
     run.input = input;
+    if (result.load) run.input.scene = detail::with_load(input.scene, *result.load);
+    if (result.load) run.failure = result.load->failure;
     result.runs.push_back(std::move(run));
   }
-  run_meshes(result, options);
-  const auto targets = calibration_targets(study);
+  if (!result.load || result.load->failure.empty()) run_meshes(result, options);
   const auto kinetics = kinetics_of(study);
   for (const CalibrationRun& run : result.runs) {
     for (const NamedKinetics& set : kinetics) {
-      for (const FrictionClosure closure : closures) {
+      for (const FrictionClosure closure : closures_of(study)) {
         if (targets) result.rows.push_back(row_of(study, run, closure, set, *targets));
       }
     }
   }
   compare_meshes(result, kinetics);
   if (!result.rows.empty()) recommend(result);
+  if (result.load && !result.load->failure.empty())
+    result.recommendation.reason = "no load is recommended: " + result.load->failure;
+  compare_stations(result);
   result.interrupted = detail::stop_requested(options);
   result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -127,6 +128,27 @@ void add_difference(CalibrationDistance& distance, const std::string& key, const
   }
 }
 
+bool same_interface(const scene::Interface& a, const scene::Interface& b) {
+  return a.body == b.body && a.condition == b.condition && a.friction == b.friction &&
+         a.tension_strength == b.tension_strength && a.shear_strength == b.shear_strength;
+}
+
+/// Faces that slide in one of the scenes and not in the same way in the other.
+void add_other_interfaces(CalibrationDistance& distance, const Scene& scene, const Scene& calibrated) {
+  const auto ours = scene::sliding_interfaces(scene), theirs = scene::sliding_interfaces(calibrated);
+  std::set<std::string> other;
+  const auto add_missing = [&other](const auto& from, const auto& in) {
+    for (const scene::Interface& each : from) {
+      const auto same = [&each](const auto& there) { return same_interface(each, there); };
+      if (std::none_of(in.begin(), in.end(), same)) other.insert(each.body);
+    }
+  };
+  add_missing(ours, theirs);
+  add_missing(theirs, ours);
+  for (const std::string& body : other)
+    distance.unknown.push_back(fmt::format("interface.{}.condition", body));
+}
+
 }  // namespace
 
 Scene calibration_scene() {
@@ -135,6 +157,8 @@ Scene calibration_scene() {
                   {"charge", "charge", 0.118, 0.678, 0.0, 0.065},
                   {"wall", "steel", 0.118, 0.678, 0.065, 0.0775},
                   {"base", "steel", 0.678, 0.74, 0.0, 0.0775}};
+  for (const char* body : {"nose", "wall"})
+    scene.interfaces.push_back({.body = body, .condition = scene::Condition::sliding, .friction = 0.0});
   scene.numerics.cell_size = 1.25e-3;
   scene.numerics.growth_x = scene.numerics.growth_r = 1.3;
   scene.numerics.largest_cell = 20e-3;
@@ -142,17 +166,17 @@ Scene calibration_scene() {
   return scene;
 }
 
-CalibrationDistance distance_to_calibration(const Scene& scene) {
-  static const Scene calibrated = calibration_scene();
+Calibration shipped_calibration() { return {calibration_scene(), {}}; }
+
+CalibrationDistance distance_to_calibration(const Scene& scene, const Calibration& calibration) {
+  const Scene& calibrated = calibration.scene;
   CalibrationDistance distance;
   if (!same_shell(scene, calibrated)) distance.unknown.emplace_back("another shell");
   for (const auto& key : scene::scene_keys()) {
     const Value value = key.get(scene), wanted = key.get(calibrated);
     if (!same_constant(value, wanted)) add_difference(distance, key.name, value, wanted);
   }
-  // The charge of the calibration is bonded for good.
-  for (const scene::Interface& faces : scene::sliding_interfaces(scene))
-    distance.unknown.push_back(fmt::format("interface.{}.condition", faces.body));
+  add_other_interfaces(distance, scene, calibrated);
   const double peak = scene::PressureHistory(scene.load).stated_peak();
   if (!scene.load.curve_time.empty() && !same_number(peak, calibrated.load.peak))
     distance.carried.emplace_back("peak pressure");

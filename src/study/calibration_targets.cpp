@@ -47,6 +47,20 @@ scene::Expected<CalibrationTargets> calibration_targets(const StudyFile& study) 
                    igniting > 1.0 ? "no row that ignites" : "a row that ignites below one that does not",
                    "rows with an ignition_time, all at larger gaps than the rows without");
   }
+  const std::vector<double>& rise = study.study.fast_rise;
+  if (!rise.empty() && !(rise.size() == 2 && rise[0] < rise[1])) {
+    return missing(
+        study, fmt::format("{} instants in fast_rise", rise.size()),
+        "two, the earlier one first: when the temperature without a gap begins and ceases to rise fast");
+  }
+  const bool early = targets.zero_gap.early_calibrated && std::isfinite(targets.zero_gap.early_temperature);
+  if (!rise.empty() && (!early || !study.scene.scene.load.curve_time.empty())) {
+    return missing(study,
+                   early ? "fast_rise beside a measured curve"
+                         : "fast_rise without an early temperature to fit the load to",
+                   "an analytic load, and early_calibrated = true with early_temperature in the calibrated "
+                   "row at gap 0");
+  }
   targets.safe_gap = safe;
   targets.igniting_gap = igniting;
   return targets;

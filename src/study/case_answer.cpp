@@ -29,7 +29,7 @@ struct InputStatements {
 
 InputStatements statements_of(const Study& study, const StudyCase& input) {
   InputStatements statements{detail::doubts_of_input(study, input), detail::accepted_text(study, input),
-                             distance_to_calibration(input.scene.scene)};
+                             distance_to_calibration(input.scene.scene, study.calibration)};
   for (std::string& each : run::uncovered_load(input.scene.scene.load))
     statements.doubts.push_back(std::move(each));
   return statements;
@@ -48,6 +48,9 @@ bool says(const GapVerdict& row, const InputStatements& statements, const Study&
          row.evidence.extrapolated == detail::extrapolation_text(study, input, row.gap) &&
          !(u.numerical < input.numerical_uncertainty) &&
          !(u.fit < detail::fit_share(study, statements.distance, {})) &&
+         !(u.model_form < detail::stated_model_form_share(study, input).value_or(0.0)) &&
+         row.evidence.model_form ==
+             detail::model_form_text(study, input, row.gap, row.ignition.has_value()) &&
          !(u.input < detail::stated_input_share(study, input));
 }
 

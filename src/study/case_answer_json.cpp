@@ -92,12 +92,14 @@ CriticalGap critical_gap_of(const json& value) {
 }
 
 json json_of(const Uncertainty& u) {
-  return {u.sampling, u.integration, u.coupling, u.numerical, u.fit, u.input, u.load_curve, u.sliding};
+  return {u.sampling, u.integration, u.coupling,   u.numerical, u.fit,
+          u.input,    u.load_curve,  u.model_form, u.sliding};
 }
 Uncertainty uncertainty_of(const json& value) {
-  list_of(value, 8);
-  return {amount_of(value.at(0)), amount_of(value.at(1)), amount_of(value.at(2)), amount_of(value.at(3)),
-          amount_of(value.at(4)), amount_of(value.at(5)), amount_of(value.at(6)), amount_of(value.at(7))};
+  list_of(value, 9);
+  return {amount_of(value.at(0)), amount_of(value.at(1)), amount_of(value.at(2)),
+          amount_of(value.at(3)), amount_of(value.at(4)), amount_of(value.at(5)),
+          amount_of(value.at(6)), amount_of(value.at(7)), amount_of(value.at(8))};
 }
 
 json json_of(const surface::AirEnergy& air) { return {air.taken, air.supplied, air.stored, air.isothermal}; }
@@ -120,6 +122,7 @@ json json_of(const GapVerdict& row) {
           {"ignition", json_of(row.ignition)},
           {"doubt", row.evidence.doubt},
           {"accepted", row.evidence.accepted},
+          {"model_form", row.evidence.model_form},
           {"extrapolated", row.evidence.extrapolated}};
 }
 GapVerdict row_of(const json& value) {
@@ -136,6 +139,7 @@ GapVerdict row_of(const json& value) {
   row.ignition = ignition_of(value.at("ignition"));
   row.evidence.doubt = value.at("doubt").get<std::string>();
   row.evidence.accepted = value.at("accepted").get<std::string>();
+  row.evidence.model_form = value.at("model_form").get<std::string>();
   row.evidence.extrapolated = value.at("extrapolated").get<std::string>();
   return row;
 }
@@ -165,6 +169,7 @@ void judge_rows(CaseAnswer& answer) {
     Evidence evidence = detail::evidence_of(row, answer.failure, answer.run.limiters);
     evidence.doubt = row.evidence.doubt;
     evidence.accepted = row.evidence.accepted;
+    evidence.model_form = row.evidence.model_form;
     evidence.extrapolated = row.evidence.extrapolated;
     detail::judge_row(std::move(evidence), answer.critical, row);
   }

@@ -24,8 +24,8 @@ std::string reason_for(const StudyCase& input, const std::string& difference) {
 
 /// Why the constants say nothing of a case; empty inside the calibration's domain, where a rule carries them,
 /// and where the scene accepts it.
-std::string calibration_doubt(const StudyCase& input) {
-  std::vector<std::string> unknown = distance_to_calibration(input.scene.scene).unknown;
+std::string calibration_doubt(const Study& study, const StudyCase& input) {
+  std::vector<std::string> unknown = distance_to_calibration(input.scene.scene, study.calibration).unknown;
   std::erase_if(unknown, [&](const auto& each) { return !reason_for(input, each).empty(); });
   if (unknown.empty()) return {};
   return fmt::format(
@@ -80,7 +80,7 @@ scene::Scene with_raised_load(const scene::Scene& scene) {
 
 double fit_share(const Study& study, const CalibrationDistance& distance, const Rises& rises) {
   if (!gives_verdicts(study)) return 0.0;
-  const CalibrationEvidence evidence;
+  const CalibrationEvidence& evidence = study.calibration.evidence;
   double fit = std::isfinite(study.fit_uncertainty) ? study.fit_uncertainty : evidence.largest_misfit;
   if (distance.other_load_shape) fit = std::max(fit, evidence.largest_misfit);
   const double growth = std::hypot(rises.friction / evidence.friction_rise, rises.air / evidence.air_rise);
@@ -93,6 +93,25 @@ double stated_input_share(const Study& study, const StudyCase& input) {
   if (!std::isfinite(study.input_uncertainty)) return 0.0;
   const double growth = std::pow(input.pressure_ratio, heat_exponent);
   return study.input_uncertainty * (growth <= 1.0 ? 1.0 : growth);
+}
+
+std::optional<double> stated_model_form_share(const Study& study, const StudyCase& input) {
+  if (!gives_verdicts(study)) return 0.0;
+  const bool stated = std::isfinite(study.model_form_uncertainty);
+  if (study.model_form && std::isfinite(model_form_shift(*study.model_form, input.scene.scene).gap))
+    return std::nullopt;
+  const double share = stated ? study.model_form_uncertainty : assumed_model_form;
+  const double growth = std::pow(input.pressure_ratio, heat_exponent);
+  return share * (growth <= 1.0 ? 1.0 : growth);
+}
+
+std::string model_form_text(const Study& study, const StudyCase& input, double gap, bool ignites) {
+  if (!study.model_form) return {};
+  const scene::Scene& scene = input.scene.scene;
+  const std::string names = ignites ? models_without_ignition(*study.model_form, scene, gap)
+                                    : models_that_may_ignite(*study.model_form, scene, gap);
+  if (names.empty()) return {};
+  return (ignites ? "no ignition, or none known, under " : "ignition not excluded under ") + names;
 }
 
 LoadCurveErrors load_curve_errors(const scene::Load& load) {
@@ -108,7 +127,7 @@ std::vector<std::string> doubts_of_input(const Study& study, const StudyCase& in
   for (const scene::Implausible& each : implausible_in(study, input)) {
     if (!each.accepted()) doubts.push_back(scene::doubt_text(each));
   }
-  if (auto doubt = calibration_doubt(input); !doubt.empty()) doubts.push_back(std::move(doubt));
+  if (auto doubt = calibration_doubt(study, input); !doubt.empty()) doubts.push_back(std::move(doubt));
   return doubts;
 }
 
@@ -118,7 +137,7 @@ std::string accepted_text(const Study& study, const StudyCase& input) {
 
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap) {
   if (!gives_verdicts(study)) return {};
-  const CalibrationDistance distance = distance_to_calibration(input.scene.scene);
+  const CalibrationDistance distance = distance_to_calibration(input.scene.scene, study.calibration);
   std::vector<std::string> beyond;
   for (const std::string& each : distance.unknown) {
     const std::string because = reason_for(input, each);
@@ -129,7 +148,7 @@ std::string extrapolation_text(const Study& study, const StudyCase& input, doubl
     beyond.push_back("load smoothed over " +
                      scene::format_quantity(input.scene.scene.load.smoothing, scene::Dimension::time));
   }
-  if (gap > CalibrationEvidence{}.largest_gap * (1.0 + 1e-9)) beyond.emplace_back("gap");
+  if (gap > study.calibration.evidence.largest_gap * (1.0 + 1e-9)) beyond.emplace_back("gap");
   return beyond.empty() ? std::string{} : fmt::format("extrapolated: {}", fmt::join(beyond, ", "));
 }
 
@@ -138,7 +157,7 @@ std::string extrapolation_text(const Study& study, const StudyCase& input, doubl
 namespace launchsafe::study {
 
 std::string fit_uncertainty_text(const Study& study) {
-  const CalibrationEvidence evidence;
+  const CalibrationEvidence& evidence = study.calibration.evidence;
   const std::string base = std::isfinite(study.fit_uncertainty)
                                ? fmt::format("{:.3g} K, as the study states", study.fit_uncertainty)
                                : fmt::format(
@@ -157,6 +176,33 @@ std::string fit_uncertainty_text(const Study& study) {
       "absorbed "
       "come in.",
       base, rows, evidence.largest_misfit, assumed_numerical_uncertainty);
+}
+
+std::string model_form_uncertainty_text(const StudyFile& study) {
+  const Study& s = study.study;
+  const std::string otherwise = fmt::format(
+      "{:.3g} K are assumed, more than any of the models of the 155 mm "
+      "shell that count moves T max, growing with the power {:g} of the pressure",
+      assumed_model_form, detail::heat_exponent);
+  if (std::isfinite(s.model_form_uncertainty))
+    return fmt::format("{:.3g} K, as the study states for its own scene.", s.model_form_uncertainty);
+  if (!s.model_form) return "the study names no record of other models, so that " + otherwise + ".";
+  std::size_t outside = 0;
+  std::string reason;
+  for (const StudyCase& each : study.cases) {
+    const ModelFormShift shift = model_form_shift(*s.model_form, each.scene.scene);
+    if (std::isfinite(shift.gap)) continue;
+    if (outside++ == 0) reason = shift.reason;
+  }
+  std::string text = fmt::format(
+      "what a gap thicker by as much as the smallest critical gap of another model is below that of the "
+      "default "
+      "changes, by the record `{}`; models that only move away from ignition take nothing from a margin",
+      s.model_form_record);
+  if (outside > 0)
+    text += fmt::format("; where it does not speak of a case ({} of {}: {}) {}", outside, study.cases.size(),
+                        reason, otherwise);
+  return text + ".";
 }
 
 std::string input_uncertainty_text(const Study& study) {

@@ -6,6 +6,7 @@
 #include "launchsafe/study/calibration_domain.hpp"
 #include "launchsafe/study/critical_gap.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,11 @@ struct Rises {
 double fit_share(const Study& study, const CalibrationDistance& distance, const Rises& rises);
 
 /// K, as a study states it for its own scene; it grows with the pressure as the heat does.
+/// What the study states of the model form, or assumes where its record does not speak of a case, K.
+/// Nothing where the record does: it gives a shift of the gap.
+std::optional<double> stated_model_form_share(const Study& study, const StudyCase& input);
+/// The models that could change the verdict on a gap (m) that ignites or not, for people; empty for none.
+std::string model_form_text(const Study& study, const StudyCase& input, double gap, bool ignites);
 double stated_input_share(const Study& study, const StudyCase& input);
 
 /// What the measured curve of a load may have wrong, as shares of the rises; 0 for an analytic load.

@@ -91,6 +91,7 @@ void run_mechanics(CriticalGapResult& result, const std::vector<bool>& ours, con
       }
       detail::find_critical_gaps(result.study.study, outcome);
       detail::evaluate_gaps(result.study.study, outcome);
+      detail::evaluate_film(result.study.study, outcome);
     }));
     if (propagated) tasks.back().cost *= 2.0;
     tracker.expect(1, tasks.back().cost);

@@ -78,9 +78,9 @@ struct CaseGround {
   double heated_without_gap = not_a_number;  ///< K
 };
 
-CaseGround ground_of(const CaseOutcome& outcome) {
+CaseGround ground_of(const Study& study, const CaseOutcome& outcome) {
   const scene::Scene& scene = outcome.input.scene.scene;
-  return {distance_to_calibration(scene), load_curve_errors(scene.load),
+  return {distance_to_calibration(scene, study.calibration), load_curve_errors(scene.load),
           heated_temperature(scene, outcome.result.mechanics.trace, 0.0)};
 }
 
@@ -110,17 +110,28 @@ double friction_share(const CaseOutcome& outcome) {
   return heat / (capacity * std::min(scene.surface.skin_thickness, diffused));
 }
 
-/// K by which T max of a gap changes where it is thicker by as much as charge and base part. One that ignites
-/// there has no margin left.
-double opening_share(const CaseOutcome& outcome, const GapVerdict& row) {
+/// K by which T max of a gap changes where it is thicker (m). One that ignites there has no margin left.
+double thicker_gap_share(const CaseOutcome& outcome, const GapVerdict& row, double thicker) {
   constexpr double least = 1e-9;  // m
+  if (thicker < least) return 0.0;
   const scene::Scene& scene = outcome.input.scene.scene;
   const BottomTrace& trace = outcome.result.mechanics.trace;
-  const double opening = run::opening_at_bottom(outcome.result.mechanics, scene::charge_extent(scene).x_end);
-  if (opening < least) return 0.0;
-  const double rise = std::abs(heated_temperature(scene, trace, row.gap + opening) - row.heated);
-  const auto reacting = surface::integrate_skin(surface::skin_model(scene), trace, row.gap + opening);
+  const double rise = std::abs(heated_temperature(scene, trace, row.gap + thicker) - row.heated);
+  const auto reacting = surface::integrate_skin(surface::skin_model(scene), trace, row.gap + thicker);
   return !row.ignition && reacting.ignition ? std::max(rise, row.margin) : rise;
+}
+
+/// K by which T max of a gap changes where charge and base part.
+double opening_share(const CaseOutcome& outcome, const GapVerdict& row) {
+  const double bottom = scene::charge_extent(outcome.input.scene.scene).x_end;
+  return thicker_gap_share(outcome, row, run::opening_at_bottom(outcome.result.mechanics, bottom));
+}
+
+/// K by which T max of a gap changes where other models move the critical gap towards ignition. One that
+/// ignites with that much more gap has no margin left.
+double model_form_share(const Study& study, const CaseOutcome& outcome, const GapVerdict& row) {
+  if (const auto stated = stated_model_form_share(study, outcome.input)) return *stated;
+  return thicker_gap_share(outcome, row, model_form_shift(*study.model_form, outcome.input.scene.scene).gap);
 }
 
 /// The shares of a row that its study, its accuracy record and the calibration's evidence give. Errors grow
@@ -134,6 +145,7 @@ void add_shares(const Study& study, const CaseOutcome& outcome, const CaseGround
   row.uncertainty.input =
       outcome.raised ? propagated_share(outcome, row) : stated_input_share(study, outcome.input);
   row.uncertainty.load_curve = ground.load_curve.in_kelvin(rises);
+  row.uncertainty.model_form = model_form_share(study, outcome, row);
   row.uncertainty.sliding = friction_share(outcome) + opening_share(outcome, row);
 }
 
@@ -179,7 +191,7 @@ void set_gap_uncertainty(const Study& study, CaseOutcome& outcome) {
   const run::GapResult at_below = run::evaluate_gap(scene, trace, below);
   const double slope =
       (at_lower.at_stations.temperature - at_below.at_stations.temperature) / (critical.lower - below);
-  Uncertainty uncertainty = row_of(study, outcome, ground_of(outcome), at_below).uncertainty;
+  Uncertainty uncertainty = row_of(study, outcome, ground_of(study, outcome), at_below).uncertainty;
   uncertainty.coupling = coupling_share(outcome);
   const double temperature = uncertainty.total();
   critical.uncertainty = half + (slope > 0 ? temperature / slope : critical.value);
@@ -240,7 +252,7 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
 
 void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
   const bool has_trace = outcome.result.mechanics.trace.samples() > 0;
-  const CaseGround ground = has_trace ? ground_of(outcome) : CaseGround{};
+  const CaseGround ground = has_trace ? ground_of(study, outcome) : CaseGround{};
   for (const double gap : study.gaps) {
     if (!has_trace) {
       GapVerdict row;
@@ -291,6 +303,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
     Evidence evidence = evidence_of(row, outcome.failure, outcome.result.mechanics.limiters);
     evidence.doubt = doubt;
     evidence.accepted = accepted;
+    evidence.model_form = model_form_text(study, outcome.input, row.gap, row.ignition.has_value());
     evidence.extrapolated = extrapolation_text(study, outcome.input, row.gap);
     judge_row(std::move(evidence), outcome.critical, row);
     if (row.ignition || !outcome.completed()) continue;

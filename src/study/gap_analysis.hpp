@@ -14,6 +14,9 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome);
 /// The gaps of the study on the trace: skin histories and the rows without verdict.
 void evaluate_gaps(const Study& study, CaseOutcome& outcome);
 
+/// The gaps of the study and the critical gap with air as a film, on the same trace.
+void evaluate_film(const Study& study, CaseOutcome& outcome);
+
 /// What the confirmations say about the critical gap: a disagreement makes it indeterminate.
 void apply_confirmations(const Study& study, CaseOutcome& outcome);
 

@@ -6,6 +6,7 @@
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "study_axes.hpp"
+#include "study_calibration.hpp"
 #include "study_cases.hpp"
 #include "study_keys.hpp"
 #include "study_settings.hpp"
@@ -24,22 +25,46 @@ namespace {
 using detail::Fault, detail::fault_at, detail::place_of_key, detail::check_twice;
 using scene::Dimension, scene::InputError, scene::Place;
 
-Fault read_references(const toml::table& root, StudyFile& study) {
+Fault read_references(const toml::table& root, const std::string& file, StudyFile& study) {
   const toml::node* node = root.get("reference");
   if (!node || (node->is_array() && node->as_array()->empty())) return std::nullopt;
   if (!node->is_array_of_tables()) {
-    return scene::error_at(scene::place_of(*node, study.file), "reference", scene::found_text(*node),
+    return scene::error_at(scene::place_of(*node, file), "reference", scene::found_text(*node),
                            "tables, each written [[reference]]");
   }
   for (const toml::node& element : *node->as_array()) {
     Reference reference;
-    auto read = scene::read_table(*element.as_table(), detail::reference_keys(), {}, study.file, reference);
+    auto read = scene::read_table(*element.as_table(), detail::reference_keys(), {}, file, reference);
     if (!read) return detail::in_table(read.error(), "reference");
     const std::size_t index = study.study.references.size();
     for (auto& [key, place] : *read) study.places[fmt::format("reference.{}.{}", index, key)] = place;
     study.study.references.push_back(std::move(reference));
   }
   return std::nullopt;
+}
+
+/// The references of a file of their own, which several studies share.
+Fault read_references_file(StudyFile& study, const std::filesystem::path& folder) {
+  const std::string& name = study.study.references_file;
+  if (name.empty()) return std::nullopt;
+  if (!study.study.references.empty())
+    return fault_at(study, "references", "a file of references beside [[reference]]", "one of both");
+  const std::string file = (folder / name).string();
+  const auto text = scene::read_text_file(file);
+  if (!text) {
+    return fault_at(study, "references", fmt::format("\"{}\", which cannot be read", name),
+                    "a file with [[reference]], by its path from the study file's folder",
+                    text.error().suggestion);
+  }
+  const auto table = scene::parse_toml(*text, file);
+  if (!table) return table.error();
+  for (const auto& [key, node] : *table) {
+    if (key.str() != "reference") {
+      return scene::error_at(scene::place_of(node, file), std::string(key.str()),
+                             "a key of another kind of file", "only [[reference]]");
+    }
+  }
+  return read_references(*table, file, study);
 }
 
 Fault read_scene_of(StudyFile& study, const std::filesystem::path& folder) {
@@ -128,7 +153,8 @@ Fault read_accepted(const toml::table& root, StudyFile& study) {
                                        scene::reason_for(*accepted, key.name)});
   }
   for (scene::Acceptance& each : *accepted) {
-    if (!scene::find_key(detail::study_keys(), each.key))
+    // "calibration" accepts all that is foreign to it, whatever record the study's key of that name names.
+    if (each.key == scene::foreign_calibration || !scene::find_key(detail::study_keys(), each.key))
       scene::accept(study.scene.scene.accepted, std::move(each));
   }
   return std::nullopt;
@@ -274,12 +300,15 @@ scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesys
   note_tables(*table, study);
   if (Fault fault = check_kinds(study)) return *fault;
   if (Fault fault = check_method(study)) return *fault;
-  if (Fault fault = read_references(*table, study)) return *fault;
+  if (Fault fault = read_references(*table, study.file, study)) return *fault;
+  if (Fault fault = read_references_file(study, path.parent_path())) return *fault;
   if (Fault fault = detail::read_cited_limits(*table, study)) return *fault;
   if (Fault fault = check_lists(study)) return *fault;
   if (Fault fault = check_references(study)) return *fault;
   if (Fault fault = read_scene_of(study, path.parent_path())) return *fault;
   if (Fault fault = apply_overrides(*table, study)) return *fault;
+  if (Fault fault = detail::use_calibration(study, path.parent_path())) return *fault;
+  if (Fault fault = detail::read_model_form(study, path.parent_path())) return *fault;
   const auto record = detail::read_record(study, path.parent_path());
   if (!record) return record.error();
   const double tolerance = request.tolerance.value_or(study.study.setting_tolerance);

@@ -78,6 +78,10 @@ std::vector<Key<Study>> common_keys() {
       scene::required(scene::text_key<Study>(
           "scene", Standing::input, "Path of the scene from the study file's folder.",
           [](auto& s) -> auto& { return s.scene; })),
+      scene::text_key<Study>(
+          "references", Standing::input,
+          "Path of a file that holds the published rows, [[reference]], from the study file's folder.",
+          [](auto& s) -> auto& { return s.references_file; }),
       study_number("early_time", Dimension::time, above_to(0, 1),
                    "An instant at which temperatures are listed and compared too.", &Study::early_time),
       scene::number_key<Study>(
@@ -139,6 +143,12 @@ std::vector<Key<Study>> calibration_keys() {
           "Published bracket of the ignition temperature, a check on the calibrated one.",
           [](auto& s) -> auto& { return s.ignition_lowest; },
           [](auto& s) -> auto& { return s.ignition_highest; }),
+      study_list(
+          "fast_rise", Dimension::time, above_to(0, 1),
+          "Two instants between which the published temperature without a gap rises fast. Where given, "
+          "load.exponent is fitted to the time between them and load.peak_time to the row without a "
+          "gap that has early_calibrated = true.",
+          &Study::fast_rise),
   };
 }
 
@@ -159,6 +169,15 @@ std::vector<Key<Study>> stability_keys() {
       [](auto& s) -> auto& { return s.laws; })};
 }
 
+/// Where the constants of a study come from.
+std::vector<Key<Study>> calibration_record_keys() {
+  return {scene::text_key<Study>(
+      "calibration", Standing::input,
+      "Path of the record of a calibration, calibration.json, from the study file's folder; its load and "
+      "constants replace the scene's, and hold where the calibrated launch is the study's.",
+      [](auto& s) -> auto& { return s.calibration_record; })};
+}
+
 /// What the uncertainty of a verdict is made of, besides the mesh.
 std::vector<Key<Study>> uncertainty_keys() {
   return {
@@ -176,7 +195,8 @@ std::vector<Key<Study>> uncertainty_keys() {
       stated_uncertainty(
           "fit_uncertainty",
           "Uncertainty of the margin from the calibrated constants, on the rows that they were "
-          "fitted to; the largest misfit of the held-out published temperatures if absent.",
+          "fitted to; what the record of the calibration says if absent, and without one the largest misfit "
+          "of a published temperature that nothing was fitted to.",
           &Study::fit_uncertainty),
       stated_uncertainty(
           "input_uncertainty",
@@ -184,6 +204,17 @@ std::vector<Key<Study>> uncertainty_keys() {
           "kind sensitivity), for the study's own scene; if absent an assumed spread of load and "
           "initial temperature is propagated, which takes a second run for every case.",
           &Study::input_uncertainty),
+      scene::text_key<Study>(
+          "model_form", Standing::input,
+          "Path of the record of other models, model_form.json, from the study file's folder; it says how "
+          "far "
+          "they move the critical gap towards ignition.",
+          [](auto& s) -> auto& { return s.model_form_record; }),
+      stated_uncertainty(
+          "model_form_uncertainty",
+          "By how much other models of the launch could be hotter, instead of such a record; an assumed one "
+          "if absent.",
+          &Study::model_form_uncertainty),
   };
 }
 
@@ -274,6 +305,14 @@ std::vector<Key<Reference>> make_reference_keys() {
       scene::flag_key<Reference>(
           "calibrated", Standing::input, "True where constants are fitted to it, false for a hold-out.",
           [](auto& r) -> auto& { return r.calibrated; }),
+      scene::flag_key<Reference>(
+          "early_calibrated", Standing::input,
+          "True where the load is fitted to its temperature at early_time.",
+          [](auto& r) -> auto& { return r.early_calibrated; }),
+      scene::flag_key<Reference>(
+          "selection", Standing::input,
+          "True where its temperature at early_time, spreads and places were used to choose among models.",
+          [](auto& r) -> auto& { return r.selection; }),
   };
 }
 
@@ -289,6 +328,7 @@ const std::vector<KeyGroup>& key_groups() {
       {{critical_gap, accuracy, stability}, gaps_keys()},
       {{critical_gap}, critical_gap_keys()},
       {{critical_gap, sweep, sensitivity, accuracy, stability}, judging_keys()},
+      {{critical_gap, sweep, sensitivity, accuracy}, calibration_record_keys()},
       {{critical_gap, sweep, sensitivity}, uncertainty_keys()},
       {{calibration}, calibration_keys()},
       {{accuracy}, accuracy_keys()},
@@ -363,7 +403,7 @@ std::vector<StudyKind> kinds_of_key(const std::string& name) {
   if (name == "input") return {sensitivity};
   if (name == "settings") return {accuracy};
   if (name == "case") return {stability};
-  if (name == "reference") return {critical_gap, calibration, sweep};
+  if (name == "reference" || name == "references") return {critical_gap, calibration, sweep};
   if (name == "cited_limit") return {critical_gap, sweep};
   for (const KeyGroup& group : key_groups()) {
     if (scene::find_key(group.keys, name)) return group.kinds;

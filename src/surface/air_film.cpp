@@ -1,5 +1,6 @@
 #include "film_station.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace launchsafe::surface {
@@ -38,6 +39,8 @@ FilmHistory integrate_film(const SkinModel& model, const trace::BottomTrace& tra
   std::vector<detail::FilmStation> stations(
       trace.stations.size(), detail::FilmStation(model, grid, numerics, intervals.pressure_at(0)));
   record(stations, shares, result.skin);
+  // Before anything conducts the surface is as warm as the charge, whatever air it then meets.
+  std::fill(result.skin.temperature.begin(), result.skin.temperature.end(), model.initial_temperature);
   for (std::size_t interval = 0; interval < intervals.count(); ++interval) {
     const detail::IntervalPressure pressure = intervals.pressure(interval);
     for (std::size_t s = 0; s < stations.size(); ++s) {

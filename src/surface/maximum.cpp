@@ -31,17 +31,17 @@ Maximum highest(const SkinHistory& history, Accept accept) {
   return most;
 }
 
-/// Temperature of one station at a time, linear between samples.
-double temperature_at(const SkinHistory& history, std::size_t stations, std::size_t station, double time) {
+}  // namespace
+
+double temperature_at_time(const SkinHistory& history, const trace::BottomTrace& trace, std::size_t station,
+                           double time) {
   std::vector<double> values;
   values.reserve(history.time.size());
   for (std::size_t sample = 0; sample < history.time.size(); ++sample) {
-    values.push_back(history.temperature[sample * stations + station]);
+    values.push_back(history.temperature[sample * trace.stations.size() + station]);
   }
   return trace::interpolate(history.time, values, time);
 }
-
-}  // namespace
 
 Maximum maximum_at_stations(const SkinHistory& history, const trace::BottomTrace& trace) {
   return highest(history, [&](std::size_t station) { return !trace.stations[station].observation; });
@@ -56,7 +56,7 @@ Maximum maximum_at_time(const SkinHistory& history, const trace::BottomTrace& tr
   bool found = false;
   for (std::size_t station = 0; station < trace.stations.size(); ++station) {
     if (trace.stations[station].observation) continue;
-    raise(most, found, {temperature_at(history, trace.stations.size(), station, time), time, station});
+    raise(most, found, {temperature_at_time(history, trace, station, time), time, station});
   }
   return most;
 }
@@ -65,7 +65,7 @@ double spread_at_time(const SkinHistory& history, const trace::BottomTrace& trac
   double least = not_a_number;
   for (std::size_t station = 0; station < trace.stations.size(); ++station) {
     if (trace.stations[station].observation) continue;
-    const double value = temperature_at(history, trace.stations.size(), station, time);
+    const double value = temperature_at_time(history, trace, station, time);
     if (!(least <= value)) least = value;
   }
   return maximum_at_time(history, trace, time).temperature - least;

@@ -15,6 +15,7 @@ const std::string critical_gap_study = R"(kind = "critical-gap"
 scene = "shell.toml"
 early_time = "0.03 ms"
 input_uncertainty = "2 K"
+model_form_uncertainty = "1 K"
 confirm = false
 )";
 

@@ -18,7 +18,8 @@ class HangingPicture : public StoredStudy {
     const std::string path = (folder() / "bin").string() + ":" + std::getenv("PATH");
     before_start([path] { ::setenv("PATH", path.c_str(), 1); });
     write("study.toml",
-          "kind = \"critical-gap\"\nscene = \"shell.toml\"\nearly_time = \"0.03 ms\"\ninput_uncertainty = "
+          "kind = \"critical-gap\"\nscene = \"shell.toml\"\nmodel_form_uncertainty = \"1 K\"\nearly_time = "
+          "\"0.03 ms\"\ninput_uncertainty = "
           "\"2 K\"\nconfirm = false\n");
   }
 };

@@ -31,7 +31,8 @@ TEST_F(Reach, ARunThatCouldNotEndIsRefusedWithKeyAndReason) {
 
 TEST_F(Reach, OneCaseThatIsRefusedIsItsRow) {
   write("study.toml",
-        "kind = \"sweep\"\nscene = \"shell.toml\"\nearly_time = \"0.03 ms\"\ninput_uncertainty = \"2 "
+        "kind = \"sweep\"\nscene = \"shell.toml\"\nmodel_form_uncertainty = \"1 K\"\nearly_time = \"0.03 "
+        "ms\"\ninput_uncertainty = \"2 "
         "K\"\n[axes]\n"
         "\"numerics.time_step_factor\" = [1e-300, 0.5]\ngap = \"0, 0.01 cm\"\n");
   const Outcome outcome = run({"study", "study.toml", "-o", "out", "--json"});

@@ -14,6 +14,7 @@ const std::string small_sweep = R"(kind = "sweep"
 scene = "shell.toml"
 early_time = "0.03 ms"
 input_uncertainty = "2 K"
+model_form_uncertainty = "1 K"
 
 [axes]
 peak_pressure = "40, 50, 60 MPa"
@@ -148,7 +149,7 @@ TEST_F(SlurmProgram, BadInputLeavesNothing) {
   write("sweep.toml", with(small_sweep, "gap", "gasp"));
   const Outcome unknown = emit();
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_TRUE(unknown.says("sweep.toml:8:")) << unknown.err;
+  EXPECT_TRUE(unknown.says("sweep.toml:9:")) << unknown.err;
   EXPECT_FALSE(exists("out"));
   EXPECT_FALSE(exists("back\\slash"));
 }

@@ -18,6 +18,7 @@ inline const std::string sweep_study = R"(kind = "sweep"
 scene = "shell.toml"
 early_time = "0.03 ms"
 input_uncertainty = "2 K"
+model_form_uncertainty = "1 K"
 accept = [{ key = "gap.exchange_time", because = "the launch is as much faster" }]
 
 [axes]

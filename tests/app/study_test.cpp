@@ -13,6 +13,7 @@ scene = "shell.toml"
 gaps = "0, 0.01, 0.02 cm"
 early_time = "0.03 ms"
 input_uncertainty = "2 K"
+model_form_uncertainty = "1 K"
 )";
 
 class StudyProgram : public Program {

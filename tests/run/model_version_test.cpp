@@ -39,7 +39,8 @@ const std::map<int, std::uint64_t> digests{{1, 0xcf8fc17d687d3b02U},
                                            {2, 0x112296e02854258eU},
                                            {3, 0x877cf8e49058e86aU},
                                            {4, 0x4aba6e72ec35a753U},
-                                           {5, 0x7d5a120e32c22987U}};
+                                           {5, 0x7d5a120e32c22987U},
+                                           {6, 0x7cadcd91c262ca33U}};
 
 const char* const numbers_file = LAUNCHSAFE_SOURCE_DIR "/tests/run/model_numbers.csv";
 
@@ -162,6 +163,7 @@ const std::map<std::string, Keys> scenes{
     {"inelastic closure", {{"friction.closure", "\"inelastic\""}}},
     {"no friction", {{"friction.closure", "\"none\""}}},
     {"air as a balance", {{"gap.air", "\"balance\""}}},
+    {"air as a film", {{"gap.air", "\"film\""}}},
     {"chamber pressure", {{"gap.pressure", "\"chamber\""}}},
     {"exchange per step", {{"gap.exchange", "\"per-step\""}, {"gap.exchange_time", "\"0.3 ms\""}}},
     {"printed kinetics", {{"kinetics.set", "\"printed\""}, {"kinetics.ignition_temperature", "\"400 K\""}}},

@@ -56,7 +56,9 @@ TEST(Scene, BaseAreaCountsOnlyFacesAtTheVeryBase) {
 }
 
 TEST(PressureHistory, AnalyticShapeRisesToItsPeakAndFalls) {
-  const Load load;
+  Load load;
+  load.peak_time = 11e-3;
+  load.exponent = 12.0;
   const PressureHistory history(load);
   EXPECT_EQ(history.at(0.0), load.base);
   EXPECT_EQ(history.at(-1.0), load.base);

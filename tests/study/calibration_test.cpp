@@ -143,8 +143,9 @@ TEST(Calibration, SaysWhenTheEvidenceDoesNotTellTheClosuresApart) {
     return result;
   };
   std::string rows = published({951.0, 4.2e-4, 0}, trace);
-  const std::string key = "{ gap = \"0.0001 m\", maximum_temperature = \"4";
-  rows.replace(rows.find(key) + key.size() - 1, 1, "5");  // a misfit that both share
+  const std::string key = "{ gap = \"0.0001 m\", maximum_temperature = \"";
+  ASSERT_NE(rows.find(key), std::string::npos);
+  rows.replace(rows.find(key) + key.size(), 1, "9");  // a misfit that both share
   const CalibrationResult result =
       run_calibration(study_of(calibration_text + rows + synthetic_constants), options);
   ASSERT_TRUE(result.recommendation.row.has_value()) << result.recommendation.reason;

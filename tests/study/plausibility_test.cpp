@@ -17,7 +17,8 @@ using namespace launchsafe::study;
 /// A study that finds the gap 0 safe; more top-level keys before, more overrides after.
 std::string safe_study(const std::string& keys, const std::string& overrides = "") {
   std::string text = keys + critical_kind + "gaps = \"0 cm\"\nconfirm = false\n";
-  for (const std::string key : {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty"}) {
+  for (const std::string key :
+       {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty", "model_form_uncertainty"}) {
     if (keys.find(key) == std::string::npos) text += key + " = \"1 K\"\n";
   }
   return text + synthetic_constants + overrides;
@@ -76,7 +77,8 @@ TEST(StudyPlausibility, AnImplausibleValueIsIndeterminateUntilItIsAccepted) {
 }
 
 TEST(StudyPlausibility, AStatedUncertaintyMustBePlausibleToo) {
-  for (const std::string key : {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty"}) {
+  for (const std::string key :
+       {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty", "model_form_uncertainty"}) {
     for (const std::string value : {"0 K", "0.01 K"}) {
       const std::string stated = fmt::format("{} = \"{}\"\n", key, value);
       const Judgement doubted = judgement_in(run_safe_study(stated));

@@ -42,7 +42,8 @@ TEST(ReadAccuracy, RefusesReferencesThatCannotBeExtrapolated) {
   // 1 mm does not divide the radius of the charge, 65 mm, on an even grid of 78 cells over 77.5 mm.
   expect_error_in(accuracy_start +
                       "reference_cell_sizes = \"1, 1.25, 2.5 mm\"\n[set]\nnumerics.formulation = "
-                      "\"updated-lagrangian\"\nnumerics.growth_x = 1\nnumerics.growth_r = 1\n",
+                      "\"updated-lagrangian\"\nnumerics.growth_x = 1\nnumerics.growth_r = 1\n"
+                      "interface.nose.condition = \"bonded\"\ninterface.wall.condition = \"bonded\"\n",
                   {3, "reference_cell_sizes", "65.42 cells", "divide"});
   const std::string even_rows = "[set]\nnumerics.growth_r = 1\n";
   expect_error_in(accuracy_start + "reference_cell_sizes = \"1.25, 2.5, 2.5 mm\"\n",

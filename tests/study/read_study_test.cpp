@@ -29,12 +29,12 @@ void expect_error(const std::string& line, const std::string& key, const std::st
 TEST(ReadStudy, SetsInterfacesThatTheSceneDoesNotHave) {
   const std::string start = "kind = \"critical-gap\"\nscene = \"scene_155mm.toml\"\n";
   const StudyFile study =
-      study_of(start + "[set]\ninterface.wall.condition = \"sliding\"\ninterface.wall.friction = 0\n");
-  ASSERT_EQ(study.scene.scene.interfaces.size(), 1u);
-  EXPECT_EQ(study.scene.scene.interfaces[0].body, "wall");
-  EXPECT_EQ(study.scene.scene.interfaces[0].friction, 0.0);
-  expect_error_in(start + "[set]\ninterface.wall.condition = \"sliding\"\n",
-                  {4, "set.interface.wall.condition", "without their friction", "interface.wall.friction"});
+      study_of(start + "[set]\ninterface.base.condition = \"sliding\"\ninterface.base.friction = 0\n");
+  ASSERT_EQ(study.scene.scene.interfaces.size(), 3u);  // nose and wall stand in the scene
+  EXPECT_EQ(study.scene.scene.interfaces[2].body, "base");
+  EXPECT_EQ(study.scene.scene.interfaces[2].friction, 0.0);
+  expect_error_in(start + "[set]\ninterface.base.condition = \"sliding\"\n",
+                  {4, "set.interface.base.condition", "without their friction", "interface.base.friction"});
   expect_error_in(start + "[set]\ninterface.barrel.friction = 0.1\n",
                   {4, "set.interface.barrel.friction", "unknown"});
   expect_error_in(start + "[set]\ninterface.wall.condition = \"sliding\"\ninterface.wall.friction = 11\n",

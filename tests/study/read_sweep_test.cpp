@@ -123,17 +123,20 @@ TEST(ReadSweep, OnlyAnotherLaunchIsNotTheReferences) {
 class SlidingSweep : public launchsafe::testing::TemporaryFolder {};
 
 TEST_F(SlidingSweep, FrictionMayVaryAndHasNoStatedUncertainty) {
-  std::ifstream shipped(studies_folder / "scene_155mm.toml");
-  std::ofstream(folder() / "slides.toml")
-      << shipped.rdbuf() << "\n[interface.wall]\ncondition = \"sliding\"\nfriction = 0.1\n";
+  std::filesystem::copy_file(studies_folder / "scene_155mm.toml", folder() / "slides.toml");
   const auto study = parse_study(
       "kind = \"sweep\"\nscene = \"slides.toml\"\nnumerical_uncertainty = \"1 K\"\n[axes]\n"
       "interface.wall.friction = [0, 0.3]\n",
       folder() / "study.toml");
   ASSERT_TRUE(study) << study.error().message();
   ASSERT_EQ(study->cases.size(), 2u);
-  EXPECT_EQ(study->cases[0].scene.scene.interfaces.at(0).friction, 0.0);
-  EXPECT_EQ(study->cases[1].scene.scene.interfaces.at(0).friction, 0.3);
+  const auto friction_of_wall = [](const StudyCase& input) {
+    const auto wall = std::find_if(input.scene.scene.interfaces.begin(), input.scene.scene.interfaces.end(),
+                                   [](const scene::Interface& each) { return each.body == "wall"; });
+    return wall->friction;
+  };
+  EXPECT_EQ(friction_of_wall(study->cases[0]), 0.0);
+  EXPECT_EQ(friction_of_wall(study->cases[1]), 0.3);
   EXPECT_EQ(study->study.numerical_uncertainty, assumed_numerical_uncertainty);
 }
 
@@ -146,7 +149,8 @@ TEST(ReadSweep, NumericsOnAnAxisHaveNoStatedUncertainty) {
   // An even grid with cells of 5 mm does not run along the charge; a lattice always does.
   const StudyFile off_grid = study_of(
       start + sweep_text + "numerics.cell_size = \"2.5, 5 mm\"\n" +
-      "[set]\nnumerics.formulation = \"updated-lagrangian\"\nnumerics.growth_x = 1\nnumerics.growth_r = 1\n");
+      "[set]\nnumerics.formulation = \"updated-lagrangian\"\nnumerics.growth_x = 1\nnumerics.growth_r = 1\n"
+      "interface.nose.condition = \"bonded\"\ninterface.wall.condition = \"bonded\"\n");
   EXPECT_EQ(off_grid.study.numerical_uncertainty, assumed_uncertainty_off_grid);
 }
 

@@ -196,7 +196,7 @@ RC_GTEST_PROP(StoredAnswerProperty, AnEditThatIsReadIsJudgedOnWhatItSays, ()) {
     RC_ASSERT(!row.ignition);
     RC_ASSERT(row.evidence.doubt.empty());
     RC_ASSERT(row.margin > row.uncertainty.total());
-    RC_ASSERT(row.margin == 521.0 - row.maximum.temperature);
+    RC_ASSERT(row.margin == 519.0 - row.maximum.temperature);
   }
 }
 

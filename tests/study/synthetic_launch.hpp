@@ -28,7 +28,9 @@ inline StudyFile study_of(const std::string& text) {
 }
 
 /// What studies of the synthetic launch state, so that its computation alone decides.
-inline const std::string synthetic_statements = "fit_uncertainty = \"1 K\"\ninput_uncertainty = \"1 K\"\n";
+inline const std::string synthetic_statements =
+    "fit_uncertainty = \"1 K\"\ninput_uncertainty = \"1 K\"\n"
+    "model_form_uncertainty = \"1 K\"\n";
 
 inline const std::string critical_kind = "kind = \"critical-gap\"\nscene = \"scene_155mm.toml\"\n";
 inline const std::string critical_text = critical_kind + synthetic_statements;
@@ -63,8 +65,8 @@ inline trace::BottomTrace synthetic_trace(double peak, double friction) {
   return trace;
 }
 
-/// Friction energy (J/m3, before localisation) that heats by `kelvin` at a localisation of 1200.
-inline double friction_for(double kelvin) { return kelvin * 1717.0 * 1780.0 / 1200.0; }
+/// Friction energy (J/m3, before localisation) that heats by `kelvin` at a localisation of 1700.
+inline double friction_for(double kelvin) { return kelvin * 1717.0 * 1780.0 / 1700.0; }
 
 inline run::MechanicsResult synthetic_mechanics(const scene::Scene& scene, double kelvin = 116.1) {
   run::MechanicsResult result;
@@ -94,8 +96,8 @@ inline Runners synthetic_runners(double kelvin = 116.1) {
 
 /// The constants that the synthetic launch is made for, on the hot side of the calibrated ones.
 inline const std::string synthetic_constants =
-    "[set]\nfriction.closure = \"literal\"\nfriction.localisation = 1200\ngap.exchange_time = \"0.29 ms\"\n"
-    "kinetics.set = \"comp-b\"\nkinetics.ignition_temperature = \"521 K\"\n";
+    "[set]\nfriction.closure = \"literal\"\nfriction.localisation = 1700\ngap.exchange_time = \"0.29 ms\"\n"
+    "kinetics.set = \"comp-b\"\nkinetics.ignition_temperature = \"519 K\"\n";
 /// On a lattice of 2.5 mm whose cells do not grow, which needs no setting that tells what growth changes.
 inline const std::string constants_on_even_lattice =
     synthetic_constants + "numerics.cell_size = \"2.5 mm\"\nnumerics.growth_x = 1\nnumerics.growth_r = 1\n";

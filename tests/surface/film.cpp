@@ -118,16 +118,16 @@ TEST(FilmColumn, JoinsTwoSolidsAsHalfSpacesInContact) {
   constexpr int steps = 2000;
   for (int k = 0; k < steps; ++k) column.step(duration / steps, {rest, rest, rest}, 0.0);
 
-  const double capacity = model.charge_density * model.specific_heat;
-  const double in_charge = std::sqrt(model.charge_conductivity * capacity);
+  const double volumetric = model.charge_density * model.specific_heat;
+  const double in_charge = std::sqrt(model.charge_conductivity * volumetric);
   const double in_base = std::sqrt(model.base_conductivity * model.base_density * model.base_specific_heat);
   const double face = (in_charge * charge + in_base * base) / (in_charge + in_base);
   EXPECT_NEAR(column.charge_surface(), face, 1e-2);
   EXPECT_NEAR(column.base_surface(), face, 1e-2);
   double x = 0.0;
   for (std::size_t i = grid.air_begin; i-- > 0;) {
-    const double dx = grid.capacity[i] / capacity, middle = x + 0.5 * dx;
-    const double scale = 2.0 * std::sqrt(model.charge_conductivity / capacity * duration);
+    const double dx = grid.capacity[i] / volumetric, middle = x + 0.5 * dx;
+    const double scale = 2.0 * std::sqrt(model.charge_conductivity / volumetric * duration);
     EXPECT_NEAR(column.temperature(i), face + (charge - face) * std::erf(middle / scale), 0.1);
     x += dx;
   }

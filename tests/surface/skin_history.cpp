@@ -89,7 +89,9 @@ TEST(SkinHistory, TracedTemperaturesAreThoseOfFineCalls) {
 
 TEST(SkinHistory, FirstIgnitionIsReportedWithTimeStationAndCause) {
   const trace::BottomTrace trace = launch(900, 3, 3.0 * friction_energy);
-  const SkinHistory history = integrate_skin(SkinModel{}, trace, 0.0);
+  SkinModel model;
+  model.surface.localisation = 1048.1;
+  const SkinHistory history = integrate_skin(model, trace, 0.0);
   ASSERT_TRUE(history.ignition.has_value());
   EXPECT_EQ(history.ignition->station, 2u);  // the station with the most friction; points do not count
   EXPECT_EQ(history.ignition->cause, IgnitionCause::trigger);

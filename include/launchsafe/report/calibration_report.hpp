@@ -18,6 +18,8 @@ std::string answer(const study::CalibrationResult& result);
 Table calibration_table(const study::CalibrationResult& result);
 /// Every hold-out of one row: predicted, published, misfit.
 Table hold_out_table(const study::CalibrationResult& result, const study::CalibrationRow& row);
+/// The misfits of the recommended row by which a model is chosen among others; no rows without any.
+Table selection_table(const study::CalibrationResult& result);
 /// What the constants do from mesh to mesh.
 Table convergence_table(const study::CalibrationResult& result);
 /// The recommended constants beside those of the scene file.
@@ -26,8 +28,9 @@ Table constants_table(const study::CalibrationResult& result);
 nlohmann::ordered_json to_json(const study::CalibrationResult& result);
 std::string to_markdown(const study::CalibrationResult& result);
 
-/// Writes calibration.csv, hold_outs.csv, study.json, report.md and one case file for every mechanical run
-/// into a folder, which is made. Errors: conflict, write_failed.
+/// Writes calibration.json (the record that other studies name), calibration.csv, hold_outs.csv, study.json,
+/// report.md and one case file for every mechanical run into a folder, which is made. Errors: conflict,
+/// write_failed.
 store::Result<WrittenFiles> write_report(const study::CalibrationResult& result,
                                          const std::filesystem::path& folder);
 

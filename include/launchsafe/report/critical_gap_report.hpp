@@ -24,6 +24,9 @@ Table critical_gap_table(const study::CriticalGapResult& result);
 /// The study's cited limits beside the critical gaps of its cases; without rows where it cites none.
 Table cited_limit_table(const study::CriticalGapResult& result);
 /// What the skin took from the air of every gap of every case, and what follows from it.
+/// Highest temperatures and critical gaps under the reservoir and under the film of air, by name; no rows
+/// where the study's own air is no reservoir.
+Table air_model_table(const study::CriticalGapResult& result);
 Table air_energy_table(const study::CriticalGapResult& result);
 /// Lines of one case and their residuals.
 Table fit_table(const study::CaseOutcome& outcome);

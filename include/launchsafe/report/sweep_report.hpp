@@ -23,6 +23,9 @@ std::string answer(const study::SweepResult& result);
 Table critical_gap_table(const study::SweepResult& result);
 /// The study's cited limits beside the critical gaps of its cases; without rows where it cites none.
 Table cited_limit_table(const study::SweepResult& result);
+/// By how much each axis with several values changes T max and critical gap at most, and of the crack radius
+/// also below the flaw size; without rows where there is no such axis.
+Table axis_effect_table(const study::SweepResult& result);
 /// A row for every gap of every case, for other programs.
 Table verdict_table(const study::SweepResult& result);
 /// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
@@ -34,6 +37,7 @@ nlohmann::ordered_json to_json(const study::SweepResult& result);
 /// Critical gap over the axes that have several values.
 struct SweepPictures {
   std::vector<Contour> maps;         ///< over the first two of them, one for each combination of the others
+  std::vector<Contour> surely_safe;  ///< the same less its uncertainty
   std::optional<Plot> curve;         ///< where there is only one
   std::vector<std::string> remarks;  ///< combinations that have no picture
 };
@@ -43,7 +47,7 @@ SweepPictures pictures(const study::SweepResult& result);
 std::string to_markdown(const study::SweepResult& result, const std::vector<std::string>& pictures);
 
 /// Writes critical_gaps.csv, critical_gaps.md, verdicts.csv, critical_gap.svg (critical_gap_2.svg, ...),
-/// report.md and study.json into a folder, which is made. Errors: conflict, write_failed.
+/// safe_gap.svg, report.md and study.json into a folder, which is made. Errors: conflict, write_failed.
 store::Result<WrittenFiles> write_report(const study::SweepResult& result,
                                          const std::filesystem::path& folder,
                                          const DrawingLimits& limits = {});

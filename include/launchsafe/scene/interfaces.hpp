@@ -33,7 +33,7 @@ Expected<std::vector<Interface>> read_interfaces(const toml::table& root, const 
 std::optional<InputError> check_interfaces(const SceneFile& file);
 
 /// Writes the interfaces as "interface.'NAME'.KEY = VALUE", one a line.
-void append_interfaces(fmt::memory_buffer& text, const std::vector<Interface>& interfaces);
+void append_interfaces(fmt::memory_buffer& text, std::vector<Interface> interfaces);
 
 /// What holds the charge, as people read it: one line a body that touches it, with what that assumes.
 struct InterfaceText {

@@ -49,8 +49,8 @@ struct Load {
   double duration = 18e-3;             ///< s
   double peak = 496e6;                 ///< Pa
   double base = 101325.0;              ///< p0, Pa
-  double peak_time = 11e-3;            ///< t_m, s
-  double exponent = 12.0;              ///< n
+  double peak_time = 12.9641e-3;       ///< t_m, s [C]
+  double exponent = 13.578;            ///< n [C]
   std::string curve_file;              ///< as the user wrote it
   std::vector<double> curve_time;      ///< s, increasing; empty for the analytic shape
   std::vector<double> curve_pressure;  ///< Pa, one for every time
@@ -69,11 +69,11 @@ struct Surface {
   AirModel air_model = AirModel::reservoir;
   Exchange exchange = Exchange::rate;
   double skin_thickness = 1e-4;       ///< h_ex, m
-  double exchange_time = 2.99944e-4;  ///< tau_ex, s [C]
+  double exchange_time = 3.04916e-4;  ///< tau_ex, s [C]
   /// Stations tile the charge's bottom by about this width and this depth, m.
   double station_width = 5e-3, station_depth = 5e-3;
   FrictionClosure friction = FrictionClosure::literal;
-  double localisation = 1048.1;  ///< [C]
+  double localisation = 1508.09;  ///< [C]
 };
 
 struct Numerics {

@@ -1,6 +1,7 @@
 // The study of kind calibration: the constants that published rows ask for, and what they then predict.
 #pragma once
 
+#include "launchsafe/scene/load_shape.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/read_study.hpp"
 #include "launchsafe/surface/skin.hpp"
@@ -43,14 +44,28 @@ struct CalibratedConstants {
 CalibratedConstants calibrate(const surface::SkinModel& model, const trace::BottomTrace& trace,
                               const CalibrationTargets& targets);
 
-/// A prediction that nothing was fitted to.
+/// The analytic load that was fitted to what is published of the rise without a gap.
+struct FittedLoad {
+  double peak_time = not_a_number;     ///< s
+  double exponent = not_a_number;      ///< with which the fast rise lasts as long as published
+  scene::TurningTimes turning;         ///< s, of this load
+  double early_misfit = not_a_number;  ///< K, left over at Study::early_time
+  std::string failure;                 ///< why there is none; empty when all went well
+};
+
+/// What a published number is used for.
+enum class Use { held_out, selection, calibration };
+std::string to_string(Use use);
+
+/// A prediction beside a published number.
 struct HoldOut {
-  std::string quantity;             ///< "T max", "T at 10 ms", "spread at 10 ms", "ignition time", ...
+  std::string quantity = {};        ///< "T max", "T at 10 ms", "spread at 10 ms", "ignition time", ...
   double gap = 0;                   ///< m
   double predicted = not_a_number;  ///< K or s
   double published = not_a_number;  ///< K or s
   bool temperature = true;          ///< counts in the root mean square; spreads and times do not
   bool in_seconds = false;
+  Use use = Use::held_out;
   double misfit() const { return predicted - published; }
 };
 
@@ -59,6 +74,12 @@ struct Placement {
   std::string quantity;
   double gap = 0;  ///< m
   std::string predicted, published;
+};
+
+/// One of the misfits by which a model is chosen among others (studies/model_form/README.md).
+struct SelectionMisfit {
+  std::string quantity;
+  double misfit = not_a_number;  ///< K, predicted minus published
 };
 
 /// One mesh with one friction closure and one kinetics.
@@ -70,9 +91,11 @@ struct CalibrationRow {
   CalibratedConstants calibrated;
   std::vector<HoldOut> hold_outs;
   std::vector<Placement> placements;
-  double root_mean_square = not_a_number;         ///< K, over the temperature hold-outs
-  double spread_root_mean_square = not_a_number;  ///< K, over the spreads
-  std::string failure;                            ///< of the run or of the fit; empty when all went well
+  std::vector<SelectionMisfit> selection;
+  double root_mean_square = not_a_number;            ///< K, over the temperatures that are held out
+  double selection_root_mean_square = not_a_number;  ///< K, over `selection`; NaN without any
+  double spread_root_mean_square = not_a_number;     ///< K, over the spreads
+  std::string failure;                               ///< of the run or of the fit; empty when all went well
 };
 std::string to_string(scene::FrictionClosure closure);
 
@@ -82,6 +105,15 @@ struct Convergence {
   std::string kinetics;
   double localisation_change = not_a_number;  ///< (finest - coarsest)/finest
   double exchange_time_change = not_a_number;
+};
+
+/// Largest change of the end temperature of any station without a gap, with the constants of one mesh, to a
+/// finer mesh and from a coarser one.
+struct StationConvergence {
+  double finer = not_a_number;    ///< K
+  double coarser = not_a_number;  ///< K
+  /// By the rule of studies/model_form/README.md.
+  bool converges() const;
 };
 
 /// The mechanical run of one mesh.
@@ -102,6 +134,8 @@ struct Recommendation {
 struct CalibrationResult {
   StudyFile study;
   std::vector<CalibrationRun> runs;
+  std::optional<FittedLoad> load;    ///< where the study asks for one; all runs are under it
+  StationConvergence stations;       ///< around the recommended row
   std::vector<CalibrationRow> rows;  ///< mesh by mesh, closure by closure, kinetics by kinetics
   std::vector<Convergence> convergence;
   Recommendation recommendation;
@@ -111,7 +145,8 @@ struct CalibrationResult {
   bool any_failed() const;
 };
 
-/// Runs a study of kind calibration: one mechanical run a mesh, everything else on the traces.
+/// Runs a study of kind calibration: one mechanical run a mesh, some more to fit the load, everything else on
+/// the traces.
 CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& options = {});
 
 }  // namespace launchsafe::study

@@ -62,6 +62,13 @@ struct Confirmation {
   bool agrees() const { return completed && ignited == expected_ignition; }
 };
 
+/// The same case with its air as a film that conserves energy: the optimistic bound beside the reservoir. It
+/// gives no verdict.
+struct FilmBound {
+  std::vector<double> maximum_temperature;  ///< K, of the charge's surface, for every gap of the study
+  CriticalGap critical;                     ///< without an uncertainty
+};
+
 /// One mechanical case with its gaps.
 struct CaseOutcome {
   StudyCase input;
@@ -76,6 +83,7 @@ struct CaseOutcome {
   std::vector<Confirmation> confirmations;
   std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps
   std::optional<GapFit> fit;         ///< over the rows that do not ignite
+  std::optional<FilmBound> film;     ///< of a completed run with the reservoir
   bool completed() const { return failure.empty(); }
 };
 

@@ -5,7 +5,9 @@
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/study/calibration_domain.hpp"
 #include "launchsafe/study/cited_limit.hpp"
+#include "launchsafe/study/model_form.hpp"
 #include "launchsafe/verify/hard_case.hpp"
 
 #include <cstddef>
@@ -76,7 +78,9 @@ struct Reference {
   double spread = not_a_number;               ///< K, highest minus lowest observation point at the end
   double early_spread = not_a_number;         ///< K, likewise at Study::early_time
   double ignition_time = not_a_number;        ///< s; NaN for a gap that did not ignite
-  bool calibrated = false;                    ///< used to calibrate; otherwise a hold-out
+  bool calibrated = false;        ///< constants are fitted to the maximum temperature; otherwise a hold-out
+  bool early_calibrated = false;  ///< the load is fitted to the temperature at Study::early_time
+  bool selection = false;         ///< the rest of the row was used to choose the model, apart from T max
   bool ignited() const { return ignition_time == ignition_time; }
 };
 
@@ -97,6 +101,8 @@ struct Study {
   std::vector<Reference> references;
   ReferenceLine reference_line;
   std::vector<CitedLimit> cited_limits;  ///< kinds critical-gap and sweep
+  std::string
+      references_file;  ///< path of a file with the references, from the study file's folder; or empty
 
   // every kind that judges gaps
   std::vector<double> gaps;  ///< m; those of the scene where the file has none; one for kind sensitivity
@@ -118,6 +124,9 @@ struct Study {
   bool compare_kinetics = false;           ///< calibrate with every named kinetics, not only the scene's
   double ignition_lowest = not_a_number;   ///< K, published bracket of the ignition temperature
   double ignition_highest = not_a_number;  ///< K
+  /// s, two instants between which the published temperature without a gap rises fast; empty: the scene's
+  /// load
+  std::vector<double> fast_rise;
 
   // kind sweep
   std::vector<Axis> axes;  ///< all but the gap, in the order written
@@ -141,6 +150,15 @@ struct Study {
   // kind stability
   bool laws = true;  ///< the laws by themselves too (verify::hard_laws)
 
+  // kinds that may use the record of a calibration
+  std::string calibration_record;                   ///< path from the study file's folder; empty: none
+  Calibration calibration = shipped_calibration();  ///< where the constants of the scene are known
+
+  // kinds that give verdicts
+  std::string model_form_record;                 ///< path from the study file's folder; empty: none
+  std::optional<ModelFormRecord> model_form;     ///< what it says
+  double model_form_uncertainty = not_a_number;  ///< K, of T max, instead of a record; NaN: not stated
+
   // kinds that may use the record of an accuracy study
   std::string accuracy;  ///< path of the record from the study file's folder; empty: none
   double setting_tolerance =
@@ -160,6 +178,10 @@ inline constexpr double assumed_numerical_uncertainty = 60.0;
 /// K, on a grid that does not run along the charge, or with other than one particle a cell: the largest bound
 /// that the record of the 155 mm shell has for such numerics is 99 K.
 inline constexpr double assumed_uncertainty_off_grid = 100.0;
+
+/// K, where no record of other models speaks of a launch: more than any alternative that counts moves T max
+/// of the 155 mm shell (reports/model_form).
+inline constexpr double assumed_model_form = 25.0;
 
 /// One mechanical run of a study: a complete, valid scene.
 struct StudyCase {

@@ -20,13 +20,17 @@ struct Uncertainty {
   double fit = 0;          ///< of the calibrated constants, carried to this case
   double input = 0;        ///< of what is not known of the launch
   double load_curve = 0;   ///< of a measured curve: what its noise heats, and what smoothing took from it
+  double model_form = 0;   ///< by which other models of the launch move towards ignition
   double sliding = 0;  ///< of a base on which the charge slides: all heat of friction, and the gap that opens
   /// Of the computation itself: the sum, since the parts are bounds and have common causes.
   double computed() const { return sampling + integration + coupling + numerical + sliding; }
   /// Of the launch: both may be wrong in the same direction.
   double inputs() const { return input + load_curve; }
-  /// The root of the sum of squares of the independent parts, as ASME V&V 20 combines them.
-  double total() const { return std::sqrt(computed() * computed() + fit * fit + inputs() * inputs()); }
+  /// The root of the sum of squares of the independent parts, as ASME V&V 20 combines them, and on top the
+  /// model form: its sign is known, so that a verdict holds under each of the models.
+  double total() const {
+    return std::sqrt(computed() * computed() + fit * fit + inputs() * inputs()) + model_form;
+  }
 };
 
 /// All that a verdict rests on.
@@ -42,6 +46,7 @@ struct Evidence {
   std::string limited = {};   ///< limiters that acted, for people; empty where none did
   std::string noise = {};     ///< what the noise of a measured curve counts, for people; empty for nothing
   std::string accepted = {};  ///< what is not plausible and why it is meant, for people; empty: nothing
+  std::string model_form = {};    ///< models that could change the verdict, for people; empty: none
   std::string extrapolated = {};  ///< what lies outside the calibration's domain, for people; empty: nothing
 };
 

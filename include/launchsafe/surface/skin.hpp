@@ -77,6 +77,9 @@ struct Maximum {
 /// Over the stations that tile the bottom; over the observation points. NaN without any.
 Maximum maximum_at_stations(const SkinHistory& history, const trace::BottomTrace& trace);
 Maximum maximum_at_observation_points(const SkinHistory& history, const trace::BottomTrace& trace);
+/// Temperature of one station at time t (s), linear between samples.
+double temperature_at_time(const SkinHistory& history, const trace::BottomTrace& trace, std::size_t station,
+                           double time);
 /// Highest temperature of the stations at time t (s), and the spread (max - min) over them.
 Maximum maximum_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time);
 double spread_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time);

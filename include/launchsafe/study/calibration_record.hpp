@@ -1,0 +1,39 @@
+// What a calibration found, kept for the studies that use its constants.
+#pragma once
+
+#include "launchsafe/scene/read_scene.hpp"
+#include "launchsafe/study/calibration.hpp"
+
+#include <optional>
+#include <string>
+
+namespace launchsafe::study {
+
+/// The calibrated launch, how well it meets what is published, and whether its stations converge; or why
+/// there is no calibration.
+struct CalibrationRecord {
+  std::string title;  ///< of the calibration
+  int model_version = 0;
+  std::string failure;  ///< why no constants meet the rows, and nothing below means anything; else empty
+  Calibration calibration;
+  double ignition_lowest = not_a_number;   ///< K, T max without a trigger at the largest gap that is safe
+  double ignition_highest = not_a_number;  ///< K, and at the smallest that ignites: T1 is in the middle
+  double held_out_misfit = not_a_number;   ///< K, largest of T max of the rows that nothing was fitted to
+  double selection_root_mean_square = not_a_number;  ///< K; NaN where no row was used for selection
+  StationConvergence stations;                       ///< K; NaN where not measured
+};
+
+/// Nothing of a calibration that was interrupted.
+std::optional<CalibrationRecord> record_of(const CalibrationResult& result);
+
+/// The record as a file, with the SHA-256 of its content.
+std::string to_json_text(const CalibrationRecord& record);
+/// Refuses an edited record, one of another model version, and a scene that no reader takes. `file` is named
+/// in errors.
+scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& text, const std::string& file);
+
+/// K, of T max by the constants, of the launch that they were found on: half the distance between the
+/// temperatures that T1 separates, or the largest misfit of a row that is held out, whichever is larger.
+double fit_uncertainty_of(const CalibrationRecord& record);
+
+}  // namespace launchsafe::study

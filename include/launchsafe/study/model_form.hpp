@@ -1,0 +1,83 @@
+// How the critical gap changes with the choice of the model, each calibrated on the same rows, and which part
+// of that counts as uncertainty of a verdict.
+#pragma once
+
+#include "launchsafe/scene/read_scene.hpp"
+#include "launchsafe/study/calibration_domain.hpp"
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+struct CalibrationRecord;
+
+/// One critical gap: metres; 0 where it ignites without a gap, infinite where nothing ignites up to the end
+/// of the search, NaN where it is not known.
+using GapOrBound = double;
+inline constexpr GapOrBound no_ignition = std::numeric_limits<double>::infinity();
+
+/// The critical gaps of one model over the peak pressure, as a sweep found them.
+struct CriticalGapCurve {
+  std::string title;
+  int model_version = 0;
+  scene::Scene scene;                    ///< of the sweep
+  std::vector<double> peak_pressures;    ///< Pa, increasing
+  std::vector<GapOrBound> critical_gap;  ///< m, for every pressure
+  double largest_gap = 0;                ///< m, where the searches ended
+};
+std::string to_json_text(const CriticalGapCurve& curve);
+scene::Expected<CriticalGapCurve> parse_critical_gap_curve(const std::string& text, const std::string& file);
+
+/// A model beside the default one.
+struct ModelAlternative {
+  std::string name, title;
+  std::string not_counted;               ///< why it enters no share, a clause; empty where it counts
+  std::vector<GapOrBound> critical_gap;  ///< m, for every pressure of the record
+};
+
+/// The default model and its alternatives.
+struct ModelFormRecord {
+  int model_version = 0;
+  scene::Scene scene;                    ///< the default's, with its constants
+  std::vector<double> peak_pressures;    ///< Pa, increasing
+  std::vector<GapOrBound> critical_gap;  ///< m, of the default
+  std::vector<ModelAlternative> alternatives;
+};
+
+/// What a model needs to stand in a record.
+struct ModelFormEntry {
+  std::string name;
+  const CalibrationRecord* calibration = nullptr;
+  const CriticalGapCurve* curve = nullptr;
+};
+/// The first entry is the default. Errors (a text): other pressures, a default without constants or without
+/// critical gaps, or a curve that is not of its calibration.
+struct ModelFormOrError {
+  std::optional<ModelFormRecord> record;
+  std::string error;
+};
+ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries);
+
+std::string to_json_text(const ModelFormRecord& record);
+/// Refuses an edited record and one of another model version. `file` is named in errors.
+scene::Expected<ModelFormRecord> parse_model_form(const std::string& text, const std::string& file);
+
+/// m by which the smallest critical gap of an alternative that counts is below the default's: how far models
+/// move towards ignition.
+struct ModelFormShift {
+  double gap = 0;      ///< m, >= 0; NaN where it is not known
+  std::string reason;  ///< why it is not known, a clause
+};
+/// Of a launch of the record's scene at a peak pressure among the recorded ones, linear between them. Not
+/// known where the scene differs in anything else than its gaps, numerics and output.
+ModelFormShift model_form_shift(const ModelFormRecord& record, const scene::Scene& scene);
+
+/// The alternatives under which a gap (m) that ignites would not, or might not; those under which one that
+/// does not ignite might, apart from those that count. For people; empty for none, and outside the record.
+std::string models_without_ignition(const ModelFormRecord& record, const scene::Scene& scene, double gap);
+std::string models_that_may_ignite(const ModelFormRecord& record, const scene::Scene& scene, double gap);
+
+}  // namespace launchsafe::study

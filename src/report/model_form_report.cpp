@@ -1,0 +1,173 @@
+#include "launchsafe/report/model_form_report.hpp"
+
+#include "columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/store/own_files.hpp"
+#include "launchsafe/study/calibration_record.hpp"
+#include "study_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::report {
+namespace {
+
+using detail::optional_number;
+using study::ModelFormEntry, study::ModelFormRecord;
+
+std::string megapascals(double pressure) { return significant(1e-6 * pressure, 6); }
+
+/// "0.0395", "none to 0.3", "ignites without a gap" or "not known"; cm.
+std::string gap_text(study::GapOrBound gap, double largest) {
+  if (std::isnan(gap)) return "not known";
+  if (gap == study::no_ignition) return "none to " + significant(100.0 * largest, 3);
+  if (gap == 0.0) return "ignites without a gap";
+  return significant(100.0 * gap, 4);
+}
+
+const study::ModelAlternative* alternative_of(const ModelFormRecord& record, const std::string& name) {
+  const auto found = std::find_if(record.alternatives.begin(), record.alternatives.end(),
+                                  [&](const auto& each) { return each.name == name; });
+  return found == record.alternatives.end() ? nullptr : &*found;
+}
+
+/// Pressures at which an alternative ignites at smaller gaps than the default, in MPa.
+std::string towards_ignition(const ModelFormRecord& record, const study::ModelAlternative& alternative) {
+  std::string pressures;
+  for (std::size_t i = 0; i < record.peak_pressures.size(); ++i) {
+    if (!(alternative.critical_gap[i] < record.critical_gap[i])) continue;
+    pressures += (pressures.empty() ? "" : ", ") + megapascals(record.peak_pressures[i]);
+  }
+  return pressures;
+}
+
+std::string counts_for(const ModelFormRecord& record, const study::ModelAlternative* alternative) {
+  if (alternative == nullptr) return "the default";
+  if (!alternative->not_counted.empty()) return "no share; named only: " + alternative->not_counted;
+  const std::string pressures = towards_ignition(record, *alternative);
+  if (pressures.empty()) return "no share: moves away from ignition";
+  return "a share: towards ignition at " + pressures + " MPa";
+}
+
+}  // namespace
+
+Table model_form_table(const ModelForm& form) {
+  Table table;
+  table.title = "Critical gap [cm] by model and peak pressure";
+  table.columns = {text_column("model"), text_column("what it is")};
+  for (const double pressure : form.record.peak_pressures)
+    table.columns.push_back(text_column(megapascals(pressure) + " MPa"));
+  table.columns.push_back(text_column("counts as"));
+  for (const ModelFormEntry& each : form.entries) {
+    std::vector<Cell> cells{each.name, each.curve->title};
+    for (const study::GapOrBound gap : each.curve->critical_gap)
+      cells.emplace_back(gap_text(gap, each.curve->largest_gap));
+    cells.emplace_back(counts_for(form.record, alternative_of(form.record, each.name)));
+    table.rows.push_back(std::move(cells));
+  }
+  std::vector<Cell> shift{std::string("shift"), std::string("of a SAFE's gap towards ignition")};
+  for (const double pressure : form.record.peak_pressures) {
+    scene::Scene scene = form.record.scene;
+    scene.load.peak = pressure;
+    const auto most = study::model_form_shift(form.record, scene);
+    shift.emplace_back(std::isnan(most.gap) ? std::string("not known") : significant(100.0 * most.gap, 3));
+  }
+  shift.emplace_back(std::string("the largest of the models that count"));
+  table.rows.push_back(std::move(shift));
+  return table;
+}
+
+Table model_constants_table(const ModelForm& form) {
+  Table table;
+  table.title = "Constants of each model, calibrated by the same rule";
+  table.columns = {
+      text_column("model"),
+      detail::significant_column("peak time", "ms", 6, "peak_time_ms"),
+      detail::significant_column("exponent", "", 6, "exponent"),
+      detail::significant_column("localisation", "", 6, "localisation"),
+      detail::significant_column("exchange time", "ms", 6, "exchange_time_ms"),
+      detail::significant_column("T1", "K", 6, "ignition_temperature_K"),
+      detail::significant_column("RMS of selection", "K", 4, "selection_rms_K"),
+      detail::significant_column("largest held-out misfit", "K", 3, "held_out_misfit_K"),
+      detail::significant_column("change to the finer mesh", "K", 3, "station_change_to_finer_K"),
+      detail::significant_column("from the coarser", "K", 3, "station_change_from_coarser_K"),
+      text_column("stations converge")};
+  for (const ModelFormEntry& each : form.entries) {
+    const study::CalibrationRecord& record = *each.calibration;
+    if (!record.failure.empty()) continue;
+    const scene::Scene& scene = record.calibration.scene;
+    table.rows.push_back(
+        {each.name, 1e3 * scene.load.peak_time, scene.load.exponent, scene.surface.localisation,
+         1e3 * scene.surface.exchange_time, scene.charge().kinetics.ignition_temperature,
+         optional_number(record.selection_root_mean_square), optional_number(record.held_out_misfit),
+         optional_number(record.stations.finer), optional_number(record.stations.coarser),
+         std::string(record.stations.converges() ? "yes" : "no")});
+  }
+  table.notes.push_back(
+      "Changes: of any station's temperature at the end of the launch without a gap, with the constants "
+      "held.");
+  return table;
+}
+
+Plot model_form_plot(const ModelForm& form) {
+  Plot plot;
+  plot.title = "Critical gap by model, each calibrated by the same rule";
+  plot.x.label = "peak pressure [MPa]";
+  plot.y.label = "critical gap [cm]";
+  plot.y.minimum = 0.0;
+  plot.legend = Legend::right_of_plot;
+  for (const ModelFormEntry& each : form.entries) {
+    Series series{each.name, {}, {}, Style::line_and_points};
+    const study::ModelAlternative* alternative = alternative_of(form.record, each.name);
+    if (alternative != nullptr && !alternative->not_counted.empty()) series.style = Style::dashed_line;
+    for (std::size_t i = 0; i < each.curve->critical_gap.size(); ++i) {
+      if (!std::isfinite(each.curve->critical_gap[i])) continue;
+      series.x.push_back(1e-6 * each.curve->peak_pressures[i]);
+      series.y.push_back(100.0 * each.curve->critical_gap[i]);
+    }
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+std::string to_markdown(const ModelForm& form, const std::string& picture) {
+  std::string text =
+      fmt::format("# Model form: the critical gap under other models\n\n    {}\n\n", form.command);
+  text +=
+      "Every model is calibrated on the same published rows by the rule of `studies/model_form/README.md`, "
+      "and "
+      "its critical gap swept over the peak pressure. At the calibration's own pressure they therefore "
+      "agree; "
+      "what differs is how the critical gap moves. A model that ignites at smaller gaps than the default is "
+      "a "
+      "share of the uncertainty of every SAFE. One that ignites at larger gaps alone weakens no SAFE, and an "
+      "UNSAFE names it where it would not ignite. One without a calibration or without a limit of meshes "
+      "enters no share, and is named beside every verdict that it could change.\n\n";
+  text += to_markdown(model_form_table(form)) + "\n";
+  if (!picture.empty()) text += fmt::format("![critical gap by model]({})\n\n", picture);
+  return text + to_markdown(model_constants_table(form));
+}
+
+std::vector<std::string> model_form_files() {
+  return {"model_form.json", "model_form.csv", "model_form.svg", "report.md"};
+}
+
+store::Result<WrittenFiles> write_report(const ModelForm& form, const std::filesystem::path& folder,
+                                         const DrawingLimits& limits) {
+  WrittenFiles written;
+  const auto picture =
+      detail::write_picture(model_form_plot(form), folder, "model_form.svg", written, limits);
+  if (!picture) return picture.error();
+  const std::string page = to_markdown(form, *picture) + detail::missing_picture_text(*picture);
+  if (auto error = detail::write_texts(folder,
+                                       {{"model_form.json", study::to_json_text(form.record)},
+                                        {"model_form.csv", to_csv(model_form_table(form))},
+                                        {"report.md", page}},
+                                       written))
+    return *error;
+  return written;
+}
+
+}  // namespace launchsafe::report

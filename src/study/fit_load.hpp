@@ -1,0 +1,18 @@
+// The analytic load that meets what is published of the rise without a gap: its duration and an early
+// temperature.
+#pragma once
+
+#include "launchsafe/study/calibration.hpp"
+
+namespace launchsafe::study::detail {
+
+/// Fits exponent and peak time to Study::fast_rise and to the row without a gap whose early temperature is to
+/// be met, with localisation, exchange time and T1 calibrated on every load that is tried: each is a
+/// mechanical run on the mesh of the scene. `timing` counts them.
+FittedLoad fit_load(const StudyFile& study, const CalibrationTargets& targets, const StudyOptions& options,
+                    Timing& timing);
+
+/// A scene under that load. Only of one without a failure.
+scene::SceneFile with_load(const scene::SceneFile& scene, const FittedLoad& load);
+
+}  // namespace launchsafe::study::detail

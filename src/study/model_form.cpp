@@ -1,0 +1,155 @@
+#include "launchsafe/study/model_form.hpp"
+
+#include "launchsafe/run/model_version.hpp"
+#include "launchsafe/study/calibration_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::study {
+namespace {
+
+/// K; a model whose stations move by more from the scene's mesh to a finer one has no limit that is known.
+constexpr double most_station_change = 3.0;
+
+std::string why_not_counted(const CalibrationRecord& calibration) {
+  if (!calibration.failure.empty()) return "no calibration: " + calibration.failure;
+  if (!(calibration.stations.finer <= most_station_change)) {
+    return std::isfinite(calibration.stations.finer)
+               ? fmt::format("no limit of meshes: a station changes by {:.3g} K", calibration.stations.finer)
+               : std::string("no limit of meshes: none was measured");
+  }
+  return {};
+}
+
+ModelFormOrError refused(std::string error) { return {std::nullopt, std::move(error)}; }
+
+/// Why a curve is not that of the calibrated model; empty where it is.
+std::string why_another(const ModelFormEntry& entry) {
+  if (entry.calibration->model_version != entry.curve->model_version)
+    return "its calibration and its sweep are of different model versions";
+  if (!entry.calibration->failure.empty()) return {};
+  const CalibrationDistance distance =
+      distance_to_calibration(entry.curve->scene, entry.calibration->calibration);
+  if (distance.inside()) return {};
+  return fmt::format("its sweep is not of the calibrated launch ({}{}{})", fmt::join(distance.unknown, ", "),
+                     distance.unknown.empty() || distance.carried.empty() ? "" : ", ",
+                     fmt::join(distance.carried, ", "));
+}
+
+/// The recorded pressures around a peak: their indices, and the share of the upper one.
+struct PressureInterval {
+  std::size_t below = 0, above = 0;
+  double share = 0;
+};
+
+std::optional<PressureInterval> interval_of(const std::vector<double>& pressures, double peak) {
+  constexpr double round_off = 1e-9;
+  if (pressures.empty() || !(peak >= pressures.front() * (1.0 - round_off)) ||
+      !(peak <= pressures.back() * (1.0 + round_off)))
+    return std::nullopt;
+  const auto next = std::lower_bound(pressures.begin(), pressures.end(), peak * (1.0 - round_off));
+  const auto above = static_cast<std::size_t>(next - pressures.begin());
+  if (std::abs(pressures[above] - peak) <= round_off * peak) return PressureInterval{above, above, 0.0};
+  return PressureInterval{above - 1, above,
+                          (peak - pressures[above - 1]) / (pressures[above] - pressures[above - 1])};
+}
+
+/// m at one recorded pressure; NaN where it is not known.
+double shift_at(const ModelFormRecord& record, std::size_t pressure) {
+  const GapOrBound own = record.critical_gap[pressure];
+  if (std::isnan(own)) return own;
+  double most = 0.0;
+  for (const ModelAlternative& each : record.alternatives) {
+    if (!each.not_counted.empty()) continue;
+    const GapOrBound other = each.critical_gap[pressure];
+    // Where the default has a bound alone, how much lower another one lies is not known.
+    const double shift = other == no_ignition ? 0.0 : own == no_ignition ? std::nan("") : own - other;
+    if (!(shift <= most)) most = shift;
+    if (std::isnan(most)) return most;
+  }
+  return most;
+}
+
+double peak_of(const scene::Scene& scene) { return scene::PressureHistory(scene.load).stated_peak(); }
+
+/// Why a record says nothing of a scene; empty where it does.
+std::string why_outside(const ModelFormRecord& record, const scene::Scene& scene) {
+  const CalibrationDistance distance = distance_to_calibration(scene, {record.scene, {}});
+  std::vector<std::string> other = distance.unknown;
+  for (const std::string& each : distance.carried) {
+    if (each != "peak pressure" && each != "numerics") other.push_back(each);
+  }
+  if (!other.empty()) return fmt::format("it was made for another launch ({})", fmt::join(other, ", "));
+  if (interval_of(record.peak_pressures, peak_of(scene))) return {};
+  return fmt::format("it was made from {:.4g} to {:.4g} MPa", 1e-6 * record.peak_pressures.front(),
+                     1e-6 * record.peak_pressures.back());
+}
+
+template <class Differs>
+std::string names_where(const ModelFormRecord& record, const scene::Scene& scene, Differs differs) {
+  if (!why_outside(record, scene).empty()) return {};
+  const PressureInterval interval = *interval_of(record.peak_pressures, peak_of(scene));
+  std::vector<std::string> names;
+  for (const ModelAlternative& each : record.alternatives) {
+    const GapOrBound a = each.critical_gap[interval.below], b = each.critical_gap[interval.above];
+    if (differs(each, a) || differs(each, b)) names.push_back(each.name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries) {
+  if (entries.size() < 2) return refused("a record needs the default model and at least one alternative");
+  const ModelFormEntry& own = entries.front();
+  ModelFormRecord record;
+  record.model_version = own.curve->model_version;
+  record.scene = own.curve->scene;
+  record.peak_pressures = own.curve->peak_pressures;
+  record.critical_gap = own.curve->critical_gap;
+  if (const std::string reason = why_not_counted(*own.calibration); !reason.empty())
+    return refused(fmt::format("{} cannot be the default: {}", own.name, reason));
+  for (const ModelFormEntry& each : entries) {
+    if (const std::string reason = why_another(each); !reason.empty())
+      return refused(fmt::format("{}: {}", each.name, reason));
+    if (each.curve->peak_pressures != record.peak_pressures ||
+        each.curve->model_version != record.model_version)
+      return refused(
+          fmt::format("{}: other peak pressures, or another model version, than {}", each.name, own.name));
+    if (&each == &own) continue;
+    ModelAlternative alternative{each.name, each.curve->title, why_not_counted(*each.calibration),
+                                 each.curve->critical_gap};
+    const auto unknown = [](double gap) { return std::isnan(gap); };
+    if (alternative.not_counted.empty() &&
+        std::any_of(alternative.critical_gap.begin(), alternative.critical_gap.end(), unknown))
+      return refused(fmt::format("{}: a critical gap is not known", each.name));
+    record.alternatives.push_back(std::move(alternative));
+  }
+  return {std::move(record), {}};
+}
+
+ModelFormShift model_form_shift(const ModelFormRecord& record, const scene::Scene& scene) {
+  if (std::string reason = why_outside(record, scene); !reason.empty())
+    return {std::nan(""), std::move(reason)};
+  const PressureInterval interval = *interval_of(record.peak_pressures, peak_of(scene));
+  const double shift = (1.0 - interval.share) * shift_at(record, interval.below) +
+                       interval.share * shift_at(record, interval.above);
+  if (std::isnan(shift)) return {shift, "it has no critical gap of the default model there"};
+  return {shift, {}};
+}
+
+std::string models_without_ignition(const ModelFormRecord& record, const scene::Scene& scene, double gap) {
+  return names_where(record, scene,
+                     [gap](const ModelAlternative&, double critical) { return !(critical <= gap); });
+}
+
+std::string models_that_may_ignite(const ModelFormRecord& record, const scene::Scene& scene, double gap) {
+  return names_where(record, scene, [gap](const ModelAlternative& each, double critical) {
+    return !each.not_counted.empty() && !(critical > gap);
+  });
+}
+
+}  // namespace launchsafe::study

@@ -1,0 +1,174 @@
+#include "launchsafe/study/model_form.hpp"
+
+#include "launchsafe/run/model_version.hpp"
+#include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/critical_gap.hpp"
+#include "study/synthetic_launch.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <list>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::study;
+
+/// Calibrations and sweeps of some models of the synthetic launch, the default first.
+struct MadeModels {
+  std::list<CalibrationRecord> calibrations;
+  std::list<CriticalGapCurve> curves;
+  std::vector<ModelFormEntry> entries;
+
+  void add(const std::string& name, std::vector<GapOrBound> gaps, double change,
+           const std::string& failure = {}) {
+    const scene::Scene scene = study_of(critical_text + synthetic_constants).scene.scene;
+    CalibrationRecord calibration;
+    calibration.title = name;
+    calibration.model_version = run::model_version;
+    calibration.failure = failure;
+    calibration.calibration.scene = scene;
+    calibration.stations = {change, change};
+    calibrations.push_back(calibration);
+    curves.push_back(
+        {"the model " + name, run::model_version, scene, {450e6, 500e6, 550e6}, std::move(gaps), 3e-3});
+    entries.push_back({name, &calibrations.back(), &curves.back()});
+  }
+};
+
+/// The default ignites from 0.5, 0.4 and 0.3 mm on. `early` moves towards ignition, `late` away from it,
+/// `rough` has no limit of meshes, `cold` no calibration.
+MadeModels made_models() {
+  MadeModels made;
+  made.add("own", {5e-4, 4e-4, 3e-4}, 0.5);
+  made.add("early", {5e-4, 3.5e-4, 1e-4}, 0.5);
+  made.add("late", {6e-4, 5e-4, 4e-4}, 0.5);
+  made.add("rough", {1e-4, 1e-4, 1e-4}, 9.0);
+  made.add("cold", {no_ignition, no_ignition, no_ignition}, 0.5, "no exchange time gives 467.7 K");
+  return made;
+}
+
+ModelFormRecord made_record() {
+  const MadeModels made = made_models();
+  auto form = make_model_form(made.entries);
+  EXPECT_TRUE(form.record) << form.error;
+  return form.record.value_or(ModelFormRecord{});
+}
+
+scene::Scene at_pressure(double peak) {
+  scene::Scene scene = made_record().scene;
+  scene.load.peak = peak;
+  return scene;
+}
+
+TEST(ModelForm, ShiftIsTheLargestTowardsIgnitionOfModelsThatCount) {
+  const ModelFormRecord record = made_record();
+  EXPECT_DOUBLE_EQ(model_form_shift(record, at_pressure(450e6)).gap, 0.0);
+  EXPECT_NEAR(model_form_shift(record, at_pressure(500e6)).gap, 0.5e-4, 1e-12);   // 4e-4 - 3.5e-4 m
+  EXPECT_NEAR(model_form_shift(record, at_pressure(550e6)).gap, 2e-4, 1e-12);     // 3e-4 - 1e-4 m
+  EXPECT_NEAR(model_form_shift(record, at_pressure(525e6)).gap, 1.25e-4, 1e-12);  // half way
+}
+
+TEST(ModelForm, SaysNothingOfAnotherLaunchOrPressure) {
+  const ModelFormRecord record = made_record();
+  EXPECT_TRUE(std::isnan(model_form_shift(record, at_pressure(449e6)).gap));
+  EXPECT_TRUE(std::isnan(model_form_shift(record, at_pressure(551e6)).gap));
+  scene::Scene cracked = at_pressure(500e6);
+  cracked.charge().cracks.initial_crack_radius *= 2.0;
+  EXPECT_NE(model_form_shift(record, cracked).reason.find("crack radius"), std::string::npos);
+  scene::Scene hotter = at_pressure(500e6);
+  hotter.surface.localisation *= 1.5;
+  EXPECT_TRUE(std::isnan(model_form_shift(record, hotter).gap));
+  scene::Scene longer = at_pressure(500e6);
+  longer.load.exponent = 9.0;
+  EXPECT_TRUE(std::isnan(model_form_shift(record, longer).gap));
+}
+
+TEST(ModelForm, IsNotKnownWhereTheDefaultHasABoundAlone) {
+  MadeModels made = made_models();
+  made.curves.front().critical_gap[1] = no_ignition;
+  const auto form = make_model_form(made.entries);
+  ASSERT_TRUE(form.record) << form.error;
+  EXPECT_TRUE(std::isnan(model_form_shift(*form.record, at_pressure(500e6)).gap));
+}
+
+TEST(ModelForm, NamesModelsThatCouldChangeAVerdict) {
+  const ModelFormRecord record = made_record();
+  const scene::Scene scene = at_pressure(500e6);
+  EXPECT_EQ(models_without_ignition(record, scene, 4.5e-4), "late, cold");
+  EXPECT_EQ(models_that_may_ignite(record, scene, 2e-4), "rough");
+  EXPECT_EQ(models_that_may_ignite(record, scene, 0.5e-4), "");
+}
+
+TEST(ModelForm, RefusesADefaultThatHasNoLimitOfMeshes) {
+  MadeModels made = made_models();
+  made.calibrations.front().stations = {9.0, 9.0};
+  EXPECT_FALSE(make_model_form(made.entries).record);
+}
+
+TEST(ModelForm, RefusesASweepOfAnotherLaunchThanTheCalibration) {
+  MadeModels made = made_models();
+  made.curves.back().scene = made.curves.front().scene;
+  auto second = std::next(made.curves.begin());
+  second->scene.interfaces.clear();
+  const auto form = make_model_form(made.entries);
+  EXPECT_FALSE(form.record);
+  EXPECT_NE(form.error.find("early"), std::string::npos) << form.error;
+}
+
+TEST(ModelForm, ReadsBackWhatWasWrittenAndRefusesEdits) {
+  const ModelFormRecord record = made_record();
+  const std::string text = to_json_text(record);
+  const auto read = parse_model_form(text, "model_form.json");
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(to_json_text(*read), text);
+  auto edited = nlohmann::ordered_json::parse(text);
+  edited["alternatives"][0]["not_counted"] = "it is not liked";
+  EXPECT_FALSE(parse_model_form(edited.dump(), "model_form.json"));
+  edited = nlohmann::ordered_json::parse(text);
+  edited["alternatives"].erase(0);
+  EXPECT_FALSE(parse_model_form(edited.dump(), "model_form.json"));
+  edited = nlohmann::ordered_json::parse(text);
+  edited["critical_gap_m"][0] = 4e-4;
+  EXPECT_FALSE(parse_model_form(edited.dump(), "model_form.json"));
+}
+
+/// The only verdict of a study on a gap (cm) with a model-form statement or record.
+GapVerdict verdict_with(const std::string& gap, const std::string& statement, const ModelFormRecord* record) {
+  StudyFile study = study_of(critical_kind + "fit_uncertainty = \"1 K\"\ninput_uncertainty = \"1 K\"\n" +
+                             "numerical_uncertainty = \"1 K\"\nconfirm = false\n" + statement + "gaps = \"" +
+                             gap + " cm\"\n" + synthetic_constants);
+  if (record != nullptr) study.study.model_form = *record;
+  return run_critical_gap(study, synthetic_options()).cases.at(0).verdicts.at(0);
+}
+
+TEST(ModelForm, IsAssumedWhereNothingIsSaid) {
+  EXPECT_DOUBLE_EQ(verdict_with("0.01", "", nullptr).uncertainty.model_form, assumed_model_form);
+  EXPECT_DOUBLE_EQ(verdict_with("0.01", "model_form_uncertainty = \"7 K\"\n", nullptr).uncertainty.model_form,
+                   7.0);
+}
+
+TEST(ModelForm, AModelThatIgnitesEarlierTakesItsShiftFromTheMargin) {
+  ModelFormRecord record = made_record();
+  const GapVerdict calm = verdict_with("0.01", "", &record);
+  EXPECT_EQ(calm.judgement.verdict, Verdict::safe) << calm.judgement.reason;
+  // At 496 MPa, between 450 and 500 MPa: 46/50 of 0.05 mm, in kelvin of that much more air.
+  const GapVerdict thicker = verdict_with("0.0146", "", &record);
+  EXPECT_NEAR(calm.uncertainty.model_form, thicker.maximum.temperature - calm.maximum.temperature, 0.05);
+  for (ModelAlternative& each : record.alternatives)
+    if (each.name == "early") each.critical_gap = {0.0, 0.0, 0.0};
+  const GapVerdict worried = verdict_with("0.01", "", &record);
+  EXPECT_EQ(worried.judgement.verdict, Verdict::indeterminate) << worried.judgement.reason;
+}
+
+TEST(ModelForm, AnUnsafeNamesTheModelsWithoutIgnition) {
+  ModelFormRecord record = made_record();
+  std::erase_if(record.alternatives, [](const auto& each) { return each.name == "early"; });
+  const GapVerdict row = verdict_with("0.045", "", &record);
+  ASSERT_EQ(row.judgement.verdict, Verdict::unsafe) << row.judgement.reason;
+  EXPECT_NE(row.judgement.reason.find("under late, cold"), std::string::npos) << row.judgement.reason;
+}
+
+}  // namespace
