@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace launchsafe::report {
@@ -53,6 +54,61 @@ std::string uncertainty_text(const CriticalGapResult& result) {
   return text + "\n";
 }
 
+/// What would make one share of a row's uncertainty smaller.
+struct Remedy {
+  const char* share;
+  double size;  ///< K
+  const char* how;
+};
+
+/// K that a share may be for the margin to exceed the uncertainty, the others as they are; NaN where none
+/// may.
+double allowed_share(const study::GapVerdict& row, double share) {
+  const study::Uncertainty& u = row.uncertainty;
+  const double left = row.margin - u.model_form;
+  const double others = std::pow(u.total() - u.model_form, 2) - share * share;
+  return left > 0.0 ? std::sqrt(left * left - others) : study::not_a_number;
+}
+
+bool is_within_uncertainty(const CaseOutcome& outcome, const study::GapVerdict& row) {
+  return row.judgement.verdict == study::Verdict::indeterminate && !row.ignition && outcome.completed() &&
+         row.evidence.doubt.empty() && row.margin > 0.0;
+}
+
+std::string undecided_row(const study::GapVerdict& row) {
+  const study::Uncertainty& u = row.uncertainty;
+  const Remedy largest = std::max(
+      {Remedy{"the computation", u.computed(), "a finer setting, or a record of its accuracy"},
+       Remedy{"the fit", u.fit, "more measured temperatures to calibrate on"},
+       Remedy{"the inputs", u.inputs(), "a measured spread of peak pressure and initial temperature"},
+       Remedy{"the model form", u.model_form, "measurements of how the shell holds the charge"}},
+      [](const Remedy& a, const Remedy& b) { return a.size < b.size; });
+  const double allowed = allowed_share(row, largest.size);
+  return fmt::format(
+      "{}: a margin of {} K against shares of {} K (computation), {} K (fit), {} K (inputs) and {} K (model "
+      "form). "
+      "The largest is that of {}; {} would reduce it, {}.\n",
+      detail::centimetres(row.gap), significant(row.margin, 3), significant(u.computed(), 2),
+      significant(u.fit, 2), significant(u.inputs(), 2), significant(u.model_form, 2), largest.share,
+      largest.how,
+      std::isfinite(allowed) ? fmt::format("and below {} K the row is decided", significant(allowed, 3))
+                             : std::string("and the others have to shrink too"));
+}
+
+/// Which share keeps each row that did not ignite from a verdict, and what would reduce it; empty where none
+/// does.
+std::string undecided_text(const CriticalGapResult& result) {
+  std::string text;
+  for (const CaseOutcome& outcome : result.cases) {
+    for (const study::GapVerdict& row : outcome.verdicts) {
+      if (!is_within_uncertainty(outcome, row)) continue;
+      text +=
+          "- " + (result.cases.size() > 1 ? outcome.input.label + ", " : std::string{}) + undecided_row(row);
+    }
+  }
+  return text.empty() ? text : "## What keeps rows undecided\n\n" + text;
+}
+
 /// What every page must say when bounds within the models were reached.
 std::string limiter_remark(const CriticalGapResult& result) {
   std::string text;
@@ -93,6 +149,7 @@ std::string to_markdown(const CriticalGapResult& result, const std::string& pict
   for (const CaseOutcome& outcome : result.cases) {
     if (outcome.fit) text += to_markdown(fit_table(outcome)) + "\n";
   }
+  if (const std::string undecided = undecided_text(result); !undecided.empty()) text += undecided + "\n";
   text += "## What it rests on\n\n" + detail::friction_remark(result.study) + "\n";
   text += uncertainty_text(result) + "\n";
   if (const std::string remark = limiter_remark(result); !remark.empty()) text += remark + "\n";

@@ -33,11 +33,14 @@ const study::ModelAlternative* alternative_of(const ModelFormRecord& record, con
   return found == record.alternatives.end() ? nullptr : &*found;
 }
 
+/// m; critical gaps are bracketed to a tenth of it.
+constexpr double least_shift = 1e-6;
+
 /// Pressures at which an alternative ignites at smaller gaps than the default, in MPa.
 std::string towards_ignition(const ModelFormRecord& record, const study::ModelAlternative& alternative) {
   std::string pressures;
   for (std::size_t i = 0; i < record.peak_pressures.size(); ++i) {
-    if (!(alternative.critical_gap[i] < record.critical_gap[i])) continue;
+    if (!(alternative.critical_gap[i] < record.critical_gap[i] - least_shift)) continue;
     pressures += (pressures.empty() ? "" : ", ") + megapascals(record.peak_pressures[i]);
   }
   return pressures;
@@ -47,7 +50,7 @@ std::string counts_for(const ModelFormRecord& record, const study::ModelAlternat
   if (alternative == nullptr) return "the default";
   if (!alternative->not_counted.empty()) return "no share; named only: " + alternative->not_counted;
   const std::string pressures = towards_ignition(record, *alternative);
-  if (pressures.empty()) return "no share: moves away from ignition";
+  if (pressures.empty()) return "no share: nowhere towards ignition by more than 0.0001 cm";
   return "a share: towards ignition at " + pressures + " MPa";
 }
 

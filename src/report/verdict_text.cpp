@@ -164,8 +164,10 @@ std::string friction_remark(const study::StudyFile& study) {
   std::string text = fmt::format(
       "The friction closure is \"{}\" with a localisation of {}, and the exchange time is {} ms. These two "
       "and "
-      "the ignition temperature ({} K) are calibrated on three published rows (see "
-      "`studies/calibrate_table8.toml`), so the critical gap of the calibration's own load and defect is a "
+      "the ignition temperature ({} K) are calibrated on published rows, as are the shape of the load and "
+      "the "
+      "choice of the model (see `studies/calibrate_table8.toml` and `studies/model_form/README.md`), so the "
+      "critical gap of the calibration's own load and defect is a "
       "fit, "
       "not a prediction. What is predicted is how it moves with pressure, defect, load shape and design.\n",
       study::to_string(scene.surface.friction), significant(scene.surface.localisation, 6),

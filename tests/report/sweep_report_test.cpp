@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <regex>
 #include <string>
 
@@ -46,6 +47,26 @@ SweepResult one_axis() {
     if (place[0] == 400e-6) return all_ignite_answer(study);
     return value_answer(study, closed_form(496e6, place[0]));
   });
+}
+
+TEST(SweepReport, TellsWhatEachAxisChanges) {
+  const SweepResult result = made_sweep();
+  const Table table = axis_effect_table(result);
+  ASSERT_EQ(table.rows.size(), 2u);
+  // Among values at one crack radius: the largest difference of closed forms over the pressures.
+  double most = 0.0;
+  for (std::size_t crack = 0; crack < 6; ++crack) {
+    double least = HUGE_VAL, largest = -HUGE_VAL;
+    for (std::size_t pressure = 0; pressure < 6; ++pressure) {
+      const study::CaseAnswer& answer = result.answers[6 * pressure + crack];
+      if (answer.critical.kind != study::CriticalGapKind::value) continue;
+      least = std::min(least, answer.critical.value);
+      largest = std::max(largest, answer.critical.value);
+    }
+    most = std::max(most, largest - least);
+  }
+  EXPECT_NEAR(std::get<double>(cell(table, 0, "critical_gap_change_cm")), 100.0 * most, 1e-12);
+  EXPECT_NE(to_markdown(result, {}).find("What each axis changes"), std::string::npos);
 }
 
 TEST(SweepReport, EveryCaseIsARowInTheUnitsPeopleUse) {

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace launchsafe::scene {
 namespace {
 
@@ -123,6 +125,24 @@ TEST(Interfaces, TakeOtherValuesInStudies) {
   EXPECT_EQ(rough->scene.interfaces[0].friction, 0.3);
   EXPECT_FALSE(with_written_key(*file, "interface.wall.friction", "11", {}));
   EXPECT_FALSE(with_written_key(*file, "interface.cup.friction", "0.1", {}));
+}
+
+TEST(Interfaces, ThatAreBondedInAStudyLoseTheirFriction) {
+  const auto file = parse_scene(small_scene + sliding_wall, "shell.toml");
+  ASSERT_TRUE(file);
+  const auto bonded = with_written_key(*file, "interface.wall.condition", "bonded", {});
+  ASSERT_TRUE(bonded) << bonded.error().message();
+  EXPECT_FALSE(can_slide(bonded->scene.interfaces[0]));
+  EXPECT_FALSE(bonded->scene.interfaces[0].friction);
+}
+
+TEST(Interfaces, AreWrittenInOneOrderWhateverTheirOwn) {
+  Scene scene;
+  for (const char* body : {"nose", "wall", "base"})
+    scene.interfaces.push_back({.body = body, .condition = Condition::sliding, .friction = 0.1});
+  Scene other = scene;
+  std::reverse(other.interfaces.begin(), other.interfaces.end());
+  EXPECT_EQ(to_toml(scene), to_toml(other));
 }
 
 TEST(Interfaces, AreExplainedWithWhatTheyAssume) {
