@@ -33,6 +33,8 @@ const study::ModelAlternative* alternative_of(const ModelFormRecord& record, con
   return found == record.alternatives.end() ? nullptr : &*found;
 }
 
+constexpr std::size_t marks = static_cast<std::size_t>(Mark::cross) + 1;
+
 /// m; critical gaps are bracketed to a tenth of it.
 constexpr double least_shift = 1e-6;
 
@@ -123,6 +125,8 @@ Plot model_form_plot(const ModelForm& form) {
   plot.legend = Legend::right_of_plot;
   for (const ModelFormEntry& each : form.entries) {
     Series series{each.name, {}, {}, Style::line_and_points};
+    // More models than colours: marks repeat at another length, so that no two lines look alike.
+    series.mark = static_cast<Mark>(plot.series.size() % marks);
     const study::ModelAlternative* alternative = alternative_of(form.record, each.name);
     if (alternative != nullptr && !alternative->not_counted.empty()) series.style = Style::dashed_line;
     for (std::size_t i = 0; i < each.curve->critical_gap.size(); ++i) {

@@ -22,7 +22,7 @@ using Doubts = std::vector<std::string>;
 constexpr double largest_scaled_share = 0.03;
 
 /// What scaled inertia does to a charge that slides was measured up to here, one at a time. On the 155 mm
-/// shell (reports/accuracy_smooth, accuracy_friction_0.05, accuracy_friction_0.1, accuracy_smooth_wall) T max
+/// shell (reports/accuracy_smooth, accuracy_friction_0.05, accuracy_friction_0.1, accuracy_155mm) T max
 /// changes by up to 3.7 K with a scaling of 16, by up to 22 K with 100, and with steel four times as heavy by
 /// up to 0.5 K.
 constexpr double largest_scaling_when_sliding = 100.0, largest_steel_inertia_when_sliding = 4.0;

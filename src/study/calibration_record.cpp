@@ -103,6 +103,14 @@ double largest_misfit(const CalibrationRow& row, Counts counts) {
   return largest;
 }
 
+/// K; where nothing is held out, any other misfit, or what the shipped calibration misses if that is larger.
+double held_out_misfit(const CalibrationRow& row, double largest) {
+  const auto held_out = [](const HoldOut& each) { return each.use == Use::held_out; };
+  const bool any = std::any_of(row.hold_outs.begin(), row.hold_outs.end(),
+                               [&](const HoldOut& each) { return each.temperature && held_out(each); });
+  return any ? largest_misfit(row, held_out) : std::max(largest, CalibrationEvidence{}.largest_misfit);
+}
+
 /// The scene of the recommended row, with its constants.
 scene::Scene calibrated_scene(const CalibrationResult& result, const CalibrationRow& row) {
   const auto run = std::find_if(result.runs.begin(), result.runs.end(),
@@ -138,7 +146,7 @@ std::optional<CalibrationRecord> record_of(const CalibrationResult& result) {
   evidence.largest_gap = targets->igniting_gap;
   evidence.largest_misfit =
       largest_misfit(row, [](const HoldOut& each) { return each.use != Use::calibration; });
-  record.held_out_misfit = largest_misfit(row, [](const HoldOut& each) { return each.use == Use::held_out; });
+  record.held_out_misfit = held_out_misfit(row, evidence.largest_misfit);
   record.ignition_lowest = row.calibrated.ignition_lowest;
   record.ignition_highest = row.calibrated.ignition_highest;
   record.selection_root_mean_square = row.selection_root_mean_square;

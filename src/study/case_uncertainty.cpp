@@ -178,6 +178,19 @@ std::string fit_uncertainty_text(const Study& study) {
       base, rows, evidence.largest_misfit, assumed_numerical_uncertainty);
 }
 
+namespace {
+
+/// The alternatives of a record that count, or those that do not.
+std::string names_of(const ModelFormRecord& record, bool counted) {
+  std::vector<std::string> names;
+  for (const ModelAlternative& each : record.alternatives) {
+    if (each.not_counted.empty() == counted) names.push_back(each.name);
+  }
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
 std::string model_form_uncertainty_text(const StudyFile& study) {
   const Study& s = study.study;
   const std::string otherwise = fmt::format(
@@ -197,8 +210,10 @@ std::string model_form_uncertainty_text(const StudyFile& study) {
   std::string text = fmt::format(
       "what a gap thicker by as much as the smallest critical gap of another model is below that of the "
       "default "
-      "changes, by the record `{}`; models that only move away from ignition take nothing from a margin",
-      s.model_form_record);
+      "changes, by the record `{}` of {} and, counting for nothing, {}; models that only move away from "
+      "ignition "
+      "take nothing from a margin",
+      s.model_form_record, names_of(*s.model_form, true), names_of(*s.model_form, false));
   if (outside > 0)
     text += fmt::format("; where it does not speak of a case ({} of {}: {}) {}", outside, study.cases.size(),
                         reason, otherwise);

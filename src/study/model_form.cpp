@@ -39,6 +39,17 @@ std::string why_another(const ModelFormEntry& entry) {
                      fmt::join(distance.carried, ", "));
 }
 
+/// Whether a search met no ignition before it came to where the default ignites: how the models compare is
+/// not known.
+bool ended_too_early(const CriticalGapCurve& own, const CriticalGapCurve& other) {
+  for (std::size_t i = 0; i < own.critical_gap.size(); ++i) {
+    const GapOrBound gap = own.critical_gap[i];
+    const double reached = gap == no_ignition ? own.largest_gap : gap;
+    if (other.critical_gap[i] == no_ignition && !(other.largest_gap >= reached)) return true;
+  }
+  return false;
+}
+
 /// The recorded pressures around a peak: their indices, and the share of the upper one.
 struct PressureInterval {
   std::size_t below = 0, above = 0;
@@ -120,6 +131,11 @@ ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries) {
       return refused(
           fmt::format("{}: other peak pressures, or another model version, than {}", each.name, own.name));
     if (&each == &own) continue;
+    if (ended_too_early(*own.curve, *each.curve)) {
+      return refused(
+          fmt::format("{}: its search ended at {:.4g} cm, before {} ignites; largest_gap is too small",
+                      each.name, 100.0 * each.curve->largest_gap, own.name));
+    }
     ModelAlternative alternative{each.name, each.curve->title, why_not_counted(*each.calibration),
                                  each.curve->critical_gap};
     const auto unknown = [](double gap) { return std::isnan(gap); };

@@ -110,6 +110,16 @@ TEST(CalibrationRecord, RefusesEveryEditedNumber) {
   }
 }
 
+TEST(CalibrationRecord, WithoutHeldOutRowsAnyMisfitCounts) {
+  CalibrationResult result = calibrated();
+  for (CalibrationRow& row : result.rows)
+    for (HoldOut& each : row.hold_outs)
+      if (each.use == Use::held_out) each.use = Use::selection;
+  const auto record = record_of(result);
+  ASSERT_TRUE(record);
+  EXPECT_GE(fit_uncertainty_of(*record), CalibrationEvidence{}.largest_misfit);
+}
+
 TEST(CalibrationRecord, AFailedCalibrationGivesAReasonAndNoConstants) {
   StudyOptions options = synthetic_options();
   options.runners = synthetic_runners(0.0);

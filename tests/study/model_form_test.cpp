@@ -108,6 +108,14 @@ TEST(ModelForm, RefusesADefaultThatHasNoLimitOfMeshes) {
   EXPECT_FALSE(make_model_form(made.entries).record);
 }
 
+TEST(ModelForm, RefusesASearchThatEndedBeforeTheDefaultIgnites) {
+  MadeModels made = made_models();
+  made.curves.back().largest_gap = 4.5e-4;  // the default ignites from 5e-4 m on at 450 MPa
+  const auto form = make_model_form(made.entries);
+  EXPECT_FALSE(form.record);
+  EXPECT_NE(form.error.find("largest_gap"), std::string::npos) << form.error;
+}
+
 TEST(ModelForm, RefusesASweepOfAnotherLaunchThanTheCalibration) {
   MadeModels made = made_models();
   made.curves.back().scene = made.curves.front().scene;

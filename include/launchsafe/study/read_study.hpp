@@ -179,8 +179,8 @@ inline constexpr double assumed_numerical_uncertainty = 60.0;
 /// that the record of the 155 mm shell has for such numerics is 99 K.
 inline constexpr double assumed_uncertainty_off_grid = 100.0;
 
-/// K, where no record of other models speaks of a launch: more than any alternative that counts moves T max of
-/// the 155 mm shell, 0.0173 cm at 550 MPa, some 45 K (reports/model_form).
+/// K, where no record of other models speaks of a launch: more than any alternative that counts moves T max
+/// of the 155 mm shell, 0.0173 cm at 550 MPa, some 45 K (reports/model_form).
 inline constexpr double assumed_model_form = 50.0;
 
 /// One mechanical run of a study: a complete, valid scene.
