@@ -20,7 +20,8 @@ void add_reference(Json& json, const study::GapVerdict& row) {
   json["paper_10ms_K"] = number(paper.early_temperature);
   json["misfit_10ms_K"] = number(row.early_misfit());
   json["paper_ignition_ms"] = number(1e3 * paper.ignition_time);
-  json["standing"] = row.reference ? Json(paper.calibrated ? "calibrated" : "hold-out") : Json(nullptr);
+  json["standing"] =
+      row.reference ? Json(paper.calibrated || paper.ignited() ? "calibrated" : "hold-out") : Json(nullptr);
 }
 
 Json json_of(const study::GapVerdict& row, const study::StudyCase& input) {

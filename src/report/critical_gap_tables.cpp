@@ -19,7 +19,8 @@ using detail::named_text, detail::number_column, detail::optional_number, detail
 
 std::string standing_of(const GapVerdict& row) {
   if (!row.reference) return {};
-  return row.reference->calibrated ? "calibrated" : "hold-out";
+  const bool fitted = row.reference->calibrated || row.reference->ignited();
+  return fitted ? "calibrated" : "hold-out";
 }
 
 /// What the published temperature at the early time was used for.

@@ -62,8 +62,9 @@ class RowPrediction {
     add("spread at the end", spread_at(end_), reference_.spread, {.temperature = false, .use = chosen});
     add("spread" + at_early_, spread_at(study_.early_time), reference_.early_spread,
         {.temperature = false, .use = chosen});
+    // T1 was set so that this gap ignites: when it does is no prediction.
     add("ignition time", history_.ignition ? history_.ignition->time : not_a_number, reference_.ignition_time,
-        {.temperature = false, .in_seconds = true});
+        {.temperature = false, .in_seconds = true, .use = Use::calibration});
     place("T max", name_of(trace_, maximum), reference_.ignited() ? std::string{} : reference_.point);
     if (reference_.ignited()) {
       place("first ignition", history_.ignition ? trace_.stations[history_.ignition->station].name : "none",

@@ -35,12 +35,9 @@ namespace launchsafe::run {
 namespace {
 
 /// What model_numbers.csv was for every version, by `digest_of`.
-const std::map<int, std::uint64_t> digests{{1, 0xcf8fc17d687d3b02U},
-                                           {2, 0x112296e02854258eU},
-                                           {3, 0x877cf8e49058e86aU},
-                                           {4, 0x4aba6e72ec35a753U},
-                                           {5, 0x7d5a120e32c22987U},
-                                           {6, 0x2a8b2cbccdceac0fU}};
+const std::map<int, std::uint64_t> digests{{1, 0xcf8fc17d687d3b02U}, {2, 0x112296e02854258eU},
+                                           {3, 0x877cf8e49058e86aU}, {4, 0x4aba6e72ec35a753U},
+                                           {5, 0x7d5a120e32c22987U}, {6, 0x2a8b2cbccdceac0fU}};
 
 const char* const numbers_file = LAUNCHSAFE_SOURCE_DIR "/tests/run/model_numbers.csv";
 
