@@ -81,19 +81,23 @@ void add_row(Table& table, const detail::ShownKey& key, const std::string& which
 
 bool below_flaw(const study::StudyCase& input) { return input.crack_radius < input.flaw_size; }
 
-/// What stands behind a crack radius that changes nothing below the flaw size.
+/// What stands behind a crack radius that changes little below the flaw size; empty where it changes much.
 std::string crack_note(const SweepResult& result, const Effect& below) {
-  constexpr double little = 1.0;  // K
+  constexpr double little = 5.0;  // K
   if (!(below.temperature <= little)) return {};
+  const auto& axes = result.study.study.axes;
+  const bool friction_varies = std::any_of(axes.begin(), axes.end(), [](const study::Axis& axis) {
+    return axis.key.name == "charge.face_friction" || axis.key.name == "charge.crack_friction";
+  });
   const bool rubs = result.study.scene.scene.charge().cracks.face_friction > 0.0;
   return fmt::format(
-      "Below the flaw size the crack radius moves T max by {} K at most: the strain that cracks add goes "
-      "with "
-      "(c/a)^3{}.",
-      significant(below.temperature, 2),
-      rubs ? ", and friction between closed crack faces keeps cracks under the pressure of a launch from "
-             "growing"
-           : "");
+      "Below the flaw size the crack radius is all but dead: T max moves by {} K at most, critical gaps by "
+      "{} cm. "
+      "The strain that cracks add goes with the cube of crack radius over flaw size{}.",
+      significant(below.temperature, 2), significant(100.0 * below.critical, 2),
+      rubs && !friction_varies
+          ? ", and friction between closed crack faces keeps them from growing under the pressure of a launch"
+          : "");
 }
 
 }  // namespace

@@ -107,9 +107,11 @@ CriticalGapKind drawn_kind(const CaseAnswer& answer) {
 
 double value_in_cm(const CaseAnswer& answer) { return 100.0 * detail::value_of(answer.critical); }
 
-/// Up to which gap nothing ignites in spite of the uncertainty, cm.
+/// Up to which gap nothing ignites in spite of the uncertainty, cm; NaN where that is not known.
 double surely_safe_in_cm(const CaseAnswer& answer) {
-  return std::max(0.0, value_in_cm(answer) - 100.0 * answer.critical.uncertainty);
+  if (answer.critical.kind == CriticalGapKind::all_ignite) return 0.0;
+  const double least = value_in_cm(answer) - 100.0 * answer.critical.uncertainty;
+  return least < 0.0 ? 0.0 : least;
 }
 
 /// What a map shows.

@@ -340,11 +340,11 @@ TEST(Doubts, ScaledInertiaOfAChargeThatSlidesBeyondWhatWasMeasured) {
   };
   EXPECT_TRUE(doubts_with(200.0, 8.0).empty());
   scene.interfaces = {{.body = "wall", .condition = scene::Condition::sliding, .friction = 0.1}};
-  EXPECT_TRUE(doubts_with(100.0, 1.0).empty());
+  EXPECT_TRUE(doubts_with(16.0, 1.0).empty());
   EXPECT_TRUE(doubts_with(1.0, 4.0).empty());
-  expect_one(doubts_with(101.0, 1.0), "measured up to 100");
-  expect_one(doubts_with(1.0, 4.1), "measured up to 100");
-  expect_one(doubts_with(16.0, 2.0), "measured up to 100");
+  expect_one(doubts_with(17.0, 1.0), "measured up to 16");
+  expect_one(doubts_with(1.0, 4.1), "measured up to 16");
+  expect_one(doubts_with(16.0, 2.0), "measured up to 16");
 }
 
 TEST(Doubts, FacesThatPassIntoEachOther) {
