@@ -66,6 +66,7 @@ TEST(Doubts, InertiaScaledUntilItMatters) {
                                {200, 9649, 459, true},
                                {1e4, 6340, 3460, true}}) {
     scene::Scene scene = shipped_scene();
+    scene.interfaces.clear();
     scene.numerics.inertial_scaling = each.scaling;
     MechanicsResult run = sound_run();
     run.monitor[1].energy.internal = each.internal;
