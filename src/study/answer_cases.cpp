@@ -153,7 +153,7 @@ class Answering {
     run::MechanicsResult& mechanics = run.result.mechanics;
     std::optional<run::MechanicsResult> raised_mechanics;
     if (propagates_spread(study_.study) && mechanics.status == run::RunStatus::completed) {
-      raised = obtain_raised(study_.cases[cases.front()], options_);
+      raised = obtain_raised(study_.cases[cases.front()], options_, allotment.threads);
       raised_mechanics = raised.result.mechanics;
       raised.result.mechanics.trace = {};
     }

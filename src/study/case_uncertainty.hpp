@@ -35,7 +35,7 @@ scene::Scene with_raised_load(const scene::Scene& scene);
 /// "CASE, load +4 %".
 std::string label_of_raised(const StudyCase& input);
 /// Its mechanics without monitor and snapshots, from the store or computed. Throws as `obtain`.
-ObtainedRun obtain_raised(const StudyCase& input, const StudyOptions& options);
+ObtainedRun obtain_raised(const StudyCase& input, const StudyOptions& options, int threads);
 
 /// How far a skin without reaction is heated (K) above the initial temperature: by friction, and by the air
 /// of a gap in addition.

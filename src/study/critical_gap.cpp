@@ -86,7 +86,7 @@ void run_mechanics(CriticalGapResult& result, const std::vector<bool>& ours, con
       outcome.result.mechanics = std::move(run.result.mechanics);
       outcome.failure = detail::failure_of(outcome.result.mechanics, {true, {}});
       if (propagated && outcome.completed()) {
-        raised[i] = detail::obtain_raised(outcome.input, options);
+        raised[i] = detail::obtain_raised(outcome.input, options, allotment.threads);
         outcome.raised = raised[i].result.mechanics;
       }
       detail::find_critical_gaps(result.study.study, outcome);
