@@ -61,7 +61,8 @@ std::string label_of_raised(const StudyCase& input) {
 
 ObtainedRun obtain_raised(const StudyCase& input, const StudyOptions& options, int threads) {
   const scene::Scene scene = with_raised_load(input.scene.scene);
-  ObtainedRun run = obtain({&scene, label_of_raised(input), std::nullopt}, options, Allotment{[](double) {}, threads});
+  ObtainedRun run =
+      obtain({&scene, label_of_raised(input), std::nullopt}, options, Allotment{[](double) {}, threads});
   run.result.mechanics.monitor = {};
   run.result.mechanics.snapshots = {};
   return run;
