@@ -4,9 +4,11 @@
 #include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
@@ -184,6 +186,25 @@ double one_sided_tolerance_factor(int n, double coverage, double confidence) {
   return boost::math::quantile(boost::math::non_central_t(n - 1, shift), confidence) / root;
 }
 
+namespace {
+
+/// The order p > 0 of the power law through three values, whose (r31^p - 1)/(r21^p - 1) grows with p; NaN
+/// where there is none up to 50.
+double bracketed_order(const std::array<double, 3>& values, double r21, double r31) {
+  const double wanted = (values[2] - values[0]) / (values[1] - values[0]);
+  const auto excess = [&](double p) {
+    return std::expm1(p * std::log(r31)) / std::expm1(p * std::log(r21)) - wanted;
+  };
+  constexpr double lowest = 1e-6, highest = 50.0;
+  if (!(excess(lowest) < 0.0 && excess(highest) > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  std::uintmax_t iterations = 100;
+  const auto [left, right] = boost::math::tools::toms748_solve(
+      excess, lowest, highest, boost::math::tools::eps_tolerance<double>(46), iterations);
+  return 0.5 * (left + right);
+}
+
+}  // namespace
+
 std::optional<GridConvergence> grid_convergence(const std::array<double, 3>& values,
                                                 const std::array<double, 3>& cell_sizes) {
   const double fine_difference = values[1] - values[0], coarse_difference = values[2] - values[1];
@@ -201,7 +222,9 @@ std::optional<GridConvergence> grid_convergence(const std::array<double, 3>& val
     change = next - order;
     order = next;
   }
-  if (!(order > 1e-6) || !(std::abs(change) < 1e-6)) return std::nullopt;
+  // Between ratios that differ much the fixed point may not attract; the root is the same.
+  if (!(std::abs(change) < 1e-6)) order = bracketed_order(values, r21, r21 * r32);
+  if (!(order > 1e-6)) return std::nullopt;
 
   const double growth = std::pow(r21, order);
   GridConvergence result;

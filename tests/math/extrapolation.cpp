@@ -298,6 +298,13 @@ TEST(Extrapolation, HalfWidthHoldsTheLimitOfAnyPowerLaw) {
   }
 }
 
+/// Celik's fixed point does not settle between these ratios.
+TEST(Extrapolation, HalfWidthHoldsTheLimitBetweenRatiosThatDiffer) {
+  const Values sizes{1.0, 1.1, 1.43};
+  const Values values = power_law(sizes, -100.0, -0.01, 0.7);
+  EXPECT_TRUE(holds(math::extrapolate(values, sizes), values.front(), -100.0));
+}
+
 #ifdef LAUNCHSAFE_HAVE_RAPIDCHECK
 
 RC_GTEST_PROP(ExtrapolationProperty, HalfWidthHoldsTheLimitOfAnyPowerLaw, ()) {
