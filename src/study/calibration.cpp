@@ -119,6 +119,7 @@ CalibrationRow row_of(const StudyFile& study, const CalibrationRun& run, Frictio
   row.kinetics = kinetics.name;
   row.calibratable = closure != FrictionClosure::none;
   row.failure = run.failure;
+  if (row.failure.empty()) row.failure = detail::calibration_doubts(run.input.scene.scene, run.mechanics);
   if (!row.failure.empty()) return row;
   surface::SkinModel model = surface::skin_model(run.input.scene.scene);
   model.surface.friction = closure;
@@ -223,7 +224,9 @@ void recommend(CalibrationResult& result) {
     return;
   }
   if (!usable(literal) || !usable(inelastic)) {
-    said.reason = "no closure is recommended: not both could be calibrated on the finest mesh";
+    said.reason =
+        "no closure is recommended: not both could be calibrated on the finest mesh and compared with "
+        "rows that are held out";
     return;
   }
   const double gain = std::abs(literal->root_mean_square - inelastic->root_mean_square);
@@ -236,9 +239,13 @@ void recommend(CalibrationResult& result) {
   const CalibrationRow* other = choose_inelastic ? literal : inelastic;
   said.reason = fmt::format(
       "On the finest mesh ({:.6g} mm) \"{}\" misses the temperature hold-outs by {:.4g} K (RMS), \"{}\" by "
-      "{:.4g} K; the spreads by {:.4g} K and {:.4g} K. {}",
+      "{:.4g} K{}. {}",
       1e3 * finest, to_string(better->closure), better->root_mean_square, to_string(other->closure),
-      other->root_mean_square, better->spread_root_mean_square, other->spread_root_mean_square,
+      other->root_mean_square,
+      std::isfinite(better->spread_root_mean_square) && std::isfinite(other->spread_root_mean_square)
+          ? fmt::format("; the spreads by {:.4g} K and {:.4g} K", better->spread_root_mean_square,
+                        other->spread_root_mean_square)
+          : std::string{},
       separates ? "The hold-outs separate them."
                 : fmt::format("A difference below {} K does not separate them, and the scene keeps \"{}\".",
                               distinguishable_rms, to_string(better->closure)));

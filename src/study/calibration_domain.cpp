@@ -128,23 +128,33 @@ void add_difference(CalibrationDistance& distance, const std::string& key, const
   }
 }
 
-bool same_interface(const scene::Interface& a, const scene::Interface& b) {
-  return a.body == b.body && a.condition == b.condition && a.friction == b.friction &&
-         a.tension_strength == b.tension_strength && a.shear_strength == b.shear_strength;
+const scene::Body* find_body(const Scene& scene, const std::string& name) {
+  const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                  [&name](const scene::Body& body) { return body.name == name; });
+  return found == scene.bodies.end() ? nullptr : &*found;
+}
+
+/// Bodies are compared by what they are: another scene may give them other names.
+bool same_interface(const scene::Interface& a, const Scene& scene_of_a, const scene::Interface& b,
+                    const Scene& scene_of_b) {
+  const scene::Body *body = find_body(scene_of_a, a.body), *other = find_body(scene_of_b, b.body);
+  return body != nullptr && other != nullptr && same_body(*body, *other) && a.condition == b.condition &&
+         a.friction == b.friction && a.tension_strength == b.tension_strength &&
+         a.shear_strength == b.shear_strength;
 }
 
 /// Faces that slide in one of the scenes and not in the same way in the other.
 void add_other_interfaces(CalibrationDistance& distance, const Scene& scene, const Scene& calibrated) {
   const auto ours = scene::sliding_interfaces(scene), theirs = scene::sliding_interfaces(calibrated);
   std::set<std::string> other;
-  const auto add_missing = [&other](const auto& from, const auto& in) {
+  const auto add_missing = [&](const auto& from, const Scene& of_from, const auto& in, const Scene& of_in) {
     for (const scene::Interface& each : from) {
-      const auto same = [&each](const auto& there) { return same_interface(each, there); };
+      const auto same = [&](const auto& there) { return same_interface(each, of_from, there, of_in); };
       if (std::none_of(in.begin(), in.end(), same)) other.insert(each.body);
     }
   };
-  add_missing(ours, theirs);
-  add_missing(theirs, ours);
+  add_missing(ours, scene, theirs, calibrated);
+  add_missing(theirs, calibrated, ours, scene);
   for (const std::string& body : other)
     distance.unknown.push_back(fmt::format("interface.{}.condition", body));
 }
@@ -178,7 +188,10 @@ CalibrationDistance distance_to_calibration(const Scene& scene, const Calibratio
   }
   add_other_interfaces(distance, scene, calibrated);
   const double peak = scene::PressureHistory(scene.load).stated_peak();
-  if (!scene.load.curve_time.empty() && !same_number(peak, calibrated.load.peak))
+  const bool measured = !scene.load.curve_time.empty() || !calibrated.load.curve_time.empty();
+  std::erase_if(distance.carried,
+                [measured](const auto& each) { return measured && each == "peak pressure"; });
+  if (measured && !same_number(peak, scene::PressureHistory(calibrated.load).stated_peak()))
     distance.carried.emplace_back("peak pressure");
   if (distance.other_load_shape) distance.carried.emplace_back("load shape");
   if (distance.other_numerics) distance.carried.emplace_back("numerics");

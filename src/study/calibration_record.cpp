@@ -1,12 +1,14 @@
 #include "launchsafe/study/calibration_record.hpp"
 
 #include "launchsafe/run/model_version.hpp"
+#include "launchsafe/store/sha256.hpp"
 #include "record_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace launchsafe::study {
 namespace {
@@ -14,7 +16,7 @@ namespace {
 using detail::RecordReader;
 using nlohmann::ordered_json;
 
-constexpr const char* calibration_format = "launchsafe calibration record 1";
+constexpr const char* calibration_format = "launchsafe calibration record 2";
 
 constexpr CalibrationEvidence no_evidence{not_a_number, not_a_number, not_a_number, not_a_number};
 
@@ -25,6 +27,8 @@ ordered_json calibration_content(const CalibrationRecord& record) {
           {"model_version", record.model_version},
           {"failure", record.failure},
           {"scene", scene::to_toml(record.calibration.scene)},
+          {"load_fitted", record.load_fitted},
+          {"references_sha256", record.references_digest},
           {"friction_rise_K", evidence.friction_rise},
           {"air_rise_K", evidence.air_rise},
           {"largest_gap_m", evidence.largest_gap},
@@ -88,27 +92,42 @@ CalibrationRecord calibration_from(const ordered_json& object, RecordReader& rea
     record.calibration.evidence = no_evidence;
   }
   read_calibrated_scene(object, reader, record);
+  record.load_fitted = reader.flag(object["load_fitted"], "load_fitted");
+  record.references_digest = reader.text(object["references_sha256"], "references_sha256");
   return record;
 }
 
-/// K, the largest |predicted - published| of a temperature for which `counts` holds.
+/// K, the largest |predicted - published| of a temperature for which `counts` holds, infinite where one is
+/// not known; where there is none, that of the shipped calibration.
 template <class Counts>
-double largest_misfit(const CalibrationRow& row, Counts counts) {
+double misfit_or_shipped(const CalibrationRow& row, Counts counts) {
+  bool any = false;
   double largest = 0.0;
   for (const HoldOut& each : row.hold_outs) {
     if (!each.temperature || !counts(each)) continue;
+    any = true;
     const double misfit = std::abs(each.misfit());
-    if (!(misfit <= largest)) largest = misfit;
+    largest = std::max(largest, std::isnan(misfit) ? std::numeric_limits<double>::infinity() : misfit);
   }
-  return largest;
+  return any ? largest : CalibrationEvidence{}.largest_misfit;
 }
 
 /// K; where nothing is held out, any other misfit, or what the shipped calibration misses if that is larger.
 double held_out_misfit(const CalibrationRow& row, double largest) {
-  const auto held_out = [](const HoldOut& each) { return each.use == Use::held_out; };
-  const bool any = std::any_of(row.hold_outs.begin(), row.hold_outs.end(),
-                               [&](const HoldOut& each) { return each.temperature && held_out(each); });
-  return any ? largest_misfit(row, held_out) : std::max(largest, CalibrationEvidence{}.largest_misfit);
+  const auto held_out = [](const HoldOut& each) { return each.temperature && each.use == Use::held_out; };
+  return std::any_of(row.hold_outs.begin(), row.hold_outs.end(), held_out)
+             ? misfit_or_shipped(row, held_out)
+             : std::max(largest, CalibrationEvidence{}.largest_misfit);
+}
+
+std::string digest_of(const std::vector<Reference>& references) {
+  std::string text;
+  for (const Reference& row : references) {
+    text += fmt::format("{} {} {} {} {} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.point,
+                        row.early_temperature, row.early_point, row.spread, row.early_spread,
+                        row.ignition_time, row.calibrated, row.early_calibrated, row.selection);
+  }
+  return store::sha256(text);
 }
 
 /// The scene of the recommended row, with its constants.
@@ -132,6 +151,8 @@ std::optional<CalibrationRecord> record_of(const CalibrationResult& result) {
   CalibrationRecord record;
   record.title = result.study.study.title;
   record.model_version = run::model_version;
+  record.load_fitted = result.load.has_value();
+  record.references_digest = digest_of(result.study.study.references);
   if (!result.recommendation.row) {
     record.failure = result.recommendation.reason;
     record.calibration = {result.study.scene.scene, no_evidence};
@@ -145,7 +166,7 @@ std::optional<CalibrationRecord> record_of(const CalibrationResult& result) {
   evidence.air_rise = targets->wide_gap.maximum_temperature - targets->zero_gap.maximum_temperature;
   evidence.largest_gap = targets->igniting_gap;
   evidence.largest_misfit =
-      largest_misfit(row, [](const HoldOut& each) { return each.use != Use::calibration; });
+      misfit_or_shipped(row, [](const HoldOut& each) { return each.use != Use::calibration; });
   record.held_out_misfit = held_out_misfit(row, evidence.largest_misfit);
   record.ignition_lowest = row.calibrated.ignition_lowest;
   record.ignition_highest = row.calibrated.ignition_highest;

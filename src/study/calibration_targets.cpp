@@ -50,7 +50,9 @@ scene::Expected<CalibrationTargets> calibration_targets(const StudyFile& study) 
   const std::vector<double>& rise = study.study.fast_rise;
   if (!rise.empty() && !(rise.size() == 2 && rise[0] < rise[1])) {
     return missing(
-        study, fmt::format("{} instants in fast_rise", rise.size()),
+        study,
+        rise.size() == 2 ? fmt::format("{:.6g} and {:.6g} ms in fast_rise", 1e3 * rise[0], 1e3 * rise[1])
+                         : fmt::format("{} instants in fast_rise", rise.size()),
         "two, the earlier one first: when the temperature without a gap begins and ceases to rise fast");
   }
   const bool early = targets.zero_gap.early_calibrated && std::isfinite(targets.zero_gap.early_temperature);

@@ -45,6 +45,7 @@ bool says(const GapVerdict& row, const InputStatements& statements, const Study&
   const Uncertainty& u = row.uncertainty;
   return std::all_of(statements.doubts.begin(), statements.doubts.end(), is_said) &&
          row.evidence.accepted == statements.accepted &&
+         row.evidence.optimistic == detail::optimistic_text(input.scene.scene) &&
          row.evidence.extrapolated == detail::extrapolation_text(study, input, row.gap) &&
          !(u.numerical < input.numerical_uncertainty) &&
          !(u.fit < detail::fit_share(study, statements.distance, {})) &&

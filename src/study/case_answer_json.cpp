@@ -122,6 +122,7 @@ json json_of(const GapVerdict& row) {
           {"ignition", json_of(row.ignition)},
           {"doubt", row.evidence.doubt},
           {"accepted", row.evidence.accepted},
+          {"optimistic", row.evidence.optimistic},
           {"model_form", row.evidence.model_form},
           {"extrapolated", row.evidence.extrapolated}};
 }
@@ -139,6 +140,7 @@ GapVerdict row_of(const json& value) {
   row.ignition = ignition_of(value.at("ignition"));
   row.evidence.doubt = value.at("doubt").get<std::string>();
   row.evidence.accepted = value.at("accepted").get<std::string>();
+  row.evidence.optimistic = value.at("optimistic").get<std::string>();
   row.evidence.model_form = value.at("model_form").get<std::string>();
   row.evidence.extrapolated = value.at("extrapolated").get<std::string>();
   return row;
@@ -169,6 +171,7 @@ void judge_rows(CaseAnswer& answer) {
     Evidence evidence = detail::evidence_of(row, answer.failure, answer.run.limiters);
     evidence.doubt = row.evidence.doubt;
     evidence.accepted = row.evidence.accepted;
+    evidence.optimistic = row.evidence.optimistic;
     evidence.model_form = row.evidence.model_form;
     evidence.extrapolated = row.evidence.extrapolated;
     detail::judge_row(std::move(evidence), answer.critical, row);

@@ -14,11 +14,12 @@ namespace launchsafe::study::detail {
 namespace {
 
 /// What a scene says of using the constants in spite of a difference: of its key, or of all of them. Where T
-/// max is read, and what it is compared with, has to be accepted by itself.
+/// max is read, what it is compared with, and what heats the bottom has to be accepted by itself.
 std::string reason_for(const StudyCase& input, const std::string& difference) {
   const auto& accepted = input.scene.scene.accepted;
   const std::string of_key = scene::reason_for(accepted, difference);
-  const bool alone = difference == "kinetics.ignition_temperature" || difference.starts_with("station.");
+  const bool alone = difference == "kinetics.ignition_temperature" || difference == "gap.air" ||
+                     difference.starts_with("station.");
   return of_key.empty() && !alone ? scene::reason_for(accepted, scene::foreign_calibration) : of_key;
 }
 
@@ -33,6 +34,12 @@ std::string calibration_doubt(const Study& study, const StudyCase& input) {
       "are here "
       "(accept = [{{ key = \"{}\", because = \"...\" }}] takes them)",
       fmt::join(unknown, ", "), scene::foreign_calibration);
+}
+
+/// Peak pressure of a case over that of the launch that the constants were calibrated on.
+double ratio_to_calibration(const Study& study, const StudyCase& input) {
+  return scene::PressureHistory(input.scene.scene.load).stated_peak() /
+         scene::PressureHistory(study.calibration.scene.load).stated_peak();
 }
 
 /// What is not plausible of a case and of what its study states, where that gives verdicts. No hard case of a
@@ -101,9 +108,10 @@ std::optional<double> stated_model_form_share(const Study& study, const StudyCas
   const bool stated = std::isfinite(study.model_form_uncertainty);
   if (study.model_form && std::isfinite(model_form_shift(*study.model_form, input.scene.scene).gap))
     return std::nullopt;
-  const double share = stated ? study.model_form_uncertainty : assumed_model_form;
-  const double growth = std::pow(input.pressure_ratio, heat_exponent);
-  return share * (growth <= 1.0 ? 1.0 : growth);
+  // What a study states is of its own scene; what is assumed, of the calibrated launch.
+  const double ratio = stated ? input.pressure_ratio : ratio_to_calibration(study, input);
+  const double growth = std::pow(ratio, heat_exponent);
+  return (stated ? study.model_form_uncertainty : assumed_model_form) * (growth <= 1.0 ? 1.0 : growth);
 }
 
 std::string model_form_text(const Study& study, const StudyCase& input, double gap, bool ignites) {
@@ -134,6 +142,11 @@ std::vector<std::string> doubts_of_input(const Study& study, const StudyCase& in
 
 std::string accepted_text(const Study& study, const StudyCase& input) {
   return scene::accepted_text(implausible_in(study, input));
+}
+
+std::string optimistic_text(const scene::Scene& scene) {
+  if (scene.surface.air_model != scene::AirModel::film) return {};
+  return "no ignition under gap.air = \"film\", an optimistic bound, shows nothing";
 }
 
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap) {

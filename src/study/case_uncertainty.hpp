@@ -74,6 +74,10 @@ std::vector<std::string> doubts_of_input(const Study& study, const StudyCase& in
 /// What is not plausible and why it is meant, for its verdict; empty for nothing.
 std::string accepted_text(const Study& study, const StudyCase& input);
 
+/// Why a case that does not ignite is not safe for that, as its model is a bound on that side; empty for the
+/// others.
+std::string optimistic_text(const scene::Scene& scene);
+
 /// What is extrapolated for a gap (m), for its verdict; empty for nothing.
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap);
 

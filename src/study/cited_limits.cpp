@@ -80,6 +80,21 @@ std::vector<std::size_t> with_own_defect(const StudyFile& study, std::vector<std
   return kept.empty() ? cases : kept;
 }
 
+/// m, in which the cases at one pressure are ordered: the smallest that the critical gap may be.
+double smallest_of(const CriticalGap& critical) {
+  switch (critical.kind) {
+    case CriticalGapKind::value:
+      return critical.value;
+    case CriticalGapKind::all_ignite:
+      return 0.0;
+    case CriticalGapKind::indeterminate:
+      return -1.0;
+    case CriticalGapKind::all_safe:
+      break;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
 LimitComparison compare(const StudyFile& study, const std::vector<const CriticalGap*>& critical,
                         const CitedLimit& limit) {
   LimitComparison comparison;
@@ -92,12 +107,12 @@ LimitComparison compare(const StudyFile& study, const std::vector<const Critical
   comparison.cases = cases.size();
   double smallest = std::numeric_limits<double>::infinity();
   for (const std::size_t i : cases) {
-    if (!comparison.nearest) comparison.nearest = i;
-    if (critical[i]->kind != CriticalGapKind::value || !(critical[i]->value < smallest)) continue;
+    const double gap = smallest_of(*critical[i]);
+    if (comparison.nearest && !(gap < smallest)) continue;
     comparison.nearest = i;
-    smallest = critical[i]->value;
+    smallest = gap;
   }
-  if (!comparison.nearest || !std::isfinite(smallest)) return comparison;
+  if (!comparison.nearest || critical[*comparison.nearest]->kind != CriticalGapKind::value) return comparison;
   const double off = std::abs(study.cases[*comparison.nearest].peak_pressure - pressure);
   if (off <= pressure_slack * pressure) comparison.difference = smallest - limit.gap;
   return comparison;

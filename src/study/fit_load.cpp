@@ -1,11 +1,14 @@
 #include "fit_load.hpp"
 
 #include "case_runs.hpp"
+#include "launchsafe/run/doubts.hpp"
 #include "launchsafe/scene/load_shape.hpp"
+#include "launchsafe/scene/plausibility.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 
@@ -37,7 +40,8 @@ class LoadTrial {
     const std::vector<double>& rise = study_.study.fast_rise;
     const auto exponent = scene::exponent_for(peak_time, rise[1] - rise[0]);
     if (!exponent)
-      return fail(fmt::format("no exponent makes a peak at {:.4g} ms that wide", 1e3 * peak_time));
+      return fail(fmt::format("no exponent makes a load with its peak at {:.4g} ms rise fast for {:.4g} ms",
+                              1e3 * peak_time, 1e3 * (rise[1] - rise[0])));
     if (stop_requested(options_)) return fail("interrupted");
     if (++tried_ > most_loads) return fail("the search for a peak time does not settle");
     result.exponent = *exponent;
@@ -66,6 +70,7 @@ class LoadTrial {
     const run::MechanicsResult& mechanics = run.result.mechanics;
     add_run(timing_, mechanics, run.reused, {true, {}});
     if (std::string failure = failure_of(mechanics, {true, {}}); !failure.empty()) return fail(failure);
+    if (std::string doubt = calibration_doubts(scene, mechanics); !doubt.empty()) return fail(doubt);
     surface::SkinModel model = surface::skin_model(scene);
     const CalibratedConstants fitted = calibrate(model, mechanics.trace, targets_);
     if (!fitted.failure.empty()) return fail(fitted.failure);
@@ -132,6 +137,18 @@ void close_in(LoadTrial& trial, Tried early, Tried late) {
 }
 
 }  // namespace
+
+std::string calibration_doubts(const scene::Scene& scene, const run::MechanicsResult& mechanics) {
+  std::vector<std::string> doubts = run::doubts_of(scene, mechanics);
+  for (const scene::Implausible& each : scene::implausible_values(scene)) {
+    // What the calibration settles is no input to it.
+    constexpr std::array settled{"friction.localisation", "gap.exchange_time",
+                                 "kinetics.ignition_temperature", "load.peak_time", "load.exponent"};
+    if (!each.accepted() && std::find(settled.begin(), settled.end(), each.key) == settled.end())
+      doubts.push_back(scene::doubt_text(each));
+  }
+  return doubts.empty() ? std::string{} : fmt::format("the run is in doubt: {}", fmt::join(doubts, "; "));
+}
 
 FittedLoad fit_load(const StudyFile& study, const CalibrationTargets& targets, const StudyOptions& options,
                     Timing& timing) {

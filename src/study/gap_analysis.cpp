@@ -303,6 +303,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
     Evidence evidence = evidence_of(row, outcome.failure, outcome.result.mechanics.limiters);
     evidence.doubt = doubt;
     evidence.accepted = accepted;
+    evidence.optimistic = optimistic_text(outcome.input.scene.scene);
     evidence.model_form = model_form_text(study, outcome.input, row.gap, row.ignition.has_value());
     evidence.extrapolated = extrapolation_text(study, outcome.input, row.gap);
     judge_row(std::move(evidence), outcome.critical, row);

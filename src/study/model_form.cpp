@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace launchsafe::study {
@@ -14,13 +15,13 @@ namespace {
 /// K; a model whose stations move by more from the scene's mesh to a finer one has no limit that is known.
 constexpr double most_station_change = 3.0;
 
+/// Neighbouring recorded pressures that are further apart than this ratio tell nothing of those between.
+constexpr double widest_interval = 1.15;
+
 std::string why_not_counted(const CalibrationRecord& calibration) {
   if (!calibration.failure.empty()) return "no calibration: " + calibration.failure;
-  if (!(calibration.stations.finer <= most_station_change)) {
-    return std::isfinite(calibration.stations.finer)
-               ? fmt::format("no limit of meshes: a station changes by {:.3g} K", calibration.stations.finer)
-               : std::string("no limit of meshes: none was measured");
-  }
+  if (calibration.stations.finer > most_station_change)
+    return fmt::format("no limit of meshes: a station changes by {:.3g} K", calibration.stations.finer);
   return {};
 }
 
@@ -39,6 +40,40 @@ std::string why_another(const ModelFormEntry& entry) {
                      fmt::join(distance.carried, ", "));
 }
 
+/// Whether a difference of two scenes makes them other models of one launch: how the charge is held, the laws
+/// of heat at its bottom, friction of cracks, stations.
+bool is_of_model(const std::string& difference) {
+  constexpr std::array keys{"friction.closure",      "gap.air",
+                            "gap.exchange",          "gap.pressure",
+                            "charge.crack_friction", "charge.face_friction"};
+  return difference.starts_with("interface.") || difference.starts_with("station.") ||
+         std::find(keys.begin(), keys.end(), difference) != keys.end();
+}
+
+/// Whether it is of what every model is calibrated in, or of the numerics.
+bool is_calibrated(const std::string& difference) {
+  constexpr std::array keys{"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature",
+                            "load shape", "numerics"};
+  return std::find(keys.begin(), keys.end(), difference) != keys.end();
+}
+
+/// Why a model is no alternative to the default: a copy of it, or a model of another launch, or one that was
+/// calibrated on other published rows, or without a finer mesh to compare with.
+std::string why_no_alternative(const ModelFormEntry& own, const ModelFormEntry& other) {
+  const CalibrationDistance distance = distance_to_calibration(other.curve->scene, {own.curve->scene, {}});
+  std::vector<std::string> differences = distance.unknown;
+  differences.insert(differences.end(), distance.carried.begin(), distance.carried.end());
+  std::erase_if(differences, is_calibrated);
+  const auto count = std::erase_if(differences, is_of_model);
+  if (!differences.empty()) return fmt::format("it is of another launch ({})", fmt::join(differences, ", "));
+  if (count == 0) return "it is the same model as " + own.name;
+  if (own.calibration->references_digest != other.calibration->references_digest)
+    return "it was calibrated on other published rows than " + own.name;
+  if (other.calibration->failure.empty() && !std::isfinite(other.calibration->stations.finer))
+    return "its calibration has no finer mesh to compare stations with (meshes)";
+  return {};
+}
+
 /// Whether a search met no ignition before it came to where the default ignites: how the models compare is
 /// not known.
 bool ended_too_early(const CriticalGapCurve& own, const CriticalGapCurve& other) {
@@ -50,10 +85,9 @@ bool ended_too_early(const CriticalGapCurve& own, const CriticalGapCurve& other)
   return false;
 }
 
-/// The recorded pressures around a peak: their indices, and the share of the upper one.
+/// The recorded pressures around a peak: their indices, equal where it is one of them.
 struct PressureInterval {
   std::size_t below = 0, above = 0;
-  double share = 0;
 };
 
 std::optional<PressureInterval> interval_of(const std::vector<double>& pressures, double peak) {
@@ -63,25 +97,26 @@ std::optional<PressureInterval> interval_of(const std::vector<double>& pressures
     return std::nullopt;
   const auto next = std::lower_bound(pressures.begin(), pressures.end(), peak * (1.0 - round_off));
   const auto above = static_cast<std::size_t>(next - pressures.begin());
-  if (std::abs(pressures[above] - peak) <= round_off * peak) return PressureInterval{above, above, 0.0};
-  return PressureInterval{above - 1, above,
-                          (peak - pressures[above - 1]) / (pressures[above] - pressures[above - 1])};
+  if (std::abs(pressures[above] - peak) <= round_off * peak) return PressureInterval{above, above};
+  return PressureInterval{above - 1, above};
 }
 
-/// m at one recorded pressure; NaN where it is not known.
+/// m at one recorded pressure. NaN where it is not known: where the default has a bound alone, how much lower
+/// another one lies is not known, and where no other model counts, nothing was compared.
 double shift_at(const ModelFormRecord& record, std::size_t pressure) {
   const GapOrBound own = record.critical_gap[pressure];
-  if (std::isnan(own)) return own;
+  if (!(own > 0.0) || own == no_ignition) return std::nan("");
+  bool compared = false;
   double most = 0.0;
   for (const ModelAlternative& each : record.alternatives) {
     if (!each.not_counted.empty()) continue;
+    compared = true;
     const GapOrBound other = each.critical_gap[pressure];
-    // Where the default has a bound alone, how much lower another one lies is not known.
-    const double shift = other == no_ignition ? 0.0 : own == no_ignition ? std::nan("") : own - other;
+    const double shift = other == no_ignition ? 0.0 : own - other;
     if (!(shift <= most)) most = shift;
     if (std::isnan(most)) return most;
   }
-  return most;
+  return compared ? most : std::nan("");
 }
 
 double peak_of(const scene::Scene& scene) { return scene::PressureHistory(scene.load).stated_peak(); }
@@ -94,7 +129,12 @@ std::string why_outside(const ModelFormRecord& record, const scene::Scene& scene
     if (each != "peak pressure" && each != "numerics") other.push_back(each);
   }
   if (!other.empty()) return fmt::format("it was made for another launch ({})", fmt::join(other, ", "));
-  if (interval_of(record.peak_pressures, peak_of(scene))) return {};
+  if (const auto interval = interval_of(record.peak_pressures, peak_of(scene))) {
+    const double below = record.peak_pressures[interval->below],
+                 above = record.peak_pressures[interval->above];
+    if (above <= widest_interval * below) return {};
+    return fmt::format("it has no peak pressure between {:.4g} and {:.4g} MPa", 1e-6 * below, 1e-6 * above);
+  }
   return fmt::format("it was made from {:.4g} to {:.4g} MPa", 1e-6 * record.peak_pressures.front(),
                      1e-6 * record.peak_pressures.back());
 }
@@ -121,6 +161,9 @@ ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries) {
   record.scene = own.curve->scene;
   record.peak_pressures = own.curve->peak_pressures;
   record.critical_gap = own.curve->critical_gap;
+  if (!std::isfinite(own.calibration->stations.finer))
+    return refused(own.name +
+                   " cannot be the default: its calibration has no finer mesh to compare stations with");
   if (const std::string reason = why_not_counted(*own.calibration); !reason.empty())
     return refused(fmt::format("{} cannot be the default: {}", own.name, reason));
   for (const ModelFormEntry& each : entries) {
@@ -131,6 +174,8 @@ ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries) {
       return refused(
           fmt::format("{}: other peak pressures, or another model version, than {}", each.name, own.name));
     if (&each == &own) continue;
+    if (const std::string reason = why_no_alternative(own, each); !reason.empty())
+      return refused(fmt::format("{}: {}", each.name, reason));
     if (ended_too_early(*own.curve, *each.curve)) {
       return refused(
           fmt::format("{}: its search ended at {:.4g} cm, before {} ignites; largest_gap is too small",
@@ -151,9 +196,11 @@ ModelFormShift model_form_shift(const ModelFormRecord& record, const scene::Scen
   if (std::string reason = why_outside(record, scene); !reason.empty())
     return {std::nan(""), std::move(reason)};
   const PressureInterval interval = *interval_of(record.peak_pressures, peak_of(scene));
-  const double shift = (1.0 - interval.share) * shift_at(record, interval.below) +
-                       interval.share * shift_at(record, interval.above);
-  if (std::isnan(shift)) return {shift, "it has no critical gap of the default model there"};
+  const double below = shift_at(record, interval.below), above = shift_at(record, interval.above);
+  // Written so that either being NaN makes it NaN.
+  const double shift = below >= above ? below : above + 0.0 * below;
+  if (std::isnan(shift))
+    return {shift, "it has no critical gap of the default model, or no other model that counts, there"};
   return {shift, {}};
 }
 

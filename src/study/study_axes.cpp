@@ -83,8 +83,8 @@ Fault read_gap_axis(const toml::node& node, StudyFile& study) {
 /// A scene key that varies and also stands in [set], or that varies twice.
 Fault check_conflicts(const StudyFile& study, const std::string& key, const Axis& axis) {
   if (study.overrides.contains(axis.key.name)) {
-    return fault_at(study, key, axis.key.name + ", which [set] fixes",
-                    fmt::format("{} either in [axes] or in [set]", axis.key.name));
+    return fault_at(study, key, axis.key.name + ", which [set] or the calibration fixes",
+                    fmt::format("{} either in [axes], or in [set] or a calibration", axis.key.name));
   }
   for (const Axis& other : study.study.axes) {
     if (other.key.name != axis.key.name) continue;

@@ -5,17 +5,61 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace launchsafe::study::detail {
 namespace {
 
-/// The keys that a calibration settles. A measured curve of the study's scene stays.
-std::vector<std::string> calibrated_keys(const scene::Scene& scene) {
-  std::vector<std::string> keys{"friction.localisation", "gap.exchange_time",
-                                "kinetics.ignition_temperature"};
-  if (scene.load.curve_time.empty()) keys.insert(keys.end(), {"load.peak_time", "load.exponent"});
-  return keys;
+constexpr std::array constants{"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"};
+constexpr std::array load_shape{"load.peak_time", "load.exponent"};
+
+bool states(const StudyFile& study, const std::string& key) {
+  return study.scene.given.contains(key) || study.overrides.contains(key);
+}
+
+/// Whether the scene and the study leave the shape of the load to the calibration: one that they state stays,
+/// and the constants are carried to it as to any other.
+bool takes_load(const StudyFile& study, const CalibrationRecord& record) {
+  return record.load_fitted && record.calibration.scene.load.curve_time.empty() &&
+         study.scene.scene.load.curve_time.empty() &&
+         std::none_of(load_shape.begin(), load_shape.end(),
+                      [&](const char* key) { return states(study, key); });
+}
+
+/// The first constant to which the study's scene gives another value than the record.
+Fault contradicted_constant(const StudyFile& study, const scene::Scene& calibrated) {
+  constexpr double digits = 1e-3;  // scenes round what a calibration found
+  for (const std::string name : constants) {
+    const auto& key = *scene::find_key(scene::scene_keys(), name);
+    const scene::Value record = key.get(calibrated), own = key.get(study.scene.scene);
+    if (study.overrides.contains(name)) {
+      return fault_at(study, "calibration", "a calibration beside [set] " + name,
+                      "either a calibration or its constants in [set]");
+    }
+    const double wanted = std::get<double>(record), found = std::get<double>(own);
+    if (!study.scene.given.contains(name) || std::abs(found - wanted) <= digits * std::abs(wanted)) continue;
+    return fault_at(
+        study, "calibration",
+        fmt::format("{} {} in the scene and {} in the record", name, scene::format_value(key, own),
+                    scene::format_value(key, record)),
+        "constants from one of both: leave " + name + " out of the scene, or name no calibration");
+  }
+  return std::nullopt;
+}
+
+/// A constant's uncertainty may be stated larger than its record shows, not smaller.
+Fault settle_fit_uncertainty(StudyFile& study, const CalibrationRecord& record) {
+  const double shown = fit_uncertainty_of(record);
+  double& stated = study.study.fit_uncertainty;
+  if (std::isnan(stated)) stated = shown;
+  if (stated >= shown) return std::nullopt;
+  return fault_at(study, "fit_uncertainty",
+                  fmt::format("{:.3g} K, and {:.3g} K in the record of the calibration", stated, shown),
+                  "no less than the record shows, or no fit_uncertainty, which takes it");
 }
 
 Fault unreadable(const StudyFile& study, const char* key, const std::string& name, const std::string& wanted,
@@ -39,12 +83,11 @@ Fault use_calibration(StudyFile& study, const std::filesystem::path& folder) {
     return fault_at(study, "calibration", "a record without constants: " + record->failure,
                     "the record of a calibration that meets its rows");
   }
+  if (Fault fault = contradicted_constant(study, record->calibration.scene)) return fault;
+  std::vector<std::string> keys(constants.begin(), constants.end());
+  if (takes_load(study, *record)) keys.insert(keys.end(), load_shape.begin(), load_shape.end());
   ChangedScene scene(study.scene);
-  for (const std::string& key : calibrated_keys(study.scene.scene)) {
-    if (study.overrides.contains(key)) {
-      return fault_at(study, "calibration", fmt::format("a calibration beside [set] {}", key),
-                      "either a calibration or its constants in [set]");
-    }
+  for (const std::string& key : keys) {
     const auto& known = *scene::find_key(scene::scene_keys(), key);
     const scene::Value value = known.get(record->calibration.scene);
     study.overrides[key] = scene::format_value(known, value);
@@ -53,8 +96,7 @@ Fault use_calibration(StudyFile& study, const std::filesystem::path& folder) {
   if (!scene.complete()) return scene.error();
   study.scene = scene.take();
   study.study.calibration = record->calibration;
-  if (!std::isfinite(study.study.fit_uncertainty)) study.study.fit_uncertainty = fit_uncertainty_of(*record);
-  return std::nullopt;
+  return settle_fit_uncertainty(study, *record);
 }
 
 Fault read_model_form(StudyFile& study, const std::filesystem::path& folder) {

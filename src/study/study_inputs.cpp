@@ -59,8 +59,8 @@ scene::Expected<KeyDescription> read_scene_key(InputReader& reader, std::string&
 
 Fault check_conflicts(const InputReader& reader, const KeyDescription& key) {
   if (reader.study.overrides.contains(key.name)) {
-    return reader.fault("key", key.name + ", which [set] fixes",
-                        fmt::format("{} either as an input or in [set]", key.name));
+    return reader.fault("key", key.name + ", which [set] or the calibration fixes",
+                        fmt::format("{} either as an input, or in [set] or a calibration", key.name));
   }
   for (const UncertainInput& other : reader.study.study.inputs) {
     if (other.key.name != key.name) continue;

@@ -47,6 +47,7 @@ Judgement judge_distance(const Evidence& evidence, const CriticalGap& critical) 
 
 Judgement judge_sound(const Evidence& evidence, const CriticalGap& critical) {
   if (evidence.ignited) return {Verdict::unsafe, "ignition"};
+  if (!evidence.optimistic.empty()) return indeterminate(evidence.optimistic);
   if (!(evidence.margin > evidence.uncertainty)) {
     return indeterminate(fmt::format("margin {:.3g} K within the uncertainty, {:.2g} K", evidence.margin,
                                      evidence.uncertainty));

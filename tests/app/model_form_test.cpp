@@ -15,8 +15,10 @@ class ModelFormProgram : public Program {
  protected:
   /// The folder of a model with its critical gaps (m) at 450, 500 and 550 MPa.
   void model(const std::string& name, std::vector<study::GapOrBound> gaps, double change = 0.5) {
-    const auto shipped = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml");
+    auto shipped = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml");
     ASSERT_TRUE(shipped);
+    // Models of one launch, each another.
+    if (name != "own") shipped->scene.surface.station_width = 1e-3 * static_cast<double>(5 + name.size());
     study::CalibrationRecord calibration;
     calibration.title = name;
     calibration.model_version = run::model_version;

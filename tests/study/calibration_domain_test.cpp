@@ -55,6 +55,21 @@ scene::Interface& interface_of(scene::Scene& scene, const std::string& body) {
                        [&](const scene::Interface& each) { return each.body == body; });
 }
 
+/// Names are the user's: a nose that is called base slides as the nose does.
+TEST(CalibrationDomain, ComparesInterfacesByTheBodiesThatTheyName) {
+  scene::Scene renamed = shipped_scene();
+  const auto rename = [&renamed](const std::string& from, const std::string& to) {
+    for (scene::Body& each : renamed.bodies)
+      if (each.name == from) each.name = to;
+  };
+  rename("nose", "x");
+  rename("base", "nose");
+  rename("x", "base");
+  EXPECT_FALSE(distance_to_calibration(renamed, shipped_calibration()).inside());
+  interface_of(renamed, "nose").body = "base";
+  EXPECT_TRUE(distance_to_calibration(renamed, shipped_calibration()).inside());
+}
+
 struct Change {
   const char* name;
   std::function<void(scene::Scene&)> change;

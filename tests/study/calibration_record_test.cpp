@@ -120,6 +120,23 @@ TEST(CalibrationRecord, WithoutHeldOutRowsAnyMisfitCounts) {
   EXPECT_GE(fit_uncertainty_of(*record), CalibrationEvidence{}.largest_misfit);
 }
 
+TEST(CalibrationRecord, WithoutAnyMisfitThatOfTheShippedOneCounts) {
+  CalibrationResult result = calibrated();
+  for (CalibrationRow& row : result.rows) row.hold_outs.clear();
+  const auto record = record_of(result);
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->calibration.evidence.largest_misfit, CalibrationEvidence{}.largest_misfit);
+}
+
+TEST(CalibrationRecord, NoConstantsAreFittedToARunInDoubt) {
+  StudyFile study = study_of(fitted_load);
+  study.scene.scene.numerics.inertial_scaling = 1e6;  // matters: run::doubts_of says so
+  for (StudyCase& each : study.cases) each.scene.scene.numerics.inertial_scaling = 1e6;
+  const auto record = record_of(run_calibration(study, synthetic_options()));
+  ASSERT_TRUE(record);
+  EXPECT_NE(record->failure.find("in doubt"), std::string::npos) << record->failure;
+}
+
 TEST(CalibrationRecord, AFailedCalibrationGivesAReasonAndNoConstants) {
   StudyOptions options = synthetic_options();
   options.runners = synthetic_runners(0.0);
@@ -140,7 +157,7 @@ class StudyWithRecord : public ::testing::Test {
                           std::filesystem::copy_options::overwrite_existing);
   }
   scene::Expected<StudyFile> study(const std::string& more) {
-    return parse_study(critical_text + "calibration = \"calibration.json\"\n" + more, folder_ / "study.toml");
+    return parse_study(critical_kind + "calibration = \"calibration.json\"\n" + more, folder_ / "study.toml");
   }
   void write(const CalibrationRecord& record) {
     std::ofstream(folder_ / "calibration.json") << to_json_text(record);
@@ -160,6 +177,49 @@ TEST_F(StudyWithRecord, TakesLoadAndConstants) {
   EXPECT_EQ(ours.surface.exchange_time, theirs.surface.exchange_time);
   EXPECT_EQ(ours.charge().kinetics.ignition_temperature, theirs.charge().kinetics.ignition_temperature);
   EXPECT_TRUE(distance_to_calibration(ours, read->study.calibration).inside());
+}
+
+TEST_F(StudyWithRecord, KeepsALoadThatTheStudyStates) {
+  write(made_calibration());
+  const auto read = study("[set]\nload.peak_time = \"4 ms\"\nload.exponent = 1.5\n");
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->scene.scene.load.peak_time, 4e-3);
+  EXPECT_EQ(read->scene.scene.load.exponent, 1.5);
+  EXPECT_TRUE(distance_to_calibration(read->scene.scene, read->study.calibration).other_load_shape);
+}
+
+TEST_F(StudyWithRecord, LeavesTheLoadWhereItWasNotFitted) {
+  CalibrationRecord record = made_calibration();
+  record.load_fitted = false;
+  write(record);
+  const auto read = study("");
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->scene.scene.load.peak_time, scene::Scene{}.load.peak_time);
+}
+
+TEST_F(StudyWithRecord, RefusesASceneThatStatesOtherConstants) {
+  write(made_calibration());
+  std::ifstream shipped(studies_folder / "scene_155mm.toml");
+  std::string text{std::istreambuf_iterator<char>(shipped), {}};
+  text.insert(text.find("[kinetics]\n") + 11, "ignition_temperature = \"470 K\"\n");
+  std::ofstream(folder_ / "scene_155mm.toml") << text;
+  const auto read = study("");
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message().find("kinetics.ignition_temperature"), std::string::npos)
+      << read.error().message();
+}
+
+TEST_F(StudyWithRecord, RefusesAFitUncertaintyBelowThatOfTheRecord) {
+  const CalibrationRecord record = made_calibration();
+  write(record);
+  const double shown = fit_uncertainty_of(record);
+  const auto stated = [](double kelvin) {
+    return "fit_uncertainty = \"" + std::to_string(kelvin) + " K\"\n";
+  };
+  EXPECT_FALSE(study(stated(0.5 * shown)));
+  const auto larger = study(stated(2.0 * shown));
+  ASSERT_TRUE(larger) << larger.error().message();
+  EXPECT_NEAR(larger->study.fit_uncertainty, 2.0 * shown, 1e-6);
 }
 
 TEST_F(StudyWithRecord, RefusesConstantsInSetBesideIt) {

@@ -170,6 +170,15 @@ TEST(CaseUncertainty, TheErrorOfTheConstantsGrowsWithTheHeat) {
   EXPECT_EQ(first_row(stated + "peak_pressures = \"250 MPa\"\n").uncertainty.fit, 2.0);
 }
 
+/// What is assumed of other models is of the calibrated launch, whatever peak the study's scene has.
+TEST(CaseUncertainty, TheAssumedModelFormGrowsFromTheCalibratedPeak) {
+  const std::string rest =
+      "fit_uncertainty = \"2 K\"\ninput_uncertainty = \"3 K\"\nnumerical_uncertainty = \"4 K\"\n";
+  const double grown = assumed_model_form * std::pow(530.0 / 496.0, 4);
+  EXPECT_NEAR(first_row(rest + "peak_pressures = \"530 MPa\"\n").uncertainty.model_form, grown, 1e-6);
+  EXPECT_NEAR(first_row(rest + "[set]\nload.peak = \"530 MPa\"\n").uncertainty.model_form, grown, 1e-6);
+}
+
 TEST(CaseUncertainty, OtherNumericsBringTheMeshErrorOfTheCalibration) {
   const GapVerdict row = first_row(stated + "[set]\nnumerics.inertial_scaling = 16\n");
   EXPECT_NEAR(row.uncertainty.fit, std::hypot(2.0, assumed_numerical_uncertainty), 1e-2);

@@ -96,6 +96,23 @@ TEST(CitedLimits, ABoundHasNoDifference) {
   EXPECT_TRUE(std::isnan(compared[0].difference));
 }
 
+/// Of several cases at one pressure the worst stands beside the limit: one that ignites without a gap, or one
+/// of which nothing is known.
+TEST(CitedLimits, ABoundBelowEveryNumberStandsBesideTheLimit) {
+  StudyFile study = four_cases();
+  for (StudyCase& each : study.cases) each.crack_radius *= 2.0;  // none has the scene's own defect
+  const CriticalGap known = value(3.8e-4);
+  CriticalGap ignites, unknown;
+  ignites.kind = CriticalGapKind::all_ignite;
+  unknown.kind = CriticalGapKind::indeterminate;
+  const auto without_gap = compare_with_limits(study, {&known, &known, &known, &ignites});
+  EXPECT_EQ(without_gap[0].nearest, 3u);
+  EXPECT_TRUE(std::isnan(without_gap[0].difference));
+  const auto not_known = compare_with_limits(study, {&known, &known, &known, &unknown});
+  EXPECT_EQ(not_known[0].nearest, 3u);
+  EXPECT_TRUE(std::isnan(not_known[0].difference));
+}
+
 TEST(CitedLimits, OtherPressuresHaveNoDifference) {
   const StudyFile study = study_of(critical_kind + "peak_pressures = \"480, 496 MPa\"\n" + limit_text);
   const CriticalGap low = value(4.3e-4), own = value(3.95e-4);

@@ -16,7 +16,9 @@ struct CalibrationRecord {
   int model_version = 0;
   std::string failure;  ///< why no constants meet the rows, and nothing below means anything; else empty
   Calibration calibration;
-  double ignition_lowest = not_a_number;   ///< K, T max without a trigger at the largest gap that is safe
+  bool load_fitted = false;               ///< the shape of the load is calibrated too, not only the constants
+  std::string references_digest;          ///< SHA-256 of the published rows and of what each was used for
+  double ignition_lowest = not_a_number;  ///< K, T max without a trigger at the largest gap that is safe
   double ignition_highest = not_a_number;  ///< K, and at the smallest that ignites: T1 is in the middle
   double held_out_misfit = not_a_number;   ///< K, largest of T max of the rows that nothing was fitted to
   double selection_root_mean_square = not_a_number;  ///< K; NaN where no row was used for selection

@@ -53,8 +53,9 @@ struct ModelFormEntry {
   const CalibrationRecord* calibration = nullptr;
   const CriticalGapCurve* curve = nullptr;
 };
-/// The first entry is the default. Errors (a text): other pressures, a default without constants or without
-/// critical gaps, or a curve that is not of its calibration.
+/// The first entry is the default. Errors (a text): other pressures; a default without constants; a curve
+/// that is not of its calibration; an alternative that is the default itself, or a model of another launch or
+/// of other published rows; stations that were compared with no finer mesh; a search that ended too early.
 struct ModelFormOrError {
   std::optional<ModelFormRecord> record;
   std::string error;
@@ -71,8 +72,10 @@ struct ModelFormShift {
   double gap = 0;      ///< m, >= 0; NaN where it is not known
   std::string reason;  ///< why it is not known, a clause
 };
-/// Of a launch of the record's scene at a peak pressure among the recorded ones, linear between them. Not
-/// known where the scene differs in anything else than its gaps, numerics and output.
+/// Of a launch of the record's scene at a peak pressure among the recorded ones; between two of them, which
+/// must be within 15 % of each other, the larger shift of both. Not known where the scene differs in anything
+/// else than its gaps, numerics and output, where no alternative counts, and where the default has a bound
+/// instead of a critical gap.
 ModelFormShift model_form_shift(const ModelFormRecord& record, const scene::Scene& scene);
 
 /// The alternatives under which a gap (m) that ignites would not, or might not; those under which one that

@@ -42,11 +42,12 @@ struct Evidence {
   double maximum_temperature = 0;  ///< K, over the stations
   double margin = 0;               ///< K, ignition temperature minus maximum temperature
   double uncertainty = 0;          ///< K
-  std::string doubt = {};     ///< why a completed run is no basis (see run::doubts_of); empty for a sound one
-  std::string limited = {};   ///< limiters that acted, for people; empty where none did
-  std::string noise = {};     ///< what the noise of a measured curve counts, for people; empty for nothing
-  std::string accepted = {};  ///< what is not plausible and why it is meant, for people; empty: nothing
-  std::string model_form = {};    ///< models that could change the verdict, for people; empty: none
+  std::string doubt = {};  ///< why a completed run is no basis (see run::doubts_of); empty for a sound one
+  std::string optimistic = {};  ///< why no ignition shows nothing, for people; empty where it shows something
+  std::string limited = {};     ///< limiters that acted, for people; empty where none did
+  std::string noise = {};       ///< what the noise of a measured curve counts, for people; empty for nothing
+  std::string accepted = {};    ///< what is not plausible and why it is meant, for people; empty: nothing
+  std::string model_form = {};  ///< models that could change the verdict, for people; empty: none
   std::string extrapolated = {};  ///< what lies outside the calibration's domain, for people; empty: nothing
 };
 
