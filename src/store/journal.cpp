@@ -3,6 +3,7 @@
 #include "launchsafe/store/sha256.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
@@ -159,11 +160,7 @@ std::optional<AnswerLine> parse_answer_line(std::string_view line) {
 }
 
 std::string answer_mark(std::string_view key, std::string_view text) {
-  Sha256 digest;
-  digest.update(key);
-  digest.update(" ");
-  digest.update(text);
-  return std::string(key) + " " + digest.finish();
+  return fmt::format("{} {}", key, sha256(fmt::format("{} {}", key, text)));
 }
 
 std::string answer_entry_line(std::string_view key, std::string_view text) {

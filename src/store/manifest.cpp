@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <hdf5.h>
 #include <nlohmann/json.hpp>
+#include <openssl/opensslv.h>
 #include <toml++/impl/version.h>
 #include <unistd.h>
 
@@ -46,6 +47,7 @@ std::vector<LibraryVersion> library_versions() {
       {"toml++", dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
       {"nlohmann-json",
        dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+      {"OpenSSL", dotted(OPENSSL_VERSION_MAJOR, OPENSSL_VERSION_MINOR, OPENSSL_VERSION_PATCH)},
 #ifdef TBB_VERSION_STRING
       {"oneTBB", TBB_VERSION_STRING},
 #endif

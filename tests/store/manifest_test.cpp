@@ -28,7 +28,8 @@ TEST(Manifest, StartsNowInUtc) {
 
 TEST(Manifest, NamesEveryLibraryWithADottedVersion) {
   const std::vector<LibraryVersion> libraries = library_versions();
-  for (const char* name : {"Eigen", "Boost", "HDF5", "fmt", "toml++", "nlohmann-json", "oneTBB", "CLI11"}) {
+  for (const char* name :
+       {"Eigen", "Boost", "HDF5", "fmt", "toml++", "nlohmann-json", "OpenSSL", "oneTBB", "CLI11"}) {
     const auto found = std::find_if(libraries.begin(), libraries.end(),
                                     [&](const auto& library) { return library.name == name; });
     ASSERT_NE(found, libraries.end()) << name;
