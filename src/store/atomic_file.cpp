@@ -74,8 +74,10 @@ void remove_leftover(const std::filesystem::path& file) {
 }
 
 MaybeError write_file_atomically(const std::filesystem::path& path,
-                                 std::initializer_list<std::string_view> parts, IfExists if_exists) {
-  const std::filesystem::path temporary = folder_of(path) / temporary_name(path.filename().string());
+                                 std::initializer_list<std::string_view> parts, IfExists if_exists,
+                                 const std::string& name) {
+  const std::filesystem::path temporary =
+      folder_of(path) / temporary_name(name.empty() ? path.filename().string() : name);
   if (!write_new(temporary, parts)) return write_error(path, errno);
   if (!publish(temporary, path, if_exists)) {
     const int error_number = errno;

@@ -1,14 +1,112 @@
 #include "launchsafe/store/case_file.hpp"
 
-#include "case_bytes.hpp"
+#include "case_layout.hpp"
+#include "case_soundness.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/own_files.hpp"
+#include "launchsafe/store/sha256.hpp"
 #include "xdmf.hpp"
 
 #include <fmt/format.h>
 
+#include <charconv>
+
 namespace launchsafe::store {
 namespace {
+
+constexpr std::string_view format_name = "launchsafe case file";
+constexpr std::string_view format_version = "1";
+
+// --- the user block: what the bytes after it must be ---
+
+constexpr std::size_t user_block_size = 512;
+constexpr std::string_view size_mark = "\nbytes ";
+constexpr std::string_view digest_mark = "\nsha256 ";
+
+std::string user_block_of(std::string_view image) {
+  std::string block = fmt::format("{} {}{}{}{}{}\n", format_name, format_version, size_mark, image.size(),
+                                  digest_mark, sha256(image));
+  block.resize(user_block_size, ' ');
+  block.back() = '\n';
+  return block;
+}
+
+std::string_view word_after(std::string_view text, std::string_view mark) {
+  const std::size_t found = text.find(mark);
+  if (found == std::string_view::npos) return {};
+  const std::string_view rest = text.substr(found + mark.size());
+  return rest.substr(0, rest.find('\n'));
+}
+
+/// The HDF5 image inside a case file's bytes. Errors: corrupt.
+Result<std::string_view> checked_image(std::string_view file) {
+  const auto corrupt = [](std::string message) { return Error{Error::Kind::corrupt, std::move(message)}; };
+  const std::string_view block = file.substr(0, user_block_size);
+  if (!block.starts_with(format_name)) return corrupt("not a launchsafe case file");
+  if (block.size() < user_block_size) return corrupt("truncated in its first block");
+  const std::string_view image = file.substr(user_block_size);
+  const std::string_view size_text = word_after(block, size_mark);
+  std::size_t size = 0;
+  std::from_chars(size_text.data(), size_text.data() + size_text.size(), size);
+  if (image.size() != size) return corrupt(fmt::format("truncated: {} of {} bytes", image.size(), size));
+  if (word_after(block, digest_mark) != sha256(image)) return corrupt("damaged: its SHA-256 is another one");
+  return image;
+}
+
+// --- the parts that only writing knows ---
+
+constexpr std::array symmetry_names{
+    Named{scene::Symmetry::axisymmetric, "axisymmetric"},
+    Named{scene::Symmetry::plane_strain, "plane_strain"},
+};
+constexpr std::array frame_names{
+    Named{scene::Frame::co_moving, "co_moving"},
+    Named{scene::Frame::lab, "lab"},
+};
+
+void write_bodies(Hdf5Writer& writer, const std::vector<scene::Body>& bodies) {
+  using scene::Body;
+  column(writer, "name", bodies, &Body::name, {"none", "name"});
+  column(writer, "material", bodies, &Body::material, {"none", "material"});
+  column(writer, "x_begin", bodies, &Body::x_begin, {"m", "axial begin"});
+  column(writer, "x_end", bodies, &Body::x_end, {"m", "axial end"});
+  column(writer, "r_begin", bodies, &Body::r_begin, {"m", "radial begin"});
+  column(writer, "r_end", bodies, &Body::r_end, {"m", "radial end"});
+}
+
+void write_scene(Hdf5Writer& writer, const scene::Scene& scene) {
+  using scene::ObservationPoint;
+  writer.group("scene", "What was simulated; complete in manifest/input", [&] {
+    writer.value("title", scene.title, {"none", "title"});
+    choice(writer, "symmetry", scene.symmetry, symmetry_names, {"none", "symmetry"});
+    choice(writer, "frame", scene.frame, frame_names, {"none", "frame of reference"});
+    writer.value("initial_temperature", scene.initial_temperature, {"K", "initial temperature"});
+    writer.value("peak_pressure", scene.load.peak, {"Pa", "peak chamber pressure"});
+    writer.value("cell_size", scene.numerics.cell_size, {"m", "nominal cell size"});
+    writer.group("bodies", "Bodies", [&] { write_bodies(writer, scene.bodies); });
+    writer.group("observation_points", "Observation points", [&] {
+      const auto& points = scene.output.observation_points;
+      column(writer, "name", points, &ObservationPoint::name, {"none", "name"});
+      column(writer, "x", points, &ObservationPoint::x, {"m", "axial position"});
+      column(writer, "r", points, &ObservationPoint::r, {"m", "radial position"});
+    });
+  });
+}
+
+/// Runs `body` on a reader of the image in a case file's bytes. Errors: corrupt.
+template <class Body>
+MaybeError read_image(std::string_view bytes, Body body) {
+  const Result<std::string_view> image = checked_image(bytes);
+  if (!image) return image.error();
+  Hdf5Reader reader(*image);
+  std::string version;
+  reader.attribute("format_version", version);
+  if (!reader.failed() && version != format_version) reader.fail("format version " + version + " is unknown");
+  body(reader);
+  return reader.error();
+}
+
+// --- files ---
 
 /// Nothing when `path` is free or holds an answer to the same question.
 MaybeError conflict_at(const std::filesystem::path& path, const Manifest& manifest) {
@@ -47,6 +145,40 @@ Result<Value> read_with(const std::filesystem::path& path, Result<Value> (*parse
 }
 
 }  // namespace
+
+Result<std::string> case_bytes(const scene::Scene& scene, const run::CaseResult& result,
+                               const Manifest& manifest) {
+  Hdf5Writer writer;
+  writer.attribute("format", std::string(format_name));
+  writer.attribute("format_version", std::string(format_version));
+  lay_out_manifest(writer, manifest);
+  write_scene(writer, scene);
+  lay_out_result(writer, result);
+  const Result<std::string> image = writer.finish();
+  if (!image) return image;
+  return user_block_of(*image) + *image;
+}
+
+Result<StoredCase> case_of(std::string_view bytes) {
+  StoredCase stored;
+  const MaybeError error = read_image(bytes, [&stored](Hdf5Reader& reader) {
+    lay_out_manifest(reader, stored.manifest);
+    reader.group("scene", "", [&] { reader.value("title", stored.title); });
+    lay_out_result(reader, stored.result);
+    if (reader.failed()) return;
+    if (const std::string fault = fault_in(stored.result); !fault.empty()) reader.fail(fault);
+  });
+  if (error) return *error;
+  return stored;
+}
+
+Result<Manifest> manifest_of(std::string_view bytes) {
+  Manifest manifest;
+  const MaybeError error =
+      read_image(bytes, [&manifest](Hdf5Reader& reader) { lay_out_manifest(reader, manifest); });
+  if (error) return *error;
+  return manifest;
+}
 
 MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene& scene,
                            const run::CaseResult& result, const Manifest& manifest) {

@@ -1,4 +1,4 @@
-// Where everything is in a case file. Each function serves writing and reading: `Archive` is Hdf5Output with
+// Where everything is in a case file. Each function serves writing and reading: `Archive` is Hdf5Writer with
 // const values, or Hdf5Reader with values to fill.
 #pragma once
 

@@ -43,12 +43,6 @@ MaybeError make_folder(const std::filesystem::path& folder) {
                fmt::format("cannot make the folder {}: {}", folder.string(), status.message())};
 }
 
-Error not_ours(const std::filesystem::path& path, const char* why) {
-  return {Error::Kind::conflict,
-          fmt::format("{} {}, and nothing is overwritten; move it away or name another folder", path.string(),
-                      why)};
-}
-
 /// Whatever has the name of a case but is no file.
 MaybeError obstacle_among_cases(const StoreNames& names) {
   constexpr std::string_view extension = ".h5";
@@ -61,7 +55,7 @@ MaybeError obstacle_among_cases(const StoreNames& names) {
         !is_case_hash(std::string_view(name).substr(0, name.size() - extension.size())))
       continue;
     if (entry->is_symlink(ignored) || !entry->is_regular_file(ignored))
-      return not_ours(entry->path(), "is no plain file");
+      return refusal(entry->path(), "is no plain file");
   }
   return {};
 }
@@ -73,7 +67,7 @@ MaybeError obstacle_before_first(const StoreNames& names) {
   if (std::filesystem::exists(names.cases(), failed)) return {};
   for (const std::filesystem::path& path : {names.journal(), names.answers(), names.folder / "lock"}) {
     if (std::filesystem::is_regular_file(path, failed) && std::filesystem::file_size(path, failed) == 0)
-      return not_ours(path, "was not written by launchsafe");
+      return refusal(path, foreign_file);
   }
   return {};
 }
@@ -82,9 +76,7 @@ MaybeError obstacle_before_first(const StoreNames& names) {
 MaybeError obstacle_in(const StoreNames& names) {
   struct stat status {};
   if (::lstat(names.cases().c_str(), &status) == 0 && !S_ISDIR(status.st_mode))
-    return Error{Error::Kind::conflict, fmt::format("{} is no folder, and nothing is overwritten; move it "
-                                                    "away or name another folder",
-                                                    names.cases().string())};
+    return refusal(names.cases(), "is no folder");
   if (MaybeError error = obstacle_among_cases(names)) return error;
   if (MaybeError error = obstacle_before_first(names)) return error;
   if (MaybeError error = StoreLock::obstacle(names.folder, names.part)) return error;
@@ -117,14 +109,9 @@ CaseStore::Content::Content(std::optional<StoreLock> taken, StoreNames all_names
       names(std::move(all_names)),
       options(chosen),
       manifest(common_manifest()),
-      host(host_name()) {
-  if (reads_only()) return;
-  writer.emplace(names, WriterCallbacks{[this](const JournalEntry& entry) { index.stored(entry); },
-                                        [this](const JournalEntry& entry) { index.dropped(entry); },
-                                        [this](const Error& error) {
-                                          if (options.on_failure) options.on_failure(error);
-                                        }});
-}
+      host(host_name()),
+      journal_(names.journal()),
+      answers_(names.answers()) {}
 
 bool CaseStore::Content::adopt(const std::string& hash) {
   const std::filesystem::path path = names.case_file(hash);
@@ -149,9 +136,9 @@ bool CaseStore::Content::adopt(const std::string& hash) {
   entry.file_size = size_of(status);
   entry.file_time = time_of(status);
   if (reads_only())
-    index.take(entry, false);
+    index.take(entry);
   else
-    put_entry(std::move(entry));
+    put_entry(entry);
   return true;
 }
 
@@ -162,7 +149,7 @@ Error CaseStore::Content::set_aside(const std::string& hash, const Error& damage
     return damage;
   }
   // While no file gets its name, the one that is there now is looked at once more: it may be a new one.
-  const std::lock_guard naming(writer->naming());
+  const std::lock_guard lock_of_names(writing_);
   const Result<CheckedFile> again = read_checked(path, hash);
   if (again || again.error().kind != Error::Kind::corrupt) return damage;
   std::filesystem::path aside;
@@ -176,22 +163,6 @@ Error CaseStore::Content::set_aside(const std::string& hash, const Error& damage
   index.remark(fmt::format("{}; it was set aside as {}", damage.message, aside.filename().string()));
   return damage;
 }
-
-void CaseStore::Content::put_case(std::string bytes, JournalEntry entry) {
-  if (writer->failed()) return;
-  entry.file_size = 0;
-  entry.file_time = 0;
-  index.take(entry, true);
-  writer->put({std::move(bytes), std::move(entry), {}, {}});
-}
-
-void CaseStore::Content::put_entry(JournalEntry entry) {
-  if (writer->failed()) return;
-  index.take(entry, false);
-  writer->put({{}, std::move(entry), {}, {}});
-}
-
-MaybeError CaseStore::Content::flush() { return writer ? writer->flush() : MaybeError(); }
 
 void CaseStore::Content::fill_in(JournalEntry& entry) const {
   if (entry.model_version == 0) entry.model_version = options.model_version;
@@ -210,6 +181,75 @@ void CaseStore::Content::remove_leftovers() {
                       name->ends_with("." + StoreNames{}.mark());
     if (ours) remove_leftover(names.cases() / temporary);
   }
+}
+
+// --- writing ---
+
+template <class Write>
+void CaseStore::Content::attempt(const Write& write) {
+  MaybeError failure;
+  {
+    const std::lock_guard one_at_a_time(writing_);
+    if (failure_) return;
+    failure = failure_ = write();
+  }
+  if (failure && options.on_failure) options.on_failure(*failure);
+}
+
+void CaseStore::Content::put_case(std::string_view bytes, JournalEntry entry) {
+  attempt([&] { return write_case(bytes, std::move(entry)); });
+}
+
+void CaseStore::Content::put_entry(const JournalEntry& entry) {
+  attempt([&] { return write_entry(entry); });
+}
+
+void CaseStore::Content::put_answer(const std::string& key, const std::string& text) {
+  attempt([&] { return write_answer(key, text); });
+}
+
+void CaseStore::Content::fail(const Error& failure) {
+  attempt([&] { return MaybeError(failure); });
+}
+
+MaybeError CaseStore::Content::flush() {
+  attempt([&] {
+    MaybeError error = journal_.sync();
+    return error ? error : answers_.sync();
+  });
+  const std::lock_guard lock_of_failure(writing_);
+  return failure_;
+}
+
+MaybeError CaseStore::Content::write_case(std::string_view bytes, JournalEntry entry) {
+  const std::filesystem::path path = names.case_file(entry.hash);
+  const MaybeError error =
+      write_file_atomically(path, {bytes}, IfExists::refuse, entry.hash + "." + names.mark());
+  // Another thread may have stored the same result meanwhile, or another process where nothing keeps it out.
+  const bool there_already = error && error->kind == Error::Kind::conflict && read_checked(path, entry.hash);
+  if (error && !there_already) return Error{Error::Kind::write_failed, error->message};
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return write_error(path, errno);
+  entry.file_size = size_of(status);
+  entry.file_time = time_of(status);
+  return write_entry(entry);
+}
+
+MaybeError CaseStore::Content::write_entry(const JournalEntry& entry) {
+  if (MaybeError error = journal_.append(journal_line(entry))) return error;
+  if (MaybeError error = journal_.sync()) return error;
+  index.take(entry);
+  return {};
+}
+
+MaybeError CaseStore::Content::write_answer(const std::string& key, const std::string& text) {
+  if (text.find('\n') != std::string::npos)
+    return Error{Error::Kind::failed, fmt::format("the answer {} is not one line", key)};
+  // The journal first: an answer that it does not know would be remarked on.
+  if (MaybeError error = journal_.append(answer_entry_line(key, text))) return error;
+  if (MaybeError error = answers_.append(answer_line(key, text))) return error;
+  index.take_answer(key, text);
+  return {};
 }
 
 // --- the store ---
@@ -242,7 +282,7 @@ Result<std::unique_ptr<CaseStore>> CaseStore::open_to_read(const std::filesystem
 }
 
 CaseStore::CaseStore(std::unique_ptr<Content> content) : content_(std::move(content)) {}
-CaseStore::~CaseStore() = default;
+CaseStore::~CaseStore() { content_->flush(); }
 
 std::optional<JournalEntry> CaseStore::last_entry(const std::string& hash) const {
   return content_->index.last_entry(hash);
@@ -251,7 +291,6 @@ std::optional<JournalEntry> CaseStore::last_entry(const std::string& hash) const
 std::vector<JournalEntry> CaseStore::entries() const { return content_->index.entries(); }
 
 bool CaseStore::holds(const std::string& hash) {
-  if (content_->index.is_pending(hash)) return true;
   struct stat status {};
   if (::stat(content_->names.case_file(hash).c_str(), &status) != 0) return false;
   const std::optional<JournalEntry> entry = content_->index.last_entry(hash);
@@ -261,7 +300,6 @@ bool CaseStore::holds(const std::string& hash) {
 }
 
 Result<run::CaseResult> CaseStore::load(const std::string& hash) {
-  if (content_->index.is_pending(hash)) content_->flush();
   const std::filesystem::path path = content_->names.case_file(hash);
   const Result<std::string> bytes = read_file(path);
   if (!bytes) return bytes.error();
@@ -277,7 +315,6 @@ Result<run::CaseResult> CaseStore::load(const std::string& hash) {
 }
 
 Result<std::string> CaseStore::input_of(const std::string& hash) const {
-  if (content_->index.is_pending(hash)) content_->flush();
   Result<CheckedFile> file = read_checked(content_->names.case_file(hash), hash);
   if (file) return std::move(file->manifest.input_text);
   if (file.error().kind != Error::Kind::corrupt) return file.error();
@@ -287,7 +324,6 @@ Result<std::string> CaseStore::input_of(const std::string& hash) const {
 void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, run::CaseResult result,
                      JournalEntry entry) {
   assert(!content_->reads_only());
-  if (content_->writer->failed()) return;
   entry.hash = identity.hash();
   entry.state = CaseState::done;
   content_->fill_in(entry);
@@ -300,17 +336,15 @@ void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, ru
     entry.processor_time = result.mechanics.processor_time;
   }
   result.mechanics.wall_time = 0;
-  Result<std::string> bytes = case_bytes(scene, result, manifest, &content_->molds);
-  if (!bytes) {
-    return content_->writer->fail(of_file(content_->names.case_file(entry.hash), bytes.error()));
-  }
-  content_->put_case(std::move(*bytes), std::move(entry));
+  const Result<std::string> bytes = case_bytes(scene, result, manifest);
+  if (!bytes) return content_->fail(of_file(content_->names.case_file(entry.hash), bytes.error()));
+  content_->put_case(*bytes, std::move(entry));
 }
 
 void CaseStore::note(JournalEntry entry) {
   assert(!content_->reads_only());
   content_->fill_in(entry);
-  content_->put_entry(std::move(entry));
+  content_->put_entry(entry);
 }
 
 std::optional<std::string> CaseStore::answer(const std::string& key) const {
@@ -319,11 +353,7 @@ std::optional<std::string> CaseStore::answer(const std::string& key) const {
 
 void CaseStore::save_answer(const std::string& key, const std::string& text) {
   assert(!content_->reads_only());
-  if (content_->writer->failed()) return;
-  if (text.find('\n') != std::string::npos)
-    return content_->writer->fail({Error::Kind::failed, fmt::format("the answer {} is not one line", key)});
-  content_->index.take_answer(key, text);
-  content_->writer->put({{}, {}, answer_line(key, text), answer_entry_line(key, text)});
+  content_->put_answer(key, text);
 }
 
 MaybeError CaseStore::flush() { return content_->flush(); }

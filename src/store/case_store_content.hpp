@@ -1,16 +1,32 @@
 // What a case store is made of.
 #pragma once
 
-#include "case_bytes.hpp"
+#include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/case_store.hpp"
 #include "store_index.hpp"
 #include "store_lock.hpp"
-#include "store_writer.hpp"
 
+#include <mutex>
 #include <optional>
 #include <string>
 
 namespace launchsafe::store {
+
+/// The names of a store's files.
+struct StoreNames {
+  std::filesystem::path folder;
+  std::string part;
+
+  std::filesystem::path cases() const { return folder / "cases"; }
+  std::filesystem::path case_file(const std::string& hash) const { return cases() / (hash + ".h5"); }
+  std::filesystem::path journal() const { return folder / ("journal" + suffix() + ".jsonl"); }
+  std::filesystem::path answers() const { return folder / ("answers" + suffix() + ".jsonl"); }
+  /// Ends the names of files that this part is writing.
+  std::string mark() const { return part.empty() ? "whole" : part; }
+
+ private:
+  std::string suffix() const { return part.empty() ? "" : "." + part; }
+};
 
 /// The bytes of the case file at `path`, and what they are. Errors: missing, unreadable, corrupt (also when
 /// it is the result of another case than `hash` says).
@@ -29,10 +45,6 @@ struct CaseStore::Content {
   bool adopt(const std::string& hash);
   /// Gives a damaged file another name, unless the store only reads. Returns the error to report.
   Error set_aside(const std::string& hash, const Error& damage);
-  void put_case(std::string bytes, JournalEntry entry);
-  void put_entry(JournalEntry entry);
-  /// Waits for what is to be written.
-  MaybeError flush();
   /// Where and when an attempt ended, and of which model it was.
   void fill_in(JournalEntry& entry) const;
   /// Takes over entries of attempts on cases that are done nowhere.
@@ -40,14 +52,35 @@ struct CaseStore::Content {
   /// Deletes what writers that were killed left half written. Those of living parts are not ours to judge.
   void remove_leftovers();
 
-  std::optional<StoreLock> lock;
+  // What follows writes, one thread at a time, and does nothing after a failure.
+
+  /// The file, synced and under its name; then the journal's line.
+  void put_case(std::string_view bytes, JournalEntry entry);
+  void put_entry(const JournalEntry& entry);
+  /// Whether they outlive a power cut too is for `flush`: answers can be drawn again, and there may be many.
+  void put_answer(const std::string& key, const std::string& text);
+  /// The first failure, if any, after all lines are on disk.
+  MaybeError flush();
+  void fail(const Error& failure);
+
+  const std::optional<StoreLock> lock;
   const StoreNames names;
   const StoreOptions options;
   const Manifest manifest;  ///< of every case, without its input
   const std::string host;
-  Hdf5Molds molds;
   StoreIndex index;
-  std::optional<StoreWriter> writer;  // ends first
+
+ private:
+  /// Runs `write` unless something failed before. The first failure is kept and told.
+  template <class Write>
+  void attempt(const Write& write);
+  MaybeError write_case(std::string_view bytes, JournalEntry entry);
+  MaybeError write_entry(const JournalEntry& entry);
+  MaybeError write_answer(const std::string& key, const std::string& text);
+
+  std::mutex writing_;  ///< held while files get their names and lines are appended
+  AppendedFile journal_, answers_;
+  MaybeError failure_;
 };
 
 }  // namespace launchsafe::store

@@ -74,13 +74,13 @@ Result<CaseStore::Imported> CaseStore::import_from(const std::filesystem::path& 
   for (const std::string& hash : *whole) {
     Result<CheckedFile> file = read_checked(names.case_file(hash), hash);
     if (!file) return file.error();
-    content_->put_case(std::move(file->bytes), entry_of(theirs, hash, model_version));
+    content_->put_case(file->bytes, entry_of(theirs, hash, model_version));
     ++imported.cases;
   }
   content_->import_attempts(theirs);
-  for (const AnswerLine& answer : theirs.answers()) {
-    if (this->answer(std::string(answer.key))) continue;
-    save_answer(std::string(answer.key), std::string(answer.text));
+  for (const auto& [key, text] : theirs.answers()) {
+    if (answer(key)) continue;
+    save_answer(key, text);
     ++imported.answers;
   }
   for (const std::string& remark : theirs.remarks()) content_->index.remark(remark);

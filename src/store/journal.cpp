@@ -4,13 +4,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 #include <array>
 #include <cerrno>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace launchsafe::store {
 namespace {
@@ -20,8 +20,7 @@ constexpr std::size_t check_digits = 16, digest_digits = 64, key_digits = 32;
 constexpr std::string_view hexadecimal = "0123456789abcdef";
 
 constexpr std::string_view entry_begin = R"({"case":")";
-constexpr std::string_view answer_begin = R"({"answer":")", answer_middle = R"(","sha256":")",
-                           answer_end = R"("})";
+constexpr std::string_view answer_begin = R"({"answer":")";
 
 bool is_hexadecimal(std::string_view text) {
   return text.find_first_not_of(hexadecimal) == std::string_view::npos;
@@ -38,71 +37,47 @@ nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
-/// Fills an entry as a line is parsed: a study of ten thousand cases is read at every start, and a tree of
-/// values for each line would take most of that time. What is unknown or of another type is passed over.
-class EntryReader : public nlohmann::json_sax<nlohmann::json> {
- public:
-  JournalEntry entry;
-  bool has_state = false;
+/// NaN for null, which stands for what is not finite; 0 for what is no number or not there.
+double number_member(const nlohmann::json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end()) return 0.0;
+  if (found->is_null()) return std::numeric_limits<double>::quiet_NaN();
+  return found->is_number() ? found->get<double>() : 0.0;
+}
 
-  bool key(string_t& name) override {
-    key_ = name;
-    return true;
-  }
-  bool string(string_t& text) override {
-    if (key_ == "case") entry.hash = text;
-    if (key_ == "state") take_state(text);
-    if (key_ == "label") entry.label = text;
-    if (key_ == "reason") entry.reason = text;
-    if (key_ == "host") entry.host = text;
-    if (key_ == "end_time") entry.end_time = text;
-    return true;
-  }
-  bool number_integer(std::int64_t number) override {
-    if (key_ == "file_time_ns") entry.file_time = number;
-    return real(static_cast<double>(number));
-  }
-  bool number_unsigned(std::uint64_t number) override {
-    // One that does not fit is no version of ours, and must not become one by being cut off.
-    constexpr std::uint64_t most = std::numeric_limits<int>::max();
-    if (key_ == "model_version") entry.model_version = static_cast<int>(number <= most ? number : 0);
-    if (key_ == "file_bytes") entry.file_size = number;
-    constexpr std::uint64_t largest = std::numeric_limits<std::int64_t>::max();
-    return number <= largest ? number_integer(static_cast<std::int64_t>(number))
-                             : real(static_cast<double>(number));
-  }
-  bool number_float(double number, const string_t&) override { return real(number); }
-  bool null() override { return real(std::numeric_limits<double>::quiet_NaN()); }
-  bool boolean(bool) override { return true; }
-  bool binary(binary_t&) override { return false; }
-  /// An entry is one flat object.
-  bool start_object(std::size_t) override { return ++depth_ == 1; }
-  bool end_object() override { return true; }
-  bool start_array(std::size_t) override { return false; }
-  bool end_array() override { return false; }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) override {
-    return false;
-  }
-
- private:
-  bool real(double number) {
-    if (key_ == "wall_time_s") entry.wall_time = number;
-    if (key_ == "processor_time_s") entry.processor_time = number;
-    if (key_ == "predicted_updates") entry.predicted_updates = number;
-    if (key_ == "time_limit_s") entry.time_limit = number;
-    return true;
-  }
-  void take_state(const string_t& name) {
-    const std::optional<CaseState> state = state_of(name);
-    has_state = state.has_value();
-    entry.state = state.value_or(CaseState::done);
-  }
-
-  std::string key_;
-  int depth_ = 0;
-};
+/// 0 for what is no integer, does not fit (cut off it would become another one), or is not there.
+template <class Integer>
+Integer integer_member(const nlohmann::json& object, const char* key) {
+  const auto fitting = [](auto number) {
+    return std::in_range<Integer>(number) ? static_cast<Integer>(number) : Integer{0};
+  };
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_number_integer()) return 0;
+  return found->is_number_unsigned() ? fitting(found->get<std::uint64_t>())
+                                     : fitting(found->get<std::int64_t>());
+}
 
 }  // namespace
+
+std::string text_member(const nlohmann::json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string{};
+}
+
+std::size_t for_each_line(std::string_view text, const std::function<bool(std::string_view)>& take) {
+  std::size_t ignored = 0;
+  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
+    if (end > 0 && !take(text.substr(0, end))) ++ignored;
+    text.remove_prefix(end + 1);
+  }
+  return ignored;
+}
+
+bool any_line(std::string_view text, const std::function<bool(std::string_view)>& is_one) {
+  bool any = false;
+  for_each_line(text, [&](std::string_view line) { return any = any || is_one(line); });
+  return any;
+}
 
 std::string to_string(CaseState state) {
   switch (state) {
@@ -137,16 +112,29 @@ std::string journal_line(const JournalEntry& entry) {
 }
 
 std::optional<JournalEntry> journal_entry(std::string_view line) {
-  EntryReader reader;
-  if (!nlohmann::json::sax_parse(line, &reader) || !reader.has_state || reader.entry.hash.empty()) return {};
-  return std::move(reader.entry);
+  const auto object = nlohmann::json::parse(line, nullptr, false);
+  if (!object.is_object()) return {};
+  const std::optional<CaseState> state = state_of(text_member(object, "state"));
+  JournalEntry entry;
+  entry.hash = text_member(object, "case");
+  if (!state || entry.hash.empty()) return {};
+  entry.state = *state;
+  entry.label = text_member(object, "label");
+  entry.reason = text_member(object, "reason");
+  entry.model_version = integer_member<int>(object, "model_version");
+  entry.wall_time = number_member(object, "wall_time_s");
+  entry.processor_time = number_member(object, "processor_time_s");
+  entry.predicted_updates = number_member(object, "predicted_updates");
+  entry.time_limit = number_member(object, "time_limit_s");
+  entry.host = text_member(object, "host");
+  entry.end_time = text_member(object, "end_time");
+  entry.file_size = integer_member<std::uint64_t>(object, "file_bytes");
+  entry.file_time = integer_member<std::int64_t>(object, "file_time_ns");
+  return entry;
 }
 
 std::string answer_line(std::string_view key, std::string_view text) {
-  std::string line;
-  line.reserve(key.size() + check_digits + text.size() + 3);
-  line.append(key).append(" ").append(sha256(text), 0, check_digits).append(" ").append(text).append("\n");
-  return line;
+  return fmt::format("{} {:.{}} {}\n", key, sha256(text), check_digits, text);
 }
 
 std::optional<AnswerLine> parse_answer_line(std::string_view line) {
@@ -159,36 +147,25 @@ std::optional<AnswerLine> parse_answer_line(std::string_view line) {
   return AnswerLine{line.substr(0, key_end), text};
 }
 
-std::string answer_mark(std::string_view key, std::string_view text) {
+std::string answer_digest(std::string_view key, std::string_view text) {
   return fmt::format("{} {}", key, sha256(fmt::format("{} {}", key, text)));
 }
 
 std::string answer_entry_line(std::string_view key, std::string_view text) {
-  const std::string mark = answer_mark(key, text);
-  std::string line(answer_begin);
-  line.append(key).append(answer_middle).append(mark, key.size() + 1).append(answer_end).append("\n");
-  return line;
+  const std::string digest = answer_digest(key, text).substr(key.size() + 1);
+  return nlohmann::ordered_json{{"answer", key}, {"sha256", digest}}.dump() + "\n";
 }
 
 std::optional<std::string> answer_entry(std::string_view line) {
-  if (!line.starts_with(answer_begin) || !line.ends_with(answer_end)) return {};
-  line.remove_prefix(answer_begin.size());
-  const std::size_t key_end = line.find(answer_middle);
-  if (key_end == std::string_view::npos || key_end == 0) return {};
-  const std::string_view key = line.substr(0, key_end);
-  line.remove_prefix(key_end + answer_middle.size());
-  const std::string_view digest = line.substr(0, line.size() - answer_end.size());
-  if (digest.size() != digest_digits || !is_hexadecimal(digest) || !is_hexadecimal(key)) return {};
-  return std::string(key).append(" ").append(digest);
+  if (!line.starts_with(answer_begin)) return {};
+  const auto object = nlohmann::json::parse(line, nullptr, false);
+  if (!object.is_object() || object.size() != 2) return {};
+  const std::string key = text_member(object, "answer"), digest = text_member(object, "sha256");
+  if (key.empty() || digest.size() != digest_digits || !is_hexadecimal(key + digest)) return {};
+  return key + " " + digest;
 }
 
 namespace {
-
-bool any_line(std::string_view content, const std::function<bool(std::string_view)>& is_one) {
-  bool any = false;
-  for_each_line(content, [&](std::string_view line) { return any = any || is_one(line); });
-  return any;
-}
 
 /// A first line that a kill cut short has no end, and nothing follows it.
 bool is_one_cut_line(std::string_view content) { return content.find('\n') == std::string_view::npos; }
@@ -217,15 +194,6 @@ bool is_answers(std::string_view content) {
   return any_line(content, [](std::string_view line) { return parse_answer_line(line).has_value(); });
 }
 
-std::size_t for_each_line(std::string_view text, const std::function<bool(std::string_view)>& take) {
-  std::size_t ignored = 0;
-  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
-    if (end > 0 && !take(text.substr(0, end))) ++ignored;
-    text.remove_prefix(end + 1);
-  }
-  return ignored;
-}
-
 MaybeError AppendedFile::open() {
   Result<Descriptor> opened = open_in_place(path_, O_APPEND);
   if (!opened) return opened.error();
@@ -247,7 +215,12 @@ MaybeError AppendedFile::append(std::string_view lines) {
   if (!file_.is_open()) {
     if (MaybeError error = open()) return error;
   }
-  if (!write_all(file_.number(), lines) || ::fdatasync(file_.number()) != 0) return write_error(path_, errno);
+  if (!write_all(file_.number(), lines)) return write_error(path_, errno);
+  return {};
+}
+
+MaybeError AppendedFile::sync() {
+  if (file_.is_open() && ::fdatasync(file_.number()) != 0) return write_error(path_, errno);
   return {};
 }
 

@@ -4,6 +4,8 @@
 #include "launchsafe/store/case_store.hpp"
 #include "posix_file.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <functional>
 #include <optional>
 #include <string>
@@ -30,7 +32,7 @@ std::string answer_entry_line(std::string_view key, std::string_view text);
 /// Key and digest as in the line above; nothing for any other line.
 std::optional<std::string> answer_entry(std::string_view line);
 /// What `answer_entry` gives for the line of an answer.
-std::string answer_mark(std::string_view key, std::string_view text);
+std::string answer_digest(std::string_view key, std::string_view text);
 
 /// Whether the content of a file is that of a journal, or of answers: some line of it is, or it is the
 /// beginning of a single line that a kill or a full disk cut short.
@@ -40,14 +42,22 @@ bool is_answers(std::string_view content);
 /// Calls `take` with every line that ends in a newline; a last one without was cut short. Returns how many
 /// lines `take` did not understand.
 std::size_t for_each_line(std::string_view text, const std::function<bool(std::string_view)>& take);
+/// Whether `is_one` holds for any such line.
+bool any_line(std::string_view text, const std::function<bool(std::string_view)>& is_one);
+
+/// A text in an object of JSON; empty for what is no text or not there.
+std::string text_member(const nlohmann::json& object, const char* key);
 
 /// A file that lines are added to. It is made with the first of them. Whether what is there already is ours
 /// is the caller's to find out before, see `obstacle_in_place`.
 class AppendedFile {
  public:
   explicit AppendedFile(std::filesystem::path path) : path_(std::move(path)) {}
-  /// Adds whole lines and waits until they are on disk. Errors: conflict (no plain file), write_failed.
+  /// Adds whole lines, which outlive this process from then on. Errors: conflict (no plain file),
+  /// write_failed.
   MaybeError append(std::string_view lines);
+  /// Waits until all lines are on disk, so that they outlive a power cut too. Errors: write_failed.
+  MaybeError sync();
 
  private:
   MaybeError open();

@@ -39,12 +39,8 @@ bool may_be_recorded(const std::string& name) {
 std::optional<WrittenFile> written_file(std::string_view line) {
   if (!line.starts_with(line_begin)) return {};
   const auto object = nlohmann::json::parse(line, nullptr, false);
-  const auto text = [&object](const char* key) {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string{};
-  };
   if (!object.is_object()) return {};
-  WrittenFile file{text("file"), text("sha256")};
+  WrittenFile file{text_member(object, "file"), text_member(object, "sha256")};
   if (!may_be_recorded(file.name) || file.sha256.empty()) return {};
   return file;
 }
@@ -52,24 +48,20 @@ std::optional<WrittenFile> written_file(std::string_view line) {
 /// Whether any line is one of ours; a single one that a kill cut short has no end.
 bool is_journal_of_files(std::string_view content) {
   if (content.find('\n') == std::string_view::npos) return content.starts_with(line_begin);
-  bool any = false;
-  for_each_line(content,
-                [&any](std::string_view line) { return any = any || written_file(line).has_value(); });
-  return any;
+  return any_line(content, [](std::string_view line) { return written_file(line).has_value(); });
 }
 
 MaybeError append(const fs::path& folder, const std::string& lines) {
   if (lines.empty()) return {};
   const fs::path path = folder / own_files_name;
   if (MaybeError error = obstacle_in_place(path, is_journal_of_files)) return error;
-  return AppendedFile(path).append(lines);
+  AppendedFile journal(path);
+  if (MaybeError error = journal.append(lines)) return error;
+  return journal.sync();
 }
 
 Error not_ours(const fs::path& path, FileState state) {
-  return {Error::Kind::conflict,
-          fmt::format("{} {}, and nothing is overwritten; move it away or name another folder", path.string(),
-                      state == FileState::edited ? "was edited since launchsafe wrote it"
-                                                 : "was not written by launchsafe")};
+  return refusal(path, state == FileState::edited ? "was edited since launchsafe wrote it" : foreign_file);
 }
 
 bool is_replaceable(FileState state) { return state == FileState::absent || state == FileState::ours; }

@@ -18,13 +18,13 @@ Error write_error(const std::filesystem::path& path, int error_number) {
           fmt::format("cannot write {}: {}", path.string(), system_reason(error_number))};
 }
 
-namespace {
-
-Error foreign(const std::filesystem::path& path, std::string_view what) {
+Error refusal(const std::filesystem::path& path, std::string_view what) {
   return {Error::Kind::conflict,
           fmt::format("{} {}, and nothing is overwritten; move it away or name another folder", path.string(),
                       what)};
 }
+
+namespace {
 
 constexpr std::string_view no_plain_file = "is no plain file";
 constexpr std::string_view several_names =
@@ -42,12 +42,12 @@ Result<Descriptor> open_in_place(const std::filesystem::path& path, int flags) {
   // O_NONBLOCK so that a named pipe is refused below rather than waited for.
   Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | flags, 0666));
   if (!file.is_open()) {
-    if (errno == ELOOP || errno == EISDIR || errno == ENXIO) return foreign(path, no_plain_file);
+    if (errno == ELOOP || errno == EISDIR || errno == ENXIO) return refusal(path, no_plain_file);
     return write_error(path, errno);
   }
   struct stat status {};
   if (::fstat(file.number(), &status) != 0) return write_error(path, errno);
-  if (const std::string_view fault = fault_of(status); !fault.empty()) return foreign(path, fault);
+  if (const std::string_view fault = fault_of(status); !fault.empty()) return refusal(path, fault);
   return file;
 }
 
@@ -55,11 +55,11 @@ MaybeError obstacle_in_place(const std::filesystem::path& path,
                              const std::function<bool(std::string_view content)>& is_ours) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0) return {};
-  if (const std::string_view fault = fault_of(status); !fault.empty()) return foreign(path, fault);
+  if (const std::string_view fault = fault_of(status); !fault.empty()) return refusal(path, fault);
   const Result<std::string> content = read_file(path);
   if (!content) return content.error();
   if (content->empty() || is_ours(*content)) return {};
-  return foreign(path, "was not written by launchsafe");
+  return refusal(path, foreign_file);
 }
 
 bool write_all(int file, std::string_view bytes) {

@@ -45,6 +45,10 @@ std::string system_reason(int error_number);
 /// "cannot write PATH: REASON", of kind write_failed.
 Error write_error(const std::filesystem::path& path, int error_number);
 
+/// "PATH WHAT, and nothing is overwritten ...", of kind conflict.
+Error refusal(const std::filesystem::path& path, std::string_view what);
+inline constexpr std::string_view foreign_file = "was not written by launchsafe";
+
 /// Opens a file to be written in place, makes it where there is none, and never follows a symbolic link.
 /// `flags` come on top of O_RDWR. Errors: conflict (what is there is no regular file, or has other names that
 /// its content would change under too), write_failed.

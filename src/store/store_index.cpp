@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace launchsafe::store {
 namespace {
@@ -47,7 +48,7 @@ MaybeError StoreIndex::read(const std::filesystem::path& folder) {
       if (journals)
         read_journal(file, *text);
       else
-        read_answers(file, std::move(*text));
+        read_answers(file, *text);
     }
   }
   return {};
@@ -58,8 +59,8 @@ void StoreIndex::read_journal(const std::filesystem::path& file, std::string_vie
   std::unordered_map<std::string, JournalEntry> newest;
   const std::lock_guard lock(mutex_);
   const std::size_t ignored = for_each_line(text, [&](std::string_view line) {
-    if (std::optional<std::string> mark = answer_entry(line)) {
-      answer_marks_.insert(std::move(*mark));
+    if (std::optional<std::string> digest = answer_entry(line)) {
+      answer_digests_.insert(std::move(*digest));
       return true;
     }
     std::optional<JournalEntry> entry = journal_entry(line);
@@ -68,20 +69,19 @@ void StoreIndex::read_journal(const std::filesystem::path& file, std::string_vie
   });
   if (ignored > 0) remarks_.push_back(ignored_remark(file, ignored));
   for (auto& [hash, entry] : newest) {
-    const auto [known, is_first] = records_.try_emplace(hash);
-    if (is_first || is_newer(entry, known->second.entry)) known->second.entry = std::move(entry);
+    const auto [known, is_first] = entries_.try_emplace(hash);
+    if (is_first || is_newer(entry, known->second)) known->second = std::move(entry);
   }
 }
 
-void StoreIndex::read_answers(const std::filesystem::path& file, std::string text) {
+void StoreIndex::read_answers(const std::filesystem::path& file, std::string_view text) {
   const std::lock_guard lock(mutex_);
-  texts_.push_back(std::move(text));
   std::size_t unknown = 0;
-  const std::size_t ignored = for_each_line(texts_.back(), [&](std::string_view line) {
+  const std::size_t ignored = for_each_line(text, [&](std::string_view line) {
     const std::optional<AnswerLine> answer = parse_answer_line(line);
     if (!answer) return false;
-    if (answer_marks_.contains(answer_mark(answer->key, answer->text)))
-      answers_.insert_or_assign(answer->key, answer->text);
+    if (answer_digests_.contains(answer_digest(answer->key, answer->text)))
+      answers_.insert_or_assign(std::string(answer->key), std::string(answer->text));
     else
       ++unknown;
     return true;
@@ -92,71 +92,37 @@ void StoreIndex::read_answers(const std::filesystem::path& file, std::string tex
 
 std::optional<JournalEntry> StoreIndex::last_entry(const std::string& hash) const {
   const std::lock_guard lock(mutex_);
-  const auto found = records_.find(hash);
-  if (found == records_.end()) return {};
-  return found->second.entry;
+  const auto found = entries_.find(hash);
+  return found == entries_.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::vector<JournalEntry> StoreIndex::entries() const {
+  const std::lock_guard lock(mutex_);
   std::vector<JournalEntry> entries;
-  {
-    const std::lock_guard lock(mutex_);
-    entries.reserve(records_.size());
-    for (const auto& [hash, record] : records_) entries.push_back(record.entry);
-  }
-  std::sort(entries.begin(), entries.end(),
-            [](const JournalEntry& a, const JournalEntry& b) { return a.hash < b.hash; });
+  entries.reserve(entries_.size());
+  for (const auto& [hash, entry] : entries_) entries.push_back(entry);
   return entries;
 }
 
-bool StoreIndex::is_pending(const std::string& hash) const {
+void StoreIndex::take(const JournalEntry& entry) {
   const std::lock_guard lock(mutex_);
-  const auto found = records_.find(hash);
-  return found != records_.end() && found->second.pending > 0;
-}
-
-void StoreIndex::take(const JournalEntry& entry, bool pending) {
-  const std::lock_guard lock(mutex_);
-  Record& record = records_[entry.hash];
-  record.entry = entry;
-  if (pending) ++record.pending;
-}
-
-void StoreIndex::stored(const JournalEntry& entry) {
-  const std::lock_guard lock(mutex_);
-  const auto found = records_.find(entry.hash);
-  if (found == records_.end() || found->second.pending == 0) return;
-  --found->second.pending;
-  found->second.entry.file_size = entry.file_size;
-  found->second.entry.file_time = entry.file_time;
-}
-
-void StoreIndex::dropped(const JournalEntry& entry) {
-  const std::lock_guard lock(mutex_);
-  const auto found = records_.find(entry.hash);
-  if (found == records_.end() || found->second.pending == 0) return;
-  if (--found->second.pending == 0 && found->second.entry.file_size == 0) records_.erase(found);
+  entries_.insert_or_assign(entry.hash, entry);
 }
 
 std::optional<std::string> StoreIndex::answer(const std::string& key) const {
   const std::lock_guard lock(mutex_);
   const auto found = answers_.find(key);
-  if (found == answers_.end()) return {};
-  return std::string(found->second);
+  return found == answers_.end() ? std::nullopt : std::optional(found->second);
 }
 
 void StoreIndex::take_answer(const std::string& key, const std::string& text) {
   const std::lock_guard lock(mutex_);
-  const std::string_view stored = texts_.emplace_back(key + text);
-  answers_.insert_or_assign(stored.substr(0, key.size()), stored.substr(key.size()));
+  answers_.insert_or_assign(key, text);
 }
 
-std::vector<AnswerLine> StoreIndex::answers() const {
+std::map<std::string, std::string> StoreIndex::answers() const {
   const std::lock_guard lock(mutex_);
-  std::vector<AnswerLine> lines;
-  lines.reserve(answers_.size());
-  for (const auto& [key, text] : answers_) lines.push_back({key, text});
-  return lines;
+  return answers_;
 }
 
 std::vector<std::string> StoreIndex::remarks() const {

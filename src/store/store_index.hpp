@@ -4,11 +4,10 @@
 #include "journal.hpp"
 #include "launchsafe/store/case_store.hpp"
 
-#include <deque>
+#include <map>
 #include <mutex>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -24,40 +23,27 @@ class StoreIndex {
   std::optional<JournalEntry> last_entry(const std::string& hash) const;
   /// In the order of their hashes.
   std::vector<JournalEntry> entries() const;
-  /// Whether a result was taken that is not on disk yet.
-  bool is_pending(const std::string& hash) const;
-
-  /// Takes the newest entry of a case; `pending` when its file is still to be written.
-  void take(const JournalEntry& entry, bool pending);
-  /// What was pending is on disk, with the size and time that the entry says.
-  void stored(const JournalEntry& entry);
-  /// What was pending will not be written.
-  void dropped(const JournalEntry& entry);
+  /// Takes the newest entry of a case.
+  void take(const JournalEntry& entry);
 
   std::optional<std::string> answer(const std::string& key) const;
   void take_answer(const std::string& key, const std::string& text);
-  /// The texts live as long as the index.
-  std::vector<AnswerLine> answers() const;
+  /// By their keys.
+  std::map<std::string, std::string> answers() const;
 
   std::vector<std::string> remarks() const;
   /// One that was made before is not repeated.
   void remark(const std::string& text);
 
  private:
-  struct Record {
-    JournalEntry entry;
-    int pending = 0;  ///< files still to be written
-  };
-
   void read_journal(const std::filesystem::path& file, std::string_view text);
   /// Needs all journals: an answer counts if one of them knows it as it is.
-  void read_answers(const std::filesystem::path& file, std::string text);
+  void read_answers(const std::filesystem::path& file, std::string_view text);
 
   mutable std::mutex mutex_;
-  std::unordered_map<std::string, Record> records_;
-  std::deque<std::string> texts_;  ///< of which the keys and values of the answers are parts
-  std::unordered_map<std::string_view, std::string_view> answers_;
-  std::unordered_set<std::string> answer_marks_;  ///< of the answers that the journals know
+  std::map<std::string, JournalEntry> entries_;     ///< by the hashes of their cases
+  std::map<std::string, std::string> answers_;      ///< by their keys
+  std::unordered_set<std::string> answer_digests_;  ///< of the answers that the journals know
   std::vector<std::string> remarks_;
 };
 

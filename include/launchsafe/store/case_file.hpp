@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace launchsafe::store {
 
@@ -25,11 +26,21 @@ MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene
 /// The file beside a case file by which ParaView opens its snapshots.
 std::filesystem::path sidecar_of(const std::filesystem::path& path);
 
+/// The bytes of a whole case file. Errors: failed (a result whose arrays do not fit together).
+Result<std::string> case_bytes(const scene::Scene& scene, const run::CaseResult& result,
+                               const Manifest& manifest);
+
 struct StoredCase {
   Manifest manifest;
   std::string title;  ///< of the scene
   run::CaseResult result;
 };
+
+/// All that `case_bytes` was given but the scene, bit by bit. Errors: corrupt.
+Result<StoredCase> case_of(std::string_view bytes);
+
+/// The manifest alone; all bytes are checked all the same. Errors: corrupt.
+Result<Manifest> manifest_of(std::string_view bytes);
 
 /// All that `write_case_file` was given but the scene, bit by bit. Errors: missing, unreadable, corrupt.
 Result<StoredCase> read_case_file(const std::filesystem::path& path);

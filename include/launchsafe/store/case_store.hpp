@@ -4,9 +4,8 @@
 //   DIR/cases/HASH.h5          the result of one case, named by what determines it, whole or not there
 //   DIR/cases/HASH.damaged-1   a file that was truncated or damaged, set aside
 //   DIR/journal[.PART].jsonl   one line an attempt and one an answer, only ever appended to
-//   DIR/answers[.PART].jsonl   small texts derived from cases, each with its checksum; what the journal does
-//   not
-//                              know as it is counts for nothing
+//   DIR/answers[.PART].jsonl   small texts derived from cases, each with its checksum; what the journal
+//                              does not know as it is counts for nothing
 //   DIR/lock[.PART]            held by the process that writes; names host and process
 //
 // PART is "1-of-4" for a shard and absent for a whole study; whoever reads, reads the files of every part.
@@ -71,8 +70,8 @@ struct StoreOptions {
   std::function<void(const Error&)> on_failure;
 };
 
-/// Any thread may call any member. What was saved or noted is seen at once by whoever asks; `flush` says when
-/// it is on disk. Nothing is taken any more once something could not be written.
+/// Any thread may call any member. What was saved or noted is seen at once by whoever asks, and outlives this
+/// process from then on. Nothing is taken any more once something could not be written.
 class CaseStore {
  public:
   /// Makes the folder, takes the lock, reads all journals and answers, and deletes what a killed writer of
@@ -89,7 +88,7 @@ class CaseStore {
   /// const members, `holds` and `load` may be called. Errors: unreadable.
   static Result<std::unique_ptr<CaseStore>> open_to_read(const std::filesystem::path& folder,
                                                          int model_version);
-  /// Finishes what is to be written, then releases the lock.
+  /// Flushes, then releases the lock.
   ~CaseStore();
   CaseStore(const CaseStore&) = delete;
   CaseStore& operator=(const CaseStore&) = delete;
@@ -99,32 +98,32 @@ class CaseStore {
   /// The newest entries of all cases, in the order of their hashes.
   std::vector<JournalEntry> entries() const;
 
-  /// Whether the whole result of a case is there, or is about to be written. A file of the size and
+  /// Whether the whole result of a case is there. A file of the size and
   /// modification time that the journal states is trusted; any other is read and checked, and journaled if it
   /// is whole but was not (a kill after the rename). A damaged one is set aside, see `remarks`.
   bool holds(const std::string& hash);
   /// The result of a case that is held, checked against its checksum, with the wall time from the journal.
-  /// Waits for one that is still to be written. Errors: missing; corrupt (it was set aside); unreadable.
+  /// Errors: missing; corrupt (it was set aside); unreadable.
   Result<run::CaseResult> load(const std::string& hash);
   /// The text that determined a stored case. Errors as of `load`.
   Result<std::string> input_of(const std::string& hash) const;
 
-  /// Takes a result to be written: the file under a temporary name, synced, renamed; then the journal. Host,
-  /// times and wall time go to the journal only, so that equal cases are equal files, bit by bit. Returns
-  /// before the writing is done, except when too much is waiting already. `entry` gives label, wall time and
-  /// prediction; the rest is filled in, also a model version and a wall time of 0. A result whose arrays do
-  /// not fit together counts as something that cannot be written.
+  /// Writes a result: the file under a temporary name, synced, renamed; then the journal, synced. Host, times
+  /// and wall time go to the journal only, so that equal cases are equal files, bit by bit. `entry` gives
+  /// label, wall time and prediction; the rest is filled in, also a model version and a wall time of 0. A
+  /// result whose arrays do not fit together counts as something that cannot be written.
   void save(const CaseIdentity& identity, const scene::Scene& scene, run::CaseResult result,
             JournalEntry entry);
   /// Journals an attempt that left no result.
   void note(JournalEntry entry);
 
   /// A text derived from a case, under a key of the caller's (hexadecimal digits): one line, such as JSON.
-  /// The last one of a key counts.
+  /// The last one of a key counts. Only `flush` makes sure that it outlives a power cut: it can be drawn
+  /// again.
   std::optional<std::string> answer(const std::string& key) const;
   void save_answer(const std::string& key, const std::string& text);
 
-  /// Waits until everything taken so far is on disk. The first thing that could not be written, if any.
+  /// Waits until answers are on disk too. The first thing that could not be written, if any.
   MaybeError flush();
 
   /// What a person should know of what was found: files set aside, lines ignored.
