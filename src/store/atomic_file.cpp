@@ -43,10 +43,12 @@ bool write_new(const std::filesystem::path& path, std::initializer_list<std::str
   return false;
 }
 
-/// False with errno set; EEXIST when the target exists and must not be replaced.
-bool publish(const std::filesystem::path& from, const std::filesystem::path& to, IfExists if_exists) {
-  if (if_exists == IfExists::replace) return ::rename(from.c_str(), to.c_str()) == 0;
-  return rename_to_free_name(from, to);
+std::error_code last_error() { return {errno, std::generic_category()}; }
+
+std::error_code publish(const std::filesystem::path& from, const std::filesystem::path& to,
+                        IfExists if_exists) {
+  if (if_exists == IfExists::refuse) return move_to_free_name(from, to);
+  return ::rename(from.c_str(), to.c_str()) == 0 ? std::error_code() : last_error();
 }
 
 }  // namespace
@@ -79,20 +81,32 @@ MaybeError write_file_atomically(const std::filesystem::path& path,
   const std::filesystem::path temporary =
       folder_of(path) / temporary_name(name.empty() ? path.filename().string() : name);
   if (!write_new(temporary, parts)) return write_error(path, errno);
-  if (!publish(temporary, path, if_exists)) {
-    const int error_number = errno;
+  if (const std::error_code error = publish(temporary, path, if_exists)) {
     ::unlink(temporary.c_str());
-    if (error_number == EEXIST && if_exists == IfExists::refuse)
+    if (error == std::errc::file_exists && if_exists == IfExists::refuse)
       return Error{Error::Kind::conflict, fmt::format("{} exists already", path.string())};
-    return write_error(path, error_number);
+    return write_error(path, error.value());
   }
   if (!sync_folder(folder_of(path))) return write_error(path, errno);
   return {};
 }
 
 std::error_code move_to_free_name(const std::filesystem::path& from, const std::filesystem::path& to) {
-  if (rename_to_free_name(from, to)) return {};
-  return {errno, std::generic_category()};
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return {};
+  if (errno != EINVAL && errno != ENOSYS) return last_error();
+  // A file system without RENAME_NOREPLACE: a hard link fails on an existing target too.
+  if (::link(from.c_str(), to.c_str()) == 0 && ::unlink(from.c_str()) == 0) return {};
+  return last_error();
+}
+
+Result<std::filesystem::path> move_to_numbered_name(const std::filesystem::path& from,
+                                                    const std::filesystem::path& stem) {
+  for (int number = 1;; ++number) {
+    const std::filesystem::path to = fmt::format("{}-{}", stem.string(), number);
+    const std::error_code error = move_to_free_name(from, to);
+    if (!error) return to;
+    if (error != std::errc::file_exists) return write_error(to, error.value());
+  }
 }
 
 Result<std::string> read_file(const std::filesystem::path& path) {

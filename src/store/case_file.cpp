@@ -1,7 +1,6 @@
 #include "launchsafe/store/case_file.hpp"
 
 #include "case_layout.hpp"
-#include "case_soundness.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/sha256.hpp"
@@ -9,7 +8,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <functional>
 
 namespace launchsafe::store {
 namespace {
@@ -104,6 +106,60 @@ MaybeError read_image(std::string_view bytes, Body body) {
   if (!reader.failed() && version != format_version) reader.fail("format version " + version + " is unknown");
   body(reader);
   return reader.error();
+}
+
+// --- whether a result that was read can have come from a run ---
+
+using trace::BottomTrace;
+
+/// Whether times are finite and each is later than the one before.
+bool increase(const std::vector<double>& times) {
+  return std::all_of(times.begin(), times.end(), [](double time) { return std::isfinite(time); }) &&
+         std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+}
+
+bool are_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+std::string fault_in_trace(const BottomTrace& trace, bool completed) {
+  if (!increase(trace.time)) return "the times of the trace do not increase";
+  if (!completed) return {};
+  for (const auto* history : {&trace.chamber_pressure, &trace.bottom_pressure, &trace.mean_chamber_pressure,
+                              &trace.mean_bottom_pressure, &trace.steps}) {
+    if (history->size() != trace.samples()) return "a history of the completed run is cut short";
+    if (!are_finite(*history)) return "a history of the completed run holds what is no number";
+  }
+  for (const auto& friction : trace.friction) {
+    if (!are_finite(friction)) return "the friction of the completed run holds what is no number";
+  }
+  return {};
+}
+
+std::string fault_in_gap(const run::GapResult& gap, const BottomTrace& trace) {
+  if (!(gap.gap >= 0.0) || gap.gap != gap.skin.gap) return "a gap is none";
+  if (!increase(gap.skin.time)) return "the times of a skin do not increase";
+  if (gap.sampling_error < 0.0) return "an error is negative";
+  const std::size_t stations = trace.stations.size();
+  const auto is_absent = [stations](const auto& place) { return place && place->station >= stations; };
+  if (is_absent(gap.skin.ignition)) return "an ignition is nowhere";
+  if (gap.skin.ignition && trace.stations[gap.skin.ignition->station].observation)
+    return "an ignition is not at a station";
+  return {};
+}
+
+/// What contradicts itself in a result: times that do not increase, histories of a completed run that are cut
+/// short or hold what is no number, places that are not there. Empty for nothing. That a result says what a
+/// run came to is what its checksum is for.
+std::string fault_in(const run::CaseResult& result) {
+  const run::MechanicsResult& mechanics = result.mechanics;
+  const bool completed = mechanics.status == run::RunStatus::completed;
+  if (!(mechanics.end_time >= 0.0)) return "the time reached is none";
+  if (std::string fault = fault_in_trace(mechanics.trace, completed); !fault.empty()) return fault;
+  for (const run::GapResult& gap : result.gaps) {
+    if (std::string fault = fault_in_gap(gap, mechanics.trace); !fault.empty()) return fault;
+  }
+  return {};
 }
 
 // --- files ---

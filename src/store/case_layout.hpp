@@ -229,6 +229,26 @@ void lay_out_monitor(Archive& archive, Rows& rows) {
          {"kg m/s", "axial momentum relative to the frame"});
 }
 
+/// A quantity that snapshots may hold of every particle.
+struct ParticleField {
+  const char* name;
+  std::vector<double> run::Snapshot::*values;
+  const char* units;
+  const char* description;
+};
+inline constexpr std::array particle_fields{
+    ParticleField{"density", &run::Snapshot::density, "kg/m3", "density"},
+    ParticleField{"pressure", &run::Snapshot::pressure, "Pa", "pressure, compression positive"},
+    ParticleField{"von_mises", &run::Snapshot::von_mises, "Pa", "von Mises stress"},
+    ParticleField{"deviator_rr", &run::Snapshot::deviator_rr, "Pa",
+                  "radial stress deviator; hoop is -(rr + xx)"},
+    ParticleField{"deviator_xx", &run::Snapshot::deviator_xx, "Pa", "axial stress deviator"},
+    ParticleField{"deviator_rx", &run::Snapshot::deviator_rx, "Pa", "shear stress"},
+    ParticleField{"temperature", &run::Snapshot::temperature, "K", "temperature"},
+    ParticleField{"crack_radius", &run::Snapshot::crack_radius, "m", "crack radius"},
+    ParticleField{"plastic_strain", &run::Snapshot::plastic_strain, "1", "equivalent plastic strain"},
+};
+
 template <class Archive, class Value>
 void lay_out_snapshot(Archive& archive, Value& snapshot) {
   archive.value("time", snapshot.time, {"s", "time of the snapshot"});
@@ -239,16 +259,8 @@ void lay_out_snapshot(Archive& archive, Value& snapshot) {
   plane_vectors(archive, "position", snapshot.x, snapshot.r, count, {"m", "axial, radial, 0"});
   plane_vectors(archive, "velocity", snapshot.velocity_x, snapshot.velocity_r, count,
                 {"m/s", "axial, radial, 0; relative to the frame"});
-  history(archive, "density", snapshot.density, count, {"kg/m3", "density"});
-  history(archive, "pressure", snapshot.pressure, count, {"Pa", "pressure, compression positive"});
-  history(archive, "von_mises", snapshot.von_mises, count, {"Pa", "von Mises stress"});
-  history(archive, "deviator_rr", snapshot.deviator_rr, count,
-          {"Pa", "radial stress deviator; hoop is -(rr + xx)"});
-  history(archive, "deviator_xx", snapshot.deviator_xx, count, {"Pa", "axial stress deviator"});
-  history(archive, "deviator_rx", snapshot.deviator_rx, count, {"Pa", "shear stress"});
-  history(archive, "temperature", snapshot.temperature, count, {"K", "temperature"});
-  history(archive, "crack_radius", snapshot.crack_radius, count, {"m", "crack radius"});
-  history(archive, "plastic_strain", snapshot.plastic_strain, count, {"1", "equivalent plastic strain"});
+  for (const ParticleField& field : particle_fields)
+    history(archive, field.name, snapshot.*field.values, count, {field.units, field.description});
 }
 
 template <class Archive, class Value>

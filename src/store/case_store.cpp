@@ -45,17 +45,11 @@ MaybeError make_folder(const std::filesystem::path& folder) {
 
 /// Whatever has the name of a case but is no file.
 MaybeError obstacle_among_cases(const StoreNames& names) {
-  constexpr std::string_view extension = ".h5";
-  std::error_code failed;
-  for (std::filesystem::directory_iterator entry(names.cases(), failed), end; !failed && entry != end;
-       entry.increment(failed)) {
-    const std::string name = entry->path().filename();
-    std::error_code ignored;
-    if (!name.ends_with(extension) ||
-        !is_case_hash(std::string_view(name).substr(0, name.size() - extension.size())))
-      continue;
-    if (entry->is_symlink(ignored) || !entry->is_regular_file(ignored))
-      return refusal(entry->path(), "is no plain file");
+  std::error_code ignored;
+  for (const std::string& hash : stored_hashes(names, ignored)) {
+    const std::filesystem::path path = names.case_file(hash);
+    if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, ignored)))
+      return refusal(path, "is no plain file");
   }
   return {};
 }
@@ -93,6 +87,15 @@ bool is_case_hash(std::string_view text) {
 CaseIdentity::CaseIdentity(std::string input)
     : input_(std::move(input)), hash_(sha256(input_).substr(0, hash_digits)) {}
 
+std::vector<std::string> stored_hashes(const StoreNames& names, std::error_code& status) {
+  std::vector<std::string> hashes;
+  for (const std::string& name : list_folder(names.cases(), status)) {
+    const std::filesystem::path file(name);
+    if (file.extension() == ".h5" && is_case_hash(file.stem().string())) hashes.push_back(file.stem());
+  }
+  return hashes;
+}
+
 Result<CheckedFile> read_checked(const std::filesystem::path& path, const std::string& hash) {
   Result<std::string> bytes = read_file(path);
   if (!bytes) return bytes.error();
@@ -123,6 +126,25 @@ bool CaseStore::Content::adopt(const std::string& hash) {
     if (file.error().kind == Error::Kind::unreadable) index.remark(file.error().message);
     return false;
   }
+  const auto journal = [&]() -> MaybeError {
+    if (knows(hash, status)) return {};  // by now: another thread has just stored it
+    const JournalEntry entry = entry_of_found(hash, file->manifest, status);
+    if (!reads_only()) return write_entry(entry);
+    index.take(entry);
+    return {};
+  };
+  attempt(journal);
+  return true;
+}
+
+bool CaseStore::Content::knows(const std::string& hash, const struct stat& status) const {
+  const std::optional<JournalEntry> entry = index.last_entry(hash);
+  return entry && entry->state == CaseState::done && entry->file_size == size_of(status) &&
+         entry->file_time == time_of(status);
+}
+
+JournalEntry CaseStore::Content::entry_of_found(const std::string& hash, const Manifest& found,
+                                                const struct stat& status) const {
   JournalEntry entry = index.last_entry(hash).value_or(JournalEntry{});
   if (entry.state != CaseState::done || entry.hash.empty()) {
     entry.hash = hash;
@@ -132,14 +154,10 @@ bool CaseStore::Content::adopt(const std::string& hash) {
     entry.host = host;
     entry.end_time = utc_now();
   }
-  entry.model_version = file->manifest.model_version;
+  entry.model_version = found.model_version;
   entry.file_size = size_of(status);
   entry.file_time = time_of(status);
-  if (reads_only())
-    index.take(entry);
-  else
-    put_entry(entry);
-  return true;
+  return entry;
 }
 
 Error CaseStore::Content::set_aside(const std::string& hash, const Error& damage) {
@@ -152,15 +170,10 @@ Error CaseStore::Content::set_aside(const std::string& hash, const Error& damage
   const std::lock_guard lock_of_names(writing_);
   const Result<CheckedFile> again = read_checked(path, hash);
   if (again || again.error().kind != Error::Kind::corrupt) return damage;
-  std::filesystem::path aside;
-  for (int number = 1;; ++number) {
-    aside = names.cases() / fmt::format("{}.damaged-{}", hash, number);
-    if (rename_to_free_name(path, aside)) break;
-    if (errno == EEXIST) continue;
-    index.remark(fmt::format("{}, and it cannot be set aside: {}", damage.message, system_reason(errno)));
-    return damage;
-  }
-  index.remark(fmt::format("{}; it was set aside as {}", damage.message, aside.filename().string()));
+  const auto aside = move_to_numbered_name(path, names.cases() / (hash + ".damaged"));
+  index.remark(
+      aside ? fmt::format("{}; it was set aside as {}", damage.message, aside->filename().string())
+            : fmt::format("{}, and it cannot be set aside: {}", damage.message, aside.error().message));
   return damage;
 }
 
@@ -185,8 +198,7 @@ void CaseStore::Content::remove_leftovers() {
 
 // --- writing ---
 
-template <class Write>
-void CaseStore::Content::attempt(const Write& write) {
+void CaseStore::Content::attempt(const std::function<MaybeError()>& write) {
   MaybeError failure;
   {
     const std::lock_guard one_at_a_time(writing_);
@@ -194,22 +206,6 @@ void CaseStore::Content::attempt(const Write& write) {
     failure = failure_ = write();
   }
   if (failure && options.on_failure) options.on_failure(*failure);
-}
-
-void CaseStore::Content::put_case(std::string_view bytes, JournalEntry entry) {
-  attempt([&] { return write_case(bytes, std::move(entry)); });
-}
-
-void CaseStore::Content::put_entry(const JournalEntry& entry) {
-  attempt([&] { return write_entry(entry); });
-}
-
-void CaseStore::Content::put_answer(const std::string& key, const std::string& text) {
-  attempt([&] { return write_answer(key, text); });
-}
-
-void CaseStore::Content::fail(const Error& failure) {
-  attempt([&] { return MaybeError(failure); });
 }
 
 MaybeError CaseStore::Content::flush() {
@@ -293,10 +289,7 @@ std::vector<JournalEntry> CaseStore::entries() const { return content_->index.en
 bool CaseStore::holds(const std::string& hash) {
   struct stat status {};
   if (::stat(content_->names.case_file(hash).c_str(), &status) != 0) return false;
-  const std::optional<JournalEntry> entry = content_->index.last_entry(hash);
-  const bool trusted = entry && entry->state == CaseState::done && entry->file_size == size_of(status) &&
-                       entry->file_time == time_of(status);
-  return trusted || content_->adopt(hash);
+  return content_->knows(hash, status) || content_->adopt(hash);
 }
 
 Result<run::CaseResult> CaseStore::load(const std::string& hash) {
@@ -337,14 +330,16 @@ void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, ru
   }
   result.mechanics.wall_time = 0;
   const Result<std::string> bytes = case_bytes(scene, result, manifest);
-  if (!bytes) return content_->fail(of_file(content_->names.case_file(entry.hash), bytes.error()));
-  content_->put_case(*bytes, std::move(entry));
+  content_->attempt([&]() -> MaybeError {
+    if (!bytes) return of_file(content_->names.case_file(entry.hash), bytes.error());
+    return content_->write_case(*bytes, std::move(entry));
+  });
 }
 
 void CaseStore::note(JournalEntry entry) {
   assert(!content_->reads_only());
   content_->fill_in(entry);
-  content_->put_entry(entry);
+  content_->attempt([&] { return content_->write_entry(entry); });
 }
 
 std::optional<std::string> CaseStore::answer(const std::string& key) const {
@@ -353,7 +348,7 @@ std::optional<std::string> CaseStore::answer(const std::string& key) const {
 
 void CaseStore::save_answer(const std::string& key, const std::string& text) {
   assert(!content_->reads_only());
-  content_->put_answer(key, text);
+  content_->attempt([&] { return content_->write_answer(key, text); });
 }
 
 MaybeError CaseStore::flush() { return content_->flush(); }

@@ -28,6 +28,9 @@ struct StoreNames {
   std::string suffix() const { return part.empty() ? "" : "." + part; }
 };
 
+/// The hashes of what has the name of a case file in a store, in order.
+std::vector<std::string> stored_hashes(const StoreNames& names, std::error_code& status);
+
 /// The bytes of the case file at `path`, and what they are. Errors: missing, unreadable, corrupt (also when
 /// it is the result of another case than `hash` says).
 struct CheckedFile {
@@ -43,6 +46,11 @@ struct CaseStore::Content {
 
   /// Reads and checks a file of another size or time than the journal knows; journals it if it is whole.
   bool adopt(const std::string& hash);
+  /// Whether the journal states a file of this size and time.
+  bool knows(const std::string& hash, const struct stat& status) const;
+  /// What to journal about a whole file that the journal does not know as it is.
+  JournalEntry entry_of_found(const std::string& hash, const Manifest& found,
+                              const struct stat& status) const;
   /// Gives a damaged file another name, unless the store only reads. Returns the error to report.
   Error set_aside(const std::string& hash, const Error& damage);
   /// Where and when an attempt ended, and of which model it was.
@@ -52,16 +60,19 @@ struct CaseStore::Content {
   /// Deletes what writers that were killed left half written. Those of living parts are not ours to judge.
   void remove_leftovers();
 
-  // What follows writes, one thread at a time, and does nothing after a failure.
-
-  /// The file, synced and under its name; then the journal's line.
-  void put_case(std::string_view bytes, JournalEntry entry);
-  void put_entry(const JournalEntry& entry);
-  /// Whether they outlive a power cut too is for `flush`: answers can be drawn again, and there may be many.
-  void put_answer(const std::string& key, const std::string& text);
+  /// Runs `write`, alone among the threads, unless something failed before. The first failure is kept and
+  /// told.
+  void attempt(const std::function<MaybeError()>& write);
   /// The first failure, if any, after all lines are on disk.
   MaybeError flush();
-  void fail(const Error& failure);
+
+  // To be attempted:
+
+  /// The file, synced and under its name; then the journal's line.
+  MaybeError write_case(std::string_view bytes, JournalEntry entry);
+  MaybeError write_entry(const JournalEntry& entry);
+  /// Whether it outlives a power cut too is for `flush`: answers can be drawn again, and there may be many.
+  MaybeError write_answer(const std::string& key, const std::string& text);
 
   const std::optional<StoreLock> lock;
   const StoreNames names;
@@ -71,13 +82,6 @@ struct CaseStore::Content {
   StoreIndex index;
 
  private:
-  /// Runs `write` unless something failed before. The first failure is kept and told.
-  template <class Write>
-  void attempt(const Write& write);
-  MaybeError write_case(std::string_view bytes, JournalEntry entry);
-  MaybeError write_entry(const JournalEntry& entry);
-  MaybeError write_answer(const std::string& key, const std::string& text);
-
   std::mutex writing_;  ///< held while files get their names and lines are appended
   AppendedFile journal_, answers_;
   MaybeError failure_;

@@ -5,19 +5,6 @@
 namespace launchsafe::store {
 namespace {
 
-/// The hashes of the case files in a store, in order. Errors: missing.
-Result<std::vector<std::string>> hashes_in(const StoreNames& names) {
-  std::error_code status;
-  std::vector<std::string> hashes;
-  for (const std::string& name : list_folder(names.cases(), status)) {
-    const std::filesystem::path file(name);
-    if (file.extension() == ".h5" && is_case_hash(file.stem().string())) hashes.push_back(file.stem());
-  }
-  if (!status) return hashes;
-  return Error{Error::Kind::missing,
-               fmt::format("{} holds no results of a study: {}", names.folder.string(), status.message())};
-}
-
 /// Those of the hashes whose files are whole. Damaged ones are remarked. Errors: conflict, unreadable.
 Result<std::vector<std::string>> whole_ones(const StoreNames& names, const std::vector<std::string>& hashes,
                                             int model_version, StoreIndex& index) {
@@ -55,13 +42,15 @@ Result<CaseStore::Imported> CaseStore::import_from(const std::filesystem::path& 
   std::error_code status;
   if (std::filesystem::equivalent(other, folder(), status)) return imported;
   const StoreNames names{other, {}};
-  const auto hashes = hashes_in(names);
-  if (!hashes) return hashes.error();
+  const std::vector<std::string> hashes = stored_hashes(names, status);
+  if (status)
+    return Error{Error::Kind::missing,
+                 fmt::format("{} holds no results of a study: {}", other.string(), status.message())};
   StoreIndex theirs;
   if (const MaybeError error = theirs.read(other)) return *error;
 
   std::vector<std::string> absent;
-  for (const std::string& hash : *hashes) {
+  for (const std::string& hash : hashes) {
     if (holds(hash))
       ++imported.already_there;
     else
@@ -74,7 +63,8 @@ Result<CaseStore::Imported> CaseStore::import_from(const std::filesystem::path& 
   for (const std::string& hash : *whole) {
     Result<CheckedFile> file = read_checked(names.case_file(hash), hash);
     if (!file) return file.error();
-    content_->put_case(file->bytes, entry_of(theirs, hash, model_version));
+    content_->attempt(
+        [&] { return content_->write_case(file->bytes, entry_of(theirs, hash, model_version)); });
     ++imported.cases;
   }
   content_->import_attempts(theirs);
@@ -93,7 +83,7 @@ void CaseStore::Content::import_attempts(const StoreIndex& theirs) {
     if (entry.state == CaseState::done) continue;
     const std::optional<JournalEntry> ours = index.last_entry(entry.hash);
     if (ours && (ours->state == CaseState::done || ours->end_time >= entry.end_time)) continue;
-    put_entry(entry);
+    attempt([&] { return write_entry(entry); });
   }
 }
 

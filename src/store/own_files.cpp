@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cerrno>
 #include <optional>
 
 namespace launchsafe::store {
@@ -160,14 +159,9 @@ Result<std::vector<std::string>> set_edited_aside(const fs::path& folder) {
   std::vector<std::string> moved;
   for (const std::string& name : own->present()) {
     if (own->state_of(name) != FileState::edited) continue;
-    for (int number = 1;; ++number) {
-      const std::string aside = fmt::format("{}.edited-{}", name, number);
-      if (rename_to_free_name(folder / name, folder / aside)) {
-        moved.push_back(aside);
-        break;
-      }
-      if (errno != EEXIST) return write_error(folder / aside, errno);
-    }
+    const auto aside = move_to_numbered_name(folder / name, folder / (name + ".edited"));
+    if (!aside) return aside.error();
+    moved.push_back(aside->filename());
   }
   return moved;
 }

@@ -90,11 +90,4 @@ std::vector<std::string> list_folder(const std::filesystem::path& folder, std::e
   return found;
 }
 
-bool rename_to_free_name(const std::filesystem::path& from, const std::filesystem::path& to) {
-  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
-  if (errno != EINVAL && errno != ENOSYS) return false;
-  // A file system without RENAME_NOREPLACE: a hard link fails on an existing target too.
-  return ::link(from.c_str(), to.c_str()) == 0 && ::unlink(from.c_str()) == 0;
-}
-
 }  // namespace launchsafe::store

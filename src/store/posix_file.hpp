@@ -77,7 +77,4 @@ bool sync_folder(const std::filesystem::path& folder);
 /// The names of what is in a folder, sorted, so that nothing depends on the file system's order.
 std::vector<std::string> list_folder(const std::filesystem::path& folder, std::error_code& status);
 
-/// Renames, never over something that is there: then false with errno EEXIST. False with errno set otherwise.
-bool rename_to_free_name(const std::filesystem::path& from, const std::filesystem::path& to);
-
 }  // namespace launchsafe::store

@@ -1,71 +1,51 @@
 #include "launchsafe/store/program.hpp"
 
+#include "posix_file.hpp"
+
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <system_error>
 #include <thread>
 
 namespace launchsafe::store {
 namespace {
 
 /// A nameless file in memory.
-class MemoryFile {
- public:
-  explicit MemoryFile(const char* name) : number_(::memfd_create(name, MFD_CLOEXEC)) {}
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  ~MemoryFile() {
-    if (number_ >= 0) ::close(number_);
+Descriptor memory_file(const char* name) { return Descriptor(::memfd_create(name, MFD_CLOEXEC)); }
+
+bool fill(const Descriptor& file, const std::string& content) {
+  return file.is_open() && write_all(file.number(), content) && ::lseek(file.number(), 0, SEEK_SET) == 0;
+}
+
+std::int64_t bytes_in(const Descriptor& file) {
+  struct stat status {};
+  return ::fstat(file.number(), &status) == 0 ? status.st_size : 0;
+}
+
+std::string written_on(const Descriptor& file) {
+  std::string content;
+  std::array<char, 1 << 12> part{};  // stacks may be small
+  for (;;) {
+    const ssize_t taken =
+        ::pread(file.number(), part.data(), part.size(), static_cast<off_t>(content.size()));
+    if (taken < 0 && errno == EINTR) continue;
+    if (taken <= 0) return content;
+    content.append(part.data(), static_cast<std::size_t>(taken));
   }
-
-  int number() const { return number_; }
-  bool is_open() const { return number_ >= 0; }
-
-  bool fill(const std::string& content) {
-    std::size_t written = 0;
-    while (written < content.size()) {
-      const ssize_t part = ::write(number_, content.data() + written, content.size() - written);
-      if (part < 0 && errno == EINTR) continue;
-      if (part <= 0) return false;
-      written += static_cast<std::size_t>(part);
-    }
-    return ::lseek(number_, 0, SEEK_SET) == 0;
-  }
-
-  std::int64_t size() const {
-    struct stat status {};
-    return ::fstat(number_, &status) == 0 ? status.st_size : 0;
-  }
-
-  std::string content() const {
-    std::string content;
-    std::array<char, 1 << 12> part{};  // stacks may be small
-    for (;;) {
-      const ssize_t taken = ::pread(number_, part.data(), part.size(), static_cast<off_t>(content.size()));
-      if (taken < 0 && errno == EINTR) continue;
-      if (taken <= 0) return content;
-      content.append(part.data(), static_cast<std::size_t>(taken));
-    }
-  }
-
- private:
-  int number_;
-};
+}
 
 /// The process id, or the negative error number.
 pid_t start(const std::string& program, const std::vector<std::string>& arguments,
-            const std::filesystem::path& folder, const MemoryFile& input, const MemoryFile& output,
-            const MemoryFile& errors) {
+            const std::filesystem::path& folder, const Descriptor& input, const Descriptor& output,
+            const Descriptor& errors) {
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
@@ -99,8 +79,8 @@ bool has_ended(pid_t process) {
 }
 
 /// Waits for the end. Why it must not go on, or nothing once it has ended.
-std::string wait_for_end(pid_t process, const ProgramLimits& limits, const MemoryFile& output,
-                         const MemoryFile& errors) {
+std::string wait_for_end(pid_t process, const ProgramLimits& limits, const Descriptor& output,
+                         const Descriptor& errors) {
   using namespace std::chrono_literals;
   const auto start = std::chrono::steady_clock::now();
   auto pause = 1ms;
@@ -109,7 +89,7 @@ std::string wait_for_end(pid_t process, const ProgramLimits& limits, const Memor
     if (limits.stop != nullptr && limits.stop->load()) return "the program was asked to stop";
     if (elapsed.count() > limits.time)
       return fmt::format("it was not done after {:.3g} s and was ended", limits.time);
-    if (std::max(output.size(), errors.size()) > most_program_output)
+    if (std::max(bytes_in(output), bytes_in(errors)) > most_program_output)
       return fmt::format("it wrote more than {} MiB and was ended", most_program_output >> 20);
     std::this_thread::sleep_for(pause);
     pause = std::min(2 * pause, 20ms);
@@ -132,20 +112,18 @@ bool end_group(pid_t process) {
 Result<ProgramOutput> run_program(const std::string& program, const std::vector<std::string>& arguments,
                                   const std::string& input, const ProgramLimits& limits,
                                   const std::filesystem::path& folder) {
-  MemoryFile in("input"), out("output"), errors("errors");
-  if (!in.is_open() || !out.is_open() || !errors.is_open() || !in.fill(input)) {
+  const Descriptor in = memory_file("input"), out = memory_file("output"), errors = memory_file("errors");
+  if (!out.is_open() || !errors.is_open() || !fill(in, input))
     return Error{Error::Kind::failed, fmt::format("cannot start {}: no memory for its input", program)};
-  }
   const pid_t process = start(program, arguments, folder, in, out, errors);
   if (process < 0) {
     const auto kind = process == -ENOENT ? Error::Kind::missing : Error::Kind::failed;
-    return Error{kind,
-                 fmt::format("cannot start {}: {}", program, std::generic_category().message(-process))};
+    return Error{kind, fmt::format("cannot start {}: {}", program, system_reason(-process))};
   }
   const std::string ended = wait_for_end(process, limits, out, errors);
   const bool succeeded = end_group(process);
   if (!ended.empty()) return Error{Error::Kind::failed, fmt::format("{}: {}", program, ended)};
-  return ProgramOutput{out.content(), errors.content(), succeeded};
+  return ProgramOutput{written_on(out), written_on(errors), succeeded};
 }
 
 }  // namespace launchsafe::store

@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <csignal>
 #include <regex>
-#include <sstream>
 #include <vector>
 
 namespace launchsafe::store {
@@ -19,29 +18,32 @@ namespace {
 /// "HOST process PID since TIME".
 std::string own_name() { return fmt::format("{} process {} since {}\n", host_name(), ::getpid(), utc_now()); }
 
-/// Whether a lock file's content names an owner as we do; people's notes do not.
-bool names_owner(std::string_view content) {
-  static const std::regex form("[^\\s]+ process [0-9]{1,10} since [0-9T:-]{19}Z\n");
+/// HOST and PID in a lock file's content that we wrote; people's notes have no match.
+std::optional<std::cmatch> named_owner(std::string_view content) {
+  static const std::regex form("([^\\s]+) process ([0-9]{1,10}) since [0-9T:-]{19}Z\n");
   constexpr std::size_t longest = 400;
-  return content.size() < longest && std::regex_match(content.begin(), content.end(), form);
+  std::cmatch owner;
+  if (content.size() >= longest ||
+      !std::regex_match(content.data(), content.data() + content.size(), owner, form))
+    return {};
+  return owner;
 }
+
+/// Whether a lock file's content is ours.
+bool names_owner(std::string_view content) { return named_owner(content).has_value(); }
 
 std::string part_file(const std::string& part) { return "lock." + part; }
 
-/// Whether an owner's text is left over from a process of this machine that has ended. A kill leaves it.
-bool has_ended(const std::string& owner) {
-  std::istringstream words(owner);
-  std::string host, word;
-  int process = 0;
-  if (!(words >> host >> word >> process)) return true;
-  return host == host_name() && process > 0 && ::kill(process, 0) != 0 && errno == ESRCH;
-}
-
-/// The living owner that a lock file names; empty when it names none.
+/// The living owner that a lock file names; empty when it names none, or one of this machine that has ended:
+/// a kill leaves its name.
 std::string owner_in(const std::filesystem::path& file) {
   const Result<std::string> text = read_file(file);
-  if (!text || has_ended(*text)) return {};
-  return text->substr(0, text->find('\n'));
+  const auto owner = text ? named_owner(*text) : std::nullopt;
+  if (!owner) return {};
+  const long long process = std::stoll((*owner)[2].str());
+  const bool ended =
+      (*owner)[1] == host_name() && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
+  return ended ? std::string{} : text->substr(0, text->find('\n'));
 }
 
 /// Who keeps us out of the lock file of this name, for the message: `lock` itself names only a whole study.

@@ -1,32 +1,21 @@
 #include "xdmf.hpp"
 
+#include "case_layout.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
-#include <utility>
 
 namespace launchsafe::store {
 namespace {
 
-std::string escaped(const std::string& text) {
+std::string escaped(std::string_view text) {
+  constexpr std::string_view special = "&<>\"";
+  constexpr std::array entities{"&amp;", "&lt;", "&gt;", "&quot;"};
   std::string result;
   for (const char character : text) {
-    switch (character) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += character;
-    }
+    const std::size_t found = special.find(character);
+    result += found == std::string_view::npos ? std::string(1, character) : entities[found];
   }
   return result;
 }
@@ -52,23 +41,12 @@ std::string grid_of(const run::Snapshot& snapshot, const std::string& group) {
         "        <Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Node\">{}</Attribute>\n",
         vector_item(group + "/velocity", count));
   }
-  const std::array<std::pair<const char*, const std::vector<double>*>, 9> scalars{{
-      {"density", &snapshot.density},
-      {"pressure", &snapshot.pressure},
-      {"von_mises", &snapshot.von_mises},
-      {"deviator_rr", &snapshot.deviator_rr},
-      {"deviator_xx", &snapshot.deviator_xx},
-      {"deviator_rx", &snapshot.deviator_rx},
-      {"temperature", &snapshot.temperature},
-      {"crack_radius", &snapshot.crack_radius},
-      {"plastic_strain", &snapshot.plastic_strain},
-  }};
-  for (const auto& [name, values] : scalars) {
-    if (values->empty()) continue;
+  for (const ParticleField& field : particle_fields) {
+    if ((snapshot.*field.values).empty()) continue;
     grid += fmt::format(
         "        <Attribute Name=\"{0}\" AttributeType=\"Scalar\" Center=\"Node\"><DataItem Format=\"HDF\" "
         "NumberType=\"Float\" Precision=\"8\" Dimensions=\"{1}\">{2}/{0}</DataItem></Attribute>\n",
-        name, count, group);
+        field.name, count, group);
   }
   return grid + "      </Grid>\n";
 }

@@ -37,7 +37,7 @@ TEST_F(OwnFile, IsReplacedAndNothingElseIs) {
   for (const MaybeError& error : {write_own_file(page(), {"a third"}), obstacle_to_own_file(page())}) {
     ASSERT_TRUE(error);
     EXPECT_EQ(error->kind, Error::Kind::conflict);
-    EXPECT_NE(error->message.find("report.md was edited"), std::string::npos) << error->message;
+    EXPECT_NE(error->message.find(page().string()), std::string::npos) << error->message;
   }
   EXPECT_EQ(*read_file(page()), "another page, and a note of mine");
 

@@ -53,13 +53,14 @@ class StudyOverheadSlow : public launchsafe::testing::TemporaryFolder {
   }
 };
 
-// Under 1 % with 1000 cases of 0.1 s. A case is a trace like that of the shipped scene; drawing its answer is
-// simulation too, and is measured by itself. What is held to the bound is processor time of all threads,
-// which other programs on the machine do not disturb; the wall time is printed beside it.
-TEST_F(StudyOverheadSlow, IsUnderOnePercentWithAThousandCasesOfATenthOfASecond) {
-  constexpr double seconds_a_case = 0.1;
+// Under 1 % with 100 cases of 1 s; those of the shipped scene take 3.5 s of a core. A case is a trace like
+// that of the shipped scene; drawing its answer is simulation too, and is measured by itself. What is held to
+// the bound is processor time of all threads, which other programs on the machine do not disturb; the wall
+// time is printed beside it.
+TEST_F(StudyOverheadSlow, IsUnderOnePercentWithAHundredCasesOfASecond) {
+  constexpr double seconds_a_case = 1.0;
   constexpr int jobs = 2;
-  const StudyFile study = study_of(large_sweep(40, 25));
+  const StudyFile study = study_of(large_sweep(10, 10));
   const run::MechanicsResult like_shipped = run::run_mechanics([] {
     scene::Scene scene = scene::read_scene(studies_folder / "scene_155mm.toml").value().scene;
     scene.numerics.cell_size = 20e-3;
@@ -92,11 +93,11 @@ TEST_F(StudyOverheadSlow, IsUnderOnePercentWithAThousandCasesOfATenthOfASecond) 
   EXPECT_FALSE(store->flush());
   const double wall = seconds_on(CLOCK_MONOTONIC) - start;
   const double cpu = seconds_on(CLOCK_PROCESS_CPUTIME_ID) - start_cpu;
-  ASSERT_EQ(result.timing.runs, 1000u);
+  ASSERT_EQ(result.timing.runs, 100u);
   const double answering = 0.5 * (before + answer_cost());
-  const double simulated = 1000.0 * (seconds_a_case + answering);
+  const double simulated = 100.0 * (seconds_a_case + answering);
   fmt::print(
-      "simulated {:.2f} s (0.1 s and {:.1f} ms a case) on {} cores: processor time {:+.2f} %, wall {:+.2f} "
+      "simulated {:.2f} s (1 s and {:.1f} ms a case) on {} cores: processor time {:+.2f} %, wall {:+.2f} "
       "%\n",
       simulated, 1e3 * answering, jobs, 100.0 * (cpu / simulated - 1.0),
       100.0 * (wall * jobs / simulated - 1.0));

@@ -36,6 +36,10 @@ MaybeError write_file_atomically(const std::filesystem::path& path,
 /// Renames, never over something that is there: then the error is file_exists.
 std::error_code move_to_free_name(const std::filesystem::path& from, const std::filesystem::path& to);
 
+/// Renames to the first free one of STEM-1, STEM-2, ... and returns it. Errors: write_failed.
+Result<std::filesystem::path> move_to_numbered_name(const std::filesystem::path& from,
+                                                    const std::filesystem::path& stem);
+
 /// The whole content of a regular file. Errors: missing, unreadable.
 Result<std::string> read_file(const std::filesystem::path& path);
 
