@@ -228,12 +228,12 @@ MaybeError CaseStore::Content::write_case(std::string_view bytes, JournalEntry e
   if (::stat(path.c_str(), &status) != 0) return write_error(path, errno);
   entry.file_size = size_of(status);
   entry.file_time = time_of(status);
-  return write_entry(entry);
+  if (MaybeError failure = write_entry(entry)) return failure;
+  return journal_.sync();
 }
 
 MaybeError CaseStore::Content::write_entry(const JournalEntry& entry) {
   if (MaybeError error = journal_.append(journal_line(entry))) return error;
-  if (MaybeError error = journal_.sync()) return error;
   index.take(entry);
   return {};
 }

@@ -68,10 +68,11 @@ struct CaseStore::Content {
 
   // To be attempted:
 
-  /// The file, synced and under its name; then the journal's line.
+  /// The file, synced and under its name; then the journal's line, synced.
   MaybeError write_case(std::string_view bytes, JournalEntry entry);
+  // Whether lines of these outlive a power cut too is for `flush`: an attempt that left no result can be made
+  // again, an answer drawn again, and there may be thousands.
   MaybeError write_entry(const JournalEntry& entry);
-  /// Whether it outlives a power cut too is for `flush`: answers can be drawn again, and there may be many.
   MaybeError write_answer(const std::string& key, const std::string& text);
 
   const std::optional<StoreLock> lock;

@@ -114,7 +114,7 @@ class CaseStore {
   /// result whose arrays do not fit together counts as something that cannot be written.
   void save(const CaseIdentity& identity, const scene::Scene& scene, run::CaseResult result,
             JournalEntry entry);
-  /// Journals an attempt that left no result.
+  /// Journals an attempt that left no result. That it outlives a power cut is for `flush`.
   void note(JournalEntry entry);
 
   /// A text derived from a case, under a key of the caller's (hexadecimal digits): one line, such as JSON.
@@ -123,7 +123,7 @@ class CaseStore {
   std::optional<std::string> answer(const std::string& key) const;
   void save_answer(const std::string& key, const std::string& text);
 
-  /// Waits until answers are on disk too. The first thing that could not be written, if any.
+  /// Waits until attempts and answers are on disk too. The first thing that could not be written, if any.
   MaybeError flush();
 
   /// What a person should know of what was found: files set aside, lines ignored.
