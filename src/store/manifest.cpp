@@ -13,7 +13,7 @@
 #include <array>
 #include <ctime>
 
-// Libraries of other modules, known here by their headers alone.
+// Libraries of the modules above, known here by their headers alone.
 #if __has_include(<oneapi/tbb/version.h>)
 #include <oneapi/tbb/version.h>
 #endif

@@ -1,7 +1,7 @@
-# The rooms, from the ground up, and which rooms each may use. This is the only copy of the table: CMakeLists.txt
-# builds one library per room from it, and the test rooms.IncludesPointDownwardOnly holds the sources to it.
-# What a used room may use is open to its user too.
-set(LAUNCHSAFE_ROOMS math keys materials scene trace mpm surface run store verify study report)
+# The modules, from the ground up, and which modules each may use. This is the only copy of the table: CMakeLists.txt
+# builds one library per module from it, and the test modules.IncludesPointDownwardOnly holds the sources to it.
+# What a used module may use is open to its user too.
+set(LAUNCHSAFE_MODULES math keys materials scene trace mpm surface run store verify study report)
 
 set(LAUNCHSAFE_math_USES "")
 set(LAUNCHSAFE_keys_USES "")
