@@ -24,11 +24,11 @@ Key<Charge> crack_friction_key() {
                   {},
                   {}};
   key.set = [](Charge& charge, const Value& value) {
-    double& friction = charge.cracks.face_friction;
+    double& friction = charge.strength.face_friction;
     if (!std::get<bool>(value)) friction = 0.0;
     if (std::get<bool>(value) && friction == 0.0) friction = ViscoScramParameters{}.face_friction;
   };
-  key.get = [](const Charge& charge) { return Value(charge.cracks.face_friction > 0.0); };
+  key.get = [](const Charge& charge) { return Value(charge.strength.face_friction > 0.0); };
   return key;
 }
 
@@ -36,46 +36,46 @@ std::vector<Key<Charge>> crack_keys() {
   return {plausibly(number_key<Charge>(
                         "charge.crack_radius", Dimension::length, between(0, 1), Standing::paper,
                         "Mean crack radius c(0) before launch; 0 leaves the cracks out.",
-                        [](auto& s) -> auto& { return s.cracks.initial_crack_radius; }),
+                        [](auto& s) -> auto& { return s.strength.initial_crack_radius; }),
                     between(1e-6, 5e-3),
                     "grains are micrometres to millimetres large, and 0 would leave the cracks out"),
           plausibly(number_key<Charge>(
                         "charge.flaw_size", Dimension::length, between(0, 1), Standing::paper,
                         "Flaw size a, which cracks are measured against; 0 leaves the cracks out.",
-                        [](auto& s) -> auto& { return s.cracks.flaw_size; }),
+                        [](auto& s) -> auto& { return s.strength.flaw_size; }),
                     between(1e-5, 1e-2),
                     "flaws are as far apart as grains to pebbles, and 0 would leave the cracks out"),
           plausibly(number_key<Charge>(
                         "charge.largest_crack_radius", Dimension::length, above_to(0, 1), Standing::assumed,
                         "Crack radius at which growth stops.",
-                        [](auto& s) -> auto& { return s.cracks.largest_crack_radius; }),
+                        [](auto& s) -> auto& { return s.strength.largest_crack_radius; }),
                     between(1e-3, 0.1), "a smaller bound would stop what heats the charge"),
           plausibly(
               flag_key<Charge>(
                   "charge.crack_growth", Standing::paper, "Whether cracks grow; false freezes their radius.",
-                  [](auto& s) -> auto& { return s.cracks.growth; }),
+                  [](auto& s) -> auto& { return s.strength.growth; }),
               std::vector<std::string>{"true"}, "cracks grow under load, and what freezes them hides heat"),
           plausibly(number_key<Charge>(
                         "charge.largest_growth_speed", Dimension::speed, above_to(0, 1e4), Standing::paper,
                         "Limit v_max of the crack growth speed.",
-                        [](auto& s) -> auto& { return s.cracks.largest_growth_speed; }),
+                        [](auto& s) -> auto& { return s.strength.largest_growth_speed; }),
                     between(30, 1.5e3), "cracks run at a share of the Rayleigh wave speed, 1 km/s"),
           plausibly(number_key<Charge>(
                         "charge.growth_exponent", Dimension::number, above_to(0, 100), Standing::paper,
                         "Exponent m of slow crack growth.",
-                        [](auto& s) -> auto& { return s.cracks.growth_exponent; }),
+                        [](auto& s) -> auto& { return s.strength.growth_exponent; }),
                     between(2, 50), "subcritical growth is fitted with 5 to 40"),
           plausibly(number_key<Charge>(
                         "charge.toughness", Dimension::toughness, above_to(0, 1e9), Standing::paper,
                         "Threshold stress intensity K0 of frictionless cracks.",
-                        [](auto& s) -> auto& { return s.cracks.toughness; }),
+                        [](auto& s) -> auto& { return s.strength.toughness; }),
                     between(1e5, 2e6), "explosives have 0.3 to 1 MPa m^0.5"),
           plausibly(
               overriding(number_key<Charge>(
                              "charge.face_friction", Dimension::number, between(0, 1.2), Standing::literature,
                              "Friction coefficient mu_s of closed crack faces, which raises the toughness; 0 "
                              "leaves it out.",
-                             [](auto& s) -> auto& { return s.cracks.face_friction; }),
+                             [](auto& s) -> auto& { return s.strength.face_friction; }),
                          {"charge.crack_friction"}),
               between(0, 0.8), "dry crystals rub with 0.3 to 0.6; 0 holds no crack back"),
           always_plausible(overriding(crack_friction_key(), {"charge.face_friction"}),
@@ -83,12 +83,12 @@ std::vector<Key<Charge>> crack_keys() {
           plausibly(list_key<Charge>(
                         "charge.shear_moduli", Dimension::pressure, above_to(0, 1e12), Standing::paper,
                         "Shear moduli G_n of the Maxwell elements.",
-                        [](auto& s) -> auto& { return s.cracks.shear_moduli; }, maxwell_elements),
+                        [](auto& s) -> auto& { return s.strength.shear_moduli; }, maxwell_elements),
                     between(1e6, 1e10), "no part exceeds the whole, some GPa for a crystal"),
           plausibly(list_key<Charge>(
                         "charge.relaxation_rates", Dimension::frequency, between(0, 1e15), Standing::paper,
                         "Relaxation rates 1/tau_n of the Maxwell elements; 0 is an elastic spring.",
-                        [](auto& s) -> auto& { return s.cracks.relaxation_rates; }, maxwell_elements),
+                        [](auto& s) -> auto& { return s.strength.relaxation_rates; }, maxwell_elements),
                     between(0, 1e9), "faster than 1 ns nothing relaxes in a launch")};
 }
 

@@ -253,7 +253,7 @@ std::optional<Fit> power_fit(const Values& values, const Values& sizes, const Va
   result.order = order;
   result.at_finest = values.front() + fit->coefficients[0];
   result.limit = order > 0.0 ? result.at_finest - fit->coefficients[1] / order : not_a_number;
-  // The order is a third coefficient, which the linear fit does not know of.
+  // The order is a third coefficient, which the linear fit does not count.
   result.deviation = std::sqrt(residual_sum(*fit) / static_cast<double>(values.size() - 3));
   return result;
 }

@@ -26,8 +26,8 @@ Lattice make_lattice(const scene::Scene& scene, const scene::Body& body) {
   return lattice;
 }
 
-Kinematics make_kinematics(const scene::Scene& scene, int index, double density) {
-  Kinematics p;
+ParticleFields make_kinematics(const scene::Scene& scene, int index, double density) {
+  ParticleFields p;
   p.lattice = make_lattice(scene, scene.bodies[static_cast<std::size_t>(index)]);
   p.body = index;
   const Lattice& lattice = p.lattice;
@@ -58,7 +58,7 @@ Body<Law> make_body_of(const Law& law, const scene::Scene& scene, int index) {
       law, typename Law::Integrator(law), make_kinematics(scene, index, law.initial_density()), {}};
   const auto start = law.initial_state(scene.initial_temperature);
   for (std::size_t f = 0; f < start.size(); ++f)
-    body.state[f].assign(body.kinematics.lattice.slots(), start[f]);
+    body.state[f].assign(body.particles.lattice.slots(), start[f]);
   return body;
 }
 
@@ -77,7 +77,7 @@ AnyBody make_body(const scene::Scene& scene, int body) {
   return std::visit([&](const auto& each) -> AnyBody { return make_body_of(each, scene, body); }, law);
 }
 
-void record(Kinematics& particles, std::size_t slot) {
+void record(ParticleFields& particles, std::size_t slot) {
   const std::size_t slots = particles.mass.size();
   if (particles.recorded.empty()) {
     particles.recorded.assign(slots / math::pack_width, 0);
@@ -87,11 +87,11 @@ void record(Kinematics& particles, std::size_t slot) {
   particles.recorded[slot / math::pack_width] = 1;
 }
 
-const Kinematics& kinematics_of(const AnyBody& body) {
-  return std::visit([](const auto& each) -> const Kinematics& { return each.kinematics; }, body);
+const ParticleFields& particle_fields_of(const AnyBody& body) {
+  return std::visit([](const auto& each) -> const ParticleFields& { return each.particles; }, body);
 }
 
-double mass_of(const Kinematics& particles, scene::Symmetry symmetry) {
+double mass_of(const ParticleFields& particles, scene::Symmetry symmetry) {
   const auto row_length = static_cast<std::ptrdiff_t>(particles.lattice.padded_columns);
   double total = 0.0;  // row by row: adding many equal masses to one large sum loses digits
   for (auto row = particles.mass.begin(); row != particles.mass.end(); row += row_length)

@@ -72,7 +72,7 @@ class Network {
     tolerance_ = coincidence * std::max(extent.x_end - extent.x_begin, extent.r_end);
     Eigen::Index first = 0;
     for (const AnyBody& body : bodies) {
-      const Lattice& lattice = kinematics_of(body).lattice;
+      const Lattice& lattice = particle_fields_of(body).lattice;
       parts_.push_back({lattice, first, thermal_of(body).conductivity});
       first += particles_of(lattice);
     }
@@ -179,7 +179,7 @@ Conduction::Conduction(const Simulation& simulation) {
   Eigen::Index first = 0;
   for (const AnyBody& body : simulation.bodies()) {
     const Thermal thermal = thermal_of(body);
-    const Kinematics& p = kinematics_of(body);
+    const ParticleFields& p = particle_fields_of(body);
     const Lattice& lattice = p.lattice;
     for_each_particle(lattice, first, [&](Eigen::Index number, std::size_t slot) {
       capacity_[number] = p.mass[slot] * thermal.specific_heat;
@@ -206,7 +206,7 @@ void Conduction::heat_base(double flux) { flux_ = flux; }
 void Conduction::advance(Simulation& simulation, double dt) {
   Eigen::VectorXd temperature(capacity_.size());
   Eigen::Index first = 0;
-  std::as_const(simulation).for_each_body([&](const Kinematics& p) {
+  std::as_const(simulation).for_each_body([&](const ParticleFields& p) {
     for_each_particle(p.lattice, first, [&](Eigen::Index number, std::size_t slot) {
       temperature[number] = p.temperature[slot];
     });
@@ -237,7 +237,7 @@ void Conduction::advance(Simulation& simulation, double dt) {
 
   first = 0;
   const auto apply = [&]<class Law>(Body<Law>& body) {
-    Kinematics& p = body.kinematics;
+    ParticleFields& p = body.particles;
     for_each_particle(p.lattice, first, [&](Eigen::Index number, std::size_t slot) {
       p.temperature[slot] += change[number];
       auto state = body.at(slot);
@@ -252,7 +252,7 @@ void Conduction::advance(Simulation& simulation, double dt) {
 double Conduction::heat(const Simulation& simulation) const {
   double total = 0.0;
   Eigen::Index first = 0;
-  simulation.for_each_body([&](const Kinematics& p) {
+  simulation.for_each_body([&](const ParticleFields& p) {
     for_each_particle(p.lattice, first, [&](Eigen::Index number, std::size_t slot) {
       total += capacity_[number] * p.temperature[slot];
     });

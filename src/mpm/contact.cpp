@@ -12,7 +12,7 @@ constexpr double pairing_slide = 5e-3;
 constexpr int pairing_steps = 128;
 
 /// Sweeps over all rows end when no impulse changed by more than this part of the largest one, or after so
-/// many. What they leave, the next step begins with: gaps remember it, and launches with one sweep and with
+/// many. The residual enters the gaps, from which the next step begins; launches with one sweep and with
 /// eight agree to six digits.
 constexpr double settled = 1e-2;
 constexpr int most_sweeps = 2;
@@ -24,7 +24,7 @@ constexpr double overlap_taken_back = 0.1, most_taken_back = 1e-4;
 
 }  // namespace
 
-void Contact::restart(const std::vector<Nodes>& nodes) {
+void Contact::reset(const std::vector<Nodes>& nodes) {
   impulse_.resize(points_);
   for (const Member& m : members_) {
     before_.x(m.point) = nodes[m.nodes].velocity_x[m.index];
@@ -32,20 +32,20 @@ void Contact::restart(const std::vector<Nodes>& nodes) {
   }
   pair(nodes);
   last_dt_ = 0.0;
-  keep_ = 1.0;
+  damping_factor_ = 1.0;
   for (Row& row : rows_) row.normal = row.slide = row.last_slide = 0.0;
 }
 
-ContactTotals Contact::act(std::vector<Nodes>& nodes, double dt, double keep) {
-  keep_before_ = keep_;
-  keep_ = keep;
+ContactTotals Contact::act(std::vector<Nodes>& nodes, double dt, double damping_factor) {
+  damping_factor_before_ = damping_factor_;
+  damping_factor_ = damping_factor;
   read_nodes(nodes);
-  exchange();
-  press(dt);
-  const ContactTotals totals = book();
+  exchange_momentum();
+  solve_impulses(dt);
+  const ContactTotals totals = add_up_energy();
   write_nodes(nodes, dt);
   ++steps_;
-  settle_rows(dt);
+  advance_rows(dt);
   if (slid_ > pairing_slide * shortest_cell_ || steps_ >= pairing_steps) pair(nodes);
   last_dt_ = dt;
   return totals;
@@ -85,13 +85,13 @@ void Contact::push(const Row& row, double normal, double slide) {
   }
 }
 
-/// The same for the momentum that came back from the particles, also where the nodes are held along r.
-void Contact::hand_over(const Row& row, double normal, double slide) {
+/// The same for the velocity summed from the particles, also where the nodes are held along r.
+void Contact::exchange_impulse(const Row& row, double normal, double slide) {
   const Velocity j = impulse(row, normal, slide);
   for (std::size_t s = row.begin; s < row.end; ++s) {
     const Share& each = shares_[s];
-    matched_.x(each.point) += each.give_x * j.x;
-    matched_.r(each.point) += each.give_x * j.r;
+    exchanged_velocity_.x(each.point) += each.give_x * j.x;
+    exchanged_velocity_.r(each.point) += each.give_x * j.r;
   }
 }
 
@@ -99,46 +99,47 @@ void Contact::read_nodes(const std::vector<Nodes>& nodes) {
   for (const Member& m : members_) {
     const Nodes& n = nodes[m.nodes];
     const double x = n.velocity_x[m.index], r = n.velocity_r[m.index];
-    free_.x(m.point) = x;
-    free_.r(m.point) = r;
-    brought_.x(m.point) = x - n.change_x[m.index];
-    brought_.r(m.point) = r - n.change_r[m.index];
+    free_velocity_.x(m.point) = x;
+    free_velocity_.r(m.point) = r;
+    particle_velocity_.x(m.point) = x - n.velocity_increment_x[m.index];
+    particle_velocity_.r(m.point) = r - n.velocity_increment_r[m.index];
   }
 }
 
-/// Makes the velocities that came back from the particles agree where faces are bonded. Bonded nodes
+/// Makes the velocities summed from the particles agree where faces are bonded. Bonded nodes
 /// coincide, so that one sweep does.
-void Contact::exchange() {
-  matched_ = brought_;
+void Contact::exchange_momentum() {
+  exchanged_velocity_ = particle_velocity_;
   if (!has_bonds_) return;
   for (const Row& row : rows_) {
     if (!row.bonded) continue;
-    const Velocity v = relative(row, matched_);
-    hand_over(row, -(v.x * row.normal_x + v.r * row.normal_r) * row.inertia,
-              -(v.r * row.normal_x - v.x * row.normal_r) * row.inertia);
+    const Velocity v = relative(row, exchanged_velocity_);
+    exchange_impulse(row, -(v.x * row.normal_x + v.r * row.normal_r) * row.inertia,
+                     -(v.r * row.normal_x - v.x * row.normal_r) * row.inertia);
   }
 }
 
 /// Begins with the last step's impulses on all points: where the pairs are the same, the rows' are known
 /// there.
-void Contact::begin_impulses(double longer) {
+void Contact::begin_impulses(double step_ratio) {
   for (std::size_t i = 0; i < start_.size(); i += math::pack_width) {
-    const Pack handed = keep_ * moves_.load(i) * (matched_.load(i) - brought_.load(i));
-    const Pack start = free_.load(i) + handed;
+    const Pack exchanged =
+        damping_factor_ * unconstrained_.load(i) * (exchanged_velocity_.load(i) - particle_velocity_.load(i));
+    const Pack start = free_velocity_.load(i) + exchanged;
     start_.store(i, start);
-    velocity_.store(i, start + longer * impulse_.load(i) * mobility_.load(i));
+    velocity_.store(i, start + step_ratio * impulse_.load(i) * mobility_.load(i));
   }
 }
 
 /// Finds the impulses, from those of the last step on.
-void Contact::press(double dt) {
-  const double longer = last_dt_ > 0.0 ? dt / last_dt_ : 0.0;
+void Contact::solve_impulses(double dt) {
+  const double step_ratio = last_dt_ > 0.0 ? dt / last_dt_ : 0.0;
   const bool same_pairs = steps_ > 0;
-  begin_impulses(same_pairs ? longer : 0.0);
+  begin_impulses(same_pairs ? step_ratio : 0.0);
   for (Row& row : rows_) {
     row.last_slide = row.slide;
-    row.normal *= longer;
-    row.slide *= longer;
+    row.normal *= step_ratio;
+    row.slide *= step_ratio;
     row.target = row.bonded ? 0.0 : least_opening(row.gap) / dt;
     if (!same_pairs) push(row, row.normal, row.slide);
   }
@@ -175,7 +176,7 @@ double Contact::sweep() {
   return changed > 0.0 ? changed / largest : 0.0;
 }
 
-/// Ends bonds whose traction is past a strength; whether there were any. The traction of one step is judged,
+/// Ends bonds whose traction is past a strength; whether there were any. The traction of one step decides,
 /// not a mean: while bonds hold, it hardly ripples (on the 155 mm launch its largest values are those of a
 /// mean over the time sound takes through ten cells, to 0.1 % for shear), and where they unzip, what runs
 /// ahead is the wave that the freed stress makes. Half the time step moves the end of the broken part by a
@@ -185,7 +186,7 @@ bool Contact::break_bonds(double dt) {
   bool any = false;
   for (Row& row : rows_) {
     if (!row.bonded || !(row.area > 0.0)) continue;
-    const double unit = row.area * dt * keep_;
+    const double unit = row.area * dt * damping_factor_;
     if (-row.normal <= row.tension_strength * unit && std::abs(row.slide) <= row.shear_strength * unit)
       continue;
     any = true;
@@ -201,22 +202,23 @@ bool Contact::break_bonds(double dt) {
 }
 
 /// What the impulses took out of the energies.
-ContactTotals Contact::book() {
+ContactTotals Contact::add_up_energy() {
   Pack loss(0.0), damping(0.0), way_back(0.0), momentum(0.0);
   for (std::size_t i = 0; i < velocity_.size(); i += math::pack_width) {
     const Pack inertia = inertia_.load(i), v = velocity_.load(i), before = before_.load(i);
-    const Pack brought = brought_.load(i), free = free_.load(i);
+    const Pack brought = particle_velocity_.load(i), free = free_velocity_.load(i);
     const Pack impulse = inertia * (v - start_.load(i)), more = v - free;
     const Pack work = impulse * before;
-    // Impulses count as if damping came after them: J/keep each, of which this step's damping takes its part.
-    loss += (0.5 / keep_before_) * (impulse_.load(i) * before) + (0.5 / keep_) * work;
+    // Impulses count as if damping came after them: J over the damping factor each, of which this step's
+    // damping takes its part.
+    loss += (0.5 / damping_factor_before_) * (impulse_.load(i) * before) + (0.5 / damping_factor_) * work;
     damping += work;
-    way_back += inertia * (more + brought - matched_.load(i)) * (before - brought);
+    way_back += inertia * (more + brought - exchanged_velocity_.load(i)) * (before - brought);
     momentum += mass_.load(i) * more;
     impulse_.store(i, impulse);
     before_.store(i, v);
   }
-  return {-sum(loss), 0.5 * (sum(way_back) + (1.0 / keep_ - 1.0) * sum(damping)), sum(momentum)};
+  return {-sum(loss), 0.5 * (sum(way_back) + (1.0 / damping_factor_ - 1.0) * sum(damping)), sum(momentum)};
 }
 
 void Contact::write_nodes(std::vector<Nodes>& nodes, double dt) const {
@@ -226,19 +228,20 @@ void Contact::write_nodes(std::vector<Nodes>& nodes, double dt) const {
     const double x = velocity_.x(p), r = velocity_.r(p);
     n.velocity_x[i] = x;
     n.velocity_r[i] = r;
-    n.change_x[i] = x - matched_.x(p);
-    n.change_r[i] = r - matched_.r(p);
-    n.displacement_x[i] += dt * (x - free_.x(p));
-    n.displacement_r[i] += dt * (r - free_.r(p));
+    n.velocity_increment_x[i] = x - exchanged_velocity_.x(p);
+    n.velocity_increment_r[i] = r - exchanged_velocity_.r(p);
+    n.displacement_x[i] += dt * (x - free_velocity_.x(p));
+    n.displacement_r[i] += dt * (r - free_velocity_.r(p));
   }
 }
 
 /// Takes the rows to the end of the step.
-void Contact::settle_rows(double dt) {
+void Contact::advance_rows(double dt) {
   double fastest = 0.0;
   for (Row& row : rows_) {
     if (!(row.area > 0.0)) continue;
-    const double work = -0.5 * (row.last_slide / keep_before_ + row.slide / keep_) * row.sliding;
+    const double work =
+        -0.5 * (row.last_slide / damping_factor_before_ + row.slide / damping_factor_) * row.sliding;
     row.friction_work += work;
     row.friction_heat += work / row.area;
     set_speeds(row);
@@ -264,7 +267,8 @@ std::vector<FaceState> Contact::state_of(std::size_t face) const {
   std::vector<FaceState> states;
   for (std::size_t i = 0; i < f.own.indices.size(); ++i) {
     const Row& row = rows_[f.first_row + i];
-    const double per_impulse = row.area > 0.0 && last_dt_ > 0.0 ? 1.0 / (row.area * last_dt_ * keep_) : 0.0;
+    const double per_impulse =
+        row.area > 0.0 && last_dt_ > 0.0 ? 1.0 / (row.area * last_dt_ * damping_factor_) : 0.0;
     FaceState state;
     state.place = f.own.rest[i];
     state.area = row.area;

@@ -68,18 +68,18 @@ std::size_t Contact::point_of(const std::vector<Tie>& ties, Tie::Member node) {
 void Contact::make_fields(const std::vector<Nodes>& nodes) {
   std::stable_sort(members_.begin(), members_.end(),
                    [](const Member& a, const Member& b) { return a.nodes < b.nodes; });
-  for (Field* field : {&inertia_, &mass_, &mobility_, &moves_, &velocity_, &free_, &brought_, &matched_,
-                       &start_, &before_, &impulse_})
+  for (Field* field : {&inertia_, &mass_, &mobility_, &unconstrained_, &velocity_, &free_velocity_,
+                       &particle_velocity_, &exchanged_velocity_, &start_, &before_, &impulse_})
     field->resize(points_);
-  for (std::size_t p = 0; p < points_; ++p) moves_.x(p) = moves_.r(p) = 1.0;
+  for (std::size_t p = 0; p < points_; ++p) unconstrained_.x(p) = unconstrained_.r(p) = 1.0;
   for (const Member& m : members_) {
     const Nodes& n = nodes[m.nodes];
     inertia_.x(m.point) += n.inertia[m.index];
     inertia_.r(m.point) += n.inertia[m.index];
     mass_.x(m.point) += n.mass[m.index];
-    moves_.r(m.point) *= n.moves_r[m.index];
+    unconstrained_.r(m.point) *= n.radially_free[m.index];
     mobility_.x(m.point) = n.inverse_inertia[m.index];
-    mobility_.r(m.point) = n.inverse_inertia[m.index] * moves_.r(m.point);
+    mobility_.r(m.point) = n.inverse_inertia[m.index] * unconstrained_.r(m.point);
   }
 }
 
@@ -169,7 +169,7 @@ void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired,
   }
   // Where a node is held along r, by symmetry or by the barrel, the face runs along a line of the grid.
   const auto held = [&](const FaceSide& side, const PairShare& each) {
-    return !(moves_.r(side.points[each.node]) > 0.0);
+    return !(unconstrained_.r(side.points[each.node]) > 0.0);
   };
   const auto any_held = [&](const FaceSide& side, const std::vector<PairShare>& shares) {
     return std::any_of(shares.begin(), shares.end(), [&](const PairShare& each) { return held(side, each); });

@@ -20,12 +20,14 @@ Grid make_grid(const scene::Scene& scene) {
   const int barrel_row = cells_r + Grid::radial_padding;
   grid.nodes_r = cells_r + 1 + Grid::radial_padding + room;
   const std::size_t whole_packs = (grid.nodes() + math::pack_width - 1) / math::pack_width * math::pack_width;
-  for (auto* field : {&grid.mass, &grid.momentum_x, &grid.momentum_r, &grid.force_x, &grid.force_r,
-                      &grid.velocity_x, &grid.velocity_r, &grid.change_x, &grid.change_r, &grid.moves_r})
+  for (auto* field :
+       {&grid.mass, &grid.momentum_x, &grid.momentum_r, &grid.force_x, &grid.force_r, &grid.velocity_x,
+        &grid.velocity_r, &grid.velocity_increment_x, &grid.velocity_increment_r, &grid.radially_free})
     field->assign(whole_packs, 0.0);
   for (int j = Grid::radial_padding + 1; j < grid.nodes_r; ++j)
     if (scene.barrel == scene::Barrel::none || j < barrel_row)
-      std::fill_n(grid.moves_r.begin() + static_cast<std::ptrdiff_t>(grid.index(0, j)), grid.nodes_x, 1.0);
+      std::fill_n(grid.radially_free.begin() + static_cast<std::ptrdiff_t>(grid.index(0, j)), grid.nodes_x,
+                  1.0);
   return grid;
 }
 

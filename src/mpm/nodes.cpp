@@ -66,15 +66,17 @@ Nodes make_nodes(const scene::Scene& scene, const scene::GridLines& lines, int i
   for (NodeSums* sums : {&n.inside, &n.outside})
     for (auto* field : {&sums->momentum_x, &sums->momentum_r, &sums->force_x, &sums->force_r})
       field->assign(size, 0.0);
-  for (auto* field : {&n.mass, &n.inertia, &n.inverse_inertia, &n.mass_share, &n.moves_r, &n.velocity_x,
-                      &n.velocity_r, &n.change_x, &n.change_r, &n.displacement_x, &n.displacement_r})
+  for (auto* field : {&n.mass, &n.inertia, &n.inverse_inertia, &n.mass_share, &n.radially_free, &n.velocity_x,
+                      &n.velocity_r, &n.velocity_increment_x, &n.velocity_increment_r, &n.displacement_x,
+                      &n.displacement_r})
     field->assign(size, 0.0);
   const double outer = scene::extent_of(scene).r_end;
   for (int j = 0; j < n.rows; ++j) {
     const double r = lines.r[static_cast<std::size_t>(n.first_r + j)];
     // In plane strain the half model's plane of symmetry takes the axis' place.
     const bool held = !(r > 0.0) || (scene.barrel == scene::Barrel::rigid && !(r < outer));
-    if (!held) std::fill_n(n.moves_r.begin() + static_cast<std::ptrdiff_t>(n.index(0, j)), n.columns, 1.0);
+    if (!held)
+      std::fill_n(n.radially_free.begin() + static_cast<std::ptrdiff_t>(n.index(0, j)), n.columns, 1.0);
   }
   return n;
 }

@@ -20,7 +20,7 @@ Simulation::Simulation(scene::Scene scene, int threads) : scene_(std::move(scene
   for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
     bodies_.push_back(make_body(scene_, static_cast<int>(i)));
   const double base = scene::extent_of(scene_).x_end;
-  for_each_body([&](const Kinematics& p) {
+  for_each_body([&](const ParticleFields& p) {
     for (const double mass : p.mass) {
       total_mass_ += mass;
       particles_ += mass > 0.0 ? 1 : 0;
@@ -35,18 +35,18 @@ Simulation::Simulation(scene::Scene scene, int threads) : scene_(std::move(scene
     form_.emplace<UpdatedLagrangian>(scene_, bodies_);
 }
 
-void Simulation::restart() {
-  with(form_, [](auto& form) { form.restart(); });
+void Simulation::reset_grid() {
+  with(form_, [](auto& form) { form.reset_grid(); });
 }
 
-void Simulation::press_bore(int body, double pressure) {
-  with(form_, [&](auto& form) { form.press_bore({body, pressure}); });
+void Simulation::apply_bore_pressure(int body, double pressure) {
+  with(form_, [&](auto& form) { form.apply_bore_pressure({body, pressure}); });
 }
 
-void Simulation::pull(int body, double acceleration_x, double acceleration_r) {
-  const Kinematics& p = kinematics_of(bodies_[static_cast<std::size_t>(body)]);
-  pulled_ += acceleration_x * std::accumulate(p.mass.begin(), p.mass.end(), 0.0);
-  std::get<TotalLagrangian>(form_).pull({body, acceleration_x, acceleration_r});
+void Simulation::apply_body_force(int body, double acceleration_x, double acceleration_r) {
+  const ParticleFields& p = particle_fields_of(bodies_[static_cast<std::size_t>(body)]);
+  body_force_on_bodies_ += acceleration_x * std::accumulate(p.mass.begin(), p.mass.end(), 0.0);
+  std::get<TotalLagrangian>(form_).apply_body_force({body, acceleration_x, acceleration_r});
 }
 
 double Simulation::stable_time_step() const {
@@ -57,7 +57,7 @@ double Simulation::frame_acceleration(double time) const {
   return scene_.frame == scene::Frame::co_moving ? load_.at(time) * loaded_area_ / total_mass_ : 0.0;
 }
 
-double Simulation::inertial_factor(const Kinematics& body) const {
+double Simulation::inertial_factor(const ParticleFields& body) const {
   if (const TotalLagrangian* form = total_lagrangian()) return form->inertial_factor(body);
   return scene_.numerics.inertial_scaling;
 }
@@ -66,28 +66,29 @@ void Simulation::step(double dt) {
   balance_ = energy_;
   const double damping_time = scene_.numerics.damping_time;
   // The acceleration is taken when the pressure is, so that the two balance.
-  const Drive drive{dt, load_.at(time_), frame_acceleration(time_),
-                    damping_time > 0.0 ? std::exp(-dt / damping_time) : 1.0, scene_.numerics.pic_fraction};
-  const StepTotals totals = with(form_, [&](auto& form) { return form.step(drive); });
-  book(totals, dt);
+  const StepInput input{dt, load_.at(time_), frame_acceleration(time_),
+                        damping_time > 0.0 ? std::exp(-dt / damping_time) : 1.0,
+                        scene_.numerics.pic_fraction};
+  const StepTotals totals = with(form_, [&](auto& form) { return form.step(input); });
+  add_to_energy(totals, dt);
   time_ += dt;
 }
 
 /// Work of forces that change in the step counts with their mean, as stresses do.
-void Simulation::book(const StepTotals& totals, double dt) {
+void Simulation::add_to_energy(const StepTotals& totals, double dt) {
   const double pressure = 0.5 * (load_.at(time_) + load_.at(time_ + dt));
   const double acceleration = 0.5 * (frame_acceleration(time_) + frame_acceleration(time_ + dt));
   const ParticleTotals& p = totals.particles;
   const NodeTotals& n = totals.nodes;
   // The motion of all as one mass takes its energy from the work on it to the last digit and says nothing of
-  // the computation; in the lab frame it would drown what does.
+  // the computation; in the lab frame it would exceed all other terms by far.
   const BulkMotion& bulk = totals.bulk;
   const double bulk_velocity = bulk.momentum / bulk.inertia;
   balance_.kinetic = sum(p.centred_kinetic) - 0.5 * bulk.old_momentum * bulk_velocity;
   const bool lab = scene_.frame == scene::Frame::lab;
   const double bulk_flow = lab ? -loaded_area_ * bulk_velocity : 0.0;
   energy_.external += pressure * (totals.base_flow - bulk_flow) * dt + totals.bore_work;
-  energy_.external += totals.pull_work - pulled_ * bulk_velocity * dt;
+  energy_.external += totals.body_force_work - body_force_on_bodies_ * bulk_velocity * dt;
   energy_.body_force += acceleration * (sum(n.momentum) + totals.contact.momentum) * dt;
   energy_.internal += sum(p.internal) + sum(p.hourglass);
   energy_.hourglass += sum(p.hourglass);
@@ -109,7 +110,7 @@ void Simulation::book(const StepTotals& totals, double dt) {
 
 double Simulation::kinetic_energy() const {
   double total = 0.0;
-  for_each_body([&](const Kinematics& p) {
+  for_each_body([&](const ParticleFields& p) {
     double body = 0.0;
     for (std::size_t i = 0; i < p.mass.size(); ++i)
       body += 0.5 * p.mass[i] * (p.velocity_x[i] * p.velocity_x[i] + p.velocity_r[i] * p.velocity_r[i]);
@@ -120,7 +121,7 @@ double Simulation::kinetic_energy() const {
 
 double Simulation::axial_momentum() const {
   double total = 0.0;
-  for_each_body([&](const Kinematics& p) {
+  for_each_body([&](const ParticleFields& p) {
     double body = 0.0;
     for (std::size_t i = 0; i < p.mass.size(); ++i) body += p.mass[i] * p.velocity_x[i];
     total += inertial_factor(p) / scene_.numerics.inertial_scaling * body;

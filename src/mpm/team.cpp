@@ -7,16 +7,16 @@
 namespace launchsafe::mpm {
 namespace {
 
-/// Looks before a waiting thread gives way to others: a step's phases take microseconds, and on a machine
-/// with fewer free cores than threads spinning would only hold up whom it waits for.
-constexpr int looks_before_yield = 256;
-/// Times it gives way before it sleeps.
-constexpr int yields_before_sleep = 2000;
+/// Polls before a waiting thread yields its processor: the phases of a step take microseconds, and on a
+/// machine with fewer free cores than threads polling would delay the very thread that is waited for.
+constexpr int polls_before_yield = 256;
+/// Yields before it blocks.
+constexpr int yields_before_block = 2000;
 
 template <class Changed>
-void wait_awake(Changed&& changed) {
-  for (int look = 0; !changed(); ++look)
-    if (look >= looks_before_yield) std::this_thread::yield();
+void poll_until(Changed&& changed) {
+  for (int poll = 0; !changed(); ++poll)
+    if (poll >= polls_before_yield) std::this_thread::yield();
 }
 
 }  // namespace
@@ -36,10 +36,10 @@ void Team::start() {
 void Team::serve(int member) {
   std::fesetenv(&environment_);
   for (unsigned seen = 0;; ++seen) {
-    int look = 0;
+    int poll = 0;
     while (call_.load(std::memory_order_acquire) == seen) {
-      if (++look < looks_before_yield) continue;
-      if (look < looks_before_yield + yields_before_sleep)
+      if (++poll < polls_before_yield) continue;
+      if (poll < polls_before_yield + yields_before_block)
         std::this_thread::yield();
       else
         call_.wait(seen);
@@ -71,7 +71,7 @@ void Team::run(const std::function<void(int)>& work) {
     call_.notify_all();
   }
   work(0);
-  wait_awake([this] { return running_.load(std::memory_order_acquire) == 0; });
+  poll_until([this] { return running_.load(std::memory_order_acquire) == 0; });
 }
 
 void Team::wait_for_all() {
@@ -82,17 +82,17 @@ void Team::wait_for_all() {
     barrier_.fetch_add(1, std::memory_order_release);
     return;
   }
-  wait_awake([this, now] { return barrier_.load(std::memory_order_acquire) != now; });
+  poll_until([this, now] { return barrier_.load(std::memory_order_acquire) != now; });
 }
 
-void FasterWay::took(double seconds) {
-  if (step_ == 0) together_ = alone_ = 0.0;
+void ThreadingChoice::record(double seconds) {
+  if (step_ == 0) parallel_time_ = serial_time_ = 0.0;
   if (step_ < trial)
-    together_ += seconds;
+    parallel_time_ += seconds;
   else if (step_ < 2 * trial)
-    alone_ += seconds;
+    serial_time_ += seconds;
   ++step_;
-  if (step_ == 2 * trial) together_is_faster_ = together_ < alone_;
+  if (step_ == 2 * trial) parallel_is_faster_ = parallel_time_ < serial_time_;
   if (step_ == 2 * trial + between_trials) step_ = 0;
 }
 

@@ -28,8 +28,8 @@ RowWeights row_weights(const Lattice& lattice, int j, double a, double b, bool a
   return w;
 }
 
-/// Cuts rows, in order, into as many runs of like work as there are threads.
-std::vector<std::vector<std::pair<std::size_t, int>>> shared_out(
+/// Divides rows, in order, into one contiguous group per thread of about equal work.
+std::vector<std::vector<std::pair<std::size_t, int>>> divided_among_threads(
     const std::vector<std::pair<std::size_t, int>>& rows, const std::vector<double>& work, int threads) {
   double all = 0.0;
   for (const auto& [body, row] : rows) all += work[body];
@@ -56,7 +56,7 @@ TotalLagrangian::TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>
     nodes_.push_back(make_nodes(scene, lines_, static_cast<int>(b)));
     parts_.push_back(make_part(bodies[b], nodes_[b]));
   }
-  weigh_nodes();
+  sum_nodal_masses();
   ties_ = find_ties(nodes_, [&scene](std::size_t a, std::size_t b) {
     const scene::Interface* faces = scene::interface_between(scene, a, b);
     return faces != nullptr && scene::can_slide(*faces);
@@ -75,15 +75,15 @@ TotalLagrangian::TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>
   contact_ = std::make_unique<Contact>(scene, lines_, nodes_, ties_);
   find_base();
   share_work();
-  restart();
+  reset_grid();
 }
 
-double TotalLagrangian::inertial_factor(const Kinematics& body) const {
+double TotalLagrangian::inertial_factor(const ParticleFields& body) const {
   return parts_[static_cast<std::size_t>(body.body)].inertial_factor;
 }
 
 TotalLagrangian::Part TotalLagrangian::make_part(const AnyBody& any, const Nodes& nodes) const {
-  const Kinematics& p = kinematics_of(any);
+  const ParticleFields& p = particle_fields_of(any);
   const Lattice& lattice = p.lattice;
   const scene::Numerics& numerics = scene_.numerics;
   Part part;
@@ -116,11 +116,11 @@ TotalLagrangian::Part TotalLagrangian::make_part(const AnyBody& any, const Nodes
   return part;
 }
 
-void TotalLagrangian::weigh_nodes() {
+void TotalLagrangian::sum_nodal_masses() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     Nodes& n = nodes_[b];
     const Part& part = parts_[b];
-    const Kinematics& p = kinematics_of(bodies_[b]);
+    const ParticleFields& p = particle_fields_of(bodies_[b]);
     const Lattice& lattice = p.lattice;
     for (int j = 0; j < lattice.rows(); ++j)
       for (int i = 0; i < lattice.columns(); ++i) {
@@ -147,7 +147,7 @@ void TotalLagrangian::share_work() {
   std::vector<std::pair<std::size_t, int>> particle_rows, node_rows;
   std::vector<double> particle_work, node_work;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const Lattice& lattice = kinematics_of(bodies_[b]).lattice;
+    const Lattice& lattice = particle_fields_of(bodies_[b]).lattice;
     const double fields =
         std::visit([](const auto& body) { return 8.0 + static_cast<double>(body.state.size()); }, bodies_[b]);
     particle_work.push_back(fields * lattice.padded_columns);
@@ -159,12 +159,12 @@ void TotalLagrangian::share_work() {
     node_totals_.emplace_back(static_cast<std::size_t>(nodes_[b].rows));
   }
   const int threads = team_->threads();
-  for (const auto& share : shared_out(particle_rows, particle_work, threads)) {
+  for (const auto& share : divided_among_threads(particle_rows, particle_work, threads)) {
     particle_rows_.emplace_back();
     for (const auto& [b, j] : share)
-      particle_rows_.back().push_back({b, j, j + kinematics_of(bodies_[b]).lattice.stride});
+      particle_rows_.back().push_back({b, j, j + particle_fields_of(bodies_[b]).lattice.stride});
   }
-  for (const auto& share : shared_out(node_rows, node_work, threads)) {
+  for (const auto& share : divided_among_threads(node_rows, node_work, threads)) {
     node_rows_.emplace_back();
     for (const auto& [b, j] : share) node_rows_.back().push_back({b, j, j + 1});
   }
@@ -175,7 +175,7 @@ void TotalLagrangian::find_base() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (scene_.bodies[b].x_end < base) continue;
     const Nodes& n = nodes_[b];
-    const Lattice& lattice = kinematics_of(bodies_[b]).lattice;
+    const Lattice& lattice = particle_fields_of(bodies_[b]).lattice;
     for (int j = 0; j < lattice.rows(); ++j) {
       const RowWeights& w = parts_[b].rows[static_cast<std::size_t>(j)];
       const double area = radial_measure(axisymmetric_, lattice.r_of(j)) * lattice.length_r(j);
@@ -185,13 +185,13 @@ void TotalLagrangian::find_base() {
   }
 }
 
-void TotalLagrangian::restart() {
-  Drive still;
+void TotalLagrangian::reset_grid() {
+  StepInput still;
   damped_before_ = 0.0;
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     std::visit(
         [&](auto& body) {
-          scatter_at_rest(body.kinematics, nodes_[b], parts_[b].rows, parts_[b].inertial_factor);
+          momentum_to_nodes(body.particles, nodes_[b], parts_[b].rows, parts_[b].inertial_factor);
         },
         bodies_[b]);
   bond(ties_, nodes_);
@@ -199,9 +199,9 @@ void TotalLagrangian::restart() {
     for (std::size_t node = 0; node < n.mass.size(); ++node) {
       n.velocity_x[node] = (n.inside.momentum_x[node] + n.outside.momentum_x[node]) * n.inverse_inertia[node];
       n.velocity_r[node] = (n.inside.momentum_r[node] + n.outside.momentum_r[node]) * n.inverse_inertia[node];
-      n.change_x[node] = n.change_r[node] = 0.0;
+      n.velocity_increment_x[node] = n.velocity_increment_r[node] = 0.0;
     }
-  if (contact_->any()) contact_->restart(nodes_);
+  if (contact_->any()) contact_->reset(nodes_);
 }
 
 double TotalLagrangian::stable_time_step() const {
@@ -220,7 +220,7 @@ double TotalLagrangian::stable_time_step() const {
 /// The inner faces as radial nodal forces at their present radius.
 template <class F>
 void TotalLagrangian::for_each_bore_share(F&& f) const {
-  for (const Bore& bore : bores_) {
+  for (const BorePressure& bore : bores_) {
     const auto b = static_cast<std::size_t>(bore.body);
     const Nodes& n = nodes_[b];
     const double r = lines_.r[static_cast<std::size_t>(n.first_r)];
@@ -236,19 +236,19 @@ void TotalLagrangian::for_each_bore_share(F&& f) const {
   }
 }
 
-void TotalLagrangian::load_nodes(const Drive& drive) {
+void TotalLagrangian::load_nodes(const StepInput& input) {
   for (const LoadShare& share : base_)
-    nodes_[share.body].written(share.row).force_x[share.index] += drive.pressure * share.force;
+    nodes_[share.body].written(share.row).force_x[share.index] += input.pressure * share.force;
   for_each_bore_share([&](std::size_t body, std::size_t node, double force) {
     nodes_[body].written(0).force_r[node] += force;
   });
-  for (const Pull& pull : pulls_) {
-    Nodes& n = nodes_[static_cast<std::size_t>(pull.body)];
+  for (const BodyForce& force : body_forces_) {
+    Nodes& n = nodes_[static_cast<std::size_t>(force.body)];
     for (int j = 0; j < n.rows; ++j)
       for (int i = 0; i < n.columns; ++i) {
         const std::size_t node = n.index(i, j);
-        n.written(j).force_x[node] += pull.acceleration_x * n.mass[node];
-        n.written(j).force_r[node] += pull.acceleration_r * n.mass[node];
+        n.written(j).force_x[node] += force.acceleration_x * n.mass[node];
+        n.written(j).force_r[node] += force.acceleration_r * n.mass[node];
       }
   }
   bond(ties_, nodes_);
@@ -268,46 +268,46 @@ double TotalLagrangian::bore_work(double dt) const {
   return work;
 }
 
-double TotalLagrangian::pull_work(double dt) const {
+double TotalLagrangian::body_force_work(double dt) const {
   double work = 0.0;
-  for (const Pull& pull : pulls_) {
-    const Nodes& n = nodes_[static_cast<std::size_t>(pull.body)];
+  for (const BodyForce& force : body_forces_) {
+    const Nodes& n = nodes_[static_cast<std::size_t>(force.body)];
     for (std::size_t node = 0; node < n.mass.size(); ++node)
       work += n.mass[node] * dt *
-              (pull.acceleration_x * n.velocity_x[node] + pull.acceleration_r * n.velocity_r[node]);
+              (force.acceleration_x * n.velocity_x[node] + force.acceleration_r * n.velocity_r[node]);
   }
   return work;
 }
 
 /// Moves a row of nodes. The losses keep the leapfrog balance of centred kinetic energy with mean forces
 /// exact: with the change D of velocity in a step, the velocity v that the step moved by, and the momentum p
-/// that came back from the particles, the way there and back took (D_old + D_new) (m v_old - p)/2 away.
-void TotalLagrangian::move_row(Nodes& n, int row, const Drive& drive, NodeTotals& totals) const {
-  const double dt = drive.dt, damped = 1.0 / drive.keep - 1.0;
+/// summed from the particles, the transfer to particles and back dissipates (D_old + D_new) (m v_old - p)/2.
+void TotalLagrangian::move_row(Nodes& n, int row, const StepInput& input, NodeTotals& totals) const {
+  const double dt = input.dt, damped = 1.0 / input.damping_factor - 1.0;
   totals = {};
   const std::size_t begin = n.index(0, row);
   for (std::size_t i = begin; i < begin + n.stride; i += math::pack_width) {
     const Pack inverse = load(n.inverse_inertia, i), share = load(n.mass_share, i);
     const Pack inertia = load(n.inertia, i), mass = load(n.mass, i);
     const Pack before_x = load(n.velocity_x, i), before_r = load(n.velocity_r, i);
-    const Pack gained_x = load(n.change_x, i), gained_r = load(n.change_r, i);
+    const Pack gained_x = load(n.velocity_increment_x, i), gained_r = load(n.velocity_increment_r, i);
     const Pack old_x = (load(n.inside.momentum_x, i) + load(n.outside.momentum_x, i)) * inverse;
     const Pack old_r = (load(n.inside.momentum_r, i) + load(n.outside.momentum_r, i)) * inverse;
     const Pack push_x =
-        (load(n.inside.force_x, i) + load(n.outside.force_x, i)) * inverse + drive.acceleration * share;
+        (load(n.inside.force_x, i) + load(n.outside.force_x, i)) * inverse + input.acceleration * share;
     const Pack push_r = (load(n.inside.force_r, i) + load(n.outside.force_r, i)) * inverse;
-    const Pack new_x = (old_x + dt * push_x) * drive.keep;
-    const Pack new_r = load(n.moves_r, i) * (old_r + dt * push_r) * drive.keep;
-    const Pack change_x = new_x - old_x, change_r = new_r - old_r;
+    const Pack new_x = (old_x + dt * push_x) * input.damping_factor;
+    const Pack new_r = load(n.radially_free, i) * (old_r + dt * push_r) * input.damping_factor;
+    const Pack velocity_increment_x = new_x - old_x, velocity_increment_r = new_r - old_r;
     store(n.velocity_x, i, new_x);
     store(n.velocity_r, i, new_r);
-    store(n.change_x, i, change_x);
-    store(n.change_r, i, change_r);
+    store(n.velocity_increment_x, i, velocity_increment_x);
+    store(n.velocity_increment_r, i, velocity_increment_r);
     store(n.displacement_x, i, load(n.displacement_x, i) + dt * new_x);
     store(n.displacement_r, i, load(n.displacement_r, i) + dt * new_r);
     const Pack half = 0.5 * inertia;
-    totals.lost_before +=
-        half * ((gained_x + change_x) * (before_x - old_x) + (gained_r + change_r) * (before_r - old_r));
+    totals.lost_before += half * ((gained_x + velocity_increment_x) * (before_x - old_x) +
+                                  (gained_r + velocity_increment_r) * (before_r - old_r));
     totals.lost_before += half * ((damped_before_ * before_x + damped * new_x) * before_x +
                                   (damped_before_ * before_r + damped * new_r) * before_r);
     totals.old_momentum += mass * old_x;
@@ -315,7 +315,7 @@ void TotalLagrangian::move_row(Nodes& n, int row, const Drive& drive, NodeTotals
   }
 }
 
-void TotalLagrangian::advance_rows(const Rows& rows, const Drive& drive) {
+void TotalLagrangian::advance_rows(const Rows& rows, const StepInput& input) {
   const Part& part = parts_[rows.body];
   std::visit(
       [&](auto& body) {
@@ -327,8 +327,8 @@ void TotalLagrangian::advance_rows(const Rows& rows, const Drive& drive) {
                              part.inverse_length,
                              part.hourglass,
                              part.inertial_factor,
-                             drive.dt,
-                             drive.pic_fraction,
+                             input.dt,
+                             input.pic_fraction,
                              j == rows.begin};
           advance_row(body, nodes_[rows.body], step, totals);
         }
@@ -336,49 +336,49 @@ void TotalLagrangian::advance_rows(const Rows& rows, const Drive& drive) {
       bodies_[rows.body]);
 }
 
-void TotalLagrangian::touch(const Drive& drive) {
-  if (contact_->any()) contact_totals_ = contact_->act(nodes_, drive.dt, drive.keep);
+void TotalLagrangian::apply_contact(const StepInput& input) {
+  if (contact_->any()) contact_totals_ = contact_->act(nodes_, input.dt, input.damping_factor);
 }
 
-/// The nodes of all rows, contact, and then the particles of all rows: which thread does which changes no
-/// number.
-void TotalLagrangian::work_through(const Drive& drive) {
+/// Node rows, contact, then particle rows. Every row is summed in the same order whichever thread has it, so
+/// that results do not depend on the number of threads.
+void TotalLagrangian::run_phases(const StepInput& input) {
   const auto nodes = [&](std::size_t share) {
     for (const Rows& rows : node_rows_[share])
-      move_row(nodes_[rows.body], rows.begin, drive,
+      move_row(nodes_[rows.body], rows.begin, input,
                node_totals_[rows.body][static_cast<std::size_t>(rows.begin)]);
   };
   const auto particles = [&](std::size_t share) {
-    for (const Rows& rows : particle_rows_[share]) advance_rows(rows, drive);
+    for (const Rows& rows : particle_rows_[share]) advance_rows(rows, input);
   };
-  const auto alone = [&] {
+  const auto serial = [&] {
     for (std::size_t share = 0; share < node_rows_.size(); ++share) nodes(share);
-    touch(drive);
+    apply_contact(input);
     for (std::size_t share = 0; share < particle_rows_.size(); ++share) particles(share);
   };
-  if (team_->threads() == 1) return alone();
+  if (team_->threads() == 1) return serial();
   const auto start = std::chrono::steady_clock::now();
-  if (faster_way_.together()) {
+  if (threading_choice_.parallel()) {
     team_->run([&](int member) {
       nodes(static_cast<std::size_t>(member));
       team_->wait_for_all();
       if (contact_->any()) {
-        if (member == 0) touch(drive);
+        if (member == 0) apply_contact(input);
         team_->wait_for_all();
       }
       particles(static_cast<std::size_t>(member));
     });
   } else {
-    alone();
+    serial();
   }
-  faster_way_.took(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  threading_choice_.record(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
-StepTotals TotalLagrangian::step(const Drive& drive) {
-  load_nodes(drive);
-  for (AnyBody& any : bodies_) std::visit([&](auto& body) { body.integrator.set_step(drive.dt); }, any);
-  work_through(drive);
-  damped_before_ = 1.0 / drive.keep - 1.0;
+StepTotals TotalLagrangian::step(const StepInput& input) {
+  load_nodes(input);
+  for (AnyBody& any : bodies_) std::visit([&](auto& body) { body.integrator.set_step(input.dt); }, any);
+  run_phases(input);
+  damped_before_ = 1.0 / input.damping_factor - 1.0;
   StepTotals totals;
   for (const auto& body : particle_totals_)
     for (const ParticleTotals& row : body) totals.particles.add(row);
@@ -392,8 +392,8 @@ StepTotals TotalLagrangian::step(const Drive& drive) {
     totals.bulk.momentum += parts_[b].inertial_factor * sum(body.momentum);
   }
   totals.base_flow = base_flow();
-  totals.bore_work = bore_work(drive.dt);
-  totals.pull_work = pull_work(drive.dt);
+  totals.bore_work = bore_work(input.dt);
+  totals.body_force_work = body_force_work(input.dt);
   totals.contact = contact_totals_;
   return totals;
 }

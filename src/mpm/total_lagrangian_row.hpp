@@ -135,7 +135,7 @@ struct CornerForces {
 template <class Law>
 [[gnu::flatten]] void advance_row(Body<Law>& body, Nodes& nodes, const RowStep& step,
                                   ParticleTotals& totals) {
-  Kinematics& p = body.kinematics;
+  ParticleFields& p = body.particles;
   const RowWeights& w = step.weights;
   const Lattice& lattice = p.lattice;
   const std::size_t inner = nodes.index(0, w.cell_row), outer = nodes.index(0, w.cell_row + 1);
@@ -168,9 +168,9 @@ template <class Law>
 
       const Pack grid_x = in_cell(vx.mean(w.value)), grid_r = in_cell(vr.mean(w.value));
       const Pack inertia = step.inertial_factor * mass;
-      update_velocity(p, slot, inertia, in_cell(in_cells(nodes.change_x).mean(w.value)),
-                      in_cell(in_cells(nodes.change_r).mean(w.value)), grid_x, grid_r, step.pic_fraction,
-                      totals);
+      update_velocity(p, slot, inertia, in_cell(in_cells(nodes.velocity_increment_x).mean(w.value)),
+                      in_cell(in_cells(nodes.velocity_increment_r).mean(w.value)), grid_x, grid_r,
+                      step.pic_fraction, totals);
       store(p.x, slot, load(p.x, slot) + step.dt * grid_x);
       store(p.r, slot, load(p.r, slot) + step.dt * grid_r);
 
@@ -197,7 +197,7 @@ template <class Law>
                          (area * f.tt < Pack(1.0 / smallest_stretch));
       totals.distorted += select(sound, Pack(0.0), Pack(1.0));
       const Deformation deformation = deformation_of(f, d, volume, load(p.volume_ratio, slot), area);
-      const Stressed stress = update_material(body, slot, deformation, totals);
+      const StressUpdate stress = update_material(body, slot, deformation, totals);
 
       // P = J sigma F^-T, in the plane J F^-T = tt [[xx, -xr], [-rx, rr]].
       const Pack rr = stress.deviator.rr - stress.pressure, xx = stress.deviator.xx - stress.pressure,
@@ -218,8 +218,8 @@ template <class Law>
 }
 
 /// Gives the particles' momentum to empty nodes.
-inline void scatter_at_rest(const Kinematics& p, Nodes& nodes, const std::vector<RowWeights>& rows,
-                            double inertial_factor) {
+inline void momentum_to_nodes(const ParticleFields& p, Nodes& nodes, const std::vector<RowWeights>& rows,
+                              double inertial_factor) {
   for (NodeSums* sums : {&nodes.inside, &nodes.outside}) {
     std::fill(sums->momentum_x.begin(), sums->momentum_x.end(), 0.0);
     std::fill(sums->momentum_r.begin(), sums->momentum_r.end(), 0.0);
@@ -246,7 +246,7 @@ inline void scatter_at_rest(const Kinematics& p, Nodes& nodes, const std::vector
 template <class Law>
 double shortest_sound_time(const Body<Law>& body, const Nodes& nodes, const std::vector<RowWeights>& rows,
                            const math::AlignedArray& inverse_lengths) {
-  const Lattice& lattice = body.kinematics.lattice;
+  const Lattice& lattice = body.particles.lattice;
   const auto columns = static_cast<std::size_t>(lattice.padded_columns / lattice.stride);
   Pack fastest(0.0);  // (sound speed over height)^2, 1/s2
   std::size_t slot = 0;

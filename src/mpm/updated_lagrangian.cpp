@@ -26,8 +26,8 @@ double lightest_density(const std::vector<AnyBody>& bodies) {
 double radial_measure(bool axisymmetric, double r) { return axisymmetric ? r : 1.0; }
 
 /// Half-lengths of the particles of an evenly divided body, m.
-double half_x(const Kinematics& p) { return 0.5 * p.lattice.length_x(0); }
-double half_r(const Kinematics& p) { return 0.5 * p.lattice.length_r(0); }
+double half_x(const ParticleFields& p) { return 0.5 * p.lattice.length_x(0); }
+double half_r(const ParticleFields& p) { return 0.5 * p.lattice.length_r(0); }
 
 /// What a step fixes for all bodies.
 struct Transfer {
@@ -43,7 +43,7 @@ Pack strained(Pack volume, Pack volumetric) {
   return volume * (1.0 + 0.5 * volumetric) / (1.0 - 0.5 * volumetric);
 }
 
-Deformation deformation_of(const Gathered& g, double dt, Pack rest_volume, Pack volume) {
+Deformation deformation_of(const GridToParticle& g, double dt, Pack rest_volume, Pack volume) {
   const Pack volumetric = (g.rate_rr + g.rate_xx + g.rate_tt) * dt;
   const Pack third = volumetric * (1.0 / 3.0);
   return {{{g.rate_rr * dt - third, g.rate_xx * dt - third, (g.vr_by_x + g.vx_by_r) * (0.5 * dt)},
@@ -57,7 +57,7 @@ Deformation deformation_of(const Gathered& g, double dt, Pack rest_volume, Pack 
 template <class Law>
 [[gnu::flatten]] void advance_body(Body<Law>& body, Grid& grid, const Transfer& transfer,
                                    ParticleTotals& totals) {
-  Kinematics& p = body.kinematics;
+  ParticleFields& p = body.particles;
   const StencilContext reading{grid, transfer.read_origin, half_x(p), half_r(p), transfer.axisymmetric};
   const StencilContext writing{grid, transfer.write_origin, half_x(p), half_r(p), transfer.axisymmetric};
   for (std::size_t slot = 0; slot < p.x.size(); slot += math::pack_width) {
@@ -65,40 +65,40 @@ template <class Law>
     const Mask real = mass > Pack(0.0);
     const Pack x0 = load(p.x, slot), r0 = load(p.r, slot);
     const Stencil old_stencil = stencil_of(reading, x0, r0);
-    const Gathered g = gather(grid, old_stencil, real & old_stencil.inside);
-    update_velocity(p, slot, mass, g.change_x, g.change_r, g.velocity_x, g.velocity_r, transfer.pic_fraction,
-                    totals);
+    const GridToParticle g = grid_to_particle(grid, old_stencil, real & old_stencil.inside);
+    update_velocity(p, slot, mass, g.velocity_increment_x, g.velocity_increment_r, g.velocity_x, g.velocity_r,
+                    transfer.pic_fraction, totals);
     const Pack x1 = x0 + transfer.dt * g.velocity_x, r1 = r0 + transfer.dt * g.velocity_r;
     store(p.x, slot, x1);
     store(p.r, slot, r1);
     const Pack rest_volume = mass * (1.0 / body.law.initial_density());
     const Deformation deformation = deformation_of(g, transfer.dt, rest_volume, load(p.volume_ratio, slot));
-    const Stressed s = update_material(body, slot, deformation, totals);
+    const StressUpdate s = update_material(body, slot, deformation, totals);
 
     const Stencil stencil = stencil_of(writing, x1, r1);
     totals.off_grid += select(real & !stencil.inside, Pack(1.0), Pack(0.0));
-    const Scattered given{mass,
-                          load(p.velocity_x, slot),
-                          load(p.velocity_r, slot),
-                          rest_volume * deformation.increment.volume_after,
-                          s.deviator.rr - s.pressure,
-                          s.deviator.xx - s.pressure,
-                          s.deviator.tt() - s.pressure,
-                          s.deviator.rx};
-    scatter(grid, stencil, given, real & stencil.inside);
+    const ParticleToGrid given{mass,
+                               load(p.velocity_x, slot),
+                               load(p.velocity_r, slot),
+                               rest_volume * deformation.increment.volume_after,
+                               s.deviator.rr - s.pressure,
+                               s.deviator.xx - s.pressure,
+                               s.deviator.tt() - s.pressure,
+                               s.deviator.rx};
+    particle_to_grid(grid, stencil, given, real & stencil.inside);
   }
 }
 
 /// Gives a body at rest and free of stress to an empty grid: mass and momentum only.
-void scatter_initial(const Kinematics& p, Grid& grid, bool axisymmetric) {
+void initial_particle_to_grid(const ParticleFields& p, Grid& grid, bool axisymmetric) {
   const StencilContext writing{grid, grid.origin_x, half_x(p), half_r(p), axisymmetric};
   for (std::size_t slot = 0; slot < p.x.size(); slot += math::pack_width) {
     const Pack mass = load(p.mass, slot);
     const Stencil stencil = stencil_of(writing, load(p.x, slot), load(p.r, slot));
     const Pack none(0.0);
-    const Scattered given{mass, load(p.velocity_x, slot), load(p.velocity_r, slot), none, none, none, none,
-                          none};
-    scatter(grid, stencil, given, (mass > none) & stencil.inside);
+    const ParticleToGrid given{
+        mass, load(p.velocity_x, slot), load(p.velocity_r, slot), none, none, none, none, none};
+    particle_to_grid(grid, stencil, given, (mass > none) & stencil.inside);
   }
 }
 
@@ -114,7 +114,7 @@ UpdatedLagrangian::UpdatedLagrangian(const scene::Scene& scene, std::vector<AnyB
   const bool has_charge = scene::has_charge(scene);
   const double bottom = has_charge ? scene::charge_extent(scene).x_end : base;
   for (const AnyBody& any : bodies) {
-    const Kinematics& p = kinematics_of(any);
+    const ParticleFields& p = particle_fields_of(any);
     const Lattice& lattice = p.lattice;
     for (const double mass : p.mass) total_mass_ += mass;
     const scene::Body& body = scene.bodies[static_cast<std::size_t>(p.body)];
@@ -126,10 +126,10 @@ UpdatedLagrangian::UpdatedLagrangian(const scene::Scene& scene, std::vector<AnyB
     for (int j = 0; j < lattice.rows(); ++j)
       anchors_.push_back({&p, lattice.slot(last, j), lattice.x_of(last)});
   }
-  restart();
+  reset_grid();
 }
 
-/// The co-moving grid rides with the charge bottom, so that particles there stay in their cells: crossing
+/// The co-moving grid follows the charge bottom, so that particles there stay in their cells: crossing
 /// cells beside the steel makes the stresses of neighbouring particles alternate, and the skin temperatures
 /// with them. The lab's grid stands still; its window follows by whole cells.
 double UpdatedLagrangian::window_origin() const {
@@ -139,10 +139,11 @@ double UpdatedLagrangian::window_origin() const {
   return base_origin_ + displacement / static_cast<double>(anchors_.size());
 }
 
-void UpdatedLagrangian::restart() {
+void UpdatedLagrangian::reset_grid() {
   for (auto* field : {&grid_.mass, &grid_.momentum_x, &grid_.momentum_r, &grid_.force_x, &grid_.force_r})
     std::fill(field->begin(), field->end(), 0.0);
-  for (const AnyBody& body : bodies_) scatter_initial(kinematics_of(body), grid_, axisymmetric_);
+  for (const AnyBody& body : bodies_)
+    initial_particle_to_grid(particle_fields_of(body), grid_, axisymmetric_);
 }
 
 double UpdatedLagrangian::stable_time_step() const {
@@ -150,7 +151,7 @@ double UpdatedLagrangian::stable_time_step() const {
   for (const AnyBody& any : bodies_) {
     std::visit(
         [&]<class Law>(const Body<Law>& body) {
-          const Kinematics& p = body.kinematics;
+          const ParticleFields& p = body.particles;
           for (std::size_t slot = 0; slot < p.x.size(); slot += math::pack_width) {
             sound = max(sound_speed_squared(body, slot), sound);
             particle =
@@ -169,7 +170,7 @@ double UpdatedLagrangian::stable_time_step() const {
 void UpdatedLagrangian::locate_load() {
   load_shares_.clear();
   for (const LoadedFace& face : faces_) {
-    const Kinematics& p = *face.body;
+    const ParticleFields& p = *face.body;
     const StencilContext context{grid_, grid_.origin_x, face.half_x, face.half_r, axisymmetric_};
     const Stencil stencil = stencil_of(context, Pack(p.x[face.slot]), Pack(p.r[face.slot]));
     if (stencil.inside.lanes[0] == 0) continue;
@@ -190,8 +191,8 @@ void UpdatedLagrangian::locate_load() {
 /// weighted in x like their particles.
 void UpdatedLagrangian::locate_bores() {
   bore_shares_.clear();
-  for (const Bore& bore : bores_) {
-    const Kinematics& p = kinematics_of(bodies_[static_cast<std::size_t>(bore.body)]);
+  for (const BorePressure& bore : bores_) {
+    const ParticleFields& p = particle_fields_of(bodies_[static_cast<std::size_t>(bore.body)]);
     const StencilContext context{grid_, grid_.origin_x, half_x(p), half_r(p), axisymmetric_};
     for (int i = 0; i < p.lattice.columns(); ++i) {
       const std::size_t slot = p.lattice.slot(i, 0);
@@ -212,32 +213,33 @@ void UpdatedLagrangian::locate_bores() {
   }
 }
 
-void UpdatedLagrangian::update_grid(const Drive& drive, NodeTotals& totals) {
+void UpdatedLagrangian::update_grid(const StepInput& input, NodeTotals& totals) {
   const double scaling = scene_.numerics.inertial_scaling;
-  const double dt = drive.dt, keep = drive.keep;
+  const double dt = input.dt, damping_factor = input.damping_factor;
   const double lightest = empty_node_share * lightest_density(bodies_) * grid_.dx * grid_.dr *
                           radial_measure(axisymmetric_, grid_.dr);
   // Nodes are padded to whole Packs; the rows' ends may share one, so the radial condition is given by node.
   Pack old_transport(0.0), axial_transport(0.0), damping(0.0);
   const Pack none(0.0);
   for (std::size_t n = 0; n < grid_.mass.size(); n += math::pack_width) {
-    const Pack mass = Pack::load(&grid_.mass[n]), moves_r = Pack::load(&grid_.moves_r[n]);
+    const Pack mass = Pack::load(&grid_.mass[n]), radially_free = Pack::load(&grid_.radially_free[n]);
     const Mask used = mass > Pack(lightest);
     const Pack inverse = select(used, 1.0 / mass, none);
     const Pack old_x = Pack::load(&grid_.momentum_x[n]) * inverse,
                old_r = Pack::load(&grid_.momentum_r[n]) * inverse;
     const Pack push_x =
-        Pack::load(&grid_.force_x[n]) * inverse + select(used, Pack(drive.acceleration), none);
+        Pack::load(&grid_.force_x[n]) * inverse + select(used, Pack(input.acceleration), none);
     const Pack push_r = Pack::load(&grid_.force_r[n]) * inverse;
-    const Pack free_x = old_x + push_x * (dt / scaling), free_r = moves_r * (old_r + push_r * (dt / scaling));
-    const Pack new_x = free_x * keep, new_r = free_r * keep;
+    const Pack free_x = old_x + push_x * (dt / scaling),
+               free_r = radially_free * (old_r + push_r * (dt / scaling));
+    const Pack new_x = free_x * damping_factor, new_r = free_r * damping_factor;
     damping += 0.5 * mass * (free_x * free_x - new_x * new_x + free_r * free_r - new_r * new_r);
     old_transport += mass * old_x;
     axial_transport += mass * new_x;
     new_x.store(&grid_.velocity_x[n]);
     new_r.store(&grid_.velocity_r[n]);
-    (new_x - old_x).store(&grid_.change_x[n]);
-    (new_r - old_r).store(&grid_.change_r[n]);
+    (new_x - old_x).store(&grid_.velocity_increment_x[n]);
+    (new_r - old_r).store(&grid_.velocity_increment_r[n]);
     for (auto* sums : {&grid_.mass, &grid_.momentum_x, &grid_.momentum_r, &grid_.force_x, &grid_.force_r})
       none.store(sums->data() + n);
   }
@@ -247,26 +249,26 @@ void UpdatedLagrangian::update_grid(const Drive& drive, NodeTotals& totals) {
   if (scene_.frame == scene::Frame::lab) travel_ += sum(axial_transport) / total_mass_ * dt;
 }
 
-StepTotals UpdatedLagrangian::step(const Drive& drive) {
+StepTotals UpdatedLagrangian::step(const StepInput& input) {
   StepTotals totals;
   locate_load();
-  for (const LoadShare& share : load_shares_) grid_.force_x[share.node] += drive.pressure * share.force;
+  for (const LoadShare& share : load_shares_) grid_.force_x[share.node] += input.pressure * share.force;
   locate_bores();
   for (const LoadShare& share : bore_shares_) grid_.force_r[share.node] += share.force;
-  update_grid(drive, totals.nodes);
+  update_grid(input, totals.nodes);
   const double scaling = scene_.numerics.inertial_scaling;
   totals.bulk = {scaling * total_mass_, scaling * sum(totals.nodes.old_momentum),
                  scaling * sum(totals.nodes.momentum)};
   for (const LoadShare& share : load_shares_) totals.base_flow += share.force * grid_.velocity_x[share.node];
   for (const LoadShare& share : bore_shares_)
-    totals.bore_work += share.force * grid_.velocity_r[share.node] * drive.dt;
+    totals.bore_work += share.force * grid_.velocity_r[share.node] * input.dt;
 
-  Transfer transfer{drive.dt, grid_.origin_x, 0.0, drive.pic_fraction, axisymmetric_};
+  Transfer transfer{input.dt, grid_.origin_x, 0.0, input.pic_fraction, axisymmetric_};
   grid_.origin_x = transfer.write_origin = window_origin();
   for (AnyBody& any : bodies_) {
     std::visit(
         [&]<class Law>(Body<Law>& body) {
-          body.integrator.set_step(drive.dt);
+          body.integrator.set_step(input.dt);
           advance_body(body, grid_, transfer, totals.particles);
         },
         any);

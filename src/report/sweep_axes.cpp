@@ -89,7 +89,7 @@ std::string crack_note(const SweepResult& result, const Effect& below) {
   const bool friction_varies = std::any_of(axes.begin(), axes.end(), [](const study::Axis& axis) {
     return axis.key.name == "charge.face_friction" || axis.key.name == "charge.crack_friction";
   });
-  const bool rubs = result.study.scene.scene.charge().cracks.face_friction > 0.0;
+  const bool rubs = result.study.scene.scene.charge().strength.face_friction > 0.0;
   return fmt::format(
       "Below the flaw size the crack radius is all but dead: T max moves by {} K at most, critical gaps by "
       "{} cm. "

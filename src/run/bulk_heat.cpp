@@ -15,9 +15,9 @@ BulkHeat::BulkHeat(mpm::Simulation& simulation)
   const bool is_read = reaction_ || conduction_ || !simulation.scene().output.snapshot_times.empty();
   if (!is_read || closure_ >= trace::traced_closures) return;
   for (Charge& body : simulation.bodies_of<materials::Charge>()) {
-    for (std::size_t slot = 0; slot < body.kinematics.mass.size(); slot += math::pack_width)
-      mpm::record(body.kinematics, slot);
-    friction_.emplace_back(body.kinematics.mass.size(), 0.0);
+    for (std::size_t slot = 0; slot < body.particles.mass.size(); slot += math::pack_width)
+      mpm::record(body.particles, slot);
+    friction_.emplace_back(body.particles.mass.size(), 0.0);
   }
 }
 
@@ -49,7 +49,7 @@ void BulkHeat::advance_to(mpm::Simulation& simulation, double time) {
 void BulkHeat::add_friction(Charge& charge, math::AlignedArray& energy) const {
   const double capacity = charge_.eos.initial_density * charge_.specific_heat;
   for (std::size_t i = 0; i < energy.size(); ++i) {
-    charge.kinematics.temperature[i] += energy[i] / capacity;
+    charge.particles.temperature[i] += energy[i] / capacity;
     energy[i] = 0.0;
   }
 }
@@ -60,7 +60,7 @@ void BulkHeat::react(Charge& charge, double dt) const {
   model.kinetics = charge_.kinetics;
   model.charge_density = charge_.eos.initial_density;
   model.specific_heat = charge_.specific_heat;
-  for (double& temperature : charge.kinematics.temperature)
+  for (double& temperature : charge.particles.temperature)
     temperature =
         surface::advance_skin(model, 0.0, surface::SkinPoint{temperature}, dt, temperature, temperature, 0.0)
             .temperature;

@@ -30,7 +30,7 @@ class BulkHeat {
   std::size_t closure_;
   bool reaction_;
   std::optional<mpm::Conduction> conduction_;  ///< only where the plan keeps it
-  /// J/m3 since the last advance, by charge body; empty where nobody reads the charge's temperatures.
+  /// J/m3 since the last advance, by charge body; empty where the charge's temperatures are not needed.
   std::vector<math::AlignedArray> friction_;
   double time_ = 0;
 };

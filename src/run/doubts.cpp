@@ -138,7 +138,7 @@ void doubt_samples(const MechanicsResult& mechanics, Doubts& doubts) {
 }
 
 void doubt_cracks(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
-  const double flaw = scene.charge().cracks.flaw_size, cell = scene.numerics.cell_size;
+  const double flaw = scene.charge().strength.flaw_size, cell = scene.numerics.cell_size;
   const double crack = largest(mechanics, [](const auto& sample) { return sample.largest_crack_radius; });
   if (!(flaw > 0.0) || !(crack > 0.0)) return;
   const scene::Extent charge = scene::charge_extent(scene);
@@ -150,7 +150,7 @@ void doubt_cracks(const Scene& scene, const MechanicsResult& mechanics, Doubts& 
                     1e3 * crack, against));
   };
   if (crack > largest_crack_over_flaw * flaw) doubt(fmt::format("{:.3g} flaw sizes", crack / flaw));
-  const double initial = scene.charge().cracks.initial_crack_radius, growth = crack - initial;
+  const double initial = scene.charge().strength.initial_crack_radius, growth = crack - initial;
   const double work = largest(mechanics, [](const auto&sample) { return sample.energy.crack; }),
                viscous = largest(mechanics, [](const auto&sample) { return sample.energy.viscous; });
   const double room_in_cells = largest_crack_over_cell * cell;

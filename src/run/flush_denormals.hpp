@@ -8,7 +8,7 @@
 
 namespace launchsafe::run {
 
-/// Flushes denormals to zero on this thread while it lives. Without SSE it does nothing.
+/// Flushes denormals to zero on this thread during its lifetime. Without SSE it does nothing.
 class FlushDenormals {
  public:
 #if defined(__SSE2__)

@@ -20,7 +20,7 @@ double whole_shell(const mpm::Simulation& simulation) {
 std::string first_broken_particle(const mpm::Simulation& simulation) {
   std::string place = "no particle found";
   bool found = false;
-  simulation.for_each_body([&](const mpm::Kinematics& p) {
+  simulation.for_each_body([&](const mpm::ParticleFields& p) {
     for (int j = 0; j < p.lattice.rows() && !found; ++j)
       for (int i = 0; i < p.lattice.columns() && !found; ++i) {
         const std::size_t slot = p.lattice.slot(i, j);
@@ -114,7 +114,7 @@ Snapshot take_snapshot(const mpm::Simulation& simulation) {
     return field == nullptr ? 0.0 : (*field)[slot];
   };
   for (const mpm::AnyBody& any : simulation.bodies()) {
-    const mpm::Kinematics& p = mpm::kinematics_of(any);
+    const mpm::ParticleFields& p = mpm::particle_fields_of(any);
     const math::AlignedArray *crack = field_of(any, "crack_radius"),
                              *plastic = field_of(any, "plastic_strain");
     const double density = std::visit([](const auto& body) { return body.law.initial_density(); }, any);

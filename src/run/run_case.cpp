@@ -3,6 +3,7 @@
 #include "bulk_heat.hpp"
 #include "flush_denormals.hpp"
 #include "launchsafe/run/judged_energy.hpp"
+#include "launchsafe/run/processor_time.hpp"
 #include "launchsafe/run/stable_factor.hpp"
 #include "monitor.hpp"
 #include "trace_recorder.hpp"
@@ -12,13 +13,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 
 namespace launchsafe::run {
 namespace {
 
-/// Steps between two looks at the stable time step, the stop flag and the energy balance.
+/// Steps between two checks of the stable time step, the stop flag and the energy balance.
 constexpr std::uint64_t steps_per_check = 16;
 /// A step shorter than this share of the first one means that the state has blown up.
 constexpr double collapse_share = 1e-3;
@@ -29,22 +29,15 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Processor time (s) that the calling thread has used.
-double thread_processor_time() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 std::vector<double> sorted(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values;
 }
 
-/// Skin temperatures advanced with the mechanics, for one gap.
-class CoupledSurface {
+/// Skin temperatures of one gap, advanced with every step of the mechanics.
+class SteppedSkin {
  public:
-  CoupledSurface(const scene::Scene& scene, double gap, const TraceRecorder& recorder)
+  SteppedSkin(const scene::Scene& scene, double gap, const TraceRecorder& recorder)
       : model_(surface::skin_model(scene)), closure_(static_cast<std::size_t>(scene.surface.friction)) {
     history_.gap = gap;
     const auto& stations = recorder.trace().stations;
@@ -102,17 +95,17 @@ class CoupledSurface {
   double air_pressure_ = 0;
 };
 
-/// One mechanical run, with a surface carried along where one is given a gap.
+/// One mechanical run; with a gap (m), the skin is integrated at every step.
 class Runner {
  public:
-  Runner(const scene::Scene& scene, const RunOptions& options, std::optional<double> coupled_gap)
+  Runner(const scene::Scene& scene, const RunOptions& options, std::optional<double> skin_gap)
       : options_(options),
         simulation_(scene, options.threads),
         recorder_(simulation_, simulation_.scene()),
         heat_(simulation_) {
-    if (coupled_gap) surface_.emplace(simulation_.scene(), *coupled_gap, recorder_);
+    if (skin_gap) surface_.emplace(simulation_.scene(), *skin_gap, recorder_);
     result_.particles = simulation_.particles();
-    simulation_.for_each_body([&](const mpm::Kinematics& p) {
+    simulation_.for_each_body([&](const mpm::ParticleFields& p) {
       add_mass(result_.masses, scene.bodies[static_cast<std::size_t>(p.body)].material,
                mpm::mass_of(p, scene.symmetry));
     });
@@ -248,7 +241,7 @@ class Runner {
   mpm::Simulation simulation_;
   TraceRecorder recorder_;
   BulkHeat heat_;
-  std::optional<CoupledSurface> surface_;
+  std::optional<SteppedSkin> surface_;
   MechanicsResult result_;
   Clock::time_point start_ = Clock::now(), last_report_ = start_;
   double next_sample_ = simulation_.scene().output.trace_interval;
@@ -294,7 +287,7 @@ CaseResult run_case(const scene::Scene& scene, const RunOptions& options) {
   return result;
 }
 
-CaseResult run_coupled(const scene::Scene& scene, double gap, const RunOptions& options) {
+CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions& options) {
   CaseResult result;
   if (scene.surface.air_model != scene::AirModel::reservoir) {
     // The air's balance couples all stations, and a film has a profile of its own at each: they are

@@ -18,7 +18,7 @@ struct StepChange {
 
   /// Adds a share of what a step did to a recorded particle.
   void add(const mpm::Body<materials::Charge>& charge, std::size_t slot, double weight) {
-    const mpm::Kinematics& p = charge.kinematics;
+    const mpm::ParticleFields& p = charge.particles;
     const auto deviator = [slot](const std::array<math::AlignedArray, 3>& change) {
       return math::Deviator<double>{change[0][slot], change[1][slot], change[2][slot]};
     };

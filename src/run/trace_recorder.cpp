@@ -48,7 +48,7 @@ TraceRecorder::TraceRecorder(mpm::Simulation& simulation, const scene::Scene& sc
   for (const Charge& charge : simulation.bodies_of<materials::Charge>()) charges_.push_back(&charge);
   const double bottom = charges_.empty() ? 0.0 : scene::charge_extent(scene).x_end;
   for (const Charge* charge : charges_)
-    if (scene.bodies[static_cast<std::size_t>(charge->kinematics.body)].x_end >= bottom)
+    if (scene.bodies[static_cast<std::size_t>(charge->particles.body)].x_end >= bottom)
       add_bottom_row(*charge, scene.symmetry == scene::Symmetry::axisymmetric);
   double area = 0.0;
   for (const Share& share : bottom_) area += share.weight;
@@ -60,7 +60,7 @@ TraceRecorder::TraceRecorder(mpm::Simulation& simulation, const scene::Scene& sc
   for (Charge& charge : simulation.bodies_of<materials::Charge>())
     for (const std::vector<Share>& shares : shares_)
       for (const Share& share : shares)
-        if (share.charge == &charge) mpm::record(charge.kinematics, share.slot);
+        if (share.charge == &charge) mpm::record(charge.particles, share.slot);
   heat_.fill(std::vector<double>(trace_.stations.size(), 0.0));
   bottom_pressure_ = measure_bottom_pressure(simulation);
   chamber_pressure_ = simulation.chamber_pressure();
@@ -68,7 +68,7 @@ TraceRecorder::TraceRecorder(mpm::Simulation& simulation, const scene::Scene& sc
 }
 
 std::vector<TraceRecorder::Share> TraceRecorder::shares_at(const Charge& charge, double x, double r) {
-  const mpm::Lattice& lattice = charge.kinematics.lattice;
+  const mpm::Lattice& lattice = charge.particles.lattice;
   const Bracket along = bracket_of(x, lattice.columns(), [&](int i) { return lattice.x_of(i); });
   const Bracket across = bracket_of(r, lattice.rows(), [&](int j) { return lattice.r_of(j); });
   std::vector<Share> shares;
@@ -82,7 +82,7 @@ std::vector<TraceRecorder::Share> TraceRecorder::shares_at(const Charge& charge,
 }
 
 void TraceRecorder::add_bottom_row(const Charge& charge, bool axisymmetric) {
-  const mpm::Lattice& lattice = charge.kinematics.lattice;
+  const mpm::Lattice& lattice = charge.particles.lattice;
   for (int j = 0; j < lattice.rows(); ++j) {
     const double r = lattice.r_of(j);
     const double area = (axisymmetric ? 2.0 * std::numbers::pi * r : 1.0) * lattice.length_r(j);
@@ -100,7 +100,7 @@ void TraceRecorder::add_stations(const scene::Scene& scene) {
     std::vector<Share> shares;
     double volume = 0.0;
     for (const Charge* charge : charges_) {
-      const mpm::Lattice& lattice = charge->kinematics.lattice;
+      const mpm::Lattice& lattice = charge->particles.lattice;
       for (int i = 0; i < lattice.columns(); ++i) {
         const double length = overlap(lattice.x_edges, i, extent.x_begin, extent.x_end).length();
         if (!(length > 0.0)) continue;
@@ -124,7 +124,7 @@ void TraceRecorder::add_stations(const scene::Scene& scene) {
 
 void TraceRecorder::add_observation_point(const scene::ObservationPoint& point) {
   for (const Charge* charge : charges_) {
-    if (!contains(charge->kinematics.lattice, point.x, point.r)) continue;
+    if (!contains(charge->particles.lattice, point.x, point.r)) continue;
     trace_.stations.push_back({point.name, point.x, point.r, 0.0, true});
     shares_.push_back(shares_at(*charge, point.x, point.r));
     return;
@@ -135,8 +135,8 @@ double TraceRecorder::measure_bottom_pressure(const mpm::Simulation& simulation)
   if (bottom_.empty()) return simulation.chamber_pressure();
   double mean = 0.0;
   for (const Share& share : bottom_)
-    mean += share.weight *
-            (share.charge->kinematics.pressure[share.slot] - share.charge->deviator(share.slot).xx);
+    mean +=
+        share.weight * (share.charge->particles.pressure[share.slot] - share.charge->deviator(share.slot).xx);
   // Not std::max: a mean that is no number must stay one.
   return mean < floor_ ? floor_ : mean;
 }

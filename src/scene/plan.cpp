@@ -92,26 +92,26 @@ Term plan_air(const Scene& scene) {
 }
 
 Term plan_cracks(const Scene& scene) {
-  const materials::ViscoScramParameters& cracks = scene.charge().cracks;
+  const materials::ViscoScramParameters& strength = scene.charge().strength;
   if (!has_charge(scene)) return {false, false, "no charge", 0.0, 0.0};
-  if (!(cracks.flaw_size > 0.0)) return {false, false, "charge.flaw_size is 0", 0.0, 0.0};
-  const double ratio = cracks.initial_crack_radius / cracks.flaw_size;
+  if (!(strength.flaw_size > 0.0)) return {false, false, "charge.flaw_size is 0", 0.0, 0.0};
+  const double ratio = strength.initial_crack_radius / strength.flaw_size;
   if (!(ratio > 0.0)) return {false, false, "charge.crack_radius is 0", 0.0, 0.0};
   return {true, false,
-          fmt::format("crack radius {} at flaw size {}", length_text(cracks.initial_crack_radius),
-                      length_text(cracks.flaw_size)),
+          fmt::format("crack radius {} at flaw size {}", length_text(strength.initial_crack_radius),
+                      length_text(strength.flaw_size)),
           ratio, 0.0};
 }
 
 Term plan_crack_growth(const Scene& scene, const Term& cracks) {
-  const double speed = scene.charge().cracks.largest_growth_speed;
+  const double speed = scene.charge().strength.largest_growth_speed;
   if (!cracks.in) return {false, false, "no cracks", speed, 0.0};
-  if (!scene.charge().cracks.growth) return {false, false, "charge.crack_growth is false", speed, 0.0};
+  if (!scene.charge().strength.growth) return {false, false, "charge.crack_growth is false", speed, 0.0};
   return {true, false, fmt::format("up to {:.4g} m/s", speed), speed, 0.0};
 }
 
 Term plan_crack_friction(const Scene& scene, const Term& growth) {
-  const double friction = scene.charge().cracks.face_friction;
+  const double friction = scene.charge().strength.face_friction;
   if (!growth.in) return {false, false, "no crack growth that it could hold back", friction, 0.0};
   if (!(friction > 0.0)) return {false, false, "charge.face_friction is 0", friction, 0.0};
   return {true, false, fmt::format("coefficient {:.3g} of closed crack faces", friction), friction, 0.0};
@@ -148,10 +148,11 @@ Term plan_snapshots(const Scene& scene) {
 /// where it takes the step whole. Growth of the cracks, which divides steps too, cannot be foreseen.
 double crack_substeps(const Scene& scene, double time_step) {
   namespace law = materials::detail;
-  const materials::ViscoScramParameters& cracks = scene.charge().cracks;
-  const double fastest = *std::max_element(cracks.relaxation_rates.begin(), cracks.relaxation_rates.end());
+  const materials::ViscoScramParameters& strength = scene.charge().strength;
+  const double fastest =
+      *std::max_element(strength.relaxation_rates.begin(), strength.relaxation_rates.end());
   const double x = time_step * fastest,
-               q = materials::crack_strain_ratio(cracks, cracks.initial_crack_radius);
+               q = materials::crack_strain_ratio(strength, strength.initial_crack_radius);
   if (!law::couples_too_strongly(x, q)) return 0.0;
   return std::ceil(x / (law::coupling_share_of_substep * law::longest_coupled_step(q)));
 }
@@ -242,10 +243,10 @@ double bulk_temperature_bound(const Scene& scene) {
   const Charge& charge = scene.charge();
   const double pressure = pressure_margin * setback_pressure(scene);
   const double bulk = materials::jwl_bulk_modulus(charge.eos, 1.0, charge.eos.initial_energy);
-  const auto& rates = charge.cracks.relaxation_rates;
+  const auto& rates = charge.strength.relaxation_rates;
   const auto slowest = static_cast<std::size_t>(std::min_element(rates.begin(), rates.end()) - rates.begin());
   const double work =
-      (1.0 + charge.sliding_friction) * pressure * pressure / charge.cracks.shear_moduli[slowest];
+      (1.0 + charge.sliding_friction) * pressure * pressure / charge.strength.shear_moduli[slowest];
   const double compressed = scene.initial_temperature * std::exp(charge.eos.omega * pressure / bulk);
   return compressed + work / (charge.eos.initial_density * charge.specific_heat);
 }

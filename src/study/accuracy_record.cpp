@@ -57,8 +57,8 @@ std::string shell_of(const scene::Scene& scene) {
   shell.output.trace_interval = usual.output.trace_interval;
   shell.output.snapshot_times.clear();
   shell.charge().kinetics = usual.charge().kinetics;
-  shell.charge().cracks.initial_crack_radius = usual.charge().cracks.initial_crack_radius;
-  shell.charge().cracks.flaw_size = usual.charge().cracks.flaw_size;
+  shell.charge().strength.initial_crack_radius = usual.charge().strength.initial_crack_radius;
+  shell.charge().strength.flaw_size = usual.charge().strength.flaw_size;
   return store::sha256(scene::to_toml(shell));
 }
 

@@ -10,7 +10,7 @@
 
 namespace launchsafe::study {
 
-Runners simulation_runners() { return {run::run_mechanics, run::run_coupled}; }
+Runners simulation_runners() { return {run::run_mechanics, run::run_with_skin}; }
 
 namespace detail {
 namespace {

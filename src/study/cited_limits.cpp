@@ -71,7 +71,7 @@ std::vector<std::size_t> nearest_cases(const StudyFile& study, std::size_t count
 
 /// Those of them that have the defect of the study's scene; all where none has.
 std::vector<std::size_t> with_own_defect(const StudyFile& study, std::vector<std::size_t> cases) {
-  const materials::ViscoScramParameters& own = study.scene.scene.charge().cracks;
+  const materials::ViscoScramParameters& own = study.scene.scene.charge().strength;
   std::vector<std::size_t> kept;
   for (const std::size_t i : cases) {
     const StudyCase& each = study.cases[i];

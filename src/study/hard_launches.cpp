@@ -119,8 +119,8 @@ scene::Expected<std::size_t> add_run(CaseReader& reader, const std::string& labe
   StudyCase made;
   made.label = label;
   made.peak_pressure = scene::PressureHistory(s.load).stated_peak();
-  made.crack_radius = s.charge().cracks.initial_crack_radius;
-  made.flaw_size = s.charge().cracks.flaw_size;
+  made.crack_radius = s.charge().strength.initial_crack_radius;
+  made.flaw_size = s.charge().strength.flaw_size;
   made.cell_size = s.numerics.cell_size;
   made.own_conditions = false;
   made.numerical_uncertainty = std::isfinite(reader.text.numerical_uncertainty)

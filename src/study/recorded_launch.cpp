@@ -118,8 +118,8 @@ RecordedLaunch launch_of(const scene::Scene& scene, std::vector<double> gaps) {
   }
   launch.rise_time = rise_time_of(history, launch.duration, launch.peak_pressure);
   launch.roughness = scene::load_roughness(scene.load);
-  launch.crack_radius = scene.charge().cracks.initial_crack_radius;
-  launch.flaw_size = scene.charge().cracks.flaw_size;
+  launch.crack_radius = scene.charge().strength.initial_crack_radius;
+  launch.flaw_size = scene.charge().strength.flaw_size;
   launch.gaps = std::move(gaps);
   launch.localisation = scene.surface.localisation;
   launch.air_heating = air_heating_of(scene, launch.peak_pressure);

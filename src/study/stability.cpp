@@ -123,7 +123,7 @@ class Launching {
 };
 
 std::vector<HardRow> rows_of_laws(const StudyOptions& options) {
-  const std::vector<verify::HardCase> laws = verify::hard_laws();
+  const std::vector<verify::StressTest> laws = verify::law_stress_tests();
   std::vector<HardRow> rows(laws.size());
   tbb::task_arena arena(detail::jobs_of(options));
   arena.execute([&] {

@@ -87,12 +87,12 @@ class CaseMaker {
   /// An empty label: that of the load and defect.
   void add(std::string label, std::vector<double> coordinates, SceneFile scene) {
     const scene::Scene& s = scene.scene;
-    const materials::ViscoScramParameters& cracks = s.charge().cracks;
+    const materials::ViscoScramParameters& strength = s.charge().strength;
     StudyCase made;
     made.peak_pressure = scene::PressureHistory(s.load).stated_peak();
     made.pressure_ratio = made.peak_pressure / own_peak_;
-    made.crack_radius = cracks.initial_crack_radius;
-    made.flaw_size = cracks.flaw_size;
+    made.crack_radius = strength.initial_crack_radius;
+    made.flaw_size = strength.flaw_size;
     made.cell_size = s.numerics.cell_size;
     made.own_conditions = is_own(made, coordinates);
     made.label = label.empty() ? plain_label(study_.study.kind, made) : std::move(label);
@@ -108,7 +108,7 @@ class CaseMaker {
   }
 
   bool is_own(const StudyCase& made, const std::vector<double>& coordinates) const {
-    const materials::ViscoScramParameters& own = study_.scene.scene.charge().cracks;
+    const materials::ViscoScramParameters& own = study_.scene.scene.charge().strength;
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
       if (condition_[i] && coordinates[i] != own_[i]) return false;
     }

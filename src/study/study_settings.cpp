@@ -116,8 +116,8 @@ class AccuracyCaseMaker {
     const scene::Scene& s = made.scene.scene;
     made.label = std::move(label);
     made.peak_pressure = scene::PressureHistory(s.load).peak();
-    made.crack_radius = s.charge().cracks.initial_crack_radius;
-    made.flaw_size = s.charge().cracks.flaw_size;
+    made.crack_radius = s.charge().strength.initial_crack_radius;
+    made.flaw_size = s.charge().strength.flaw_size;
     made.cell_size = s.numerics.cell_size;
     study_.cases.push_back(std::move(made));
     return std::nullopt;

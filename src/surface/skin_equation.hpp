@@ -14,7 +14,7 @@ struct SkinEquation {
   double heating = 0;        ///< K/s, friction
 };
 
-/// What ignition looks like for one set of kinetics.
+/// Ignition temperatures of one set of kinetics.
 struct Trigger {
   double temperature = 0;  ///< K, where the solid stops being inert: T1, or T2 where T1 is not below it
   double amplification =

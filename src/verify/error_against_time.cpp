@@ -1,9 +1,9 @@
 #include "launchsafe/verify/error_against_time.hpp"
 
 #include "error_against_time_parts.hpp"
+#include "launchsafe/run/processor_time.hpp"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,17 +19,10 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double shortest_batch = 2e-3;
 constexpr int batches = 3;
 
-/// Processor time (s) that the calling thread has used: other work on the machine does not count.
-double thread_processor_time() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 double time_of(const std::function<void()>& work, long repetitions) {
-  const double start = thread_processor_time();
+  const double start = run::thread_processor_time();
   for (long k = 0; k < repetitions; ++k) work();
-  return thread_processor_time() - start;
+  return run::thread_processor_time() - start;
 }
 
 /// Without an order where the finer error is of round-off: what it fell to says nothing about the method.

@@ -63,38 +63,24 @@ std::vector<ErrorSeries> mechanics_series() {
   const std::string second = "uGIMP on smooth fields and the leapfrog are of second order";
   const std::string block = "a block of 50 mm flies 0.1 m at 500 m/s";
   const std::string balance = "exact at any mesh: a uniform velocity and a stress in balance";
-  return {
-      with_settings({conduction,
-                     "temperature, by step",
-                     strip + " in cells of 0.25 um",
-                     erfc,
-                     "",
-                     "backward Euler is of first order",
-                     1.0,
-                     1e-12,
-                     {}},
-                    conduction_steps),
-      with_settings({conduction,
-                     "temperature, by cell",
-                     strip + ", the step going with the square of the cell",
-                     erfc,
-                     "",
-                     "finite volumes are of second order",
-                     2.0,
-                     1e-12,
-                     {}},
-                    conduction_spacings),
-      with_settings({wave, "velocity", pulse, alembert, "", second, 2.0, 1e-12, {}},
-                    [] { return wave_meshes(&mechanics::WaveError::velocity); }),
-      with_settings({wave, "stress", pulse, alembert, "", second, 2.0, 1e-12, {}},
-                    [] { return wave_meshes(&mechanics::WaveError::stress); }),
-      with_settings({flight, "momentum", block, "kept", "", balance, exact, 1e-12, {}},
-                    [] { return flight_meshes(&mechanics::FlightDrift::momentum); }),
-      with_settings({flight, "kinetic energy", block, "kept", "", balance, exact, 1e-12, {}},
-                    [] { return flight_meshes(&mechanics::FlightDrift::kinetic); }),
-      with_settings(
-          {flight, "place of the centre of mass", block, "speed times time", "", balance, exact, 1e-12, {}},
-          [] { return flight_meshes(&mechanics::FlightDrift::place); })};
+  return {with_settings({conduction, "temperature, by step", strip + " in cells of 0.25 um", erfc, "",
+                         "backward Euler is of first order", 1.0, 1e-12},
+                        conduction_steps),
+          with_settings(
+              {conduction, "temperature, by cell", strip + ", the step going with the square of the cell",
+               erfc, "", "finite volumes are of second order", 2.0, 1e-12},
+              conduction_spacings),
+          with_settings({wave, "velocity", pulse, alembert, "", second, 2.0, 1e-12},
+                        [] { return wave_meshes(&mechanics::WaveError::velocity); }),
+          with_settings({wave, "stress", pulse, alembert, "", second, 2.0, 1e-12},
+                        [] { return wave_meshes(&mechanics::WaveError::stress); }),
+          with_settings({flight, "momentum", block, "kept", "", balance, exact, 1e-12},
+                        [] { return flight_meshes(&mechanics::FlightDrift::momentum); }),
+          with_settings({flight, "kinetic energy", block, "kept", "", balance, exact, 1e-12},
+                        [] { return flight_meshes(&mechanics::FlightDrift::kinetic); }),
+          with_settings(
+              {flight, "place of the centre of mass", block, "speed times time", "", balance, exact, 1e-12},
+              [] { return flight_meshes(&mechanics::FlightDrift::place); })};
 }
 
 }  // namespace launchsafe::verify::parts

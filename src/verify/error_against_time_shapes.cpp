@@ -71,7 +71,8 @@ ReadError read_error(const Field& field, const mpm::Grid& grid) {
     Pack x(0.0);
     for (std::size_t lane = 0; lane < math::pack_width; ++lane)
       x.set(lane, begin + grid.dx * static_cast<double>(lane));
-    const mpm::Gathered read = mpm::gather(grid, mpm::stencil_of(context, x, Pack(r)), everyone);
+    const mpm::GridToParticle read =
+        mpm::grid_to_particle(grid, mpm::stencil_of(context, x, Pack(r)), everyone);
     for (std::size_t lane = 0; lane < math::pack_width; ++lane) {
       value.add(read.velocity_x[lane], field.value(x[lane], r));
       slope.add(read.rate_xx[lane], field.slope(x[lane], r));
@@ -97,31 +98,16 @@ std::vector<ErrorSeries> shape_series() {
   const std::string part = "shape functions", work = "4096 particles read the grid";
   const std::string reproduced = "exact at any mesh: linear fields are reproduced";
   const std::string sine = "the sine, root mean square";
-  return {
-      with_settings({part, "value of a linear field", work, "the field", "", reproduced, exact, 1e-13, {}},
-                    [=] { return meshes(linear, &ReadError::value); }),
-      with_settings({part, "slope of a linear field", work, "the field", "", reproduced, exact, 1e-12, {}},
-                    [=] { return meshes(linear, &ReadError::slope); }),
-      with_settings({part,
-                     "value of a sine of 0.16 m",
-                     work,
-                     sine,
-                     "",
-                     "linear interpolation is of second order",
-                     2.0,
-                     1e-13,
-                     {}},
-                    [=] { return meshes(wave, &ReadError::value); }),
-      with_settings({part,
-                     "slope of a sine of 0.16 m",
-                     work,
-                     sine,
-                     "",
-                     "the slope of a linear interpolation is of first order",
-                     1.0,
-                     1e-12,
-                     {}},
-                    [=] { return meshes(wave, &ReadError::slope); })};
+  return {with_settings({part, "value of a linear field", work, "the field", "", reproduced, exact, 1e-13},
+                        [=] { return meshes(linear, &ReadError::value); }),
+          with_settings({part, "slope of a linear field", work, "the field", "", reproduced, exact, 1e-12},
+                        [=] { return meshes(linear, &ReadError::slope); }),
+          with_settings({part, "value of a sine of 0.16 m", work, sine, "",
+                         "linear interpolation is of second order", 2.0, 1e-13},
+                        [=] { return meshes(wave, &ReadError::value); }),
+          with_settings({part, "slope of a sine of 0.16 m", work, sine, "",
+                         "the slope of a linear interpolation is of first order", 1.0, 1e-12},
+                        [=] { return meshes(wave, &ReadError::slope); })};
 }
 
 }  // namespace launchsafe::verify::parts

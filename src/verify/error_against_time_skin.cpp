@@ -1,6 +1,7 @@
 // The skin equation: thermal explosion and exchange with the air.
 #include "error_against_time_parts.hpp"
 #include "launchsafe/surface/skin.hpp"
+#include "skin_scenes.hpp"
 
 #include <boost/math/special_functions/expint.hpp>
 #include <fmt/format.h>
@@ -98,14 +99,8 @@ struct Exchange {
 
   static constexpr double gap = 4e-4, duration = 18e-3, rise = 2000.0;  // m, s, K
 
-  static surface::SkinModel model() {
-    surface::SkinModel model;
-    model.kinetics.frequency = 0.0;
-    model.kinetics.ignition_temperature = 1e9;
-    model.kinetics.burnt_temperature = 2e9;
-    model.surface.exchange_time = 3.6e-6;  // stiffer than calibrated: the skin follows the air in 2.3 ms
-    return model;
-  }
+  /// Stiffer than calibrated: the skin follows the air in 2.3 ms.
+  static surface::SkinModel model() { return inert_skin(3.6e-6); }
   double air(double share) const { return 300.0 + rise * std::pow(share, exponent); }
 
   double computed(int calls) const {
@@ -143,57 +138,27 @@ std::vector<Setting> exchange_settings(double exponent) {
 std::vector<ErrorSeries> skin_series() {
   const std::string part = "skin equation", explosion = "closed form of the zero-order induction";
   const std::string from = fmt::format("one skin point, from {:.0f} K", initial);
-  return {with_settings({part,
-                         "induction time",
-                         fmt::format("{} to {:.0f} K", from, exploded),
-                         explosion,
-                         "",
-                         "the step control holds the error per step, of the embedded third order, to the "
-                         "tolerance: the error of the fourth-order result goes with it",
-                         1.0,
-                         2e-14,
-                         {}},
-                        induction_settings),
-          with_settings({part,
-                         "T before explosion, by tolerance",
-                         from + " to 0.9 of the induction time",
-                         explosion,
-                         "K",
-                         "as the induction time",
-                         1.0,
-                         1e-11,
-                         {}},
-                        temperature_settings),
-          with_settings({part,
-                         "T before explosion, by step",
-                         from + " to 0.9 of the induction time",
-                         explosion,
-                         "K",
-                         "exprb43 is of fourth order",
-                         4.0,
-                         1e-11,
-                         {}},
-                        step_settings),
-          with_settings({"exchange with the air",
-                         "T, air rising linearly",
-                         "one skin point over 18 ms",
-                         "exact solution",
-                         "K",
-                         "exact at any step: exponential integrator, air linear over each step",
-                         infinity,
-                         1e-9,
-                         {}},
-                        [] { return exchange_settings(1.0); }),
-          with_settings({"exchange with the air",
-                         "T, air rising as time squared",
-                         "one skin point over 18 ms",
-                         "exact solution",
-                         "K",
-                         "the air's temperature is taken as linear over each step, which is of second order",
-                         2.0,
-                         1e-9,
-                         {}},
-                        [] { return exchange_settings(2.0); })};
+  return {
+      with_settings({part, "induction time", fmt::format("{} to {:.0f} K", from, exploded), explosion, "",
+                     "the step control holds the error per step, of the embedded third order, to the "
+                     "tolerance: the error of the fourth-order result goes with it",
+                     1.0, 2e-14},
+                    induction_settings),
+      with_settings({part, "T before explosion, by tolerance", from + " to 0.9 of the induction time",
+                     explosion, "K", "as the induction time", 1.0, 1e-11},
+                    temperature_settings),
+      with_settings({part, "T before explosion, by step", from + " to 0.9 of the induction time", explosion,
+                     "K", "exprb43 is of fourth order", 4.0, 1e-11},
+                    step_settings),
+      with_settings(
+          {"exchange with the air", "T, air rising linearly", "one skin point over 18 ms", "exact solution",
+           "K", "exact at any step: exponential integrator, air linear over each step", infinity, 1e-9},
+          [] { return exchange_settings(1.0); }),
+      with_settings(
+          {"exchange with the air", "T, air rising as time squared", "one skin point over 18 ms",
+           "exact solution", "K",
+           "the air's temperature is taken as linear over each step, which is of second order", 2.0, 1e-9},
+          [] { return exchange_settings(2.0); })};
 }
 
 }  // namespace launchsafe::verify::parts

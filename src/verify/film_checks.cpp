@@ -1,7 +1,6 @@
-#include "film_checks.hpp"
-
 #include "launchsafe/materials/air_conductivity.hpp"
 #include "launchsafe/surface/film.hpp"
+#include "skin_scenes.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -12,21 +11,12 @@ namespace {
 
 const std::string film_group = "film of air";
 
-surface::SkinModel film_without_reaction() {
-  surface::SkinModel model;
-  model.surface.air_model = scene::AirModel::film;
-  model.surface.friction = scene::FrictionClosure::none;
-  model.kinetics.frequency = 0.0;
-  model.kinetics.ignition_temperature = model.kinetics.burnt_temperature = 1e9;
-  return model;
-}
-
 /// From rest on as exp(t/tau).
 trace::BottomTrace exponential_rise(int intervals, double duration, double tau) {
   constexpr double rest = 101325.0;  // Pa
-  return pressed_bottom(
-      intervals, duration, [=](double t) { return rest * std::exp(t / tau); },
-      [=](double t) { return rest * tau * std::expm1(t / tau); });
+  return pressed_bottom({{"S1", 0.0, 0.0, 0.01, false}}, intervals, duration,
+                        with_integral([=](double t) { return rest * std::exp(t / tau); },
+                                      [=](double t) { return rest * tau * std::expm1(t / tau); }));
 }
 
 void add_conductivity(std::vector<Check>& checks) {
@@ -42,7 +32,7 @@ void add_conductivity(std::vector<Check>& checks) {
 }
 
 void add_adiabat(std::vector<Check>& checks) {
-  surface::SkinModel model = film_without_reaction();
+  surface::SkinModel model = inert_film();
   model.charge_conductivity = model.base_conductivity = 0.0;
   const trace::BottomTrace trace = exponential_rise(60, 6e-3, 1e-3);
   checks.push_back({film_group, "walls that conduct nothing, 40.9 MPa",
@@ -53,7 +43,7 @@ void add_adiabat(std::vector<Check>& checks) {
 /// Air so thin that it keeps the temperature of the walls gives the work p0 h/tau a second as heat.
 void add_isotherm(std::vector<Check>& checks) {
   constexpr double thin = 1e-7, duration = 6e-3, tau = 1e-3;
-  const surface::SkinModel model = film_without_reaction();
+  const surface::SkinModel model = inert_film();
   const trace::BottomTrace trace = exponential_rise(120, duration, tau);
   const surface::FilmHistory film = surface::integrate_film(model, trace, thin);
   const double flux = model.surface.air.initial_pressure * thin / tau;  // W/m2
@@ -72,29 +62,12 @@ void add_ledger(std::vector<Check>& checks) {
   for (const double gap : {1e-4, 4e-3}) {
     const trace::BottomTrace trace = exponential_rise(60, 6e-3, 1e-3);
     checks.push_back({film_group, gap < 1e-3 ? "energy made or lost, gap 0.1 mm" : "the same, gap 4 mm",
-                      surface::integrate_skin(film_without_reaction(), trace, gap).energy_residual, 0.0,
-                      1e-12, "", "conservation to round-off", true});
+                      surface::integrate_skin(inert_film(), trace, gap).energy_residual, 0.0, 1e-12, "",
+                      "conservation to round-off", true});
   }
 }
 
 }  // namespace
-
-trace::BottomTrace pressed_bottom(int intervals, double duration, const FunctionOfTime& pressure,
-                                  const FunctionOfTime& integral) {
-  trace::BottomTrace trace;
-  trace.stations = {{"S1", 0.0, 0.0, 0.01, false}};
-  for (int sample = 0; sample <= intervals; ++sample) {
-    const double end = duration * sample / intervals, begin = duration * (sample - 1) / intervals;
-    const double value = pressure(end);
-    const double mean = sample > 0 ? (integral(end) - integral(begin)) / (end - begin) : value;
-    trace.time.push_back(end);
-    trace.steps.push_back(sample);
-    for (auto* values : {&trace.bottom_pressure, &trace.chamber_pressure}) values->push_back(value);
-    for (auto* values : {&trace.mean_bottom_pressure, &trace.mean_chamber_pressure}) values->push_back(mean);
-    for (auto& closure : trace.friction) closure.push_back(0.0);
-  }
-  return trace;
-}
 
 std::vector<Check> film_checks() {
   std::vector<Check> checks;

@@ -98,10 +98,10 @@ void add_steel(Checks& checks) {
 }
 
 void add_cracks(Checks& checks) {
-  const materials::ViscoScramParameters cracks;
+  const materials::ViscoScramParameters strength;
   const std::string group = "cracks", source = "growth law with K1 = K' (1 + m/2)^(1/m)";
   const auto speed = [&](double intensity) {
-    return materials::crack_growth_speed(cracks, intensity, cracks.toughness);
+    return materials::crack_growth_speed(strength, intensity, strength.toughness);
   };
   checks.push_back(printed(group, "growth speed at K = 3e5", speed(3e5), 0.1215, 1e-4, "m/s", source));
   checks.push_back(printed(group, "growth speed at K = 5e5", speed(5e5), 20.09388, 1e-5, "m/s", source));
@@ -112,8 +112,8 @@ void add_cracks(Checks& checks) {
   checks.push_back({group, "growth speed with K1 = 655202.812, at K = K1/2", speed(0.5 * 655202.812),
                     300.0 / 1024.0, 1e-6, "m/s", "v_max (1/2)^10", false});
   checks.push_back(printed(group, "toughness under friction at 141 MPa, c = 30 um",
-                           materials::frictional_toughness(cracks, 141e6, 30e-6), 1.827012e6, 1.0, "Pa m^0.5",
-                           "K0 sqrt[1 + (pi A/K0)(1 + A/K0)]"));
+                           materials::frictional_toughness(strength, 141e6, 30e-6), 1.827012e6, 1.0,
+                           "Pa m^0.5", "K0 sqrt[1 + (pi A/K0)(1 + A/K0)]"));
 }
 
 /// Shear stress over twice the shear strain, `time` seconds after a sudden strain, by the law's own steps;

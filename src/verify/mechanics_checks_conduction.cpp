@@ -22,33 +22,17 @@ void conduct(mpm::Conduction& conduction, mpm::Simulation& simulation, double ti
   for (int step = 0; step < steps; ++step) conduction.advance(simulation, time / steps);
 }
 
-/// Lowest and highest temperature of all particles, K.
-struct Range {
-  double low, high;
-};
-Range range_of(const mpm::Simulation& simulation) {
-  Range range{HUGE_VAL, -HUGE_VAL};
-  simulation.for_each_body([&](const mpm::Kinematics& p) {
-    for (std::size_t i = 0; i < p.mass.size(); ++i) {
-      if (!(p.mass[i] > 0.0)) continue;
-      range.low = std::min(range.low, p.temperature[i]);
-      range.high = std::max(range.high, p.temperature[i]);
-    }
-  });
-  return range;
-}
-
 /// Temperatures from 300 to 1300 K that jump from particle to particle.
 void make_checkered(mpm::Simulation& simulation) {
   std::uint32_t random = 1;
-  const auto shake = [&](mpm::Kinematics& p) {
+  const auto shake = [&](mpm::ParticleFields& p) {
     for (double& temperature : p.temperature) {
       random = random * 1664525U + 1013904223U;
       temperature = 300.0 + 1000.0 * static_cast<double>(random >> 8) / 16777215.0;
     }
   };
-  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) shake(body.kinematics);
-  for (mpm::Body<materials::Charge>& body : simulation.bodies_of<materials::Charge>()) shake(body.kinematics);
+  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) shake(body.particles);
+  for (mpm::Body<materials::Charge>& body : simulation.bodies_of<materials::Charge>()) shake(body.particles);
 }
 
 }  // namespace
@@ -61,7 +45,7 @@ double half_space_error(double cell, int steps) {
   conduct(conduction, simulation, duration, steps);
   const scene::Charge& charge = simulation.scene().charge();
   const double diffusivity = charge.conductivity / (charge.eos.initial_density * charge.specific_heat);
-  const mpm::Kinematics& p = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
+  const mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
   const double face = p.lattice.x_begin() + p.lattice.columns() * p.lattice.length_x(0);
   RelativeError error;
   for (int i = 0; i < p.lattice.columns(); ++i) {
@@ -77,7 +61,7 @@ Checks semi_infinite_conduction(scene::Formulation) {
   mpm::Conduction conduction(simulation);
   conduction.hold_base(simulation.scene().initial_temperature + 1.0);
   conduct(conduction, simulation, duration, 1000);
-  const mpm::Kinematics& p = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
+  const mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
   const int face = 180;  // 10 um from the base, between two particles
   const double rise =
       0.5 * (p.temperature[p.lattice.slot(face - 1, 0)] + p.temperature[p.lattice.slot(face, 0)]) - 300.0;
@@ -94,7 +78,7 @@ Checks conduction_under_flux(scene::Formulation) {
   mpm::Conduction conduction(simulation);
   conduction.heat_base(1e6);
   conduct(conduction, simulation, duration, 1000);
-  const mpm::Kinematics& p = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
+  const mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
   const int last = p.lattice.columns() - 1;
   // The face lies half a spacing beyond the last particle; the slope there is q/k.
   const double half_spacing = 0.5 * p.lattice.length_x(0);
@@ -119,22 +103,20 @@ Checks conduction_in_long_steps(scene::Formulation) {
   Checks checks;
   // Of the charge, alpha dt/h^2; of the steel a hundred times more.
   constexpr double fourier_number = 1e4, cell = 10e-3;
-  const scene::Scene shell = shell_155(cell);
-  const double dt = fourier_number * cell * cell * shell.charge().eos.initial_density *
-                    shell.charge().specific_heat / shell.charge().conductivity;
-  mpm::Simulation simulation(shell_155(10e-3));
+  mpm::Simulation simulation(shell_155(cell));
+  const double dt = step_of_fourier_number(simulation.scene().charge(), cell, fourier_number);
   make_checkered(simulation);
   mpm::Conduction conduction(simulation);
-  const Range before = range_of(simulation);
+  const TemperatureRange before = range_of(simulation);
   double outside = 0.0;
   for (int step = 0; step < 3; ++step) {
     conduction.advance(simulation, dt);
-    const Range now = range_of(simulation);
+    const TemperatureRange now = range_of(simulation);
     outside = std::max({outside, before.low - now.low, now.high - before.high});
   }
   checks.push_back({group, "temperature beyond the initial extremes, Fourier number 1e4", outside, 0.0, 1e-9,
                     "K", "maximum principle", true});
-  const Range after = range_of(simulation);
+  const TemperatureRange after = range_of(simulation);
   checks.push_back({group, "spread left after three steps at Fourier number 1e4", after.high - after.low, 0.0,
                     1e-3, "K", "heat spreads evenly in the end", true});
   return checks;

@@ -10,7 +10,7 @@ namespace {
 
 double total_mass(const mpm::Simulation& simulation) {
   double total = 0.0;
-  simulation.for_each_body([&](const mpm::Kinematics& p) {
+  simulation.for_each_body([&](const mpm::ParticleFields& p) {
     for (const double mass : p.mass) total += mass;
   });
   return total;
@@ -19,7 +19,7 @@ double total_mass(const mpm::Simulation& simulation) {
 /// Axial place of the centre of mass, m.
 double centre_of_mass(const mpm::Simulation& simulation) {
   double moment = 0.0;
-  simulation.for_each_body([&](const mpm::Kinematics& p) {
+  simulation.for_each_body([&](const mpm::ParticleFields& p) {
     for (std::size_t i = 0; i < p.mass.size(); ++i) moment += p.mass[i] * p.x[i];
   });
   return moment / total_mass(simulation);
@@ -44,7 +44,7 @@ double squeeze_radially(mpm::Simulation& simulation) {
   constexpr double mu = 1e-3;
   const double pressure = materials::mie_gruneisen_pressure(simulation.scene().steel().eos, mu, 0.0);
   for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) {
-    mpm::Kinematics& p = body.kinematics;
+    mpm::ParticleFields& p = body.particles;
     for (std::size_t i = 0; i < p.mass.size(); ++i) {
       p.volume_ratio[i] /= 1.0 + mu;
       p.mass[i] *= 1.0 + mu;
@@ -89,7 +89,7 @@ scene::Scene pulsed_shell(scene::Formulation formulation, double cell_size) {
 /// Mean axial compression of the charge's last column, Pa.
 double bottom_pressure(const mpm::Simulation& simulation) {
   const mpm::Body<materials::Charge>& charge = simulation.bodies_of<materials::Charge>()[0];
-  const mpm::Lattice& lattice = charge.kinematics.lattice;
+  const mpm::Lattice& lattice = charge.particles.lattice;
   double force = 0.0, area = 0.0;
   for (int j = 0; j < lattice.rows(); ++j) {
     force -= lattice.r_of(j) * axial_stress(charge, lattice.slot(lattice.columns() - 1, j));
@@ -119,15 +119,15 @@ FlightDrift drift_in_flight(double cell, double way) {
   const double pressure = squeeze_radially(simulation);
   constexpr double speed = 500.0;
   for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>())
-    std::fill(body.kinematics.velocity_x.begin(), body.kinematics.velocity_x.end(), -speed);
-  simulation.restart();
+    std::fill(body.particles.velocity_x.begin(), body.particles.velocity_x.end(), -speed);
+  simulation.reset_grid();
   const double momentum = simulation.axial_momentum(), kinetic = simulation.kinetic_energy();
   const double begin = centre_of_mass(simulation);
   run_to(simulation, way / speed);
   double stress = 0.0;
   const mpm::Body<materials::Steel>& body = simulation.bodies_of<materials::Steel>()[0];
   for (std::size_t i = 0; i < body[materials::Steel::stress_xx].size(); ++i)
-    if (body.kinematics.mass[i] > 0.0) stress = std::max(stress, std::abs(axial_stress(body, i)) / pressure);
+    if (body.particles.mass[i] > 0.0) stress = std::max(stress, std::abs(axial_stress(body, i)) / pressure);
   return {simulation.axial_momentum() / momentum - 1.0, simulation.kinetic_energy() / kinetic - 1.0, stress,
           simulation.energy().internal / kinetic, (begin - centre_of_mass(simulation)) / way - 1.0};
 }

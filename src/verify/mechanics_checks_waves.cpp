@@ -40,13 +40,13 @@ WaveError longitudinal_error(scene::Formulation formulation, int cells) {
   const double dt = run_to(simulation, 1.8 * peak_time);
   const scene::PressureHistory pressure(strip.load);
   const mpm::Body<materials::Steel>& body = simulation.bodies_of<materials::Steel>()[0];
-  const mpm::Lattice& lattice = body.kinematics.lattice;
+  const mpm::Lattice& lattice = body.particles.lattice;
   RelativeError velocity, stress;
   for (int i = 0; i + 1 < lattice.columns(); ++i) {
     const std::size_t slot = lattice.slot(i, 0), next = lattice.slot(i + 1, 0);
     const double node = 0.5 * (lattice.x_of(i) + lattice.x_of(i + 1));
     const double at_node = simulation.time() - 0.5 * dt - (length - node) / steel.longitudinal_speed;
-    velocity.add(0.5 * (body.kinematics.velocity_x[slot] + body.kinematics.velocity_x[next]),
+    velocity.add(0.5 * (body.particles.velocity_x[slot] + body.particles.velocity_x[next]),
                  -pressure.at(at_node) / (steel.density * steel.longitudinal_speed));
     const double at_particle = simulation.time() - (length - lattice.x_of(i)) / steel.longitudinal_speed;
     stress.add(axial_stress(body, slot), -pressure.at(at_particle));
@@ -100,7 +100,7 @@ Checks plateau_in_a_bar(scene::Formulation formulation) {
   bar.load = ramp(peak, 1e-4, 1.0);
   mpm::Simulation simulation(bar);
   run_to(simulation, 1.8e-4);
-  const mpm::Kinematics& p = simulation.bodies_of<materials::Steel>()[0].get().kinematics;
+  const mpm::ParticleFields& p = simulation.bodies_of<materials::Steel>()[0].get().particles;
   double momentum = 0.0, mass = 0.0;  // over the section 0.1 to 0.2 m from the base
   for (std::size_t i = 0; i < p.mass.size(); ++i) {
     if (p.x[i] < 0.8 || p.x[i] > 0.9) continue;

@@ -1,5 +1,6 @@
 #include "mechanics_scenes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace launchsafe::verify::mechanics {
@@ -8,7 +9,7 @@ namespace {
 /// Place of the pulse, the centre of its momentum, m from the nose.
 double centre_of_momentum(const mpm::Simulation& simulation) {
   double moment = 0.0, momentum = 0.0;
-  simulation.for_each_body([&](const mpm::Kinematics& p) {
+  simulation.for_each_body([&](const mpm::ParticleFields& p) {
     for (std::size_t i = 0; i < p.mass.size(); ++i) {
       momentum += p.mass[i] * p.velocity_x[i];
       moment += p.mass[i] * p.velocity_x[i] * p.x[i];
@@ -81,11 +82,29 @@ double speed_of_pulse(mpm::Simulation& simulation, double begin, double end) {
 }
 
 double axial_stress(const mpm::Body<materials::Steel>& body, std::size_t slot) {
-  return body[materials::Steel::stress_xx][slot] - body.kinematics.pressure[slot];
+  return body[materials::Steel::stress_xx][slot] - body.particles.pressure[slot];
 }
 
 double axial_stress(const mpm::Body<materials::Charge>& body, std::size_t slot) {
-  return body.deviator(slot).xx - body.kinematics.pressure[slot];
+  return body.deviator(slot).xx - body.particles.pressure[slot];
+}
+
+TemperatureRange range_of(const mpm::Simulation& simulation) {
+  TemperatureRange range;
+  simulation.for_each_body([&](const mpm::ParticleFields& p) {
+    for (std::size_t i = 0; i < p.mass.size(); ++i) {
+      if (!(p.mass[i] > 0.0)) continue;
+      range.finite = range.finite && std::isfinite(p.temperature[i]);
+      range.low = std::min(range.low, p.temperature[i]);
+      range.high = std::max(range.high, p.temperature[i]);
+    }
+  });
+  return range;
+}
+
+double step_of_fourier_number(const scene::Charge& charge, double cell, double fourier_number) {
+  return fourier_number * cell * cell * charge.eos.initial_density * charge.specific_heat /
+         charge.conductivity;
 }
 
 double observed_order(double coarse_error, double fine_error, double ratio) {

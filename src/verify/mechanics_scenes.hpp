@@ -5,6 +5,7 @@
 #include "launchsafe/verify/check.hpp"
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace launchsafe::verify::mechanics {
@@ -39,6 +40,16 @@ WaveError longitudinal_error(scene::Formulation formulation, int cells);
 /// Relative L2 error of the temperature rise in a half space whose face is held 1 K hotter, after 1 ms, in
 /// cells of `cell` (m) and `steps` equal steps.
 double half_space_error(double cell, int steps);
+
+/// Bore and outer radius of the thick-walled tube, m.
+inline constexpr double tube_bore = 0.065, tube_outside = 0.0775;
+/// A relaxed tube under 100 MPa inside.
+struct Tube {
+  double hoop_bore, hoop_outside;  ///< Pa
+  double displacement;             ///< of the bore, without the part due to the free ends, m
+};
+/// With `radial_cells` from the axis to the outside.
+Tube relaxed_tube(scene::Formulation formulation, int radial_cells);
 
 /// What a uniform stress in balance may not do to a block in flight.
 struct FlightDrift {
@@ -77,6 +88,16 @@ double speed_of_pulse(mpm::Simulation& simulation, double begin, double end);
 /// Axial Cauchy stress of a steel or charge particle, tension positive, Pa.
 double axial_stress(const mpm::Body<materials::Steel>& body, std::size_t slot);
 double axial_stress(const mpm::Body<materials::Charge>& body, std::size_t slot);
+
+/// Lowest and highest temperature of all particles, K; whether all are finite.
+struct TemperatureRange {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  bool finite = true;
+};
+TemperatureRange range_of(const mpm::Simulation& simulation);
+
+/// Time step (s) of a Fourier number dt k/(rho c h^2) of the charge in cells of `cell` (m).
+double step_of_fourier_number(const scene::Charge& charge, double cell, double fourier_number);
 
 /// Collects the root mean square of what is computed less what is exact, over that of what is exact.
 class RelativeError {

@@ -14,7 +14,7 @@ namespace {
 /// s: the pressure rises over twice the slowest period of the shell and is then held until damping has taken
 /// what is left of the motion and the charge's Maxwell elements have relaxed (the slowest in 0.14 ms).
 constexpr double usual_rise = 1e-3, held = 2.5e-3, observed = 0.5e-3;
-constexpr int looks = 11;  ///< at the stresses, within the last part of the run
+constexpr int samples = 11;  ///< of the stresses, within the last part of the run
 
 /// How the load is brought to rest, s.
 struct Settling {
@@ -25,7 +25,7 @@ struct Settling {
 /// With friction the way matters: damping draws on the charge as it settles, a tenth of its weight with the
 /// usual rise and damping, and leaves its mark where faces stick from then on: 2 % of the pressure beside the
 /// wall at a friction of 0.02, half and a quarter of that with a rise twice and four times as long. This
-/// draws a thirtieth of that, and what the smooth rise shakes dies out while it is held.
+/// draws a thirtieth of that, and what the smooth rise excites is damped while it is held.
 constexpr Settling without_drag{4e-3, 4e-4};
 
 void let_settle(scene::Scene& scene, double pressure, const Settling& settling = {}) {
@@ -33,12 +33,12 @@ void let_settle(scene::Scene& scene, double pressure, const Settling& settling =
   scene.load = mechanics::ramp(pressure, settling.rise, end);
   scene.numerics.damping_time = settling.damping_time;
   scene.physics.conduction = scene.physics.bulk_reaction = scene::Switch::off;
-  scene.charge().cracks.flaw_size = 0.0;  // no cracks
-  scene.charge().tension_cutoff = 1e12;   // at the nose the charge hangs on the bond
+  scene.charge().strength.flaw_size = 0.0;  // no cracks
+  scene.charge().tension_cutoff = 1e12;     // at the nose the bond holds the charge in tension
   scene.output.trace_interval = settling.rise;
   scene.output.snapshot_times = {0.0};
-  for (int look = 0; look < looks; ++look)
-    scene.output.snapshot_times.push_back(end - observed * (looks - 1 - look) / (looks - 1));
+  for (int sample = 0; sample < samples; ++sample)
+    scene.output.snapshot_times.push_back(end - observed * (samples - 1 - sample) / (samples - 1));
 }
 
 StaticCase shell(double pressure) {
@@ -58,9 +58,9 @@ StaticCase elastic_shell() {
       "and "
       "tension cut-off that has kept only the spring of its Maxwell elements (G = 0.944 GPa).";
   mechanics::make_elastic(elastic.scene);
-  auto& charge = elastic.scene.charge().cracks;
+  auto& strength = elastic.scene.charge().strength;
   for (std::size_t n = 0; n < materials::maxwell_elements; ++n)
-    if (charge.relaxation_rates[n] > 0.0) charge.shear_moduli[n] = 0.0;
+    if (strength.relaxation_rates[n] > 0.0) strength.shear_moduli[n] = 0.0;
   return elastic;
 }
 
@@ -233,7 +233,7 @@ FiniteElementModel finite_element_model(const StaticCase& compared) {
   model.materials = {{steel.eos.density * steel.eos.sound_speed * steel.eos.sound_speed,
                       steel.strength.shear_modulus, steel.eos.density, hardening_of(scene)},
                      {materials::jwl_bulk_modulus(explosive, 1.0, explosive.initial_energy),
-                      static_shear_modulus(scene.charge().cracks),
+                      static_shear_modulus(scene.charge().strength),
                       explosive.initial_density,
                       {}}};
   set_bodies(scene, model);

@@ -129,7 +129,7 @@ double alternation_of(const StaticCase& compared, const run::Snapshot& rest, con
 ParticleMeans particle_means(const StaticCase& compared, const std::vector<run::Snapshot>& snapshots) {
   const run::Snapshot& rest = snapshots.front();
   const std::vector<Cell> cells = cells_of(compared.scene, rest);
-  const auto looks = static_cast<double>(snapshots.size() - 1);
+  const auto samples = static_cast<double>(snapshots.size() - 1);
   ParticleMeans result;
   result.particles = cells.size();
   for (const StressStation& station : compared.stations) {
@@ -137,8 +137,8 @@ ParticleMeans particle_means(const StaticCase& compared, const std::vector<run::
     StressMeasures mean;
     for (std::size_t k = 1; k < snapshots.size(); ++k) {
       const StressMeasures now = mean_of(shares, snapshots[k]);
-      mean.pressure += now.pressure / looks;
-      mean.von_mises += now.von_mises / looks;
+      mean.pressure += now.pressure / samples;
+      mean.von_mises += now.von_mises / samples;
     }
     for (std::size_t k = 1; k < snapshots.size(); ++k) {
       const StressMeasures now = mean_of(shares, snapshots[k]);
@@ -151,7 +151,7 @@ ParticleMeans particle_means(const StaticCase& compared, const std::vector<run::
   }
   std::vector<double> pressure(cells.size(), 0.0);
   for (std::size_t k = 1; k < snapshots.size(); ++k)
-    for (std::size_t i = 0; i < pressure.size(); ++i) pressure[i] += snapshots[k].pressure[i] / looks;
+    for (std::size_t i = 0; i < pressure.size(); ++i) pressure[i] += snapshots[k].pressure[i] / samples;
   result.alternation = alternation_of(compared, rest, cells, pressure);
   return result;
 }

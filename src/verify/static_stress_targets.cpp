@@ -10,12 +10,12 @@ namespace {
 /// Written so that no number misses too.
 bool exceeds(double value, double limit) { return !(std::abs(value) <= limit); }
 
-void judge_points(const StaticComparison& comparison, const ParticleMeans& mesh, const std::string& where,
-                  const StressTargets& targets, std::vector<std::string>& missed) {
+void assess_points(const StaticComparison& comparison, const ParticleMeans& mesh, const std::string& where,
+                   const StressTargets& targets, std::vector<std::string>& missed) {
   for (std::size_t k = 0; k < comparison.compared.stations.size(); ++k) {
     const StressStation& station = comparison.compared.stations[k];
     const double allowed = station.r <= targets.inner_radius + 1e-9 ? targets.inner : targets.outer;
-    const auto judge = [&](const char* what, double found, double expected) {
+    const auto compare = [&](const char* what, double found, double expected) {
       const double error = found / expected - 1.0;
       if (!exceeds(error, allowed)) return;
       missed.push_back(fmt::format("{}: {} at {} is {:.5g} MPa, {:+.2f} % from {:.5g} MPa; allowed: {:.3g} %",
@@ -23,8 +23,8 @@ void judge_points(const StaticComparison& comparison, const ParticleMeans& mesh,
                                    100.0 * allowed));
     };
     const StressMeasures &mean = mesh.means[k], &reference = comparison.reference()[k];
-    judge("pressure", mean.pressure, reference.pressure);
-    judge("von Mises stress", mean.von_mises, reference.von_mises);
+    compare("pressure", mean.pressure, reference.pressure);
+    compare("von Mises stress", mean.von_mises, reference.von_mises);
   }
 }
 
@@ -40,7 +40,7 @@ std::vector<std::string> missed_targets(const StaticComparison& comparison) {
       missed.push_back(where + ": " + mesh.failure);
       continue;
     }
-    judge_points(comparison, mesh, where, targets, missed);
+    assess_points(comparison, mesh, where, targets, missed);
     const bool charge = scene::has_charge(comparison.compared.scene);
     if (charge && exceeds(mesh.alternation, targets.alternation))
       missed.push_back(fmt::format("{}: the pressure alternates by {:.3g} % rms; allowed: {:.3g} %", where,

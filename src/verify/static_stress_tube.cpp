@@ -2,14 +2,11 @@
 #include "launchsafe/verify/static_stress_comparison.hpp"
 #include "mechanics_scenes.hpp"
 
-#include <limits>
-#include <string_view>
-
 namespace launchsafe::verify {
 namespace {
 
-constexpr double bore = 0.065, outside = 0.0775;  // m
-constexpr double tube_pressure = 100e6;           // Pa
+constexpr double bore = mechanics::tube_bore, outside = mechanics::tube_outside;
+constexpr double tube_pressure = 100e6;  // Pa
 
 FiniteElementModel tube_model(const scene::Steel& steel) {
   FiniteElementModel model;
@@ -35,13 +32,6 @@ double hoop_at(const FiniteElementModel& model, const FiniteElementResult& resul
   return 1e3 * (hoop_inner + (hoop_outer - hoop_inner) * (r - inner) / (outer - inner));
 }
 
-/// What the closed-form check of the same tube computes under a name.
-double computed(const mechanics::Checks& checks, std::string_view name) {
-  for (const Check& check : checks)
-    if (check.name.find(name) == 0) return 1e6 * check.computed;
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
 }  // namespace
 
 store::Result<TubeComparison> compare_tube(const ComparisonOptions& options) {
@@ -55,9 +45,9 @@ store::Result<TubeComparison> compare_tube(const ComparisonOptions& options) {
   tube.exact_outside = 2.0 * lame;
   tube.element_bore = hoop_at(model, *result, 0, bore);
   tube.element_outside = hoop_at(model, *result, model.rows() - 1, outside);
-  const mechanics::Checks checks = mechanics::thick_walled_tube(scene::Formulation::total_lagrangian);
-  tube.particle_bore = computed(checks, "hoop stress at the bore");
-  tube.particle_outside = computed(checks, "hoop stress outside");
+  const mechanics::Tube particles = mechanics::relaxed_tube(scene::Formulation::total_lagrangian, 116);
+  tube.particle_bore = particles.hoop_bore;
+  tube.particle_outside = particles.hoop_outside;
   return tube;
 }
 

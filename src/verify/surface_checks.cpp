@@ -1,7 +1,7 @@
 #include "launchsafe/verify/surface_checks.hpp"
 
-#include "film_checks.hpp"
 #include "launchsafe/surface/skin.hpp"
+#include "skin_scenes.hpp"
 
 #include <cmath>
 #include <utility>
@@ -27,14 +27,6 @@ surface::SkinModel inert_trigger() {
   model.kinetics.activation_temperature = 2.7e4;
   model.kinetics.ignition_temperature = 1e9;
   model.kinetics.burnt_temperature = 2e9;
-  return model;
-}
-
-/// A skin that only exchanges heat with the air.
-surface::SkinModel exchanging(double exchange_time) {
-  surface::SkinModel model = inert_trigger();
-  model.kinetics.frequency = 0.0;
-  model.surface.exchange_time = exchange_time;
   return model;
 }
 
@@ -85,7 +77,7 @@ double skin_after(const surface::SkinModel& model, double gap, double duration, 
 void add_exchange(Checks& checks) {
   const std::string group = "exchange";
   constexpr double gap = 4e-4, duration = 18e-3;
-  surface::SkinModel model = exchanging(3.6e-4);
+  surface::SkinModel model = inert_skin(3.6e-4);
   const double ratio = surface::heat_capacity_ratio(model, 0.01);
   checks.push_back({group, "heat capacity of the air over that of the skin, gap 1 cm", ratio, 0.03869052,
                     5.01e-9, "", "1.1766 0.01 1005/(1717 1e-4 1780) by hand", true});
@@ -107,7 +99,7 @@ void add_exchange(Checks& checks) {
   }
   const double stiff_rate = surface::heat_capacity_ratio(model, gap) / 1e-9;
   checks.push_back({group, "air rising to 2300 K, tau_ex = 1 ns",
-                    skin_after(exchanging(1e-9), gap, duration, 1000, 300.0, 2300.0),
+                    skin_after(inert_skin(1e-9), gap, duration, 1000, 300.0, 2300.0),
                     2300.0 - slope / stiff_rate, 1e-10, "K",
                     "the skin follows the air by one relaxation time", false});
 }
@@ -115,36 +107,28 @@ void add_exchange(Checks& checks) {
 /// A smooth launch on `samples` intervals: the default load on the charge bottom and friction that follows
 /// it.
 trace::BottomTrace smooth_launch(int intervals) {
-  trace::BottomTrace trace;
-  trace.stations = {{"S1", 0.678, 0.0625, 0.0, false},
-                    {"S2", 0.678, 0.0025, 0.0, false},
-                    {"S3", 0.678, 0.0325, 0.0133, false}};
   const auto pressure = [](double t) {
     const double shape = t / 11e-3 * std::exp(1.0 - t / 11e-3);
     return 101325.0 + 140e6 * std::pow(shape, 12.0);
   };
-  const auto energy = [](double t) { return 1.0e6 * std::pow(t / 18e-3, 3.0); };
-  constexpr int parts = 8;  // Simpson's rule for the means
-  for (int sample = 0; sample <= intervals; ++sample) {
-    const double t = 18e-3 * sample / intervals, before = 18e-3 * (sample - 1) / intervals;
-    double mean = pressure(t);
-    if (sample > 0) {
-      mean = 0.0;
-      for (int k = 0; k <= parts; ++k) {
-        const double weight = k == 0 || k == parts ? 1.0 : k % 2 == 1 ? 4.0 : 2.0;
-        mean += weight / (3.0 * parts) * pressure(before + (t - before) * k / parts);
-      }
+  const auto sample = [&](double begin, double end) {
+    constexpr int parts = 8;  // Simpson's rule for the means
+    double mean = 0.0;
+    for (int k = 0; k <= parts; ++k) {
+      const double weight = k == 0 || k == parts ? 1.0 : k % 2 == 1 ? 4.0 : 2.0;
+      mean += weight / (3.0 * parts) * pressure(begin + (end - begin) * k / parts);
     }
-    trace.time.push_back(t);
-    trace.bottom_pressure.push_back(pressure(t));
-    trace.chamber_pressure.push_back(pressure(t));
-    trace.mean_bottom_pressure.push_back(mean);
-    trace.mean_chamber_pressure.push_back(mean);
-    trace.steps.push_back(100.0 * sample);
-    for (auto& closure : trace.friction) {
-      for (const double share : {1.0, 0.8, 0.9}) closure.push_back(share * energy(t));
-    }
-  }
+    return PressureSample{pressure(end), end > begin ? mean : pressure(end)};
+  };
+  trace::BottomTrace trace = pressed_bottom({{"S1", 0.678, 0.0625, 0.0, false},
+                                             {"S2", 0.678, 0.0025, 0.0, false},
+                                             {"S3", 0.678, 0.0325, 0.0133, false}},
+                                            intervals, 18e-3, sample);
+  for (double& steps : trace.steps) steps *= 100.0;
+  const double shares[] = {1.0, 0.8, 0.9};
+  for (auto& closure : trace.friction)
+    for (std::size_t k = 0; k < closure.size(); ++k)
+      closure[k] = shares[k % 3] * (1.0e6 * std::pow(trace.time[k / 3] / 18e-3, 3.0));
   return trace;
 }
 
@@ -175,7 +159,7 @@ void add_launch(Checks& checks) {
 
 /// Air at the pressure of the peak gives all it has: both end at the temperature of the mixture.
 void add_mixture(Checks& checks) {
-  surface::SkinModel model = exchanging(1e-6);
+  surface::SkinModel model = inert_skin(1e-6);
   model.surface.air_model = scene::AirModel::balance;
   model.surface.friction = scene::FrictionClosure::none;
   trace::BottomTrace trace = smooth_launch(4);

@@ -50,7 +50,7 @@ void over_the_charge(benchmark::State& state, Operation&& operation) {
   scene.numerics.formulation = scene::Formulation::updated_lagrangian;
   const mpm::Simulation simulation(scene);
   mpm::Grid grid = simulation.updated_lagrangian()->grid();
-  const mpm::Kinematics& p = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
+  const mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
   const mpm::StencilContext context{grid, grid.origin_x, 0.5 * p.lattice.length_x(0),
                                     0.5 * p.lattice.length_r(0), true};
   for (auto _ : state)
@@ -60,19 +60,20 @@ void over_the_charge(benchmark::State& state, Operation&& operation) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(p.x.size()));
 }
 
-void gather(benchmark::State& state) {
+void grid_to_particle(benchmark::State& state) {
   over_the_charge(state, [](const mpm::Grid& grid, const mpm::Stencil& stencil, math::Pack mass) {
-    auto read = mpm::gather(grid, stencil, mass > math::Pack(0.0));
+    auto read = mpm::grid_to_particle(grid, stencil, mass > math::Pack(0.0));
     benchmark::DoNotOptimize(read);
   });
 }
-BENCHMARK(gather)->Unit(benchmark::kMicrosecond);
+BENCHMARK(grid_to_particle)->Unit(benchmark::kMicrosecond);
 
-void scatter(benchmark::State& state) {
+void particle_to_grid(benchmark::State& state) {
   over_the_charge(state, [](mpm::Grid& grid, const mpm::Stencil& stencil, math::Pack mass) {
-    mpm::scatter(grid, stencil, {mass, mass, mass, mass, mass, mass, mass, mass}, mass > math::Pack(0.0));
+    mpm::particle_to_grid(grid, stencil, {mass, mass, mass, mass, mass, mass, mass, mass},
+                          mass > math::Pack(0.0));
   });
 }
-BENCHMARK(scatter)->Unit(benchmark::kMicrosecond);
+BENCHMARK(particle_to_grid)->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -31,12 +31,6 @@ TEST(Jwl, BulkModulusIsTheSlopeOfTheAdiabat) {
   }
 }
 
-TEST(Jwl, UnreactedChargeBearsNothingAtRest) {
-  const JwlParameters m = unreacted_composition_b();
-  EXPECT_NEAR(jwl_pressure(m, 1.0, m.initial_energy), 0.0, 1e-6);
-  EXPECT_NEAR(m.initial_energy, -6.11861e8, 5e2);  // model section 4
-}
-
 TEST(Jwl, EnergyAndTemperatureFormsAreOneLaw) {
   const JwlParameters m = unreacted_composition_b();
   for (const double v : {0.7, 0.9, 1.0}) {

@@ -12,11 +12,10 @@ namespace math = launchsafe::math;
 const std::vector<double> gaps{0.0, 0.01, 0.02, 0.03, 0.039};
 const std::vector<double> temperatures{416.1, 442.2, 467.7, 492.9, 523.3};
 
-TEST(LeastSquares, LineThroughThePapersRowsHasItsSlopeAndIntercept) {
+// Slope and intercept of these rows are checks of `launchsafe verify`.
+TEST(LeastSquares, ResidualsOfALineSumToZero) {
   const auto fit = math::fit_line(gaps, temperatures);
   ASSERT_TRUE(fit.has_value());
-  EXPECT_NEAR(fit->coefficients[1], 2702.061, 5e-4);  // the model page, section 8
-  EXPECT_NEAR(fit->coefficients[0], 414.939, 5e-4);
   EXPECT_EQ(fit->degrees_of_freedom, 3);
   double total = 0.0;
   for (const double residual : fit->residuals) total += residual;
@@ -70,10 +69,8 @@ TEST(LeastSquares, WithoutFreedomThereIsNoUncertaintyToState) {
   EXPECT_TRUE(std::isnan(fit->mean_half_width({1.0, 0.5}, 0.95)));
 }
 
-TEST(ToleranceFactor, AgreesWithTheTables) {
-  EXPECT_NEAR(math::one_sided_tolerance_factor(5, 0.95, 0.95), 4.2027, 5e-5);  // ISO 16269-6
-  EXPECT_NEAR(math::one_sided_tolerance_factor(10, 0.95, 0.95), 2.9110, 5e-5);
-  EXPECT_NEAR(math::one_sided_tolerance_factor(20, 0.95, 0.95), 2.3960, 5e-5);
+// Its values are checks of `launchsafe verify`.
+TEST(ToleranceFactor, OfOneSampleOrOfCertaintyIsNotANumber) {
   EXPECT_TRUE(std::isnan(math::one_sided_tolerance_factor(1, 0.95, 0.95)));
   EXPECT_TRUE(std::isnan(math::one_sided_tolerance_factor(5, 1.0, 0.95)));
 }

@@ -14,7 +14,7 @@ using namespace launchsafe;
 
 double mass_of_material(const mpm::Simulation& simulation, const std::string& material) {
   double total = 0.0;
-  simulation.for_each_body([&](const mpm::Kinematics& p) {
+  simulation.for_each_body([&](const mpm::ParticleFields& p) {
     if (simulation.scene().bodies[static_cast<std::size_t>(p.body)].material == material)
       total += mpm::mass_of(p, simulation.scene().symmetry);
   });
@@ -49,17 +49,17 @@ TEST(Lattice, GivesEveryParticleItsOwnSlotAndLeavesPaddingMassless) {
   for (const int per_cell : {1, 2, 3}) {
     const scene::Scene shell = test_support::shell_155(7e-3, per_cell);
     const auto charge = std::get<mpm::Body<materials::Charge>>(mpm::make_body(shell, 1));
-    const mpm::Lattice& lattice = charge.kinematics.lattice;
+    const mpm::Lattice& lattice = charge.particles.lattice;
     std::set<std::size_t> slots;
     for (int j = 0; j < lattice.rows(); ++j)
       for (int i = 0; i < lattice.columns(); ++i) {
         const std::size_t slot = lattice.slot(i, j);
         EXPECT_TRUE(slots.insert(slot).second);
-        EXPECT_DOUBLE_EQ(charge.kinematics.x[slot], lattice.x_of(i));
-        EXPECT_DOUBLE_EQ(charge.kinematics.r[slot], lattice.r_of(j));
+        EXPECT_DOUBLE_EQ(charge.particles.x[slot], lattice.x_of(i));
+        EXPECT_DOUBLE_EQ(charge.particles.r[slot], lattice.r_of(j));
       }
     for (std::size_t slot = 0; slot < lattice.slots(); ++slot)
-      EXPECT_EQ(charge.kinematics.mass[slot] > 0.0, slots.contains(slot)) << slot;
+      EXPECT_EQ(charge.particles.mass[slot] > 0.0, slots.contains(slot)) << slot;
   }
 }
 

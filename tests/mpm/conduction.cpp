@@ -15,16 +15,16 @@ using namespace launchsafe;
 void shake(mpm::Simulation& simulation, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> kelvin(300.0, 1300.0);
-  const auto set = [&](mpm::Kinematics& p) {
+  const auto set = [&](mpm::ParticleFields& p) {
     for (double& temperature : p.temperature) temperature = kelvin(random);
   };
-  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) set(body.kinematics);
-  for (mpm::Body<materials::Charge>& body : simulation.bodies_of<materials::Charge>()) set(body.kinematics);
+  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) set(body.particles);
+  for (mpm::Body<materials::Charge>& body : simulation.bodies_of<materials::Charge>()) set(body.particles);
 }
 
 template <class F>
 void for_each_temperature(const mpm::Simulation& simulation, F&& f) {
-  simulation.for_each_body([&](const mpm::Kinematics& p) {
+  simulation.for_each_body([&](const mpm::ParticleFields& p) {
     for (std::size_t i = 0; i < p.mass.size(); ++i)
       if (p.mass[i] > 0.0) f(p.temperature[i]);
   });
@@ -83,7 +83,7 @@ TEST(Conduction, DecaysLikeTheFirstRadialMode) {
   constexpr double radius = 0.02, zero = 3.8317059702075123;
   const auto rate_error = [&](double cell) {
     mpm::Simulation simulation(test_support::steel_bar(0.01, radius, cell));
-    mpm::Kinematics& p = simulation.bodies_of<materials::Steel>()[0].get().kinematics;
+    mpm::ParticleFields& p = simulation.bodies_of<materials::Steel>()[0].get().particles;
     for (std::size_t i = 0; i < p.r.size(); ++i)
       p.temperature[i] = 300.0 + 100.0 * std::cyl_bessel_j(0.0, zero * p.r[i] / radius);
     const auto amplitude = [&] {
@@ -129,9 +129,9 @@ TEST(Conduction, CarriesTheFluxThroughTheInterfacesOfALayer) {
   for (int step = 0; step < 400; ++step) conduction.advance(simulation, 50.0);
   const double sink = 7830.0 * 460.0 * sink_length, layer = 1717.0 * 1780.0 * layer_length,
                plate = 7830.0 * 460.0 * plate_length;
-  const mpm::Kinematics& in_layer = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
-  const mpm::Kinematics& in_plate = simulation.bodies_of<materials::Steel>()[1].get().kinematics;
-  const auto at = [](const mpm::Kinematics& p, int i) { return p.temperature[p.lattice.slot(i, 0)]; };
+  const mpm::ParticleFields& in_layer = simulation.bodies_of<materials::Charge>()[0].get().particles;
+  const mpm::ParticleFields& in_plate = simulation.bodies_of<materials::Steel>()[1].get().particles;
+  const auto at = [](const mpm::ParticleFields& p, int i) { return p.temperature[p.lattice.slot(i, 0)]; };
   const double through_middle = (at(in_layer, 1) - at(in_layer, 0)) * 0.246 / in_layer.lattice.length_x(0);
   EXPECT_NEAR(through_middle / flux, (sink + 0.5 * layer) / (sink + layer + plate), 1e-4);
   // From the layer's last particle to the plate's first: two half spacings in series.
@@ -147,11 +147,11 @@ TEST(Conduction, RefreshesTheFlowStressOfHeatedSteel) {
   conduction.hold_base(900.0);
   conduction.advance(simulation, 100.0);
   const mpm::Body<materials::Steel>& body = simulation.bodies_of<materials::Steel>()[0];
-  const std::size_t slot = body.kinematics.lattice.slot(0, 0);
-  EXPECT_GT(body.kinematics.temperature[slot], 500.0);
+  const std::size_t slot = body.particles.lattice.slot(0, 0);
+  EXPECT_GT(body.particles.temperature[slot], 500.0);
   EXPECT_DOUBLE_EQ(body[materials::Steel::flow_stress][slot],
                    materials::johnson_cook_flow_stress(simulation.scene().steel().strength, 0.0, 0.0,
-                                                       body.kinematics.temperature[slot]));
+                                                       body.particles.temperature[slot]));
 }
 
 }  // namespace

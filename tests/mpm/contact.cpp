@@ -13,9 +13,9 @@ using namespace launchsafe;
 using namespace launchsafe::test_support;
 
 TEST(Contact, ABondHeldByContactIsTheTie) {
-  const auto run = [](bool by_contact, double keep) {
+  const auto run = [](bool by_contact, double damping_time) {
     scene::Scene shell = held_shell();
-    shell.numerics.damping_time = keep;
+    shell.numerics.damping_time = damping_time;
     shell.load = steady_pressure(300e6);
     shell.numerics.inertial_scaling = 4.0;
     if (by_contact) shell.interfaces = {held("wall"), held("base"), held("nose")};
@@ -23,12 +23,12 @@ TEST(Contact, ABondHeldByContactIsTheTie) {
     go_until(simulation, 2e-4);
     std::vector<double> all;
     simulation.for_each_body(
-        [&](const mpm::Kinematics& p) { all.insert(all.end(), p.pressure.begin(), p.pressure.end()); });
+        [&](const mpm::ParticleFields& p) { all.insert(all.end(), p.pressure.begin(), p.pressure.end()); });
     all.push_back(simulation.energy().internal);
     return all;
   };
-  for (const double keep : {0.0, 1e-4}) {
-    const std::vector<double> tied = run(false, keep), held = run(true, keep);
+  for (const double damping_time : {0.0, 1e-4}) {
+    const std::vector<double> tied = run(false, damping_time), held = run(true, damping_time);
     const double largest = *std::max_element(tied.begin(), tied.end());
     double worst = 0.0;
     for (std::size_t i = 0; i < tied.size(); ++i)
@@ -88,7 +88,7 @@ TEST(Contact, UniformPressurePassesASlippedInterface) {
   pull_slowly(simulation, 1e5, -1e5, 400);
   double worst = 0.0;
   const auto moved = [&] {
-    const mpm::Kinematics& p = mpm::kinematics_of(simulation.bodies()[1]);
+    const mpm::ParticleFields& p = mpm::particle_fields_of(simulation.bodies()[1]);
     return p.x[0] - p.lattice.x_of(0);
   };
   while (moved() < 8e-3) {
@@ -103,10 +103,10 @@ TEST(Contact, UniformPressurePassesASlippedInterface) {
 TEST(Contact, ABouncingBlockGainsNoEnergy) {
   // Thrown up askew and drawn back, it falls on one edge, tilts, slides and bounces.
   mpm::Simulation simulation(block_on_floor(sliding("", 0.3)));
-  simulation.pull(1, 0.0, -1e4);
+  simulation.apply_body_force(1, 0.0, -1e4);
   std::visit(
       [](auto& body) {
-        mpm::Kinematics& block = body.kinematics;
+        mpm::ParticleFields& block = body.particles;
         for (std::size_t i = 0; i < block.mass.size(); ++i) {
           if (!(block.mass[i] > 0.0)) continue;
           block.velocity_r[i] = 0.3 + 2.0 * (block.x[i] - 0.04);
@@ -114,7 +114,7 @@ TEST(Contact, ABouncingBlockGainsNoEnergy) {
         }
       },
       simulation.bodies()[1]);
-  simulation.restart();
+  simulation.reset_grid();
   double drift = 0.0, initial = 0.0, deepest = 0.0;
   int parted = 0;
   bool touched = true;
@@ -178,12 +178,12 @@ TEST(Contact, ABarIsHeldBackInASleeveByFrictionTimesItsGrip) {
   mpm::Simulation simulation(scene);
   const double grip = 8000.0 * 0.01 * 1e4 * 0.04, friction = 0.3 * grip, mass = 2000.0 * 0.2 * 0.01;
   for (int step = 0; step < 400; ++step) {
-    simulation.pull(0, 5e3 / 400, 0.0);
-    simulation.pull(1, -friction / (8000.0 * 0.01 * 0.04) / 400, -1e4 / 400);
+    simulation.apply_body_force(0, 5e3 / 400, 0.0);
+    simulation.apply_body_force(1, -friction / (8000.0 * 0.01 * 0.04) / 400, -1e4 / 400);
     simulation.step(simulation.stable_time_step());
   }
   const auto inward = [&] {
-    const mpm::Kinematics& p = mpm::kinematics_of(simulation.bodies()[1]);
+    const mpm::ParticleFields& p = mpm::particle_fields_of(simulation.bodies()[1]);
     return -std::inner_product(p.mass.begin(), p.mass.end(), p.velocity_r.begin(), 0.0);
   };
   const double begin = simulation.time(), before = velocity_of(simulation, 0), inward_before = inward();
@@ -195,7 +195,7 @@ TEST(Contact, ABarIsHeldBackInASleeveByFrictionTimesItsGrip) {
   }
   const double time = simulation.time() - begin;
   const double gained = velocity_of(simulation, 0) - before;
-  const mpm::Kinematics& bar = mpm::kinematics_of(simulation.bodies()[0]);
+  const mpm::ParticleFields& bar = mpm::particle_fields_of(simulation.bodies()[0]);
   // The sleeve's edges press dents into the bar, so that pressure is not quite across.
   EXPECT_NEAR(gained / time, 5e3 - 0.3 * given / time / mass, 2e-4 * 5e3);
   EXPECT_NEAR(given, grip * time - (inward() - inward_before), 1e-3 * grip * time);
@@ -266,7 +266,7 @@ TEST(Contact, NoNumberOfThreadsChangesABitOfSliding) {
     shell.interfaces = {sliding("wall", 0.1), sliding("base", 0.1), sliding("nose", 0.1)};
     mpm::Simulation simulation(shell, threads);
     for (int step = 0; step < 300; ++step) simulation.step(simulation.stable_time_step());
-    math::AlignedArray all = mpm::kinematics_of(simulation.bodies()[1]).velocity_r;
+    math::AlignedArray all = mpm::particle_fields_of(simulation.bodies()[1]).velocity_r;
     all.push_back(simulation.energy().contact);
     all.push_back(simulation.energy().kinetic);
     return all;

@@ -72,14 +72,14 @@ inline scene::Scene block_on_floor(scene::Interface faces) {
 /// Turns the block's body force (m/s2) on in equal parts over some steps.
 inline void pull_slowly(mpm::Simulation& simulation, double along, double across, int steps) {
   for (int step = 0; step < steps; ++step) {
-    simulation.pull(1, along / steps, across / steps);
+    simulation.apply_body_force(1, along / steps, across / steps);
     simulation.step(simulation.stable_time_step());
   }
 }
 
 /// Mean velocity (m/s) of a body along x.
 inline double velocity_of(const mpm::Simulation& simulation, std::size_t body) {
-  const mpm::Kinematics& p = mpm::kinematics_of(simulation.bodies()[body]);
+  const mpm::ParticleFields& p = mpm::particle_fields_of(simulation.bodies()[body]);
   const double mass = std::accumulate(p.mass.begin(), p.mass.end(), 0.0);
   return std::inner_product(p.mass.begin(), p.mass.end(), p.velocity_x.begin(), 0.0) / mass;
 }

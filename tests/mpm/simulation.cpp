@@ -16,14 +16,14 @@ double compress(mpm::Simulation& simulation, double mu) {
   const auto& eos = simulation.scene().steel().eos;
   const double pressure = materials::mie_gruneisen_pressure(eos, mu, 0.0);
   for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) {
-    mpm::Kinematics& p = body.kinematics;
+    mpm::ParticleFields& p = body.particles;
     for (std::size_t i = 0; i < p.mass.size(); ++i) {
       p.volume_ratio[i] /= 1.0 + mu;
       p.mass[i] *= 1.0 + mu;
       p.pressure[i] = pressure;
     }
   }
-  simulation.restart();
+  simulation.reset_grid();
   return pressure;
 }
 
@@ -65,9 +65,10 @@ TEST(PatchTest, PressureOnTheBaseBalancesUniformStress) {
         const std::size_t n = grid.index(i, j);
         const bool beyond_front = grid.origin_x + i * grid.dx > 2.5 * grid.dx;
         if (beyond_front) {
-          EXPECT_NEAR(grid.change_x[n] / dt, 0.0, 1e-3) << i << ' ' << j;  // m/s2, of 1e7 at the free front
+          EXPECT_NEAR(grid.velocity_increment_x[n] / dt, 0.0, 1e-3)
+              << i << ' ' << j;  // m/s2, of 1e7 at the free front
         }
-        if (grid.moves_r[n] > 0.0) {
+        if (grid.radially_free[n] > 0.0) {
           EXPECT_NEAR(force_r[n] / largest_force, 0.0, 1e-12) << i << ' ' << j;
         }
       }
@@ -85,7 +86,7 @@ TEST(PatchTest, PressureInTheBoreBalancesUniformStress) {
       const double mu = 1e-3;
       ring.load = test_support::steady_pressure(materials::mie_gruneisen_pressure(ring.steel().eos, mu, 0.0));
       mpm::Simulation simulation(ring);
-      simulation.press_bore(0, compress(simulation, mu));
+      simulation.apply_bore_pressure(0, compress(simulation, mu));
       const double dt = 1e-12;
       simulation.step(dt);
       simulation.step(dt);
@@ -93,8 +94,9 @@ TEST(PatchTest, PressureInTheBoreBalancesUniformStress) {
       for (int j = 0; j < grid.nodes_r; ++j)
         for (int i = 0; i < grid.nodes_x; ++i) {
           const std::size_t n = grid.index(i, j);
-          if (grid.moves_r[n] > 0.0) {
-            EXPECT_NEAR(grid.change_r[n] / dt, 0.0, 1e-2) << i << ' ' << j;  // m/s2, of 1e7 without
+          if (grid.radially_free[n] > 0.0) {
+            EXPECT_NEAR(grid.velocity_increment_r[n] / dt, 0.0, 1e-2)
+                << i << ' ' << j;  // m/s2, of 1e7 without
           }
         }
     }
@@ -137,7 +139,7 @@ TEST(Simulation, IsBitwiseRepeatable) {
   const auto run = [] {
     mpm::Simulation simulation(test_support::shell_155(5e-3));
     for (int step = 0; step < 200; ++step) simulation.step(simulation.stable_time_step());
-    return simulation.bodies_of<materials::Charge>()[0].get().kinematics.x;
+    return simulation.bodies_of<materials::Charge>()[0].get().particles.x;
   };
   EXPECT_EQ(run(), run());
 }

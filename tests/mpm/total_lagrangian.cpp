@@ -49,11 +49,11 @@ TEST(TotalLagrangian, AccelerationMakesAStressThatGrowsLinearlyFromTheNose) {
       mpm::Simulation simulation(bar);
       run_until(simulation, 8e-4);
       for (const mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) {
-        const mpm::Lattice& lattice = body.kinematics.lattice;
+        const mpm::Lattice& lattice = body.particles.lattice;
         for (int j = 0; j < lattice.rows(); ++j)
           for (int i = 0; i < lattice.columns(); ++i) {
             const std::size_t slot = lattice.slot(i, j);
-            const double stress = body.deviator(slot).xx - body.kinematics.pressure[slot];
+            const double stress = body.deviator(slot).xx - body.particles.pressure[slot];
             const auto cell = static_cast<std::size_t>(i / per_cell * per_cell);
             const double middle =
                 0.5 * (lattice.x_edges[cell] + lattice.x_edges[cell + static_cast<std::size_t>(per_cell)]);
@@ -68,7 +68,7 @@ TEST(TotalLagrangian, TheLabFrameIsTheCoMovingFrame) {
     scene::Scene shell = quick_shell();
     shell.frame = frame;
     mpm::Simulation simulation(shell);
-    mpm::Kinematics& charge = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
+    mpm::ParticleFields& charge = simulation.bodies_of<materials::Charge>()[0].get().particles;
     const std::size_t slot = charge.lattice.slot(charge.lattice.columns() - 1, 0);
     mpm::record(charge, slot);
     double heat = 0.0;  // J/m3, of a friction of 1
@@ -93,8 +93,8 @@ TEST(TotalLagrangian, NoNumberOfThreadsChangesABit) {
     mpm::Simulation simulation(shell, threads);
     for (int step = 0; step < 300; ++step) simulation.step(simulation.stable_time_step());
     const mpm::Body<materials::Charge>& charge = simulation.bodies_of<materials::Charge>()[0];
-    math::AlignedArray all = charge.kinematics.velocity_r;
-    all.insert(all.end(), charge.kinematics.pressure.begin(), charge.kinematics.pressure.end());
+    math::AlignedArray all = charge.particles.velocity_r;
+    all.insert(all.end(), charge.particles.pressure.begin(), charge.particles.pressure.end());
     all.push_back(simulation.energy().internal);
     all.push_back(simulation.energy().kinetic);
     return all;
@@ -153,7 +153,7 @@ TEST(TotalLagrangian, ABodyCutInTwoIsTheSameBody) {
     bar.barrel = scene::Barrel::none;
     mpm::Simulation simulation(bar);
     run_until(simulation, 1e-4);
-    const mpm::Kinematics& p = mpm::kinematics_of(simulation.bodies()[0]);
+    const mpm::ParticleFields& p = mpm::particle_fields_of(simulation.bodies()[0]);
     std::vector<double> first_rows;
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i < p.lattice.columns(); ++i) first_rows.push_back(p.pressure[p.lattice.slot(i, j)]);
@@ -171,9 +171,9 @@ TEST(TotalLagrangian, CountsInvertedCells) {
   bar.load = test_support::steady_pressure(0.0);
   mpm::Simulation simulation(bar);
   for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>())
-    for (std::size_t i = 0; i < body.kinematics.mass.size(); ++i)
-      body.kinematics.velocity_x[i] = body.kinematics.x[i] < 0.025 ? 3e4 : -3e4;
-  simulation.restart();
+    for (std::size_t i = 0; i < body.particles.mass.size(); ++i)
+      body.particles.velocity_x[i] = body.particles.x[i] < 0.025 ? 3e4 : -3e4;
+  simulation.reset_grid();
   const double dt = simulation.stable_time_step();
   for (int step = 0; step < 20; ++step) simulation.step(dt);
   EXPECT_GT(simulation.events().distorted, 0.0);

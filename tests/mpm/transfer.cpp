@@ -86,11 +86,12 @@ class Transfer : public testing::TestWithParam<Layout> {
 constexpr mpm::Mask everyone{mpm::Mask::Lanes{-1, -1, -1, -1, -1, -1, -1, -1}};
 
 TEST_P(Transfer, GathersWhatAScalarReferenceGathers) {
-  for (auto* field : {&grid_.velocity_x, &grid_.velocity_r, &grid_.change_x, &grid_.change_r})
+  for (auto* field :
+       {&grid_.velocity_x, &grid_.velocity_r, &grid_.velocity_increment_x, &grid_.velocity_increment_r})
     fill(*field, [&](double, double) { return uniform(-1.0, 1.0); });
   for (int trial = 0; trial < 20; ++trial) {
     place();
-    const mpm::Gathered g = mpm::gather(grid_, mpm::stencil_of(context(), x_, r_), everyone);
+    const mpm::GridToParticle g = mpm::grid_to_particle(grid_, mpm::stencil_of(context(), x_, r_), everyone);
     for (std::size_t lane = 0; lane < math::pack_width; ++lane) {
       std::array<double, 9> expected{};
       for_each_node(x_[lane], r_[lane],
@@ -98,8 +99,8 @@ TEST_P(Transfer, GathersWhatAScalarReferenceGathers) {
                       const double vx = grid_.velocity_x[n], vr = grid_.velocity_r[n];
                       const std::array<double, 9> terms{sx * sr * vx,
                                                         sx * sr * vr,
-                                                        sx * sr * grid_.change_x[n],
-                                                        sx * sr * grid_.change_r[n],
+                                                        sx * sr * grid_.velocity_increment_x[n],
+                                                        sx * sr * grid_.velocity_increment_r[n],
                                                         sx * gr * vr * grid_.dr,
                                                         gx * sr * vx * grid_.dr,
                                                         sx * t * vr * grid_.dr,
@@ -107,9 +108,9 @@ TEST_P(Transfer, GathersWhatAScalarReferenceGathers) {
                                                         sx * gr * vx * grid_.dr};
                       for (std::size_t k = 0; k < terms.size(); ++k) expected[k] += terms[k];
                     });
-      const std::array<Pack, 9> found{g.velocity_x,         g.velocity_r,         g.change_x,
-                                      g.change_r,           g.rate_rr * grid_.dr, g.rate_xx * grid_.dr,
-                                      g.rate_tt * grid_.dr, g.vr_by_x * grid_.dr, g.vx_by_r * grid_.dr};
+      const std::array<Pack, 9> found{g.velocity_x,           g.velocity_r,         g.velocity_increment_x,
+                                      g.velocity_increment_r, g.rate_rr * grid_.dr, g.rate_xx * grid_.dr,
+                                      g.rate_tt * grid_.dr,   g.vr_by_x * grid_.dr, g.vx_by_r * grid_.dr};
       for (std::size_t k = 0; k < found.size(); ++k)
         EXPECT_NEAR(found[k][lane], expected[k], 1e-12) << "quantity " << k << ", lane " << lane;
     }
@@ -120,10 +121,10 @@ TEST_P(Transfer, ScattersWhatAScalarReferenceScatters) {
   std::vector<std::array<double, 5>> expected(grid_.nodes());
   for (int trial = 0; trial < 10; ++trial) {
     place();
-    const mpm::Scattered p{eight(1, 2),  eight(-1, 1), eight(-1, 1), eight(1, 2),
-                           eight(-1, 1), eight(-1, 1), eight(-1, 1), eight(-1, 1)};
+    const mpm::ParticleToGrid p{eight(1, 2),  eight(-1, 1), eight(-1, 1), eight(1, 2),
+                                eight(-1, 1), eight(-1, 1), eight(-1, 1), eight(-1, 1)};
     const mpm::Mask some = trial % 2 == 0 ? everyone : p.velocity_x > Pack(0.0);
-    mpm::scatter(grid_, mpm::stencil_of(context(), x_, r_), p, some);
+    mpm::particle_to_grid(grid_, mpm::stencil_of(context(), x_, r_), p, some);
     for (std::size_t lane = 0; lane < math::pack_width; ++lane) {
       if (some.lanes[lane] == 0) continue;
       for_each_node(x_[lane], r_[lane],
@@ -152,8 +153,8 @@ TEST_P(Transfer, ScatterConservesMassAndMomentum) {
   for (int trial = 0; trial < 10; ++trial) {
     place();
     const Pack none(0.0);
-    const mpm::Scattered p{eight(1, 2), eight(-1, 1), none, none, none, none, none, none};
-    mpm::scatter(grid_, mpm::stencil_of(context(), x_, r_), p, everyone);
+    const mpm::ParticleToGrid p{eight(1, 2), eight(-1, 1), none, none, none, none, none, none};
+    mpm::particle_to_grid(grid_, mpm::stencil_of(context(), x_, r_), p, everyone);
     mass += sum(p.mass);
     momentum += sum(p.mass * p.velocity_x);
   }
@@ -170,17 +171,17 @@ TEST_P(Transfer, ReadsALinearFieldExactly) {
   // v_x = 3 + 40 x + 50 r, v_r = 70 r + 20 x r.
   fill(grid_.velocity_x, [](double x, double r) { return 3.0 + 40.0 * x + 50.0 * r; });
   fill(grid_.velocity_r, [](double, double r) { return 70.0 * r; });
-  fill(grid_.change_x, [](double, double) { return 5.0; });
+  fill(grid_.velocity_increment_x, [](double, double) { return 5.0; });
   for (int trial = 0; trial < 20; ++trial) {
     place();
-    const mpm::Gathered g = mpm::gather(grid_, mpm::stencil_of(context(), x_, r_), everyone);
+    const mpm::GridToParticle g = mpm::grid_to_particle(grid_, mpm::stencil_of(context(), x_, r_), everyone);
     for (std::size_t lane = 0; lane < math::pack_width; ++lane) {
       const double r = r_[lane];
       // Weighted with r, the particle's mean radius is its centre of area, r + l^2/(3 r).
       const double mean_r = GetParam().axisymmetric ? r + half_r_ * half_r_ / (3.0 * r) : r;
       EXPECT_NEAR(g.velocity_x[lane], 3.0 + 40.0 * x_[lane] + 50.0 * mean_r, 1e-12);
       EXPECT_NEAR(g.velocity_r[lane], 70.0 * mean_r, 1e-12);
-      EXPECT_NEAR(g.change_x[lane], 5.0, 1e-12);
+      EXPECT_NEAR(g.velocity_increment_x[lane], 5.0, 1e-12);
       EXPECT_NEAR(g.rate_xx[lane], 40.0, 1e-9);
       EXPECT_NEAR(g.vx_by_r[lane], 50.0, 1e-9);
       EXPECT_NEAR(g.rate_rr[lane], 70.0, 1e-9);

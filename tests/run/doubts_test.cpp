@@ -49,7 +49,7 @@ TEST(Doubts, ASoundRunHasNone) {
   EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
   // The extremes of sweep_pressure_defect.toml.
   scene.load.peak = 700e6;
-  scene.charge().cracks.initial_crack_radius = 3e-3;
+  scene.charge().strength.initial_crack_radius = 3e-3;
   MechanicsResult cracked = sound_run();
   cracked.monitor[2].largest_crack_radius = 3e-3;
   EXPECT_TRUE(doubts_of(scene, cracked).empty());
@@ -309,14 +309,14 @@ TEST(Doubts, CracksThatNoContinuumLawHolds) {
   MechanicsResult run = sound_run();
   scene::Scene cracked = shipped_scene();
   cracked.numerics.cell_size = 2.5e-3;
-  cracked.charge().cracks.initial_crack_radius = run.monitor[1].largest_crack_radius = 10.5e-3;
+  cracked.charge().strength.initial_crack_radius = run.monitor[1].largest_crack_radius = 10.5e-3;
   expect_one(doubts_of(cracked, run), "10.5 flaw sizes");
   scene::Scene fine = shipped_scene();
   fine.numerics.cell_size = 0.5e-3;
-  fine.charge().cracks.initial_crack_radius = run.monitor[1].largest_crack_radius = 3e-3;
+  fine.charge().strength.initial_crack_radius = run.monitor[1].largest_crack_radius = 3e-3;
   expect_one(doubts_of(fine, run), "6 cells");
   // Grown rather than given, it is doubted where it worked: a twentieth of what viscosity took.
-  fine.charge().cracks.initial_crack_radius = 30e-6;
+  fine.charge().strength.initial_crack_radius = 30e-6;
   run.monitor[2].energy.viscous = 3.5;
   run.monitor[2].energy.crack = 0.05 * 3.5;
   EXPECT_EQ(doubts_of(fine, run).size(), 0u);
@@ -324,7 +324,7 @@ TEST(Doubts, CracksThatNoContinuumLawHolds) {
   expect_one(doubts_of(fine, run), "6 cells");
   run.monitor[2].energy.crack = 0.0;
   scene::Scene thin = shipped_scene();
-  thin.charge().cracks.initial_crack_radius = 3e-3;
+  thin.charge().strength.initial_crack_radius = 3e-3;
   thin.bodies[1].x_begin = thin.bodies[1].x_end - 2e-3;
   expect_one(doubts_of(thin, run), "more than the charge measures");
 }

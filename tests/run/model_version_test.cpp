@@ -227,7 +227,7 @@ Numbers computed() {
   add_volume_of_charge_and_gases(numbers);
   for (const auto& [title, keys] : scenes) add_run(numbers, title, scene_with(keys));
   const scene::Scene plain = scene_with({});
-  add_skin(numbers, "coupled: ", run_coupled(plain, 2e-4).gaps.at(0));
+  add_skin(numbers, "coupled: ", run_with_skin(plain, 2e-4).gaps.at(0));
   scene::Scene shell = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
   shell.numerics.cell_size = 10e-3;
   shell.numerics.inertial_scaling = 16.0;

@@ -176,10 +176,10 @@ TEST(RunMechanics, ForcedConductionAndReactionChangeNoBulkTemperatureOfTheCharge
 
 /// The skin changes nothing in the mechanics below ignition, so a run that carries it must give the traced
 /// temperatures to the tolerance of the integrations (model section 6).
-TEST(RunCoupled, AgreesWithTheTracedTemperaturesBelowIgnition) {
+TEST(RunWithSkin, AgreesWithTheTracedTemperaturesBelowIgnition) {
   const scene::Scene scene = coarse_scene();
   for (const double gap : {0.0, 2e-4}) {
-    const CaseResult coupled = run_coupled(scene, gap);
+    const CaseResult coupled = run_with_skin(scene, gap);
     const GapResult traced = evaluate_gap(scene, coupled.mechanics.trace, gap);
     ASSERT_EQ(coupled.mechanics.status, RunStatus::completed);
     ASSERT_EQ(coupled.gaps.front().skin.temperature.size(), traced.skin.temperature.size());
@@ -193,11 +193,11 @@ TEST(RunCoupled, AgreesWithTheTracedTemperaturesBelowIgnition) {
   }
 }
 
-TEST(RunCoupled, AgreesWithTheTracedTemperaturesOfAFilm) {
+TEST(RunWithSkin, AgreesWithTheTracedTemperaturesOfAFilm) {
   scene::Scene scene = coarse_scene();
   scene.surface.air_model = scene::AirModel::film;
   const double gap = 2e-4;
-  const CaseResult coupled = run_coupled(scene, gap);
+  const CaseResult coupled = run_with_skin(scene, gap);
   const GapResult traced = evaluate_gap(scene, run_mechanics(scene).trace, gap);
   ASSERT_EQ(coupled.mechanics.status, RunStatus::completed);
   EXPECT_TRUE(coupled.gaps.front().coupled);
@@ -205,11 +205,11 @@ TEST(RunCoupled, AgreesWithTheTracedTemperaturesOfAFilm) {
   EXPECT_LE(coupled.gaps.front().skin.energy_residual, 1e-11);
 }
 
-TEST(RunCoupled, IgnitesWhenAndWhereTheTraceDoes) {
+TEST(RunWithSkin, IgnitesWhenAndWhereTheTraceDoes) {
   scene::Scene scene = coarse_scene();
   scene.surface.localisation = 800.0;
   scene.charge().kinetics.ignition_temperature = 420.0;  // well inside the heating
-  const CaseResult coupled = run_coupled(scene, 4e-4);
+  const CaseResult coupled = run_with_skin(scene, 4e-4);
   const GapResult traced = evaluate_gap(scene, coupled.mechanics.trace, 4e-4);
   ASSERT_TRUE(coupled.gaps.front().skin.ignition.has_value());
   ASSERT_TRUE(traced.skin.ignition.has_value());

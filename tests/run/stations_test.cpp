@@ -28,7 +28,7 @@ scene::Scene scene_with(double cell_size) {
 std::vector<double> heat_of(const scene::Scene& scene, const std::function<double(double, double)>& strain) {
   mpm::Simulation simulation(scene);
   TraceRecorder recorder(simulation, scene);
-  mpm::Kinematics& p = simulation.bodies_of<materials::Charge>()[0].get().kinematics;
+  mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
   for (int j = 0; j < p.lattice.rows(); ++j)
     for (int i = 0; i < p.lattice.columns(); ++i) {
       const std::size_t slot = p.lattice.slot(i, j);

@@ -128,13 +128,13 @@ TEST(MechanicalPart, HasNoNegativeZeros) {
   const std::string part = to_toml(mechanical_part(scene));
   scene.load.base = -0.0;
   scene.numerics.damping_time = -0.0;
-  scene.charge().cracks.relaxation_rates[0] = -0.0;
+  scene.charge().strength.relaxation_rates[0] = -0.0;
   scene.bodies[0].x_begin = -0.0;
   EXPECT_NE(to_toml(scene).find("-0"), std::string::npos);
   const Scene without_signs = mechanical_part(scene);
   EXPECT_EQ(to_toml(without_signs), part);
   EXPECT_FALSE(std::signbit(without_signs.bodies[0].x_begin));
-  EXPECT_FALSE(std::signbit(without_signs.charge().cracks.relaxation_rates[0]));
+  EXPECT_FALSE(std::signbit(without_signs.charge().strength.relaxation_rates[0]));
 }
 
 TEST(MechanicalPart, IsTheSameHoweverTheSceneIsWritten) {

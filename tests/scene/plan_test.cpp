@@ -63,15 +63,15 @@ TEST(Plan, CracksNeedFlawsAndARadius) {
   EXPECT_TRUE(make_plan(scene).cracks.in);
   EXPECT_TRUE(make_plan(scene).crack_growth.in);
   EXPECT_TRUE(make_plan(scene).crack_friction.in);
-  scene.charge().cracks.face_friction = 0.0;
+  scene.charge().strength.face_friction = 0.0;
   EXPECT_FALSE(make_plan(scene).crack_friction.in);
-  scene.charge().cracks.growth = false;
+  scene.charge().strength.growth = false;
   EXPECT_FALSE(make_plan(scene).crack_growth.in);
   EXPECT_TRUE(make_plan(scene).cracks.in);
-  scene.charge().cracks.flaw_size = 0.0;
+  scene.charge().strength.flaw_size = 0.0;
   EXPECT_FALSE(make_plan(scene).cracks.in);
   scene = small();
-  scene.charge().cracks.initial_crack_radius = 0.0;
+  scene.charge().strength.initial_crack_radius = 0.0;
   EXPECT_FALSE(make_plan(scene).cracks.in);
 }
 

@@ -27,7 +27,7 @@ TEST(ReadScene, ShippedSceneIsTheOneOfTheModel) {
   }
   EXPECT_EQ(scene.load.peak, 496e6);
   EXPECT_EQ(scene.charge().kinetics.name, "comp-b");
-  EXPECT_GT(scene.charge().cracks.face_friction, 0.0);
+  EXPECT_GT(scene.charge().strength.face_friction, 0.0);
 }
 
 TEST(ReadScene, WhatTheShippedSceneLeavesOutIsTheDefault) {
@@ -47,7 +47,7 @@ TEST(ReadScene, WrittenSceneReadsBackToTheSame) {
   file->scene.load.curve_time = {0.0, 1e-3, 0.018};
   file->scene.load.curve_pressure = {1e5, 1e8, 2e8 / 3.0};
   file->scene.output.snapshot_times = {0.0, 5e-3};
-  file->scene.charge().cracks.face_friction = 0.0;
+  file->scene.charge().strength.face_friction = 0.0;
   const std::string text = to_toml(file->scene);
   const auto again = parse_scene(text, "again.toml");
   ASSERT_TRUE(again) << again.error().message() << text;

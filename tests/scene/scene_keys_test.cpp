@@ -73,10 +73,10 @@ TEST(SceneKeys, KineticsAreNamedAfterTheirNumbers) {
 TEST(SceneKeys, CrackFrictionIsSugarForACoefficient) {
   const auto off = with_written_key(small_file(), "charge.crack_friction", "false", {});
   ASSERT_TRUE(off);
-  EXPECT_EQ(off->scene.charge().cracks.face_friction, 0.0);
+  EXPECT_EQ(off->scene.charge().strength.face_friction, 0.0);
   const auto coefficient = with_written_key(*off, "charge.face_friction", "0.2", {});
   ASSERT_TRUE(coefficient);
-  EXPECT_EQ(coefficient->scene.charge().cracks.face_friction, 0.2);
+  EXPECT_EQ(coefficient->scene.charge().strength.face_friction, 0.2);
   const auto text = "charge.crack_friction = true\ncharge.face_friction = 0\n" + small_scene;
   expect_error(error_of(text), 1, "charge.crack_friction", "face_friction = 0",
                "true with a face_friction above 0");

@@ -112,7 +112,7 @@ TEST(AccuracyRecord, KnowsASettingByItsValuesAndAShellByWhatErrorsDependOn) {
   EXPECT_EQ(recorded_setting(record, scaled(4)), nullptr);
   scene::Scene scene = own_scene();
   scene.load.peak = 300e6;
-  scene.charge().cracks.initial_crack_radius = 1e-3;
+  scene.charge().strength.initial_crack_radius = 1e-3;
   scene.surface.localisation = 5;
   scene.numerics.cell_size = 1.25e-3 * (1.0 + 1e-15);  // 0.125 cm is not always 1.25 mm to the last digit
   EXPECT_EQ(why_foreign(record, scene), "");
@@ -125,7 +125,7 @@ TEST(AccuracyRecord, KnowsASettingByItsValuesAndAShellByWhatErrorsDependOn) {
 TEST(AccuracyRecord, IsForeignToAnotherShellOrClosure) {
   const std::vector<std::function<void(scene::Scene&)>> changes{
       [](auto& s) { s.bodies.front().r_end *= 1.01; },
-      [](auto& s) { s.charge().cracks.face_friction = 0.0; },
+      [](auto& s) { s.charge().strength.face_friction = 0.0; },
       [](auto& s) { s.initial_temperature = 310.0; },
       [](auto& s) { s.barrel = scene::Barrel::none; },
       [](auto& s) { s.surface.friction = scene::FrictionClosure::inelastic; },

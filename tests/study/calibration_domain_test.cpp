@@ -88,7 +88,7 @@ TEST(CalibrationDomain, NamesWhatLiesOutside) {
       {"smaller steps", [](auto& s) { s.numerics.time_step_factor = 0.25; }, "", ""},
       {"a finer trace", [](auto& s) { s.output.trace_interval = 1e-5; }, "", ""},
       {"pressure", [](auto& s) { s.load.peak = 550e6; }, "", "peak pressure"},
-      {"cracks", [](auto& s) { s.charge().cracks.initial_crack_radius = 1e-4; }, "", "crack radius"},
+      {"cracks", [](auto& s) { s.charge().strength.initial_crack_radius = 1e-4; }, "", "crack radius"},
       {"cold", [](auto& s) { s.initial_temperature = 250.0; }, "", "initial temperature"},
       {"load shape", [](auto& s) { s.load.exponent = 17.0; }, "", "load shape"},
       {"a measured curve",

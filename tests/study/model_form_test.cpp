@@ -140,7 +140,7 @@ TEST(ModelForm, SaysNothingOfAnotherLaunchOrPressure) {
   EXPECT_TRUE(std::isnan(model_form_shift(record, at_pressure(449e6)).gap));
   EXPECT_TRUE(std::isnan(model_form_shift(record, at_pressure(551e6)).gap));
   scene::Scene cracked = at_pressure(500e6);
-  cracked.charge().cracks.initial_crack_radius *= 2.0;
+  cracked.charge().strength.initial_crack_radius *= 2.0;
   EXPECT_NE(model_form_shift(record, cracked).reason.find("crack radius"), std::string::npos);
   scene::Scene hotter = at_pressure(500e6);
   hotter.surface.localisation *= 1.5;

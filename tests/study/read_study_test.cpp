@@ -75,8 +75,8 @@ TEST(ReadStudy, MakesTheProductOfPressuresAndDefects) {
   EXPECT_EQ(study.cases[1].label, "400 MPa, 10 um, 2 mm");
   EXPECT_EQ(study.cases[11].label, "500 MPa, 100 um, 2 mm");
   EXPECT_EQ(study.cases[11].scene.scene.load.peak, 500e6);
-  EXPECT_EQ(study.cases[11].scene.scene.charge().cracks.initial_crack_radius, 1e-4);
-  EXPECT_EQ(study.cases[11].scene.scene.charge().cracks.flaw_size, 2e-3);
+  EXPECT_EQ(study.cases[11].scene.scene.charge().strength.initial_crack_radius, 1e-4);
+  EXPECT_EQ(study.cases[11].scene.scene.charge().strength.flaw_size, 2e-3);
 }
 
 TEST(ReadStudy, OverridesSceneKeys) {

@@ -52,7 +52,7 @@ TEST(ReadSweep, MakesTheProductOfTheAxesInTheOrderWritten) {
   EXPECT_EQ(second.cell_size, study.scene.scene.numerics.cell_size);
   const scene::Scene& last = study.cases.back().scene.scene;
   EXPECT_EQ(last.load.peak, 496e6);
-  EXPECT_EQ(last.charge().cracks.flaw_size, 2e-3);
+  EXPECT_EQ(last.charge().strength.flaw_size, 2e-3);
   EXPECT_EQ(last.load.exponent, 9.0);
 }
 

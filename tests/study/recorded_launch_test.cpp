@@ -71,7 +71,7 @@ TEST(RecordedLaunch, GrowsWithWhatDrivesTheErrorsAndNeverShrinks) {
     return coverage.growth;
   };
   EXPECT_NEAR(growth([](auto& s) { s.load.peak *= 1.1; }), 1.21, 1e-9);
-  EXPECT_NEAR(growth([](auto& s) { s.charge().cracks.initial_crack_radius *= 2.0; }), std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(growth([](auto& s) { s.charge().strength.initial_crack_radius *= 2.0; }), std::sqrt(2.0), 1e-9);
   EXPECT_NEAR(growth([](auto& s) { s.surface.localisation *= 1.5; }), 1.5, 1e-9);
   EXPECT_NEAR(growth([](auto& s) {
                 s.load.peak *= 1.1;
@@ -79,15 +79,16 @@ TEST(RecordedLaunch, GrowsWithWhatDrivesTheErrorsAndNeverShrinks) {
               }),
               1.815, 1e-9);
   for (const auto& smaller : std::vector<std::function<void(scene::Scene&)>>{
-           [](auto& s) { s.load.peak *= 0.3; }, [](auto& s) { s.charge().cracks.initial_crack_radius = 0.0; },
+           [](auto& s) { s.load.peak *= 0.3; },
+           [](auto& s) { s.charge().strength.initial_crack_radius = 0.0; },
            [](auto& s) { s.surface.localisation = 0.0; },
-           [](auto& s) { s.charge().cracks.flaw_size *= 10.0; }, [](auto& s) { s.load.duration *= 0.8; }})
+           [](auto& s) { s.charge().strength.flaw_size *= 10.0; }, [](auto& s) { s.load.duration *= 0.8; }})
     EXPECT_EQ(growth(smaller), 1.0);
 }
 
 TEST(RecordedLaunch, SaysNothingOfWhatTheRecordDoesNotHave) {
   scene::Scene none = own_scene();
-  none.charge().cracks.initial_crack_radius = 0.0;
+  none.charge().strength.initial_crack_radius = 0.0;
   EXPECT_NE(coverage_of(launch_of(none, recorded_gaps), launch_of(own_scene(), recorded_gaps))
                 .reason.find("without cracks"),
             std::string::npos);

@@ -226,7 +226,7 @@ TEST(Stability, LawsComeFirst) {
   text.replace(text.find("laws = false"), 12, "laws = true");
   StudyOptions options = options_with([](const scene::Scene& scene) { return sound_mechanics(scene); });
   const StabilityResult result = run_stability(study_of(text), options);
-  EXPECT_EQ(result.rows.size(), verify::hard_laws().size() + 1);
+  EXPECT_EQ(result.rows.size(), verify::law_stress_tests().size() + 1);
   EXPECT_FALSE(result.rows.front().ran);
   EXPECT_TRUE(result.rows.back().ran);
   // A shard has no use for them.

@@ -36,11 +36,11 @@ double stress_error(int cells) {
   mechanics::run_to(simulation, 1.8 * peak_time);
   const scene::PressureHistory pressure(scene.load);
   const mpm::Body<LinearElastic>& body = simulation.bodies_of<LinearElastic>().at(0);
-  const mpm::Lattice& lattice = body.kinematics.lattice;
+  const mpm::Lattice& lattice = body.particles.lattice;
   mechanics::RelativeError error;
   for (int i = 0; i < lattice.columns(); ++i) {
     const std::size_t slot = lattice.slot(i, 0);
-    error.add(body.deviator(slot).xx - body.kinematics.pressure[slot],
+    error.add(body.deviator(slot).xx - body.particles.pressure[slot],
               -pressure.at(simulation.time() - (1.0 - lattice.x_of(i)) / speed));
   }
   return error.value();

@@ -10,7 +10,7 @@
 namespace launchsafe::materials {
 
 struct Charge {
-  ViscoScramParameters cracks;
+  ViscoScramParameters strength;
   JwlParameters eos = unreacted_composition_b();
   double tension_cutoff = 5e6;     ///< Pa, > 0: the pressure never falls below -cutoff
   double specific_heat = 1780.0;   ///< J/(kg K)
@@ -43,7 +43,7 @@ struct Charge {
                                                          {"crack_radius", "m"}}};
 
   double initial_density() const { return eos.initial_density; }
-  double shear_modulus() const { return cracks.shear_modulus(); }
+  double shear_modulus() const { return strength.shear_modulus(); }
   /// A soft body takes on what hourglassing a stiff neighbour has left, without stress; where it resists
   /// that, the pattern turns into pressure. A tenth of the shear modulus, in both, lets the pressure at the
   /// bottom of the 155 mm shell alternate by 0.17 %, a tenth in steel and a fiftieth here by 0.09 %, none
@@ -55,7 +55,7 @@ struct Charge {
 
   State<Charge, double> initial_state(double) const {
     State<Charge, double> start{};
-    start[crack_radius] = cracks.initial_crack_radius;
+    start[crack_radius] = strength.initial_crack_radius;
     return start;
   }
 
@@ -76,7 +76,7 @@ struct Charge {
 class Charge::Integrator {
  public:
   explicit Integrator(const Charge& charge)
-      : charge_(charge), isentrope_(charge.eos), solid_(charge.cracks) {}
+      : charge_(charge), isentrope_(charge.eos), solid_(charge.strength) {}
   void set_step(double dt) {
     if (dt < dt_ || dt > dt_) solid_.set_step(dt);
     dt_ = dt;
@@ -101,7 +101,7 @@ class Charge::Integrator {
     response.viscous = end.viscous;
     response.crack = end.crack;
     response.crack_at_bound =
-        select(end.state.crack_radius >= Real(charge_.cracks.largest_crack_radius), Real(1.0), Real(0.0));
+        select(end.state.crack_radius >= Real(charge_.strength.largest_crack_radius), Real(1.0), Real(0.0));
     return response;
   }
 

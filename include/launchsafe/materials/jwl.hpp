@@ -70,7 +70,7 @@ struct JwlState {
 };
 
 /// Change of V, as a share of it, up to which an adiabatic step may use the mean of its two pressures, which
-/// errs by up to (R1 dV)^2/12, 0.7 %. Of a large change that mean knows nothing: from V = 1 to 0.3 it gives
+/// errs by up to (R1 dV)^2/12, 0.7 %. For a large change that mean is useless: from V = 1 to 0.3 it gives
 /// -45 TPa instead of 2.6 TPa.
 inline constexpr double jwl_small_change = 0.025;
 

@@ -1,4 +1,4 @@
-// What a material is to the mechanics: a law that advances declared state.
+// Interface of a constitutive law to the mechanics: it advances declared state.
 //
 // A law is a plain struct of parameters with
 //   static constexpr std::string_view name           the word that bodies refer to it by
@@ -52,7 +52,7 @@ constexpr bool has_field(std::string_view name) {
 }
 
 /// The state that `load(field index)` gives, or what `store(field index, value)` takes. Written out field by
-/// field: a compiler gives up on a loop over more than sixteen and then keeps the state in memory.
+/// field: compilers do not unroll a loop over more than sixteen and then keep the state in memory.
 template <class Law, class Load>
 auto load_state(Load&& load) {
   return [&]<std::size_t... field>(std::index_sequence<field...>) {
@@ -66,7 +66,7 @@ void store_state(const State<Law, Real>& state, Store&& store) {
   (std::make_index_sequence<Law::state.size()>{});
 }
 
-/// The deformation of one step as laws want it.
+/// Deformation increment of one step.
 template <class Real>
 struct Increment {
   math::Deviator<Real> deviator;  ///< of the strain increment, at the middle of the step

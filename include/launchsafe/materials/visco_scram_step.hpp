@@ -235,7 +235,7 @@ auto ViscoScramStep::update(const State<Real>& start, math::DeviatorVector<Real>
   result.viscous = viscous + contract(resisting + Real(loss_of_strain_) * applied, applied);
   if (divides) [[unlikely]] {
     // Copied part by part and without a loop, which stays one in a rare branch: states that are indexed or
-    // passed on as a whole would live in memory in every step.
+    // passed on as a whole would be kept in memory in every step.
     State<Real> begin;
     begin.total = start.total;
     begin.crack_radius = radius;

@@ -121,9 +121,9 @@ struct MorrisOptions {
 /// Statistics of the elementary effects (f(after) - f(before))/(change of the input in the unit cube) of one
 /// input, in units of the output: the change over the whole range of an input that acts linearly.
 struct MorrisEffects {
-  double mu = 0;            ///< mean
-  Estimate mu_star{};       ///< mean of the absolute values; its interval wants six effects to hold its level
-  double sigma = 0;         ///< standard deviation; NaN with fewer than two effects
+  double mu = 0;       ///< mean
+  Estimate mu_star{};  ///< mean of the absolute values; its interval needs six effects to reach its level
+  double sigma = 0;    ///< standard deviation; NaN with fewer than two effects
   std::size_t effects = 0;  ///< that the statistics rest on; all NaN with none
 };
 

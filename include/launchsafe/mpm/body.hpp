@@ -1,4 +1,4 @@
-// Particles of one body: arrays, and only those that the body's law needs.
+// Particles of one body as arrays of their fields.
 //
 // A body is a lattice of particles in rows along x. Every row is padded to whole Packs with massless lanes.
 // With several particles a cell, a row is split into sub-rows of every k-th particle, so that neighbouring
@@ -48,8 +48,9 @@ struct Lattice {
   }
 };
 
-/// What every body has. Massless slots have mass 0 and never change.
-struct Kinematics {
+/// Fields of the particles of a body that every law needs. Slots that only pad a row have mass 0 and never
+/// change.
+struct ParticleFields {
   Lattice lattice;
   int body = 0;                               ///< index into Scene::bodies
   math::AlignedArray x, r;                    ///< m
@@ -59,22 +60,23 @@ struct Kinematics {
   math::AlignedArray pressure;                ///< Pa, compression positive
   math::AlignedArray temperature;             ///< K
 
-  /// What a step did to particles that somebody reads between steps (see `record`); empty without.
+  /// Increments of the last step at the particles marked by `record`; empty while none is marked.
   std::vector<std::uint8_t> recorded;               ///< by Pack of slots
   std::array<math::AlignedArray, 3> strain_change;  ///< deviatoric strain increment rr, xx, rx
   /// Pa: stress deviator rr, xx, rx less the one before, turned with the step's rotation.
   std::array<math::AlignedArray, 3> stress_change;
 };
 
-/// Makes steps keep what they do to the particle in a slot, and to the others of its Pack.
-void record(Kinematics& particles, std::size_t slot);
+/// Makes every step store the increments of strain and stress of the particle in a slot, and of the others of
+/// its Pack.
+void record(ParticleFields& particles, std::size_t slot);
 
 /// A body of particles of its material.
 template <class Law>
 struct Body {
   Law law;
   typename Law::Integrator integrator;  ///< of the law
-  Kinematics kinematics;
+  ParticleFields particles;
   std::array<math::AlignedArray, Law::state.size()> state;
 
   math::AlignedArray& operator[](std::size_t field) { return state[field]; }
@@ -98,15 +100,15 @@ struct BodiesOf<std::variant<Law...>> {
 };
 }  // namespace detail
 
-/// A body of any of the laws there are.
+/// A body of any law.
 using AnyBody = detail::BodiesOf<materials::Law>::type;
 
 /// Particles that tile the body exactly, at rest and free of stress.
 AnyBody make_body(const scene::Scene& scene, int body);
 
-const Kinematics& kinematics_of(const AnyBody& body);
+const ParticleFields& particle_fields_of(const AnyBody& body);
 
 /// Sum of the particle masses, kg of the whole shell (2 pi radians) or per metre of depth.
-double mass_of(const Kinematics& particles, scene::Symmetry symmetry);
+double mass_of(const ParticleFields& particles, scene::Symmetry symmetry);
 
 }  // namespace launchsafe::mpm

@@ -1,4 +1,5 @@
-// Heat conduction through all bodies, as an operator beside the step: the run room applies it every so often.
+// Heat conduction through all bodies, as an operator beside the step: the module run applies it every so
+// often.
 //
 // It is a finite-volume scheme on the bodies' own lattices, not on the background grid. Through the
 // background grid a particle would receive increments of nodal means, and what varies from one particle to

@@ -8,7 +8,7 @@
 //
 // Nodal velocities come from particles and do not agree to the last digit between two faces even where they
 // are bonded. There, momentum is first exchanged so that they do, as a tie does. That exchange is no force:
-// particles and energies do not know of it. Where faces can slide, the impulses make it good.
+// it changes neither particles nor energies. Where faces can slide, the impulses correct it.
 //
 // Pairs and normals are those of the last pairing, and a gap is the mean over what a node's traction acts on.
 // Pairing anew finds gaps a little different: by 1e-9 m on a launch in its barrel, 1e-7 m where a wall
@@ -57,13 +57,14 @@ class Contact {
   Contact(const scene::Scene& scene, const scene::GridLines& lines, const std::vector<Nodes>& nodes,
           const std::vector<Tie>& ties);
 
-  /// Whether any faces can slide: without, nothing else may be called.
+  /// Whether any faces can slide; if none can, nothing else may be called.
   bool any() const { return !faces_.empty(); }
   /// Takes the nodes' velocities as those of the step before, which had no impulses. Broken bonds stay so.
-  void restart(const std::vector<Nodes>& nodes);
-  /// Acts on nodes that a step of dt (s) has moved freely, with damping that kept the share `keep` of their
-  /// velocity. Tractions are those that the step would have had to apply before damping, as it does forces.
-  ContactTotals act(std::vector<Nodes>& nodes, double dt, double keep);
+  void reset(const std::vector<Nodes>& nodes);
+  /// Acts on nodes that a step of dt (s) has moved freely, with damping that kept the share `damping_factor`
+  /// of their velocity. Tractions are those that the step would have had to apply before damping, as it does
+  /// forces.
+  ContactTotals act(std::vector<Nodes>& nodes, double dt, double damping_factor);
 
   /// Faces in the order of the scene's interfaces.
   std::size_t faces() const { return faces_.size(); }
@@ -158,17 +159,17 @@ class Contact {
   void set_speeds(Row& row) const;
   Velocity impulse(const Row& row, double normal, double slide) const;
   void push(const Row& row, double normal, double slide);
-  void hand_over(const Row& row, double normal, double slide);
+  void exchange_impulse(const Row& row, double normal, double slide);
   void make_fields(const std::vector<Nodes>& nodes);
   void read_nodes(const std::vector<Nodes>& nodes);
-  void exchange();
-  void begin_impulses(double longer);
-  void press(double dt);
+  void exchange_momentum();
+  void begin_impulses(double step_ratio);
+  void solve_impulses(double dt);
   double sweep();
   bool break_bonds(double dt);
-  ContactTotals book();
+  ContactTotals add_up_energy();
   void write_nodes(std::vector<Nodes>& nodes, double dt) const;
-  void settle_rows(double dt);
+  void advance_rows(double dt);
 
   std::vector<Face> faces_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> tie_of_, point_of_;  ///< by nodes and index
@@ -176,24 +177,24 @@ class Contact {
   std::vector<Member> members_;  ///< by nodes
   std::vector<Row> rows_;
   std::vector<Share> shares_;
-  std::vector<PairRow> paired_;  ///< of one face, used again
-  Field inertia_;                ///< kg
-  Field mass_;                   ///< kg, along x alone
-  Field mobility_;               ///< 1/kg, how readily a point moves; 0 where it is held along r
-  Field moves_;                  ///< 1, or 0 where it is held along r
-  Field velocity_;               ///< m/s, which the step moves by
-  Field free_;                   ///< m/s, without contact
-  Field brought_;                ///< m/s, that came back from the particles
-  Field matched_;                ///< m/s, the same after the exchange
-  Field start_;                  ///< m/s, of the free motion after it
-  Field before_;                 ///< m/s, which the last step moved by
-  Field impulse_;                ///< kg m/s, of the last step
-  double last_dt_ = 0;           ///< s
-  double keep_ = 1;              ///< share of the velocity that damping leaves
-  double keep_before_ = 1;       ///< the same of the last step
-  double slid_ = 0;              ///< m, since the faces were paired
-  double shortest_cell_ = 0;     ///< m, of the faces
-  int steps_ = 0;                ///< since the faces were paired; their impulses are known by point from 1 on
+  std::vector<PairRow> paired_;       ///< of one face, used again
+  Field inertia_;                     ///< kg
+  Field mass_;                        ///< kg, along x alone
+  Field mobility_;                    ///< 1/kg, how readily a point moves; 0 where it is held along r
+  Field unconstrained_;               ///< 1, or 0 where it is held along r
+  Field velocity_;                    ///< m/s, which the step moves by
+  Field free_velocity_;               ///< m/s, without contact
+  Field particle_velocity_;           ///< m/s, summed from the particles
+  Field exchanged_velocity_;          ///< m/s, the same after the exchange
+  Field start_;                       ///< m/s, of the free motion after it
+  Field before_;                      ///< m/s, which the last step moved by
+  Field impulse_;                     ///< kg m/s, of the last step
+  double last_dt_ = 0;                ///< s
+  double damping_factor_ = 1;         ///< share of the velocity that damping leaves
+  double damping_factor_before_ = 1;  ///< the same of the last step
+  double slid_ = 0;                   ///< m, since the faces were paired
+  double shortest_cell_ = 0;          ///< m, of the faces
+  int steps_ = 0;  ///< since the faces were paired; their impulses are known by point from 1 on
   bool has_bonds_ = false;
 };
 

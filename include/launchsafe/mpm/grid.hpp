@@ -13,17 +13,17 @@ struct Grid {
   static constexpr int radial_padding = 1;
 
   int nodes_x = 0, nodes_r = 0;
-  double dx = 0, dr = 0;       ///< m
-  double origin_x = 0;         ///< m; moves by whole cells with the window
-  math::AlignedArray moves_r;  ///< 1 where v_r is free, 0 on the axis and at the barrel
+  double dx = 0, dr = 0;             ///< m
+  double origin_x = 0;               ///< m; moves by whole cells with the co-moving grid
+  math::AlignedArray radially_free;  ///< 1 where v_r is free, 0 on the axis and at the barrel
 
-  // What the particles add up in a step.
+  // Sums over the particles, from the last step on.
   math::AlignedArray mass;                    ///< kg
   math::AlignedArray momentum_x, momentum_r;  ///< kg m/s
   math::AlignedArray force_x, force_r;        ///< N, internal
-  // What the particles read in the next.
-  math::AlignedArray velocity_x, velocity_r;  ///< m/s, at the end of the step
-  math::AlignedArray change_x, change_r;      ///< m/s, gained in the step
+  // Nodal results of the step, interpolated to the particles.
+  math::AlignedArray velocity_x, velocity_r;                      ///< m/s, at the end of the step
+  math::AlignedArray velocity_increment_x, velocity_increment_r;  ///< m/s, over the step
 
   std::size_t index(int i, int j) const {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(nodes_x) + static_cast<std::size_t>(i);
@@ -31,8 +31,8 @@ struct Grid {
   std::size_t nodes() const { return static_cast<std::size_t>(nodes_x) * static_cast<std::size_t>(nodes_r); }
 };
 
-/// A grid around the scene at rest. Without a barrel it has room for the shell to swell to 1.5 times its
-/// radius.
+/// A grid around the scene at rest. Without a barrel it reaches to 1.5 times the shell's radius, so that
+/// the shell can expand.
 Grid make_grid(const scene::Scene& scene);
 
 }  // namespace launchsafe::mpm

@@ -1,4 +1,5 @@
-// What both formulations do with a Pack of particles once its deformation is known: law, energies, velocity.
+// Update of a Pack of particles from its deformation increment, common to both formulations: constitutive
+// law, energies, velocity.
 #pragma once
 
 #include "launchsafe/mpm/body.hpp"
@@ -13,21 +14,21 @@ inline void store(math::AlignedArray& field, std::size_t slot, Pack value) {
   value.store(field.data() + slot);
 }
 
-/// Deformation of a step at a Pack of particles.
+/// Deformation increment of a step at a Pack of particles.
 struct Deformation {
   materials::Increment<Pack> increment;
   Pack rest_volume;  ///< m3 per radian or metre
 };
 
-/// Cauchy stress at the end of a step.
-struct Stressed {
+/// Cauchy stress at the end of a step, Pa: deviator tension positive, pressure compression positive.
+struct StressUpdate {
   math::Deviator<Pack> deviator;
   Pack pressure;
 };
 
-/// Keeps what a step did to a Pack of particles.
-inline void keep_changes(Kinematics& p, std::size_t slot, const math::Deviator<Pack>& strain,
-                         const math::Deviator<Pack>& stress) {
+/// Stores the increments of strain and stress (Pa) of a step at a Pack of particles.
+inline void store_increments(ParticleFields& p, std::size_t slot, const math::Deviator<Pack>& strain,
+                             const math::Deviator<Pack>& stress) {
   store(p.strain_change[0], slot, strain.rr);
   store(p.strain_change[1], slot, strain.xx);
   store(p.strain_change[2], slot, strain.rx);
@@ -36,11 +37,12 @@ inline void keep_changes(Kinematics& p, std::size_t slot, const math::Deviator<P
   store(p.stress_change[2], slot, stress.rx);
 }
 
-/// Advances the law of a Pack of particles, keeps what they carry and books what it did.
+/// Advances the constitutive law of a Pack of particles, stores their state and adds the energies and limiter
+/// events of the step to `totals`.
 template <class Law>
-[[gnu::always_inline]] inline Stressed update_material(Body<Law>& body, std::size_t slot,
-                                                       const Deformation& d, ParticleTotals& totals) {
-  Kinematics& p = body.kinematics;
+[[gnu::always_inline]] inline StressUpdate update_material(Body<Law>& body, std::size_t slot,
+                                                           const Deformation& d, ParticleTotals& totals) {
+  ParticleFields& p = body.particles;
   auto state = materials::load_state<Law>([&](std::size_t field) { return load(body.state[field], slot); });
   const Pack pressure_before = load(p.pressure, slot);
   Pack temperature = load(p.temperature, slot);
@@ -51,7 +53,7 @@ template <class Law>
   store(p.volume_ratio, slot, d.increment.volume_after);
   if constexpr (Law::heats_itself) store(p.temperature, slot, temperature);
   if (!p.recorded.empty() && p.recorded[slot / math::pack_width] != 0)
-    keep_changes(p, slot, d.increment.deviator, response.deviator - response.deviator_before);
+    store_increments(p, slot, d.increment.deviator, response.deviator - response.deviator_before);
 
   const Pack volume0 = d.increment.volume_before, volume1 = d.increment.volume_after;
   const Pack work = contract(response.deviator_before + response.deviator, d.increment.deviator);
@@ -67,13 +69,15 @@ template <class Law>
   return {response.deviator, response.pressure};
 }
 
-/// FLIP velocity update with an optional share of PIC. Books the kinetic energy that the share takes out, and
-/// the time-centred kinetic energy of the step's begin. `inertia` is the mass in that balance, kg.
-[[gnu::always_inline]] inline void update_velocity(Kinematics& p, std::size_t slot, Pack inertia,
-                                                   Pack change_x, Pack change_r, Pack grid_x, Pack grid_r,
-                                                   double pic_fraction, ParticleTotals& totals) {
+/// FLIP velocity update with an optional share of PIC. Adds the kinetic energy that the PIC share dissipates
+/// and the time-centred kinetic energy at the step's begin to `totals` (J). `inertia` is the mass in that
+/// balance, kg.
+[[gnu::always_inline]] inline void update_velocity(ParticleFields& p, std::size_t slot, Pack inertia,
+                                                   Pack velocity_increment_x, Pack velocity_increment_r,
+                                                   Pack grid_x, Pack grid_r, double pic_fraction,
+                                                   ParticleTotals& totals) {
   const Pack old_x = load(p.velocity_x, slot), old_r = load(p.velocity_r, slot);
-  const Pack flip_x = old_x + change_x, flip_r = old_r + change_r;
+  const Pack flip_x = old_x + velocity_increment_x, flip_r = old_r + velocity_increment_r;
   const Pack new_x = flip_x + pic_fraction * (grid_x - flip_x),
              new_r = flip_r + pic_fraction * (grid_r - flip_r);
   store(p.velocity_x, slot, new_x);
@@ -86,7 +90,7 @@ template <class Law>
 /// Largest squared longitudinal sound speed (m2/s2) of a Pack of particles.
 template <class Law>
 Pack sound_speed_squared(const Body<Law>& body, std::size_t slot) {
-  const Kinematics& p = body.kinematics;
+  const ParticleFields& p = body.particles;
   auto state = materials::load_state<Law>([&](std::size_t field) { return load(body.state[field], slot); });
   const Pack volume = load(p.volume_ratio, slot);
   const Pack modulus = body.integrator.bulk_modulus(state, volume, load(p.pressure, slot)) +

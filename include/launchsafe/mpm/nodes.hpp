@@ -11,10 +11,10 @@
 
 namespace launchsafe::mpm {
 
-/// What particles add up on the nodes of a body in a step. Along each row of cells they write the nodes on
-/// both sides of it, each side to its own array, so that no node row has two writers and the order of
-/// addition is fixed for any number of threads. A node's sum is `towards_axis` (of the cells inside) plus
-/// `outwards` (of the cells outside).
+/// Sums over the particles at the nodes of a body. A row of cells contributes to the node rows on both sides
+/// of it, to each side in its own array, so that no node row has two writers and the order of addition is
+/// fixed for any number of threads. A node's sum is `Nodes::inside` (of the cells towards the axis) plus
+/// `Nodes::outside` (of the cells away from it).
 struct NodeSums {
   math::AlignedArray momentum_x, momentum_r;  ///< kg m/s, of the inertial mass
   math::AlignedArray force_x, force_r;        ///< N, internal
@@ -31,15 +31,15 @@ struct Nodes {
   math::AlignedArray inertia;                 ///< kg, of this body, with inertial factors
   math::AlignedArray inverse_inertia;         ///< 1/kg, of all that is tied at the place; 0 beyond the body
   math::AlignedArray mass_share;              ///< true over inertial mass of all that is tied at the place
-  math::AlignedArray moves_r;                 ///< 1 where v_r is free, 0 on the axis and at the barrel
-  math::AlignedArray velocity_x, velocity_r;  ///< m/s, which the step moves by
-  math::AlignedArray change_x, change_r;      ///< m/s, gained in the step
-  math::AlignedArray displacement_x, displacement_r;  ///< m, since the start
+  math::AlignedArray radially_free;           ///< 1 where v_r is free, 0 on the axis and at the barrel
+  math::AlignedArray velocity_x, velocity_r;  ///< m/s, at the end of the step; displacements advance with it
+  math::AlignedArray velocity_increment_x, velocity_increment_r;  ///< m/s, over the step
+  math::AlignedArray displacement_x, displacement_r;              ///< m, since the start
 
   std::size_t index(int i, int j) const {
     return static_cast<std::size_t>(j) * stride + static_cast<std::size_t>(i);
   }
-  /// The sums that the particles write anew in every step at row j: what is put on top is gone after it.
+  /// The sums that the particles overwrite in every step at row j: loads added to them act for one step.
   NodeSums& written(int j) { return j == 0 ? outside : inside; }
 };
 
@@ -55,8 +55,8 @@ struct Tie {
   };
   std::vector<Member> members;
 };
-/// Ties of all bodies that meet at a place. Where faces can part, `parts(a, b)` for the indices of two
-/// bodies' nodes, only bodies hold each other that share a face there which cannot, directly or through
+/// Ties of all bodies that meet at a place. Where `parts(a, b)` (indices of two bodies' nodes) says that
+/// their faces can separate, only those bodies are tied that share a face which cannot, directly or through
 /// others.
 std::vector<Tie> find_ties(const std::vector<Nodes>& nodes,
                            const std::function<bool(std::size_t, std::size_t)>& parts);
@@ -65,7 +65,7 @@ std::vector<Tie> find_ties(const std::vector<Nodes>& nodes,
 enum class Side { none, x_begin, x_end, r_begin, r_end };
 Side side_towards(const Nodes& of, const Nodes& other);
 
-/// Bonding: every member of a tie gets the sum over all, so that all move alike.
+/// Gives every member of a tie the sum over all members, so that all have the same velocity.
 void bond(const std::vector<Tie>& ties, std::vector<Nodes>& nodes);
 
 }  // namespace launchsafe::mpm

@@ -17,7 +17,7 @@ namespace launchsafe::mpm {
 
 /// Energy balance since the start, J per radian (axisymmetric) or per metre of depth.
 struct EnergyTotals {
-  /// Of the motion relative to the mass centre, with scaled inertia, centred in time: velocities live half a
+  /// Of the motion relative to the mass centre, with scaled inertia, centred in time: velocities are half a
   /// step away from stresses (leapfrog), and m v_old v_new/2 is what the discrete work balances.
   double kinetic = 0;
   double internal = 0;  ///< stress power, and what is stored against hourglassing
@@ -38,7 +38,7 @@ class Simulation {
  public:
   /// `threads` work on each step together where the form can; results do not depend on their number.
   explicit Simulation(scene::Scene scene, int threads = 1);
-  // The form refers to the bodies.
+  // The formulation holds references to the bodies.
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
@@ -82,41 +82,41 @@ class Simulation {
       if (const auto* one = std::get_if<Body<Law>>(&body)) found.emplace_back(*one);
     return found;
   }
-  /// Calls f(kinematics) for every body, in the order of Scene::bodies.
+  /// Calls f(particle fields) for every body, in the order of Scene::bodies.
   template <class F>
   void for_each_body(F&& f) const {
-    for (const AnyBody& body : bodies_) f(kinematics_of(body));
+    for (const AnyBody& body : bodies_) f(particle_fields_of(body));
   }
   template <class F>
   void for_each_body(F&& f) {
-    for (AnyBody& body : bodies_) std::visit([&](auto& one) { f(one.kinematics); }, body);
+    for (AnyBody& body : bodies_) std::visit([&](auto& one) { f(one.particles); }, body);
   }
 
-  /// The form that is at work; null for the other one.
+  /// The formulation of the scene; null for the other one.
   const TotalLagrangian* total_lagrangian() const { return std::get_if<TotalLagrangian>(&form_); }
   const UpdatedLagrangian* updated_lagrangian() const { return std::get_if<UpdatedLagrangian>(&form_); }
 
-  /// Gives the grid the particles' momentum again: after a test has set velocities.
-  void restart();
+  /// Recomputes the nodal momenta and velocities from the particles, after a test has set their velocities.
+  void reset_grid();
   /// Puts a steady pressure (Pa) on the inner radial face of a body (index into Scene::bodies) from now on.
   /// Its work counts as external. No scene asks for it; the thick-walled tube of `launchsafe verify` does.
-  void press_bore(int body, double pressure);
+  void apply_bore_pressure(int body, double pressure);
   /// Puts a steady body force, in m/s2 of the true mass, on a body (index into Scene::bodies) from now on;
   /// total-Lagrangian only. Its work counts as external. No scene asks for it; checks of contact do.
-  void pull(int body, double acceleration_x, double acceleration_r);
+  void apply_body_force(int body, double acceleration_x, double acceleration_r);
 
  private:
   /// Inertial over true mass of a body.
-  double inertial_factor(const Kinematics& body) const;
-  void book(const StepTotals& totals, double dt);
+  double inertial_factor(const ParticleFields& body) const;
+  void add_to_energy(const StepTotals& totals, double dt);
 
   scene::Scene scene_;
   scene::PressureHistory load_;
   std::vector<AnyBody> bodies_;
   std::variant<std::monostate, TotalLagrangian, UpdatedLagrangian> form_;
-  double total_mass_ = 0;   ///< kg per radian or metre
-  double loaded_area_ = 0;  ///< m2 per radian or metre
-  double pulled_ = 0;       ///< N per radian or metre, axial, of body forces on single bodies
+  double total_mass_ = 0;            ///< kg per radian or metre
+  double loaded_area_ = 0;           ///< m2 per radian or metre
+  double body_force_on_bodies_ = 0;  ///< N per radian or metre, axial, of body forces on single bodies
   double time_ = 0;
   std::uint64_t particles_ = 0;
   EnergyTotals energy_;   ///< at the present time, without the kinetic energy

@@ -1,4 +1,4 @@
-// What a step is told and what it adds up, in either formulation.
+// Input of a step and the sums that it returns, in either formulation.
 #pragma once
 
 #include "launchsafe/math/pack.hpp"
@@ -10,17 +10,16 @@ namespace launchsafe::mpm {
 using math::Mask;
 using math::Pack;
 
-/// What drives a step.
-struct Drive {
-  double dt = 0;            ///< s
-  double pressure = 0;      ///< on the base, Pa
-  double acceleration = 0;  ///< of the frame, m/s2
-  double keep = 1;          ///< share of the velocity that damping leaves
-  double pic_fraction = 0;  ///< share of the grid velocity in the particle velocity
+/// Load and numerical parameters of a step.
+struct StepInput {
+  double dt = 0;              ///< s
+  double pressure = 0;        ///< on the base, Pa
+  double acceleration = 0;    ///< of the frame, m/s2
+  double damping_factor = 1;  ///< fraction of the velocity that remains after damping
+  double pic_fraction = 0;    ///< fraction of the grid velocity in the particle velocity
 };
 
-/// What particles add to the energy balance (J per radian, or per metre) and to the limiters
-/// (particle-steps).
+/// Sums over particles: energies (J per radian, or per metre of depth) and limiter events (particle-steps).
 struct ParticleTotals {
   Pack internal{0.0}, hourglass{0.0}, plastic{0.0}, viscous{0.0}, crack{0.0}, pic_loss{0.0},
       centred_kinetic{0.0};
@@ -31,7 +30,7 @@ struct ParticleTotals {
   void add(const ParticleTotals& other);
 };
 
-/// What nodes add: J per radian or metre, and kg m/s.
+/// Sums over nodes: energies (J per radian or metre) and momenta (kg m/s per radian or metre).
 struct NodeTotals {
   Pack damping{0.0};       ///< taken out by damping in the step
   Pack lost_before{0.0};   ///< total-Lagrangian: taken out by damping and FLIP until the step's begin
@@ -41,10 +40,10 @@ struct NodeTotals {
   void add(const NodeTotals& other);
 };
 
-/// What contact of faces that can slide adds, per radian or per metre of depth.
+/// Sums over contact of faces that can slide, per radian or per metre of depth.
 struct ContactTotals {
   double loss = 0;           ///< J, taken out by contact until the step's begin
-  double way_back_loss = 0;  ///< J, what NodeTotals::lost_before lacks, as it knows no contact
+  double way_back_loss = 0;  ///< J, correction of NodeTotals::lost_before, which is computed without contact
   double momentum = 0;       ///< kg m/s, axial, of the true mass; 0 where inertia is that
 };
 
@@ -56,25 +55,25 @@ struct BulkMotion {
   double momentum = 0;      ///< kg m/s, with the velocity that the step moves by
 };
 
-/// All of a step.
+/// All sums of a step.
 struct StepTotals {
   ParticleTotals particles;
   NodeTotals nodes;
   BulkMotion bulk;
-  double base_flow = 0;  ///< of the loaded face against unit pressure, m3/s
-  double bore_work = 0;  ///< of bore pressures, J
-  double pull_work = 0;  ///< of body forces on single bodies, J
+  double base_flow = 0;        ///< of the loaded face against unit pressure, m3/s
+  double bore_work = 0;        ///< of bore pressures, J
+  double body_force_work = 0;  ///< of body forces on single bodies, J
   ContactTotals contact;
 };
 
-/// A body whose inner radial face carries a steady pressure.
-struct Bore {
+/// A steady pressure on the inner radial face of a body.
+struct BorePressure {
   int body = 0;         ///< index into Scene::bodies
   double pressure = 0;  ///< Pa
 };
 
 /// A steady body force on one body.
-struct Pull {
+struct BodyForce {
   int body = 0;                                   ///< index into Scene::bodies
   double acceleration_x = 0, acceleration_r = 0;  ///< m/s2, of its true mass
 };

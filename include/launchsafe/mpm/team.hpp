@@ -1,4 +1,4 @@
-// Threads that work on one step together.
+// A thread team for the parallel loops of a step.
 #pragma once
 
 #include <atomic>
@@ -10,8 +10,8 @@
 namespace launchsafe::mpm {
 
 /// A fixed number of threads, the caller among them, that run the same function side by side. Threads start
-/// at the first call and take over the caller's floating-point environment. Between calls they wait: first
-/// awake, giving way to other work, then asleep.
+/// at the first call and take over the caller's floating-point environment. Between calls they wait: first by
+/// polling, then yielding the processor, then blocked.
 class Team {
  public:
   explicit Team(int threads) : threads_(threads < 1 ? 1 : threads) {}
@@ -46,21 +46,21 @@ class Team {
   std::atomic<bool> ends_{false};
 };
 
-/// Whether to work together or alone, by what was faster of late: on a machine that is busy otherwise,
-/// threads that wait for each other lose more than they gain. Every so many steps some are timed in both
-/// ways.
-class FasterWay {
+/// Whether steps use all threads or one, by which was faster at the last trial: on a machine that is busy
+/// with other work, waiting for threads costs more than they gain. Trials of `trial` steps each are timed
+/// every `between_trials` steps.
+class ThreadingChoice {
  public:
-  /// Whether the next step is to be done together.
-  bool together() const { return step_ < trial ? true : step_ < 2 * trial ? false : together_is_faster_; }
-  /// Takes in how long (s) it took.
-  void took(double seconds);
+  /// Whether the next step is to use all threads.
+  bool parallel() const { return step_ < trial ? true : step_ < 2 * trial ? false : parallel_is_faster_; }
+  /// Records the wall time (s) of a step.
+  void record(double seconds);
 
  private:
   static constexpr int trial = 32, between_trials = 2000;  ///< steps
   int step_ = 0;
-  double together_ = 0, alone_ = 0;  ///< s, of the last trials
-  bool together_is_faster_ = true;
+  double parallel_time_ = 0, serial_time_ = 0;  ///< s, of the last trials
+  bool parallel_is_faster_ = true;
 };
 
 }  // namespace launchsafe::mpm

@@ -2,11 +2,11 @@
 // configuration at rest, so that weights are constants of a rectilinear lattice whose lines run through every
 // edge of every body, and no particle ever crosses a cell.
 //
-// A step is a row of stages: the base's and bores' pressure on the nodes, the ties between bodies that are
-// bonded for good, the nodes' motion, the contact of faces that can slide, and one pass over the particles,
-// which read the nodes, take on the deformation, advance their law and add themselves to the next step's
-// sums. With the deformation gradient F of a particle and its Cauchy stress sigma, forces come from P = J
-// sigma F^-T: f = -sum V0 P grad0 N.
+// A step has these stages: nodal forces of the chamber pressure, bore pressures and body forces; the ties of
+// bodies that are bonded; the update of the nodal velocities; contact of faces that can slide; and one pass
+// over the particles, which interpolates the nodal velocities, updates deformation and stress and sums
+// momentum and internal force at the nodes for the next step. With the deformation gradient F of a particle
+// and its Cauchy stress sigma, forces come from P = J sigma F^-T: f = -sum V0 P grad0 N.
 #pragma once
 
 #include "launchsafe/mpm/body.hpp"
@@ -32,17 +32,17 @@ struct RowWeights {
 
 class TotalLagrangian {
  public:
-  /// The bodies must stay where they are.
+  /// Holds references to scene and bodies, which must outlive it at the same address.
   TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>& bodies, int threads);
 
-  /// Gives the nodes the particles' momentum again, after velocities were set.
-  void restart();
-  void press_bore(const Bore& bore) { bores_.push_back(bore); }
-  void pull(const Pull& pull) { pulls_.push_back(pull); }
+  /// Recomputes the nodal momenta and velocities from the particles, after velocities were set.
+  void reset_grid();
+  void apply_bore_pressure(const BorePressure& bore) { bores_.push_back(bore); }
+  void apply_body_force(const BodyForce& force) { body_forces_.push_back(force); }
   /// Largest stable step (s): CFL times the smallest height of a cell, as it is deformed, over the sound
   /// speed in it, with the inertial factors.
   double stable_time_step() const;
-  StepTotals step(const Drive& drive);
+  StepTotals step(const StepInput& input);
 
   /// Processor time (s) of the threads beside the caller's.
   double helpers_processor_time() const { return team_->helpers_processor_time(); }
@@ -51,10 +51,10 @@ class TotalLagrangian {
   const std::vector<Tie>& ties() const { return ties_; }
   const Contact& contact() const { return *contact_; }
   /// Inertial over true mass of a body.
-  double inertial_factor(const Kinematics& body) const;
+  double inertial_factor(const ParticleFields& body) const;
 
  private:
-  /// What a body's rows share.
+  /// Constants of a body.
   struct Part {
     std::vector<RowWeights> rows;
     math::AlignedArray
@@ -76,19 +76,19 @@ class TotalLagrangian {
   };
 
   Part make_part(const AnyBody& any, const Nodes& nodes) const;
-  void weigh_nodes();
+  void sum_nodal_masses();
   void share_work();
   void find_base();
-  void load_nodes(const Drive& drive);
+  void load_nodes(const StepInput& input);
   double base_flow() const;
   double bore_work(double dt) const;
-  double pull_work(double dt) const;
+  double body_force_work(double dt) const;
   template <class F>
   void for_each_bore_share(F&& f) const;
-  void move_row(Nodes& nodes, int row, const Drive& drive, NodeTotals& totals) const;
-  void advance_rows(const Rows& rows, const Drive& drive);
-  void touch(const Drive& drive);
-  void work_through(const Drive& drive);
+  void move_row(Nodes& nodes, int row, const StepInput& input, NodeTotals& totals) const;
+  void advance_rows(const Rows& rows, const StepInput& input);
+  void apply_contact(const StepInput& input);
+  void run_phases(const StepInput& input);
 
   const scene::Scene& scene_;
   std::vector<AnyBody>& bodies_;
@@ -101,14 +101,14 @@ class TotalLagrangian {
   std::vector<LoadShare> base_;
   std::unique_ptr<Contact> contact_;
   ContactTotals contact_totals_;  ///< of the step
-  std::vector<Bore> bores_;
-  std::vector<Pull> pulls_;
+  std::vector<BorePressure> bores_;
+  std::vector<BodyForce> body_forces_;
   std::vector<std::vector<Rows>> particle_rows_, node_rows_;  ///< by thread
   std::vector<std::vector<ParticleTotals>> particle_totals_;  ///< by body and row
   std::vector<std::vector<NodeTotals>> node_totals_;          ///< by body and row
-  double damped_before_ = 0;                                  ///< 1/keep - 1 of the last step
+  double damped_before_ = 0;                                  ///< 1/damping_factor - 1 of the last step
   std::unique_ptr<Team> team_;
-  FasterWay faster_way_;
+  ThreadingChoice threading_choice_;
 };
 
 }  // namespace launchsafe::mpm

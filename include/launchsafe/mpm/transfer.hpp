@@ -17,7 +17,7 @@ namespace launchsafe::mpm {
 using math::Mask;
 using math::Pack;
 
-/// What a body and a grid fix for all stencils of a step.
+/// Constants of a body and a grid for all stencils of a step.
 struct StencilContext {
   const Grid& grid;
   double origin_x;        ///< of the window, m; differs between reading and writing when the window moves
@@ -97,18 +97,18 @@ void for_each_run(const Stencil& stencil, Mask lanes, Pass&& pass) {
   }
 }
 
-/// What eight particles read from the grid.
-struct Gathered {
-  Pack velocity_x{0.0}, velocity_r{0.0};          ///< m/s
-  Pack change_x{0.0}, change_r{0.0};              ///< m/s
-  Pack rate_rr{0.0}, rate_xx{0.0}, rate_tt{0.0};  ///< 1/s
-  Pack vr_by_x{0.0}, vx_by_r{0.0};                ///< 1/s
+/// Grid-to-particle interpolation at eight particles.
+struct GridToParticle {
+  Pack velocity_x{0.0}, velocity_r{0.0};                      ///< m/s
+  Pack velocity_increment_x{0.0}, velocity_increment_r{0.0};  ///< m/s
+  Pack rate_rr{0.0}, rate_xx{0.0}, rate_tt{0.0};              ///< 1/s
+  Pack vr_by_x{0.0}, vx_by_r{0.0};                            ///< 1/s
 };
 
 namespace detail {
 
-inline Gathered gather_run(const Grid& grid, const Stencil& s, std::ptrdiff_t first) {
-  Gathered g;
+inline GridToParticle grid_to_particle_run(const Grid& grid, const Stencil& s, std::ptrdiff_t first) {
+  GridToParticle g;
   for (int j = 0; j < 3; ++j) {
     Pack vx(0.0), vr(0.0), cx(0.0), cr(0.0), vx_by_x(0.0), vr_by_x(0.0);
     const std::ptrdiff_t row = first + j * static_cast<std::ptrdiff_t>(grid.nodes_x);
@@ -119,14 +119,14 @@ inline Gathered gather_run(const Grid& grid, const Stencil& s, std::ptrdiff_t fi
       vr += s.axial.value[i] * node_vr;
       vx_by_x += s.axial.gradient[i] * node_vx;
       vr_by_x += s.axial.gradient[i] * node_vr;
-      cx += s.axial.value[i] * Pack::load(grid.change_x.data() + row + i);
-      cr += s.axial.value[i] * Pack::load(grid.change_r.data() + row + i);
+      cx += s.axial.value[i] * Pack::load(grid.velocity_increment_x.data() + row + i);
+      cr += s.axial.value[i] * Pack::load(grid.velocity_increment_r.data() + row + i);
     }
     const Pack value = s.radial.value[j], gradient = s.radial.gradient[j];
     g.velocity_x += value * vx;
     g.velocity_r += value * vr;
-    g.change_x += value * cx;
-    g.change_r += value * cr;
+    g.velocity_increment_x += value * cx;
+    g.velocity_increment_r += value * cr;
     g.rate_rr += gradient * vr;
     g.rate_xx += value * vx_by_x;
     g.rate_tt += s.radial.hoop[j] * vr;
@@ -136,12 +136,12 @@ inline Gathered gather_run(const Grid& grid, const Stencil& s, std::ptrdiff_t fi
   return g;
 }
 
-inline void blend(Gathered& into, const Gathered& from, Mask lanes) {
+inline void blend(GridToParticle& into, const GridToParticle& from, Mask lanes) {
   const auto take = [lanes](Pack& a, const Pack& b) { a = select(lanes, b, a); };
   take(into.velocity_x, from.velocity_x);
   take(into.velocity_r, from.velocity_r);
-  take(into.change_x, from.change_x);
-  take(into.change_r, from.change_r);
+  take(into.velocity_increment_x, from.velocity_increment_x);
+  take(into.velocity_increment_r, from.velocity_increment_r);
   take(into.rate_rr, from.rate_rr);
   take(into.rate_xx, from.rate_xx);
   take(into.rate_tt, from.rate_tt);
@@ -153,17 +153,17 @@ inline void accumulate(double* target, Pack value) { (Pack::load(target) + value
 
 }  // namespace detail
 
-/// Reads the grid for the lanes in `lanes`; the others get zeros.
-inline Gathered gather(const Grid& grid, const Stencil& stencil, Mask lanes) {
-  Gathered result;
+/// Interpolates the grid velocities and their gradients at the particles in `lanes`; the others get zeros.
+inline GridToParticle grid_to_particle(const Grid& grid, const Stencil& stencil, Mask lanes) {
+  GridToParticle result;
   for_each_run(stencil, lanes, [&](std::ptrdiff_t first, Mask run) {
-    detail::blend(result, detail::gather_run(grid, stencil, first), run);
+    detail::blend(result, detail::grid_to_particle_run(grid, stencil, first), run);
   });
   return result;
 }
 
-/// What eight particles give to the grid.
-struct Scattered {
+/// Particle-to-grid contribution of eight particles.
+struct ParticleToGrid {
   Pack mass, velocity_x, velocity_r;                ///< kg, m/s
   Pack volume;                                      ///< m3 per radian, or per metre of depth
   Pack stress_rr, stress_xx, stress_tt, stress_rx;  ///< Cauchy, tension positive, Pa
@@ -171,7 +171,7 @@ struct Scattered {
 
 /// Adds mass, momentum and internal force f = -sum V (stress grad N) (model section 2) of the lanes in
 /// `lanes`.
-inline void scatter(Grid& grid, const Stencil& s, const Scattered& p, Mask lanes) {
+inline void particle_to_grid(Grid& grid, const Stencil& s, const ParticleToGrid& p, Mask lanes) {
   // Local copies: the compiler cannot know that the sums do not hold the grid's own pointers.
   double* const node_mass = grid.mass.data();
   double* const momentum_x = grid.momentum_x.data();

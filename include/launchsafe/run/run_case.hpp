@@ -11,7 +11,7 @@
 
 namespace launchsafe::run {
 
-/// What the caller may watch and steer while a case runs.
+/// How the caller observes and stops a running case.
 struct RunOptions {
   /// Set from another thread (or a signal handler) to stop: the run ends within a few steps as `interrupted`.
   const std::atomic<bool>* stop = nullptr;
@@ -35,9 +35,10 @@ GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trac
 /// `run_mechanics` and `evaluate_gap` for each of the scene's gaps.
 CaseResult run_case(const scene::Scene& scene, const RunOptions& options = {});
 
-/// A run of its own with the surface carried inside the mechanics, advanced with every time step: an
-/// independent confirmation of one gap (m). Below ignition it must agree with the traced temperatures to
-/// integration tolerance.
-CaseResult run_coupled(const scene::Scene& scene, double gap, const RunOptions& options = {});
+/// A run of the mechanics in which the skin of one gap (m) is integrated at every time step instead of on the
+/// bottom trace; the skin has no effect on the mechanics. It confirms a traced gap independently: below
+/// ignition both must agree to integration tolerance. Where the air model couples the stations or is a film,
+/// the skin is integrated on a trace with a sample every eight steps.
+CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions& options = {});
 
 }  // namespace launchsafe::run

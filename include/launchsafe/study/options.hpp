@@ -20,7 +20,7 @@ struct Runners {
   std::function<run::MechanicsResult(const scene::Scene&, const run::RunOptions&)> mechanics;
   std::function<run::CaseResult(const scene::Scene&, double gap, const run::RunOptions&)> coupled;
 };
-/// run::run_mechanics and run::run_coupled.
+/// run::run_mechanics and run::run_with_skin.
 Runners simulation_runners();
 
 /// A run that may not be computed is not there. Its text is part of the failure of the case.

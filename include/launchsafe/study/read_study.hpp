@@ -8,7 +8,7 @@
 #include "launchsafe/study/calibration_domain.hpp"
 #include "launchsafe/study/cited_limit.hpp"
 #include "launchsafe/study/model_form.hpp"
-#include "launchsafe/verify/hard_case.hpp"
+#include "launchsafe/verify/stress_test.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -148,7 +148,7 @@ struct Study {
   std::vector<double> times;                        ///< s, at which temperatures are compared too
 
   // kind stability
-  bool laws = true;  ///< the laws by themselves too (verify::hard_laws)
+  bool laws = true;  ///< the laws by themselves too (verify::law_stress_tests)
 
   // kinds that may use the record of a calibration
   std::string calibration_record;                   ///< path from the study file's folder; empty: none

@@ -4,7 +4,7 @@
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/read_study.hpp"
-#include "launchsafe/verify/hard_case.hpp"
+#include "launchsafe/verify/stress_test.hpp"
 
 #include <cstdint>
 #include <string>

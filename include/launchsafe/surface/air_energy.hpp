@@ -27,7 +27,7 @@ struct AirEnergy {
 };
 
 /// J/m2: rho c h_ex (T - T0) less the heats of friction and reaction, which is rho c h_ex times the integral
-/// of (kappa h/tau_ex)(T_air - T), without a look at the air: it holds for every AirModel beside a skin of
+/// of (kappa h/tau_ex)(T_air - T), without reference to the air: it holds for every AirModel beside a skin of
 /// one temperature and the thickness h_ex, not for one that resolves the charge in depth, whose heat is its
 /// own to count. The largest value over time, since a net heat is what the first law bounds; heat that went
 /// back to the air can be taken again. Of the station that ignites first, or else of the one where T max is,

@@ -56,9 +56,9 @@ double heat_capacity_ratio(const SkinModel& model, double gap);
 /// alone under every model of the air.
 SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap);
 
-/// The same equation for one station over one interval, for the coupled run and for tests: temperature after
-/// `dt` with the air at a temperature that goes linearly from `air_begin` to `air_end` and `friction_heating`
-/// K/s.
+/// The same equation for one station over one interval, for run::run_with_skin and for tests: temperature
+/// after `dt` with the air at a temperature that goes linearly from `air_begin` to `air_end` and
+/// `friction_heating` K/s.
 struct SkinPoint {
   double temperature = 300.0;  ///< K
   bool ignited = false;

@@ -32,7 +32,7 @@ struct ErrorSeries {
   /// expected.
   double order = 0;
   double round_off = 0;  ///< errors up to this, in `error_unit`, are of round-off
-  std::function<std::vector<PartSetting>()> compute;
+  std::function<std::vector<PartSetting>()> compute = {};
 };
 
 /// All of them: some seconds on one core.

@@ -1,5 +1,5 @@
 // A static, axisymmetric finite element model on a rectangular mesh, and its input deck for CalculiX
-// (Abaqus' format): an independent judge of the stresses at the charge bottom.
+// (Abaqus' format): an independent assessment of the stresses at the charge bottom.
 #pragma once
 
 #include <cstddef>

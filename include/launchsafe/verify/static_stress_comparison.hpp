@@ -50,7 +50,7 @@ struct StaticCase {
 
 /// The elastic shell under 50 MPa whose charge slides on wall, base and nose with a coefficient of friction.
 StaticCase sliding_shell(double friction);
-/// The same with friction nowhere and the base bonded.
+/// The same without friction on wall and nose, and with the base bonded.
 StaticCase smooth_wall_shell();
 
 /// The elastic shell under 50 MPa, the shell with a plastic wall under 496 MPa, a free bar, and the elastic
@@ -104,7 +104,7 @@ struct TubeComparison {
 
 struct ComparisonOptions {
   std::vector<double> cell_sizes{2.5e-3, 1.25e-3};        ///< m
-  const std::atomic<bool>* stop = nullptr;                ///< set from another thread to give up
+  const std::atomic<bool>* stop = nullptr;                ///< set from another thread to stop
   std::function<void(const std::string&)> progress = {};  ///< told what is being computed
 };
 

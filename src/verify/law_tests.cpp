@@ -1,16 +1,17 @@
-#include "hard_laws.hpp"
+#include "law_tests.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <ctime>
+#include <utility>
 
 namespace launchsafe::verify {
 
-namespace hard {
+namespace law_tests {
 
-void Judge::at_most(const std::string& what, double value, double bound) {
+void Bounds::at_most(const std::string& what, double value, double bound) {
   const auto known =
       std::find_if(measures_.begin(), measures_.end(), [&](const Measure& m) { return m.what == what; });
   if (known == measures_.end()) {
@@ -24,15 +25,15 @@ void Judge::at_most(const std::string& what, double value, double bound) {
   if (!smaller && known->good()) *known = {what, value, bound};
 }
 
-void Judge::never(const std::string& fault, bool happened) {
+void Bounds::never(const std::string& fault, bool happened) {
   if (happened && std::find(faults_.begin(), faults_.end(), fault) == faults_.end()) faults_.push_back(fault);
 }
 
-void Judge::caught(const std::string& reason) {
+void Bounds::caught(const std::string& reason) {
   if (std::find(reasons_.begin(), reasons_.end(), reason) == reasons_.end()) reasons_.push_back(reason);
 }
 
-Finding Judge::finding() const {
+Finding Bounds::finding() const {
   std::string broken, kept;
   const auto add = [](std::string& text, const std::string& part) {
     if (!text.empty()) text += "; ";
@@ -50,12 +51,6 @@ Finding Judge::finding() const {
   return {reasons_.empty() ? Outcome::held : Outcome::caught, kept};
 }
 
-double processor_time() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 std::string duration_text(double seconds) {
   if (std::isinf(seconds)) return "infinity";
   static constexpr std::array<const char*, 5> units{"s", "ms", "us", "ns", "ps"};
@@ -68,15 +63,29 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.4g} {}", value, units[unit]);
 }
 
-}  // namespace hard
+StressTest stress_test(std::string group, std::string name, std::string must_hold,
+                       std::function<void(Bounds&)> assess) {
+  return {std::move(group), std::move(name), std::move(must_hold), [assess = std::move(assess)] {
+            Bounds bounds;
+            assess(bounds);
+            return bounds.finding();
+          }};
+}
 
-std::vector<HardCase> hard_laws() {
-  std::vector<HardCase> all;
-  for (const auto topic :
-       {hard::explosion_cases, hard::exchange_cases, hard::film_cases, hard::relaxation_cases,
-        hard::growth_cases, hard::conduction_cases, hard::steel_cases, hard::charge_pressure_cases,
-        hard::gas_cases, hard::denormal_cases}) {
-    for (HardCase& hard_case : topic()) all.push_back(std::move(hard_case));
+materials::ViscoScramDissipation<double> advance_solid(const Solid& solid, double dt, SolidState& state,
+                                                       math::Deviator<double> strain, double pressure) {
+  return materials::visco_scram_update<double>(solid, materials::relaxation(solid, dt), state, strain,
+                                               pressure);
+}
+}  // namespace law_tests
+
+std::vector<StressTest> law_stress_tests() {
+  std::vector<StressTest> all;
+  for (const auto topic : {law_tests::explosion_tests, law_tests::exchange_tests, law_tests::film_tests,
+                           law_tests::relaxation_tests, law_tests::growth_tests, law_tests::conduction_tests,
+                           law_tests::steel_tests, law_tests::charge_pressure_tests, law_tests::gas_tests,
+                           law_tests::denormal_tests}) {
+    for (StressTest& test : topic()) all.push_back(std::move(test));
   }
   return all;
 }

@@ -1,5 +1,5 @@
-// Hard cases of contact: scaled inertia, corners, edges that faces leave, inner faces, blows, and what a user
-// may ask of a launch.
+// Contact under demanding conditions: scaled inertia, corners, edges that faces leave, inner faces, blows,
+// and what a user may ask of a launch.
 #include "contact_scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ void set_friction(scene::Scene& scene, double friction) {
 void throw_block(mpm::Simulation& simulation, double along, double across) {
   std::visit(
       [&](auto& body) {
-        mpm::Kinematics& block = body.kinematics;
+        mpm::ParticleFields& block = body.particles;
         for (std::size_t i = 0; i < block.mass.size(); ++i) {
           if (!(block.mass[i] > 0.0)) continue;
           block.velocity_x[i] = along;
@@ -71,10 +71,10 @@ void throw_block(mpm::Simulation& simulation, double along, double across) {
         }
       },
       simulation.bodies()[1]);
-  simulation.restart();
+  simulation.reset_grid();
 }
 
-TEST(ContactHardCases, TheLedgerClosesWithScaledInertiaAndWithDamping) {
+TEST(ContactStressTests, TheLedgerClosesWithScaledInertiaAndWithDamping) {
   // What is left is the third power of a step's strain: a few 1e-6 for the longest steps, as without contact.
   struct Case {
     double scaling, steel, damping_time;
@@ -96,7 +96,7 @@ TEST(ContactHardCases, TheLedgerClosesWithScaledInertiaAndWithDamping) {
   EXPECT_LT(watch.drift / watch.scale, 1e-5);
 }
 
-TEST(ContactHardCases, ATiedCornerTakesNoPart) {
+TEST(ContactStressTests, ATiedCornerTakesNoPart) {
   // Charge and body are one node there. Nothing in the shell is pressed by more than its load's peak.
   for (const char* smooth : {"wall", "base", "nose"}) {
     const ContactWatch watch =
@@ -107,14 +107,14 @@ TEST(ContactHardCases, ATiedCornerTakesNoPart) {
   }
 }
 
-TEST(ContactHardCases, ABlockThatLeavesTheFloorMeetsNothing) {
+TEST(ContactStressTests, ABlockThatLeavesTheFloorMeetsNothing) {
   // Either face may be the one that has the tractions.
   for (const double friction : {0.0, 0.1})
     for (const bool floor_has_rows : {false, true}) {
       scene::Scene scene = block_on_floor(sliding("", friction));
       if (floor_has_rows) std::swap(scene.interfaces[0].body, scene.interfaces[0].against);
       mpm::Simulation simulation(scene);
-      simulation.pull(1, 0.0, -1e4);
+      simulation.apply_body_force(1, 0.0, -1e4);
       throw_block(simulation, 25.0, 0.0);
       const ContactWatch watch = watched(simulation, 6e-3);
       EXPECT_TRUE(watch.sound);
@@ -129,7 +129,7 @@ TEST(ContactHardCases, ABlockThatLeavesTheFloorMeetsNothing) {
     }
 }
 
-TEST(ContactHardCases, AChargePastTheEndOfItsWallIsHeldByTheRestOfIt) {
+TEST(ContactStressTests, AChargePastTheEndOfItsWallIsHeldByTheRestOfIt) {
   for (const double friction : {0.0, 0.1, 10.0}) {
     scene::Scene shell = held_shell();
     shell.load.peak = 50e6;
@@ -155,7 +155,7 @@ TEST(ContactHardCases, AChargePastTheEndOfItsWallIsHeldByTheRestOfIt) {
   }
 }
 
-TEST(ContactHardCases, LargeOverlapsAreNoBlow) {
+TEST(ContactStressTests, LargeOverlapsAreNoBlow) {
   // The charge flows out past the wall and is driven back over its end: soon its cells are inverted, but
   // until then contact may not be a source of energy.
   const ContactWatch watch = watched_launch([](scene::Scene& shell) {
@@ -165,7 +165,7 @@ TEST(ContactHardCases, LargeOverlapsAreNoBlow) {
   EXPECT_GT(watch.least_loss / watch.scale, -0.1);
 }
 
-TEST(ContactHardCases, TheFirstBounceCostsTheMotionOfTheNodesThatMeet) {
+TEST(ContactStressTests, TheFirstBounceCostsTheMotionOfTheNodesThatMeet) {
   // An elastic bar on a rigid floor leaves it after 2 h/c, c = sqrt(2 G/rho). The nodes of its face stop at
   // once: of the kinetic energy of n cells, half a cell's is gone. Nothing more is.
   for (const int cells : {4, 16}) {
@@ -187,13 +187,13 @@ TEST(ContactHardCases, TheFirstBounceCostsTheMotionOfTheNodesThatMeet) {
   }
 }
 
-TEST(ContactHardCases, ManyBouncesGainNoEnergy) {
+TEST(ContactStressTests, ManyBouncesGainNoEnergy) {
   for (const double poisson : {0.0, 0.3})
     for (const double friction : {0.0, 0.3}) {
       scene::Scene scene = block_on_floor(sliding("", friction));
       scene.materials[1] = plain("block", 1e9, poisson, block_density);
       mpm::Simulation simulation(scene);
-      simulation.pull(1, 0.0, -1e5);
+      simulation.apply_body_force(1, 0.0, -1e5);
       throw_block(simulation, 0.3, -0.3);
       const ContactWatch watch = watched(simulation, 3e-3);
       EXPECT_LT(watch.drift / watch.scale, 1e-4);  // the third power of strains of 1e-3
@@ -202,7 +202,7 @@ TEST(ContactHardCases, ManyBouncesGainNoEnergy) {
     }
 }
 
-TEST(ContactHardCases, AHeavyBlockRestsOnASoftLightFloor) {
+TEST(ContactStressTests, AHeavyBlockRestsOnASoftLightFloor) {
   // rho h a, whichever is the softer: here the floor, by a thousand, under a strain of 1 %.
   scene::Scene scene = block_on_floor(sliding("", 0.1));
   scene.materials[0] = plain("floor", 1e6, 0.0, 200.0);
@@ -210,7 +210,7 @@ TEST(ContactHardCases, AHeavyBlockRestsOnASoftLightFloor) {
   mpm::Simulation simulation(scene);
   const double acceleration = 1e-2 * 2e6 / (block_density * block_height);
   for (int part = 0; part < 100; ++part) {
-    simulation.pull(1, 0.0, -acceleration / 100);
+    simulation.apply_body_force(1, 0.0, -acceleration / 100);
     go_until(simulation, (part + 1) * 5e-5);
   }
   go_until(simulation, 8e-3);
@@ -241,7 +241,8 @@ RodForces forces_round_a_rod(double friction) {
   // Slower and slower, so that nothing slides back at the end.
   const int parts = 400;
   for (int part = 0; part < parts; ++part) {
-    simulation.pull(1, whole / (1700.0 * 0.1) * (2.0 * (parts - part) - 1.0) / (parts * parts), 0.0);
+    simulation.apply_body_force(1, whole / (1700.0 * 0.1) * (2.0 * (parts - part) - 1.0) / (parts * parts),
+                                0.0);
     go_until(simulation, (part + 1) * 1.5e-3 / parts);
   }
   go_until(simulation, 1.7e-3);
@@ -258,7 +259,7 @@ RodForces forces_round_a_rod(double friction) {
   return forces;
 }
 
-TEST(ContactHardCases, ARodInTheChargeCarriesItByFriction) {
+TEST(ContactStressTests, ARodInTheChargeCarriesItByFriction) {
   // Janssen for a ring that rubs on its inside: the mean axial stress at depth z is rho a/m (1 - exp(-m z)),
   // m = 2 mu k r_in/(r_out^2 - r_in^2), k = nu/(1 - nu). Sections bend a little, by more the larger mu.
   for (const auto& [friction, allowed] : {std::pair{0.05, 0.003}, {0.1, 0.004}, {0.2, 0.006}}) {
@@ -271,7 +272,7 @@ TEST(ContactHardCases, ARodInTheChargeCarriesItByFriction) {
   }
 }
 
-TEST(ContactHardCases, ASmoothRodCarriesNothing) {
+TEST(ContactStressTests, ASmoothRodCarriesNothing) {
   // Its pressure is k rho a z: half of k rho a L times L r_in in all.
   const RodForces forces = forces_round_a_rod(0.0);
   EXPECT_NEAR(forces.bottom, 1.0, 2e-4);
@@ -279,7 +280,7 @@ TEST(ContactHardCases, ASmoothRodCarriesNothing) {
   EXPECT_NEAR(forces.across, 0.5 * (0.25 / 0.75) * 0.1 * 0.01 / (0.5 * (0.02 * 0.02 - 0.01 * 0.01)), 5e-3);
 }
 
-TEST(ContactHardCases, TheLargestFrictionIsABond) {
+TEST(ContactStressTests, TheLargestFrictionIsABond) {
   // Pressed on everywhere, and drawn along by a tenth of that, the block's face never slides or parts:
   // but for the ripple of its first steps, in which it hardly presses yet.
   const auto run = [](const scene::Interface& faces) {
@@ -289,7 +290,7 @@ TEST(ContactHardCases, TheLargestFrictionIsABond) {
     pull_slowly(simulation, 0.0, -1e5, 400);
     pull_slowly(simulation, 1e4, 0.0, 400);
     go_until(simulation, simulation.time() + 5e-4);
-    math::AlignedArray all = mpm::kinematics_of(simulation.bodies()[1]).pressure;
+    math::AlignedArray all = mpm::particle_fields_of(simulation.bodies()[1]).pressure;
     for (const mpm::FaceState& node : simulation.total_lagrangian()->contact().state_of(0))
       all.push_back(node.shear);
     return all;
@@ -314,16 +315,16 @@ void saw_load(scene::Scene& shell, double period) {
   }
 }
 
-struct HardLaunch {
+struct DemandingLaunch {
   const char* name;
   std::function<void(scene::Scene&)> change;
   double overlap =
       1e-6;  ///< m, at most; more only where a charge bulges out past a rim, which runs are doubted for
 };
 
-class HardLaunches : public testing::TestWithParam<HardLaunch> {};
+class DemandingLaunches : public testing::TestWithParam<DemandingLaunch> {};
 
-TEST_P(HardLaunches, KeepTheLedgerAndTheFaces) {
+TEST_P(DemandingLaunches, KeepTheLedgerAndTheFaces) {
   for (const double friction : {0.0, 0.1, 10.0}) {
     const ContactWatch watch = watched_launch([&](scene::Scene& shell) {
       set_friction(shell, friction);
@@ -338,43 +339,44 @@ TEST_P(HardLaunches, KeepTheLedgerAndTheFaces) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Contact, HardLaunches,
+    Contact, DemandingLaunches,
     testing::Values(
-        HardLaunch{"PressureToAndFroIn200us", [](scene::Scene& s) { saw_load(s, 2e-4); }},
-        HardLaunch{"PressureGoneIn10us",
-                   [](scene::Scene& s) {
-                     s.load.curve_time = {0, 1e-3, 1.01e-3, 1};
-                     s.load.curve_pressure = {1e5, 496e6, 0, 0};
-                   }},
-        HardLaunch{"PressureAtOnce", [](scene::Scene& s) { s.load = steady_pressure(496e6, 2e-3); }},
-        HardLaunch{
+        DemandingLaunch{"PressureToAndFroIn200us", [](scene::Scene& s) { saw_load(s, 2e-4); }},
+        DemandingLaunch{"PressureGoneIn10us",
+                        [](scene::Scene& s) {
+                          s.load.curve_time = {0, 1e-3, 1.01e-3, 1};
+                          s.load.curve_pressure = {1e5, 496e6, 0, 0};
+                        }},
+        DemandingLaunch{"PressureAtOnce", [](scene::Scene& s) { s.load = steady_pressure(496e6, 2e-3); }},
+        DemandingLaunch{
             "OneCellLong",
             [](scene::Scene& s) { s.bodies[0].x_end = s.bodies[1].x_begin = s.bodies[2].x_begin = 0.675; }},
-        HardLaunch{"OneCellWide", [](scene::Scene& s) { s.bodies[1].r_end = s.bodies[2].r_begin = 0.004; }},
-        HardLaunch{"StrongGrading",
-                   [](scene::Scene& s) {
-                     s.numerics.growth_x = s.numerics.growth_r = 2.0;
-                     s.numerics.cell_size = 2e-3;
-                     s.numerics.largest_cell = 0.05;
-                   }},
-        HardLaunch{"BaseWithAHole", [](scene::Scene& s) { s.bodies[3].r_begin = 0.03; }, 5e-4},
-        HardLaunch{"NoseSmallerThanTheCharge",
-                   [](scene::Scene& s) {
-                     s.bodies[0].r_end = 0.03;
-                     s.load.peak = 200e6;  // past 400 MPa the charge flows out round it
-                   },
-                   1e-5},
-        HardLaunch{"BondsThatBreakOnTheWay", [](scene::Scene& s) { break_bonds_of(s, 5e6); }},
-        HardLaunch{"BondsThatBreakAtOnce",
-                   [](scene::Scene& s) {
-                     s.load = steady_pressure(496e6, 2e-3);
-                     break_bonds_of(s, 1e6);
-                   }},
-        HardLaunch{"PlaneStrain", [](scene::Scene& s) { s.symmetry = scene::Symmetry::plane_strain; }},
-        HardLaunch{"LongestProvedSteps", [](scene::Scene& s) { s.numerics.time_step_factor = 0.68; }}),
+        DemandingLaunch{"OneCellWide",
+                        [](scene::Scene& s) { s.bodies[1].r_end = s.bodies[2].r_begin = 0.004; }},
+        DemandingLaunch{"StrongGrading",
+                        [](scene::Scene& s) {
+                          s.numerics.growth_x = s.numerics.growth_r = 2.0;
+                          s.numerics.cell_size = 2e-3;
+                          s.numerics.largest_cell = 0.05;
+                        }},
+        DemandingLaunch{"BaseWithAHole", [](scene::Scene& s) { s.bodies[3].r_begin = 0.03; }, 5e-4},
+        DemandingLaunch{"NoseSmallerThanTheCharge",
+                        [](scene::Scene& s) {
+                          s.bodies[0].r_end = 0.03;
+                          s.load.peak = 200e6;  // past 400 MPa the charge flows out round it
+                        },
+                        1e-5},
+        DemandingLaunch{"BondsThatBreakOnTheWay", [](scene::Scene& s) { break_bonds_of(s, 5e6); }},
+        DemandingLaunch{"BondsThatBreakAtOnce",
+                        [](scene::Scene& s) {
+                          s.load = steady_pressure(496e6, 2e-3);
+                          break_bonds_of(s, 1e6);
+                        }},
+        DemandingLaunch{"PlaneStrain", [](scene::Scene& s) { s.symmetry = scene::Symmetry::plane_strain; }},
+        DemandingLaunch{"LongestProvedSteps", [](scene::Scene& s) { s.numerics.time_step_factor = 0.68; }}),
     [](const auto& each) { return std::string(each.param.name); });
 
-TEST(ContactHardCases, NoNumberOfThreadsChangesABitOfBreakingBonds) {
+TEST(ContactStressTests, NoNumberOfThreadsChangesABitOfBreakingBonds) {
   const auto run = [](int threads) {
     scene::Scene shell = held_shell();
     shell.interfaces = {sliding("wall", 0.1), sliding("base", 0.1), sliding("nose", 0.1)};
@@ -383,7 +385,7 @@ TEST(ContactHardCases, NoNumberOfThreadsChangesABitOfBreakingBonds) {
     break_bonds_of(shell, 1e6);
     mpm::Simulation simulation(shell, threads);
     for (int step = 0; step < 400; ++step) simulation.step(simulation.stable_time_step());
-    math::AlignedArray all = mpm::kinematics_of(simulation.bodies()[1]).velocity_r;
+    math::AlignedArray all = mpm::particle_fields_of(simulation.bodies()[1]).velocity_r;
     all.push_back(simulation.energy().contact);
     return all;
   };

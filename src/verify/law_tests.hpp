@@ -1,5 +1,5 @@
-// How the hard cases of the laws are judged. Every judge takes the law as a function, so that a test can hand
-// it a broken one and see that it says so.
+// Stress tests of the laws. Every assessment takes the law as a function, so that a test
+// can hand it a broken one and see that it says so.
 #pragma once
 
 #include "launchsafe/materials/ideal_gas.hpp"
@@ -10,17 +10,17 @@
 #include "launchsafe/materials/vlw.hpp"
 #include "launchsafe/mpm/conduction.hpp"
 #include "launchsafe/surface/skin.hpp"
-#include "launchsafe/verify/hard_case.hpp"
+#include "launchsafe/verify/stress_test.hpp"
 
 #include <array>
 #include <functional>
 #include <string>
 #include <vector>
 
-namespace launchsafe::verify::hard {
+namespace launchsafe::verify::law_tests {
 
-/// Gathers measured numbers with their bounds and says what became of a case.
-class Judge {
+/// Compares measured numbers with their bounds and gives the outcome of a stress test.
+class Bounds {
  public:
   /// A number >= 0 that must not exceed its bound; NaN exceeds any. Repeated under one name, the worst share
   /// of the bound counts.
@@ -43,14 +43,13 @@ class Judge {
   std::vector<std::string> faults_, reasons_;
 };
 
-/// Processor time of this thread, s. It is compared with generous bounds and never told, so that findings
-/// read the same every time.
-double processor_time();
-/// Processor time (s) that a step of the charge may take, fifty times what the longest takes.
-inline constexpr double longest_step = 0.05;
+/// A stress test that fails where `assess` finds a bound or a fact broken.
+StressTest stress_test(std::string group, std::string name, std::string must_hold,
+                       std::function<void(Bounds&)> assess);
 
-/// "1 ns", "10 us", "1 ms", "infinity".
-std::string duration_text(double seconds);
+/// Processor time (s) that a step of the charge may take, fifty times what the longest takes. It is not part
+/// of the finding, which is thus the same in every run.
+inline constexpr double longest_step = 0.05;
 
 // ---- the laws, as what they are called with ----
 
@@ -79,70 +78,77 @@ using GasLaw = std::function<materials::VirialState(double temperature, double d
 using AirLaw = std::function<double(const materials::AirParameters&, double pressure)>;
 using ConductionLaw = std::function<void(mpm::Conduction&, mpm::Simulation&, double dt)>;
 
-// ---- the judges ----
+// ---- the assessments ----
 
 /// A skin by itself under constant friction heating (K/s), called every `step` seconds from `temperature` (K)
 /// on: it must arrive at every temperature when the quadrature of dT/rate says so, and ignite when it says
 /// so.
-void judge_explosion(Judge&, const SkinLaw&, const surface::SkinModel&, double temperature, double heating,
-                     double step);
+void assess_explosion(Bounds&, const SkinLaw&, const surface::SkinModel&, double temperature, double heating,
+                      double step);
 /// An inert skin under air of a constant temperature (K) and air that rises linearly, against the exact
 /// solutions, called every `step` seconds.
-void judge_exchange(Judge&, const SkinLaw&, double exchange_time, double step);
+void assess_exchange(Bounds&, const SkinLaw&, double exchange_time, double step);
 /// The printed exchange: after n calls the distance to the air is (1 - kappa h)^n of the first one, whatever
 /// the step.
-void judge_printed_exchange(Judge&, const SkinLaw&, double gap, double step);
+void assess_printed_exchange(Bounds&, const SkinLaw&, double gap, double step);
 /// Air and skin in a closed gap: both go to the temperature of their mixture, at the sum of their rates.
-void judge_balance(Judge&, const HistoryLaw&, double exchange_time);
+void assess_balance(Bounds&, const HistoryLaw&, double exchange_time);
 /// The same while the load rises, on the samples of a run against ten times as many.
-void judge_balance_under_load(Judge&, const HistoryLaw&, double exchange_time);
+void assess_balance_under_load(Bounds&, const HistoryLaw&, double exchange_time);
 /// Inert charge, film of air and base under a load that rises linearly within `rise` (s) to `peak` (Pa).
-void judge_film(Judge&, const HistoryLaw&, double gap, double rise, double peak);
+void assess_film(Bounds&, const HistoryLaw&, double gap, double rise, double peak);
 
 /// A solid without cracks whose last element has the relaxation time `tau` (s): every element against its
 /// exact solution, and the work against what is stored and lost.
-void judge_relaxation(Judge&, const SolidLaw&, double tau, double step);
+void assess_relaxation(Bounds&, const SolidLaw&, double tau, double step);
 /// The same with cracks at a fixed ratio q = (c/a)^3 after a sudden strain, against the eigenvectors of the
 /// linear system; and the time a step takes.
-void judge_cracked_relaxation(Judge&, const SolidLaw&, double tau, double step, double q);
+void assess_cracked_relaxation(Bounds&, const SolidLaw&, double tau, double step, double q);
 /// Crack growth under a held strain that first gives `stress` (Pa): one step against a thousand.
-void judge_growth(Judge&, const SolidLaw&, double stress, double pressure, double step);
+void assess_growth(Bounds&, const SolidLaw&, double stress, double pressure, double step);
 
 /// A trial stress of von Mises `q` (Pa) returned to the yield surface.
-void judge_return(Judge&, const ReturnLaw&, double q, double plastic_strain, double temperature, double dt);
+void assess_return(Bounds&, const ReturnLaw&, double q, double plastic_strain, double temperature, double dt);
 /// The flow stress against the published formula in long double.
-void judge_flow_stress(Judge&, const FlowLaw&, double plastic_strain, double plastic_rate,
-                       double temperature);
+void assess_flow_stress(Bounds&, const FlowLaw&, double plastic_strain, double plastic_rate,
+                        double temperature);
 
 /// From rest to the relative volume `v` in so many steps, against the isentrope in closed form.
-void judge_jwl(Judge&, const JwlLaw&, const materials::JwlParameters&, double v, int steps);
+void assess_jwl(Bounds&, const JwlLaw&, const materials::JwlParameters&, double v, int steps);
 /// From compression `mu0` to `mu1` in so many steps, against a fine fourth-order integration of de = -p dv.
-void judge_steel_pressure(Judge&, const SteelPressureLaw&, double mu0, double mu1, int steps);
+void assess_steel_pressure(Bounds&, const SteelPressureLaw&, double mu0, double mu1, int steps);
 /// A density at or beyond the pole, or none: the law must say so.
-void judge_steel_validity(Judge&, const ValidityLaw&, double mu);
+void assess_steel_validity(Bounds&, const ValidityLaw&, double mu);
 /// A gas that is valid has a finite, positive pressure that rises with its density; one that is not has none.
-void judge_gas(Judge&, const GasLaw&, double temperature, double density);
-void judge_second_virial(Judge&, const std::function<double(double)>& law, double reduced_temperature);
-void judge_air(Judge&, const AirLaw&, double ratio);
+void assess_gas(Bounds&, const GasLaw&, double temperature, double density);
+void assess_second_virial(Bounds&, const std::function<double(double)>& law, double reduced_temperature);
+void assess_air(Bounds&, const AirLaw&, double ratio);
 
 /// A law called with a denormal argument (its result is the sum of all it gives): finite, and not slow.
-void judge_denormals(Judge&, const std::function<double(double)>& law);
+void assess_denormals(Bounds&, const std::function<double(double)>& law);
 
 /// Checkered temperatures in the shell, conducted in steps of a Fourier number of the charge's cells.
-void judge_conduction(Judge&, const ConductionLaw&, double fourier_number);
+void assess_conduction(Bounds&, const ConductionLaw&, double fourier_number);
 
-// ---- the cases, by topic ----
+// ---- the tests, by topic ----
 
-using Cases = std::vector<HardCase>;
-Cases explosion_cases();
-Cases exchange_cases();
-Cases film_cases();
-Cases relaxation_cases();
-Cases growth_cases();
-Cases conduction_cases();
-Cases steel_cases();
-Cases charge_pressure_cases();
-Cases gas_cases();
-Cases denormal_cases();
+/// "1 ns", "10 us", "1 ms", "infinity".
+std::string duration_text(double seconds);
 
-}  // namespace launchsafe::verify::hard
+/// One step of the charge's strength law, as a run calls it.
+materials::ViscoScramDissipation<double> advance_solid(const Solid& solid, double dt, SolidState& state,
+                                                       math::Deviator<double> strain, double pressure);
+
+using StressTests = std::vector<StressTest>;
+StressTests explosion_tests();
+StressTests exchange_tests();
+StressTests film_tests();
+StressTests relaxation_tests();
+StressTests growth_tests();
+StressTests conduction_tests();
+StressTests steel_tests();
+StressTests charge_pressure_tests();
+StressTests gas_tests();
+StressTests denormal_tests();
+
+}  // namespace launchsafe::verify::law_tests

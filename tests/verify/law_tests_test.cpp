@@ -1,7 +1,8 @@
-// The hard cases of the laws, and that the judges of those cases do see a broken law.
-#include "../../src/verify/hard_laws.hpp"
+// The stress tests of the laws, and that their assessments notice a broken law.
+#include "../../src/verify/law_tests.hpp"
 
-#include "launchsafe/verify/hard_case.hpp"
+#include "launchsafe/run/processor_time.hpp"
+#include "launchsafe/verify/stress_test.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,54 +12,53 @@
 #include <set>
 #include <thread>
 
-namespace launchsafe::verify::hard {
+namespace launchsafe::verify::law_tests {
 namespace {
 
 using materials::maxwell_elements;
 using math::Deviator;
 
 template <class Law, class... Arguments>
-Outcome outcome_of(void (*judge_law)(Judge&, const Law&, Arguments...), const Law& law,
+Outcome outcome_of(void (*assess_law)(Bounds&, const Law&, Arguments...), const Law& law,
                    std::type_identity_t<Arguments>... arguments) {
-  Judge judge;
-  judge_law(judge, law, arguments...);
-  return judge.finding().outcome;
+  Bounds bounds;
+  assess_law(bounds, law, arguments...);
+  return bounds.finding().outcome;
 }
 
-TEST(HardLaws, NoneIsWrong) {
-  const double begin = processor_time();
-  for (const HardCase& hard_case : hard_laws()) {
-    const Finding finding = hard_case.compute();
-    EXPECT_NE(finding.outcome, Outcome::wrong)
-        << hard_case.group << ": " << hard_case.name << ": " << finding.text;
-    EXPECT_FALSE(finding.text.empty()) << hard_case.group << ": " << hard_case.name;
+TEST(LawStressTests, NoneIsWrong) {
+  const double begin = run::thread_processor_time();
+  for (const StressTest& test : law_stress_tests()) {
+    const Finding finding = test.compute();
+    EXPECT_NE(finding.outcome, Outcome::wrong) << test.group << ": " << test.name << ": " << finding.text;
+    EXPECT_FALSE(finding.text.empty()) << test.group << ": " << test.name;
   }
-  const double time = processor_time() - begin;
+  const double time = run::thread_processor_time() - begin;
   RecordProperty("processor_s", std::to_string(time));
 #ifdef NDEBUG
   EXPECT_LT(time, 30.0);
 #endif
 }
 
-TEST(HardLaws, AreNamedApartAndSayWhatMustHold) {
+TEST(LawStressTests, AreNamedApartAndSayWhatMustHold) {
   std::set<std::string> names;
-  for (const HardCase& hard_case : hard_laws()) {
-    EXPECT_FALSE(hard_case.group.empty() || hard_case.name.empty() || hard_case.must_hold.empty());
-    EXPECT_TRUE(names.insert(hard_case.group + "/" + hard_case.name).second)
-        << "twice: " << hard_case.group << ": " << hard_case.name;
+  for (const StressTest& test : law_stress_tests()) {
+    EXPECT_FALSE(test.group.empty() || test.name.empty() || test.must_hold.empty());
+    EXPECT_TRUE(names.insert(test.group + "/" + test.name).second)
+        << "twice: " << test.group << ": " << test.name;
   }
 }
 
-TEST(HardLaws, FindTheSameOnAnyThread) {
-  std::vector<HardCase> cases;
-  for (HardCase& hard_case : growth_cases()) cases.push_back(std::move(hard_case));
-  for (HardCase& hard_case : conduction_cases()) cases.push_back(std::move(hard_case));
-  for (const HardCase& hard_case : cases) {
+TEST(LawStressTests, FindTheSameOnAnyThread) {
+  std::vector<StressTest> tests;
+  for (StressTest& test : growth_tests()) tests.push_back(std::move(test));
+  for (StressTest& test : conduction_tests()) tests.push_back(std::move(test));
+  for (const StressTest& test : tests) {
     Finding elsewhere;
-    std::thread([&] { elsewhere = hard_case.compute(); }).join();
-    const Finding here = hard_case.compute();
-    EXPECT_EQ(elsewhere.outcome, here.outcome) << hard_case.name;
-    EXPECT_EQ(elsewhere.text, here.text) << hard_case.name;
+    std::thread([&] { elsewhere = test.compute(); }).join();
+    const Finding here = test.compute();
+    EXPECT_EQ(elsewhere.outcome, here.outcome) << test.name;
+    EXPECT_EQ(elsewhere.text, here.text) << test.name;
   }
 }
 
@@ -69,34 +69,34 @@ TEST(Outcome, HasAWord) {
   EXPECT_EQ(to_string(Outcome::wrong), "WRONG");
 }
 
-TEST(Judge, ComparesWithTheBound) {
-  Judge judge;
-  judge.at_most("a", 1.0, 1.0);
-  EXPECT_EQ(judge.finding().outcome, Outcome::held);
-  judge.at_most("a", 1.1, 1.0);
-  judge.at_most("a", 0.5, 1.0);  // a later good one does not hide it
-  EXPECT_EQ(judge.finding().outcome, Outcome::wrong);
+TEST(Bounds, ComparesWithTheBound) {
+  Bounds bounds;
+  bounds.at_most("a", 1.0, 1.0);
+  EXPECT_EQ(bounds.finding().outcome, Outcome::held);
+  bounds.at_most("a", 1.1, 1.0);
+  bounds.at_most("a", 0.5, 1.0);  // a later good one does not hide it
+  EXPECT_EQ(bounds.finding().outcome, Outcome::wrong);
 }
 
-TEST(Judge, TakesNotANumberForBroken) {
+TEST(Bounds, TakesNotANumberForBroken) {
   for (const bool value : {true, false}) {
-    Judge judge;
+    Bounds bounds;
     const double nan = std::nan("");
-    judge.at_most("a", value ? nan : 1.0, value ? 1.0 : nan);
-    judge.at_most("a", 0.5, 1.0);
-    EXPECT_EQ(judge.finding().outcome, Outcome::wrong);
+    bounds.at_most("a", value ? nan : 1.0, value ? 1.0 : nan);
+    bounds.at_most("a", 0.5, 1.0);
+    EXPECT_EQ(bounds.finding().outcome, Outcome::wrong);
   }
 }
 
-TEST(Judge, DoesNotExcuseAFaultByAFlag) {
-  Judge judge;
-  judge.caught("flagged");
-  EXPECT_EQ(judge.finding().outcome, Outcome::caught);
-  judge.never("it happened", true);
-  EXPECT_EQ(judge.finding().outcome, Outcome::wrong);
+TEST(Bounds, DoesNotExcuseAFaultByAFlag) {
+  Bounds bounds;
+  bounds.caught("flagged");
+  EXPECT_EQ(bounds.finding().outcome, Outcome::caught);
+  bounds.never("it happened", true);
+  EXPECT_EQ(bounds.finding().outcome, Outcome::wrong);
 }
 
-TEST(Judge, IsNotContentWithNothing) { EXPECT_EQ(Judge{}.finding().outcome, Outcome::wrong); }
+TEST(Bounds, IsNotContentWithNothing) { EXPECT_EQ(Bounds{}.finding().outcome, Outcome::wrong); }
 
 // ---- broken laws ----
 
@@ -120,11 +120,11 @@ surface::SkinPoint euler_skin(const surface::SkinModel& model, double gap, surfa
 
 TEST(BrokenLaw, ExplosionByExplicitSteps) {
   const double nothing = 0.0;
-  EXPECT_EQ(outcome_of(judge_explosion, SkinLaw(surface::advance_skin), reacting(), 700.0, nothing, 1e-5),
+  EXPECT_EQ(outcome_of(assess_explosion, SkinLaw(surface::advance_skin), reacting(), 700.0, nothing, 1e-5),
             Outcome::held);
-  EXPECT_EQ(outcome_of(judge_explosion, SkinLaw(euler_skin), reacting(), 700.0, nothing, 1e-5),
+  EXPECT_EQ(outcome_of(assess_explosion, SkinLaw(euler_skin), reacting(), 700.0, nothing, 1e-5),
             Outcome::wrong);
-  EXPECT_EQ(outcome_of(judge_explosion, SkinLaw(euler_skin), reacting(), 2000.0, nothing, 1e-9),
+  EXPECT_EQ(outcome_of(assess_explosion, SkinLaw(euler_skin), reacting(), 2000.0, nothing, 1e-9),
             Outcome::wrong);
 }
 
@@ -132,20 +132,20 @@ TEST(BrokenLaw, ExplosionThatIsNotFlagged) {
   const SkinLaw inert = [](const auto&, double, surface::SkinPoint point, double, double, double, double) {
     return point;
   };
-  EXPECT_EQ(outcome_of(judge_explosion, inert, reacting(), 700.0, 0.0, 1e-3), Outcome::wrong);
-  EXPECT_EQ(outcome_of(judge_explosion, inert, reacting(), 5000.0, 0.0, 1e-3), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_explosion, inert, reacting(), 700.0, 0.0, 1e-3), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_explosion, inert, reacting(), 5000.0, 0.0, 1e-3), Outcome::wrong);
   const SkinLaw unknown = [](const auto&, double, surface::SkinPoint point, double, double, double, double) {
     point.temperature = std::nan("");
     return point;
   };
-  EXPECT_EQ(outcome_of(judge_explosion, unknown, reacting(), 700.0, 0.0, 1e-3), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_explosion, unknown, reacting(), 700.0, 0.0, 1e-3), Outcome::wrong);
 }
 
 TEST(BrokenLaw, ExchangeByExplicitSteps) {
   for (const double step : {1e-7, 1e-3})
-    EXPECT_EQ(outcome_of(judge_exchange, SkinLaw(euler_skin), 1e-6, step), Outcome::wrong) << step;
-  EXPECT_EQ(outcome_of(judge_printed_exchange, SkinLaw(euler_skin), 4e-4, 1e-6), Outcome::wrong);
-  EXPECT_EQ(outcome_of(judge_printed_exchange, SkinLaw(euler_skin), 1.0, 1e-6), Outcome::wrong);
+    EXPECT_EQ(outcome_of(assess_exchange, SkinLaw(euler_skin), 1e-6, step), Outcome::wrong) << step;
+  EXPECT_EQ(outcome_of(assess_printed_exchange, SkinLaw(euler_skin), 4e-4, 1e-6), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_printed_exchange, SkinLaw(euler_skin), 1.0, 1e-6), Outcome::wrong);
 }
 
 TEST(BrokenLaw, BalanceThatForgetsWhatTheAirLoses) {
@@ -154,14 +154,14 @@ TEST(BrokenLaw, BalanceThatForgetsWhatTheAirLoses) {
     return surface::integrate_skin(model, trace, gap);
   };
   for (const double exchange_time : {1e-9, 1e-3})
-    EXPECT_EQ(outcome_of(judge_balance, reservoir, exchange_time), Outcome::wrong);
+    EXPECT_EQ(outcome_of(assess_balance, reservoir, exchange_time), Outcome::wrong);
   const HistoryLaw shifted = [](const surface::SkinModel& model, const trace::BottomTrace& trace,
                                 double gap) {
     surface::SkinHistory history = surface::integrate_skin(model, trace, gap);
     history.temperature.back() += 100.0 / static_cast<double>(trace.samples());
     return history;
   };
-  EXPECT_EQ(outcome_of(judge_balance_under_load, shifted, 1e-5), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_balance_under_load, shifted, 1e-5), Outcome::wrong);
 }
 
 TEST(BrokenLaw, FilmOfAirThatKeepsItsHeat) {
@@ -172,14 +172,14 @@ TEST(BrokenLaw, FilmOfAirThatKeepsItsHeat) {
     history.energy_residual = 0.5;
     return history;
   };
-  EXPECT_EQ(outcome_of(judge_film, reservoir, 1e-4, 1e-2, 1e8), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_film, reservoir, 1e-4, 1e-2, 1e8), Outcome::wrong);
   const HistoryLaw cooling = [](const surface::SkinModel& model, const trace::BottomTrace& trace,
                                 double gap) {
     surface::SkinHistory history = surface::integrate_skin(model, trace, gap);
     history.temperature.back() -= 1.0;
     return history;
   };
-  EXPECT_EQ(outcome_of(judge_film, cooling, 1e-6, 1e-2, 1e8), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_film, cooling, 1e-6, 1e-2, 1e8), Outcome::wrong);
 }
 
 TEST(BrokenLaw, RelaxationByExplicitSteps) {
@@ -191,8 +191,8 @@ TEST(BrokenLaw, RelaxationByExplicitSteps) {
     }
     return materials::ViscoScramDissipation<double>{};
   };
-  EXPECT_EQ(outcome_of(judge_relaxation, explicit_steps, 1e-3, 1e-9), Outcome::wrong);  // loses no energy
-  EXPECT_EQ(outcome_of(judge_relaxation, explicit_steps, 1e-12, 1e-9), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_relaxation, explicit_steps, 1e-3, 1e-9), Outcome::wrong);  // loses no energy
+  EXPECT_EQ(outcome_of(assess_relaxation, explicit_steps, 1e-12, 1e-9), Outcome::wrong);
 }
 
 TEST(BrokenLaw, CracksThatDoNotSlowTheRelaxation) {
@@ -200,7 +200,7 @@ TEST(BrokenLaw, CracksThatDoNotSlowTheRelaxation) {
     solid.flaw_size = 0.0;
     return materials::visco_scram_update<double>(solid, materials::relaxation(solid, dt), state, strain, p);
   };
-  EXPECT_EQ(outcome_of(judge_cracked_relaxation, whole, 1e-7, 1e-6, 0.5), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_cracked_relaxation, whole, 1e-7, 1e-6, 0.5), Outcome::wrong);
 }
 
 TEST(BrokenLaw, GrowthByOneExplicitStep) {
@@ -212,7 +212,7 @@ TEST(BrokenLaw, GrowthByOneExplicitStep) {
     return materials::visco_scram_update<double>(solid, materials::relaxation(solid, dt), state, strain, p);
   };
   for (const double factor : {10.0, 1000.0})
-    EXPECT_EQ(outcome_of(judge_growth, explicit_step, factor * 24e6, 0.0, 1e-4), Outcome::wrong);
+    EXPECT_EQ(outcome_of(assess_growth, explicit_step, factor * 24e6, 0.0, 1e-4), Outcome::wrong);
 }
 
 TEST(BrokenLaw, ReturnThatMissesTheYieldSurface) {
@@ -231,8 +231,8 @@ TEST(BrokenLaw, ReturnThatMissesTheYieldSurface) {
     return result;
   };
   for (const ReturnLaw& law : {elastic, near, giving})
-    EXPECT_EQ(outcome_of(judge_return, law, 1e9, 0.01, 300.0, 1e-7), Outcome::wrong);
-  EXPECT_EQ(outcome_of(judge_return, elastic, 1e9, 0.0, std::nan(""), 1e-7), Outcome::wrong);
+    EXPECT_EQ(outcome_of(assess_return, law, 1e9, 0.01, 300.0, 1e-7), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_return, elastic, 1e9, 0.0, std::nan(""), 1e-7), Outcome::wrong);
 }
 
 TEST(BrokenLaw, FlowStressWithoutItsBounds) {
@@ -242,9 +242,9 @@ TEST(BrokenLaw, FlowStressWithoutItsBounds) {
     return (k.a + k.b * std::pow(strain, k.n)) * (1.0 + k.c * std::log(rate / k.reference_rate)) *
            (1.0 - std::pow(homologous, k.m));
   };
-  EXPECT_EQ(outcome_of(judge_flow_stress, bare, 0.1, 1e-12, 300.0), Outcome::wrong);
-  EXPECT_EQ(outcome_of(judge_flow_stress, bare, 0.1, 0.0, 300.0), Outcome::wrong);
-  EXPECT_EQ(outcome_of(judge_flow_stress, bare, 0.1, 1e3, 200.0), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_flow_stress, bare, 0.1, 1e-12, 300.0), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_flow_stress, bare, 0.1, 0.0, 300.0), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_flow_stress, bare, 0.1, 1e3, 200.0), Outcome::wrong);
 }
 
 TEST(BrokenLaw, JwlByTheMeanOfTwoPressures) {
@@ -254,8 +254,9 @@ TEST(BrokenLaw, JwlByTheMeanOfTwoPressures) {
     const double energy = (energy0 - half * (p0 + cold)) / (1.0 + half * stiffness);
     return materials::JwlState<double>{cold + stiffness * energy, energy};
   };
-  for (const double v : {0.3, 0.5, 5.0}) EXPECT_EQ(outcome_of(judge_jwl, mean, m, v, 1), Outcome::wrong) << v;
-  EXPECT_EQ(outcome_of(judge_jwl, mean, m, 0.3, 10000), Outcome::held);  // it is second order
+  for (const double v : {0.3, 0.5, 5.0})
+    EXPECT_EQ(outcome_of(assess_jwl, mean, m, v, 1), Outcome::wrong) << v;
+  EXPECT_EQ(outcome_of(assess_jwl, mean, m, 0.3, 10000), Outcome::held);  // it is second order
 }
 
 TEST(BrokenLaw, SteelByThePressureBefore) {
@@ -264,15 +265,15 @@ TEST(BrokenLaw, SteelByThePressureBefore) {
     const double energy = energy0 - p0 * dv;
     return materials::MieGruneisenState<double>{materials::mie_gruneisen_pressure(m, mu1, energy), energy};
   };
-  EXPECT_EQ(outcome_of(judge_steel_pressure, before, 0.0, 0.5, 10), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_steel_pressure, before, 0.0, 0.5, 10), Outcome::wrong);
 }
 
 TEST(BrokenLaw, SteelThatIsAlwaysValid) {
   const ValidityLaw always = [](const auto&, double) { return true; };
   const ValidityLaw never = [](const auto&, double) { return false; };
   for (const double mu : {1.3, 1.0 / 0.73, -1.0, -3.0, std::nan("")})
-    EXPECT_EQ(outcome_of(judge_steel_validity, always, mu), Outcome::wrong) << mu;
-  EXPECT_EQ(outcome_of(judge_steel_validity, never, 0.1), Outcome::wrong);
+    EXPECT_EQ(outcome_of(assess_steel_validity, always, mu), Outcome::wrong) << mu;
+  EXPECT_EQ(outcome_of(assess_steel_validity, never, 0.1), Outcome::wrong);
 }
 
 TEST(BrokenLaw, GasThatIsNeverOutsideItsRange) {
@@ -282,15 +283,15 @@ TEST(BrokenLaw, GasThatIsNeverOutsideItsRange) {
     state.valid = state.compressibility > 0.0;
     return state;
   };
-  EXPECT_EQ(outcome_of(judge_gas, always, 300.0, 300.0), Outcome::wrong);   // falls on compression
-  EXPECT_EQ(outcome_of(judge_gas, always, 300.0, 1717.0), Outcome::wrong);  // Z < 0, with a pressure
-  EXPECT_EQ(outcome_of(judge_gas, always, 3000.0, 300.0), Outcome::held);
+  EXPECT_EQ(outcome_of(assess_gas, always, 300.0, 300.0), Outcome::wrong);   // falls on compression
+  EXPECT_EQ(outcome_of(assess_gas, always, 300.0, 1717.0), Outcome::wrong);  // Z < 0, with a pressure
+  EXPECT_EQ(outcome_of(assess_gas, always, 3000.0, 300.0), Outcome::held);
 }
 
 TEST(BrokenLaw, VirialCoefficientOfOneTerm) {
   const std::function<double(double)> one = [](double t) { return 1.0 - 1.5 / t; };
-  EXPECT_EQ(outcome_of(judge_second_virial, one, 1.0), Outcome::wrong);
-  EXPECT_EQ(outcome_of(judge_second_virial, one, 0.0), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_second_virial, one, 1.0), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_second_virial, one, 0.0), Outcome::wrong);
 }
 
 TEST(BrokenLaw, AirWithAnotherExponent) {
@@ -298,33 +299,33 @@ TEST(BrokenLaw, AirWithAnotherExponent) {
     return air.initial_temperature * std::pow(p / air.initial_pressure, 0.2857);
   };
   for (const double ratio : {3.0, 1e5, 0.5})
-    EXPECT_EQ(outcome_of(judge_air, other, ratio), Outcome::wrong) << ratio;
+    EXPECT_EQ(outcome_of(assess_air, other, ratio), Outcome::wrong) << ratio;
   const AirLaw blind = [](const auto& air, double) { return air.initial_temperature; };
-  EXPECT_EQ(outcome_of(judge_air, blind, std::nan("")), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_air, blind, std::nan("")), Outcome::wrong);
 }
 
 TEST(BrokenLaw, ConductionThatMakesHeatOrNone) {
   const ConductionLaw none = [](mpm::Conduction&, mpm::Simulation&, double) {};
   const ConductionLaw hotter = [](mpm::Conduction& conduction, mpm::Simulation& simulation, double dt) {
     conduction.advance(simulation, dt);
-    for (double& temperature : simulation.bodies_of<materials::Charge>()[0].get().kinematics.temperature)
+    for (double& temperature : simulation.bodies_of<materials::Charge>()[0].get().particles.temperature)
       temperature += 1e-6;
   };
-  EXPECT_EQ(outcome_of(judge_conduction, none, 1.0), Outcome::wrong);
-  EXPECT_EQ(outcome_of(judge_conduction, none, 1e4), Outcome::wrong);
-  EXPECT_EQ(outcome_of(judge_conduction, hotter, 1.0), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_conduction, none, 1.0), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_conduction, none, 1e4), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_conduction, hotter, 1.0), Outcome::wrong);
 }
 
 TEST(BrokenLaw, DenormalsThatBecomeNotANumberOrTakeLong) {
   const std::function<double(double)> ratio = [](double d) { return d / (d * d); };
-  EXPECT_EQ(outcome_of(judge_denormals, ratio), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_denormals, ratio), Outcome::wrong);
   const std::function<double(double)> slow = [](double d) {
     volatile double sum = 0.0;
     for (int k = 0; k < 1000000; ++k) sum = sum + d;
     return static_cast<double>(sum);
   };
-  EXPECT_EQ(outcome_of(judge_denormals, slow), Outcome::wrong);
+  EXPECT_EQ(outcome_of(assess_denormals, slow), Outcome::wrong);
 }
 
 }  // namespace
-}  // namespace launchsafe::verify::hard
+}  // namespace launchsafe::verify::law_tests

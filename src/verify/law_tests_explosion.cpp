@@ -1,5 +1,5 @@
 // Thermal explosion of the skin against the quadrature of its own equation.
-#include "hard_laws.hpp"
+#include "law_tests.hpp"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <fmt/format.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace launchsafe::verify::hard {
+namespace launchsafe::verify::law_tests {
 
 namespace {
 
@@ -93,8 +93,8 @@ std::vector<Setting> settings() {
 
 }  // namespace
 
-void judge_explosion(Judge& judge, const SkinLaw& law, const surface::SkinModel& model, double temperature,
-                     double heating, double step) {
+void assess_explosion(Bounds& bounds, const SkinLaw& law, const surface::SkinModel& model, double temperature,
+                      double heating, double step) {
   const double ignition = ignition_of(model);
   const double due = temperature < ignition ? exact_time(model, temperature, ignition, heating) : 0.0;
   const double wanted = std::ceil(std::min(1.1 * due, launch) / step) + 1.0;
@@ -105,17 +105,17 @@ void judge_explosion(Judge& judge, const SkinLaw& law, const surface::SkinModel&
   for (long call = 0; call < calls; ++call) {
     const double before = point.temperature;
     point = law(model, 0.0, point, step, 300.0, 300.0, heating);
-    judge.never("a temperature is not finite", !std::isfinite(point.temperature));
-    judge.never("the temperature fell", point.temperature < before);
+    bounds.never("a temperature is not finite", !std::isfinite(point.temperature));
+    bounds.never("the temperature fell", point.temperature < before);
     const double time = static_cast<double>(call + 1) * step;
     if (point.ignited) {
       const double seen = static_cast<double>(call) * step + point.ignition_time;
-      judge.at_most("ignition early or late, share of the time to it",
-                    due > 0.0 ? std::abs(seen / due - 1.0) : seen, due > 0.0 ? time_tolerance : 1e-15);
-      judge.never("the ignited skin is colder than it ignites at", point.temperature < ignition);
+      bounds.at_most("ignition early or late, share of the time to it",
+                     due > 0.0 ? std::abs(seen / due - 1.0) : seen, due > 0.0 ? time_tolerance : 1e-15);
+      bounds.never("the ignited skin is colder than it ignites at", point.temperature < ignition);
       return;
     }
-    judge.never("it has not ignited and is past its ignition", time > due * (1.0 + time_tolerance));
+    bounds.never("it has not ignited and is past its ignition", time > due * (1.0 + time_tolerance));
     if (!std::isfinite(point.temperature)) return;
     if ((call + 1) % every != 0) continue;
     sampled_time += exact_time(model, sampled, point.temperature, heating);
@@ -123,34 +123,33 @@ void judge_explosion(Judge& judge, const SkinLaw& law, const surface::SkinModel&
     // Every call rounds the temperature, by half a digit at most: in a launch of 1 ns calls 0.6 uK.
     const double rounded =
         static_cast<double>(call + 1) * 1.2e-16 * sampled / rate_of(model, sampled, heating);
-    judge.at_most("temperature early or late, over 1e-6 of the time and round-off",
-                  std::abs(sampled_time - time) / (time_tolerance * time + rounded), 1.0);
+    bounds.at_most("temperature early or late, over 1e-6 of the time and round-off",
+                   std::abs(sampled_time - time) / (time_tolerance * time + rounded), 1.0);
   }
-  judge.never("it did not ignite in the time it takes", due < static_cast<double>(calls) * step);
+  bounds.never("it did not ignite in the time it takes", due < static_cast<double>(calls) * step);
 }
 
-Cases explosion_cases() {
-  Cases cases;
+StressTests explosion_tests() {
+  StressTests tests;
   for (const Setting& setting : settings()) {
     for (const double temperature : {300.0, 400.0, 500.0, 600.0, 700.0, 800.0, 1000.0, 1500.0, 2000.0}) {
-      cases.push_back({"stiff: thermal explosion",
-                       fmt::format("{}, from {:.0f} K, steps 1 ns to 1 ms", setting.name, temperature),
-                       "Temperatures are reached, and ignition is flagged, when the quadrature of the "
-                       "equation says so, to "
-                       "1e-6 of the time and one rounding a call, at every outer step; the temperature never "
-                       "falls and stays "
-                       "finite.",
-                       [setting, temperature] {
-                         Judge judge;
-                         for (const double step : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
-                           judge_explosion(judge, surface::advance_skin, setting.model, temperature,
+      tests.push_back(
+          stress_test("stiff: thermal explosion",
+                      fmt::format("{}, from {:.0f} K, steps 1 ns to 1 ms", setting.name, temperature),
+                      "Temperatures are reached, and ignition is flagged, when the quadrature of the "
+                      "equation says so, to "
+                      "1e-6 of the time and one rounding a call, at every outer step; the temperature never "
+                      "falls and stays "
+                      "finite.",
+                      [setting, temperature](Bounds& bounds) {
+                        for (const double step : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
+                          assess_explosion(bounds, surface::advance_skin, setting.model, temperature,
                                            setting.heating, step);
-                         }
-                         return judge.finding();
-                       }});
+                        }
+                      }));
     }
   }
-  return cases;
+  return tests;
 }
 
-}  // namespace launchsafe::verify::hard
+}  // namespace launchsafe::verify::law_tests

@@ -1,4 +1,4 @@
-#include "launchsafe/verify/hard_case.hpp"
+#include "launchsafe/verify/stress_test.hpp"
 
 namespace launchsafe::verify {
 
