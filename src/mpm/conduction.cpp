@@ -1,8 +1,9 @@
 #include "launchsafe/mpm/conduction.hpp"
 
+#include <Eigen/IterativeLinearSolvers>
+
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace launchsafe::mpm {
@@ -38,29 +39,15 @@ void for_each_particle(const Lattice& lattice, Eigen::Index first, F&& f) {
     for (int i = 0; i < lattice.columns(); ++i) f(first++, lattice.slot(i, j));
 }
 
-double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
 /// Solves a symmetric positive definite system by conjugate gradients, preconditioned with its diagonal. A
-/// step that moves heat by much less than a spacing takes a few iterations.
+/// step that moves heat by much less than a spacing takes a few iterations. A right side that is not finite
+/// is returned as it is: on it the iteration would only end at its limit.
 Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& system, const Eigen::VectorXd& right_side) {
-  const Eigen::VectorXd inverse_diagonal = system.diagonal().cwiseInverse();
-  Eigen::VectorXd solution = Eigen::VectorXd::Zero(right_side.size()), residual = right_side;
-  Eigen::VectorXd scaled = inverse_diagonal.cwiseProduct(residual), direction = scaled;
-  double energy = dot(residual, scaled);
-  const double enough = solver_tolerance * solver_tolerance * energy;
-  for (Eigen::Index k = 0; k < iterations_per_unknown * right_side.size() && energy > enough; ++k) {
-    const Eigen::VectorXd image = system * direction;
-    const double length = energy / dot(direction, image);
-    solution += length * direction;
-    residual -= length * image;
-    scaled = inverse_diagonal.cwiseProduct(residual);
-    const double next = dot(residual, scaled);
-    direction = scaled + (next / energy) * direction;
-    energy = next;
-  }
-  return solution;
+  if (!right_side.allFinite()) return right_side;
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(system);
+  solver.setTolerance(solver_tolerance);
+  solver.setMaxIterations(iterations_per_unknown * right_side.size());
+  return solver.solve(right_side);
 }
 
 /// Collects the links between particles into a symmetric matrix whose rows sum to 0.
@@ -232,8 +219,7 @@ void Conduction::advance(Simulation& simulation, double dt) {
       entered +=
           dt * face.conductance * (held_temperature_ - temperature[face.particle] - change[face.particle]);
   }
-  change.array() +=
-      (entered - dot(capacity_, change)) / std::accumulate(capacity_.begin(), capacity_.end(), 0.0);
+  change.array() += (entered - capacity_.dot(change)) / capacity_.sum();
 
   first = 0;
   const auto apply = [&]<class Law>(Body<Law>& body) {
