@@ -4,7 +4,6 @@
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/quantity.hpp"
-#include "svg_text.hpp"
 
 #include <fmt/format.h>
 
@@ -12,11 +11,60 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 namespace launchsafe::report {
 namespace {
 
-using detail::svg_line, detail::svg_rectangle, detail::svg_text, detail::text_width;
+// --- elements: places and sizes in pixels, y downward; `attributes` are written as they are ---
+
+/// Whatever would be markup is escaped; control characters become blanks.
+std::string escaped(std::string_view content) {
+  std::string text;
+  for (const char character : content) {
+    const auto byte = static_cast<unsigned char>(character);
+    if (byte < 0x20 || byte == 0x7f) {
+      text += ' ';
+    } else if (character == '&' || character == '<' || character == '>' || character == '"') {
+      text += fmt::format("&#{};", static_cast<int>(byte));
+    } else {
+      text += character;
+    }
+  }
+  return text;
+}
+
+std::string svg_line(double x1, double y1, double x2, double y2, std::string_view attributes) {
+  return fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" {}/>\n", x1, y1, x2, y2,
+                     attributes);
+}
+
+std::string svg_rectangle(double x, double y, double width, double height, std::string_view attributes) {
+  return fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" {}/>\n", x, y, width,
+                     height, attributes);
+}
+
+std::string svg_circle(double x, double y, double radius, std::string_view colour) {
+  return fmt::format(
+      "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"{}\" stroke=\"#ffffff\" "
+      "stroke-width=\"1\"/>\n",
+      x, y, radius, colour);
+}
+
+/// `anchor`: start, middle or end.
+std::string svg_text(double x, double y, double size, std::string_view anchor, std::string_view colour,
+                     std::string_view content, std::string_view attributes = "") {
+  return fmt::format(
+      "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\" {}>{}</text>\n", x, y,
+      size, anchor, colour, attributes, escaped(content));
+}
+
+/// How wide a text will be, about, and rather too wide.
+double text_width(std::string_view content, double size) {
+  return 0.56 * size * static_cast<double>(display_width(content));
+}
+
+// --- what is drawn ---
 
 // Pixels.
 constexpr double page_width = 1400, margin = 88;
@@ -51,8 +99,7 @@ std::vector<DrawnBody> drawn_bodies(const scene::Scene& scene) {
 struct Section {
   const scene::Scene& scene;
   std::vector<DrawnBody> bodies;
-  scene::GridLines lines;  ///< as many as are drawn
-  std::size_t every = 1;   ///< of the grid's lines that one is drawn of
+  scene::GridLines lines;
   double x_begin = 0, x_end = 0, r_end = 0;
 };
 
@@ -62,13 +109,6 @@ Section section_of(const scene::Scene& scene) {
   section.x_begin = std::min(extent.x_begin, section.lines.x.front());
   section.x_end = std::max(extent.x_end, section.lines.x.back());
   section.r_end = std::max(extent.r_end, section.lines.r.back());
-  constexpr std::size_t most_lines = 4000;
-  section.every = 1 + (std::max(section.lines.x.size(), section.lines.r.size()) - 1) / most_lines;
-  for (std::vector<double>* lines : {&section.lines.x, &section.lines.r}) {
-    std::vector<double> drawn;
-    for (std::size_t i = 0; i < lines->size(); i += section.every) drawn.push_back((*lines)[i]);
-    *lines = std::move(drawn);
-  }
   return section;
 }
 
@@ -106,19 +146,9 @@ std::optional<Panel> enlarged_panel(const Section& section, const Panel& whole, 
 
 // --- what a panel holds ---
 
-/// Thin enough that lines one beside the other leave the colour between them visible.
-double line_width(const Panel& panel, const scene::GridLines& lines) {
-  double closest = panel.height();
-  for (const auto* each : {&lines.x, &lines.r})
-    for (std::size_t i = 0; i + 1 < each->size(); ++i)
-      closest = std::min(closest, panel.scale * ((*each)[i + 1] - (*each)[i]));
-  const double share = closest < 2.0 ? 0.11 : 0.16;
-  return std::clamp(share * closest, 0.055, 0.8);
-}
-
 std::string grid_elements(const Section& section, const Panel& panel) {
-  std::string text = fmt::format("<g class=\"grid\" stroke=\"{}\" stroke-width=\"{:.2f}\">\n", soft_ink,
-                                 line_width(panel, section.lines));
+  // So thin that lines one beside the other leave the colour between them visible.
+  std::string text = fmt::format("<g class=\"grid\" stroke=\"{}\" stroke-width=\"0.35\">\n", soft_ink);
   for (const double x : section.lines.x) {
     if (!panel.shows(x)) continue;
     text += svg_line(panel.x(x), panel.y(section.lines.r.front()), panel.x(x),
@@ -236,10 +266,12 @@ DrawnPoints point_elements(const Panel& panel, const std::vector<const scene::Ob
                                fmt::format("stroke=\"{}\" stroke-width=\"0.7\"", ink));
   const double radius = named ? 3.2 : 2.0;
   for (const scene::ObservationPoint* point : points)
-    drawn.elements += detail::svg_circle(panel.x(point->x), panel.y(point->r), radius, ink);
+    drawn.elements += svg_circle(panel.x(point->x), panel.y(point->r), radius, ink);
+  constexpr std::string_view rim =
+      "paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\"";
   for (const Label& label : labels)
-    drawn.elements += detail::svg_haloed_text(label.left, label.middle + 0.35 * label_size, label_size, ink,
-                                              label.point->name);
+    drawn.elements += svg_text(label.left, label.middle + 0.35 * label_size, label_size, "start", ink,
+                               label.point->name, rim);
   return drawn;
 }
 
@@ -252,9 +284,11 @@ std::vector<const scene::ObservationPoint*> points_in(const scene::Scene& scene,
 
 /// Bodies, grid and edges, cut off at the window, and around them axis and scales.
 std::string panel_elements(const Section& section, const Panel& panel) {
-  return detail::svg_clipped(panel.id, panel.left() - 1, panel.top - 1, panel.width() + 2, panel.height() + 2,
-                             body_elements(section, panel, true) + grid_elements(section, panel) +
-                                 body_elements(section, panel, false)) +
+  const std::string window =
+      svg_rectangle(panel.left() - 1, panel.top - 1, panel.width() + 2, panel.height() + 2, "");
+  return fmt::format("<clipPath id=\"{0}\">{1}</clipPath>\n<g clip-path=\"url(#{0})\">\n{2}{3}{4}</g>\n",
+                     panel.id, window, body_elements(section, panel, true), grid_elements(section, panel),
+                     body_elements(section, panel, false)) +
          symmetry_elements(panel) + axis_elements(panel);
 }
 
@@ -275,7 +309,7 @@ std::vector<LegendEntry> legend_entries(const Section& section) {
                        svg_rectangle(0, 1, 16, 14, fmt::format("fill=\"{}\" {}", each.colour, edge))});
   entries.push_back({"line of the grid", svg_line(0, 8, 16, 8, fmt::format("stroke=\"{}\"", soft_ink))});
   if (!section.scene.output.observation_points.empty())
-    entries.push_back({"observation point", detail::svg_circle(8, 8, 3.2, ink)});
+    entries.push_back({"observation point", svg_circle(8, 8, 3.2, ink)});
   entries.push_back(
       {section.scene.symmetry == scene::Symmetry::axisymmetric ? "axis of symmetry" : "plane of symmetry",
        svg_line(0, 8, 16, 8,
@@ -304,14 +338,11 @@ std::string legend_elements(const std::vector<LegendEntry>& entries, double& top
   return text;
 }
 
-std::string caption_of(const Section& section) {
-  const scene::Plan plan = scene::make_plan(section.scene);
-  const scene::CellRange cells = scene::cells_of(section.scene);
-  std::string text =
-      fmt::format("{} x {} cells, {} particles; time step {} at rest", cells.nx, cells.nr, plan.particles(),
-                  scene::format_quantity(plan.time_step, scene::Dimension::time));
-  if (section.every > 1) text += fmt::format("; one in {} lines of the grid is drawn", section.every);
-  return text;
+std::string caption_of(const scene::Scene& scene) {
+  const scene::Plan plan = scene::make_plan(scene);
+  const scene::CellRange cells = scene::cells_of(scene);
+  return fmt::format("{} x {} cells, {} particles; time step {} at rest", cells.nx, cells.nr,
+                     plan.particles(), scene::format_quantity(plan.time_step, scene::Dimension::time));
 }
 
 /// Around what is enlarged, a little larger than the section so that it covers no edge along it.
@@ -356,11 +387,16 @@ std::string section_svg(const scene::Scene& scene) {
   const Section section = section_of(scene);
   double bottom = 88;
   std::string text = svg_text(margin, 44, 21, "start", ink, scene.title.empty() ? "grid" : scene.title);
-  text += svg_text(margin, 68, 14, "start", soft_ink, caption_of(section));
+  text += svg_text(margin, 68, 14, "start", soft_ink, caption_of(scene));
   text += legend_elements(legend_entries(section), bottom);
   bottom += 46;
   text += panels(section, bottom);
-  return detail::svg_page(page_width, bottom, text);
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+      "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\">\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{2}</svg>\n",
+      page_width, bottom, text);
 }
 
 }  // namespace launchsafe::report

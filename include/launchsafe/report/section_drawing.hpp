@@ -9,8 +9,7 @@ namespace launchsafe::report {
 
 /// Bodies in colours with their names in a legend, the lines of the grid, the axis of symmetry, the
 /// observation points with their names, and both axes in mm. A slender shell with a charge is drawn whole,
-/// and enlarged around the bottom of the charge. Where more lines than anybody can tell apart would be drawn,
-/// only every n-th is, and the picture says so; names of points for which there is no room are left out, and
+/// and enlarged around the bottom of the charge. Names of points for which there is no room are left out, and
 /// the picture counts them. Needs at least one body. No other program takes part, and equal scenes have equal
 /// pictures.
 std::string section_svg(const scene::Scene& scene);
