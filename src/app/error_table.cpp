@@ -113,19 +113,9 @@ bool is_exact(const MeasuredSeries& each) {
 report::Plot plot_of(const std::vector<MeasuredSeries>& measured) {
   report::Plot plot;
   plot.title = title;
-  plot.x = {.label = "processor time of one unit of work",
-            .scale = report::Scale::logarithmic,
-            .tics = {{1e-7, "0.1 us"},
-                     {1e-6, "1 us"},
-                     {1e-5, "10 us"},
-                     {1e-4, "0.1 ms"},
-                     {1e-3, "1 ms"},
-                     {1e-2, "10 ms"},
-                     {1e-1, "0.1 s"},
-                     {1.0, "1 s"}}};
+  plot.x = {.label = "processor time of one unit of work [s]", .scale = report::Scale::logarithmic};
   plot.y = {.label = "error [relative, or K where it says so]", .scale = report::Scale::logarithmic};
-  plot.legend = report::Legend::right_of_plot;
-  plot.width = 1350;
+  plot.width = 1200;
   plot.height = 640;
   constexpr report::Mark marks[] = {report::Mark::circle, report::Mark::square, report::Mark::up_triangle,
                                     report::Mark::diamond};

@@ -193,32 +193,38 @@ Plot error_plot(const AccuracyResult& result) {
   plot.title = "Error of T max against processor time";
   plot.x = {"processor time of a run [s]", Scale::logarithmic};
   plot.y = {"largest error of T max [K]", Scale::logarithmic};
-  plot.legend = Legend::below_plot;
-  Series meshes{"reference meshes", {}, {}, Style::points}, settings{"settings", {}, {}, Style::points},
-      front{"front", {}, {}, Style::steps};
+  plot.width = 1100;
+  Series front{"front", {}, {}, Style::steps};
+  Series meshes{"reference meshes", {}, {}, Style::points}, settings{"other settings", {}, {}, Style::points};
+  for (Series* each : {&front, &meshes, &settings}) each->colour = 7;
+  meshes.mark = Mark::open_square;
+  settings.mark = Mark::circle;
+  std::vector<Series> named;  // one point each, so that the legend names them and no label covers others
   std::vector<std::pair<double, double>> best;
   for (const AccuracyRow& row : result.rows) {
     if (!row.computed() || row.other_model || !(row.largest_temperature_error > 0)) continue;
     const double time = row.measured.processor_time, error = row.largest_temperature_error;
+    if (row.on_front) best.emplace_back(time, error);
+    if (row.on_front || row.baseline) {
+      named.push_back(
+          {row.baseline ? "as in the scene" : result.study.cases[row.index].label, {time}, {error}});
+      named.back().style = Style::points;
+      named.back().colour = static_cast<int>((named.size() - 1) % 7);
+      if (!row.reference) continue;
+    }
     Series& series = row.reference ? meshes : settings;
     series.x.push_back(time);
     series.y.push_back(error);
-    if (row.on_front) best.emplace_back(time, error);
-    if (row.on_front || row.baseline)
-      plot.annotations.push_back(
-          {time, error, row.baseline ? "as in the scene" : result.study.cases[row.index].label});
   }
-  // Labels stand to the right of their points.
-  constexpr double room_for_labels = 30.0;
-  if (!best.empty()) plot.x.maximum = room_for_labels * std::max_element(best.begin(), best.end())->first;
   std::sort(best.begin(), best.end());
   for (const auto& [time, error] : best) {
     front.x.push_back(time);
     front.y.push_back(error);
   }
-  for (Series* each : {&front, &meshes, &settings}) {
+  for (Series* each : {&front, &settings, &meshes}) {
     if (!each->x.empty()) plot.series.push_back(std::move(*each));
   }
+  for (Series& each : named) plot.series.push_back(std::move(each));
   return plot;
 }
 

@@ -170,6 +170,7 @@ Plot temperature_plot(const CriticalGapResult& result) {
   plot.x.label = "gap [cm]";
   plot.y.label = "T max [K]";
   Series published{"published", {}, {}, Style::points};
+  published.mark = Mark::open_square;
   for (const CaseOutcome& outcome : result.cases) {
     Series series{result.cases.size() == 1 ? "computed" : outcome.input.label, {}, {}, Style::points};
     for (const study::GapVerdict& row : outcome.verdicts) {
@@ -186,15 +187,19 @@ Plot temperature_plot(const CriticalGapResult& result) {
       plot.series.push_back(std::move(line));
     }
     if (outcome.critical.kind == CriticalGapKind::value)
-      plot.vertical_lines.push_back({100.0 * outcome.critical.value, "critical gap"});
+      plot.vertical_lines.push_back(
+          {100.0 * outcome.critical.value,
+           fmt::format("critical gap{}: {} cm", result.cases.size() == 1 ? "" : " of " + outcome.input.label,
+                       significant(100.0 * outcome.critical.value, 3))});
   }
   for (const study::Reference& reference : result.study.study.references) {
     published.x.push_back(100.0 * reference.gap);
     published.y.push_back(reference.maximum_temperature);
   }
   if (!published.x.empty()) plot.series.push_back(std::move(published));
+  const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;
   plot.horizontal_lines.push_back(
-      {result.study.scene.scene.charge().kinetics.ignition_temperature, "ignition temperature"});
+      {ignition, fmt::format("ignition temperature: {} K", significant(ignition, 4))});
   return plot;
 }
 

@@ -122,7 +122,7 @@ Plot model_form_plot(const ModelForm& form) {
   plot.x.label = "peak pressure [MPa]";
   plot.y.label = "critical gap [cm]";
   plot.y.minimum = 0.0;
-  plot.legend = Legend::right_of_plot;
+  plot.height = 620;
   for (const ModelFormEntry& each : form.entries) {
     Series series{each.name, {}, {}, Style::line_and_points};
     // More models than colours: marks repeat at another length, so that no two lines look alike.

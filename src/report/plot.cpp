@@ -7,228 +7,211 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
 #include <string_view>
 
 namespace launchsafe::report {
 namespace {
 
-using detail::Range, detail::coordinate, detail::drawable, detail::quoted, detail::with_limits;
+using detail::coordinate, detail::data_block, detail::drawable, detail::quoted;
 
-// --- ranges ---
+// --- series ---
 
-struct Ranges {
-  Range x, y;
-};
-
-bool has_intervals(const Series& series) {
-  return series.style == Style::intervals || series.style == Style::horizontal_intervals;
+bool has_bars(const Series& series) {
+  return series.style == Style::vertical_bars || series.style == Style::horizontal_bars;
 }
 
-struct Bar {
-  double low, high;
-};
-
-/// Ends of the bar at a point; the point itself where there is none, or where an end has no place.
-Bar bar_of(const Plot& plot, const Series& series, std::size_t point) {
-  const bool along_x = series.style == Style::horizontal_intervals;
-  const double middle = along_x ? series.x[point] : series.y[point];
-  Bar bar{middle, middle};
-  if (has_intervals(series) && point < series.lower.size() && point < series.upper.size())
-    bar = {series.lower[point], series.upper[point]};
-  if (series.style == Style::error_bars && point < series.error.size())
-    bar = {middle - series.error[point], middle + series.error[point]};
-  const Scale scale = along_x ? plot.x.scale : plot.y.scale;
-  if (!drawable(bar.low, scale)) bar.low = middle;
-  if (!drawable(bar.high, scale)) bar.high = middle;
-  return bar;
-}
-
-/// Of all points that can be drawn; empty when there is none. Marker lines and annotations widen it.
-Ranges data_ranges(const Plot& plot) {
-  Ranges ranges;
-  for (const Series& series : plot.series) {
-    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
-      if (!drawable(series.x[i], plot.x.scale) || !drawable(series.y[i], plot.y.scale)) continue;
-      ranges.x.include(series.x[i], plot.x.scale);
-      ranges.y.include(series.y[i], plot.y.scale);
-      const Bar bar = bar_of(plot, series, i);
-      const bool along_x = series.style == Style::horizontal_intervals;
-      for (const double end : {bar.low, bar.high}) {
-        (along_x ? ranges.x : ranges.y).include(end, along_x ? plot.x.scale : plot.y.scale);
-      }
+/// x, y, and the ends of the bar of styles that have one: the point itself where an end has no place.
+std::string series_data(const Plot& plot, const Series& series) {
+  const bool along_x = series.style == Style::horizontal_bars;
+  const Scale bar_scale = along_x ? plot.x.scale : plot.y.scale;
+  std::string lines;
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    lines += coordinate(series.x[i], plot.x.scale) + " " + coordinate(series.y[i], plot.y.scale);
+    if (has_bars(series)) {
+      const double middle = along_x ? series.x[i] : series.y[i];
+      for (const double end : {series.lower[i], series.upper[i]})
+        lines += " " + coordinate(drawable(end, bar_scale) ? end : middle, bar_scale);
     }
+    lines += "\n";
   }
-  if (ranges.x.empty()) return ranges;
-  for (const Line& line : plot.vertical_lines) ranges.x.include(line.at, plot.x.scale);
-  for (const Line& line : plot.horizontal_lines) ranges.y.include(line.at, plot.y.scale);
-  for (const Annotation& annotation : plot.annotations) {
-    ranges.x.include(annotation.x, plot.x.scale);
-    ranges.y.include(annotation.y, plot.y.scale);
-  }
-  return ranges;
+  return lines;
 }
 
-// --- commands ---
-
-std::size_t labelled(const Plot& plot) {
-  return static_cast<std::size_t>(std::count_if(plot.series.begin(), plot.series.end(),
-                                                [](const Series& series) { return !series.label.empty(); }));
+std::string title_of(const std::string& label) {
+  return label.empty() ? "notitle" : "title " + quoted(label);
 }
 
-std::string legend_commands(const Plot& plot) {
-  const auto at = [](std::string_view place) {
-    return fmt::format("set key {} Left reverse samplen 2.2 spacing 1.25 opaque\n", place);
-  };
-  switch (plot.legend) {
-    case Legend::top_left:
-      return at("inside top left");
-    case Legend::top_right:
-      return at("inside top right");
-    case Legend::bottom_left:
-      return at("inside bottom left");
-    case Legend::bottom_right:
-      return at("inside bottom right");
-    case Legend::right_of_plot:
-      return at("outside right top");
-    case Legend::below_plot:
-      return detail::legend_below(plot.height, labelled(plot), 0.5);
-    case Legend::none:
-      break;
-  }
-  return "unset key\n";
-}
-
-std::string line_commands(const Plot& plot, const Ranges& ranges) {
-  constexpr std::string_view style = "nohead linewidth 1.2 dashtype 2 linecolor rgb '#555555'";
-  constexpr std::string_view text_style = "front font ',12' textcolor rgb '#333333'";
-  std::string text;
-  for (const Line& line : plot.vertical_lines) {
-    if (!ranges.x.contains(line.at)) continue;
-    const std::string at = exact(line.at);
-    text += fmt::format("set arrow from first {0}, graph 0 to first {0}, graph 1 {1}\n", at, style);
-    text += fmt::format("set label {} at first {}, graph 0.03 rotate left offset character 0.9, 0 {}\n",
-                        quoted(line.label), at, text_style);
-  }
-  for (const Line& line : plot.horizontal_lines) {
-    if (!ranges.y.contains(line.at)) continue;
-    const std::string at = exact(line.at);
-    text += fmt::format("set arrow from graph 0, first {0} to graph 1, first {0} {1}\n", at, style);
-    text += fmt::format("set label {} at graph 0.99, first {} right offset character 0, 0.55 {}\n",
-                        quoted(line.label), at, text_style);
-  }
-  for (const Annotation& annotation : plot.annotations) {
-    text += fmt::format("set label {} at first {}, first {} left offset character 0.8, 0.5 {}\n",
-                        quoted(annotation.text), exact(annotation.x), exact(annotation.y), text_style);
-  }
-  return text;
-}
-
-/// x, y, and the ends of the bar of styles that have one.
-std::string data_block(const Plot& plot, std::size_t index) {
-  const Series& series = plot.series[index];
-  const Scale bar_scale = series.style == Style::horizontal_intervals ? plot.x.scale : plot.y.scale;
-  std::string text = fmt::format("$series{} << END_OF_DATA\n", index);
-  for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
-    const Bar bar = bar_of(plot, series, i);
-    text += fmt::format("{} {} {} {}\n", coordinate(series.x[i], plot.x.scale),
-                        coordinate(series.y[i], plot.y.scale), coordinate(bar.low, bar_scale),
-                        coordinate(bar.high, bar_scale));
-  }
-  return text + "END_OF_DATA\n";
-}
-
-/// The sign of a series' points: its own, or one of eight that go with the colours.
-Mark mark_of(const Series& series, std::size_t look) {
-  return series.mark.value_or(static_cast<Mark>(look % 8));
+std::string points_of(Mark mark) {
+  // In the order of Mark: gnuplot's filled signs, open signs, and the cross.
+  constexpr std::array<int, 9> types{7, 5, 9, 13, 11, 6, 4, 8, 2};
+  // Open signs are larger, so that they show around filled ones at the same place.
+  const double size = mark < Mark::open_circle ? 0.7 : 1.1;
+  return fmt::format("pointtype {} pointsize {}", types[static_cast<std::size_t>(mark)], size);
 }
 
 std::string style_of(const Series& series, std::size_t index) {
-  const std::size_t look = series.colour ? static_cast<std::size_t>(std::abs(*series.colour)) : index;
-  const std::string colour = fmt::format("linecolor rgb '{}'", detail::palette_colour(look));
-  const std::string points =
-      fmt::format("pointtype {} pointsize 0.7", detail::point_type(mark_of(series, look)));
+  // Okabe and Ito's colours, told apart by the colour-blind too; grey for the yellow that white paper
+  // swallows.
+  constexpr std::array<std::string_view, 8> palette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                    "#e69f00", "#56b4e9", "#000000", "#7f7f7f"};
+  const std::size_t look = series.colour ? static_cast<std::size_t>(*series.colour) : index;
+  const std::string colour = fmt::format("linecolor rgb '{}'", palette[look % palette.size()]);
+  const std::string points = points_of(series.mark.value_or(static_cast<Mark>(look % 8)));
   switch (series.style) {
     case Style::line:
-      return fmt::format("with lines linewidth 2 {}", colour);
+      return "with lines linewidth 2 " + colour;
     case Style::dashed_line:
-      return fmt::format("with lines linewidth 2 dashtype 2 {}", colour);
+      return "with lines linewidth 2 dashtype 2 " + colour;
     case Style::points:
-      return fmt::format("with points {} {}", points, colour);
-    case Style::error_bars:
-    case Style::intervals:
+      return fmt::format("with points linewidth 1.5 {} {}", points, colour);
+    case Style::vertical_bars:
       return fmt::format("with yerrorbars linewidth 1.5 {} {}", points, colour);
-    case Style::horizontal_intervals:
+    case Style::horizontal_bars:
       return fmt::format("with xerrorbars linewidth 1.5 {} {}", points, colour);
     case Style::steps:
-      return fmt::format("with steps linewidth 2 {}", colour);
+      return "with steps linewidth 2 " + colour;
     case Style::line_and_points:
       break;
   }
   return fmt::format("with linespoints linewidth 2 {} {}", points, colour);
 }
 
-bool has_bars(const Series& series) { return series.style == Style::error_bars || has_intervals(series); }
+// --- commands ---
 
-bool has_points(const Series& series) { return !series.x.empty() && !series.y.empty(); }
+/// Data and the parts of the plot command, in the order in which they are drawn.
+struct Commands {
+  std::string data;
+  std::vector<std::string> plots;
 
-std::string plot_command(const Plot& plot) {
-  std::string text;
+  void add(const std::string& name, const std::string& lines, const std::string& how) {
+    data += data_block(name, lines);
+    plots.push_back(fmt::format("${} using {}", name, how));
+  }
+};
+
+void add_series(const Plot& plot, Commands& commands) {
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const Series& series = plot.series[i];
-    if (!has_points(series)) continue;
-    const std::string title = series.label.empty() ? "notitle" : "title " + quoted(series.label);
-    text += fmt::format("{}$series{} using {} {} {}", text.empty() ? "plot " : ", \\\n     ", i,
-                        has_bars(series) ? "1:2:3:4" : "1:2", style_of(series, i), title);
+    if (series.x.empty()) continue;
+    commands.add(fmt::format("series{}", i), series_data(plot, series),
+                 fmt::format("{} {} {}", has_bars(series) ? "1:2:3:4" : "1:2", style_of(series, i),
+                             title_of(series.label)));
   }
-  return text + "\n";
 }
 
-store::MaybeError unfit(const Plot& plot) {
-  const auto failed = [&](const std::string& why) {
-    return store::Error{store::Error::Kind::failed, fmt::format("cannot draw '{}': {}", plot.title, why)};
-  };
-  for (const Series& series : plot.series) {
-    if (series.x.size() != series.y.size()) return failed("a series has as many x as y: " + series.label);
-    if (series.style == Style::error_bars && series.error.size() != series.y.size()) {
-      return failed("a series has an error for every point: " + series.label);
-    }
-    if (has_intervals(series) &&
-        (series.lower.size() != series.y.size() || series.upper.size() != series.y.size())) {
-      return failed("a series has an interval for every point: " + series.label);
-    }
+/// Lines from edge to edge: along the second axes, which go from 0 to 1.
+void add_lines(const Plot& plot, Commands& commands) {
+  constexpr std::string_view style = "with lines linewidth 1.3 linecolor rgb '#444444'";
+  for (std::size_t i = 0; i < plot.vertical_lines.size(); ++i) {
+    const Line& line = plot.vertical_lines[i];
+    const std::string at = coordinate(line.at, plot.x.scale);
+    commands.add(fmt::format("vertical{}", i), fmt::format("{0} 0\n{0} 1\n", at),
+                 fmt::format("1:2 axes x1y2 {} dashtype 2 {}", style, title_of(line.label)));
   }
-  if (data_ranges(plot).x.empty()) return failed("it has no points");
+  for (std::size_t i = 0; i < plot.horizontal_lines.size(); ++i) {
+    const Line& line = plot.horizontal_lines[i];
+    const std::string at = coordinate(line.at, plot.y.scale);
+    commands.add(fmt::format("horizontal{}", i), fmt::format("0 {0}\n1 {0}\n", at),
+                 fmt::format("1:2 axes x2y1 {} dashtype 4 {}", style, title_of(line.label)));
+  }
+}
+
+/// Where the legend covers nothing: below the label of the x axis, or to the right where its entries are so
+/// long that two columns have no room below.
+std::string legend_command(const Plot& plot) {
+  constexpr double letter = 8.4, sample = 60;  // pixels, as gnuplot reckons
+  std::size_t longest = 0;
+  const auto add = [&](const std::string& label) { longest = std::max(longest, display_width(label)); };
+  for (const Series& series : plot.series) add(series.label);
+  for (const Line& line : plot.vertical_lines) add(line.label);
+  for (const Line& line : plot.horizontal_lines) add(line.label);
+  const bool two_columns = 2.0 * (sample + letter * static_cast<double>(longest)) < 0.85 * plot.width;
+  return fmt::format("set key outside {} Left reverse samplen 2 spacing 1.25\n",
+                     two_columns ? "bottom center horizontal height 1.5" : "right top vertical");
+}
+
+std::string page_commands(const Plot& plot) {
+  return fmt::format(
+             "set encoding utf8\n"
+             "set terminal svg size {},{} noenhanced font 'sans-serif,14' background rgb '#ffffff' rounded\n"
+             "set border 3 linewidth 1 linecolor rgb '#444444'\n"
+             "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
+             "set grid linewidth 0.7 dashtype 1 linecolor rgb '#dddddd'\n"
+             "set autoscale fix\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
+             "set x2range [0:1]\nset y2range [0:1]\n"
+             "set title {} font ',16'\n",
+             plot.width, plot.height, quoted(plot.title)) +
+         legend_command(plot);
+}
+
+/// Label, limits, scale and tics of the axis "x" or "y".
+std::string axis_commands(const std::string& name, const Axis& axis) {
+  std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label));
+  if (axis.minimum) text += fmt::format("set {}range [{}:]\n", name, exact(*axis.minimum));
+  if (axis.maximum) text += fmt::format("set {}range [:{}]\n", name, exact(*axis.maximum));
+  if (axis.scale == Scale::logarithmic) text += fmt::format("set logscale {0}\nset format {0} '%g'\n", name);
+  std::string tics;
+  for (const Tic& tic : axis.tics) {
+    if (!drawable(tic.at, axis.scale)) continue;
+    tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ", quoted(tic.label), exact(tic.at));
+  }
+  return tics.empty() ? text : text + fmt::format("unset m{0}tics\nset {0}tics ({1})\n", name, tics);
+}
+
+/// Why a plot cannot be drawn; empty where it can.
+std::string unfit(const Plot& plot) {
   for (const Axis* axis : {&plot.x, &plot.y}) {
-    const Range range = with_limits(axis == &plot.x ? data_ranges(plot).x : data_ranges(plot).y, *axis);
-    if (!drawable(range.low, axis->scale) || !std::isfinite(range.high) || range.high <= range.low) {
-      return failed("the limits of an axis leave nothing between them: " + axis->label);
-    }
+    const bool fits = drawable(axis->minimum.value_or(1.0), axis->scale) &&
+                      drawable(axis->maximum.value_or(1.0), axis->scale);
+    if (!fits) return "a limit has no place on its axis: " + axis->label;
   }
-  return {};
+  for (const Series& series : plot.series) {
+    const std::size_t points = series.x.size();
+    if (series.y.size() != points) return "a series has as many x as y: " + series.label;
+    if (has_bars(series) && (series.lower.size() != points || series.upper.size() != points))
+      return "a series has a bar for every point: " + series.label;
+  }
+  if (plot.map) return detail::unfit(*plot.map, plot);
+  const bool has_points = std::any_of(plot.series.begin(), plot.series.end(),
+                                      [](const Series& series) { return !series.x.empty(); });
+  return has_points ? "" : "it has no points";
+}
+
+/// Runs gnuplot on commands. Errors: missing, failed; `title` is named in both.
+store::Result<std::string> drawn(const std::string& program, const std::string& commands,
+                                 const std::string& title, const DrawingLimits& limits) {
+  // --default-settings: the user's own start-up file must not change a report.
+  auto run = store::run_program(program, {"--default-settings", "-"}, commands, limits);
+  if (!run) return run.error();
+  if (!run->succeeded || run->output.find("</svg>") == std::string::npos) {
+    return store::Error{store::Error::Kind::failed,
+                        fmt::format("{} could not draw '{}': {}", program, title, run->errors)};
+  }
+  return run->output;
 }
 
 }  // namespace
 
 std::string to_gnuplot(const Plot& plot) {
-  const Ranges data = data_ranges(plot);
-  const Ranges ranges{with_limits(data.x, plot.x), with_limits(data.y, plot.y)};
-  std::string text = detail::page_commands(plot.width, plot.height, plot.title);
-  text += legend_commands(plot);
-  text += detail::axis_commands("x", plot.x, ranges.x);
-  text += detail::axis_commands("y", plot.y, ranges.y);
-  text += line_commands(plot, ranges);
-  for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    if (has_points(plot.series[i])) text += data_block(plot, i);
+  std::string text = page_commands(plot);
+  Commands commands;
+  if (plot.map) {
+    detail::MapCommands map = detail::map_commands(plot);
+    text += map.settings;
+    commands.plots = std::move(map.plots);
   }
-  return text + plot_command(plot);
+  text += axis_commands("x", plot.x) + axis_commands("y", plot.y);
+  add_series(plot, commands);
+  add_lines(plot, commands);
+  return text + commands.data + fmt::format("plot {}\n", fmt::join(commands.plots, ", \\\n     "));
 }
 
 store::Result<std::string> to_svg(const Plot& plot, const std::string& program, const DrawingLimits& limits) {
-  if (const store::MaybeError error = unfit(plot)) return *error;
-  return detail::drawn(program, to_gnuplot(plot), plot.title, limits);
+  if (const std::string why = unfit(plot); !why.empty())
+    return store::Error{store::Error::Kind::failed, fmt::format("cannot draw '{}': {}", plot.title, why)};
+  return drawn(program, to_gnuplot(plot), plot.title, limits);
 }
 
 store::MaybeError write_svg(const Plot& plot, const std::filesystem::path& path,

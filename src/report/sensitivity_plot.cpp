@@ -28,8 +28,8 @@ Plot index_plot(const SensitivityResult& result, const OutputSensitivity& output
   const std::size_t inputs = std::min(keys.size(), output.sobol.inputs.size());
   Plot plot;
   plot.x.label = "share of the variance";
-  Series first{"S1: by the input alone", {}, {}, Style::horizontal_intervals};
-  Series total{"ST: with its interactions", {}, {}, Style::horizontal_intervals};
+  Series first{"S1: by the input alone", {}, {}, Style::horizontal_bars};
+  Series total{"ST: with its interactions", {}, {}, Style::horizontal_bars};
   for (std::size_t i = 0; i < inputs; ++i) {
     const double y = static_cast<double>(inputs - i);
     const math::InputIndices& indices = output.sobol.inputs[i];
@@ -40,9 +40,8 @@ Plot index_plot(const SensitivityResult& result, const OutputSensitivity& output
   plot.y.minimum = 0.4;
   plot.y.maximum = static_cast<double>(inputs) + 0.6;
   plot.vertical_lines = {{0.0, ""}, {1.0, ""}};
-  plot.legend = Legend::below_plot;
   plot.series = {std::move(first), std::move(total)};
-  plot.height = std::min(160 + 56 * static_cast<int>(inputs), 1600);
+  plot.height = std::min(180 + 56 * static_cast<int>(inputs), 1600);
   return plot;
 }
 
@@ -59,14 +58,13 @@ Plot effect_plot(const SensitivityResult& result, const OutputSensitivity& outpu
   Plot plot;
   plot.x.label = fmt::format("mu*, mean size of the effect [{}]", shown.unit);
   plot.y.label = fmt::format("sigma, its standard deviation [{}]", shown.unit);
-  plot.legend = Legend::right_of_plot;
-  plot.width = 900;
+  plot.height = 680;
   double largest = 0;
   for (std::size_t i = 0; i < std::min(keys.size(), output.morris.size()); ++i) {
     const math::MorrisEffects& effects = output.morris[i];
     math::Estimate mu_star = effects.mu_star;
     for (double* part : {&mu_star.value, &mu_star.lower, &mu_star.upper}) *part *= shown.scale;
-    Series series{keys[i].name, {}, {}, Style::horizontal_intervals};
+    Series series{keys[i].name, {}, {}, Style::horizontal_bars};
     series.colour = static_cast<int>(i);
     // The mark moves on with every round of colours, so that no two inputs look alike.
     series.mark = static_cast<Mark>((i + i / 8) % 8);

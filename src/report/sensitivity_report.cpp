@@ -143,15 +143,10 @@ store::MaybeError write_pictures(const SensitivityResult& result, const std::fil
   for (const OutputSensitivity& output : result.outputs) {
     names.emplace_back();
     if (!detail::has_indices(result, output)) continue;
-    const std::string name = picture_name(output);
-    const auto error = write_svg(sensitivity_plot(result, output), folder / name, limits);
-    if (error && !is_of_drawing(*error)) return error;
-    if (error) {
-      written.remarks.push_back("no picture: " + error->message);
-      continue;
-    }
-    names.back() = name;
-    written.files.push_back(name);
+    const auto name = detail::write_picture(sensitivity_plot(result, output), folder, picture_name(output),
+                                            written, limits);
+    if (!name) return name.error();
+    names.back() = *name;
   }
   return {};
 }

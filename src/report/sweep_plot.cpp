@@ -75,10 +75,7 @@ std::string title_of(const char* quantity, const std::vector<SweptAxis>& axes,
   return quantity + fixed;
 }
 
-// --- marks ---
-
-/// One mark for every kind, in the order of CriticalGapKind.
-constexpr std::array<Mark, 4> kind_marks{Mark::circle, Mark::up_triangle, Mark::down_triangle, Mark::cross};
+// --- kinds of answers ---
 
 /// What a bound of one kind says, if all of them say the same.
 std::string bound_label(const SweepResult& result, CriticalGapKind kind, const std::string& otherwise) {
@@ -92,6 +89,7 @@ std::string bound_label(const SweepResult& result, CriticalGapKind kind, const s
   return label;
 }
 
+/// In the order of CriticalGapKind.
 std::array<std::string, 4> kind_labels(const SweepResult& result) {
   return {"computed value",
           bound_label(result, CriticalGapKind::all_safe, "above the searched gaps") + " (bound)",
@@ -105,106 +103,100 @@ CriticalGapKind drawn_kind(const CaseAnswer& answer) {
   return broken ? CriticalGapKind::indeterminate : answer.critical.kind;
 }
 
+std::size_t index_of(CriticalGapKind kind) { return static_cast<std::size_t>(kind); }
+
 double value_in_cm(const CaseAnswer& answer) { return 100.0 * detail::value_of(answer.critical); }
 
-/// Up to which gap nothing ignites in spite of the uncertainty, cm; NaN where that is not known.
-double surely_safe_in_cm(const CaseAnswer& answer) {
-  if (answer.critical.kind == CriticalGapKind::all_ignite) return 0.0;
-  const double least = value_in_cm(answer) - 100.0 * answer.critical.uncertainty;
-  return least < 0.0 ? 0.0 : least;
-}
+// --- maps ---
 
-/// What a map shows.
-struct Mapped {
+/// What a map shows, cm: NaN where there is no value, for which the kind of the answer is the reason, or else
+/// `without_value`.
+struct MappedQuantity {
+  const char* file;  ///< start of its name
   const char* title;
   const char* label;
   double (*value)(const CaseAnswer&);
+  const char* without_value;
 };
-constexpr Mapped critical_gap_map{"Critical gap", "critical gap [cm]", value_in_cm};
-constexpr Mapped surely_safe_map{"Critical gap less its uncertainty",
-                                 "critical gap less its uncertainty [cm]", surely_safe_in_cm};
+constexpr MappedQuantity critical_gap{"critical_gap", "Critical gap", "critical gap [cm]", value_in_cm,
+                                      "not known"};
 
-// --- maps ---
+/// Up to which gap nothing ignites in spite of the uncertainty, cm; NaN where there is no such gap.
+double surely_safe_in_cm(const CaseAnswer& answer) {
+  const double least = value_in_cm(answer) - 100.0 * answer.critical.uncertainty;
+  return least > 0.0 ? least : study::not_a_number;
+}
+constexpr MappedQuantity safe_gap{"safe_gap", "Critical gap less its uncertainty",
+                                  "critical gap less its uncertainty [cm]", surely_safe_in_cm,
+                                  "no gap surely safe"};
 
 std::size_t place_in(const std::vector<double>& values, double value) {
   return static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
 }
 
-class MapMaker {
- public:
-  MapMaker(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& x,
-           const SweptAxis& y, const Mapped& mapped)
-      : result_(result), axes_(axes), x_(x), y_(y), mapped_(mapped) {
-    std::vector<double> values;
-    for (const CaseAnswer& answer : result.answers) values.push_back(mapped.value(answer));
-    levels_ = contour_levels(values);  // of all maps, so that their colours compare
-    for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) add(i);
+/// The map of a case's plane, without values.
+Plot empty_map(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& x,
+               const SweptAxis& y, const MappedQuantity& quantity, const study::StudyCase& input) {
+  Plot plot;
+  plot.title = title_of(quantity.title, axes, {x.index, y.index}, input);
+  plot.x = picture_axis(x);
+  plot.y = picture_axis(y);
+  plot.width = 900;
+  plot.height = 620;
+  Map map;
+  map.x = x.values;
+  map.y = y.values;
+  map.values.assign(x.values.size() * y.values.size(), study::not_a_number);
+  map.label = quantity.label;
+  for (const CaseAnswer& answer : result.answers) {  // of all maps, so that their colours compare
+    const double value = quantity.value(answer);
+    if (!std::isfinite(value)) continue;
+    map.minimum = std::min(map.minimum.value_or(value), value);
+    map.maximum = std::max(map.maximum.value_or(value), value);
   }
+  auto labels = kind_labels(result);
+  labels[index_of(CriticalGapKind::value)] = quantity.without_value;
+  constexpr std::array<Hatching, 4> hatchings{Hatching::rising, Hatching::dense, Hatching::falling,
+                                              Hatching::crossed};
+  for (std::size_t kind = 0; kind < labels.size(); ++kind)
+    map.hatched.push_back({labels[kind], hatchings[kind], {}});
+  plot.map = std::move(map);
+  return plot;
+}
 
-  SweepPictures pictures() {
-    SweepPictures made;
-    const std::size_t all = maps_.size();
-    if (all > most_maps) {
-      maps_.resize(most_maps);
-      made.remarks.push_back(fmt::format(
-          "The pictures show {} of the {} combinations of the other axes; critical_gaps.csv has all.",
-          most_maps, all));
-    }
-    made.maps = std::move(maps_);
-    for (Contour& map : made.maps)
-      std::erase_if(map.marks, [](const MarkedPoints& marks) { return marks.x.empty(); });
-    return made;
-  }
-
- private:
-  void add(std::size_t index) {
-    const study::StudyCase& input = result_.study.cases[index];
-    const CaseAnswer& answer = result_.answers[index];
-    if (input.coordinates.size() < axes_.size()) return;
-    const double x = x_.key.value(input.coordinates[x_.index]);
-    const double y = y_.key.value(input.coordinates[y_.index]);
-    Contour& map = map_for(input);
-    map.z[place_in(y_.values, y) * x_.values.size() + place_in(x_.values, x)] = mapped_.value(answer);
-    MarkedPoints& marks = map.marks[static_cast<std::size_t>(drawn_kind(answer))];
-    marks.x.push_back(x);
-    marks.y.push_back(y);
-  }
-
-  /// The map of the case's values on the other axes.
-  Contour& map_for(const study::StudyCase& input) {
+/// One map over two axes for every combination of the others.
+std::vector<Plot> maps_of(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& x,
+                          const SweptAxis& y, const MappedQuantity& quantity) {
+  std::vector<std::vector<double>> combinations;
+  std::vector<Plot> plots;
+  for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) {
+    const study::StudyCase& input = result.study.cases[i];
+    if (input.coordinates.size() < axes.size()) continue;
     std::vector<double> others = input.coordinates;
-    others[x_.index] = others[y_.index] = 0;
-    const auto found = std::find(others_.begin(), others_.end(), others);
-    if (found != others_.end()) return maps_[static_cast<std::size_t>(found - others_.begin())];
-    others_.push_back(std::move(others));
-    maps_.push_back(empty_map(input));
-    return maps_.back();
+    others[x.index] = others[y.index] = 0;
+    const auto found = std::find(combinations.begin(), combinations.end(), others);
+    const auto number = static_cast<std::size_t>(found - combinations.begin());
+    if (found == combinations.end()) {
+      combinations.push_back(std::move(others));
+      plots.push_back(empty_map(result, axes, x, y, quantity, input));
+    }
+    Map& map = *plots[number].map;
+    const std::size_t cell = place_in(y.values, y.key.value(input.coordinates[y.index])) * x.values.size() +
+                             place_in(x.values, x.key.value(input.coordinates[x.index]));
+    map.values[cell] = quantity.value(result.answers[i]);
+    if (!std::isfinite(map.values[cell]))
+      map.hatched[index_of(drawn_kind(result.answers[i]))].cells.push_back(cell);
   }
+  return plots;
+}
 
-  Contour empty_map(const study::StudyCase& input) const {
-    Contour map;
-    map.title = title_of(mapped_.title, axes_, {x_.index, y_.index}, input);
-    map.x = picture_axis(x_);
-    map.y = picture_axis(y_);
-    map.x_values = x_.values;
-    map.y_values = y_.values;
-    map.z.assign(x_.values.size() * y_.values.size(), study::not_a_number);
-    map.z_label = mapped_.label;
-    map.levels = levels_;
-    const auto labels = kind_labels(result_);
-    for (std::size_t kind = 0; kind < labels.size(); ++kind)
-      map.marks.push_back({labels[kind], kind_marks[kind], {}, {}});
-    return map;
+/// Names the maps, and leaves out what would be too many.
+void add_maps(std::vector<Plot> plots, const MappedQuantity& quantity, SweepPictures& made) {
+  for (std::size_t i = 0; i < std::min(plots.size(), most_maps); ++i) {
+    made.pictures.push_back({fmt::format("{}{}.svg", quantity.file, i == 0 ? "" : fmt::format("_{}", i + 1)),
+                             std::move(plots[i])});
   }
-
-  const SweepResult& result_;
-  const std::vector<SweptAxis>& axes_;
-  const SweptAxis &x_, &y_;
-  const Mapped& mapped_;
-  std::vector<double> levels_;
-  std::vector<std::vector<double>> others_;  ///< coordinates of every map, those of its plane zero
-  std::vector<Contour> maps_;
-};
+}
 
 // --- one axis ---
 
@@ -223,35 +215,44 @@ double height_of(const CaseAnswer& answer) {
   return 0;
 }
 
+/// One mark and colour for every kind, in the order of CriticalGapKind.
+constexpr std::array<Mark, 4> kind_marks{Mark::circle, Mark::up_triangle, Mark::down_triangle, Mark::cross};
+constexpr std::array<int, 4> kind_colours{0, 2, 1, 7};
+
+std::vector<Series> series_of_kinds(const SweepResult& result) {
+  const auto labels = kind_labels(result);
+  std::vector<Series> series;
+  for (std::size_t kind = 0; kind < labels.size(); ++kind) {
+    series.push_back({labels[kind], {}, {}, kind == 0 ? Style::vertical_bars : Style::points});
+    series.back().colour = kind_colours[kind];
+    series.back().mark = kind_marks[kind];
+  }
+  return series;
+}
+
 Plot curve_of(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& axis) {
   Plot plot;
   plot.x = picture_axis(axis);
   plot.y.label = "critical gap [cm]";
-  plot.legend = Legend::below_plot;
   Series line{"", axis.values, std::vector<double>(axis.values.size(), study::not_a_number), Style::line};
   line.colour = 0;
-  const auto labels = kind_labels(result);
-  constexpr std::array<int, 4> colours{0, 2, 1, 7};
-  std::vector<Series> marks;
-  for (std::size_t kind = 0; kind < labels.size(); ++kind) {
-    marks.push_back({labels[kind], {}, {}, kind == 0 ? Style::error_bars : Style::points});
-    marks.back().colour = colours[kind];
-    marks.back().mark = kind_marks[kind];
-  }
+  std::vector<Series> kinds = series_of_kinds(result);
   for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) {
     const study::StudyCase& input = result.study.cases[i];
     if (input.coordinates.size() < axes.size()) continue;
-    if (plot.title.empty()) plot.title = title_of("Critical gap", axes, {axis.index}, input);
+    if (plot.title.empty()) plot.title = title_of(critical_gap.title, axes, {axis.index}, input);
     const CaseAnswer& answer = result.answers[i];
     const double x = axis.key.value(input.coordinates[axis.index]);
+    const double y = height_of(answer), error = 100.0 * answer.critical.uncertainty;
     line.y[place_in(axis.values, x)] = value_in_cm(answer);
-    Series& series = marks[static_cast<std::size_t>(drawn_kind(answer))];
+    Series& series = kinds[index_of(drawn_kind(answer))];
     series.x.push_back(x);
-    series.y.push_back(height_of(answer));
-    series.error.push_back(100.0 * answer.critical.uncertainty);
+    series.y.push_back(y);
+    series.lower.push_back(y - error);
+    series.upper.push_back(y + error);
   }
   plot.series.push_back(std::move(line));
-  for (Series& series : marks) {
+  for (Series& series : kinds) {
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
   return plot;
@@ -266,12 +267,17 @@ SweepPictures pictures(const SweepResult& result) {
     if (axis.values.size() > 1) several.push_back(&axis);
   }
   if (several.empty() || result.answers.empty()) return {};
-  if (several.size() == 1) return {{}, {}, curve_of(result, axes, *several.front()), {}};
-  const auto drawn = [&](const Mapped& mapped) {
-    return MapMaker(result, axes, *several[0], *several[1], mapped).pictures();
-  };
-  SweepPictures made = drawn(critical_gap_map);
-  made.surely_safe = drawn(surely_safe_map).maps;
+  if (several.size() == 1) return {{{"critical_gap.svg", curve_of(result, axes, *several.front())}}, {}};
+  SweepPictures made;
+  for (const MappedQuantity* quantity : {&critical_gap, &safe_gap}) {
+    std::vector<Plot> maps = maps_of(result, axes, *several[0], *several[1], *quantity);
+    if (maps.size() > most_maps && made.remarks.empty()) {
+      made.remarks.push_back(fmt::format(
+          "The pictures show {} of the {} combinations of the other axes; critical_gaps.csv has all.",
+          most_maps, maps.size()));
+    }
+    add_maps(std::move(maps), *quantity, made);
+  }
   return made;
 }
 

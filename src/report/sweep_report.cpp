@@ -135,29 +135,17 @@ std::string matrix_text(const SweepResult& result) {
   return to_markdown(detail::first_rows(verdict_matrix(result), most_rows, "verdicts.csv"));
 }
 
-/// Draws all pictures into a folder; a missing gnuplot is a remark.
-store::MaybeError write_pictures(const SweepPictures& pictures, const std::filesystem::path& folder,
+/// Draws all pictures into a folder, up to the first that gnuplot does not draw: that is a remark.
+store::MaybeError write_pictures(const SweepPictures& drawn, const std::filesystem::path& folder,
                                  WrittenFiles& written, std::vector<std::string>& names,
                                  const DrawingLimits& limits) {
-  const std::size_t maps = pictures.maps.size(), safe = pictures.surely_safe.size();
-  for (std::size_t i = 0; i < maps + safe + (pictures.curve ? 1 : 0); ++i) {
-    const bool is_safe = i >= maps && i < maps + safe;
-    const std::size_t number = is_safe ? i - maps : i;
-    const char* stem = is_safe ? "safe_gap" : "critical_gap";
-    const std::string name =
-        number == 0 ? fmt::format("{}.svg", stem) : fmt::format("{}_{}.svg", stem, number + 1);
-    auto error = is_safe    ? write_svg(pictures.surely_safe[number], folder / name, limits)
-                 : i < maps ? write_svg(pictures.maps[i], folder / name, limits)
-                            : write_svg(*pictures.curve, folder / name, limits);
-    if (error && !is_of_drawing(*error)) return error;
-    if (error) {
-      written.remarks.push_back("no picture: " + error->message);
-      return {};
-    }
-    names.push_back(name);
-    written.files.push_back(name);
+  for (const auto& [file, plot] : drawn.pictures) {
+    const auto name = detail::write_picture(plot, folder, file, written, limits);
+    if (!name) return name.error();
+    if (name->empty()) return {};
+    names.push_back(*name);
   }
-  written.remarks.insert(written.remarks.end(), pictures.remarks.begin(), pictures.remarks.end());
+  written.remarks.insert(written.remarks.end(), drawn.remarks.begin(), drawn.remarks.end());
   return {};
 }
 
@@ -218,8 +206,7 @@ store::Result<WrittenFiles> write_report(const SweepResult& result, const std::f
   if (auto error = write_pictures(drawn, folder, written, names, limits)) return *error;
   std::string page = to_markdown(result, names);
   for (const std::string& remark : drawn.remarks) page += "\n" + remark + "\n";
-  if (names.empty() && (drawn.curve || !drawn.maps.empty()))
-    page += "\nThere is no picture: gnuplot was not found or failed when this page was made.\n";
+  if (names.empty() && !drawn.pictures.empty()) page += detail::missing_picture_text({});
   if (auto error = detail::write_texts(
           folder, {{"report.md", page}, {"study.json", detail::json_text(result)}}, written)) {
     return *error;

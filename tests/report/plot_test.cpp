@@ -32,7 +32,7 @@ TEST_F(DrawnPlot, IsAnSvgPictureOfItsSize) {
   const auto svg = to_svg(sample());
   ASSERT_TRUE(svg) << svg.error().message;
   EXPECT_TRUE(svg->starts_with("<?xml"));
-  EXPECT_NE(svg->find("width=\"800\" height=\"520\""), std::string::npos);
+  EXPECT_NE(svg->find("width=\"800\" height=\"560\""), std::string::npos);
   EXPECT_NE(svg->find("T_max against gap"), std::string::npos) << "underscores are no subscripts";
   EXPECT_NE(svg->find("computed"), std::string::npos);
 }
@@ -52,7 +52,7 @@ TEST_F(DrawnPlot, TextIsNeverACommand) {
   plot.x.label = "`" + command + "`";
   plot.y.label = "'\n!" + command + "\n'";
   plot.series[0].label = "@HOME ''\\";
-  plot.annotations = {{0.01, 450, "END_OF_DATA\n" + command + " $(x) %s"}};
+  plot.horizontal_lines = {{450, "END_OF_DATA\n" + command + " $(x) %s"}};
   plot.vertical_lines = {{0.02, "\\\nsystem '" + command + "'"}};
   const auto svg = to_svg(plot);
   ASSERT_TRUE(svg) << svg.error().message;
@@ -73,18 +73,22 @@ TEST_F(DrawnPlot, LeavesOutWhatCannotBeDrawn) {
 
 TEST_F(DrawnPlot, HasEveryStyle) {
   Plot plot = sample();
-  for (const Style style : {Style::line, Style::dashed_line, Style::points, Style::error_bars, Style::steps,
-                            Style::intervals, Style::horizontal_intervals}) {
-    plot.series.push_back({"style", {0, 0.02}, {400, 500}, style, {5, 10}});
-    plot.series.back().lower = {0, 0.01};
-    plot.series.back().upper = {500, 600};
+  for (const Style style : {Style::line, Style::dashed_line, Style::points, Style::steps,
+                            Style::vertical_bars, Style::horizontal_bars}) {
+    plot.series.push_back({"style", {0, 0.02}, {400, 500}, style, {0, 0.01}, {500, 600}});
   }
-  for (const Legend legend : {Legend::top_right, Legend::bottom_left, Legend::bottom_right,
-                              Legend::right_of_plot, Legend::below_plot, Legend::none}) {
-    plot.legend = legend;
-    const auto svg = to_svg(plot);
-    ASSERT_TRUE(svg) << svg.error().message;
-  }
+  const auto svg = to_svg(plot);
+  ASSERT_TRUE(svg) << svg.error().message;
+}
+
+TEST_F(DrawnPlot, LinesAcrossItAreInTheLegend) {
+  Plot plot = sample();
+  plot.vertical_lines = {{0.5, "critical gap"}};
+  plot.horizontal_lines = {{9000, "ignition temperature"}};
+  const auto svg = to_svg(plot);
+  ASSERT_TRUE(svg) << svg.error().message;
+  for (const char* text : {">critical gap<", ">ignition temperature<", "> 9000<", "> 0.5<"})
+    EXPECT_NE(svg->find(text), std::string::npos) << text << ": the axes reach the lines";
 }
 
 TEST_F(DrawnPlot, ASinglePointIsEnough) {
@@ -130,26 +134,26 @@ TEST(Plot, SeriesOfDifferentLengthsAreAnError) {
   EXPECT_NE(svg.error().message.find("computed"), std::string::npos);
 }
 
-TEST(Plot, ErrorBarsNeedTheirErrors) {
+TEST(Plot, ALegendOfLongEntriesStandsBesideIt) {
   Plot plot = sample();
-  plot.series[0].style = Style::error_bars;
-  EXPECT_FALSE(to_svg(plot));
+  EXPECT_NE(to_gnuplot(plot).find("set key outside bottom"), std::string::npos);
+  plot.series[0].label.assign(60, 'x');  // twice 60 letters are wider than 800 pixels
+  EXPECT_NE(to_gnuplot(plot).find("set key outside right"), std::string::npos);
 }
 
-TEST(Plot, IntervalsNeedTheirEnds) {
+TEST(Plot, BarsNeedTheirEnds) {
   Plot plot = sample();
-  plot.series[0].style = Style::intervals;
+  plot.series[0].style = Style::vertical_bars;
   plot.series[0].lower = {1, 2, 3, 4};
   EXPECT_FALSE(to_svg(plot));
 }
 
-TEST(Plot, IntervalsWidenTheRangeAndAreDrawnAsTheyAre) {
+TEST(Plot, BarsAreDrawnAsTheyAre) {
   Plot plot = sample();
-  plot.series = {{"one", {1, 2}, {10, 20}, Style::horizontal_intervals}};
+  plot.series = {{"one", {1, 2}, {10, 20}, Style::horizontal_bars}};
   plot.series[0].lower = {-4, std::numeric_limits<double>::quiet_NaN()};
   plot.series[0].upper = {6, 3};
   const std::string text = to_gnuplot(plot);
-  EXPECT_NE(text.find("set xrange [-4.5:6.5]"), std::string::npos) << text;
   EXPECT_NE(text.find("1 10 -4 6\n2 20 2 3\n"), std::string::npos) << "an end that is missing is the point";
   EXPECT_NE(text.find("with xerrorbars"), std::string::npos);
 }
@@ -167,7 +171,7 @@ TEST(Plot, ASeriesMayChooseItsMark) {
   EXPECT_NE(to_gnuplot(plot).find("pointtype 11"), std::string::npos);
 }
 
-TEST(Plot, NothingToDrawIsAnError) {
+TEST_F(DrawnPlot, NothingToDrawIsAnError) {
   Plot plot = sample();
   plot.series.clear();
   EXPECT_FALSE(to_svg(plot));
@@ -175,7 +179,7 @@ TEST(Plot, NothingToDrawIsAnError) {
   EXPECT_FALSE(to_svg(plot));
 }
 
-TEST(Plot, LimitsThatLeaveNothingAreAnError) {
+TEST_F(DrawnPlot, LimitsThatLeaveNothingAreAnError) {
   Plot plot = sample();
   plot.x.minimum = 5;
   plot.x.maximum = 5;

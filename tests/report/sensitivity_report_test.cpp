@@ -141,7 +141,7 @@ TEST(SensitivityReport, PicturesHaveIntervals) {
   const SensitivityResult sobol = made_sensitivity(SensitivityMethod::sobol);
   const Plot indices = sensitivity_plot(sobol, sobol.outputs[0]);
   ASSERT_EQ(indices.series.size(), 2u);
-  EXPECT_EQ(indices.series[0].style, Style::horizontal_intervals);
+  EXPECT_EQ(indices.series[0].style, Style::horizontal_bars);
   EXPECT_EQ(indices.series[1].upper.size(), 3u);
   EXPECT_EQ(indices.y.tics.front().label, "peak pressure");
   const SensitivityResult morris = made_sensitivity(SensitivityMethod::morris);

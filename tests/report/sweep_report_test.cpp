@@ -204,85 +204,81 @@ TEST(SweepReport, JsonHasAxesCountsAndCases) {
 
 // --- pictures ---
 
-TEST(SweepPictures, TwoAxesMakeOneMap) {
+TEST(SweepPictures, TwoAxesMakeAMapOfTheGapAndOneLessItsUncertainty) {
   const SweepPictures made = pictures(made_sweep());
-  ASSERT_EQ(made.maps.size(), 1u);
-  EXPECT_FALSE(made.curve);
-  const Contour& map = made.maps.front();
-  EXPECT_EQ(map.x.label, "peak pressure [MPa]");
-  EXPECT_EQ(map.y.label, "crack radius [um]");
-  EXPECT_EQ(map.x.scale, Scale::linear);
-  EXPECT_EQ(map.y.scale, Scale::logarithmic) << "10 to 200 um is more than a decade";
-  EXPECT_EQ(map.z_label, "critical gap [cm]");
-  ASSERT_EQ(map.marks.size(), 4u);
-  EXPECT_EQ(map.marks[0].x.size(), 31u);
-  EXPECT_EQ(map.marks[1].mark, Mark::up_triangle);
-  EXPECT_EQ(map.marks[1].x.size(), 3u);
-  EXPECT_EQ(map.marks[2].mark, Mark::down_triangle);
-  EXPECT_EQ(map.marks[3].mark, Mark::cross);
-  EXPECT_EQ(map.marks[3].x.front(), 450.0);
-  EXPECT_TRUE(std::isnan(map.z[0])) << "a bound has no colour";
-  EXPECT_TRUE(std::isnan(map.z[4 * 6 + 2])) << "nor has a failure";
-  EXPECT_NEAR(map.z[2 * 6 + 3], 0.0395, 1e-12);
+  ASSERT_EQ(made.pictures.size(), 2u);
+  EXPECT_EQ(made.pictures[0].file, "critical_gap.svg");
+  EXPECT_EQ(made.pictures[1].file, "safe_gap.svg");
+  const Plot& plot = made.pictures[0].plot;
+  EXPECT_EQ(plot.x.label, "peak pressure [MPa]");
+  EXPECT_EQ(plot.y.label, "crack radius [um]");
+  EXPECT_EQ(plot.x.scale, Scale::linear);
+  EXPECT_EQ(plot.y.scale, Scale::logarithmic) << "10 to 200 um is more than a decade";
+  const Map& map = *plot.map;
+  EXPECT_EQ(map.label, "critical gap [cm]");
+  EXPECT_NEAR(map.values[2 * 6 + 3], 0.0395, 1e-12);
+  // Of each cell and its uncertainty, as critical_gap_table has them.
+  EXPECT_NEAR(made.pictures[1].plot.map->values[2 * 6 + 3], 0.0395 - 0.0004, 1e-12);
 }
 
-TEST(SweepPictures, NothingIsFilledInAroundPointsWithoutAValue) {
-  const std::string text = to_gnuplot(pictures(made_sweep()).maps.front());
-  std::istringstream lines(text);
-  bool in_band = false;
-  double sum_x = 0, sum_y = 0;
-  int count = 0, polygons = 0;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("$band")) in_band = true;
-    if (line == "END_OF_DATA") in_band = false;
-    double x = 0, y = 0;
-    if (in_band && (std::istringstream(line) >> x >> y)) {
-      sum_x += x;
-      sum_y += y;
-      ++count;
-    } else if (in_band && line.empty() && count > 0) {
-      const double at_x = sum_x / count, at_y = sum_y / count;
-      EXPECT_FALSE(at_x > 400 && at_x < 496 && at_y > 50 && at_y < 200) << at_x << " " << at_y;
-      EXPECT_FALSE(at_x > 550 && at_y > 100) << "beside the bound at 600 MPa, 200 um";
-      EXPECT_FALSE(at_x < 400 && at_y < 30) << "beside the bounds at low pressure";
-      sum_x = sum_y = 0;
-      count = 0;
-      ++polygons;
-    }
-  }
-  EXPECT_GT(polygons, 100);
+TEST(SweepPictures, WhatIsNoValueIsHatchedByItsReason) {
+  const Map map = *pictures(made_sweep()).pictures.front().plot.map;
+  ASSERT_EQ(map.hatched.size(), 4u);
+  EXPECT_TRUE(map.hatched[0].cells.empty()) << "computed values";
+  EXPECT_EQ(map.hatched[1].label, "> 0.1 cm (bound)");
+  EXPECT_EQ(map.hatched[1].cells.size(), 3u);
+  EXPECT_EQ(map.hatched[2].cells, std::vector<std::size_t>{5 + 6 * 5}) << "600 MPa, 200 um";
+  EXPECT_EQ(map.hatched[3].cells, std::vector<std::size_t>{2 + 6 * 4}) << "450 MPa, 100 um";
+  for (const HatchedCells& hatched : map.hatched)
+    for (const std::size_t cell : hatched.cells) EXPECT_TRUE(std::isnan(map.values[cell])) << cell;
+  std::size_t coloured = 0;
+  for (const double value : map.values) coloured += std::isfinite(value) ? 1 : 0;
+  EXPECT_EQ(coloured, 31u);
+}
+
+TEST(SweepPictures, AGapThatDoesNotExceedItsUncertaintyIsNotSafe) {
+  SweepResult result = made_sweep();
+  result.answers[15].critical.uncertainty = 1.0;  // m
+  const Map map = *pictures(result).pictures[1].plot.map;
+  ASSERT_EQ(map.hatched[0].cells.size(), 1u);
+  EXPECT_EQ(map.hatched[0].label, "no gap surely safe");
+  EXPECT_TRUE(std::isnan(map.values[map.hatched[0].cells.front()]));
 }
 
 TEST(SweepPictures, AThirdAxisMakesAMapForEachOfItsValues) {
-  const SweepPictures made = pictures(made_sweep({0.5e-3, 1e-3, 2e-3}, "charge.flaw_size"));
-  ASSERT_EQ(made.maps.size(), 3u);
-  EXPECT_EQ(made.maps[0].title, "Critical gap at charge.flaw_size 0.5 mm");
-  EXPECT_EQ(made.maps[2].title, "Critical gap at charge.flaw_size 2 mm");
-  EXPECT_EQ(made.maps[0].levels, made.maps[2].levels) << "colours compare";
+  const auto made = pictures(made_sweep({0.5e-3, 1e-3, 2e-3}, "charge.flaw_size"));
+  ASSERT_EQ(made.pictures.size(), 6u);
+  EXPECT_EQ(made.pictures[0].plot.title, "Critical gap at charge.flaw_size 0.5 mm");
+  EXPECT_EQ(made.pictures[2].plot.title, "Critical gap at charge.flaw_size 2 mm");
+  EXPECT_EQ(made.pictures[2].file, "critical_gap_3.svg");
+  EXPECT_EQ(made.pictures[0].plot.map->maximum, made.pictures[2].plot.map->maximum) << "colours compare";
   EXPECT_TRUE(made.remarks.empty());
   std::vector<double> many;
   for (int i = 1; i <= 12; ++i) many.push_back(1e-3 * i);
   const SweepPictures cut = pictures(made_sweep(many, "charge.flaw_size"));
-  EXPECT_EQ(cut.maps.size(), 9u);
+  EXPECT_EQ(cut.pictures.size(), 18u);
   ASSERT_EQ(cut.remarks.size(), 1u);
   EXPECT_NE(cut.remarks[0].find("9 of the 12"), std::string::npos);
 }
 
 TEST(SweepPictures, OneAxisMakesACurveWithErrorBarsAndBounds) {
   const SweepPictures made = pictures(one_axis());
-  EXPECT_TRUE(made.maps.empty());
-  ASSERT_TRUE(made.curve);
-  EXPECT_EQ(made.curve->title, "Critical gap at flaw size 1 mm");
-  EXPECT_EQ(made.curve->x.scale, Scale::logarithmic);
-  ASSERT_EQ(made.curve->series.size(), 5u);
-  EXPECT_TRUE(std::isnan(made.curve->series[0].y[2])) << "the line breaks at the failure";
-  const Series& values = made.curve->series[1];
-  EXPECT_EQ(values.style, Style::error_bars);
+  ASSERT_EQ(made.pictures.size(), 1u);
+  EXPECT_EQ(made.pictures[0].file, "critical_gap.svg");
+  const Plot& curve = made.pictures[0].plot;
+  EXPECT_FALSE(curve.map);
+  EXPECT_EQ(curve.title, "Critical gap at flaw size 1 mm");
+  EXPECT_EQ(curve.x.scale, Scale::logarithmic);
+  ASSERT_EQ(curve.series.size(), 5u);
+  EXPECT_TRUE(std::isnan(curve.series[0].y[2])) << "the line breaks at the failure";
+  const Series& values = curve.series[1];
+  EXPECT_EQ(values.style, Style::vertical_bars);
   EXPECT_EQ(values.x, (std::vector<double>{30, 100}));
-  EXPECT_NEAR(values.error[0], 4e-4, 1e-12);
-  EXPECT_EQ(made.curve->series[2].mark, Mark::up_triangle);
-  EXPECT_EQ(made.curve->series[2].y, std::vector<double>{0.1});
-  EXPECT_EQ(made.curve->series[2].label, "> 0.1 cm (bound)");
+  EXPECT_NEAR(values.upper[0] - values.y[0], 4e-4, 1e-12);
+  EXPECT_NEAR(values.y[0] - values.lower[0], 4e-4, 1e-12);
+  EXPECT_EQ(curve.series[2].mark, Mark::up_triangle);
+  EXPECT_EQ(curve.series[2].y, std::vector<double>{0.1});
+  EXPECT_EQ(curve.series[2].label, "> 0.1 cm (bound)");
 }
 
 TEST(SweepPictures, SingleValuesMakeNoPicture) {
@@ -291,8 +287,7 @@ TEST(SweepPictures, SingleValuesMakeNoPicture) {
   const SweepResult result = swept(
       std::move(file), [](const study::Study& study, const auto&) { return value_answer(study, 4e-4); });
   const SweepPictures made = pictures(result);
-  EXPECT_TRUE(made.maps.empty());
-  EXPECT_FALSE(made.curve);
+  EXPECT_TRUE(made.pictures.empty());
   const Folder folder;
   const auto written = write_report(result, folder.path);
   ASSERT_TRUE(written) << written.error().message;

@@ -4,6 +4,7 @@
 #include "launchsafe/report/drawing_limits.hpp"
 #include "launchsafe/store/result.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -31,9 +32,8 @@ enum class Style {
   dashed_line,
   points,
   line_and_points,
-  error_bars,            ///< points with y - error to y + error
-  intervals,             ///< points with bars along y from `lower` to `upper`
-  horizontal_intervals,  ///< points with bars along x from `lower` to `upper`
+  vertical_bars,    ///< points with bars along y from `lower` to `upper`
+  horizontal_bars,  ///< points with bars along x from `lower` to `upper`
   steps
 };
 
@@ -53,41 +53,52 @@ struct Series {
   std::string label;  ///< not in the legend when empty
   std::vector<double> x, y;
   Style style = Style::line_and_points;
-  std::vector<double> error = {};  ///< half length of the bars; only for Style::error_bars
+  std::vector<double> lower = {}, upper = {};  ///< ends of the bars; only for the two styles of bars
   std::optional<int> colour = {};  ///< index into the palette of eight; the series' own number where absent
   std::optional<Mark> mark = {};   ///< goes with the colour where absent
-  std::vector<double> lower = {}, upper = {};  ///< ends of the bars; only for the two styles of intervals
 };
 
-/// A dashed grey line across the whole picture.
+/// A dashed line across the whole picture; `label` is its entry in the legend.
 struct Line {
   double at = 0;
   std::string label = {};
 };
 
-struct Annotation {
-  double x = 0, y = 0;
-  std::string text;
+enum class Hatching { rising, falling, crossed, dense };
+
+/// Cells of a map that have no value, and why.
+struct HatchedCells {
+  std::string label;  ///< in the legend
+  Hatching hatching = Hatching::crossed;
+  std::vector<std::size_t> cells;  ///< their places in `Map::values`
 };
 
-enum class Legend { top_left, top_right, bottom_left, bottom_right, right_of_plot, below_plot, none };
+/// A quantity over a plane, a cell of colour for every point of a grid. Where a number has room in every
+/// cell, it stands there; on finer grids there are contour lines between the grid's points instead, linear in
+/// the coordinates of the picture. At points without a value there are neither.
+struct Map {
+  std::vector<double> x, y;    ///< of the grid, ascending, at least two each
+  std::vector<double> values;  ///< at every grid point, x the fastest; NaN where there is none
+  std::string label;           ///< of the colour bar, with its unit
+  std::optional<double> minimum = {}, maximum = {};  ///< of the colours; from the values where absent
+  std::vector<HatchedCells> hatched = {};
+};
 
 struct Plot {
   std::string title;
   Axis x, y;
-  std::vector<Series> series;
+  std::vector<Series> series = {};
   std::vector<Line> vertical_lines = {}, horizontal_lines = {};
-  std::vector<Annotation> annotations = {};
-  Legend legend = Legend::top_left;
-  int width = 800, height = 520;  ///< pixels
+  std::optional<Map> map = {};    ///< below the series; the limits of both axes are those of its cells
+  int width = 800, height = 560;  ///< pixels
 };
 
 /// The commands and data that `to_svg` gives to gnuplot.
 std::string to_gnuplot(const Plot& plot);
 
 /// The picture. Points that are not finite, or not positive on a logarithmic axis, are gaps. Errors: missing
-/// (there is no such program), failed (a series whose x and y differ in length, nothing to draw, gnuplot's
-/// own complaint).
+/// (there is no such program), failed (a series whose x and y differ in length, a map whose values do not fit
+/// its grid, nothing to draw, gnuplot's own complaint).
 store::Result<std::string> to_svg(const Plot& plot, const std::string& program = "gnuplot",
                                   const DrawingLimits& limits = {});
 

@@ -1,15 +1,13 @@
-// A sweep as tables, a page, JSON and contour pictures. Nothing in them differs between two runs of the same
+// A sweep as tables, a page, JSON and pictures. Nothing in them differs between two runs of the same
 // study: no times, rates, dates or hosts.
 #pragma once
 
-#include "launchsafe/report/contour.hpp"
-#include "launchsafe/report/drawing_limits.hpp"
+#include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/report/written_files.hpp"
 #include "launchsafe/study/sweep.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,11 +32,16 @@ Table verdict_matrix(const study::SweepResult& result);
 /// One object: axes, counts, and cases with their verdicts.
 nlohmann::ordered_json to_json(const study::SweepResult& result);
 
-/// Critical gap over the axes that have several values.
+/// A picture and the name of its file.
+struct SweepPicture {
+  std::string file;
+  Plot plot;
+};
+
+/// Critical gap over the axes that have several values: a curve over one, or maps over the first two, one for
+/// each combination of the others, and then the same less its uncertainty.
 struct SweepPictures {
-  std::vector<Contour> maps;         ///< over the first two of them, one for each combination of the others
-  std::vector<Contour> surely_safe;  ///< the same less its uncertainty
-  std::optional<Plot> curve;         ///< where there is only one
+  std::vector<SweepPicture> pictures;
   std::vector<std::string> remarks;  ///< combinations that have no picture
 };
 SweepPictures pictures(const study::SweepResult& result);

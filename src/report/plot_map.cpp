@@ -1,0 +1,192 @@
+// The map of a plot: cells of colour, hatched cells, numbers or contour lines.
+#include "gnuplot_text.hpp"
+#include "launchsafe/report/number.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+namespace launchsafe::report::detail {
+namespace {
+
+/// Viridis without its darkest part, so that black lines show everywhere; its lightness rises evenly.
+constexpr const char* colours =
+    "0 '#485c9e', 1 '#317ea1', 2 '#2aa094', 3 '#5cc06e', 4 '#a8db44', 5 '#f6e63c'";
+
+/// Coordinates in which an axis is linear, and back.
+double to_linear(double value, Scale scale) { return scale == Scale::linear ? value : std::log10(value); }
+double from_linear(double value, Scale scale) {
+  return scale == Scale::linear ? value : std::pow(10.0, value);
+}
+
+/// Where cells begin and end: half way between neighbouring points in the picture.
+std::vector<double> cell_edges(const std::vector<double>& points, Scale scale) {
+  const std::size_t last = points.size() - 1;
+  const auto between = [&](std::size_t i, std::size_t k, double share) {
+    return from_linear((1.0 - share) * to_linear(points[i], scale) + share * to_linear(points[k], scale),
+                       scale);
+  };
+  std::vector<double> edges{between(0, 1, -0.5)};
+  for (std::size_t i = 0; i < last; ++i) edges.push_back(between(i, i + 1, 0.5));
+  edges.push_back(between(last - 1, last, 1.5));
+  return edges;
+}
+
+/// Of the narrowest cell, as a share of the axis.
+double least_width(const std::vector<double>& edges, Scale scale) {
+  const auto width = [&](std::size_t from, std::size_t to) {
+    return to_linear(edges[to], scale) - to_linear(edges[from], scale);
+  };
+  double least = 1.0;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i)
+    least = std::min(least, width(i, i + 1) / width(0, edges.size() - 1));
+  return least;
+}
+
+struct Cells {
+  const Map& map;
+  std::vector<double> x_edges, y_edges;
+
+  explicit Cells(const Plot& plot)
+      : map(*plot.map), x_edges(cell_edges(map.x, plot.x.scale)), y_edges(cell_edges(map.y, plot.y.scale)) {}
+
+  /// A grid point and the ends of its cell.
+  std::string line(std::size_t index) const {
+    const std::size_t i = index % map.x.size(), j = index / map.x.size();
+    return fmt::format("{} {} {} {} {} {}", exact(map.x[i]), exact(map.y[j]), exact(x_edges[i]),
+                       exact(x_edges[i + 1]), exact(y_edges[j]), exact(y_edges[j + 1]));
+  }
+
+  /// Whether a number of three digits has room in every cell.
+  bool have_room(const Plot& plot) const {
+    constexpr double share_of_width = 0.72, share_of_height = 0.68;  // that the cells fill, about
+    constexpr double number_width = 50, number_height = 20;          // pixels
+    return share_of_width * plot.width * least_width(x_edges, plot.x.scale) > number_width &&
+           share_of_height * plot.height * least_width(y_edges, plot.y.scale) > number_height;
+  }
+};
+
+struct ValueRange {
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  bool any() const { return lowest <= highest; }
+};
+
+ValueRange range_of(const std::vector<double>& values) {
+  ValueRange range;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    range.lowest = std::min(range.lowest, value);
+    range.highest = std::max(range.highest, value);
+  }
+  return range;
+}
+
+void add_values(const Map& map, const Cells& cells, MapCommands& commands) {
+  std::string lines;
+  for (std::size_t index = 0; index < map.values.size(); ++index) {
+    if (std::isfinite(map.values[index])) lines += cells.line(index) + " " + exact(map.values[index]) + "\n";
+  }
+  commands.settings += data_block("cells", lines) +
+                       fmt::format("set palette defined ({})\nset cblabel {}\nset rmargin at screen 0.82\n",
+                                   colours, quoted(map.label));
+  if (map.minimum && map.maximum && *map.minimum < *map.maximum)
+    commands.settings += fmt::format("set cbrange [{}:{}]\n", exact(*map.minimum), exact(*map.maximum));
+  commands.plots.emplace_back(
+      "$cells using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid 1.0 noborder linecolor palette notitle");
+}
+
+void add_hatching(const HatchedCells& hatched, std::size_t number, const Cells& cells,
+                  MapCommands& commands) {
+  if (hatched.cells.empty()) return;
+  std::string lines;
+  for (const std::size_t index : hatched.cells) lines += cells.line(index) + "\n";
+  const std::string name = fmt::format("hatched{}", number);
+  commands.settings += data_block(name, lines);
+  // In the order of Hatching: gnuplot's fill patterns.
+  constexpr std::array<int, 4> patterns{5, 4, 1, 2};
+  commands.plots.push_back(
+      fmt::format("${} using 1:2:3:4:5:6 with boxxyerror linecolor rgb '#777777' fillstyle pattern {} "
+                  "border linecolor rgb '#555555' "
+                  "title {}",
+                  name, patterns[static_cast<std::size_t>(hatched.hatching)], quoted(hatched.label)));
+}
+
+/// gnuplot's contour lines as the data "$contours", in linear coordinates.
+std::string contour_commands(const Plot& plot) {
+  const Map& map = *plot.map;
+  std::string lines;
+  for (std::size_t j = 0; j < map.y.size(); ++j) {
+    for (std::size_t i = 0; i < map.x.size(); ++i)
+      lines += fmt::format("{} {} {}\n", exact(to_linear(map.x[i], plot.x.scale)),
+                           exact(to_linear(map.y[j], plot.y.scale)), exact(map.values[j * map.x.size() + i]));
+    lines += "\n";
+  }
+  return data_block("grid", lines) +
+         "set contour base\nunset surface\nset cntrparam linear\nset cntrparam levels auto 8\n"
+         "set table $contours\nsplot $grid using 1:2:3\nunset table\n";
+}
+
+void add_contours(const Plot& plot, MapCommands& commands) {
+  commands.settings += contour_commands(plot);
+  commands.settings += "set style textbox opaque margins 0.5, 0.3 fillcolor rgb '#ffffff' noborder\n";
+  const auto back = [](int column, Scale scale) {
+    return scale == Scale::linear ? fmt::format("{}", column) : fmt::format("(10**${})", column);
+  };
+  const std::string places = back(1, plot.x.scale) + ":" + back(2, plot.y.scale);
+  commands.plots.push_back(
+      fmt::format("$contours using {} with lines linewidth 1.2 linecolor rgb '#222222' notitle", places));
+  // Labels of neighbouring levels stand at different places along their lines.
+  const std::size_t along = std::min(plot.map->x.size(), plot.map->y.size());
+  for (const std::size_t parity : {0, 1}) {
+    commands.plots.push_back(
+        fmt::format("$contours using {}:3 index {}::2 every 100000::{} with labels font ',12' boxed notitle",
+                    places, parity, (1 + parity) * along / 3));
+  }
+}
+
+/// Black on light colours, white on dark ones.
+void add_numbers(const Map& map, const ValueRange& range, MapCommands& commands) {
+  const double lowest = map.minimum.value_or(range.lowest), highest = map.maximum.value_or(range.highest);
+  commands.plots.push_back(fmt::format(
+      "$cells using 1:2:(sprintf('%.3g', $7)):($7 < {} ? 0xffffff : 0x111111) with labels font ',13' "
+      "textcolor rgb variable notitle",
+      exact(lowest + 0.3 * (highest - lowest))));
+}
+
+}  // namespace
+
+std::string unfit(const Map& map, const Plot& plot) {
+  if (map.x.size() < 2 || map.y.size() < 2) return "a map has at least two values on each axis";
+  if (map.values.size() != map.x.size() * map.y.size())
+    return "a map has a value, or NaN, for every point of its grid";
+  const auto fits = [](const std::vector<double>& values, Scale scale) {
+    return std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end() &&
+           std::all_of(values.begin(), values.end(), [&](double value) { return drawable(value, scale); });
+  };
+  if (!fits(map.x, plot.x.scale) || !fits(map.y, plot.y.scale))
+    return "the values of an axis are ascending, finite, and positive on a logarithmic axis";
+  return {};
+}
+
+MapCommands map_commands(const Plot& plot) {
+  const Map& map = *plot.map;
+  const Cells cells(plot);
+  MapCommands commands;
+  const ValueRange range = range_of(map.values);
+  if (range.any()) add_values(map, cells, commands);
+  for (std::size_t i = 0; i < map.hatched.size(); ++i) add_hatching(map.hatched[i], i, cells, commands);
+  if (range.any() && cells.have_room(plot)) {
+    add_numbers(map, range, commands);
+  } else if (range.lowest < range.highest) {
+    add_contours(plot, commands);
+  }
+  commands.settings +=
+      fmt::format("unset grid\nset xrange [{}:{}]\nset yrange [{}:{}]\n", exact(cells.x_edges.front()),
+                  exact(cells.x_edges.back()), exact(cells.y_edges.front()), exact(cells.y_edges.back()));
+  return commands;
+}
+
+}  // namespace launchsafe::report::detail
