@@ -2,6 +2,7 @@
 #pragma once
 
 #include "launchsafe/scene/input_error.hpp"
+#include "launchsafe/study/options.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -24,7 +25,9 @@ enum class ExitCode {
 
 /// A case that came to nothing.
 struct Failure {
-  std::string label, reason;
+  std::string label;
+  std::string reason;
+  study::RunOutcome outcome = study::RunOutcome::failed;  ///< of the run behind it
 };
 
 /// Text goes out at once. What is wanted as JSON is collected, results and errors alike, and goes out as one

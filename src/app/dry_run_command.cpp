@@ -1,8 +1,8 @@
 // launchsafe study --dry-run: what a study would run, and at what cost.
 #include "commands.hpp"
-#include "foresight_text.hpp"
+#include "forecast_text.hpp"
 #include "launchsafe/run/model_version.hpp"
-#include "launchsafe/study/foresight.hpp"
+#include "launchsafe/study/forecast.hpp"
 #include "signals.hpp"
 #include "study_folder.hpp"
 #include "study_manifest.hpp"
@@ -71,13 +71,13 @@ ExitCode dry_run_command(const StudyArguments& arguments, Console& console) {
     console.error("interrupted while measuring the speed of this machine; there is nothing to keep");
     return ExitCode::interrupted;
   }
-  const study::Foresight foresight =
-      study::foresee(*file, dry_run_options(arguments, store->get()), update_rate);
+  const study::Forecast forecast =
+      study::forecast_study(*file, dry_run_options(arguments, store->get()), update_rate);
   if (*store) {
     for (const std::string& remark : (*store)->remarks()) console.remark(remark);
   }
-  console.print_text(foresight_text(*file, foresight, arguments.output));
-  console.print_json(foresight_json(*file, foresight));
+  console.print_text(forecast_text(*file, forecast, arguments.output));
+  console.print_json(forecast_json(*file, forecast));
   return ExitCode::done;
 }
 

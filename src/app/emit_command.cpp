@@ -1,7 +1,7 @@
 // launchsafe emit: scripts that run a study elsewhere.
 #include "commands.hpp"
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/study/foresight.hpp"
+#include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
 #include "shell_words.hpp"
 #include "slurm_script.hpp"
@@ -44,16 +44,16 @@ double sum_of_largest(std::vector<double> values, int count) {
 }
 
 /// A run takes as long again for every coupled run that may confirm it.
-std::vector<double> times_of(const study::Foresight& whole) {
+std::vector<double> times_of(const study::Forecast& whole) {
   const double runs = static_cast<double>(std::max<std::size_t>(1, whole.runs.size()));
   const double repeats = 1.0 + static_cast<double>(whole.confirmations) / runs;
   std::vector<double> times;
-  for (const study::ForeseenRun& run : whole.runs) times.push_back(repeats * run.time);
+  for (const study::ForecastRun& run : whole.runs) times.push_back(repeats * run.time);
   return times;
 }
 
 /// `whole` foresees the whole study with nothing stored.
-ShardNeeds needs_of(const study::Foresight& whole, int shards, int jobs) {
+ShardNeeds needs_of(const study::Forecast& whole, int shards, int jobs) {
   const std::vector<double> times = times_of(whole);
   const std::vector<int> shard_of_run = study::shards_of(times, shards);
   ShardNeeds needs;
@@ -108,7 +108,7 @@ SlurmStudy slurm_study(const EmitArguments& arguments, const study::StudyFile& f
 ShardNeeds foresee_needs(const study::StudyFile& file, const SlurmStudy& study) {
   study::StudyOptions options;
   options.jobs = study.jobs;
-  return needs_of(study::foresee(file, options, study.update_rate), study.shards, study.jobs);
+  return needs_of(study::forecast_study(file, options, study.update_rate), study.shards, study.jobs);
 }
 
 ExitCode refuse(const std::string& message, Console& console) {

@@ -1,10 +1,10 @@
 // launchsafe explain: what would be computed, and at what cost.
 #include "commands.hpp"
 #include "explain_scene.hpp"
-#include "foresight_text.hpp"
+#include "forecast_text.hpp"
 #include "launchsafe/report/section_drawing.hpp"
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/study/foresight.hpp"
+#include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
 #include "plausibility_text.hpp"
 #include "signals.hpp"
@@ -97,10 +97,10 @@ ExitCode explain_study(const std::filesystem::path& path, Console& console) {
   if (!file) return refuse(file.error(), console);
   const double update_rate = measured_update_rate(file->cases.front().scene.scene);
   if (stop_requested()) return interrupted(console);
-  const study::Foresight foresight = study::foresee(*file, {}, update_rate);
+  const study::Forecast forecast = study::forecast_study(*file, {}, update_rate);
   const std::vector<std::string> lines = plausibility_lines(*file);
-  console.print_text(foresight_text(*file, foresight, {}) + section_of(lines));
-  nlohmann::ordered_json object = foresight_json(*file, foresight);
+  console.print_text(forecast_text(*file, forecast, {}) + section_of(lines));
+  nlohmann::ordered_json object = forecast_json(*file, forecast);
   object["implausible"] = lines;
   console.print_json(object);
   return ExitCode::done;

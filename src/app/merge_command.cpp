@@ -1,6 +1,6 @@
 // launchsafe merge: the shards of a study as one.
 #include "commands.hpp"
-#include "launchsafe/study/foresight.hpp"
+#include "launchsafe/study/forecast.hpp"
 #include "signals.hpp"
 #include "study_manifest.hpp"
 #include "study_session.hpp"
@@ -35,9 +35,9 @@ ExitCode import_folders(const std::vector<std::filesystem::path>& folders, Study
 }
 
 /// Names the mechanical runs that no shard has stored.
-std::size_t list_missing(const study::Foresight& foresight, Console& console) {
+std::size_t list_missing(const study::Forecast& forecast, Console& console) {
   nlohmann::ordered_json missing = nlohmann::ordered_json::array();
-  for (const study::ForeseenRun& run : foresight.runs) {
+  for (const study::ForecastRun& run : forecast.runs) {
     if (run.stored || run.given_up) continue;
     console.print_text(fmt::format("missing: {}: {}\n", run.label, run.why));
     missing.push_back({{"mechanical_run", run.label}, {"why", run.why}});
@@ -51,7 +51,7 @@ std::size_t list_missing(const study::Foresight& foresight, Console& console) {
 std::size_t list_not_stored(const StudyResult& result, Console& console) {
   nlohmann::ordered_json missing = nlohmann::ordered_json::array();
   for (const Failure& failure : failures_of(result)) {
-    if (failure.reason.find(study::NotStored::text) == std::string::npos) continue;
+    if (failure.outcome != study::RunOutcome::not_stored) continue;
     console.print_text(fmt::format("missing: {}\n", failure.label));
     missing.push_back({{"run", failure.label}});
   }
@@ -84,10 +84,10 @@ ExitCode merge_command(const MergeArguments& arguments, Console& console) {
     return code;
   options.store = &session.store();
   constexpr double any_rate = 1.0;
-  const study::Foresight foresight = study::foresee(*file, options, any_rate);
-  if (const std::size_t missing = list_missing(foresight, console); missing > 0) {
+  const study::Forecast forecast = study::forecast_study(*file, options, any_rate);
+  if (const std::size_t missing = list_missing(forecast, console); missing > 0) {
     console.error(fmt::format("{} of {} mechanical runs are missing; there is no report", missing,
-                              foresight.runs.size()));
+                              forecast.runs.size()));
     return ExitCode::cases_failed;
   }
   const StudyResult result = run_study(*file, options);

@@ -1,8 +1,8 @@
 // launchsafe study: many cases, kept as they end, then tables and an answer.
 #include "commands.hpp"
-#include "foresight_text.hpp"
+#include "forecast_text.hpp"
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/study/foresight.hpp"
+#include "launchsafe/study/forecast.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 #include "study_folder.hpp"
@@ -42,8 +42,8 @@ StudyResult run_with_progress(const study::StudyFile& file, study::StudyOptions 
 
 void explain_runs(const study::StudyFile& file, const study::StudyOptions& options, const Console& console) {
   constexpr double any_rate = 1.0;
-  const study::Foresight foresight = study::foresee(file, options, any_rate);
-  for (const std::string& line : reason_lines(foresight)) console.remark(line);
+  const study::Forecast forecast = study::forecast_study(file, options, any_rate);
+  for (const std::string& line : reason_lines(forecast)) console.remark(line);
 }
 
 /// Where not one case may run, unless an earlier study left results here.

@@ -71,24 +71,28 @@ std::string tables_of(const study::StabilityResult& result, const std::filesyste
   return text_of(report::stability_summary(result));
 }
 
-void add_failure(std::vector<Failure>& failures, const std::string& label, const std::string& reason) {
-  if (!reason.empty() && reason != study::foreign_shard) failures.push_back({label, reason});
+void add_failure(std::vector<Failure>& failures, const std::string& label, study::RunOutcome outcome,
+                 const std::string& reason) {
+  if (!reason.empty() && outcome != study::RunOutcome::other_shard)
+    failures.push_back({label, reason, outcome});
 }
 
 std::vector<Failure> failures_in(const study::CriticalGapResult& result) {
   std::vector<Failure> failures;
-  for (const study::CaseOutcome& outcome : result.cases) {
-    add_failure(failures, outcome.input.label, outcome.failure);
-    for (const study::Confirmation& each : outcome.confirmations)
-      add_failure(failures, fmt::format("{}, coupled at {:.6g} cm", outcome.input.label, 100.0 * each.gap),
-                  each.failure);
+  for (const study::CaseOutcome& each : result.cases) {
+    add_failure(failures, each.input.label, each.outcome, each.failure);
+    for (const study::Confirmation& confirmation : each.confirmations)
+      add_failure(failures,
+                  fmt::format("{}, coupled at {:.6g} cm", each.input.label, 100.0 * confirmation.gap),
+                  confirmation.outcome, confirmation.failure);
   }
   return failures;
 }
 
 std::vector<Failure> failures_in(const study::CalibrationResult& result) {
   std::vector<Failure> failures;
-  for (const study::CalibrationRun& run : result.runs) add_failure(failures, run.input.label, run.failure);
+  for (const study::CalibrationRun& run : result.runs)
+    add_failure(failures, run.input.label, run.outcome, run.failure);
   return failures;
 }
 
@@ -97,10 +101,10 @@ std::vector<Failure> failures_in(const study::StabilityResult& result) {
   std::vector<Failure> failures;
   for (const study::HardRow& row : result.rows) {
     const std::string label = row.group + ": " + row.name;
-    if (!row.computed()) add_failure(failures, label, row.failure);
-    if (row.is_wrong()) add_failure(failures, label, "WRONG: " + row.finding.text);
+    if (!row.computed()) add_failure(failures, label, row.outcome, row.failure);
+    if (row.is_wrong()) add_failure(failures, label, row.outcome, "WRONG: " + row.finding.text);
     if (row.computed() && !row.is_wrong() && !row.is_as_expected())
-      add_failure(failures, label,
+      add_failure(failures, label, row.outcome,
                   fmt::format("{}, which is not what the study expects: {}", to_string(row.finding.outcome),
                               row.finding.text));
   }
@@ -112,7 +116,7 @@ template <class Result>
 std::vector<Failure> failures_in(const Result& result) {
   std::vector<Failure> failures;
   for (std::size_t i = 0; i < result.answers.size(); ++i)
-    add_failure(failures, result.study.cases[i].label, result.answers[i].failure);
+    add_failure(failures, result.study.cases[i].label, result.answers[i].outcome, result.answers[i].failure);
   return failures;
 }
 

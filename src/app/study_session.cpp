@@ -3,7 +3,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/sha256.hpp"
-#include "launchsafe/study/foresight.hpp"
+#include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
 #include "shell_words.hpp"
 #include "signals.hpp"
@@ -118,14 +118,15 @@ void StudySession::print_remarks() {
 ExitCode StudySession::report_interruption(const study::StudyFile& file, const study::StudyOptions& options) {
   // Counting takes its time where there are many cases, and so does the disk.
   constexpr double any_rate = 1.0;
-  auto counting = std::async(std::launch::async, [&] { return study::foresee(file, options, any_rate); });
+  auto counting =
+      std::async(std::launch::async, [&] { return study::forecast_study(file, options, any_rate); });
   const bool all_kept = kept();
-  const study::Foresight foresight = counting.get();
+  const study::Forecast forecast = counting.get();
   if (!all_kept) return ExitCode::failed;
-  const auto stored = std::count_if(foresight.runs.begin(), foresight.runs.end(),
-                                    [](const study::ForeseenRun& run) { return run.stored; });
+  const auto stored = std::count_if(forecast.runs.begin(), forecast.runs.end(),
+                                    [](const study::ForecastRun& run) { return run.stored; });
   console_.error(fmt::format("interrupted; {} of {} are kept in {}; to go on: {}", stored,
-                             runs(foresight.runs.size()), request_.folder.string(), request_.command));
+                             runs(forecast.runs.size()), request_.folder.string(), request_.command));
   return ExitCode::interrupted;
 }
 

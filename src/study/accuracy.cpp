@@ -1,7 +1,6 @@
 #include "launchsafe/study/accuracy.hpp"
 
 #include "answer_cases.hpp"
-#include "case_runs.hpp"
 #include "gap_analysis.hpp"
 #include "launchsafe/run/doubts.hpp"
 #include "launchsafe/run/model_version.hpp"
@@ -48,7 +47,7 @@ void add_first_gap(const Study& study, const StudyCase& input, const trace::Bott
 AccuracyMeasurement measure(const Study& study, const StudyCase& input, const CaseAnswer& answer,
                             const run::MechanicsResult& mechanics) {
   AccuracyMeasurement measured;
-  measured.failure = detail::failure_of(mechanics, {true, {}});
+  measured.failure = failure_of(mechanics);
   const scene::CellRange mesh = scene::cells_of_charge(input.scene.scene);
   measured.cell = std::sqrt(mesh.shortest_x * mesh.shortest_r);
   measured.wall_time = mechanics.wall_time;
@@ -72,62 +71,29 @@ AccuracyMeasurement measure(const Study& study, const StudyCase& input, const Ca
   return measured;
 }
 
-/// Runs, one for all cases that share one, and what was measured on them.
-class Measuring {
- public:
-  Measuring(AccuracyResult& result, const StudyOptions& options) : result_(result), options_(options) {}
-
-  void run() {
-    const StudyFile& study = result_.study;
-    result_.answers.resize(study.cases.size());
-    result_.measured.resize(study.cases.size());
-    std::vector<detail::MechanicalRun> runs = detail::mechanical_runs(study, options_.shard.count);
-    for (const auto& each : runs) {
-      if (each.shard != options_.shard.index) give_up(each, foreign_shard);
+/// What was measured on the runs of all cases.
+void run_settings(AccuracyResult& result, const StudyOptions& options) {
+  const StudyFile& study = result.study;
+  result.answers.resize(study.cases.size());
+  result.measured.resize(study.cases.size());
+  ProgressTracker tracker(options.progress);
+  const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
+  run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+    const FinishedRun& run = finished.front();
+    for (const std::size_t member : runs[i].members) {
+      const StudyCase& input = study.cases[member];
+      CaseAnswer& answer = result.answers[member];
+      if (run.has_result()) {
+        answer = answer_of(study.study, input, run.result.mechanics);
+        answer.outcome = run.outcome;
+        result.measured[member] = measure(study.study, input, answer, run.result.mechanics);
+      } else {
+        answer = failed_answer(study.study, input, run.outcome, run.failure);
+        result.measured[member].failure = run.failure;
+      }
     }
-    std::erase_if(runs, [this](const auto& each) { return each.shard != options_.shard.index; });
-    ProgressTracker tracker(options_.progress);
-    std::vector<Task> tasks;
-    std::vector<detail::ObtainedRun> obtained(runs.size());
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      tasks.push_back(detail::task_of(needed_by(runs[i]), options_, [&, i](const Allotment& allotment) {
-        obtained[i] = detail::obtain(needed_by(runs[i]), options_, allotment);
-        draw(runs[i], obtained[i].result.mechanics);
-        obtained[i].result.mechanics.trace = {};
-      }));
-      tracker.expect(1, tasks.back().cost);
-    }
-    const auto outcomes = run_tasks(tasks, detail::resources_of(options_), tracker, options_.stop);
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      detail::add_run(result_.timing, obtained[i].result.mechanics, obtained[i].reused, outcomes[i]);
-      if (outcomes[i].started && outcomes[i].failure.empty()) continue;
-      detail::note_refusal(needed_by(runs[i]), outcomes[i], options_);
-      give_up(runs[i], detail::failure_of({}, outcomes[i]));
-    }
-  }
-
- private:
-  detail::NeededRun needed_by(const detail::MechanicalRun& run) const {
-    const StudyCase& input = result_.study.cases[run.cases.front()];
-    return {&input.scene.scene, input.label, std::nullopt};
-  }
-  void draw(const detail::MechanicalRun& run, const run::MechanicsResult& mechanics) {
-    for (const std::size_t each : run.cases) {
-      const StudyCase& input = result_.study.cases[each];
-      result_.answers[each] = answer_of(result_.study.study, input, mechanics);
-      result_.measured[each] = measure(result_.study.study, input, result_.answers[each], mechanics);
-    }
-  }
-  void give_up(const detail::MechanicalRun& run, const std::string& failure) {
-    for (const std::size_t each : run.cases) {
-      result_.answers[each] = failed_answer(result_.study.study, result_.study.cases[each], failure);
-      result_.measured[each].failure = failure;
-    }
-  }
-
-  AccuracyResult& result_;
-  const StudyOptions& options_;
-};
+  });
+}
 
 /// A gap at which any sound setting of the same model ignites is compared by a skin that does not react:
 /// after ignition T max is that of the flame.
@@ -232,9 +198,9 @@ AccuracyResult run_accuracy(const StudyFile& study, const StudyOptions& options)
   const auto start = std::chrono::steady_clock::now();
   AccuracyResult result;
   result.study = study;
-  result.timing.jobs = detail::jobs_of(options);
-  Measuring(result, options).run();
-  result.interrupted = detail::stop_requested(options);
+  result.timing.jobs = jobs_of(options);
+  run_settings(result, options);
+  result.interrupted = stop_requested(options);
   if (!result.interrupted && options.shard.whole()) compare(result);
   result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

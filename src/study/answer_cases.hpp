@@ -2,9 +2,9 @@
 // share one, and what is stored is not computed again.
 #pragma once
 
-#include "case_runs.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/options.hpp"
+#include "launchsafe/study/run_cases.hpp"
 
 #include <chrono>
 #include <string>
@@ -12,18 +12,8 @@
 
 namespace launchsafe::study::detail {
 
-/// One mechanical run with the cases that share it.
-struct MechanicalRun {
-  std::string hash;                ///< of its identity in the store
-  std::vector<std::size_t> cases;  ///< of StudyFile::cases, in their order
-  double cost = 1;                 ///< predicted particle updates
-  int shard = 1;
-};
-/// In the order of their first cases.
-std::vector<MechanicalRun> mechanical_runs(const StudyFile& study, int shards);
-
-/// The key of the stored answer of every case: all that determines it.
-std::vector<std::string> answer_keys(const StudyFile& study);
+/// The key of the stored answer of every case: all that determines it. `runs`: those of the study.
+std::vector<std::string> answer_keys(const StudyFile& study, const std::vector<CaseRuns>& runs);
 
 /// An answer for every case; one that was not run, failed or belongs to another shard says so.
 std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing);

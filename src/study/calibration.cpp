@@ -1,6 +1,5 @@
 #include "launchsafe/study/calibration.hpp"
 
-#include "case_runs.hpp"
 #include "fit_load.hpp"
 #include "hold_outs.hpp"
 #include "launchsafe/store/manifest.hpp"
@@ -77,38 +76,20 @@ std::vector<NamedKinetics> kinetics_of(const StudyFile& study) {
   return all;
 }
 
-detail::NeededRun needed_by(const CalibrationRun& run) {
-  return {&run.input.scene.scene, run.input.label, std::nullopt};
-}
-
 void run_meshes(CalibrationResult& result, const StudyOptions& options) {
+  StudyFile study = result.study;
+  for (std::size_t i = 0; i < result.runs.size(); ++i) study.cases[i] = result.runs[i].input;
   ProgressTracker tracker(options.progress);
-  const std::vector<bool> ours = detail::cases_of_shard(result.study, options.shard);
-  std::vector<Task> tasks;
-  std::vector<CalibrationRun*> running;
-  for (std::size_t i = 0; i < result.runs.size(); ++i) {
-    CalibrationRun& run = result.runs[i];
-    if (!ours[i]) {
-      run.failure = foreign_shard;
-      continue;
+  const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
+  run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+    for (const std::size_t member : runs[i].members) {
+      CalibrationRun& run = result.runs[member];
+      run.outcome = finished.front().outcome;
+      run.failure = finished.front().failure;
+      run.start_time = finished.front().start_time;
+      run.mechanics = finished.front().result.mechanics;
     }
-    const detail::NeededRun needed = needed_by(run);
-    running.push_back(&run);
-    tasks.push_back(detail::task_of(needed, options, [&, needed](const Allotment& allotment) {
-      run.start_time = store::utc_now();
-      detail::ObtainedRun obtained = detail::obtain(needed, options, allotment);
-      run.reused = obtained.reused;
-      run.mechanics = std::move(obtained.result.mechanics);
-    }));
-    tracker.expect(1, tasks.back().cost);
-  }
-  const auto outcomes = run_tasks(tasks, detail::resources_of(options), tracker, options.stop);
-  for (std::size_t task = 0; task < tasks.size(); ++task) {
-    CalibrationRun& run = *running[task];
-    detail::note_refusal(needed_by(run), outcomes[task], options);
-    run.failure = detail::failure_of(run.mechanics, outcomes[task]);
-    detail::add_run(result.timing, run.mechanics, run.reused, outcomes[task]);
-  }
+  });
 }
 
 CalibrationRow row_of(const StudyFile& study, const CalibrationRun& run, FrictionClosure closure,
@@ -320,7 +301,7 @@ CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& op
   const auto start = std::chrono::steady_clock::now();
   CalibrationResult result;
   result.study = study;
-  result.timing.jobs = detail::jobs_of(options);
+  result.timing.jobs = jobs_of(options);
   const scene::Scene& scene = study.scene.scene;
   result.in_scene = {scene.surface.localisation, scene.surface.exchange_time,
                      scene.charge().kinetics.ignition_temperature};
@@ -348,7 +329,7 @@ CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& op
   if (result.load && !result.load->failure.empty())
     result.recommendation.reason = "no load is recommended: " + result.load->failure;
   compare_stations(result);
-  result.interrupted = detail::stop_requested(options);
+  result.interrupted = stop_requested(options);
   result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

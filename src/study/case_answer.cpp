@@ -1,9 +1,9 @@
 #include "launchsafe/study/case_answer.hpp"
 
-#include "case_runs.hpp"
 #include "case_uncertainty.hpp"
 #include "gap_analysis.hpp"
 #include "launchsafe/run/load_coverage.hpp"
+#include "launchsafe/study/run_cases.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +14,7 @@ namespace {
 
 CaseAnswer without_histories(CaseOutcome& outcome) {
   CaseAnswer answer;
+  answer.outcome = outcome.outcome;
   answer.failure = std::move(outcome.failure);
   answer.critical = std::move(outcome.critical);
   answer.verdicts = std::move(outcome.verdicts);
@@ -62,7 +63,7 @@ CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::Mech
   CaseOutcome outcome;
   outcome.input = input;
   outcome.result.mechanics = mechanics;
-  outcome.failure = detail::failure_of(mechanics, {true, {}});
+  outcome.failure = failure_of(mechanics);
   outcome.raised = raised;
   detail::find_critical_gaps(study, outcome);
   detail::evaluate_gaps(study, outcome);
@@ -76,8 +77,9 @@ CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::Mech
   return answer;
 }
 
-CaseAnswer failed_answer(const Study& study, const StudyCase& input, std::string failure) {
+CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome of_run, std::string failure) {
   CaseOutcome outcome;
+  outcome.outcome = of_run;
   outcome.input = input;
   outcome.failure = std::move(failure);
   detail::find_critical_gaps(study, outcome);

@@ -66,15 +66,6 @@ std::string label_of_raised(const StudyCase& input) {
   return fmt::format("{}, load +{:.3g} %", input.label, 100.0 * assumed_load_spread);
 }
 
-ObtainedRun obtain_raised(const StudyCase& input, const StudyOptions& options, int threads) {
-  const scene::Scene scene = with_raised_load(input.scene.scene);
-  ObtainedRun run =
-      obtain({&scene, label_of_raised(input), std::nullopt}, options, Allotment{[](double) {}, threads});
-  run.result.mechanics.monitor = {};
-  run.result.mechanics.snapshots = {};
-  return run;
-}
-
 scene::Scene with_raised_load(const scene::Scene& scene) {
   scene::Scene raised = scene;
   const double factor = 1.0 + assumed_load_spread;

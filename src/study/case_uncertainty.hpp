@@ -2,7 +2,6 @@
 // is not known of the launch.
 #pragma once
 
-#include "case_runs.hpp"
 #include "launchsafe/study/calibration_domain.hpp"
 #include "launchsafe/study/critical_gap.hpp"
 
@@ -34,8 +33,6 @@ bool propagates_spread(const Study& study);
 scene::Scene with_raised_load(const scene::Scene& scene);
 /// "CASE, load +4 %".
 std::string label_of_raised(const StudyCase& input);
-/// Its mechanics without monitor and snapshots, from the store or computed. Throws as `obtain`.
-ObtainedRun obtain_raised(const StudyCase& input, const StudyOptions& options, int threads);
 
 /// How far a skin without reaction is heated (K) above the initial temperature: by friction, and by the air
 /// of a gap in addition.

@@ -1,16 +1,15 @@
 #include "fit_load.hpp"
 
-#include "case_runs.hpp"
 #include "launchsafe/run/doubts.hpp"
 #include "launchsafe/scene/load_shape.hpp"
 #include "launchsafe/scene/plausibility.hpp"
+#include "launchsafe/study/run_cases.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 
 namespace launchsafe::study::detail {
 namespace {
@@ -46,12 +45,14 @@ class LoadTrial {
     if (++tried_ > most_loads) return fail("the search for a peak time does not settle");
     result.exponent = *exponent;
     result.turning = scene::turning_times(peak_time, *exponent);
-    try {
-      return misfit_of(with_shape(study_.scene, peak_time, *exponent).scene);
-    } catch (const std::exception& error) {
-      return fail(
-          fmt::format("the run with its peak at {:.4g} ms failed: {}", 1e3 * peak_time, error.what()));
-    }
+    const scene::Scene scene = with_shape(study_.scene, peak_time, *exponent).scene;
+    const FinishedRun run = run_with(scene);
+    const run::MechanicsResult& mechanics = run.result.mechanics;
+    if (!run.failure.empty())
+      return fail(fmt::format("the run with its peak at {:.4g} ms: {}", 1e3 * peak_time, run.failure));
+    if (std::string doubt = calibration_doubts(scene, mechanics); !doubt.empty())
+      return fail(std::move(doubt));
+    return misfit_of(mechanics.trace, scene);
   }
 
   FittedLoad result;
@@ -62,24 +63,27 @@ class LoadTrial {
     return not_a_number;
   }
 
-  double misfit_of(const scene::Scene& scene) {
-    const NeededRun needed{&scene, fmt::format("peak at {:.6g} ms", 1e3 * scene.load.peak_time),
-                           std::nullopt};
-    const Allotment all{[](double) {}, jobs_of(options_)};
-    const ObtainedRun run = obtain(needed, options_, all);
-    const run::MechanicsResult& mechanics = run.result.mechanics;
-    add_run(timing_, mechanics, run.reused, {true, {}});
-    if (std::string failure = failure_of(mechanics, {true, {}}); !failure.empty()) return fail(failure);
-    if (std::string doubt = calibration_doubts(scene, mechanics); !doubt.empty()) return fail(doubt);
+  /// With all cores: one run after the other.
+  FinishedRun run_with(const scene::Scene& scene) {
+    CaseRuns trial{{},
+                   {mechanics_run(scene, fmt::format("peak at {:.6g} ms", 1e3 * scene.load.peak_time))},
+                   options_.shard.index};
+    FinishedRun finished;
+    ProgressTracker untold({});
+    run_cases({trial}, options_, untold, timing_,
+              [&](std::size_t, std::vector<FinishedRun>& runs) { finished = std::move(runs.front()); });
+    return finished;
+  }
+
+  double misfit_of(const trace::BottomTrace& trace, const scene::Scene& scene) {
     surface::SkinModel model = surface::skin_model(scene);
-    const CalibratedConstants fitted = calibrate(model, mechanics.trace, targets_);
+    const CalibratedConstants fitted = calibrate(model, trace, targets_);
     if (!fitted.failure.empty()) return fail(fitted.failure);
     model.surface.localisation = fitted.constants.localisation;
     model.surface.exchange_time = fitted.constants.exchange_time;
     model.kinetics.ignition_temperature = fitted.constants.ignition_temperature;
-    const auto history = surface::integrate_skin(model, mechanics.trace, targets_.zero_gap.gap);
-    const double early =
-        surface::maximum_at_time(history, mechanics.trace, study_.study.early_time).temperature;
+    const auto history = surface::integrate_skin(model, trace, targets_.zero_gap.gap);
+    const double early = surface::maximum_at_time(history, trace, study_.study.early_time).temperature;
     result.early_misfit = early - targets_.zero_gap.early_temperature;
     return result.early_misfit;
   }

@@ -124,7 +124,6 @@ class Queue {
   }
 
   void give_back(std::size_t task) {
-    if (is_refused(task)) return;
     const std::lock_guard lock(mutex_);
     free_ += tasks_[task].memory;
     --running_;
@@ -145,13 +144,14 @@ class Queue {
   std::condition_variable changed_;
 };
 
-/// What fails in the place of a task that is refused.
-Task refusal(const Task& task, double limit) {
-  std::string why = task.refusal;
-  if (why.empty())
-    why = fmt::format("it needs about {:.3g} GB of memory, and the limit is {:.3g} GB", 1e-9 * task.memory,
-                      1e-9 * limit);
-  return {task.cost, [why](const auto&) { throw std::runtime_error(why); }, 0.0, {}};
+TaskOutcome refusal(const Task& task, double limit, ProgressTracker& tracker) {
+  tracker.started();
+  tracker.advanced(task.cost);
+  tracker.finished();
+  if (!task.refusal.empty()) return {false, true, task.refusal};
+  return {false, true,
+          fmt::format("it needs about {:.3g} GB of memory, and the limit is {:.3g} GB", 1e-9 * task.memory,
+                      1e-9 * limit)};
 }
 
 }  // namespace
@@ -166,9 +166,11 @@ std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, const Resourc
   const int jobs = resources.jobs > 0 ? resources.jobs : available_cores();
   const auto pull = [&] {
     while (const auto task = queue.take(stop)) {
-      const bool refused = queue.is_refused(*task);
-      perform(refused ? refusal(tasks[*task], memory) : tasks[*task],
-              refused ? 1 : queue.threads_of_one(jobs), outcomes[*task], tracker);
+      if (queue.is_refused(*task)) {
+        outcomes[*task] = refusal(tasks[*task], memory, tracker);
+        continue;
+      }
+      perform(tasks[*task], queue.threads_of_one(jobs), outcomes[*task], tracker);
       queue.give_back(*task);
     }
   };

@@ -1,7 +1,6 @@
 #include "launchsafe/study/stability.hpp"
 
 #include "answer_cases.hpp"
-#include "case_runs.hpp"
 #include "launchsafe/run/doubts.hpp"
 #include "stability_judge.hpp"
 
@@ -40,10 +39,6 @@ std::size_t StabilityResult::failed() const {
 
 namespace {
 
-detail::NeededRun needed_by(const StudyCase& input) {
-  return {&input.scene.scene, input.label, std::nullopt};
-}
-
 /// Gaps that are asked of a case of the study, by itself or as the safe computation of another.
 std::vector<double> gaps_of(const StudyFile& study, std::size_t index) {
   for (const HardLaunch& launch : study.launches) {
@@ -64,7 +59,7 @@ detail::LaunchRecord record_of(const StudyFile& study, std::size_t index,
   record.ignition_temperature = input.scene.scene.charge().kinetics.ignition_temperature;
   if (mechanics.status == run::RunStatus::interrupted || mechanics.status == run::RunStatus::timed_out) {
     // How far it came depends on the machine, and says nothing of the computation.
-    record.failure = detail::failure_of(mechanics, {true, {}});
+    record.failure = failure_of(mechanics);
     return record;
   }
   record.answer = answer_of(judged, input, mechanics);
@@ -74,58 +69,29 @@ detail::LaunchRecord record_of(const StudyFile& study, std::size_t index,
   return record;
 }
 
-/// The records of all cases of our shard.
-class Launching {
- public:
-  Launching(const StudyFile& study, const StudyOptions& options, Timing& timing)
-      : study_(study), options_(options), timing_(timing), records_(study.cases.size()) {}
-
-  std::vector<detail::LaunchRecord> run_all(ProgressTracker& tracker) {
-    std::vector<detail::MechanicalRun> runs = detail::mechanical_runs(study_, options_.shard.count);
-    for (const detail::MechanicalRun& run : runs) {
-      for (const std::size_t each : run.cases) records_[each].failure = foreign_shard;
+/// The records of all cases.
+std::vector<detail::LaunchRecord> run_launches(const StudyFile& study, const StudyOptions& options,
+                                               Timing& timing) {
+  std::vector<detail::LaunchRecord> records(study.cases.size());
+  ProgressTracker tracker(options.progress);
+  const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
+  run_cases(runs, options, tracker, timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+    const FinishedRun& run = finished.front();
+    for (const std::size_t member : runs[i].members) {
+      if (run.has_result())
+        records[member] = record_of(study, member, run.result.mechanics);
+      else
+        records[member].failure = run.failure;
+      records[member].outcome = run.outcome;
     }
-    std::erase_if(runs, [this](const auto& each) { return each.shard != options_.shard.index; });
-    std::vector<detail::ObtainedRun> obtained(runs.size());
-    std::vector<Task> tasks;
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      tasks.push_back(
-          detail::task_of(needed_by(study_.cases[runs[i].cases.front()]), options_,
-                          [&, i](const Allotment& allotment) { obtained[i] = run_one(runs[i], allotment); }));
-      tracker.expect(1, tasks.back().cost);
-    }
-    const auto outcomes = run_tasks(tasks, detail::resources_of(options_), tracker, options_.stop);
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      detail::add_run(timing_, obtained[i].result.mechanics, obtained[i].reused, outcomes[i]);
-      if (outcomes[i].started && outcomes[i].failure.empty()) continue;
-      detail::note_refusal(needed_by(study_.cases[runs[i].cases.front()]), outcomes[i], options_);
-      for (const std::size_t each : runs[i].cases)
-        records_[each].failure = detail::failure_of({}, outcomes[i]);
-    }
-    return std::move(records_);
-  }
-
- private:
-  detail::ObtainedRun run_one(const detail::MechanicalRun& run, const Allotment& allotment) {
-    detail::ObtainedRun obtained =
-        detail::obtain(needed_by(study_.cases[run.cases.front()]), options_, allotment);
-    run::MechanicsResult& mechanics = obtained.result.mechanics;
-    for (const std::size_t each : run.cases) records_[each] = record_of(study_, each, mechanics);
-    mechanics.trace = {};
-    mechanics.monitor.clear();
-    return obtained;
-  }
-
-  const StudyFile& study_;
-  const StudyOptions& options_;
-  Timing& timing_;
-  std::vector<detail::LaunchRecord> records_;
-};
+  });
+  return records;
+}
 
 std::vector<HardRow> rows_of_laws(const StudyOptions& options) {
   const std::vector<verify::StressTest> laws = verify::law_stress_tests();
   std::vector<HardRow> rows(laws.size());
-  tbb::task_arena arena(detail::jobs_of(options));
+  tbb::task_arena arena(jobs_of(options));
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, laws.size(), [&](std::size_t i) {
       HardRow& row = rows[i];
@@ -148,10 +114,9 @@ StabilityResult run_stability(const StudyFile& study, const StudyOptions& option
   const auto start = std::chrono::steady_clock::now();
   StabilityResult result;
   result.study = study;
-  result.timing.jobs = detail::jobs_of(options);
-  ProgressTracker tracker(options.progress);
-  const auto records = Launching(study, options, result.timing).run_all(tracker);
-  result.interrupted = detail::stop_requested(options);
+  result.timing.jobs = jobs_of(options);
+  const auto records = run_launches(study, options, result.timing);
+  result.interrupted = stop_requested(options);
   if (!result.interrupted && options.shard.whole() && study.study.laws) result.rows = rows_of_laws(options);
   for (const HardLaunch& launch : study.launches)
     result.rows.push_back(detail::judge_launch(launch, launch.run ? &records[*launch.run] : nullptr,

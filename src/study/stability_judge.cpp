@@ -123,7 +123,9 @@ HardRow judge_launch(const HardLaunch& launch, const LaunchRecord* record, const
     row.finding = judge_reader(launch);
     return row;
   }
-  row.failure = record->failure.empty() && against != nullptr ? against->failure : record->failure;
+  const LaunchRecord& missing = record->failure.empty() && against != nullptr ? *against : *record;
+  row.failure = missing.failure;
+  row.outcome = missing.outcome;
   if (!row.computed()) return row;
   row.ran = true;
   row.run = record->answer.run;

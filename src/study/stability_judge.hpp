@@ -7,6 +7,7 @@ namespace launchsafe::study::detail {
 
 /// What is known of one launch.
 struct LaunchRecord {
+  RunOutcome outcome = RunOutcome::ran;
   std::string failure;                         ///< why it was not run at all; then nothing else is known
   std::string reason;                          ///< when and where it was stopped, if it was
   double end_time = not_a_number;              ///< s, reached

@@ -6,7 +6,7 @@ namespace {
 
 class DryRun : public StoredStudy {
  protected:
-  nlohmann::json foresee(std::vector<std::string> more = {}) {
+  nlohmann::json forecast_study(std::vector<std::string> more = {}) {
     std::vector<std::string> command{"study", "study.toml", "--dry-run", "--json"};
     command.insert(command.end(), more.begin(), more.end());
     const Outcome outcome = run(command);
@@ -17,14 +17,14 @@ class DryRun : public StoredStudy {
 
 TEST_F(DryRun, CountsTheFewestRunsAndMakesNoFolder) {
   for (const auto& more : {std::vector<std::string>{}, {"-o", "out"}}) {
-    const auto foresight = foresee(more);
-    EXPECT_EQ(foresight["mechanical_runs"], 12);
-    EXPECT_EQ(foresight["cases"], 24);
-    EXPECT_EQ(foresight["to_run"], 12);
-    EXPECT_EQ(foresight["rate_learned_from_runs"], 0);
-    EXPECT_GT(foresight["updates_per_second"], 0);
-    EXPECT_EQ(foresight["runs"].size(), 12u);
-    EXPECT_EQ(foresight["runs"][0]["cases"], 2);
+    const auto forecast = forecast_study(more);
+    EXPECT_EQ(forecast["mechanical_runs"], 12);
+    EXPECT_EQ(forecast["cases"], 24);
+    EXPECT_EQ(forecast["to_run"], 12);
+    EXPECT_EQ(forecast["rate_learned_from_runs"], 0);
+    EXPECT_GT(forecast["updates_per_second"], 0);
+    EXPECT_EQ(forecast["runs"].size(), 12u);
+    EXPECT_EQ(forecast["runs"][0]["cases"], 2);
   }
   EXPECT_FALSE(exists("out"));
   const std::string text = run({"study", "study.toml", "--dry-run"}).out;
@@ -34,19 +34,19 @@ TEST_F(DryRun, CountsTheFewestRunsAndMakesNoFolder) {
 
 TEST_F(DryRun, ExplainShowsTheSame) {
   const auto plan = nlohmann::json::parse(run({"explain", "study.toml", "--json"}).out);
-  const auto foresight = foresee();
+  const auto forecast = forecast_study();
   for (const char* key : {"kind", "cases", "mechanical_runs", "gaps", "memory_bytes", "particle_updates"})
-    EXPECT_EQ(plan[key], foresight[key]) << key;
+    EXPECT_EQ(plan[key], forecast[key]) << key;
 }
 
 TEST_F(DryRun, KnowsWhatIsStoredAndLearnsTheRate) {
   ASSERT_EQ(run({"study", "study.toml", "-o", "out", "--shard", "1/3"}).code, 0);
   const std::string journal = read("out/journal.1-of-3.jsonl");
   const auto listing = results_in("out");
-  const auto foresight = foresee({"-o", "out"});
-  EXPECT_EQ(foresight["stored"], 4);
-  EXPECT_EQ(foresight["to_run"], 8);
-  EXPECT_EQ(foresight["rate_learned_from_runs"], 4);
+  const auto forecast = forecast_study({"-o", "out"});
+  EXPECT_EQ(forecast["stored"], 4);
+  EXPECT_EQ(forecast["to_run"], 8);
+  EXPECT_EQ(forecast["rate_learned_from_runs"], 4);
   EXPECT_EQ(read("out/journal.1-of-3.jsonl"), journal);
   EXPECT_TRUE(results_in("out") == listing);
   const std::string text = run({"study", "study.toml", "--dry-run", "-o", "out"}).out;
@@ -55,9 +55,9 @@ TEST_F(DryRun, KnowsWhatIsStoredAndLearnsTheRate) {
 }
 
 TEST_F(DryRun, ShowsOneShard) {
-  const auto foresight = foresee({"--shard", "2/3"});
-  EXPECT_EQ(foresight["mechanical_runs"], 4);
-  for (const auto& each : foresight["runs"]) EXPECT_EQ(each["shard"], 2);
+  const auto forecast = forecast_study({"--shard", "2/3"});
+  EXPECT_EQ(forecast["mechanical_runs"], 4);
+  for (const auto& each : forecast["runs"]) EXPECT_EQ(each["shard"], 2);
 }
 
 TEST_F(DryRun, ChangesNothingWhileTheStudyRuns) {
@@ -89,11 +89,11 @@ TEST_F(DryRun, RepairsAndSetsAsideNothing) {
   // Where nothing may be written: root may all the same, so that the listing is what tells.
   for (const char* name : {"out", "out/cases"})
     std::filesystem::permissions(folder() / name, std::filesystem::perms(0555));
-  const auto foresight = foresee({"-o", "out"});
+  const auto forecast = forecast_study({"-o", "out"});
   for (const char* name : {"out", "out/cases"})
     std::filesystem::permissions(folder() / name, std::filesystem::perms(0755));
-  EXPECT_EQ(foresight["stored"], 3);
-  EXPECT_EQ(foresight["to_run"], 9);
+  EXPECT_EQ(forecast["stored"], 3);
+  EXPECT_EQ(forecast["to_run"], 9);
   EXPECT_TRUE(everything() == before);
 }
 

@@ -90,7 +90,8 @@ TEST(CaseAnswer, ReadsBackFromJsonExactly) {
 
 TEST(CaseAnswer, NumbersThatAreNotFiniteReadBackAsNotANumber) {
   const StudyFile study = six_gaps();
-  const CaseAnswer failed = failed_answer(study.study, study.cases.front(), "out of memory");
+  const CaseAnswer failed =
+      failed_answer(study.study, study.cases.front(), RunOutcome::failed, "out of memory");
   const auto read = answer_from_json(to_json_line(failed));
   ASSERT_TRUE(read);
   EXPECT_EQ(read->failure, "out of memory");

@@ -109,7 +109,8 @@ TEST(Scheduler, ARefusedTaskFailsWithItsReasonAndTheOthersRun) {
   ProgressTracker tracker({});
   const auto outcomes = run_tasks(tasks, {1}, tracker);
   EXPECT_EQ(done, 1);
-  EXPECT_TRUE(outcomes[0].started);
+  EXPECT_TRUE(outcomes[0].refused);
+  EXPECT_FALSE(outcomes[0].started);
   EXPECT_EQ(outcomes[0].failure, "it would take 90 days");
   EXPECT_TRUE(outcomes[1].failure.empty());
 }

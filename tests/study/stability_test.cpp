@@ -1,7 +1,7 @@
 #include "launchsafe/study/stability.hpp"
 
 #include "launchsafe/run/model_version.hpp"
-#include "launchsafe/study/foresight.hpp"
+#include "launchsafe/study/forecast.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"
 
@@ -255,7 +255,7 @@ TEST_F(StoredStability, ComputesNothingASecondTimeAndSharesSafeComputations) {
                                    case_text("set = { numerics.time_step_factor = 0.3 }\n" + against, "two") +
                                    synthetic_constants);
   StudyOptions options;
-  EXPECT_EQ(foresee(study, options, 1e6).runs.size(), 3u);
+  EXPECT_EQ(forecast_study(study, options, 1e6).runs.size(), 3u);
   std::atomic<int> first{0}, second{0};
   const StabilityResult fresh = run(study, first), again = run(study, second);
   EXPECT_EQ(first, 3);

@@ -1,7 +1,7 @@
 #include "launchsafe/study/sweep.hpp"
 
 #include "launchsafe/run/model_version.hpp"
-#include "launchsafe/study/foresight.hpp"
+#include "launchsafe/study/forecast.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"
 
@@ -166,12 +166,12 @@ class StoredSweep : public launchsafe::testing::TemporaryFolder {
     EXPECT_FALSE((*store)->flush());
     return result;
   }
-  Foresight foresee_in_store(const StudyFile& study) {
+  Forecast foresee_in_store(const StudyFile& study) {
     auto store = store::CaseStore::open(folder() / "results", {"", run::model_version, {}});
     StudyOptions options;
     options.jobs = 2;
     options.store = store->get();
-    return foresee(study, options, 1e6);
+    return forecast_study(study, options, 1e6);
   }
   std::vector<std::filesystem::path> case_files() const {
     std::vector<std::filesystem::path> files;
@@ -241,7 +241,7 @@ TEST_F(StoredSweep, WhereNothingMayBeComputedOnlyWhatIsStoredCounts) {
   EXPECT_EQ(second.runs(), 0);
   EXPECT_EQ(result.answers[0].failure, "the run failed: std::bad_alloc");  // as it would say by itself
   EXPECT_TRUE(result.answers[1].completed());
-  EXPECT_NE(result.answers[2].failure.find(NotStored::text), std::string::npos);
+  EXPECT_EQ(result.answers[2].outcome, RunOutcome::not_stored);
   EXPECT_FALSE((*store)->flush());
   // Nothing was journaled that did not happen.
   EXPECT_EQ((*store)->entries().size(), 2u);
@@ -316,11 +316,11 @@ TEST_F(StoredSweep, ForeseesWhatHasToRunAndWhy) {
   const StudyFile study = study_of(text_of_sweep(two_by_two_by_two));
   StudyOptions unstored;
   unstored.jobs = 2;
-  const Foresight before = foresee(study, unstored, 1e6);
+  const Forecast before = forecast_study(study, unstored, 1e6);
   ASSERT_EQ(before.runs.size(), 4u);
   EXPECT_EQ(before.learned_from, 0u);
   double sum = 0;
-  for (const ForeseenRun& each : before.runs) {
+  for (const ForecastRun& each : before.runs) {
     EXPECT_EQ(each.cases, 2u);
     EXPECT_FALSE(each.stored);
     // Cracks this small do not divide the steps.
@@ -331,8 +331,8 @@ TEST_F(StoredSweep, ForeseesWhatHasToRunAndWhy) {
 
   Counting counting;
   run(study, counting);
-  const Foresight after = foresee_in_store(study);
-  for (const ForeseenRun& each : after.runs) EXPECT_TRUE(each.stored && each.answered) << each.why;
+  const Forecast after = foresee_in_store(study);
+  for (const ForecastRun& each : after.runs) EXPECT_TRUE(each.stored && each.answered) << each.why;
   EXPECT_EQ(after.time, 0.0);
   EXPECT_EQ(after.learned_from, 4u);
   // The synthetic runs say that they took 1 s each.
@@ -344,9 +344,9 @@ TEST_F(StoredSweep, NamesTheKeyThatMakesARunNecessary) {
   run(study_of(text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n")), counting);
   const std::string finer =
       text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n") + "numerics.cell_size = \"1 mm\"\n";
-  const Foresight foresight = foresee_in_store(study_of(finer));
-  ASSERT_EQ(foresight.runs.size(), 2u);
-  for (const ForeseenRun& each : foresight.runs) {
+  const Forecast forecast = foresee_in_store(study_of(finer));
+  ASSERT_EQ(forecast.runs.size(), 2u);
+  for (const ForecastRun& each : forecast.runs) {
     EXPECT_FALSE(each.stored);
     EXPECT_NE(each.why.find("cell_size"), std::string::npos) << each.why;
   }

@@ -120,9 +120,9 @@ struct StationConvergence {
 struct CalibrationRun {
   StudyCase input;
   run::MechanicsResult mechanics;
-  std::string failure;
+  RunOutcome outcome = RunOutcome::ran;
+  std::string failure;     ///< why there are no mechanics to calibrate on; empty where there are
   std::string start_time;  ///< UTC
-  bool reused = false;     ///< the mechanics were stored
 };
 
 /// What the evidence says.

@@ -19,10 +19,11 @@ struct RunSummary {
 
 /// One case with its gaps. A case that failed has indeterminate verdicts, no numbers, and the reason.
 struct CaseAnswer {
-  std::string failure;               ///< why every verdict is indeterminate; empty for a completed run
-  RunSummary run;                    ///< of a case that ran
-  CriticalGap critical;              ///< at the observation points
-  std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps
+  RunOutcome outcome = RunOutcome::ran;  ///< of the run it rests on, or that it lacks; not stored
+  std::string failure;                   ///< why every verdict is indeterminate; empty for a completed run
+  RunSummary run;                        ///< of a case that ran
+  CriticalGap critical;                  ///< at the observation points
+  std::vector<GapVerdict> verdicts;      ///< in the order of the study's gaps
   std::vector<double>
       heated_temperature;  ///< K, of every gap: T max at the observation points of a skin that
                            ///< air and friction heat and that neither reacts nor is triggered
@@ -34,7 +35,7 @@ struct CaseAnswer {
 CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::MechanicsResult& mechanics,
                      const std::optional<run::MechanicsResult>& raised = std::nullopt);
 /// The answer of a case without a result.
-CaseAnswer failed_answer(const Study& study, const StudyCase& input, std::string failure);
+CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome outcome, std::string failure);
 
 /// One line of JSON that reads back to exactly the same answer; not finite numbers become NaN. It holds what
 /// verdicts rest on, and no verdict.

@@ -58,6 +58,7 @@ struct Confirmation {
   double maximum_temperature = not_a_number;  ///< K, at the observation points
   double difference = not_a_number;           ///< K, coupled minus traced; NaN where either ignited
   double wall_time = 0;                       ///< s
+  RunOutcome outcome = RunOutcome::ran;       ///< of its run
   std::string failure;                        ///< why it did not complete
   bool agrees() const { return completed && ignited == expected_ignition; }
 };
@@ -72,10 +73,10 @@ struct FilmBound {
 /// One mechanical case with its gaps.
 struct CaseOutcome {
   StudyCase input;
-  run::CaseResult result;  ///< mechanics, and a skin history for every gap
-  std::string failure;     ///< why every verdict is indeterminate; empty for a completed run
-  std::string start_time;  ///< UTC
-  bool reused = false;     ///< the mechanics were stored
+  run::CaseResult result;                ///< mechanics, and a skin history for every gap
+  RunOutcome outcome = RunOutcome::ran;  ///< of the mechanics, or of the run for want of which there are none
+  std::string failure;                   ///< why every verdict is indeterminate; empty for a completed run
+  std::string start_time;                ///< UTC
   /// The mechanics under the raised load that shows what the inputs do, where the study states no uncertainty
   /// of them; empty for the others.
   std::optional<run::MechanicsResult> raised;

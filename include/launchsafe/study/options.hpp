@@ -10,7 +10,6 @@
 #include <atomic>
 #include <functional>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 namespace launchsafe::study {
@@ -23,10 +22,16 @@ struct Runners {
 /// run::run_mechanics and run::run_with_skin.
 Runners simulation_runners();
 
-/// A run that may not be computed is not there. Its text is part of the failure of the case.
-struct NotStored : std::runtime_error {
-  static constexpr const char* text = "it is not stored";
-  NotStored() : std::runtime_error(text) {}
+/// What became of a run that a study needs.
+enum class RunOutcome {
+  ran,          ///< it was computed, to its end or to where its computation broke off
+  reused,       ///< its stored result was used
+  other_shard,  ///< it is no part of the shard that was asked for
+  refused,      ///< it would take more memory or time than allowed
+  timed_out,    ///< it took more wall time than allowed, now or before
+  interrupted,  ///< the study was stopped before it ended
+  failed,       ///< it threw, for want of memory for example
+  not_stored    ///< it may not be computed (StudyOptions::compute), and is not stored
 };
 
 struct StudyOptions {
@@ -41,7 +46,7 @@ struct StudyOptions {
   std::atomic<bool>* stop = nullptr;
   ProgressCallback progress;
   Runners runners = simulation_runners();
-  bool compute = true;  ///< false: only what is stored counts, and a run that is not stored throws NotStored
+  bool compute = true;  ///< false: only what is stored counts
   /// Where results are kept and taken from; none: nothing is kept.
   store::CaseStore* store = nullptr;
 };

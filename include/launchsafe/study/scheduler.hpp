@@ -64,8 +64,9 @@ struct Task {
 
 /// What became of one task.
 struct TaskOutcome {
-  bool started = false;  ///< false when the stop flag came first
-  std::string failure;   ///< what an exception said; empty when all went well
+  bool started = false;  ///< false when the stop flag came first, or when it was refused
+  bool refused = false;  ///< it must not be begun, or is too large for the memory even alone: see `failure`
+  std::string failure;   ///< what an exception said, or why it was refused; empty when all went well
 };
 
 /// What tasks run on.

@@ -16,9 +16,6 @@ struct Shard {
   std::string part() const;
 };
 
-/// The failure of a case that is no part of the shard that was run.
-inline constexpr const char* foreign_shard = "not run: it belongs to another shard";
-
 /// "2/4", with 1 <= index <= count <= 10000; nothing for any other text.
 bool parse_shard(std::string_view text, Shard& shard);
 

@@ -42,6 +42,7 @@ struct HardRow {
   std::string group, name, must_hold;
   verify::Finding finding;
   std::vector<verify::Outcome> expected;  ///< empty: anything but WRONG
+  RunOutcome outcome = RunOutcome::ran;   ///< of its run, or of that of the safe computation
   std::string failure;                    ///< why it was not computed at all; empty where it was
   bool ran = false;                       ///< a launch: the members below tell of its run
   RunSummary run;

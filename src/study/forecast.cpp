@@ -1,14 +1,14 @@
-#include "launchsafe/study/foresight.hpp"
+#include "launchsafe/study/forecast.hpp"
 
 #include "answer_cases.hpp"
-#include "case_runs.hpp"
-#include "case_uncertainty.hpp"
 #include "launchsafe/scene/plan.hpp"
+#include "launchsafe/study/run_cases.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <queue>
 #include <sstream>
@@ -56,12 +56,12 @@ class Reasons {
     }
   }
 
-  std::string why_run(const std::string& hash, const detail::NeededRun& needed) const {
+  std::string why_run(const CaseRun& needed) const {
     if (store_ == nullptr) return "nothing is stored";
-    if (const auto entry = store_->last_entry(hash)) return why_again(*entry);
+    if (const auto entry = store_->last_entry(needed.hash)) return why_again(*entry);
     const auto same_label = by_label_.find(needed.label);
     if (same_label == by_label_.end()) return "never run here";
-    return difference(detail::identity_of(needed).input(), same_label->second, *store_);
+    return difference(identity_of(needed).input(), same_label->second, *store_);
   }
 
  private:
@@ -94,7 +94,7 @@ bool is_given_up(const std::string& hash, const StudyOptions& options) {
 }
 
 /// Particle updates per second that the journal's runs came to.
-void learn_rate(Foresight& foresight, const StudyOptions& options) {
+void learn_rate(Forecast& forecast, const StudyOptions& options) {
   if (options.store == nullptr) return;
   double updates = 0, seconds = 0;
   std::size_t runs = 0;
@@ -105,8 +105,8 @@ void learn_rate(Foresight& foresight, const StudyOptions& options) {
     ++runs;
   }
   if (runs == 0 || !(updates > 0)) return;
-  foresight.update_rate = updates / seconds;
-  foresight.learned_from = runs;
+  forecast.update_rate = updates / seconds;
+  forecast.learned_from = runs;
 }
 
 /// Wall time of runs on several cores, the longest first.
@@ -124,29 +124,25 @@ double time_on(std::vector<double> times, int jobs) {
   return last;
 }
 
-ForeseenRun foresee_run(const detail::NeededRun& needed, const detail::MechanicalRun& mechanical,
-                        bool answered, const StudyOptions& options, const Reasons& reasons,
-                        double update_rate) {
-  const scene::Plan plan = scene::make_plan(*needed.scene);
-  ForeseenRun run;
+ForecastRun forecast_run(const CaseRun& needed, const StudyOptions& options, const Reasons& reasons,
+                         double update_rate) {
+  const scene::Plan plan = scene::make_plan(needed.scene);
+  ForecastRun run;
   run.label = needed.label;
-  run.hash = mechanical.hash;
-  run.cases = mechanical.cases.size();
+  run.hash = needed.hash;
   run.particles = plan.particles();
   run.steps = plan.steps;
-  run.memory = run::cost_of(*needed.scene).memory();
-  run.shard = mechanical.shard;
+  run.memory = run::cost_of(needed.scene).memory();
   run.stored = options.store != nullptr && options.store->holds(run.hash);
-  run.answered = run.stored && answered;
   if (run.stored) {
-    run.why = run.answered ? "stored" : "stored; its gaps are judged anew";
+    run.why = "stored";
     return run;
   }
-  const std::string refusal = detail::refusal_of(needed, options);
+  const std::string refusal = refusal_of(needed.scene, options);
   run.refused = !refusal.empty();
-  run.why = run.refused ? "refused: " + refusal : reasons.why_run(run.hash, needed);
+  run.why = run.refused ? "refused: " + refusal : reasons.why_run(needed);
   run.given_up = run.refused || is_given_up(run.hash, options);
-  run.time = run.given_up ? 0.0 : mechanical.cost / update_rate;
+  run.time = run.given_up ? 0.0 : needed.cost / update_rate;
   return run;
 }
 
@@ -159,49 +155,44 @@ std::optional<scene::InputError> all_out_of_reach(const StudyFile& study, const 
   return study.cases.empty() ? std::nullopt : run::out_of_reach(study.cases.front().scene, reach);
 }
 
-Foresight foresee(const StudyFile& study, const StudyOptions& options, double update_rate) {
-  Foresight foresight;
-  foresight.update_rate = update_rate;
-  learn_rate(foresight, options);
+Forecast forecast_study(const StudyFile& study, const StudyOptions& options, double update_rate) {
+  Forecast forecast;
+  forecast.update_rate = update_rate;
+  learn_rate(forecast, options);
   const Reasons reasons(options.store);
+  std::vector<CaseRuns> cases = case_runs(study, options.shard.count);
   const bool drawn = options.store != nullptr && draws_answers(study.study.kind);
-  const std::vector<std::string> keys = drawn ? detail::answer_keys(study) : std::vector<std::string>{};
-  std::vector<detail::MechanicalRun> ours = detail::mechanical_runs(study, options.shard.count);
-  std::erase_if(ours, [&](const auto& each) { return each.shard != options.shard.index; });
-  // Behind each run that of its raised load, where the study needs one.
-  const bool propagated = detail::propagates_spread(study.study);
-  const std::size_t stride = propagated ? 2 : 1;
-  foresight.runs.resize(stride * ours.size());
-  tbb::parallel_for(std::size_t{0}, ours.size(), [&](std::size_t i) {
-    const StudyCase& input = study.cases[ours[i].cases.front()];
-    const detail::NeededRun needed{&input.scene.scene, input.label, std::nullopt};
-    const bool answered = std::all_of(ours[i].cases.begin(), ours[i].cases.end(), [&](std::size_t at) {
-      return !drawn || options.store->answer(keys[at]).has_value();
-    });
-    foresight.runs[stride * i] =
-        foresee_run(needed, ours[i], answered, options, reasons, foresight.update_rate);
-    if (!propagated) return;
-    const scene::Scene raised = detail::with_raised_load(input.scene.scene);
-    const detail::NeededRun second{&raised, detail::label_of_raised(input), std::nullopt};
-    detail::MechanicalRun run = ours[i];
-    run.hash = detail::identity_of(second).hash();
-    run.cases.clear();
-    foresight.runs[stride * i + 1] = foresee_run(second, run, true, options, reasons, foresight.update_rate);
+  const auto keys = drawn ? detail::answer_keys(study, cases) : std::vector<std::string>{};
+  std::erase_if(cases, [&](const CaseRuns& each) { return each.shard != options.shard.index; });
+  std::vector<std::vector<ForecastRun>> runs(cases.size());
+  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
+    for (const CaseRun& each : cases[i].runs) {
+      runs[i].push_back(forecast_run(each, options, reasons, forecast.update_rate));
+      runs[i].back().shard = cases[i].shard;
+    }
+    ForecastRun& first = runs[i].front();
+    first.cases = cases[i].members.size();
+    first.answered =
+        first.stored && std::all_of(cases[i].members.begin(), cases[i].members.end(), [&](auto member) {
+          return !drawn || options.store->answer(keys[member]).has_value();
+        });
+    if (first.stored && !first.answered) first.why = "stored; its gaps are judged anew";
   });
+  for (auto& each : runs) std::move(each.begin(), each.end(), std::back_inserter(forecast.runs));
   std::vector<double> times, memories;
-  for (const ForeseenRun& run : foresight.runs) {
+  for (const ForecastRun& run : forecast.runs) {
     if (run.stored || run.given_up) continue;
     times.push_back(run.time);
     memories.push_back(run.memory);
   }
-  foresight.jobs = std::max(1, std::min(detail::jobs_of(options), static_cast<int>(foresight.runs.size())));
+  forecast.jobs = std::max(1, std::min(jobs_of(options), static_cast<int>(forecast.runs.size())));
   if (study.study.kind == StudyKind::critical_gap && study.study.confirm)
-    foresight.confirmations = 2 * ours.size();
-  foresight.time = time_on(times, foresight.jobs);
+    forecast.confirmations = 2 * cases.size();
+  forecast.time = time_on(times, forecast.jobs);
   std::sort(memories.rbegin(), memories.rend());
-  memories.resize(std::min<std::size_t>(memories.size(), static_cast<std::size_t>(foresight.jobs)));
-  for (const double memory : memories) foresight.memory += memory;
-  return foresight;
+  memories.resize(std::min<std::size_t>(memories.size(), static_cast<std::size_t>(forecast.jobs)));
+  for (const double memory : memories) forecast.memory += memory;
+  return forecast;
 }
 
 }  // namespace launchsafe::study

@@ -13,7 +13,7 @@
 namespace launchsafe::study {
 
 /// One mechanical run, with the cases of the study that share it, or its run with a raised load.
-struct ForeseenRun {
+struct ForecastRun {
   std::string label;      ///< of the first of its cases
   std::string hash;       ///< names its file in the store
   std::size_t cases = 0;  ///< 0 for the run with a raised load that belongs to the run before it
@@ -28,8 +28,8 @@ struct ForeseenRun {
   std::string why;        ///< why it is used again or has to run
 };
 
-struct Foresight {
-  std::vector<ForeseenRun> runs;  ///< those of the shard asked for
+struct Forecast {
+  std::vector<ForecastRun> runs;  ///< those of the shard asked for
   std::size_t confirmations = 0;  ///< coupled runs that may follow, at most
   double update_rate = 0;         ///< particle updates per second on a core that the prediction rests on
   std::size_t learned_from = 0;   ///< runs in the journal that the rate was learned from; 0: measured now
@@ -42,6 +42,6 @@ struct Foresight {
 std::optional<scene::InputError> all_out_of_reach(const StudyFile& study, const run::Reach& reach);
 
 /// `update_rate` (particle updates per second on a core) is used where the journal knows no better.
-Foresight foresee(const StudyFile& study, const StudyOptions& options, double update_rate);
+Forecast forecast_study(const StudyFile& study, const StudyOptions& options, double update_rate);
 
 }  // namespace launchsafe::study

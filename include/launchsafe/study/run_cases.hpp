@@ -1,0 +1,78 @@
+// The runs that cases need, one loop for every kind of study: taken from the store where they are there,
+// computed and kept there where they are not.
+#pragma once
+
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/read_study.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+/// One run: the mechanics of a scene, or, with a gap, a complete run that integrates the skin above that gap
+/// along with the mechanics.
+struct CaseRun {
+  std::string label;                  ///< for people
+  scene::Scene scene;                 ///< without all that does not influence the run
+  std::optional<double> coupled_gap;  ///< m
+  std::string hash;                   ///< of its identity: the name of its file in the store
+  double cost = 1;                    ///< predicted particle updates, > 0
+};
+
+CaseRun mechanics_run(const scene::Scene& scene, std::string label);
+CaseRun coupled_run(const scene::Scene& scene, double gap, std::string label);
+/// What determines the result of a run: model version, kind of run, and scene.
+store::CaseIdentity identity_of(const CaseRun& run);
+
+/// Runs that are judged together, and the cases of the study that are judged on them.
+struct CaseRuns {
+  std::vector<std::size_t> members;  ///< of StudyFile::cases; those that differ in thermal keys alone share
+  std::vector<CaseRun> runs;  ///< the mechanics; then, where the study asks for it, under a raised load
+  int shard = 1;
+};
+
+/// The runs that a study needs before it seeks critical gaps, in the order of their first cases, divided over
+/// so many shards.
+std::vector<CaseRuns> case_runs(const StudyFile& study, int shards);
+
+/// What became of one run.
+struct FinishedRun {
+  RunOutcome outcome = RunOutcome::failed;
+  std::string failure;     ///< why it is no basis for a verdict; empty for a completed run
+  run::CaseResult result;  ///< no gaps for the mechanics alone; empty unless the run began or was stored
+  std::string start_time;  ///< UTC
+  bool reused() const { return outcome == RunOutcome::reused; }
+  /// Whether there is a result, if perhaps of a run that broke off or ended by itself before its time.
+  bool has_result() const;
+};
+
+/// The run for want of which a case cannot be judged; nullptr where it can. A case whose first run broke off
+/// is judged on that run alone.
+const FinishedRun* run_without_result(const std::vector<FinishedRun>& runs);
+
+/// Called once for every case, from any thread, with the outcomes of its runs in their order. What it throws
+/// makes it called once more, with runs that failed for that reason.
+using OnCaseDone = std::function<void(std::size_t index, std::vector<FinishedRun>& runs)>;
+
+/// Runs all cases of the shard that `options` asks for as independent tasks, the most costly run first. A run
+/// that fails, is refused or times out is the outcome of its case alone. One that was timed out before under
+/// a limit no smaller than today's is not tried again. A second run of a case whose first did not complete is
+/// not begun.
+void run_cases(const std::vector<CaseRuns>& cases, const StudyOptions& options, ProgressTracker& tracker,
+               Timing& timing, const OnCaseDone& on_done);
+
+/// Why a run that is not stored must not be begun; empty for one that may.
+std::string refusal_of(const scene::Scene& scene, const StudyOptions& options);
+/// Relative cost of a run: predicted particle updates, > 0.
+double cost_of(const scene::Scene& scene);
+/// Why mechanics that ended are no basis for a verdict; empty for completed ones.
+std::string failure_of(const run::MechanicsResult& mechanics);
+/// Cases at a time: what the caller asks for, or all cores.
+int jobs_of(const StudyOptions& options);
+bool stop_requested(const StudyOptions& options);
+
+}  // namespace launchsafe::study

@@ -1,0 +1,159 @@
+#include "forecast_text.hpp"
+
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/table.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+
+namespace launchsafe::app {
+namespace {
+
+using study::Forecast, study::ForecastRun;
+
+std::string state_of(const ForecastRun& run) {
+  return run.stored || run.given_up ? run.why : "to run: " + run.why;
+}
+
+report::Table run_table(const Forecast& forecast) {
+  report::Table table;
+  table.columns = {report::text_column("mechanical run"), {.name = "cases", .unit = ""},
+                   {.name = "particles", .unit = ""},     {.name = "steps", .unit = ""},
+                   {.name = "memory", .unit = "MB"},      {.name = "time", .unit = "s"},
+                   {.name = "shard", .unit = ""},         report::text_column("state")};
+  for (const ForecastRun& run : forecast.runs) {
+    table.rows.push_back({run.label, static_cast<std::int64_t>(run.cases), run.particles, run.steps,
+                          run.memory / 1e6, run.time, static_cast<std::int64_t>(run.shard), state_of(run)});
+  }
+  return table;
+}
+
+std::string forecast_line(std::string_view label, const std::string& value) {
+  return fmt::format("  {:<21} {}\n", label, value);
+}
+
+std::size_t cases_in(const Forecast& forecast) {
+  std::size_t cases = 0;
+  for (const ForecastRun& run : forecast.runs) cases += run.cases;
+  return cases;
+}
+
+std::size_t stored_in(const Forecast& forecast) {
+  return static_cast<std::size_t>(
+      std::count_if(forecast.runs.begin(), forecast.runs.end(),
+                    [](const ForecastRun& run) { return run.stored || (run.given_up && !run.refused); }));
+}
+
+std::size_t refused_in(const Forecast& forecast) {
+  return static_cast<std::size_t>(std::count_if(forecast.runs.begin(), forecast.runs.end(),
+                                                [](const ForecastRun& run) { return run.refused; }));
+}
+
+std::size_t to_run_in(const Forecast& forecast) {
+  return forecast.runs.size() - stored_in(forecast) - refused_in(forecast);
+}
+
+double updates_in(const Forecast& forecast) {
+  double updates = 0;
+  for (const ForecastRun& run : forecast.runs) {
+    if (!run.stored && !run.given_up)
+      updates += static_cast<double>(run.particles) * static_cast<double>(run.steps);
+  }
+  return updates;
+}
+
+bool judges_gaps(study::StudyKind kind) { return kind != study::StudyKind::calibration; }
+
+std::size_t gaps_of(const study::StudyFile& file) {
+  return judges_gaps(file.study.kind) ? file.study.gaps.size() : 0;
+}
+
+std::string runs_text(const Forecast& forecast) {
+  const std::size_t stored = stored_in(forecast), cases = cases_in(forecast);
+  const std::size_t refused = refused_in(forecast);
+  std::string text = fmt::format("{} for {} case{}", forecast.runs.size(), cases, cases == 1 ? "" : "s");
+  if (refused > 0) text += fmt::format("; {} refused", refused);
+  if (stored > 0 || refused > 0) text += fmt::format("; {} stored, {} to run", stored, to_run_in(forecast));
+  return text;
+}
+
+std::string time_text(const Forecast& forecast, const std::filesystem::path& folder) {
+  if (refused_in(forecast) > 0 && to_run_in(forecast) == 0) return "none: nothing is left that may run";
+  if (stored_in(forecast) == forecast.runs.size()) return "next to none: every mechanical run is stored";
+  const std::string origin = forecast.learned_from == 0
+                                 ? "measured now"
+                                 : fmt::format("learned from {} run{} in {}", forecast.learned_from,
+                                               forecast.learned_from == 1 ? "" : "s", folder.string());
+  return fmt::format("about {} at {:.3g} particle updates per second on a core, {}",
+                     report::duration(forecast.time), forecast.update_rate, origin);
+}
+
+}  // namespace
+
+std::string forecast_text(const study::StudyFile& file, const Forecast& forecast,
+                          const std::filesystem::path& folder) {
+  std::string text = file.study.title.empty() ? std::string{} : file.study.title + "\n\n";
+  text += "Study\n";
+  text += forecast_line("kind", study::to_string(file.study.kind));
+  text += forecast_line("scene", file.study.scene);
+  for (const auto& [key, value] : file.overrides) text += forecast_line("  " + key, value);
+  text += forecast_line("mechanical runs", runs_text(forecast));
+  if (forecast.confirmations > 0)
+    text += forecast_line("coupled runs",
+                          fmt::format("at most {} more, to confirm the critical gap; their time comes on top",
+                                      forecast.confirmations));
+  if (judges_gaps(file.study.kind))
+    text +=
+        forecast_line("gaps", fmt::format("{} on the trace of each run, then a bisection", gaps_of(file)));
+  text += forecast_line("at a time", fmt::format("{}", forecast.jobs));
+  text += forecast_line("memory", fmt::format("about {:.3g} MB", forecast.memory / 1e6));
+  text += forecast_line("time", time_text(forecast, folder));
+  return text + "\n" + report::to_text(run_table(forecast));
+}
+
+nlohmann::ordered_json forecast_json(const study::StudyFile& file, const Forecast& forecast) {
+  return {{"title", file.study.title},
+          {"kind", study::to_string(file.study.kind)},
+          {"cases", cases_in(forecast)},
+          {"mechanical_runs", forecast.runs.size()},
+          {"stored", stored_in(forecast)},
+          {"to_run", to_run_in(forecast)},
+          {"refused", refused_in(forecast)},
+          {"coupled_runs_at_most", forecast.confirmations},
+          {"gaps", gaps_of(file)},
+          {"jobs", forecast.jobs},
+          {"particle_updates", updates_in(forecast)},
+          {"updates_per_second", forecast.update_rate},
+          {"rate_learned_from_runs", forecast.learned_from},
+          {"memory_bytes", forecast.memory},
+          {"predicted_time_s", forecast.time},
+          {"runs", report::to_json(run_table(forecast))["rows"]}};
+}
+
+std::vector<std::string> reason_lines(const Forecast& forecast) {
+  constexpr std::size_t few = 30;
+  std::vector<std::string> lines;
+  if (forecast.runs.size() < few) {
+    for (const ForecastRun& run : forecast.runs) lines.push_back(run.label + ": " + state_of(run));
+    return lines;
+  }
+  std::map<std::string, std::size_t> places;
+  std::vector<std::vector<const ForecastRun*>> groups;
+  for (const ForecastRun& run : forecast.runs) {
+    const auto [place, is_new] = places.try_emplace(state_of(run), groups.size());
+    if (is_new) groups.emplace_back();
+    groups[place->second].push_back(&run);
+  }
+  for (const auto& group : groups) {
+    const ForecastRun& first = *group.front();
+    lines.push_back(group.size() == 1 ? first.label + ": " + state_of(first)
+                                      : fmt::format("{} runs: {}", group.size(), state_of(first)));
+  }
+  return lines;
+}
+
+}  // namespace launchsafe::app

@@ -1,0 +1,318 @@
+#include "launchsafe/study/run_cases.hpp"
+
+#include "case_uncertainty.hpp"
+#include "launchsafe/run/model_version.hpp"
+#include "launchsafe/scene/mechanical_part.hpp"
+#include "launchsafe/store/manifest.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <unordered_map>
+
+namespace launchsafe::study {
+namespace {
+
+using store::CaseState, store::JournalEntry;
+
+FinishedRun without_result(RunOutcome outcome, std::string failure) {
+  return {outcome, std::move(failure), {}, {}};
+}
+
+/// Of a result that was just computed, or of one that is stored.
+FinishedRun with_result(run::CaseResult result, RunOutcome outcome) {
+  FinishedRun run{outcome, failure_of(result.mechanics), std::move(result), {}};
+  if (run.result.mechanics.status == run::RunStatus::timed_out) run.outcome = RunOutcome::timed_out;
+  if (run.result.mechanics.status == run::RunStatus::interrupted) run.outcome = RunOutcome::interrupted;
+  return run;
+}
+
+JournalEntry entry_for(const CaseRun& run, CaseState state, std::string reason) {
+  JournalEntry entry;
+  entry.hash = run.hash;
+  entry.state = state;
+  entry.label = run.label;
+  entry.reason = std::move(reason);
+  entry.model_version = run::model_version;
+  entry.predicted_updates = run.cost;
+  return entry;
+}
+
+/// The runs of all cases as tasks; a case is judged by the thread that ends the last of its runs.
+class CaseLoop {
+ public:
+  CaseLoop(const std::vector<CaseRuns>& cases, const StudyOptions& options, ProgressTracker& tracker,
+           Timing& timing, const OnCaseDone& on_done)
+      : cases_(cases),
+        options_(options),
+        tracker_(tracker),
+        timing_(timing),
+        on_done_(on_done),
+        open_(cases.size()) {
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      open_[i].runs.resize(cases[i].runs.size());
+      open_[i].left = cases[i].runs.size();
+    }
+  }
+
+  void run() {
+    std::vector<Task> tasks;
+    std::vector<std::pair<std::size_t, std::size_t>> places;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (cases_[i].shard != options_.shard.index) {
+        give_up(i, RunOutcome::other_shard, "not run: it belongs to another shard");
+        continue;
+      }
+      for (std::size_t j = 0; j < cases_[i].runs.size(); ++j) {
+        tasks.push_back(task_of(i, j));
+        places.emplace_back(i, j);
+        tracker_.expect(1, tasks.back().cost);
+      }
+    }
+    const auto outcomes = run_tasks(tasks, {options_.jobs, options_.memory_limit}, tracker_, options_.stop);
+    for (std::size_t task = 0; task < tasks.size(); ++task) {
+      const auto [i, j] = places[task];
+      if (outcomes[task].refused) {
+        note_refusal(cases_[i].runs[j], outcomes[task].failure);
+        finish(i, j, without_result(RunOutcome::refused, "the run failed: " + outcomes[task].failure));
+      } else if (!outcomes[task].started) {
+        finish(i, j, without_result(RunOutcome::interrupted, "not run: the study was interrupted before"));
+      }
+    }
+  }
+
+ private:
+  struct OpenCase {
+    std::vector<FinishedRun> runs;
+    std::atomic<std::size_t> left{0};
+    std::atomic<bool> spoilt{false};  ///< the first of them did not complete
+  };
+
+  /// Cheap where the result is stored.
+  Task task_of(std::size_t i, std::size_t j) {
+    constexpr double reading_share = 1e-3;
+    const CaseRun& run = cases_[i].runs[j];
+    const auto work = [this, i, j](const Allotment& allotment) { finish(i, j, perform(i, j, allotment)); };
+    if (options_.store != nullptr && options_.store->holds(run.hash))
+      return {reading_share * run.cost, work, 0.0, {}};
+    if (std::string refusal = refusal_of(run.scene, options_); !refusal.empty())
+      return {1.0, work, 0.0, std::move(refusal)};
+    return {run.cost, work, run::cost_of(run.scene).memory(), {}};
+  }
+
+  FinishedRun perform(std::size_t i, std::size_t j, const Allotment& allotment) {
+    if (open_[i].spoilt)
+      return without_result(RunOutcome::interrupted, "not run: the first run of its case did not complete");
+    std::string start_time = store::utc_now();
+    FinishedRun run = load_or_compute(cases_[i].runs[j], allotment);
+    run.start_time = std::move(start_time);
+    count(run);
+    return run;
+  }
+
+  FinishedRun load_or_compute(const CaseRun& run, const Allotment& allotment) {
+    try {
+      if (options_.store == nullptr) return with_result(compute(run, allotment), RunOutcome::ran);
+      if (options_.store->holds(run.hash)) {
+        if (auto stored = options_.store->load(run.hash))
+          return with_result(std::move(*stored), RunOutcome::reused);
+      }
+      const auto before = options_.store->last_entry(run.hash);
+      if (before && before->state == CaseState::timed_out &&
+          (!options_.compute || options_.time_limit <= before->time_limit)) {
+        run::CaseResult result;
+        result.mechanics.status = run::RunStatus::timed_out;
+        result.mechanics.reason = before->reason;
+        return with_result(std::move(result), RunOutcome::timed_out);
+      }
+      if (!options_.compute) {
+        if (before && before->state == CaseState::failed)
+          return without_result(RunOutcome::failed, "the run failed: " + before->reason);
+        return without_result(RunOutcome::not_stored, "the run failed: it is not stored");
+      }
+      FinishedRun computed = with_result(compute(run, allotment), RunOutcome::ran);
+      keep(run, computed);
+      return computed;
+    } catch (const std::exception& error) {
+      if (options_.store != nullptr && options_.compute)
+        options_.store->note(entry_for(run, CaseState::failed, error.what()));
+      return without_result(RunOutcome::failed, fmt::format("the run failed: {}", error.what()));
+    } catch (...) {
+      return without_result(RunOutcome::failed, "the run failed: an unknown exception");
+    }
+  }
+
+  run::CaseResult compute(const CaseRun& run, const Allotment& allotment) const {
+    const run::RunOptions run_options{options_.stop, options_.time_limit, allotment.report_share,
+                                      allotment.threads};
+    if (run.coupled_gap) return options_.runners.coupled(run.scene, *run.coupled_gap, run_options);
+    run::CaseResult result;
+    result.mechanics = options_.runners.mechanics(run.scene, run_options);
+    return result;
+  }
+
+  void keep(const CaseRun& run, const FinishedRun& computed) {
+    const run::MechanicsResult& mechanics = computed.result.mechanics;
+    CaseState state = CaseState::done;
+    if (computed.outcome == RunOutcome::interrupted) state = CaseState::interrupted;
+    if (computed.outcome == RunOutcome::timed_out) state = CaseState::timed_out;
+    JournalEntry entry = entry_for(run, state, state == CaseState::done ? std::string{} : mechanics.reason);
+    entry.wall_time = mechanics.wall_time;
+    entry.processor_time = mechanics.processor_time;
+    if (state == CaseState::timed_out) entry.time_limit = options_.time_limit;
+    if (state == CaseState::done)
+      options_.store->save(identity_of(run), run.scene, computed.result, std::move(entry));
+    else
+      options_.store->note(std::move(entry));
+  }
+
+  /// Once: a study that is started again and again refuses the same run each time.
+  void note_refusal(const CaseRun& run, const std::string& reason) {
+    if (options_.store == nullptr || !options_.compute) return;
+    const auto before = options_.store->last_entry(run.hash);
+    if (before && before->state == CaseState::failed && before->reason == reason) return;
+    options_.store->note(entry_for(run, CaseState::failed, reason));
+  }
+
+  void count(const FinishedRun& run) {
+    const run::MechanicsResult& mechanics = run.result.mechanics;
+    const bool computed = run.outcome == RunOutcome::ran || mechanics.steps > 0;
+    const std::lock_guard lock(mutex_);
+    if (run.outcome == RunOutcome::reused) {
+      ++timing_.reused;
+    } else if (run.has_result() && computed) {
+      ++timing_.runs;
+      timing_.particle_updates +=
+          static_cast<double>(mechanics.steps) * static_cast<double>(mechanics.particles);
+      timing_.run_time += mechanics.wall_time;
+    }
+  }
+
+  void finish(std::size_t i, std::size_t j, FinishedRun run) {
+    OpenCase& open = open_[i];
+    if (j == 0 && !run.failure.empty()) open.spoilt = true;
+    open.runs[j] = std::move(run);
+    if (--open.left > 0) return;
+    std::string failure;
+    try {
+      on_done_(i, open.runs);
+    } catch (const std::exception& error) {
+      failure = error.what();
+    }
+    if (!failure.empty()) give_up(i, RunOutcome::failed, "the run failed: " + failure);
+    open.runs.clear();
+  }
+
+  void give_up(std::size_t i, RunOutcome outcome, const std::string& failure) {
+    for (FinishedRun& each : open_[i].runs) each = without_result(outcome, failure);
+    on_done_(i, open_[i].runs);
+  }
+
+  const std::vector<CaseRuns>& cases_;
+  const StudyOptions& options_;
+  ProgressTracker& tracker_;
+  Timing& timing_;
+  const OnCaseDone& on_done_;
+  std::vector<OpenCase> open_;
+  std::mutex mutex_;
+};
+
+CaseRun planned(scene::Scene scene, std::optional<double> gap, std::string label) {
+  CaseRun run{std::move(label), std::move(scene), gap, {}, 1.0};
+  run.hash = identity_of(run).hash();
+  run.cost = cost_of(run.scene);
+  return run;
+}
+
+}  // namespace
+
+Runners simulation_runners() { return {run::run_mechanics, run::run_with_skin}; }
+
+CaseRun mechanics_run(const scene::Scene& scene, std::string label) {
+  return planned(scene::mechanical_part(scene), std::nullopt, std::move(label));
+}
+
+CaseRun coupled_run(const scene::Scene& scene, double gap, std::string label) {
+  scene::Scene own = scene;
+  own.title.clear();
+  own.accepted.clear();
+  own.surface.gaps = {gap};
+  return planned(std::move(own), gap, std::move(label));
+}
+
+store::CaseIdentity identity_of(const CaseRun& run) {
+  return store::CaseIdentity(fmt::format("# model version {}, {}\n{}", run::model_version,
+                                         run.coupled_gap ? "coupled run" : "mechanics",
+                                         scene::to_toml(run.scene)));
+}
+
+bool FinishedRun::has_result() const {
+  return outcome == RunOutcome::ran || outcome == RunOutcome::reused || outcome == RunOutcome::timed_out ||
+         (outcome == RunOutcome::interrupted && result.mechanics.status == run::RunStatus::interrupted);
+}
+
+const FinishedRun* run_without_result(const std::vector<FinishedRun>& runs) {
+  for (const FinishedRun& run : runs) {
+    if (!run.has_result()) return &run;
+    if (!run.failure.empty()) return nullptr;
+  }
+  return nullptr;
+}
+
+std::vector<CaseRuns> case_runs(const StudyFile& study, int shards) {
+  std::vector<CaseRun> own(study.cases.size());
+  tbb::parallel_for(std::size_t{0}, own.size(), [&](std::size_t i) {
+    own[i] = mechanics_run(study.cases[i].scene.scene, study.cases[i].label);
+  });
+  std::vector<CaseRuns> cases;
+  std::unordered_map<std::string, std::size_t> known;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const auto [found, is_new] = known.try_emplace(own[i].hash, cases.size());
+    if (is_new) cases.push_back({{}, {std::move(own[i])}, 1});
+    cases[found->second].members.push_back(i);
+  }
+  if (detail::propagates_spread(study.study)) {
+    tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
+      const StudyCase& first = study.cases[cases[i].members.front()];
+      cases[i].runs.push_back(
+          mechanics_run(detail::with_raised_load(first.scene.scene), detail::label_of_raised(first)));
+    });
+  }
+  std::vector<double> costs;
+  for (const CaseRuns& each : cases) costs.push_back(each.runs.front().cost);
+  const std::vector<int> shard = shards_of(costs, shards);
+  for (std::size_t i = 0; i < cases.size(); ++i) cases[i].shard = shard[i];
+  return cases;
+}
+
+void run_cases(const std::vector<CaseRuns>& cases, const StudyOptions& options, ProgressTracker& tracker,
+               Timing& timing, const OnCaseDone& on_done) {
+  CaseLoop(cases, options, tracker, timing, on_done).run();
+}
+
+std::string refusal_of(const scene::Scene& scene, const StudyOptions& options) {
+  if (!options.compute) return {};
+  const auto error = run::out_of_reach(scene, {.longest_run = options.longest_run});
+  return error ? error->message() : std::string{};
+}
+
+double cost_of(const scene::Scene& scene) {
+  const double cost = run::cost_of(scene).work;
+  return std::isfinite(cost) ? std::max(cost, 1.0) : 1.0;
+}
+
+std::string failure_of(const run::MechanicsResult& mechanics) {
+  if (mechanics.status == run::RunStatus::completed) return {};
+  return run::to_string(mechanics.status) + (mechanics.reason.empty() ? "" : ": " + mechanics.reason);
+}
+
+int jobs_of(const StudyOptions& options) { return options.jobs > 0 ? options.jobs : available_cores(); }
+
+bool stop_requested(const StudyOptions& options) { return options.stop != nullptr && options.stop->load(); }
+
+}  // namespace launchsafe::study

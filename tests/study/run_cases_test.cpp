@@ -1,0 +1,122 @@
+#include "launchsafe/study/run_cases.hpp"
+
+#include "study/synthetic_launch.hpp"
+
+#include <atomic>
+#include <map>
+#include <mutex>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::study;
+
+const std::string two_cases = critical_text + "peak_pressures = \"450, 496 MPa\"\n";
+
+/// What became of every run of a study's cases: label and outcome.
+std::map<std::string, RunOutcome> outcomes_of(const StudyFile& study, const StudyOptions& options) {
+  std::map<std::string, RunOutcome> outcomes;
+  std::mutex mutex;
+  ProgressTracker tracker({});
+  Timing timing;
+  const std::vector<CaseRuns> cases = case_runs(study, options.shard.count);
+  run_cases(cases, options, tracker, timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
+    const std::lock_guard lock(mutex);
+    for (std::size_t j = 0; j < runs.size(); ++j) {
+      const bool is_new = outcomes.emplace(cases[i].runs[j].label, runs[j].outcome).second;
+      EXPECT_TRUE(is_new) << "judged twice: " << cases[i].runs[j].label;
+    }
+  });
+  return outcomes;
+}
+
+std::size_t count(const std::map<std::string, RunOutcome>& outcomes, RunOutcome outcome) {
+  std::size_t found = 0;
+  for (const auto& [label, each] : outcomes) found += each == outcome ? 1 : 0;
+  return found;
+}
+
+TEST(RunCases, EveryCaseIsJudgedOnce) {
+  const auto outcomes = outcomes_of(study_of(two_cases), synthetic_options());
+  EXPECT_EQ(outcomes.size(), 2u);
+  EXPECT_EQ(count(outcomes, RunOutcome::ran), 2u);
+}
+
+TEST(RunCases, RunsUnderARaisedLoadBelongToTheirCase) {
+  const StudyFile study = study_of(critical_kind + "peak_pressures = \"450, 496 MPa\"\n");
+  const std::vector<CaseRuns> cases = case_runs(study, 1);
+  ASSERT_EQ(cases.size(), 2u);
+  for (const CaseRuns& each : cases) {
+    ASSERT_EQ(each.runs.size(), 2u);
+    EXPECT_NE(each.runs[0].hash, each.runs[1].hash);
+    EXPECT_NEAR(each.runs[1].scene.load.peak, 1.04 * each.runs[0].scene.load.peak, 1.0);
+  }
+}
+
+TEST(RunCases, ACaseOfAnotherShardIsNotRun) {
+  StudyOptions options = synthetic_options();
+  options.shard = {1, 2};
+  const auto outcomes = outcomes_of(study_of(two_cases), options);
+  EXPECT_EQ(count(outcomes, RunOutcome::ran), 1u);
+  EXPECT_EQ(count(outcomes, RunOutcome::other_shard), 1u);
+}
+
+TEST(RunCases, ARunThatIsTooLargeIsRefusedAndTheOthersRun) {
+  StudyOptions options = synthetic_options();
+  options.memory_limit = 1.0;  // byte
+  EXPECT_EQ(count(outcomes_of(study_of(two_cases), options), RunOutcome::refused), 2u);
+}
+
+TEST(RunCases, ARunThatThrowsIsFailedAlone) {
+  StudyOptions options = synthetic_options();
+  const auto run = options.runners.mechanics;
+  options.runners.mechanics = [run](const scene::Scene& scene, const run::RunOptions& of_run) {
+    if (scene.load.peak < 460e6) throw std::runtime_error("no memory");
+    return run(scene, of_run);
+  };
+  const auto outcomes = outcomes_of(study_of(two_cases), options);
+  EXPECT_EQ(count(outcomes, RunOutcome::failed), 1u);
+  EXPECT_EQ(count(outcomes, RunOutcome::ran), 1u);
+}
+
+TEST(RunCases, AStudyThatIsStoppedLeavesItsRunsInterrupted) {
+  std::atomic<bool> stop{true};
+  StudyOptions options = synthetic_options();
+  options.stop = &stop;
+  EXPECT_EQ(count(outcomes_of(study_of(two_cases), options), RunOutcome::interrupted), 2u);
+}
+
+/// What judging throws is the failure of its case, told to the judge itself.
+TEST(RunCases, AJudgeThatThrowsIsCalledOnceMoreWithTheReason) {
+  const std::vector<CaseRuns> cases = case_runs(study_of(two_cases), 1);
+  std::atomic<int> thrown{0}, failed{0};
+  ProgressTracker tracker({});
+  Timing timing;
+  run_cases(cases, synthetic_options(), tracker, timing, [&](std::size_t, std::vector<FinishedRun>& runs) {
+    if (runs.front().has_result()) {
+      ++thrown;
+      throw std::runtime_error("not a number");
+    }
+    EXPECT_EQ(runs.front().outcome, RunOutcome::failed);
+    EXPECT_NE(runs.front().failure.find("not a number"), std::string::npos);
+    ++failed;
+  });
+  EXPECT_EQ(thrown, 2);
+  EXPECT_EQ(failed, 2);
+}
+
+TEST(RunCases, ASecondRunIsNotBegunOnceTheFirstBrokeOff) {
+  StudyOptions options = synthetic_options();
+  options.jobs = 1;
+  std::atomic<int> begun{0};
+  options.runners.mechanics = [&begun](const scene::Scene&, const run::RunOptions&) {
+    ++begun;
+    run::MechanicsResult broken;
+    broken.status = run::RunStatus::energy_drift;
+    return broken;
+  };
+  outcomes_of(study_of(critical_kind), options);
+  EXPECT_EQ(begun, 1);
+}
+
+}  // namespace
