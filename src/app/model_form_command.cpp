@@ -84,7 +84,7 @@ ExitCode model_form_command(const ModelFormArguments& arguments, Console& consol
   form.command = model_form_command_text(arguments);
   if (const auto obstacle = obstacle_in_model_form_folder(arguments.output))
     return refuse_model_form(*obstacle, console);
-  const auto written = report::write_report(form, arguments.output);
+  const auto written = report::write_report(report::report_of(form), arguments.output);
   if (!written) {
     console.error(written.error().message);
     return ExitCode::failed;

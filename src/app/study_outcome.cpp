@@ -16,61 +16,6 @@
 namespace launchsafe::app {
 namespace {
 
-/// Of a long table on a terminal.
-constexpr std::size_t most_rows = 60;
-
-std::string text_of(const report::Table& table) {
-  return table.rows.empty() ? std::string{} : report::to_text(table) + "\n";
-}
-
-/// The beginning of a table, and where all of it is.
-std::string beginning_of(report::Table table, const std::filesystem::path& file) {
-  const std::size_t rows = table.rows.size();
-  if (rows <= most_rows) return text_of(table);
-  table.rows.resize(most_rows);
-  return report::to_text(table) +
-         fmt::format("\nThese are {} of {} rows; all are in {}\n\n", most_rows, rows, file.string());
-}
-
-std::string tables_of(const study::CriticalGapResult& result, const std::filesystem::path&) {
-  std::string text = text_of(report::verdict_table(result)) + text_of(report::comparison_table(result)) +
-                     text_of(report::critical_gap_table(result)) +
-                     text_of(report::cited_limit_table(result)) + text_of(report::air_model_table(result)) +
-                     text_of(report::air_energy_table(result));
-  for (const study::CaseOutcome& outcome : result.cases) {
-    if (outcome.fit) text += text_of(report::fit_table(outcome));
-  }
-  return text + text_of(report::run_table(result));
-}
-
-std::string tables_of(const study::CalibrationResult& result, const std::filesystem::path&) {
-  std::string text = text_of(report::calibration_table(result)) + text_of(report::convergence_table(result)) +
-                     text_of(report::constants_table(result));
-  if (result.recommendation.row) {
-    text += text_of(report::hold_out_table(result, result.rows[*result.recommendation.row]));
-  }
-  return text;
-}
-
-std::string tables_of(const study::SweepResult& result, const std::filesystem::path& folder) {
-  return beginning_of(report::critical_gap_table(result), folder / "critical_gaps.csv") +
-         text_of(report::cited_limit_table(result)) +
-         beginning_of(report::verdict_matrix(result), folder / "verdicts.csv");
-}
-
-std::string tables_of(const study::SensitivityResult& result, const std::filesystem::path&) {
-  return text_of(report::sensitivity_table(result));
-}
-
-std::string tables_of(const study::AccuracyResult& result, const std::filesystem::path&) {
-  return text_of(report::setting_table(result)) + text_of(report::reference_table(result)) +
-         text_of(report::point_table(result)) + text_of(report::time_table(result));
-}
-
-std::string tables_of(const study::StabilityResult& result, const std::filesystem::path&) {
-  return text_of(report::stability_summary(result));
-}
-
 void add_failure(std::vector<Failure>& failures, const std::string& label, study::RunOutcome outcome,
                  const std::string& reason) {
   if (!reason.empty() && outcome != study::RunOutcome::other_shard)
@@ -164,26 +109,12 @@ std::vector<Failure> failures_of(const StudyResult& result) {
   return std::visit([](const auto& each) { return failures_in(each); }, result);
 }
 
-std::string stdout_text(const StudyResult& result, const std::filesystem::path& folder) {
-  return std::visit([&](const auto& each) { return tables_of(each, folder) + report::answer(each) + "\n"; },
-                    result);
+report::Report report_of(const StudyResult& result) {
+  return std::visit([](const auto& each) { return report::report_of(each); }, result);
 }
 
 nlohmann::ordered_json to_json(const StudyResult& result) {
   return std::visit([](const auto& each) { return report::to_json(each); }, result);
-}
-
-store::Result<report::WrittenFiles> write_report(const StudyResult& result,
-                                                 const std::filesystem::path& folder,
-                                                 const report::DrawingLimits& limits) {
-  return std::visit(
-      [&](const auto& each) {
-        if constexpr (requires { report::write_report(each, folder, limits); })
-          return report::write_report(each, folder, limits);
-        else
-          return report::write_report(each, folder);  // a kind without pictures
-      },
-      result);
 }
 
 std::string timing_text(const study::Timing& timing) {

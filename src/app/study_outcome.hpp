@@ -2,9 +2,7 @@
 #pragma once
 
 #include "console.hpp"
-#include "launchsafe/report/drawing_limits.hpp"
-#include "launchsafe/report/written_files.hpp"
-#include "launchsafe/store/result.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/study/accuracy.hpp"
 #include "launchsafe/study/calibration.hpp"
 #include "launchsafe/study/critical_gap.hpp"
@@ -14,7 +12,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <filesystem>
 #include <string>
 #include <variant>
 #include <vector>
@@ -34,12 +31,8 @@ bool any_indeterminate(const StudyResult& result);
 /// In the order of the cases; without those that another shard runs.
 std::vector<Failure> failures_of(const StudyResult& result);
 
-/// Tables and answer for people. Of long tables the beginning, then where the rest is.
-std::string stdout_text(const StudyResult& result, const std::filesystem::path& folder);
+report::Report report_of(const StudyResult& result);
 nlohmann::ordered_json to_json(const StudyResult& result);
-store::Result<report::WrittenFiles> write_report(const StudyResult& result,
-                                                 const std::filesystem::path& folder,
-                                                 const report::DrawingLimits& limits);
 
 /// "ran 12 mechanical runs, re-used 3; ...": runs, rate, wall time.
 std::string timing_text(const study::Timing& timing);

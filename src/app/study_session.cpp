@@ -151,7 +151,8 @@ ExitCode StudySession::deliver_shard(const StudyResult& result, const study::Sha
 
 ExitCode StudySession::deliver_whole(const StudyResult& result) {
   const std::vector<Failure> failures = failures_of(result);
-  console_.print_text(stdout_text(result, request_.folder));
+  const report::Report report = report_of(result);
+  console_.print_text(report::to_text(report, request_.folder));
   if (console_.json()) console_.print_json(to_json(result));
   console_.failures(failures);
   console_.remark(timing_text(timing_of(result)));
@@ -177,7 +178,7 @@ ExitCode StudySession::write_files(const StudyResult& result, const std::vector<
     return ExitCode::done;
   }
   if (const ExitCode code = keep_edited_files(); code != ExitCode::done) return code;
-  const auto written = write_report(result, request_.folder, {.stop = &stop_requested()});
+  const auto written = report::write_report(report_of(result), request_.folder, {.stop = &stop_requested()});
   if (!written) return refuse(written.error());
   for (const std::string& remark : written->remarks) console_.remark(remark);
   StudyRecord record{request_.manifest, {}, true, digest};

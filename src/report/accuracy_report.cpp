@@ -236,18 +236,6 @@ std::string summary(const AccuracyResult& result) {
   return text;
 }
 
-std::string to_markdown(const AccuracyResult& result, const std::string& picture) {
-  std::string text = fmt::format("# {}\n\n{}\n\n    {}\n\n", result.study.study.title, answer(result),
-                                 detail::remaking_command(result.study));
-  if (!picture.empty()) text += fmt::format("![error against run time]({})\n\n", picture);
-  text += to_markdown(setting_table(result)) + "\n" + to_markdown(reference_table(result)) + "\n";
-  if (const Table table = time_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
-  text += to_markdown(point_table(result)) + "\n";
-  text +=
-      "## Setup\n\n" + detail::setup_text(result.study) + "\n" + detail::timing_text(result.timing) + "\n";
-  return text;
-}
-
 Json to_json(const AccuracyResult& result) {
   Json json{{"kind", "accuracy"},
             {"study", detail::study_file_name(result.study)},
@@ -272,28 +260,21 @@ Json to_json(const AccuracyResult& result) {
   return json;
 }
 
-store::Result<WrittenFiles> write_report(const AccuracyResult& result, const std::filesystem::path& folder,
-                                         const DrawingLimits& limits) {
-  WrittenFiles written;
-  std::vector<std::pair<std::string, std::string>> texts{{"accuracy.csv", to_csv(setting_table(result))},
-                                                         {"reference.csv", to_csv(reference_table(result))}};
-  if (const Table table = time_table(result); !table.rows.empty())
-    texts.emplace_back("times.csv", to_csv(table));
-  if (result.reference) texts.emplace_back("points.csv", to_csv(point_table(result)));
-  if (result.reference) texts.emplace_back("accuracy.json", study::to_json_text(result.record));
-  if (auto error = detail::write_texts(folder, texts, written)) return *error;
-  const auto picture =
-      detail::write_picture(error_plot(result), folder, "error_against_time.svg", written, limits);
-  if (!picture) return picture.error();
-  const std::string page = to_markdown(result, *picture) + detail::missing_picture_text(*picture);
-  if (auto error = detail::write_texts(folder,
-                                       {{"report.md", page},
-                                        {"summary.md", summary(result)},
-                                        {"study.json", detail::json_file_text(to_json(result))}},
-                                       written)) {
-    return *error;
-  }
-  return written;
+Report report_of(const AccuracyResult& result) {
+  Report report{result.study.study.title, answer(result), detail::remaking_command(result.study)};
+  report.files.push_back({"summary.md", summary(result)});
+  if (result.reference) report.files.push_back({"accuracy.json", study::to_json_text(result.record)});
+  report.items = {
+      Picture{"error_against_time.svg", error_plot(result), "error against run time"},
+      ReportTable{setting_table(result), "accuracy.csv"},
+      ReportTable{reference_table(result), "reference.csv"},
+      ReportTable{time_table(result), "times.csv"},
+      ReportTable{point_table(result), "points.csv"},
+      Statement{"## Setup\n\n" + detail::setup_text(result.study)},
+      Statement{detail::timing_text(result.timing) + "\n"},
+  };
+  report.json = detail::json_file_text(to_json(result));
+  return report;
 }
 
 }  // namespace launchsafe::report

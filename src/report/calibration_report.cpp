@@ -184,16 +184,17 @@ std::string load_and_stations_text(const CalibrationResult& result) {
         "fast "
         "from {:.2f} to {:.2f} ms (published: {} to {} ms; the time between is fitted), and the highest at "
         "{} "
-        "ms is {:+.3f} K off the published one.\n\n",
+        "ms is {:+.3f} K off the published one.\n",
         significant(1e3 * load.peak_time, 6), significant(load.exponent, 6), 1e3 * load.turning.fast,
         1e3 * load.turning.slow, significant(1e3 * rise[0], 4), significant(1e3 * rise[1], 4),
         significant(1e3 * result.study.study.early_time, 4), load.early_misfit);
   }
   if (std::isfinite(result.stations.finer)) {
+    if (!text.empty()) text += "\n";
     text += fmt::format(
         "With these constants no station without a gap changes by more than {:.2f} K on the next finer mesh, "
         "and by more than {:.2f} K from the next coarser one: the stations {} by the rule of "
-        "`studies/model_form/README.md`.\n\n",
+        "`studies/model_form/README.md`.\n",
         result.stations.finer, result.stations.coarser,
         result.stations.converges() ? "converge" : "do not converge");
   }
@@ -313,44 +314,27 @@ Json to_json(const CalibrationResult& result) {
   return json;
 }
 
-std::string to_markdown(const CalibrationResult& result) {
-  std::string text = fmt::format("# {}\n\n{}\n\n    {}\n\n", result.study.study.title, answer(result),
-                                 detail::remaking_command(result.study));
-  text += load_and_stations_text(result);
-  if (const Table table = constants_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
-  text += to_markdown(calibration_table(result)) + "\n";
-  if (const Table table = selection_table(result); table.rows.size() > 1) text += to_markdown(table) + "\n";
-  if (!result.convergence.empty()) text += to_markdown(convergence_table(result)) + "\n";
-  for (const CalibrationRow& row : result.rows) {
-    if (!row.hold_outs.empty()) text += to_markdown(hold_out_table(result, row)) + "\n";
+Report report_of(const CalibrationResult& result) {
+  Report report{result.study.study.title, answer(result), detail::remaking_command(result.study)};
+  if (const auto record = study::record_of(result))
+    report.files.push_back({"calibration.json", study::to_json_text(*record)});
+  report.items.push_back(Statement{load_and_stations_text(result)});
+  report.items.push_back(ReportTable{constants_table(result)});
+  report.items.push_back(ReportTable{calibration_table(result), "calibration.csv"});
+  Table selection = selection_table(result);
+  if (selection.rows.size() < 2) selection.rows.clear();
+  report.items.push_back(ReportTable{.table = std::move(selection), .shown = Shown::page});
+  report.items.push_back(ReportTable{convergence_table(result)});
+  for (std::size_t row = 0; row < result.rows.size(); ++row) {
+    const Shown shown = result.recommendation.row == row ? Shown::page_and_terminal : Shown::page;
+    report.items.push_back(ReportTable{.table = hold_out_table(result, result.rows[row]), .shown = shown});
   }
-  text += "## Setup\n\n" + detail::setup_text(result.study) + "\n" + to_markdown(run_table(result)) + "\n" +
-          detail::timing_text(result.timing) + "\n";
-  return text;
-}
-
-store::Result<WrittenFiles> write_report(const CalibrationResult& result,
-                                         const std::filesystem::path& folder) {
-  WrittenFiles written;
-  if (auto error = detail::write_texts(folder,
-                                       {{"calibration.csv", to_csv(calibration_table(result))},
-                                        {"hold_outs.csv", to_csv(all_hold_outs(result))},
-                                        {"report.md", to_markdown(result)},
-                                        {"study.json", detail::json_file_text(to_json(result))}},
-                                       written)) {
-    return *error;
-  }
-  if (const auto record = study::record_of(result)) {
-    if (auto error =
-            detail::write_texts(folder, {{"calibration.json", study::to_json_text(*record)}}, written))
-      return *error;
-  }
-  for (const study::CalibrationRun& run : result.runs) {
-    if (run.mechanics.trace.samples() == 0) continue;
-    if (auto error = detail::write_case(folder, run.input, {run.mechanics, {}}, run.start_time, written))
-      return *error;
-  }
-  return written;
+  report.items.push_back(ReportTable{all_hold_outs(result), "hold_outs.csv", Shown::file});
+  report.items.push_back(Statement{"## Setup\n\n" + detail::setup_text(result.study)});
+  report.items.push_back(ReportTable{.table = run_table(result), .shown = Shown::page});
+  report.items.push_back(Statement{detail::timing_text(result.timing) + "\n"});
+  report.json = detail::json_file_text(to_json(result));
+  return report;
 }
 
 }  // namespace launchsafe::report

@@ -84,9 +84,7 @@ Json json_of(const CaseOutcome& outcome) {
             {"fit", json_of(outcome.fit)}};
   for (const study::Confirmation& each : outcome.confirmations)
     json["confirmations"].push_back(json_of(each));
-  json["case_file"] = outcome.result.mechanics.trace.samples() > 0
-                          ? Json(detail::case_file_name(outcome.input))
-                          : Json(nullptr);
+  json["stored_case"] = outcome.completed() ? Json("cases/" + outcome.hash + ".h5") : Json(nullptr);
   return json;
 }
 

@@ -136,34 +136,6 @@ std::string answer(const CriticalGapResult& result) {
   return text;
 }
 
-std::string to_markdown(const CriticalGapResult& result, const std::string& picture) {
-  std::string text = fmt::format("# {}\n\n{}\n\n", result.study.study.title, answer(result));
-  text += fmt::format("    {}\n\n", detail::remaking_command(result.study));
-  text += to_markdown(verdict_table(result)) + "\n";
-  if (!picture.empty()) text += fmt::format("![T max against gap]({})\n\n", picture);
-  if (const Table table = comparison_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
-  text += to_markdown(critical_gap_table(result)) + "\n";
-  if (const Table table = cited_limit_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
-  if (const Table table = air_model_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
-  if (const Table table = air_energy_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
-  for (const CaseOutcome& outcome : result.cases) {
-    if (outcome.fit) text += to_markdown(fit_table(outcome)) + "\n";
-  }
-  if (const std::string undecided = undecided_text(result); !undecided.empty()) text += undecided + "\n";
-  text += "## What it rests on\n\n" + detail::friction_remark(result.study) + "\n";
-  text += uncertainty_text(result) + "\n";
-  if (const std::string remark = limiter_remark(result); !remark.empty()) text += remark + "\n";
-  text += "## Setup\n\n" + detail::setup_text(result.study) + "\n";
-  for (const CaseOutcome& outcome : result.cases) {
-    Table faces = interface_table(outcome.result.mechanics);
-    if (faces.rows.empty()) continue;
-    if (result.cases.size() > 1) faces.title += ", " + outcome.input.label;
-    text += to_markdown(faces) + "\n";
-  }
-  text += to_markdown(run_table(result)) + "\n" + detail::timing_text(result.timing) + "\n";
-  return text;
-}
-
 Plot temperature_plot(const CriticalGapResult& result) {
   Plot plot;
   plot.title = "Highest temperature of the charge bottom";
@@ -203,28 +175,32 @@ Plot temperature_plot(const CriticalGapResult& result) {
   return plot;
 }
 
-store::Result<WrittenFiles> write_report(const CriticalGapResult& result, const std::filesystem::path& folder,
-                                         const DrawingLimits& limits) {
-  WrittenFiles written;
+Report report_of(const CriticalGapResult& result) {
+  Report report{result.study.study.title, answer(result), detail::remaking_command(result.study)};
   const Table verdicts = verdict_table(result);
-  if (auto error = detail::write_texts(
-          folder, {{"verdicts.csv", to_csv(verdicts)}, {"verdicts.md", to_markdown(verdicts)}}, written)) {
-    return *error;
-  }
+  report.files.push_back({"verdicts.md", to_markdown(verdicts)});
+  report.items = {ReportTable{verdicts, "verdicts.csv"},
+                  Picture{"temperature.svg", temperature_plot(result), "T max against gap"},
+                  ReportTable{comparison_table(result)},
+                  ReportTable{critical_gap_table(result)},
+                  ReportTable{cited_limit_table(result)},
+                  ReportTable{air_model_table(result)},
+                  ReportTable{air_energy_table(result)}};
+  for (const CaseOutcome& outcome : result.cases) report.items.push_back(ReportTable{fit_table(outcome)});
+  report.items.push_back(Statement{undecided_text(result)});
+  report.items.push_back(Statement{"## What it rests on\n\n" + detail::friction_remark(result.study)});
+  report.items.push_back(Statement{uncertainty_text(result)});
+  report.items.push_back(Statement{limiter_remark(result)});
+  report.items.push_back(Statement{"## Setup\n\n" + detail::setup_text(result.study)});
   for (const CaseOutcome& outcome : result.cases) {
-    if (outcome.result.mechanics.trace.samples() == 0) continue;
-    if (auto error = detail::write_case(folder, outcome.input, outcome.result, outcome.start_time, written))
-      return *error;
+    Table faces = interface_table(outcome.result.mechanics);
+    if (result.cases.size() > 1) faces.title += ", " + outcome.input.label;
+    report.items.push_back(ReportTable{.table = std::move(faces), .shown = Shown::page});
   }
-  const auto picture =
-      detail::write_picture(temperature_plot(result), folder, "temperature.svg", written, limits);
-  if (!picture) return picture.error();
-  const std::string page = to_markdown(result, *picture) + detail::missing_picture_text(*picture);
-  if (auto error = detail::write_texts(
-          folder, {{"report.md", page}, {"study.json", detail::json_file_text(to_json(result))}}, written)) {
-    return *error;
-  }
-  return written;
+  report.items.push_back(ReportTable{run_table(result)});
+  report.items.push_back(Statement{detail::timing_text(result.timing) + "\n"});
+  report.json = detail::json_file_text(to_json(result));
+  return report;
 }
 
 }  // namespace launchsafe::report

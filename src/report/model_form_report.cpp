@@ -139,10 +139,9 @@ Plot model_form_plot(const ModelForm& form) {
   return plot;
 }
 
-std::string to_markdown(const ModelForm& form, const std::string& picture) {
-  std::string text =
-      fmt::format("# Model form: the critical gap under other models\n\n    {}\n\n", form.command);
-  text +=
+Report report_of(const ModelForm& form) {
+  Report report{
+      "Model form: the critical gap under other models",
       "Every model is calibrated on the same published rows by the rule of `studies/model_form/README.md`, "
       "and "
       "its critical gap swept over the peak pressure. At the calibration's own pressure they therefore "
@@ -151,30 +150,17 @@ std::string to_markdown(const ModelForm& form, const std::string& picture) {
       "a "
       "share of the uncertainty of every SAFE. One that ignites at larger gaps alone weakens no SAFE, and an "
       "UNSAFE names it where it would not ignite. One without a calibration or without a limit of meshes "
-      "enters no share, and is named beside every verdict that it could change.\n\n";
-  text += to_markdown(model_form_table(form)) + "\n";
-  if (!picture.empty()) text += fmt::format("![critical gap by model]({})\n\n", picture);
-  return text + to_markdown(model_constants_table(form));
+      "enters no share, and is named beside every verdict that it could change.",
+      form.command};
+  report.files.push_back({"model_form.json", study::to_json_text(form.record)});
+  report.items = {ReportTable{model_form_table(form), "model_form.csv"},
+                  Picture{"model_form.svg", model_form_plot(form), "critical gap by model"},
+                  ReportTable{.table = model_constants_table(form), .shown = Shown::page}};
+  return report;
 }
 
 std::vector<std::string> model_form_files() {
   return {"model_form.json", "model_form.csv", "model_form.svg", "report.md"};
-}
-
-store::Result<WrittenFiles> write_report(const ModelForm& form, const std::filesystem::path& folder,
-                                         const DrawingLimits& limits) {
-  WrittenFiles written;
-  const auto picture =
-      detail::write_picture(model_form_plot(form), folder, "model_form.svg", written, limits);
-  if (!picture) return picture.error();
-  const std::string page = to_markdown(form, *picture) + detail::missing_picture_text(*picture);
-  if (auto error = detail::write_texts(folder,
-                                       {{"model_form.json", study::to_json_text(form.record)},
-                                        {"model_form.csv", to_csv(model_form_table(form))},
-                                        {"report.md", page}},
-                                       written))
-    return *error;
-  return written;
 }
 
 }  // namespace launchsafe::report

@@ -136,21 +136,6 @@ std::string picture_name(const OutputSensitivity& output) {
   return "sensitivity_" + detail::shown(output.output).key + ".svg";
 }
 
-/// Draws the picture of every output that has indices; a missing gnuplot is a remark.
-store::MaybeError write_pictures(const SensitivityResult& result, const std::filesystem::path& folder,
-                                 WrittenFiles& written, std::vector<std::string>& names,
-                                 const DrawingLimits& limits) {
-  for (const OutputSensitivity& output : result.outputs) {
-    names.emplace_back();
-    if (!detail::has_indices(result, output)) continue;
-    const auto name = detail::write_picture(sensitivity_plot(result, output), folder, picture_name(output),
-                                            written, limits);
-    if (!name) return name.error();
-    names.back() = *name;
-  }
-  return {};
-}
-
 }  // namespace
 
 std::string answer(const SensitivityResult& result) {
@@ -165,43 +150,24 @@ std::string answer(const SensitivityResult& result) {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-std::string to_markdown(const SensitivityResult& result, const std::vector<std::string>& pictures) {
-  std::string text = fmt::format("# {}\n\n{}\n\n    {}\n\n", result.study.study.title, answer(result),
-                                 detail::remaking_command(result.study));
-  for (std::size_t i = 0; i < result.outputs.size(); ++i) {
-    text += to_markdown(sensitivity_table(result, result.outputs[i])) + "\n";
-    if (i < pictures.size() && !pictures[i].empty())
-      text += fmt::format("![sensitivity of {}]({})\n\n", detail::shown(result.outputs[i].output).name,
-                          pictures[i]);
+Report report_of(const SensitivityResult& result) {
+  Report report{result.study.study.title, answer(result), detail::remaking_command(result.study)};
+  report.items.push_back(ReportTable{sensitivity_table(result), "sensitivity.csv", Shown::terminal});
+  for (const OutputSensitivity& output : result.outputs) {
+    report.items.push_back(ReportTable{.table = sensitivity_table(result, output), .shown = Shown::page});
+    if (detail::has_indices(result, output))
+      report.items.push_back(Picture{picture_name(output), sensitivity_plot(result, output),
+                                     "sensitivity of " + detail::shown(output.output).name});
   }
-  text += "## What it rests on\n\n" + detail::friction_remark(result.study) + "\n";
-  text +=
+  report.items.push_back(Statement{"## What it rests on\n\n" + detail::friction_remark(result.study)});
+  report.items.push_back(Statement{
       "The indices are those of these distributions: another range of an input gives it another share. Bound "
-      "critical gaps have no number, and where there are any no indices are given.\n\n";
-  text += "## Setup\n\n" + detail::setup_text(result.study) + "\n";
-  text += to_markdown(detail::first_rows(evaluation_table(result), most_evaluation_rows, "evaluations.csv"));
-  return text;
-}
-
-store::Result<WrittenFiles> write_report(const SensitivityResult& result, const std::filesystem::path& folder,
-                                         const DrawingLimits& limits) {
-  WrittenFiles written;
-  if (auto error = detail::write_texts(folder,
-                                       {{"sensitivity.csv", to_csv(sensitivity_table(result))},
-                                        {"evaluations.csv", to_csv(evaluation_table(result))}},
-                                       written)) {
-    return *error;
-  }
-  std::vector<std::string> names;
-  if (auto error = write_pictures(result, folder, written, names, limits)) return *error;
-  std::string page = to_markdown(result, names);
-  if (!written.remarks.empty())
-    page += "\nNot all pictures are here: gnuplot was not found or failed when this page was made.\n";
-  if (auto error = detail::write_texts(
-          folder, {{"report.md", page}, {"study.json", detail::json_file_text(to_json(result))}}, written)) {
-    return *error;
-  }
-  return written;
+      "critical gaps have no number, and where there are any no indices are given.\n"});
+  report.items.push_back(Statement{"## Setup\n\n" + detail::setup_text(result.study)});
+  report.items.push_back(
+      ReportTable{evaluation_table(result), "evaluations.csv", Shown::page, most_evaluation_rows});
+  report.json = detail::json_file_text(to_json(result));
+  return report;
 }
 
 }  // namespace launchsafe::report

@@ -87,27 +87,18 @@ std::string answer(const StabilityResult& result) {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-std::string to_markdown(const StabilityResult& result) {
-  const study::Study& study = result.study.study;
-  std::string text = fmt::format("# {}\n\n{}\n\n    {}\n\n", study.title, answer(result),
-                                 detail::remaking_command(result.study));
-  text += to_markdown(stability_table(result)) + "\n";
-  text += "## What the outcomes mean\n\n" + legend() + "\n" + uncertainty_text(study) + "\n";
-  text += to_markdown(launch_table(result)) + "\n";
-  return text + "## Setup\n\n" + detail::setup_text(result.study);
-}
-
-store::Result<WrittenFiles> write_report(const StabilityResult& result, const std::filesystem::path& folder) {
-  WrittenFiles written;
-  if (auto error = detail::write_texts(folder,
-                                       {{"stability.csv", to_csv(stability_table(result))},
-                                        {"launches.csv", to_csv(launch_table(result))},
-                                        {"report.md", to_markdown(result)},
-                                        {"study.json", detail::json_file_text(to_json(result))}},
-                                       written)) {
-    return *error;
-  }
-  return written;
+Report report_of(const StabilityResult& result) {
+  Report report{result.study.study.title, answer(result), detail::remaking_command(result.study)};
+  report.items = {
+      ReportTable{.table = stability_summary(result), .shown = Shown::terminal},
+      ReportTable{stability_table(result), "stability.csv", Shown::page},
+      Statement{"## What the outcomes mean\n\n" + legend()},
+      Statement{uncertainty_text(result.study.study)},
+      ReportTable{launch_table(result), "launches.csv", Shown::page},
+      Statement{"## Setup\n\n" + detail::setup_text(result.study)},
+  };
+  report.json = detail::json_file_text(to_json(result));
+  return report;
 }
 
 }  // namespace launchsafe::report

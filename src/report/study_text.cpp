@@ -115,27 +115,6 @@ std::string json_file_text(const nlohmann::ordered_json& object) {
 
 std::string centimetres(double length) { return fmt::format("{:.6g} cm", 100.0 * length); }
 
-std::string case_file_name(const study::StudyCase& input) {
-  std::string name = "case_";
-  for (const char letter : input.label) {
-    if (std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.') name += letter;
-    if (letter == ',') name += '_';
-  }
-  return name + "_" + store::sha256(scene::to_toml(input.scene.scene)).substr(0, 8) + ".h5";
-}
-
-store::MaybeError write_case(const std::filesystem::path& folder, const study::StudyCase& input,
-                             const run::CaseResult& result, const std::string& start_time,
-                             WrittenFiles& written) {
-  store::Manifest manifest = store::make_manifest(scene::to_toml(input.scene.scene), 1);
-  manifest.start_time = start_time;
-  manifest.wall_time = result.mechanics.wall_time;
-  const std::string name = case_file_name(input);
-  if (auto error = store::write_case_file(folder / name, input.scene.scene, result, manifest)) return error;
-  written.files.push_back(name);
-  return {};
-}
-
 store::Result<std::string> write_picture(const Plot& plot, const std::filesystem::path& folder,
                                          const std::string& name, WrittenFiles& written,
                                          const DrawingLimits& limits) {
@@ -146,11 +125,6 @@ store::Result<std::string> write_picture(const Plot& plot, const std::filesystem
   }
   written.files.push_back(name);
   return name;
-}
-
-std::string missing_picture_text(const std::string& picture) {
-  if (!picture.empty()) return {};
-  return "\nThere is no picture: gnuplot was not found, failed or took too long when this page was made.\n";
 }
 
 store::MaybeError write_texts(const std::filesystem::path& folder,

@@ -38,21 +38,11 @@ std::string json_file_text(const nlohmann::ordered_json& object);
 /// A length in cm as people read it, six digits.
 std::string centimetres(double length);
 
-/// Name of the file of one mechanical case: what it is, and the start of the hash of its scene.
-std::string case_file_name(const study::StudyCase& input);
-/// Writes the result of one mechanical run into its case file.
-store::MaybeError write_case(const std::filesystem::path& folder, const study::StudyCase& input,
-                             const run::CaseResult& result, const std::string& start_time,
-                             WrittenFiles& written);
-
 /// Draws a picture into a folder, which is there. Its name, or nothing where gnuplot is missing, fails or
 /// takes too long, which is a remark. Errors: write_failed.
 store::Result<std::string> write_picture(const Plot& plot, const std::filesystem::path& folder,
                                          const std::string& name, WrittenFiles& written,
                                          const DrawingLimits& limits);
-/// What a page says that lacks its picture; empty where it has one.
-std::string missing_picture_text(const std::string& picture);
-
 /// Makes a folder and writes texts into it, one file each.
 store::MaybeError write_texts(const std::filesystem::path& folder,
                               const std::vector<std::pair<std::string, std::string>>& texts,

@@ -126,27 +126,13 @@ std::string uncertainty_text(const study::StudyFile& study) {
          "(those of a study of kind critical-gap do).\n";
 }
 
-std::string matrix_text(const SweepResult& result) {
+/// The verdicts as a matrix, or where they are.
+std::variant<Statement, ReportTable, Picture> matrix_item(const SweepResult& result) {
   const std::size_t gaps = result.study.study.gaps.size();
-  if (gaps > most_gaps) {
-    return fmt::format("The verdicts at {} gaps are too many for a table on this page: see `verdicts.csv`.\n",
-                       gaps);
-  }
-  return to_markdown(detail::first_rows(verdict_matrix(result), most_rows, "verdicts.csv"));
-}
-
-/// Draws all pictures into a folder, up to the first that gnuplot does not draw: that is a remark.
-store::MaybeError write_pictures(const SweepPictures& drawn, const std::filesystem::path& folder,
-                                 WrittenFiles& written, std::vector<std::string>& names,
-                                 const DrawingLimits& limits) {
-  for (const auto& [file, plot] : drawn.pictures) {
-    const auto name = detail::write_picture(plot, folder, file, written, limits);
-    if (!name) return name.error();
-    if (name->empty()) return {};
-    names.push_back(*name);
-  }
-  written.remarks.insert(written.remarks.end(), drawn.remarks.begin(), drawn.remarks.end());
-  return {};
+  if (gaps <= most_gaps)
+    return ReportTable{.table = verdict_matrix(result), .most_rows = most_rows, .rest = "verdicts.csv"};
+  return Statement{fmt::format(
+      "The verdicts at {} gaps are too many for a table on this page: see `verdicts.csv`.\n", gaps)};
 }
 
 }  // namespace
@@ -168,50 +154,29 @@ std::string answer(const SweepResult& result) {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-std::string to_markdown(const SweepResult& result, const std::vector<std::string>& pictures) {
-  const study::Study& study = result.study.study;
-  std::string text = fmt::format("# {}\n\n{}\n\n    {}\n\n", study.title, answer(result),
-                                 detail::remaking_command(result.study));
-  text += to_markdown(detail::first_rows(critical_gap_table(result), most_rows, "critical_gaps.csv")) + "\n";
-  if (const Table limits = cited_limit_table(result); !limits.rows.empty())
-    text += to_markdown(limits) + "\n";
-  for (const std::string& picture : pictures) text += fmt::format("![critical gap]({})\n\n", picture);
-  if (const Table table = axis_effect_table(result); !table.rows.empty()) text += to_markdown(table) + "\n";
-  text += matrix_text(result) + "\n";
-  text += "## What it rests on\n\n" + detail::friction_remark(result.study) + "\n";
-  text += uncertainty_text(result.study) + "\n" + detail::station_note(result.study) + "\n\n";
-  text += "## Setup\n\n" + detail::setup_text(result.study);
-  return text;
-}
-
-store::Result<WrittenFiles> write_report(const SweepResult& result, const std::filesystem::path& folder,
-                                         const DrawingLimits& limits) {
-  WrittenFiles written;
-  Table gaps = critical_gap_table(result);
-  for (std::string& note : detail::mesh_notes(result.study)) gaps.notes.push_back(std::move(note));
-  if (auto error = detail::write_texts(folder,
-                                       {{"critical_gaps.csv", to_csv(gaps)},
-                                        {"critical_gaps.md", to_markdown(gaps)},
-                                        {"verdicts.csv", to_csv(verdict_table(result))}},
-                                       written)) {
-    return *error;
-  }
-  if (const auto curve = study::critical_gap_curve(result)) {
-    if (auto error =
-            detail::write_texts(folder, {{"critical_gaps.json", study::to_json_text(*curve)}}, written))
-      return *error;
-  }
-  std::vector<std::string> names;
-  const SweepPictures drawn = pictures(result);
-  if (auto error = write_pictures(drawn, folder, written, names, limits)) return *error;
-  std::string page = to_markdown(result, names);
-  for (const std::string& remark : drawn.remarks) page += "\n" + remark + "\n";
-  if (names.empty() && !drawn.pictures.empty()) page += detail::missing_picture_text({});
-  if (auto error = detail::write_texts(
-          folder, {{"report.md", page}, {"study.json", detail::json_text(result)}}, written)) {
-    return *error;
-  }
-  return written;
+Report report_of(const SweepResult& result) {
+  Report report{result.study.study.title, answer(result), detail::remaking_command(result.study)};
+  const Table gaps = critical_gap_table(result);
+  Table noted = gaps;
+  for (std::string& note : detail::mesh_notes(result.study)) noted.notes.push_back(std::move(note));
+  report.files.push_back({"critical_gaps.md", to_markdown(noted)});
+  if (const auto curve = study::critical_gap_curve(result))
+    report.files.push_back({"critical_gaps.json", study::to_json_text(*curve)});
+  report.items = {ReportTable{.table = gaps, .csv = "critical_gaps.csv", .most_rows = most_rows},
+                  ReportTable{verdict_table(result), "verdicts.csv", Shown::file},
+                  ReportTable{cited_limit_table(result)}};
+  SweepPictures drawn = pictures(result);
+  for (SweepPicture& each : drawn.pictures)
+    report.items.push_back(Picture{std::move(each.file), std::move(each.plot), "critical gap"});
+  report.remarks = std::move(drawn.remarks);
+  report.items.push_back(ReportTable{.table = axis_effect_table(result), .shown = Shown::page});
+  report.items.push_back(matrix_item(result));
+  report.items.push_back(Statement{"## What it rests on\n\n" + detail::friction_remark(result.study)});
+  report.items.push_back(Statement{uncertainty_text(result.study)});
+  report.items.push_back(Statement{detail::station_note(result.study) + "\n"});
+  report.items.push_back(Statement{"## Setup\n\n" + detail::setup_text(result.study)});
+  report.json = detail::json_text(result);
+  return report;
 }
 
 }  // namespace launchsafe::report

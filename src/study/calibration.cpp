@@ -86,7 +86,6 @@ void run_meshes(CalibrationResult& result, const StudyOptions& options) {
       CalibrationRun& run = result.runs[member];
       run.outcome = finished.front().outcome;
       run.failure = finished.front().failure;
-      run.start_time = finished.front().start_time;
       run.mechanics = finished.front().result.mechanics;
     }
   });

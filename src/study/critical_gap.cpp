@@ -53,7 +53,7 @@ void give_up(const Study& study, CaseOutcome& outcome, const FinishedRun& run) {
   const CaseOutcome broken = std::move(outcome);
   outcome = CaseOutcome{};
   outcome.input = broken.input;
-  outcome.start_time = broken.start_time;
+  outcome.hash = broken.hash;
   outcome.outcome = run.outcome;
   outcome.failure = run.failure;
   detail::find_critical_gaps(study, outcome);
@@ -62,7 +62,6 @@ void give_up(const Study& study, CaseOutcome& outcome, const FinishedRun& run) {
 
 /// Judges the gaps of one case on its runs: the mechanics, and those under a raised load where there are.
 void judge(const Study& study, CaseOutcome& outcome, std::vector<FinishedRun> runs) {
-  outcome.start_time = runs.front().start_time;
   if (const FinishedRun* run = run_without_result(runs)) return give_up(study, outcome, *run);
   outcome.outcome = runs.front().outcome;
   outcome.failure = runs.front().failure;
@@ -137,7 +136,10 @@ CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& o
   for (const StudyCase& input : study.cases) result.cases.emplace_back().input = input;
   const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
   run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
-    for (const std::size_t member : runs[i].members) judge(study.study, result.cases[member], finished);
+    for (const std::size_t member : runs[i].members) {
+      result.cases[member].hash = runs[i].runs.front().hash;
+      judge(study.study, result.cases[member], finished);
+    }
   });
   if (study.study.confirm) run_confirmations(result, options, tracker);
   for (CaseOutcome& outcome : result.cases) {

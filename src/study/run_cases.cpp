@@ -3,7 +3,6 @@
 #include "case_uncertainty.hpp"
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/scene/mechanical_part.hpp"
-#include "launchsafe/store/manifest.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -21,12 +20,12 @@ namespace {
 using store::CaseState, store::JournalEntry;
 
 FinishedRun without_result(RunOutcome outcome, std::string failure) {
-  return {outcome, std::move(failure), {}, {}};
+  return {outcome, std::move(failure), {}};
 }
 
 /// Of a result that was just computed, or of one that is stored.
 FinishedRun with_result(run::CaseResult result, RunOutcome outcome) {
-  FinishedRun run{outcome, failure_of(result.mechanics), std::move(result), {}};
+  FinishedRun run{outcome, failure_of(result.mechanics), std::move(result)};
   if (run.result.mechanics.status == run::RunStatus::timed_out) run.outcome = RunOutcome::timed_out;
   if (run.result.mechanics.status == run::RunStatus::interrupted) run.outcome = RunOutcome::interrupted;
   return run;
@@ -108,9 +107,7 @@ class CaseLoop {
   FinishedRun perform(std::size_t i, std::size_t j, const Allotment& allotment) {
     if (open_[i].spoilt)
       return without_result(RunOutcome::interrupted, "not run: the first run of its case did not complete");
-    std::string start_time = store::utc_now();
     FinishedRun run = load_or_compute(cases_[i].runs[j], allotment);
-    run.start_time = std::move(start_time);
     count(run);
     return run;
   }

@@ -74,7 +74,7 @@ TEST(AccuracyReport, WithoutAReferenceThereIsNoRecordAndTheReasonIsSaid) {
   EXPECT_TRUE(report::setting_table(result).rows.empty());
   EXPECT_TRUE(report::to_json(result)["reference"].is_null());
   const report::Folder folder;
-  const auto written = report::write_report(result, folder.path);
+  const auto written = report::write_report(report::report_of(result), folder.path);
   ASSERT_TRUE(written);
   EXPECT_EQ(std::count(written->files.begin(), written->files.end(), "accuracy.json"), 0);
 }
@@ -82,7 +82,7 @@ TEST(AccuracyReport, WithoutAReferenceThereIsNoRecordAndTheReasonIsSaid) {
 TEST(AccuracyReport, WritesARecordThatOtherStudiesCanRead) {
   const report::Folder folder;
   const AccuracyResult result = made_accuracy();
-  ASSERT_TRUE(report::write_report(result, folder.path));
+  ASSERT_TRUE(report::write_report(report::report_of(result), folder.path));
   const auto record =
       parse_accuracy_record(report::content_of(folder.path / "accuracy.json"), "accuracy.json");
   ASSERT_TRUE(record);

@@ -80,7 +80,7 @@ const std::string limited_study = study::critical_text + "gaps = \"0, 0.03 cm\"\
 TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
   const study::StudyFile file = study::study_of(limited_study + study::synthetic_constants);
   const auto result = study::run_critical_gap(file, study::synthetic_options());
-  const std::string page = to_markdown(result, "");
+  const std::string page = to_markdown(report_of(result));
   EXPECT_TRUE(says(page, "The energy of the air")) << page;
   EXPECT_TRUE(says(page, "calibrated, and not derived"));
   EXPECT_TRUE(says(page, "Cited limits of the gap"));
@@ -98,14 +98,14 @@ TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
 TEST(CriticalGapReport, WithBalancedAirSaysThatEnergyIsConserved) {
   const study::StudyFile file = study::study_of(
       study::critical_text + "gaps = \"0, 0.03 cm\"\nconfirm = false\n[set]\ngap.air = \"balance\"\n");
-  const std::string page = to_markdown(study::run_critical_gap(file, study::synthetic_options()), "");
+  const std::string page = to_markdown(report_of(study::run_critical_gap(file, study::synthetic_options())));
   EXPECT_TRUE(says(page, "At no gap did the skin take more than compression can supply")) << page;
 }
 
 TEST(CriticalGapReport, WithoutCitedLimitsHasNoTableOfThem) {
   const study::StudyFile file = study::study_of(study::critical_text + study::synthetic_constants);
   const auto result = study::run_critical_gap(file, study::synthetic_options());
-  EXPECT_FALSE(says(to_markdown(result, ""), "Cited limits"));
+  EXPECT_FALSE(says(to_markdown(report_of(result)), "Cited limits"));
   EXPECT_TRUE(to_json(result)["cited_limits"].empty());
 }
 
@@ -116,7 +116,7 @@ TEST(SweepReport, SaysWhatTheSkinTookWhereItTookMost) {
   result.answers[3].verdicts[3].air = {32700, 925, 660, 286};
   const std::string note = critical_gap_table(result).notes.back();
   EXPECT_TRUE(says(note, "At a gap of 0.039 cm (350 MPa, 50 um) the skin took 35 times")) << note;
-  EXPECT_TRUE(says(to_markdown(result, {}), "calibrated, and not derived"));
+  EXPECT_TRUE(says(to_markdown(report_of(result)), "calibrated, and not derived"));
 }
 
 // The made sweep has 496 MPa and 30 um, the scene's own, with 0.0395 cm, and no 506 MPa.
@@ -135,7 +135,7 @@ TEST(SweepReport, CitedLimitsStandBesideTheNearestPressure) {
   EXPECT_NEAR(rows[0]["difference_cm"].get<double>(), 0.0015, 1e-9);
   EXPECT_NEAR(rows[1]["critical_gap_cm"].get<double>(), 0.0395, 1e-9);
   EXPECT_TRUE(rows[1]["difference_cm"].is_null()) << "2 % off the pressure of the limit";
-  EXPECT_TRUE(says(to_markdown(result, {}), "Cited limits of the gap"));
+  EXPECT_TRUE(says(to_markdown(report_of(result)), "Cited limits of the gap"));
 }
 
 }  // namespace

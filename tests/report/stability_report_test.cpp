@@ -114,7 +114,7 @@ TEST(StabilityReport, LongFindingsAreCutOnATerminalOnly) {
 
 TEST(StabilityReport, WritesThePageAndItsFiles) {
   const Folder folder;
-  const auto written = write_report(made_stability(), folder.path);
+  const auto written = write_report(report_of(made_stability()), folder.path);
   ASSERT_TRUE(written) << written.error().message;
   EXPECT_EQ(written->files,
             (std::vector<std::string>{"stability.csv", "launches.csv", "report.md", "study.json"}));

@@ -66,7 +66,7 @@ TEST(SweepReport, TellsWhatEachAxisChanges) {
     most = std::max(most, largest - least);
   }
   EXPECT_NEAR(std::get<double>(cell(table, 0, "critical_gap_change_cm")), 100.0 * most, 1e-12);
-  EXPECT_NE(to_markdown(result, {}).find("What each axis changes"), std::string::npos);
+  EXPECT_NE(to_markdown(report_of(result)).find("What each axis changes"), std::string::npos);
 }
 
 TEST(SweepReport, EveryCaseIsARowInTheUnitsPeopleUse) {
@@ -289,7 +289,7 @@ TEST(SweepPictures, SingleValuesMakeNoPicture) {
   const SweepPictures made = pictures(result);
   EXPECT_TRUE(made.pictures.empty());
   const Folder folder;
-  const auto written = write_report(result, folder.path);
+  const auto written = write_report(report_of(result), folder.path);
   ASSERT_TRUE(written) << written.error().message;
   EXPECT_TRUE(written->remarks.empty());
 }
@@ -299,7 +299,7 @@ TEST(SweepPictures, SingleValuesMakeNoPicture) {
 TEST(SweepReport, WritesItsFiles) {
   const Folder folder;
   const SweepResult result = made_sweep({1e-3, 2e-3}, "charge.flaw_size");
-  const auto written = write_report(result, folder.path);
+  const auto written = write_report(report_of(result), folder.path);
   ASSERT_TRUE(written) << written.error().message;
   for (const char* name :
        {"critical_gaps.csv", "critical_gaps.md", "verdicts.csv", "study.json", "report.md"})
@@ -321,9 +321,9 @@ TEST(SweepReport, WritesItsFiles) {
 TEST(SweepReport, NothingInTheFilesDependsOnTheRun) {
   const Folder folder;
   SweepResult result = made_sweep();
-  const auto first = write_report(result, folder.path / "first");
+  const auto first = write_report(report_of(result), folder.path / "first");
   result.timing = {99.0, 7, 29, 3e9, 88.0, 16};
-  const auto second = write_report(result, folder.path / "second");
+  const auto second = write_report(report_of(result), folder.path / "second");
   ASSERT_TRUE(first && second);
   EXPECT_EQ(first->files, second->files);
   for (const std::string& name : first->files)
@@ -346,7 +346,7 @@ SweepResult large_sweep(int pressures, int radii) {
 
 TEST(SweepReport, LongTablesAreCutOnThePage) {
   const SweepResult result = large_sweep(15, 14);
-  const std::string page = to_markdown(result, {});
+  const std::string page = to_markdown(report_of(result));
   EXPECT_NE(page.find("The first 200 of 210 rows; all are in critical\\_gaps.csv."), std::string::npos);
   EXPECT_NE(page.find("The verdicts at 100 gaps are too many"), std::string::npos);
   EXPECT_LT(page.size(), 200'000u);

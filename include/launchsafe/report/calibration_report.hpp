@@ -1,12 +1,10 @@
 // A calibration as tables, a page and JSON.
 #pragma once
 
-#include "launchsafe/report/table.hpp"
-#include "launchsafe/report/written_files.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/store/result.hpp"
 #include "launchsafe/study/calibration.hpp"
 
-#include <filesystem>
 #include <string>
 
 namespace launchsafe::report {
@@ -28,10 +26,7 @@ Table constants_table(const study::CalibrationResult& result);
 nlohmann::ordered_json to_json(const study::CalibrationResult& result);
 std::string to_markdown(const study::CalibrationResult& result);
 
-/// Writes calibration.json (the record that other studies name), calibration.csv, hold_outs.csv, study.json,
-/// report.md and one case file for every mechanical run into a folder, which is made. Errors: conflict,
-/// write_failed.
-store::Result<WrittenFiles> write_report(const study::CalibrationResult& result,
-                                         const std::filesystem::path& folder);
+/// The whole report, with what is printed on a terminal and every file.
+Report report_of(const study::CalibrationResult& result);
 
 }  // namespace launchsafe::report

@@ -1,13 +1,9 @@
 // A critical-gap study as tables, pages, JSON and a picture.
 #pragma once
 
-#include "launchsafe/report/drawing_limits.hpp"
-#include "launchsafe/report/plot.hpp"
-#include "launchsafe/report/table.hpp"
-#include "launchsafe/report/written_files.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/study/critical_gap.hpp"
 
-#include <filesystem>
 #include <string>
 
 namespace launchsafe::report {
@@ -35,15 +31,10 @@ Table run_table(const study::CriticalGapResult& result);
 
 /// One object: critical_gap, verdicts, fit, timing, and cases where there are several.
 nlohmann::ordered_json to_json(const study::CriticalGapResult& result);
-/// The page; `picture` is the name of the picture's file, or empty where there is none.
-std::string to_markdown(const study::CriticalGapResult& result, const std::string& picture);
 /// Maximum temperature against gap.
 Plot temperature_plot(const study::CriticalGapResult& result);
 
-/// Writes verdicts.csv, verdicts.md, study.json, report.md, temperature.svg and one case file for every
-/// mechanical run into a folder, which is made. Errors: conflict, write_failed.
-store::Result<WrittenFiles> write_report(const study::CriticalGapResult& result,
-                                         const std::filesystem::path& folder,
-                                         const DrawingLimits& limits = {});
+/// The whole report, with what is printed on a terminal and every file.
+Report report_of(const study::CriticalGapResult& result);
 
 }  // namespace launchsafe::report

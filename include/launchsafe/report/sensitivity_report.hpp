@@ -2,13 +2,9 @@
 // same study: no times, rates, dates or hosts.
 #pragma once
 
-#include "launchsafe/report/drawing_limits.hpp"
-#include "launchsafe/report/plot.hpp"
-#include "launchsafe/report/table.hpp"
-#include "launchsafe/report/written_files.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/study/sensitivity.hpp"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -30,13 +26,7 @@ nlohmann::ordered_json to_json(const study::SensitivityResult& result);
 /// First and total order of every input with their intervals, or mu* against sigma.
 Plot sensitivity_plot(const study::SensitivityResult& result, const study::OutputSensitivity& output);
 
-/// The page; `pictures` are the names of the files of each output's picture, empty where it has none.
-std::string to_markdown(const study::SensitivityResult& result, const std::vector<std::string>& pictures);
-
-/// Writes sensitivity.csv, evaluations.csv, sensitivity_OUTPUT.svg for every output with indices, report.md
-/// and study.json into a folder, which is made. Errors: conflict, write_failed.
-store::Result<WrittenFiles> write_report(const study::SensitivityResult& result,
-                                         const std::filesystem::path& folder,
-                                         const DrawingLimits& limits = {});
+/// The whole report, with what is printed on a terminal and every file.
+Report report_of(const study::SensitivityResult& result);
 
 }  // namespace launchsafe::report

@@ -1,11 +1,9 @@
 // A stability study as tables, a page and JSON. Nothing in them differs between two runs of the same study.
 #pragma once
 
-#include "launchsafe/report/table.hpp"
-#include "launchsafe/report/written_files.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/study/stability.hpp"
 
-#include <filesystem>
 #include <string>
 
 namespace launchsafe::report {
@@ -23,12 +21,7 @@ Table launch_table(const study::StabilityResult& result);
 /// One object: counts, and the cases with their numbers.
 nlohmann::ordered_json to_json(const study::StabilityResult& result);
 
-/// The page.
-std::string to_markdown(const study::StabilityResult& result);
-
-/// Writes stability.csv, launches.csv, report.md and study.json into a folder, which is made. Errors:
-/// conflict, write_failed.
-store::Result<WrittenFiles> write_report(const study::StabilityResult& result,
-                                         const std::filesystem::path& folder);
+/// The whole report, with what is printed on a terminal and every file.
+Report report_of(const study::StabilityResult& result);
 
 }  // namespace launchsafe::report

@@ -2,12 +2,9 @@
 // study: no times, rates, dates or hosts.
 #pragma once
 
-#include "launchsafe/report/plot.hpp"
-#include "launchsafe/report/table.hpp"
-#include "launchsafe/report/written_files.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/study/sweep.hpp"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -46,13 +43,7 @@ struct SweepPictures {
 };
 SweepPictures pictures(const study::SweepResult& result);
 
-/// The page; `pictures` are the names of the pictures' files.
-std::string to_markdown(const study::SweepResult& result, const std::vector<std::string>& pictures);
-
-/// Writes critical_gaps.csv, critical_gaps.md, verdicts.csv, critical_gap.svg (critical_gap_2.svg, ...),
-/// safe_gap.svg, report.md and study.json into a folder, which is made. Errors: conflict, write_failed.
-store::Result<WrittenFiles> write_report(const study::SweepResult& result,
-                                         const std::filesystem::path& folder,
-                                         const DrawingLimits& limits = {});
+/// The whole report, with what is printed on a terminal and every file.
+Report report_of(const study::SweepResult& result);
 
 }  // namespace launchsafe::report

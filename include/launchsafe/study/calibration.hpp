@@ -121,8 +121,7 @@ struct CalibrationRun {
   StudyCase input;
   run::MechanicsResult mechanics;
   RunOutcome outcome = RunOutcome::ran;
-  std::string failure;     ///< why there are no mechanics to calibrate on; empty where there are
-  std::string start_time;  ///< UTC
+  std::string failure;  ///< why there are no mechanics to calibrate on; empty where there are
 };
 
 /// What the evidence says.

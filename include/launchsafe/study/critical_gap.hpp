@@ -76,7 +76,7 @@ struct CaseOutcome {
   run::CaseResult result;                ///< mechanics, and a skin history for every gap
   RunOutcome outcome = RunOutcome::ran;  ///< of the mechanics, or of the run for want of which there are none
   std::string failure;                   ///< why every verdict is indeterminate; empty for a completed run
-  std::string start_time;                ///< UTC
+  std::string hash;                      ///< of the mechanical run: the name of its file in the store
   /// The mechanics under the raised load that shows what the inputs do, where the study states no uncertainty
   /// of them; empty for the others.
   std::optional<run::MechanicsResult> raised;

@@ -1,0 +1,67 @@
+// The report of a study as one value, and what becomes of it: a page, tables and pictures in files, text for
+// a terminal, and one JSON object.
+#pragma once
+
+#include "launchsafe/report/drawing_limits.hpp"
+#include "launchsafe/report/plot.hpp"
+#include "launchsafe/report/table.hpp"
+#include "launchsafe/report/written_files.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace launchsafe::report {
+
+/// Paragraphs, lists and headings of the page, in Markdown, ending with a line break; left out where empty.
+struct Statement {
+  std::string markdown;
+};
+
+/// Where a table is shown, besides its own file. One without rows is nowhere.
+enum class Shown { page_and_terminal, page, terminal, file };
+
+struct ReportTable {
+  Table table;
+  std::string csv = {};  ///< name of a file with all of it; empty: none
+  Shown shown = Shown::page_and_terminal;
+  std::size_t most_rows = std::numeric_limits<std::size_t>::max();  ///< on the page
+  std::string rest = {};  ///< the file that has the rows which are not shown; `csv` where empty
+};
+
+struct Picture {
+  std::string file;  ///< "temperature.svg"
+  Plot plot;
+  std::string alternative;  ///< what it shows, for who cannot see it
+};
+
+/// A text in a file of its own, such as a record for other studies.
+struct TextFile {
+  std::string name, text;
+};
+
+struct Report {
+  std::string title;
+  std::string answer;   ///< what the study was asked, in a few lines
+  std::string command;  ///< that makes the report again
+  std::vector<std::variant<Statement, ReportTable, Picture>> items = {};  ///< in the order of the page
+  std::vector<TextFile> files = {};
+  std::string json = {};                  ///< study.json; none where empty
+  std::vector<std::string> remarks = {};  ///< what pictures leave out, for the end of the page and for people
+};
+
+/// The page. `missing`: names of pictures that were not drawn.
+std::string to_markdown(const Report& report, const std::vector<std::string>& missing = {});
+
+/// The tables and the answer. `folder`: where the whole of a long table is.
+std::string to_text(const Report& report, const std::filesystem::path& folder);
+
+/// Writes tables, files, pictures, report.md and study.json into a folder, which is made. A picture that
+/// gnuplot does not draw is a remark, and none after it is tried. Errors: conflict, write_failed.
+store::Result<WrittenFiles> write_report(const Report& report, const std::filesystem::path& folder,
+                                         const DrawingLimits& limits = {});
+
+}  // namespace launchsafe::report

@@ -1,0 +1,112 @@
+#include "launchsafe/report/report.hpp"
+
+#include "columns.hpp"
+#include "study_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace launchsafe::report {
+namespace {
+
+/// Of a long table on a terminal.
+constexpr std::size_t most_printed_rows = 60;
+
+bool on_page(const ReportTable& table) {
+  return table.shown == Shown::page_and_terminal || table.shown == Shown::page;
+}
+bool on_terminal(const ReportTable& table) {
+  return table.shown == Shown::page_and_terminal || table.shown == Shown::terminal;
+}
+
+const std::string& rest_of(const ReportTable& table) { return table.rest.empty() ? table.csv : table.rest; }
+
+/// A part of the page that ends with a line break; empty for what is not there.
+std::string block_of(const Statement& statement, const std::vector<std::string>&) {
+  return statement.markdown;
+}
+
+std::string block_of(const ReportTable& item, const std::vector<std::string>&) {
+  if (!on_page(item) || item.table.rows.empty()) return {};
+  return to_markdown(detail::first_rows(item.table, item.most_rows, rest_of(item)));
+}
+
+std::string block_of(const Picture& picture, const std::vector<std::string>& missing) {
+  if (std::find(missing.begin(), missing.end(), picture.file) != missing.end()) return {};
+  return fmt::format("![{}]({})\n", picture.alternative, picture.file);
+}
+
+std::string printed(const ReportTable& item, const std::filesystem::path& folder) {
+  if (!on_terminal(item) || item.table.rows.empty()) return {};
+  const std::size_t rows = item.table.rows.size();
+  if (rows <= most_printed_rows) return to_text(item.table) + "\n";
+  Table beginning = item.table;
+  beginning.rows.resize(most_printed_rows);
+  return to_text(beginning) + fmt::format("\nThese are {} of {} rows; all are in {}\n\n", most_printed_rows,
+                                          rows, (folder / rest_of(item)).string());
+}
+
+/// Draws the pictures, until gnuplot fails at one. The names of those that are not there.
+store::Result<std::vector<std::string>> draw(const Report& report, const std::filesystem::path& folder,
+                                             const DrawingLimits& limits, WrittenFiles& written) {
+  std::vector<std::string> missing;
+  for (const auto& item : report.items) {
+    const auto* picture = std::get_if<Picture>(&item);
+    if (picture == nullptr) continue;
+    std::string name;
+    if (missing.empty()) {
+      auto drawn = detail::write_picture(picture->plot, folder, picture->file, written, limits);
+      if (!drawn) return drawn.error();
+      name = *drawn;
+    }
+    if (name.empty()) missing.push_back(picture->file);
+  }
+  return missing;
+}
+
+}  // namespace
+
+std::string to_markdown(const Report& report, const std::vector<std::string>& missing) {
+  std::string page = fmt::format("# {}\n\n{}\n\n    {}\n", report.title, report.answer, report.command);
+  const auto add = [&page](const std::string& block) {
+    if (!block.empty()) page += "\n" + block;
+  };
+  for (const auto& item : report.items)
+    add(std::visit([&missing](const auto& each) { return block_of(each, missing); }, item));
+  for (const std::string& remark : report.remarks) add(remark + "\n");
+  if (!missing.empty())
+    add("Not all pictures are here: gnuplot was not found, failed or took too long when this page was "
+        "made.\n");
+  return page;
+}
+
+std::string to_text(const Report& report, const std::filesystem::path& folder) {
+  std::string text;
+  for (const auto& item : report.items) {
+    if (const auto* table = std::get_if<ReportTable>(&item)) text += printed(*table, folder);
+  }
+  return text + report.answer + "\n";
+}
+
+store::Result<WrittenFiles> write_report(const Report& report, const std::filesystem::path& folder,
+                                         const DrawingLimits& limits) {
+  WrittenFiles written;
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const auto& item : report.items) {
+    const auto* table = std::get_if<ReportTable>(&item);
+    if (table != nullptr && !table->csv.empty() && !table->table.rows.empty())
+      texts.emplace_back(table->csv, to_csv(table->table));
+  }
+  for (const TextFile& file : report.files) texts.emplace_back(file.name, file.text);
+  if (auto error = detail::write_texts(folder, texts, written)) return *error;
+  const auto missing = draw(report, folder, limits, written);
+  if (!missing) return missing.error();
+  written.remarks.insert(written.remarks.end(), report.remarks.begin(), report.remarks.end());
+  texts = {{"report.md", to_markdown(report, *missing)}};
+  if (!report.json.empty()) texts.emplace_back("study.json", report.json);
+  if (auto error = detail::write_texts(folder, texts, written)) return *error;
+  return written;
+}
+
+}  // namespace launchsafe::report

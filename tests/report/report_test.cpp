@@ -1,0 +1,82 @@
+// A report made by hand: its page, its text for a terminal, and its files.
+#include "launchsafe/report/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace {
+
+using namespace launchsafe::report;
+
+Table table_of(std::size_t rows, const std::string& title) {
+  Table table;
+  table.title = title;
+  table.columns = {{.name = "gap", .unit = "cm"}};
+  for (std::size_t i = 0; i < rows; ++i) table.rows.push_back({static_cast<double>(i)});
+  return table;
+}
+
+Report made_report() {
+  Report report{"A study", "The answer.", "launchsafe study study.toml -o DIR"};
+  report.items = {Statement{"## First\n"},
+                  ReportTable{table_of(3, "Everywhere"), "everywhere.csv"},
+                  Statement{},
+                  ReportTable{.table = table_of(3, "On the page"), .shown = Shown::page},
+                  ReportTable{.table = table_of(3, "On the terminal"), .shown = Shown::terminal},
+                  ReportTable{table_of(3, "In a file"), "file.csv", Shown::file},
+                  ReportTable{table_of(0, "Without rows"), "none.csv"},
+                  Picture{"curve.svg", {}, "a curve"},
+                  ReportTable{.table = table_of(100, "Long"), .csv = "long.csv", .most_rows = 10}};
+  report.files = {{"record.json", "{}\n"}};
+  report.json = "{\"kind\": \"made\"}\n";
+  return report;
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Report, ThePageHasItsPartsInOrderWithOneEmptyLineBetween) {
+  const std::string page = to_markdown(made_report());
+  EXPECT_TRUE(
+      page.starts_with("# A study\n\nThe answer.\n\n    launchsafe study study.toml -o DIR\n\n## First\n\n"));
+  EXPECT_LT(page.find("Everywhere"), page.find("On the page"));
+  EXPECT_FALSE(says(page, "\n\n\n"));
+  EXPECT_FALSE(says(page, "On the terminal"));
+  EXPECT_FALSE(says(page, "In a file"));
+  EXPECT_FALSE(says(page, "Without rows"));
+  EXPECT_TRUE(says(page, "![a curve](curve.svg)"));
+  EXPECT_TRUE(says(page, "The first 10 of 100 rows; all are in long.csv."));
+}
+
+TEST(Report, AMissingPictureIsNotLinkedAndIsTold) {
+  const std::string page = to_markdown(made_report(), {"curve.svg"});
+  EXPECT_FALSE(says(page, "curve.svg"));
+  EXPECT_TRUE(says(page, "gnuplot"));
+}
+
+TEST(Report, TheTerminalGetsTablesThenTheAnswer) {
+  const std::string text = to_text(made_report(), "out");
+  EXPECT_TRUE(says(text, "Everywhere"));
+  EXPECT_TRUE(says(text, "On the terminal"));
+  EXPECT_FALSE(says(text, "On the page"));
+  EXPECT_FALSE(says(text, "In a file"));
+  EXPECT_TRUE(says(text, "These are 60 of 100 rows; all are in out/long.csv"));
+  EXPECT_TRUE(text.ends_with("The answer.\n"));
+}
+
+TEST(Report, EveryFileIsWrittenAndNamed) {
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "report_files";
+  std::filesystem::remove_all(folder);
+  Report report = made_report();
+  std::erase_if(report.items, [](const auto& item) { return std::holds_alternative<Picture>(item); });
+  const auto written = write_report(report, folder);
+  ASSERT_TRUE(written) << written.error().message;
+  EXPECT_EQ(written->files, (std::vector<std::string>{"everywhere.csv", "file.csv", "long.csv", "record.json",
+                                                      "report.md", "study.json"}));
+  for (const std::string& name : written->files) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  std::ifstream csv(folder / "long.csv");
+  EXPECT_EQ(std::count(std::istreambuf_iterator<char>(csv), {}, '\n'), 101) << "all rows, and the header";
+}
+
+}  // namespace
