@@ -11,8 +11,10 @@
 //   static constexpr bool always_written             whether a stored scene without it has its keys
 //                                                    (false for a new law: what is stored already has not)
 //   static std::vector<keys::Key<Law>> parameters()  its keys in scene files
-//   Integrator                                       made of the law; set_step(dt), then update(...) by
-//   particle
+//   Integrator                                       made of the law; set_step(dt), dt > 0 in s, then
+//                                                    update(increment, state, pressure, temperature)
+// where update advances the state of a particle, and its temperature (K) if the law heats itself, from the
+// pressure (Pa) before the step, and gives the Response;
 // and the functions on a particle's state that outputs ask for: deviator(state) and, for the time step,
 // Integrator::bulk_modulus(state, volume, pressure), volume over that at rest. Everything else of a law is
 // its own.
