@@ -41,7 +41,7 @@ std::vector<Failure> failures_in(const study::CalibrationResult& result) {
   return failures;
 }
 
-/// A hard case that is WRONG is the worst that can come of a study.
+/// A hard case that is WRONG is the worst outcome of a study.
 std::vector<Failure> failures_in(const study::StabilityResult& result) {
   std::vector<Failure> failures;
   for (const study::HardRow& row : result.rows) {
@@ -66,7 +66,7 @@ std::vector<Failure> failures_in(const Result& result) {
 }
 
 bool is_indeterminate(const study::CalibrationResult&) { return false; }
-/// What comes of its cases is not what they are for.
+/// The outcome of its cases is not what they are for.
 bool is_indeterminate(const study::StabilityResult&) { return false; }
 template <class Result>
 bool is_indeterminate(const Result& result) {

@@ -1,4 +1,4 @@
-// What came of a study of any kind, in the words of the command line.
+// The outcome of a study of any kind, in the words of the command line.
 #pragma once
 
 #include "console.hpp"

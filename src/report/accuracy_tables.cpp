@@ -41,7 +41,7 @@ std::string remark_of(const AccuracyRow& row) {
   if (!row.measured.doubt.empty()) add("in doubt: " + row.measured.doubt);
   if (row.baseline) add("the scene as it is");
   if (row.reference) add("reference mesh");
-  if (row.on_front) add("front");
+  if (row.on_front) add("Pareto front");
   if (row.other_model) add("another model: a difference, no numerical error");
   return text;
 }
@@ -194,7 +194,7 @@ Plot error_plot(const AccuracyResult& result) {
   plot.x = {"processor time of a run [s]", Scale::logarithmic};
   plot.y = {"largest error of T max [K]", Scale::logarithmic};
   plot.width = 1100;
-  Series front{"front", {}, {}, Style::steps};
+  Series front{"Pareto front", {}, {}, Style::steps};
   Series meshes{"reference meshes", {}, {}, Style::points}, settings{"other settings", {}, {}, Style::points};
   for (Series* each : {&front, &meshes, &settings}) each->colour = 7;
   meshes.mark = Mark::open_square;

@@ -82,7 +82,7 @@ Table hold_out_table(const CalibrationResult& result, const CalibrationRow& row)
                    significant_column("gap", "cm", "gap_cm"),
                    number_column("predicted", "", 2, "predicted"),
                    number_column("published", "", 2, "published"),
-                   number_column("misfit", "", 2, "misfit"),
+                   number_column("computed - published", "", 2, "computed_minus_published"),
                    text_column("unit"),
                    text_column("used for")};
   for (const study::HoldOut& each : row.hold_outs) {
@@ -103,8 +103,9 @@ Table selection_table(const CalibrationResult& result) {
   Table table;
   if (!result.recommendation.row) return table;
   const CalibrationRow& row = result.rows[*result.recommendation.row];
-  table.title = "Misfits that choose among models";
-  table.columns = {text_column("quantity"), number_column("misfit", "K", 2, "misfit_K")};
+  table.title = "Differences that choose among models";
+  table.columns = {text_column("quantity"),
+                   number_column("computed - published", "K", 2, "computed_minus_published_K")};
   for (const study::SelectionMisfit& each : row.selection)
     table.rows.push_back({each.quantity, optional_number(each.misfit)});
   table.notes.push_back(
@@ -216,8 +217,8 @@ Json json_of(const CalibrationRow& row, const study::Study& study) {
             {"ignition_lowest_K", number(row.calibrated.ignition_lowest)},
             {"ignition_highest_K", number(row.calibrated.ignition_highest)},
             {"published_bracket", bracket_check(study, row)},
-            {"zero_gap_misfit_K", number(row.calibrated.zero_gap_misfit)},
-            {"wide_gap_misfit_K", number(row.calibrated.wide_gap_misfit)},
+            {"zero_gap_computed_minus_published_K", number(row.calibrated.zero_gap_misfit)},
+            {"wide_gap_computed_minus_published_K", number(row.calibrated.wide_gap_misfit)},
             {"rms_K", number(row.root_mean_square)},
             {"spread_rms_K", number(row.spread_root_mean_square)},
             {"selection_rms_K", number(row.selection_root_mean_square)},
@@ -230,7 +231,7 @@ Json json_of(const CalibrationRow& row, const study::Study& study) {
                                  {"unit", each.in_seconds ? "s" : "K"},
                                  {"predicted", number(each.predicted)},
                                  {"published", number(each.published)},
-                                 {"misfit", number(each.misfit())},
+                                 {"computed_minus_published", number(each.misfit())},
                                  {"used_for", study::to_string(each.use)}});
   }
   for (const study::Placement& each : row.placements) {
@@ -303,7 +304,7 @@ Json to_json(const CalibrationResult& result) {
                     {"exponent", number(result.load->exponent)},
                     {"rises_fast_from_s", number(result.load->turning.fast)},
                     {"rises_fast_until_s", number(result.load->turning.slow)},
-                    {"early_misfit_K", number(result.load->early_misfit)},
+                    {"early_computed_minus_published_K", number(result.load->early_misfit)},
                     {"reason", result.load->failure}};
   }
   json["stations"] = {{"change_to_finer_K", number(result.stations.finer)},

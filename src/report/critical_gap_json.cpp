@@ -16,12 +16,11 @@ using study::CaseOutcome;
 void add_reference(Json& json, const study::GapVerdict& row) {
   const study::Reference paper = row.reference.value_or(study::Reference{});
   json["paper_K"] = number(paper.maximum_temperature);
-  json["misfit_K"] = number(row.misfit());
+  json["computed_minus_published_K"] = number(row.misfit());
   json["paper_10ms_K"] = number(paper.early_temperature);
-  json["misfit_10ms_K"] = number(row.early_misfit());
+  json["computed_minus_published_10ms_K"] = number(row.early_misfit());
   json["paper_ignition_ms"] = number(1e3 * paper.ignition_time);
-  json["standing"] =
-      row.reference ? Json(paper.calibrated || paper.ignited() ? "calibrated" : "hold-out") : Json(nullptr);
+  json["used_for"] = row.reference ? Json(detail::used_for(paper)) : Json(nullptr);
 }
 
 Json json_of(const study::GapVerdict& row, const study::StudyCase& input) {

@@ -2,6 +2,7 @@
 #include "columns.hpp"
 #include "launchsafe/report/air_energy_table.hpp"
 #include "launchsafe/report/critical_gap_report.hpp"
+#include "launchsafe/study/calibration.hpp"
 #include "study_text.hpp"
 #include "verdict_text.hpp"
 
@@ -17,20 +18,15 @@ using study::CaseOutcome, study::CriticalGapResult, study::GapVerdict;
 
 using detail::named_text, detail::number_column, detail::optional_number, detail::significant_column;
 
-std::string standing_of(const GapVerdict& row) {
-  if (!row.reference) return {};
-  const bool fitted = row.reference->calibrated || row.reference->ignited();
-  return fitted ? "calibrated" : "hold-out";
-}
-
 /// What the published temperature at the early time was used for.
-std::string early_standing_of(const study::Reference& paper) {
+std::string early_used_for(const study::Reference& paper) {
+  using enum study::Use;
   if (!std::isfinite(paper.early_temperature)) return {};
-  if (paper.early_calibrated) return "calibrated";
-  return paper.selection ? "used for selection" : "hold-out";
+  return to_string(paper.early_calibrated ? calibration : paper.selection ? selection : held_out);
 }
 
-/// Misfit (K) of a calibrated row above which the scene's constants are not those of its calibration.
+/// Computed minus published (K) of a calibrated row above which the scene's constants are not those of its
+/// calibration.
 constexpr double calibration_slack = 0.5;
 
 }  // namespace
@@ -62,22 +58,22 @@ Table comparison_table(const CriticalGapResult& result) {
   const std::string early = fmt::format("{:.6g} ms", 1e3 * result.study.study.early_time);
   table.title = "Against the published results";
   table.columns = {significant_column("gap", "cm", 6, "gap_cm"),
-                   named_text("standing", "standing"),
+                   named_text("used for", "used_for"),
                    number_column("T max", "K", 1, "T_max_K"),
                    number_column("paper", "K", 1, "paper_K"),
-                   number_column("misfit", "K", 1, "misfit_K"),
+                   number_column("computed - published", "K", 1, "computed_minus_published_K"),
                    named_text("at", "at"),
                    named_text("paper at", "paper_at"),
-                   named_text("standing at " + early, "standing_10ms"),
+                   named_text("used for at " + early, "used_for_10ms"),
                    number_column("T at " + early, "K", 1, "T_max_10ms_K"),
                    number_column("paper", "K", 1, "paper_10ms_K"),
-                   number_column("misfit", "K", 1, "misfit_10ms_K"),
+                   number_column("computed - published", "K", 1, "computed_minus_published_10ms_K"),
                    named_text("at", "at_10ms"),
                    named_text("paper at", "paper_at_10ms"),
                    number_column("ignition", "ms", 2, "ignition_ms"),
                    number_column("paper", "ms", 2, "paper_ignition_ms")};
   bool ignited = false;
-  double worst = 0;  // misfit of a calibrated row, K
+  double worst = 0;  // |computed - published| of a calibrated row, K
   for (const CaseOutcome& outcome : result.cases) {
     for (const GapVerdict& row : outcome.verdicts) {
       if (!row.reference) continue;
@@ -85,9 +81,9 @@ Table comparison_table(const CriticalGapResult& result) {
       ignited = ignited || paper.ignited() || row.ignition;
       if (paper.calibrated)
         worst = std::max(worst, std::isfinite(row.misfit()) ? std::abs(row.misfit()) : HUGE_VAL);
-      table.rows.push_back({100.0 * row.gap, standing_of(row), row.maximum.temperature,
+      table.rows.push_back({100.0 * row.gap, detail::used_for(paper), row.maximum.temperature,
                             optional_number(paper.maximum_temperature), optional_number(row.misfit()),
-                            row.maximum.point, paper.point, early_standing_of(paper), row.early.temperature,
+                            row.maximum.point, paper.point, early_used_for(paper), row.early.temperature,
                             optional_number(paper.early_temperature), optional_number(row.early_misfit()),
                             row.early.point, paper.early_point,
                             row.ignition ? optional_number(1e3 * row.ignition->time) : Cell(),
@@ -95,14 +91,15 @@ Table comparison_table(const CriticalGapResult& result) {
     }
   }
   table.notes.push_back(
-      "Misfit: predicted minus published. Calibrated: constants or the load were fitted to it. Used for "
-      "selection: it chose among models, and is no prediction. Hold-outs are predictions.");
+      "Calibration: constants or the load were fitted to it. Selection: it chose among models, and is no "
+      "prediction. Held out: a prediction.");
   if (!(worst <= calibration_slack)) {
     table.notes.push_back(fmt::format(
         "The scene's constants do not meet the calibrated rows ({}): they belong to other settings, and no "
         "row here "
         "counts as calibrated.",
-        std::isfinite(worst) ? fmt::format("misfit {:.1f} K", worst) : std::string("one of them ignites")));
+        std::isfinite(worst) ? fmt::format("computed - published: {:.1f} K", worst)
+                             : std::string("one of them ignites")));
   }
   if (ignited) {
     table.notes.push_back(

@@ -95,7 +95,8 @@ Table model_constants_table(const ModelForm& form) {
       detail::significant_column("exchange time", "ms", 6, "exchange_time_ms"),
       detail::significant_column("T1", "K", 6, "ignition_temperature_K"),
       detail::significant_column("RMS of selection", "K", 4, "selection_rms_K"),
-      detail::significant_column("largest held-out misfit", "K", 3, "held_out_misfit_K"),
+      detail::significant_column("largest computed - published, held out", "K", 3,
+                                 "held_out_computed_minus_published_K"),
       detail::significant_column("change to the finer mesh", "K", 3, "station_change_to_finer_K"),
       detail::significant_column("from the coarser", "K", 3, "station_change_from_coarser_K"),
       text_column("stations converge")};

@@ -198,6 +198,10 @@ std::string uncertainty_remark(const study::StudyFile& study) {
       study::model_form_uncertainty_text(study));
 }
 
+std::string used_for(const study::Reference& paper) {
+  return to_string(paper.calibrated || paper.ignited() ? study::Use::calibration : study::Use::held_out);
+}
+
 bool acted(const run::LimiterCounts& limiters) {
   return limiters.crack_at_bound + limiters.tension_cutoff + limiters.hugoniot_guard > 0;
 }

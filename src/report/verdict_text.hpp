@@ -21,6 +21,9 @@ std::vector<std::string> mesh_notes(const study::StudyFile& study);
 /// What temperatures are read over.
 std::string station_note(const study::StudyFile& study);
 
+/// What the published highest temperature of a gap was used for.
+std::string used_for(const study::Reference& paper);
+
 /// The members of a verdict's object from "T_max_K" to "taken_over_supplied".
 void add_verdict(nlohmann::ordered_json& json, const study::GapVerdict& row);
 /// value, bracket, uncertainty, kind and reason; what is no value is null.

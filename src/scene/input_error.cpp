@@ -76,7 +76,7 @@ std::string InputError::message() const {
   if (line > 0 && column > 0) text += fmt::format(":{}", column);
   if (!text.empty()) text += ": ";
   if (!key.empty()) text += quotable(key, longest_quoted) + ": ";
-  text += "found " + quotable(found, longest_quoted);
+  text += file_missing ? "file not found" : "found " + quotable(found, longest_quoted);
   if (!allowed.empty()) text += "; allowed: " + quotable(allowed, longest_allowed_quoted);
   if (!suggestion.empty()) text += "; did you mean " + quotable(suggestion, longest_quoted) + "?";
   return text;

@@ -41,8 +41,10 @@ InputError missing(const std::filesystem::path& file) {
   }
   std::sort(names.begin(), names.end());
   const std::string near = nearest_of(file.filename().string(), names);
-  return error_at({file.string()}, {}, "no such file", "a file that exists",
-                  near.empty() ? near : '"' + (file.parent_path() / near).string() + '"');
+  InputError error = error_at({file.string()}, {}, {}, {},
+                              near.empty() ? near : '"' + (file.parent_path() / near).string() + '"');
+  error.file_missing = true;
+  return error;
 }
 
 /// What a path leads to that is no regular file.

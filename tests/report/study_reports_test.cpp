@@ -38,12 +38,12 @@ TEST(CriticalGapReport, JsonHasTheKeysThatOtherProgramsReadFrom) {
   ASSERT_EQ(json["verdicts"].size(), 3u);
   for (const char* key : {"gap_cm", "peak_pressure_MPa", "crack_radius_um", "flaw_size_mm", "T_max_K", "at",
                           "time_ms", "T_max_10ms_K", "margin_K", "uncertainty_K", "verdict", "reason",
-                          "ignition", "paper_K", "misfit_K", "standing"}) {
+                          "ignition", "paper_K", "computed_minus_published_K", "used_for"}) {
     EXPECT_TRUE(json["verdicts"][0].contains(key)) << key;
   }
-  EXPECT_EQ(json["verdicts"][0]["standing"], "calibrated");
-  EXPECT_EQ(json["verdicts"][1]["standing"], "hold-out");
-  EXPECT_TRUE(json["verdicts"][2]["standing"].is_null());
+  EXPECT_EQ(json["verdicts"][0]["used_for"], "calibration");
+  EXPECT_EQ(json["verdicts"][1]["used_for"], "held out");
+  EXPECT_TRUE(json["verdicts"][2]["used_for"].is_null());
   EXPECT_TRUE(json["verdicts"][0]["ignition"].is_null());
   EXPECT_EQ(json["verdicts"][2]["ignition"]["point"], "S2");
   for (const char* key : {"wall_s", "runs", "updates_per_second"}) EXPECT_TRUE(json["timing"].contains(key));
@@ -79,7 +79,7 @@ TEST(CriticalGapReport, ThePageOpensWithTheAnswerAndSaysHowToRemakeIt) {
   const std::string page = report::to_markdown(report::report_of(result));
   EXPECT_TRUE(page.starts_with("# A test\n\nThe critical gap is 0.0")) << page.substr(0, 200);
   EXPECT_NE(page.find("launchsafe study some_study.toml -o DIR"), std::string::npos);
-  EXPECT_NE(page.find("hold-out"), std::string::npos);
+  EXPECT_NE(page.find("held out"), std::string::npos);
   EXPECT_NE(page.find("60 K for mesh, step and scaling, assumed"), std::string::npos);
   EXPECT_EQ(page.find(LAUNCHSAFE_SOURCE_DIR), std::string::npos) << "a path of this machine";
 }

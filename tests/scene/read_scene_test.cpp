@@ -60,10 +60,7 @@ TEST(ReadScene, MissingFileIsNamedWithTheNearestOne) {
   const auto file = read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155m.toml");
   ASSERT_FALSE(file);
   const std::string message = file.error().message();
-  EXPECT_NE(message.find("scene_155m.toml: found no such file; allowed: a file that exists"),
-            std::string::npos)
-      << message;
-  EXPECT_NE(message.find("did you mean"), std::string::npos) << message;
+  EXPECT_NE(message.find("scene_155m.toml: file not found; did you mean"), std::string::npos) << message;
   EXPECT_NE(message.find("scene_155mm.toml"), std::string::npos) << message;
   EXPECT_FALSE(read_scene(LAUNCHSAFE_SOURCE_DIR "/studies"));
   EXPECT_FALSE(read_scene("no such folder/scene.toml"));

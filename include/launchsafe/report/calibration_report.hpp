@@ -12,11 +12,12 @@ namespace launchsafe::report {
 /// What the evidence supports, and which constants the scene should hold.
 std::string answer(const study::CalibrationResult& result);
 
-/// Constants and misfits of every mesh, closure and kinetics: what is printed on stdout.
+/// Constants and what they miss, of every mesh, closure and kinetics: what is printed on stdout.
 Table calibration_table(const study::CalibrationResult& result);
-/// Every hold-out of one row: predicted, published, misfit.
+/// Every hold-out of one row: predicted, published, and their difference.
 Table hold_out_table(const study::CalibrationResult& result, const study::CalibrationRow& row);
-/// The misfits of the recommended row by which a model is chosen among others; no rows without any.
+/// The differences of the recommended row from published results by which a model is chosen among others; no
+/// rows without any.
 Table selection_table(const study::CalibrationResult& result);
 /// What the constants do from mesh to mesh.
 Table convergence_table(const study::CalibrationResult& result);

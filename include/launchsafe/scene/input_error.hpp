@@ -14,12 +14,13 @@ namespace launchsafe::scene {
 /// One fault in something a user wrote. Empty strings and zero lines are parts that do not apply.
 struct InputError {
   std::string file;
-  int line = 0;            ///< from 1
-  int column = 0;          ///< from 1
-  std::string key;         ///< dotted, such as "charge.crack_radius"
-  std::string found;       ///< what stands there
-  std::string allowed;     ///< what may stand there
-  std::string suggestion;  ///< what was perhaps meant, ready to be copied
+  int line = 0;               ///< from 1
+  int column = 0;             ///< from 1
+  std::string key;            ///< dotted, such as "charge.crack_radius"
+  std::string found;          ///< what stands there
+  std::string allowed;        ///< what may stand there
+  std::string suggestion;     ///< what was perhaps meant, ready to be copied
+  bool file_missing = false;  ///< there is no such file, so that nothing was found in it
 
   /// One line of limited length: "scene.toml:12:3: charge.crack_radius: found ...; allowed: ...; did you mean
   /// ...?"
