@@ -1,4 +1,4 @@
-// The subcommands: what each is given, and what it does. Each lives in a file of its own.
+// The subcommands: what each is given, and what `perform` does with it. Each lives in a file of its own.
 #pragma once
 
 #include "console.hpp"
@@ -16,7 +16,7 @@ struct RunArguments {
   std::optional<std::filesystem::path> output;  ///< folder of the case file; none: nothing is written
   std::optional<double> longest_run;            ///< s, predicted; a longer one is refused
 };
-ExitCode run_command(const RunArguments& arguments, Console& console);
+ExitCode perform(const RunArguments& arguments, Console& console);
 
 struct StudyArguments {
   std::filesystem::path study;
@@ -32,9 +32,7 @@ struct StudyArguments {
   bool update = false;                ///< the folder may hold the results of an earlier study
   std::string command;                ///< the whole command, to be repeated in a shell
 };
-ExitCode study_command(const StudyArguments& arguments, Console& console);
-/// What `study_command` would run, and at what cost; nothing is written.
-ExitCode dry_run_command(const StudyArguments& arguments, Console& console);
+ExitCode perform(const StudyArguments& arguments, Console& console);
 
 struct MergeArguments {
   std::filesystem::path study;
@@ -45,7 +43,7 @@ struct MergeArguments {
   bool update = false;  ///< the folder may hold the results of an earlier study
   std::string command;  ///< the whole command, to be repeated in a shell
 };
-ExitCode merge_command(const MergeArguments& arguments, Console& console);
+ExitCode perform(const MergeArguments& arguments, Console& console);
 
 struct EmitArguments {
   std::string engine;  ///< what the script is for: "slurm"
@@ -56,13 +54,13 @@ struct EmitArguments {
   std::optional<double> time_limit;  ///< s of wall time, of one case
   std::vector<std::string> sbatch;   ///< further options for every #SBATCH line, such as "--partition=long"
 };
-ExitCode emit_command(const EmitArguments& arguments, Console& console);
+ExitCode perform(const EmitArguments& arguments, Console& console);
 
 struct ModelFormArguments {
   std::vector<std::filesystem::path> folders;  ///< of models, the default first
   std::filesystem::path output;                ///< folder of table, picture and record
 };
-ExitCode model_form_command(const ModelFormArguments& arguments, Console& console);
+ExitCode perform(const ModelFormArguments& arguments, Console& console);
 
 struct VerifyArguments {
   std::string filter;                           ///< part of a check's group or name, case ignored
@@ -70,13 +68,13 @@ struct VerifyArguments {
   bool finite_elements = false;                 ///< compare static stresses with CalculiX instead
   std::optional<std::filesystem::path> output;  ///< folder of either table; none: nothing is written
 };
-ExitCode verify_command(const VerifyArguments& arguments, Console& console);
+ExitCode perform(const VerifyArguments& arguments, Console& console);
 
 struct ExplainArguments {
   std::filesystem::path file;  ///< scene or study; empty with `keys`
   bool keys = false;
   std::optional<std::filesystem::path> picture;  ///< SVG file for the scene's grid; none: nothing is written
 };
-ExitCode explain_command(const ExplainArguments& arguments, Console& console);
+ExitCode perform(const ExplainArguments& arguments, Console& console);
 
 }  // namespace launchsafe::app

@@ -58,6 +58,27 @@ void Console::error(const std::string& message) { add_error(message, {}); }
 
 void Console::error(const scene::InputError& error) { add_error(error.message(), error); }
 
+ExitCode Console::refuse(const std::string& message) {
+  error(message);
+  return ExitCode::bad_input;
+}
+
+ExitCode Console::refuse(const scene::InputError& fault) {
+  error(fault);
+  return ExitCode::bad_input;
+}
+
+ExitCode Console::fail(const std::string& message) {
+  error(message);
+  return ExitCode::failed;
+}
+
+ExitCode Console::end_with(const store::Error& error) {
+  const bool folder_is_wrong =
+      error.kind == store::Error::Kind::conflict || error.kind == store::Error::Kind::corrupt;
+  return folder_is_wrong ? refuse(error.message) : fail(error.message);
+}
+
 void Console::add_error(const std::string& message, const scene::InputError& parts) {
   say(fmt::format("launchsafe: {}\n", message));
   if (!json_) return;

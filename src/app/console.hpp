@@ -2,6 +2,7 @@
 #pragma once
 
 #include "launchsafe/scene/input_error.hpp"
+#include "launchsafe/store/result.hpp"
 #include "launchsafe/study/options.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -51,6 +52,12 @@ class Console {
   /// What ended the command, on stderr always, and as the member `error`.
   void error(const std::string& message);
   void error(const scene::InputError& error);
+  /// `error` as the end of the command: of an input that is wrong, or of a machine that fails.
+  ExitCode refuse(const std::string& message);
+  ExitCode refuse(const scene::InputError& fault);
+  ExitCode fail(const std::string& message);
+  /// What kept a result from being stored: a folder that is wrong, or a machine that fails.
+  ExitCode end_with(const store::Error& error);
   /// Cases that failed, the first of them by name on stderr, all of them as the member `failures`.
   void failures(const std::vector<Failure>& failures);
 

@@ -1,6 +1,5 @@
 // launchsafe emit: scripts that run a study elsewhere.
 #include "commands.hpp"
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
 #include "shell_words.hpp"
@@ -43,18 +42,13 @@ double sum_of_largest(std::vector<double> values, int count) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// A run takes as long again for every coupled run that may confirm it.
-std::vector<double> times_of(const study::Forecast& whole) {
+/// Of the whole study, with nothing stored. A run takes as long again for every coupled run that may confirm
+/// it.
+ShardNeeds needs_of(const study::Forecast& whole, int shards, int jobs) {
   const double runs = static_cast<double>(std::max<std::size_t>(1, whole.runs.size()));
   const double repeats = 1.0 + static_cast<double>(whole.confirmations) / runs;
   std::vector<double> times;
   for (const study::ForecastRun& run : whole.runs) times.push_back(repeats * run.time);
-  return times;
-}
-
-/// `whole` foresees the whole study with nothing stored.
-ShardNeeds needs_of(const study::Forecast& whole, int shards, int jobs) {
-  const std::vector<double> times = times_of(whole);
   const std::vector<int> shard_of_run = study::shards_of(times, shards);
   ShardNeeds needs;
   for (int shard = 1; shard <= shards; ++shard) {
@@ -82,15 +76,11 @@ path absolute_path(const path& given) {
   return elsewhere ? absolute : tidy;
 }
 
-path own_program() {
-  std::error_code failed;
-  return std::filesystem::read_symlink("/proc/self/exe", failed);
-}
-
 /// What the scripts need to know; the predictions come on top.
 SlurmStudy slurm_study(const EmitArguments& arguments, const study::StudyFile& file) {
+  std::error_code failed;
   SlurmStudy study;
-  study.program = own_program();
+  study.program = std::filesystem::read_symlink("/proc/self/exe", failed);
   study.study = absolute_path(arguments.study);
   study.output = absolute_path(arguments.output);
   study.cases = file.cases.size();
@@ -105,24 +95,13 @@ SlurmStudy slurm_study(const EmitArguments& arguments, const study::StudyFile& f
   return study;
 }
 
-ShardNeeds foresee_needs(const study::StudyFile& file, const SlurmStudy& study) {
-  study::StudyOptions options;
-  options.jobs = study.jobs;
-  return needs_of(study::forecast_study(file, options, study.update_rate), study.shards, study.jobs);
-}
-
-ExitCode refuse(const std::string& message, Console& console) {
-  console.error(message);
-  return ExitCode::bad_input;
-}
-
 /// Why the scripts may not be written: something else is there.
 std::optional<std::string> obstacle_in(const path& folder, const std::vector<SlurmScript>& scripts) {
   if (std::filesystem::is_symlink(folder))
     return fmt::format("{} is a link, and nothing is written through one; move it away", folder.string());
   for (const SlurmScript& script : scripts)
     if (auto obstacle = obstacle_to_file(folder / script.name, script.text)) return obstacle;
-  return std::nullopt;
+  return prepare_output_folder(folder);
 }
 
 store::MaybeError write_scripts(const path& folder, const std::vector<SlurmScript>& scripts) {
@@ -136,13 +115,9 @@ store::MaybeError write_scripts(const path& folder, const std::vector<SlurmScrip
   return {};
 }
 
-std::string counted(long count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 /// With the folder as the user named it.
-void print(const SlurmStudy& study, const ShardNeeds& needs, const path& folder,
-           const std::vector<SlurmScript>& scripts, Console& console) {
+void print_scripts(const SlurmStudy& study, const path& folder, const std::vector<SlurmScript>& scripts,
+                   Console& console) {
   const SlurmRequest request = request_of(study);
   const std::string command = shell_command({"sh", (folder / submit_name).string()});
   std::string list;
@@ -154,8 +129,8 @@ void print(const SlurmStudy& study, const ShardNeeds& needs, const path& folder,
   }
   console.print_text(fmt::format(
       "{}\n{}; each asks for {}, {} MiB and {} min; the slowest is predicted to take {}\nto submit: {}\n",
-      list, counted(study.shards, "shard"), counted(study.jobs, "core"), request.mebibytes, request.minutes,
-      predicted_time(study), command));
+      list, count_text(study.shards, "shard"), count_text(study.jobs, "core"), request.mebibytes,
+      request.minutes, predicted_time(study), command));
   console.print_json({{"files", files},
                       {"submit", command},
                       {"shards", study.shards},
@@ -164,44 +139,33 @@ void print(const SlurmStudy& study, const ShardNeeds& needs, const path& folder,
                       {"time_s", 60 * request.minutes},
                       {"predicted_time_s", study.time},
                       {"predicted_memory_bytes", study.memory}});
-  if (needs.idle > 0) {
-    console.remark(fmt::format("{} of the {} shards will have nothing to do", needs.idle, study.shards));
-  }
 }
 
 }  // namespace
 
-ExitCode emit_command(const EmitArguments& arguments, Console& console) {
-  if (arguments.engine != "slurm") {
-    return refuse(fmt::format("emit: found {}; allowed: slurm", arguments.engine), console);
-  }
+ExitCode perform(const EmitArguments& arguments, Console& console) {
   const auto file = study::read_study(arguments.study);
-  if (!file) {
-    console.error(file.error());
-    return ExitCode::bad_input;
-  }
-  if (const auto error = study::all_out_of_reach(*file, {})) {
-    console.error(*error);
-    return ExitCode::bad_input;
-  }
+  if (!file) return console.refuse(file.error());
+  if (const auto error = study::all_out_of_reach(*file, {})) return console.refuse(*error);
   SlurmStudy study = slurm_study(arguments, *file);
-  if (const auto fault = fault_of(study)) return refuse(*fault, console);
+  if (const auto fault = fault_of(study)) return console.refuse(*fault);
   const store::Manifest manifest = study_manifest(*file, study.jobs);
   if (const auto obstacle = obstacle_in_folder(study.output, file->study.kind, manifest, false))
-    return refuse(*obstacle, console);
-  const ShardNeeds needs = foresee_needs(*file, study);
+    return console.refuse(*obstacle);
+  study::StudyOptions options;
+  options.jobs = study.jobs;
+  const ShardNeeds needs =
+      needs_of(study::forecast_study(*file, options, study.update_rate), study.shards, study.jobs);
   study.time = needs.time;
   study.memory = needs.memory;
 
   const path folder = slurm_folder(arguments.output);
   const std::vector<SlurmScript> scripts = slurm_scripts(study);
-  if (const auto obstacle = obstacle_in(folder, scripts)) return refuse(*obstacle, console);
-  if (const auto obstacle = prepare_output_folder(folder)) return refuse(*obstacle, console);
-  if (const auto error = write_scripts(folder, scripts)) {
-    console.error(error->message);
-    return ExitCode::failed;
-  }
-  print(study, needs, folder, scripts, console);
+  if (const auto obstacle = obstacle_in(folder, scripts)) return console.refuse(*obstacle);
+  if (const auto error = write_scripts(folder, scripts)) return console.fail(error->message);
+  print_scripts(study, folder, scripts, console);
+  if (needs.idle > 0)
+    console.remark(fmt::format("{} of the {} shards will have nothing to do", needs.idle, study.shards));
   return ExitCode::done;
 }
 

@@ -3,7 +3,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
-#include "launchsafe/store/own_files.hpp"
+#include "output_folder.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,8 +17,6 @@ namespace launchsafe::app {
 namespace {
 
 using verify::ErrorSeries, verify::PartSetting;
-
-constexpr const char *csv_name = "parts.csv", *page_name = "parts.md", *picture_name = "parts.svg";
 
 const char* const title = "Error against processor time of the parts with exact solutions";
 
@@ -188,19 +186,12 @@ nlohmann::ordered_json error_table_json(const std::vector<MeasuredSeries>& measu
   return object;
 }
 
-std::optional<std::string> obstacle_to_error_table(const std::filesystem::path& folder) {
-  for (const char* name : {csv_name, page_name, picture_name}) {
-    if (const auto error = store::obstacle_to_own_file(folder / name)) return error->message;
-  }
-  return std::nullopt;
-}
-
 store::Result<report::WrittenFiles> write_error_table(const std::vector<MeasuredSeries>& measured,
                                                       const std::string& command,
                                                       const std::filesystem::path& folder,
                                                       const report::DrawingLimits& limits) {
   report::WrittenFiles written;
-  std::string picture = picture_name;
+  std::string picture = "parts.svg";
   const report::Plot plot = plot_of(measured);
   if (plot.series.empty()) {
     written.remarks.push_back("no picture: every part asked for is exact at every setting");
@@ -208,16 +199,16 @@ store::Result<report::WrittenFiles> write_error_table(const std::vector<Measured
   } else if (auto error = report::write_svg(plot, folder / picture, limits)) {
     if (!report::is_of_drawing(*error)) return *error;
     written.remarks.push_back("no picture: " + error->message);
+    ++written.pictures_missing;
     picture.clear();
   } else {
     written.files.push_back(picture);
   }
-  const std::pair<const char*, std::string> texts[] = {{csv_name, report::to_csv(whole_table(measured))},
-                                                       {page_name, page_of(measured, command, picture)}};
-  for (const auto& [name, text] : texts) {
-    if (auto error = store::write_own_file(folder / name, {text})) return *error;
-    written.files.push_back(name);
-  }
+  if (auto error = write_texts(folder,
+                               {{"parts.csv", report::to_csv(whole_table(measured))},
+                                {"parts.md", page_of(measured, command, picture)}},
+                               written))
+    return *error;
   return written;
 }
 

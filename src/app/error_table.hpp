@@ -10,7 +10,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,10 +27,8 @@ std::string error_table_text(const std::vector<MeasuredSeries>& measured, const 
 nlohmann::ordered_json error_table_json(const std::vector<MeasuredSeries>& measured,
                                         const std::string& command);
 
-/// Why the files below may not be written into the folder. Changes nothing.
-std::optional<std::string> obstacle_to_error_table(const std::filesystem::path& folder);
-
-/// Writes parts.md, parts.csv and, where gnuplot is installed, parts.svg.
+inline const std::vector<std::string> error_table_files{"parts.csv", "parts.md", "parts.svg"};
+/// Writes these files, parts.svg only where gnuplot is installed.
 store::Result<report::WrittenFiles> write_error_table(const std::vector<MeasuredSeries>& measured,
                                                       const std::string& command,
                                                       const std::filesystem::path& folder,

@@ -3,10 +3,10 @@
 #include "explain_scene.hpp"
 #include "forecast_text.hpp"
 #include "launchsafe/report/section_drawing.hpp"
+#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
-#include "plausibility_text.hpp"
 #include "signals.hpp"
 #include "update_rate.hpp"
 
@@ -14,6 +14,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <algorithm>
+#include <map>
 #include <system_error>
 
 namespace launchsafe::app {
@@ -34,15 +36,46 @@ bool is_study(const std::filesystem::path& path) {
   return table && (table->contains("kind") || table->contains("scene"));
 }
 
-template <class Error>
-ExitCode refuse(const Error& error, Console& console) {
-  console.error(error);
-  return ExitCode::bad_input;
-}
-
 ExitCode interrupted(Console& console) {
   console.error("interrupted while measuring the speed of this machine; there is nothing to keep");
   return ExitCode::interrupted;
+}
+
+std::string line_of(const scene::Implausible& value) {
+  if (value.accepted()) return scene::accepted_text({value});
+  return "verdicts are in doubt: " + scene::doubt_text(value);
+}
+
+/// One sentence for every value that is not plausible, and for every acceptance that accepts nothing.
+std::vector<std::string> plausibility_lines(const scene::Scene& scene) {
+  std::vector<std::string> lines;
+  for (const scene::Implausible& each : scene::implausible_values(scene)) lines.push_back(line_of(each));
+  for (const std::string& key : scene::needless_acceptances(scene))
+    lines.push_back(fmt::format("accept names {}, whose value is plausible", key));
+  return lines;
+}
+
+/// The same for the cases of a study and what it states itself, each with the number of cases. Empty for kind
+/// stability, which judges without.
+std::vector<std::string> plausibility_lines(const study::StudyFile& study) {
+  if (study.study.kind == study::StudyKind::stability) return {};
+  std::vector<std::string> lines;
+  for (const scene::Implausible& each : study.study.implausible) lines.push_back(line_of(each));
+  std::vector<std::string> order;
+  std::map<std::string, std::size_t> cases;
+  for (const study::StudyCase& each : study.cases) {
+    for (const scene::Implausible& value : scene::implausible_values(each.scene.scene)) {
+      const std::string line = line_of(value);
+      if (++cases[line] == 1) order.push_back(line);
+    }
+  }
+  // A sensitivity study may have another value in every case.
+  constexpr std::size_t most_lines = 20;
+  for (std::size_t i = 0; i < std::min(order.size(), most_lines); ++i)
+    lines.push_back(fmt::format("{} ({} of {} cases)", order[i], cases[order[i]], study.cases.size()));
+  if (order.size() > most_lines)
+    lines.push_back(fmt::format("and {} other values like these", order.size() - most_lines));
+  return lines;
 }
 
 /// Nothing where all is plausible.
@@ -73,16 +106,13 @@ std::optional<std::string> obstacle_to_picture(const std::optional<std::filesyst
 
 ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
   const auto file = scene::read_scene(arguments.file);
-  if (!file) return refuse(file.error(), console);
+  if (!file) return console.refuse(file.error());
   const std::string svg = arguments.picture ? report::section_svg(file->scene) : std::string{};
-  if (const auto obstacle = obstacle_to_picture(arguments.picture, svg)) return refuse(*obstacle, console);
+  if (const auto obstacle = obstacle_to_picture(arguments.picture, svg)) return console.refuse(*obstacle);
   const double update_rate = measured_update_rate(file->scene);
   if (stop_requested()) return interrupted(console);
   if (arguments.picture) {
-    if (const auto error = write_where_absent(*arguments.picture, svg)) {
-      console.error(error->message);
-      return ExitCode::failed;
-    }
+    if (const auto error = write_where_absent(*arguments.picture, svg)) return console.fail(error->message);
     console.remark(fmt::format("wrote {}", arguments.picture->string()));
   }
   console.print_text(scene_text(file->scene, update_rate) + section_of(plausibility_lines(file->scene)));
@@ -94,7 +124,7 @@ ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
 
 ExitCode explain_study(const std::filesystem::path& path, Console& console) {
   const auto file = study::read_study(path);
-  if (!file) return refuse(file.error(), console);
+  if (!file) return console.refuse(file.error());
   const double update_rate = measured_update_rate(file->cases.front().scene.scene);
   if (stop_requested()) return interrupted(console);
   const study::Forecast forecast = study::forecast_study(*file, {}, update_rate);
@@ -108,13 +138,12 @@ ExitCode explain_study(const std::filesystem::path& path, Console& console) {
 
 }  // namespace
 
-ExitCode explain_command(const ExplainArguments& arguments, Console& console) {
+ExitCode perform(const ExplainArguments& arguments, Console& console) {
   if (arguments.keys) return explain_keys(console);
   if (!is_study(arguments.file)) return explain_scene(arguments, console);
   if (arguments.picture)
-    return refuse(
-        "--grid: found the study " + arguments.file.string() + "; allowed: a scene, such as the study's",
-        console);
+    return console.refuse("--grid: found the study " + arguments.file.string() +
+                          "; allowed: a scene, such as the study's");
   return explain_study(arguments.file, console);
 }
 

@@ -46,8 +46,7 @@ std::optional<std::string> obstacle(const VerifyArguments& arguments, const Want
                        arguments.filter, names, tube_name);
   }
   if (!arguments.output) return std::nullopt;
-  if (auto reason = obstacle_to_finite_element_files(*arguments.output)) return reason;
-  return prepare_output_folder(*arguments.output);
+  return obstacle_to_report(*arguments.output, finite_element_files);
 }
 
 store::MaybeError compare(const Wanted& wanted, Progress& progress, FiniteElementComparison& comparison) {
@@ -85,12 +84,8 @@ ExitCode present(const FiniteElementComparison& comparison, const VerifyArgument
   console.print_json(finite_element_json(comparison, command));
   if (arguments.output) {
     const auto written = write_finite_element_files(comparison, command, *arguments.output);
-    if (!written) {
-      console.error(written.error().message);
-      return ExitCode::failed;
-    }
-    console.remark(
-        fmt::format("wrote {} to {}", fmt::join(written->files, ", "), arguments.output->string()));
+    if (const ExitCode code = present_report(written, *arguments.output, console); code != ExitCode::done)
+      return code;
   }
   return misses_a_target(comparison) ? ExitCode::cases_failed : ExitCode::done;
 }
@@ -99,20 +94,16 @@ ExitCode present(const FiniteElementComparison& comparison, const VerifyArgument
 
 ExitCode compare_with_finite_elements(const VerifyArguments& arguments, Console& console) {
   FiniteElementComparison comparison;
-  if (const auto version = verify::finite_element_version()) {
-    comparison.version = *version;
-  } else {
-    console.error(version.error().kind == store::Error::Kind::missing
-                      ? "--finite-elements: found no program ccx (CalculiX; Debian: calculix-ccx); allowed: "
-                        "where it is installed"
-                      : "--finite-elements: " + version.error().message);
-    return ExitCode::bad_input;
+  const auto version = verify::finite_element_version();
+  if (!version) {
+    return console.refuse(version.error().kind == store::Error::Kind::missing
+                              ? "--finite-elements: found no program ccx (CalculiX; Debian: calculix-ccx); "
+                                "allowed: where it is installed"
+                              : "--finite-elements: " + version.error().message);
   }
+  comparison.version = *version;
   const Wanted wanted = wanted_by(arguments.filter);
-  if (const auto reason = obstacle(arguments, wanted)) {
-    console.error(*reason);
-    return ExitCode::bad_input;
-  }
+  if (const auto reason = obstacle(arguments, wanted)) return console.refuse(*reason);
   // Everything below looks at the wish to stop often enough to be waited for, and ends what it called.
   Progress progress(progress_style(console.quiet()));
   const store::MaybeError error = compare(wanted, progress, comparison);
@@ -121,10 +112,7 @@ ExitCode compare_with_finite_elements(const VerifyArguments& arguments, Console&
     console.error("interrupted; no stress was printed, and there is nothing to keep");
     return ExitCode::interrupted;
   }
-  if (error) {
-    console.error("--finite-elements: " + error->message);
-    return ExitCode::failed;
-  }
+  if (error) return console.fail("--finite-elements: " + error->message);
   return present(comparison, arguments, console);
 }
 

@@ -2,7 +2,7 @@
 
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/table.hpp"
-#include "launchsafe/store/own_files.hpp"
+#include "output_folder.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,8 +14,6 @@ namespace launchsafe::app {
 namespace {
 
 using verify::ParticleMeans, verify::StaticComparison, verify::StressMeasures;
-
-constexpr const char *stress_page_name = "summary.md", *stress_csv_name = "stresses.csv";
 
 const char* const stress_title = "Static stresses at the charge bottom against finite elements";
 
@@ -226,24 +224,15 @@ nlohmann::ordered_json finite_element_json(const FiniteElementComparison& compar
   return object;
 }
 
-std::optional<std::string> obstacle_to_finite_element_files(const std::filesystem::path& folder) {
-  for (const char* name : {stress_csv_name, stress_page_name}) {
-    if (const auto error = store::obstacle_to_own_file(folder / name)) return error->message;
-  }
-  return std::nullopt;
-}
-
 store::Result<report::WrittenFiles> write_finite_element_files(const FiniteElementComparison& comparison,
                                                                const std::string& command,
                                                                const std::filesystem::path& folder) {
   report::WrittenFiles written;
-  const std::pair<const char*, std::string> texts[] = {
-      {stress_csv_name, report::to_csv(whole_table(comparison))},
-      {stress_page_name, page_of(comparison, command)}};
-  for (const auto& [name, text] : texts) {
-    if (auto error = store::write_own_file(folder / name, {text})) return *error;
-    written.files.push_back(name);
-  }
+  if (auto error = write_texts(folder,
+                               {{"stresses.csv", report::to_csv(whole_table(comparison))},
+                                {"summary.md", page_of(comparison, command)}},
+                               written))
+    return *error;
   return written;
 }
 

@@ -27,10 +27,8 @@ std::string finite_element_text(const FiniteElementComparison& comparison, const
 nlohmann::ordered_json finite_element_json(const FiniteElementComparison& comparison,
                                            const std::string& command);
 
-/// Why the files below may not be written into the folder. Changes nothing.
-std::optional<std::string> obstacle_to_finite_element_files(const std::filesystem::path& folder);
-
-/// Writes summary.md and stresses.csv.
+inline const std::vector<std::string> finite_element_files{"stresses.csv", "summary.md"};
+/// Writes these files.
 store::Result<report::WrittenFiles> write_finite_element_files(const FiniteElementComparison& comparison,
                                                                const std::string& command,
                                                                const std::filesystem::path& folder);

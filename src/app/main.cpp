@@ -26,32 +26,11 @@ ExitCode perform(const Information& information, Console& console) {
 }
 
 ExitCode perform(const UsageError& error, Console& console) {
-  console.error(error.message + " (launchsafe --help shows the usage)");
-  return ExitCode::bad_input;
-}
-
-ExitCode perform(const RunArguments& arguments, Console& console) { return run_command(arguments, console); }
-ExitCode perform(const StudyArguments& arguments, Console& console) {
-  return study_command(arguments, console);
-}
-ExitCode perform(const MergeArguments& arguments, Console& console) {
-  return merge_command(arguments, console);
-}
-ExitCode perform(const EmitArguments& arguments, Console& console) {
-  return emit_command(arguments, console);
-}
-ExitCode perform(const ModelFormArguments& arguments, Console& console) {
-  return model_form_command(arguments, console);
-}
-ExitCode perform(const VerifyArguments& arguments, Console& console) {
-  return verify_command(arguments, console);
-}
-ExitCode perform(const ExplainArguments& arguments, Console& console) {
-  return explain_command(arguments, console);
+  return console.refuse(error.message + " (launchsafe --help shows the usage)");
 }
 
 /// Whatever a command throws is its error.
-ExitCode perform(const CommandLine& line, Console& console) {
+ExitCode perform_request(const CommandLine& line, Console& console) {
   try {
     return std::visit([&](const auto& request) { return perform(request, console); }, line.request);
   } catch (const std::bad_alloc&) {
@@ -96,7 +75,7 @@ int main(int argument_count, char** arguments) {
     catch_signals();
     const CommandLine line = parse_command_line(argument_count, arguments);
     Console console(line.quiet, line.json);
-    const ExitCode code = perform(line, console);
+    const ExitCode code = perform_request(line, console);
     return static_cast<int>(console.finish(code));
   } catch (const std::bad_alloc&) {
     return static_cast<int>(fail_at_once(out_of_memory));

@@ -61,12 +61,9 @@ std::size_t list_not_stored(const StudyResult& result, Console& console) {
 
 }  // namespace
 
-ExitCode merge_command(const MergeArguments& arguments, Console& console) {
+ExitCode perform(const MergeArguments& arguments, Console& console) {
   const auto file = study::read_study(arguments.study, {arguments.tolerance});
-  if (!file) {
-    console.error(file.error());
-    return ExitCode::bad_input;
-  }
+  if (!file) return console.refuse(file.error());
   study::StudyOptions options;
   options.jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
   options.stop = &stop_requested();

@@ -1,7 +1,6 @@
 // launchsafe model-form: how the critical gap changes with the model, from calibrations and sweeps.
 #include "commands.hpp"
 #include "launchsafe/report/model_form_report.hpp"
-#include "launchsafe/store/own_files.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "output_folder.hpp"
 #include "shell_words.hpp"
@@ -42,18 +41,6 @@ scene::Expected<Model> read_model(const path& folder) {
   return model;
 }
 
-ExitCode refuse_model_form(const std::string& message, Console& console) {
-  console.error(message);
-  return ExitCode::bad_input;
-}
-
-std::optional<std::string> obstacle_in_model_form_folder(const path& folder) {
-  for (const std::string& name : report::model_form_files()) {
-    if (const auto error = store::obstacle_to_own_file(folder / name)) return error->message;
-  }
-  return prepare_output_folder(folder);
-}
-
 std::string model_form_command_text(const ModelFormArguments& arguments) {
   std::vector<std::string> words{"launchsafe", "model-form"};
   for (const path& folder : arguments.folders) words.push_back(folder.string());
@@ -62,40 +49,31 @@ std::string model_form_command_text(const ModelFormArguments& arguments) {
 
 }  // namespace
 
-ExitCode model_form_command(const ModelFormArguments& arguments, Console& console) {
+ExitCode perform(const ModelFormArguments& arguments, Console& console) {
   std::list<Model> models;  // entries point into it
   std::set<std::string> names;
   report::ModelForm form;
   for (const path& folder : arguments.folders) {
     auto model = read_model(folder);
-    if (!model) {
-      console.error(model.error());
-      return ExitCode::bad_input;
-    }
+    if (!model) return console.refuse(model.error());
     if (!names.insert(model->name).second)
-      return refuse_model_form(fmt::format("model-form: found two models of the name {}", model->name),
-                               console);
+      return console.refuse(fmt::format("model-form: found two models of the name {}", model->name));
     models.push_back(std::move(*model));
     form.entries.push_back({models.back().name, &models.back().calibration, &models.back().curve});
   }
   auto made = study::make_model_form(form.entries);
-  if (!made.record) return refuse_model_form("model-form: " + made.error, console);
+  if (!made.record) return console.refuse("model-form: " + made.error);
   form.record = std::move(*made.record);
   form.command = model_form_command_text(arguments);
-  if (const auto obstacle = obstacle_in_model_form_folder(arguments.output))
-    return refuse_model_form(*obstacle, console);
+  if (const auto obstacle = obstacle_to_report(arguments.output, report::model_form_files()))
+    return console.refuse(*obstacle);
   const auto written = report::write_report(report::report_of(form), arguments.output);
-  if (!written) {
-    console.error(written.error().message);
-    return ExitCode::failed;
-  }
+  if (!written) return console.fail(written.error().message);
   const report::Table table = report::model_form_table(form);
   console.print_text(report::to_text(table));
   console.print_json({{"model_form", report::to_json(table)["rows"]},
                       {"constants", report::to_json(report::model_constants_table(form))["rows"]}});
-  for (const std::string& remark : written->remarks) console.remark(remark);
-  console.remark(fmt::format("wrote {} to {}", fmt::join(written->files, ", "), arguments.output.string()));
-  return ExitCode::done;
+  return present_report(written, arguments.output, console);
 }
 
 }  // namespace launchsafe::app

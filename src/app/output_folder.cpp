@@ -1,6 +1,7 @@
 #include "output_folder.hpp"
 
 #include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/own_files.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -39,6 +40,31 @@ std::optional<std::string> obstacle_to_file(const std::filesystem::path& file, s
 store::MaybeError write_where_absent(const std::filesystem::path& file, std::string_view content) {
   if (std::filesystem::exists(file)) return {};
   return store::write_file_atomically(file, {content}, store::IfExists::refuse);
+}
+
+std::optional<std::string> obstacle_to_report(const std::filesystem::path& folder,
+                                              const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (const auto error = store::obstacle_to_own_file(folder / name)) return error->message;
+  return prepare_output_folder(folder);
+}
+
+store::MaybeError write_texts(const std::filesystem::path& folder,
+                              const std::vector<std::pair<std::string, std::string>>& texts,
+                              report::WrittenFiles& written) {
+  for (const auto& [name, text] : texts) {
+    if (auto error = store::write_own_file(folder / name, {text})) return error;
+    written.files.push_back(name);
+  }
+  return {};
+}
+
+ExitCode present_report(const store::Result<report::WrittenFiles>& written,
+                        const std::filesystem::path& folder, Console& console) {
+  if (!written) return console.fail(written.error().message);
+  for (const std::string& remark : written->remarks) console.remark(remark);
+  console.remark(fmt::format("wrote {} to {}", fmt::join(written->files, ", "), folder.string()));
+  return ExitCode::done;
 }
 
 }  // namespace launchsafe::app

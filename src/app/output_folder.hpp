@@ -1,12 +1,16 @@
 // The places that a user names for results.
 #pragma once
 
+#include "console.hpp"
+#include "launchsafe/report/written_files.hpp"
 #include "launchsafe/store/result.hpp"
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace launchsafe::app {
 
@@ -21,5 +25,18 @@ std::optional<std::string> obstacle_to_file(const std::filesystem::path& file, s
 /// Writes a file, unless it is there with this content already; never over anything. `obstacle_to_file` has
 /// found nothing.
 store::MaybeError write_where_absent(const std::filesystem::path& file, std::string_view content);
+
+/// Why the files of a command's report may not be written into the folder, which is made where there is none.
+std::optional<std::string> obstacle_to_report(const std::filesystem::path& folder,
+                                              const std::vector<std::string>& names);
+
+/// Writes the texts of a command's report, each under its name. Errors: those of `store::write_own_file`.
+store::MaybeError write_texts(const std::filesystem::path& folder,
+                              const std::vector<std::pair<std::string, std::string>>& texts,
+                              report::WrittenFiles& written);
+
+/// Says what a command's report is made of and what it lacks, or why there is none.
+ExitCode present_report(const store::Result<report::WrittenFiles>& written,
+                        const std::filesystem::path& folder, Console& console);
 
 }  // namespace launchsafe::app

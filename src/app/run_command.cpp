@@ -1,14 +1,15 @@
 // launchsafe run: one case.
 #include "case_summary.hpp"
 #include "commands.hpp"
+#include "explain_scene.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/own_files.hpp"
 #include "launchsafe/study/scheduler.hpp"
 #include "output_folder.hpp"
-#include "plausibility_text.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 
@@ -71,27 +72,15 @@ ExitCode report_interruption(const RunArguments& arguments, const run::Mechanics
   return ExitCode::interrupted;
 }
 
-ExitCode write_exit_code(const store::Error& error) {
-  return error.kind == store::Error::Kind::conflict || error.kind == store::Error::Kind::corrupt
-             ? ExitCode::bad_input
-             : ExitCode::failed;
-}
-
 }  // namespace
 
-ExitCode run_command(const RunArguments& arguments, Console& console) {
+ExitCode perform(const RunArguments& arguments, Console& console) {
   const auto file = scene::read_scene(arguments.scene);
-  if (!file) {
-    console.error(file.error());
-    return ExitCode::bad_input;
-  }
+  if (!file) return console.refuse(file.error());
   const scene::Scene& scene = file->scene;
   run::Reach reach{.memory = study::available_memory(), .keeps_skins = true};
   if (arguments.longest_run) reach.longest_run = *arguments.longest_run;
-  if (const auto error = run::out_of_reach(*file, reach)) {
-    console.error(*error);
-    return ExitCode::bad_input;
-  }
+  if (const auto error = run::out_of_reach(*file, reach)) return console.refuse(*error);
   store::Manifest manifest = store::make_manifest(scene::to_toml(scene), 1);
   std::filesystem::path target;
   if (arguments.output) {
@@ -99,10 +88,7 @@ ExitCode run_command(const RunArguments& arguments, Console& console) {
     auto obstacle = obstacle_at(target, manifest);
     if (!obstacle && !scene.output.snapshot_times.empty()) obstacle = obstacle_to_sidecar(target);
     if (!obstacle) obstacle = prepare_output_folder(*arguments.output);
-    if (obstacle) {
-      console.error(*obstacle);
-      return ExitCode::bad_input;
-    }
+    if (obstacle) return console.refuse(*obstacle);
   }
 
   for (const scene::Implausible& each : scene::implausible_values(scene)) {
@@ -114,10 +100,8 @@ ExitCode run_command(const RunArguments& arguments, Console& console) {
     return report_interruption(arguments, result.mechanics, scene, console);
   }
   if (!target.empty()) {
-    if (const auto error = store::write_case_file(target, scene, result, manifest)) {
-      console.error(error->message);
-      return write_exit_code(*error);
-    }
+    if (const auto error = store::write_case_file(target, scene, result, manifest))
+      return console.end_with(*error);
     console.remark(fmt::format("wrote {}", target.string()));
   }
   console.print_text(case_text(scene, result));

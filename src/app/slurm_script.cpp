@@ -6,10 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <span>
+#include <initializer_list>
+#include <map>
+#include <utility>
 
 namespace launchsafe::app {
 namespace {
@@ -24,7 +25,35 @@ constexpr long cases_merged_a_minute = 100;  ///< far fewer than any machine doe
 
 /// Runs the shard, tells it when the time is nearly up, and puts the task back into the queue where the
 /// program says that it was interrupted and nobody has cancelled it.
-constexpr std::string_view shard_body = R"sh(
+constexpr std::string_view shard_template = R"sh(#!/bin/sh
+# A Slurm job array; each task is one of {shards_text} of a launchsafe study. submit.sh submits it. What is finished stays in
+# the folder of the results, so that the array may be submitted again and goes on from there.
+#
+# Time: the slowest shard is predicted to take {time} at {rate} million particle updates per second on a core;
+# asked for are {time_factor} times that, {least_minutes} min at least. A minute before the end the program is told to stop, and the task is
+# queued again for the rest, unless not one case was finished.
+# Memory: {memory_text}
+# Ends with 0 when every case has a result or is known to have failed (the merge counts those), 75 when interrupted
+# and not queued again, 70 when the machine failed, 2 when the study cannot be run here.
+#
+#SBATCH --job-name={job}
+#SBATCH --array=1-{shards}
+#SBATCH --ntasks=1
+#SBATCH --cpus-per-task={jobs}
+#SBATCH --mem={mebibytes}M
+#SBATCH --time={shard_limit}
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --signal=B:USR1@60
+#SBATCH --output="{logs}/%x-%a.log"
+{shard_options}
+program={program}
+study={study}
+output={output}
+run_shard() {
+  exec "$program" study "$study" -o "$output" --shard "$SLURM_ARRAY_TASK_ID/{shards}" --jobs {jobs}{limits}
+}
+
 task="${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
 stored() { find "$output/cases" -name "*.h5" 2>/dev/null | wc -l; }
 stored_before=$(stored)
@@ -66,21 +95,33 @@ esac
 exit "$code"
 )sh";
 
-constexpr std::string_view merge_remarks = R"sh(#!/bin/sh
+constexpr std::string_view merge_template = R"sh(#!/bin/sh
 # The Slurm job behind the array of shard.sbatch: checks that no case is missing and writes the report. It starts when
 # every shard has ended, however it ended.
 # Ends as `launchsafe merge` does: 0 done, 4 done but a verdict is indeterminate, 3 when cases failed or are missing.
 # The log says which; submit.sh then runs what is missing and merges again.
 #
+#SBATCH --job-name={job}-merge
+#SBATCH --ntasks=1
+#SBATCH --cpus-per-task={jobs}
+#SBATCH --mem={mebibytes}M
+#SBATCH --time={merge_limit}
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --output="{logs}/%x.log"
+{merge_options}
+program={program}
+study={study}
+output={output}
+exec "$program" merge "$study" -o "$output" --jobs {jobs}
 )sh";
 
-constexpr std::string_view submit_remarks = R"sh(#!/bin/sh
+constexpr std::string_view submit_template = R"sh(#!/bin/sh
 # Submits a launchsafe study to Slurm: its shards (shard.sbatch) and, behind them, the merge (merge.sbatch). Prints
 # both job numbers. May be run again when both have ended: only what is missing is computed.
 
-)sh";
+folder={folder}
 
-constexpr std::string_view submit_body = R"sh(
 set -eu
 fail() {
   echo "submit.sh: $1" >&2
@@ -93,11 +134,21 @@ shards=${shards%%;*}  # "ID;CLUSTER" where there are several clusters
 merge=$(sbatch --parsable --dependency="afterany:$shards" "$folder/merge.sbatch") ||
   fail "Slurm took the shards (job $shards) but not the merge; when they have ended: sbatch '$folder/merge.sbatch'"
 merge=${merge%%;*}
+echo "submitted: {shards_text} as job $shards, the merge as job $merge"
+echo "to watch: squeue --jobs=$shards,$merge; logs in $folder"
 )sh";
 
-/// Those of a job's options that a merge must not have: it is one task.
-bool is_for_the_array(std::string_view option) {
-  return option.starts_with("--array") || option.starts_with("-a");
+/// The template with the value of every {name}; other braces are the shell's.
+std::string filled_in(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
+  std::string script;
+  for (std::size_t open = text.find('{'); open != std::string_view::npos; open = text.find('{')) {
+    const std::size_t close = text.find('}', open);
+    const auto value = values.find(text.substr(open + 1, close - open - 1));
+    script += text.substr(0, open);
+    script += value == values.end() ? "{" : value->second;
+    text.remove_prefix(value == values.end() ? open + 1 : close + 1);
+  }
+  return script.append(text);
 }
 
 bool has_control_character(std::string_view text) {
@@ -120,41 +171,28 @@ std::string slurm_time(long minutes) {
   return fmt::format("{}-{:02}:{:02}:00", minutes / day, minutes % day / hour, minutes % hour);
 }
 
-/// The log's name in quotes as sbatch reads them. In the folder's name no letter is a pattern.
-std::string log_option(const SlurmStudy& study, std::string_view pattern) {
+/// The folder of the logs inside quotes as sbatch reads them; in its name no letter is a pattern.
+std::string log_folder(const SlurmStudy& study) {
   std::string folder;
   for (const char letter : slurm_folder(study.output).string()) {
     if (letter == '"') folder += '\\';
     if (letter == '%') folder += '%';
     folder += letter;
   }
-  return fmt::format("--output=\"{}/{}\"", folder, pattern);
+  return folder;
 }
 
-struct Unit {
-  double size;
-  std::string_view name;
-};
-constexpr std::array<Unit, 4> slurm_sizes{{{1e9, "GB"}, {1e6, "MB"}, {1e3, "kB"}, {1, "B"}}};
-constexpr std::array<Unit, 3> slurm_durations{{{3600, "h"}, {60, "min"}, {1, "s"}}};
-
 /// The number in the largest unit of which it is a whole multiple, as the program reads it: "8GB", "90s".
-std::string amount(double value, std::span<const Unit> units) {
-  for (const Unit& unit : units) {
-    const double number = std::round(value / unit.size);
-    if (number * unit.size == value) return fmt::format("{}{}", report::exact(number), unit.name);
+std::string amount(double value, std::initializer_list<std::pair<double, const char*>> units) {
+  for (const auto& [size, name] : units) {
+    const double number = std::round(value / size);
+    if (number * size == value) return report::exact(number) + name;
   }
   return report::exact(value);
 }
 
-std::string count_of_shards(const SlurmStudy& study) {
-  return fmt::format("{} shard{}", study.shards, study.shards == 1 ? "" : "s");
-}
-
-std::string directives(const std::vector<std::string>& options) {
-  std::string text;
-  for (const std::string& option : options) text += fmt::format("#SBATCH {}\n", option);
-  return text;
+std::string size_text(double bytes) {
+  return amount(bytes, {{1e9, "GB"}, {1e6, "MB"}, {1e3, "kB"}, {1, "B"}});
 }
 
 /// A user's option as sbatch reads it: the blanks of "--comment=my study" belong to the value. Where there
@@ -167,19 +205,20 @@ std::string user_option(const std::string& option) {
   return fmt::format("{}\"{}\"", option.substr(0, value), option.substr(value));
 }
 
-std::string variable(std::string_view name, std::string_view value) {
-  return fmt::format("{}={}\n", name, shell_quoted(value));
+/// The user's options, one to a line. A merge is one task, and has none of those of an array.
+std::string user_options(const SlurmStudy& study, bool of_merge) {
+  std::string lines;
+  for (const std::string& option : study.sbatch) {
+    if (of_merge && (option.starts_with("--array") || option.starts_with("-a"))) continue;
+    lines += fmt::format("#SBATCH {}\n", user_option(option));
+  }
+  return lines;
 }
 
-std::string paths(const SlurmStudy& study) {
-  return variable("program", study.program.string()) + variable("study", study.study.string()) +
-         variable("output", study.output.string());
-}
-
-std::string memory_remark(const SlurmStudy& study) {
+std::string memory_text(const SlurmStudy& study) {
   if (study.memory_limit) {
     return fmt::format("{} as given, nine tenths of it for the cases that run side by side.",
-                       amount(*study.memory_limit, slurm_sizes));
+                       size_text(*study.memory_limit));
   }
   return fmt::format(
       "{:.1f} MiB are predicted for the cases that run side by side; asked for are a quarter more and {} "
@@ -187,89 +226,21 @@ std::string memory_remark(const SlurmStudy& study) {
       study.memory / mebibyte, spare_mebibytes);
 }
 
-std::string shard_remarks(const SlurmStudy& study) {
-  return fmt::format(R"sh(#!/bin/sh
-# A Slurm job array; each task is one of {} of a launchsafe study. submit.sh submits it. What is finished stays in
-# the folder of the results, so that the array may be submitted again and goes on from there.
-#
-# Time: the slowest shard is predicted to take {} at {:.3g} million particle updates per second on a core;
-# asked for are {:.3g} times that, {} min at least. A minute before the end the program is told to stop, and the task is
-# queued again for the rest, unless not one case was finished.
-# Memory: {}
-# Ends with 0 when every case has a result or is known to have failed (the merge counts those), 75 when interrupted
-# and not queued again, 70 when the machine failed, 2 when the study cannot be run here.
-#
-)sh",
-                     count_of_shards(study), predicted_time(study), study.update_rate / 1e6, time_factor,
-                     least_minutes, memory_remark(study));
-}
-
-std::string shard_directives(const SlurmStudy& study) {
-  const SlurmRequest request = request_of(study);
-  std::vector<std::string> options{
-      "--job-name=" + job_name(study),
-      fmt::format("--array=1-{}", study.shards),
-      "--ntasks=1",
-      fmt::format("--cpus-per-task={}", study.jobs),
-      fmt::format("--mem={}M", request.mebibytes),
-      "--time=" + slurm_time(request.minutes),
-      "--requeue",
-      "--open-mode=append",
-      "--signal=B:USR1@60",
-      log_option(study, "%x-%a.log"),
-  };
-  for (const std::string& option : study.sbatch) options.push_back(user_option(option));
-  return directives(options);
-}
-
-std::string shard_command(const SlurmStudy& study) {
-  std::string command = fmt::format(
-      R"sh(exec "$program" study "$study" -o "$output" --shard "$SLURM_ARRAY_TASK_ID/{}" --jobs {})sh",
-      study.shards, study.jobs);
-  if (study.memory_limit) {
-    command += " --memory " + amount(std::floor(share_for_cases * *study.memory_limit), slurm_sizes);
-  }
-  if (study.time_limit) command += " --time-limit " + amount(*study.time_limit, slurm_durations);
-  return fmt::format("run_shard() {{\n  {}\n}}\n", command);
-}
-
-std::string shard_script(const SlurmStudy& study) {
-  return shard_remarks(study) + shard_directives(study) + "\n" + paths(study) + shard_command(study) +
-         std::string(shard_body);
-}
-
-std::string merge_directives(const SlurmStudy& study) {
-  const long minutes = least_minutes + static_cast<long>(study.cases) / cases_merged_a_minute;
-  std::vector<std::string> options{
-      "--job-name=" + job_name(study) + "-merge",
-      "--ntasks=1",
-      fmt::format("--cpus-per-task={}", study.jobs),
-      fmt::format("--mem={}M", request_of(study).mebibytes),
-      "--time=" + slurm_time(minutes),
-      "--requeue",
-      "--open-mode=append",
-      log_option(study, "%x.log"),
-  };
-  for (const std::string& option : study.sbatch) {
-    if (!is_for_the_array(option)) options.push_back(user_option(option));
-  }
-  return directives(options);
-}
-
-std::string merge_script(const SlurmStudy& study) {
-  return std::string(merge_remarks) + merge_directives(study) + "\n" + paths(study) +
-         fmt::format(R"sh(exec "$program" merge "$study" -o "$output" --jobs {})sh", study.jobs) + "\n";
-}
-
-std::string submit_script(const SlurmStudy& study) {
-  return std::string(submit_remarks) + variable("folder", slurm_folder(study.output).string()) +
-         std::string(submit_body) +
-         fmt::format("echo \"submitted: {} as job $shards, the merge as job $merge\"\n",
-                     count_of_shards(study)) +
-         "echo \"to watch: squeue --jobs=$shards,$merge; logs in $folder\"\n";
+/// The limits of a shard, as options of the program.
+std::string limits_of(const SlurmStudy& study) {
+  std::string options;
+  if (study.memory_limit)
+    options += " --memory " + size_text(std::floor(share_for_cases * *study.memory_limit));
+  if (study.time_limit)
+    options += " --time-limit " + amount(*study.time_limit, {{3600, "h"}, {60, "min"}, {1, "s"}});
+  return options;
 }
 
 }  // namespace
+
+std::string count_text(int count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
 
 SlurmRequest request_of(const SlurmStudy& study) {
   const auto rounded_up = [](double number) { return static_cast<long>(std::ceil(number)); };
@@ -303,9 +274,31 @@ std::string predicted_time(const SlurmStudy& study) {
 std::filesystem::path slurm_folder(const std::filesystem::path& output) { return output / "slurm"; }
 
 std::vector<SlurmScript> slurm_scripts(const SlurmStudy& study) {
-  return {{"shard.sbatch", shard_script(study)},
-          {"merge.sbatch", merge_script(study)},
-          {std::string(submit_name), submit_script(study)}};
+  const SlurmRequest request = request_of(study);
+  const std::map<std::string, std::string, std::less<>> values{
+      {"folder", shell_quoted(slurm_folder(study.output).string())},
+      {"job", job_name(study)},
+      {"jobs", std::to_string(study.jobs)},
+      {"least_minutes", std::to_string(least_minutes)},
+      {"limits", limits_of(study)},
+      {"logs", log_folder(study)},
+      {"mebibytes", std::to_string(request.mebibytes)},
+      {"memory_text", memory_text(study)},
+      {"merge_limit", slurm_time(least_minutes + static_cast<long>(study.cases) / cases_merged_a_minute)},
+      {"merge_options", user_options(study, true)},
+      {"output", shell_quoted(study.output.string())},
+      {"program", shell_quoted(study.program.string())},
+      {"rate", fmt::format("{:.3g}", study.update_rate / 1e6)},
+      {"shard_limit", slurm_time(request.minutes)},
+      {"shard_options", user_options(study, false)},
+      {"shards", std::to_string(study.shards)},
+      {"shards_text", count_text(study.shards, "shard")},
+      {"study", shell_quoted(study.study.string())},
+      {"time", predicted_time(study)},
+      {"time_factor", fmt::format("{:.3g}", time_factor)}};
+  return {{"shard.sbatch", filled_in(shard_template, values)},
+          {"merge.sbatch", filled_in(merge_template, values)},
+          {std::string(submit_name), filled_in(submit_template, values)}};
 }
 
 }  // namespace launchsafe::app

@@ -33,6 +33,8 @@ struct SlurmRequest {
 SlurmRequest request_of(const SlurmStudy& study);
 /// The slowest shard's, for people.
 std::string predicted_time(const SlurmStudy& study);
+/// "1 shard", "20 shards".
+std::string count_text(int count, std::string_view what);
 
 /// Why no script can be written; nothing when one can.
 std::optional<std::string> fault_of(const SlurmStudy& study);

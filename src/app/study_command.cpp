@@ -1,15 +1,22 @@
-// launchsafe study: many cases, kept as they end, then tables and an answer.
+// launchsafe study: many cases, kept as they end, then tables and an answer; with --dry-run what these would
+// cost.
 #include "commands.hpp"
 #include "forecast_text.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 #include "study_folder.hpp"
 #include "study_manifest.hpp"
 #include "study_session.hpp"
+#include "update_rate.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <memory>
 
 namespace launchsafe::app {
 namespace {
@@ -21,9 +28,9 @@ std::string progress_line(const study::Progress& progress) {
                      progress.running, 100.0 * progress.fraction, left);
 }
 
-study::StudyOptions options_of(const StudyArguments& arguments, store::CaseStore* store) {
+study::StudyOptions options_of(const StudyArguments& arguments, int jobs, store::CaseStore* store) {
   study::StudyOptions options;
-  options.jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
+  options.jobs = jobs;
   options.memory_limit = arguments.memory.value_or(options.memory_limit);
   options.time_limit = arguments.time_limit.value_or(options.time_limit);
   options.longest_run = arguments.longest_run.value_or(options.longest_run);
@@ -55,21 +62,60 @@ std::optional<scene::InputError> refusal_of(const study::StudyFile& file, const 
   return study::all_out_of_reach(file, reach);
 }
 
+/// Whether runs of the past tell how fast this machine is.
+bool knows_rate(const store::CaseStore* store) {
+  if (store == nullptr) return false;
+  const std::vector<store::JournalEntry> entries = store->entries();
+  return std::any_of(entries.begin(), entries.end(), [](const store::JournalEntry& entry) {
+    return entry.state == store::CaseState::done && entry.wall_time > 0 && entry.predicted_updates > 0;
+  });
+}
+
+/// The store in the study's folder, only to be looked at, or nullptr where there is none.
+store::Result<std::unique_ptr<store::CaseStore>> store_for(const StudyArguments& arguments) {
+  if (arguments.output.empty() || !holds_store(arguments.output)) return std::unique_ptr<store::CaseStore>{};
+  return store::CaseStore::open_to_read(arguments.output, run::model_version);
+}
+
+/// Says so where the study itself would refuse the folder.
+void remark_obstacle(const study::StudyFile& file, const StudyArguments& arguments, const Console& console) {
+  if (arguments.output.empty()) return;
+  if (const auto obstacle =
+          obstacle_in_folder(arguments.output, file.study.kind, study_manifest(file, 1), arguments.update))
+    console.remark(*obstacle);
+}
+
+/// What the study would run, and at what cost; nothing is written.
+ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, Console& console) {
+  remark_obstacle(file, arguments, console);
+  const auto store = store_for(arguments);
+  if (!store) return console.fail(store.error().message);
+  const double update_rate =
+      knows_rate(store->get()) ? 0.0 : measured_update_rate(file.cases.front().scene.scene);
+  if (stop_requested()) {
+    console.error("interrupted while measuring the speed of this machine; there is nothing to keep");
+    return ExitCode::interrupted;
+  }
+  const study::Forecast forecast =
+      study::forecast_study(file, options_of(arguments, arguments.jobs, store->get()), update_rate);
+  if (*store) {
+    for (const std::string& remark : (*store)->remarks()) console.remark(remark);
+  }
+  console.print_text(forecast_text(file, forecast, arguments.output));
+  console.print_json(forecast_json(file, forecast));
+  return ExitCode::done;
+}
+
 }  // namespace
 
-ExitCode study_command(const StudyArguments& arguments, Console& console) {
-  if (arguments.dry_run) return dry_run_command(arguments, console);
+ExitCode perform(const StudyArguments& arguments, Console& console) {
   const auto file = study::read_study(arguments.study, {arguments.tolerance});
-  if (!file) {
-    console.error(file.error());
-    return ExitCode::bad_input;
-  }
+  if (!file) return console.refuse(file.error());
   if (!file->chosen_setting.empty()) console.remark("setting: " + file->chosen_setting);
-  study::StudyOptions options = options_of(arguments, nullptr);
-  if (const auto error = refusal_of(*file, arguments, options)) {
-    console.error(*error);
-    return ExitCode::bad_input;
-  }
+  if (arguments.dry_run) return dry_run(*file, arguments, console);
+  const int jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
+  study::StudyOptions options = options_of(arguments, jobs, nullptr);
+  if (const auto error = refusal_of(*file, arguments, options)) return console.refuse(*error);
   StudySession session({arguments.study, arguments.output, file->study.kind, arguments.update,
                         arguments.shard.part(), arguments.command, study_manifest(*file, options.jobs)},
                        console);

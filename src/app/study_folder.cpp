@@ -26,7 +26,7 @@ constexpr std::string_view manifest_name = "manifest.json";
 store::Result<store::OwnFiles> own_files(const path& folder, const store::Result<StudyRecord>& record) {
   auto own = store::OwnFiles::read(folder);
   if (!own || !record) return own;
-  for (const store::WrittenFile& file : written_files(*record)) own->add(file);
+  for (const store::WrittenFile& file : record->files) own->add(file);
   return own;
 }
 
@@ -44,7 +44,7 @@ std::vector<std::string> report_names_in(const path& folder, study::StudyKind ki
 
 std::vector<std::string> names_of(const StudyRecord& record) {
   std::vector<std::string> names;
-  for (const ReportFile& file : record.files) names.push_back(file.name);
+  for (const store::WrittenFile& file : record.files) names.push_back(file.name);
   return names;
 }
 
@@ -167,7 +167,7 @@ store::Result<path> take_folder(const path& folder, const store::Manifest& manif
   if (!own) return own.error();
   if (record) {
     // An older program kept no journal of files; its manifest knows them, and it is one.
-    std::vector<store::WrittenFile> files = written_files(*record);
+    std::vector<store::WrittenFile> files = record->files;
     if (const auto digest = manifest_digest(folder);
         digest && own->state_of(std::string(manifest_name)) == FileState::foreign)
       files.push_back({std::string(manifest_name), *digest});

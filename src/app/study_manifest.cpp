@@ -8,11 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <optional>
 #include <sstream>
-#include <system_error>
+#include <utility>
 
 namespace launchsafe::app {
 namespace {
@@ -30,11 +29,9 @@ std::string values_of(const std::string& path) {
   return values.str();
 }
 
-nlohmann::ordered_json files_json(const std::vector<ReportFile>& files) {
+nlohmann::ordered_json files_json(const std::vector<store::WrittenFile>& files) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const ReportFile& file : files)
-    list.push_back(
-        {{"name", file.name}, {"bytes", file.size}, {"modified_ns", file.time}, {"sha256", file.sha256}});
+  for (const store::WrittenFile& file : files) list.push_back({{"name", file.name}, {"sha256", file.sha256}});
   return list;
 }
 
@@ -60,16 +57,15 @@ nlohmann::ordered_json json_of(const StudyRecord& record) {
           {"input", manifest.input_text}};
 }
 
-std::vector<ReportFile> files_from(const nlohmann::json& list) {
-  std::vector<ReportFile> files;
+std::vector<store::WrittenFile> files_from(const nlohmann::json& list) {
+  std::vector<store::WrittenFile> files;
   for (const auto& each : list) {
     // A name that leads out of the folder is none of ours.
     const std::string name = each.value("name", "");
     if (name.empty() || name == "." || name == ".." || name == "cases" ||
         std::filesystem::path(name).filename() != name)
       continue;
-    files.push_back({name, each.value("bytes", std::uintmax_t{0}), each.value("modified_ns", std::int64_t{0}),
-                     each.value("sha256", "")});
+    files.push_back({name, each.value("sha256", "")});
   }
   return files;
 }
@@ -100,18 +96,6 @@ StudyRecord record_from(const nlohmann::json& object) {
   record.complete = object.value("complete", true);
   record.failures = object.value("failures_sha256", "");
   return record;
-}
-
-/// Size and time alone.
-std::optional<ReportFile> quick_record(const std::filesystem::path& folder, const std::string& name) {
-  std::error_code failed;
-  ReportFile file{name, std::filesystem::file_size(folder / name, failed), 0, {}};
-  if (failed) return std::nullopt;
-  const auto time = std::filesystem::last_write_time(folder / name, failed);
-  if (failed) return std::nullopt;
-  const auto since_epoch = std::chrono::file_clock::to_sys(time).time_since_epoch();
-  file.time = std::chrono::duration_cast<std::chrono::nanoseconds>(since_epoch).count();
-  return file;
 }
 
 std::optional<std::string> digest_of(const std::filesystem::path& path) {
@@ -176,30 +160,17 @@ std::optional<std::string> manifest_digest(const std::filesystem::path& folder) 
   return digest_of(manifest_path(folder));
 }
 
-std::vector<store::WrittenFile> written_files(const StudyRecord& record) {
+std::vector<store::WrittenFile> record_files(const std::filesystem::path& folder,
+                                             const std::vector<std::string>& names) {
   std::vector<store::WrittenFile> files;
-  for (const ReportFile& file : record.files) files.push_back({file.name, file.sha256});
+  for (const std::string& name : names)
+    if (auto digest = digest_of(folder / name)) files.push_back({name, std::move(*digest)});
   return files;
 }
 
-std::vector<ReportFile> record_files(const std::filesystem::path& folder,
-                                     const std::vector<std::string>& names) {
-  std::vector<ReportFile> files;
-  for (const std::string& name : names) {
-    auto file = quick_record(folder, name);
-    const auto digest = digest_of(folder / name);
-    if (!file || !digest) continue;
-    file->sha256 = *digest;
-    files.push_back(std::move(*file));
-  }
-  return files;
-}
-
-bool files_unchanged(const std::filesystem::path& folder, const std::vector<ReportFile>& files) {
-  return std::all_of(files.begin(), files.end(), [&](const ReportFile& file) {
-    const auto now = quick_record(folder, file.name);
-    if (!now || now->size != file.size) return false;
-    return now->time == file.time || digest_of(folder / file.name) == file.sha256;
+bool files_unchanged(const std::filesystem::path& folder, const std::vector<store::WrittenFile>& files) {
+  return std::all_of(files.begin(), files.end(), [&](const store::WrittenFile& file) {
+    return digest_of(folder / file.name) == file.sha256;
   });
 }
 

@@ -6,7 +6,6 @@
 #include "launchsafe/store/result.hpp"
 #include "launchsafe/study/read_study.hpp"
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,21 +13,12 @@
 
 namespace launchsafe::app {
 
-/// A file that a report wrote, as it was then.
-struct ReportFile {
-  std::string name;  ///< in the folder
-  std::uintmax_t size = 0;
-  std::int64_t time = 0;  ///< ns, of the last modification
-  std::string sha256;
-  bool operator==(const ReportFile&) const = default;
-};
-
 /// What manifest.json says.
 struct StudyRecord {
   store::Manifest manifest;
-  std::vector<ReportFile> files;  ///< none while the study is not finished
-  bool complete = true;           ///< the report lacks no picture
-  std::string failures;           ///< digest of what failed, which a report tells too
+  std::vector<store::WrittenFile> files;  ///< of the report; none while the study is not finished
+  bool complete = true;                   ///< the report lacks no picture
+  std::string failures;                   ///< digest of what failed, which a report tells too
 };
 
 /// The manifest of a study: its input is the model version, what the study file says, without remarks and in
@@ -47,14 +37,11 @@ std::optional<std::string> manifest_digest(const std::filesystem::path& folder);
 /// Writes manifest.json; never over one that is not ours.
 store::MaybeError write_study_record(const std::filesystem::path& folder, const StudyRecord& record);
 
-/// The files of a record as a record of the folder knows them.
-std::vector<store::WrittenFile> written_files(const StudyRecord& record);
-
 /// Files as they are now; those that are not there are left out.
-std::vector<ReportFile> record_files(const std::filesystem::path& folder,
-                                     const std::vector<std::string>& names);
+std::vector<store::WrittenFile> record_files(const std::filesystem::path& folder,
+                                             const std::vector<std::string>& names);
 
-/// Whether every file is as it was recorded. A file of the recorded size and time is trusted.
-bool files_unchanged(const std::filesystem::path& folder, const std::vector<ReportFile>& files);
+/// Whether every file has the content that was recorded.
+bool files_unchanged(const std::filesystem::path& folder, const std::vector<store::WrittenFile>& files);
 
 }  // namespace launchsafe::app

@@ -70,32 +70,25 @@ nlohmann::ordered_json shard_json(const StudyResult& result, const study::Shard&
 StudySession::StudySession(SessionRequest request, Console& console)
     : request_(std::move(request)), console_(console) {}
 
-ExitCode StudySession::refuse(const store::Error& error) {
-  console_.error(error.message);
-  const bool folder_is_wrong =
-      error.kind == store::Error::Kind::conflict || error.kind == store::Error::Kind::corrupt;
-  return folder_is_wrong ? ExitCode::bad_input : ExitCode::failed;
-}
-
 ExitCode StudySession::open() {
   auto obstacle = obstacle_in_folder(request_.folder, request_.kind, request_.manifest, request_.update);
   if (!obstacle) obstacle = prepare_output_folder(request_.folder);
-  if (obstacle) return refuse({store::Error::Kind::conflict, *obstacle});
+  if (obstacle) return console_.refuse(*obstacle);
   store::StoreOptions options;
   options.part = request_.part;
   options.model_version = request_.manifest.model_version;
   options.on_failure = [](const store::Error&) { stop_requested() = true; };
   auto opened = store::CaseStore::open(request_.folder, options);
-  if (!opened) return refuse(opened.error());
+  if (!opened) return console_.end_with(opened.error());
   store_ = std::move(*opened);
   print_remarks();
   // Until the lock was ours somebody else may have been at work here.
   if (const auto late =
           obstacle_in_folder(request_.folder, request_.kind, request_.manifest, request_.update))
-    return refuse({store::Error::Kind::conflict, *late});
+    return console_.refuse(*late);
   if (request_.part.empty()) remove_leftovers(request_.folder);
   const auto moved = take_folder(request_.folder, request_.manifest);
-  if (!moved) return refuse(moved.error());
+  if (!moved) return console_.end_with(moved.error());
   if (!moved->empty()) console_.remark(fmt::format("the earlier report moved to {}", moved->string()));
   return ExitCode::done;
 }
@@ -162,7 +155,7 @@ ExitCode StudySession::deliver_whole(const StudyResult& result) {
 
 ExitCode StudySession::keep_edited_files() {
   const auto moved = store::set_edited_aside(request_.folder);
-  if (!moved) return refuse(moved.error());
+  if (!moved) return console_.end_with(moved.error());
   for (const std::string& name : *moved)
     console_.remark(fmt::format("a file was edited since it was written; it is kept as {}",
                                 (request_.folder / name).string()));
@@ -179,23 +172,22 @@ ExitCode StudySession::write_files(const StudyResult& result, const std::vector<
   }
   if (const ExitCode code = keep_edited_files(); code != ExitCode::done) return code;
   const auto written = report::write_report(report_of(result), request_.folder, {.stop = &stop_requested()});
-  if (!written) return refuse(written.error());
+  if (!written) return console_.end_with(written.error());
   for (const std::string& remark : written->remarks) console_.remark(remark);
   StudyRecord record{request_.manifest, {}, true, digest};
   record.manifest.wall_time = timing_of(result).wall_time;
   // A report that lacks a picture is no finished one: the next time it is written again.
-  record.complete = std::none_of(written->remarks.begin(), written->remarks.end(),
-                                 [](const std::string& remark) { return remark.starts_with("no picture"); });
+  record.complete = written->pictures_missing == 0;
   const std::vector<std::string> names = all_names(request_.folder, written->files);
   record.files = record_files(request_.folder, names);
   if (present) {
     const auto stale = set_stale_aside(request_.folder, *present, names);
-    if (!stale) return refuse(stale.error());
+    if (!stale) return console_.end_with(stale.error());
     if (!stale->empty())
       console_.remark(
           fmt::format("files of the earlier report that the new one lacks moved to {}", stale->string()));
   }
-  if (const auto error = write_study_record(request_.folder, record)) return refuse(*error);
+  if (const auto error = write_study_record(request_.folder, record)) return console_.end_with(*error);
   console_.remark(fmt::format("wrote {} files to {}", written->files.size() + 1, request_.folder.string()));
   if (record.complete || !stop_requested()) return ExitCode::done;
   console_.error(fmt::format(

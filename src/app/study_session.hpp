@@ -43,7 +43,6 @@ class StudySession {
                     const study::StudyOptions& options);
 
  private:
-  ExitCode refuse(const store::Error& error);
   /// Whether all that was to be kept is on disk; prints why not.
   bool kept();
   ExitCode report_interruption(const study::StudyFile& file, const study::StudyOptions& options);

@@ -92,9 +92,9 @@ ExitCode refuse_filter(const std::vector<Item>& items, const std::string& filter
     if (std::find(groups.begin(), groups.end(), group_of(item)) == groups.end())
       groups.push_back(group_of(item));
   }
-  console.error(fmt::format("--filter: found \"{}\", which no check has in its name; groups of checks: {}",
-                            filter, fmt::join(groups, ", ")));
-  return ExitCode::bad_input;
+  return console.refuse(
+      fmt::format("--filter: found \"{}\", which no check has in its name; groups of checks: {}", filter,
+                  fmt::join(groups, ", ")));
 }
 
 /// Relative measures carry no unit.
@@ -187,12 +187,8 @@ ExitCode tabulate_errors(const VerifyArguments& arguments, Console& console) {
   const std::vector<verify::ErrorSeries> wanted = matching(all, arguments.filter);
   if (wanted.empty()) return refuse_filter(all, arguments.filter, console);
   if (arguments.output) {
-    auto obstacle = obstacle_to_error_table(*arguments.output);
-    if (!obstacle) obstacle = prepare_output_folder(*arguments.output);
-    if (obstacle) {
-      console.error(*obstacle);
-      return ExitCode::bad_input;
-    }
+    if (const auto obstacle = obstacle_to_report(*arguments.output, error_table_files))
+      return console.refuse(*obstacle);
   }
   const auto results =
       unless_stopped(console, "error", [&](Progress& progress) { return measured(wanted, progress); });
@@ -203,20 +199,15 @@ ExitCode tabulate_errors(const VerifyArguments& arguments, Console& console) {
   console.failures(failures);
   if (arguments.output) {
     const auto written = write_error_table(results, command, *arguments.output, {.stop = &stop_requested()});
-    if (!written) {
-      console.error(written.error().message);
-      return ExitCode::failed;
-    }
-    for (const std::string& remark : written->remarks) console.remark(remark);
-    console.remark(
-        fmt::format("wrote {} to {}", fmt::join(written->files, ", "), arguments.output->string()));
+    if (const ExitCode code = present_report(written, *arguments.output, console); code != ExitCode::done)
+      return code;
   }
   return failures.empty() ? ExitCode::done : ExitCode::cases_failed;
 }
 
 }  // namespace
 
-ExitCode verify_command(const VerifyArguments& arguments, Console& console) {
+ExitCode perform(const VerifyArguments& arguments, Console& console) {
   if (arguments.finite_elements) return compare_with_finite_elements(arguments, console);
   return arguments.error_against_time ? tabulate_errors(arguments, console)
                                       : compare_with_expected(arguments, console);

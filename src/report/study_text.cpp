@@ -121,6 +121,7 @@ store::Result<std::string> write_picture(const Plot& plot, const std::filesystem
   if (auto error = write_svg(plot, folder / name, limits)) {
     if (!is_of_drawing(*error)) return *error;
     written.remarks.push_back("no picture: " + error->message);
+    ++written.pictures_missing;
     return std::string{};
   }
   written.files.push_back(name);
