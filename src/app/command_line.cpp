@@ -28,9 +28,37 @@ struct Parsed {
   ExplainArguments explain;
 };
 
+/// A subcommand whose arguments become the request.
+template <class Arguments>
+CLI::App& add_command(CLI::App& app, Parsed& parsed, const Arguments& arguments, const char* name,
+                      const char* meaning, const char* examples) {
+  CLI::App& command = *app.add_subcommand(name, meaning);
+  command.footer(examples);
+  command.callback([&parsed, &arguments] { parsed.line.request = arguments; });
+  return command;
+}
+
+/// Last in every command's help.
 void add_output_options(CLI::App& command, Parsed& parsed) {
   command.add_flag("--json", parsed.line.json, "Print one JSON object on stdout instead of text");
   command.add_flag("-q,--quiet", parsed.line.quiet, "No progress and no remarks on stderr; errors remain");
+}
+
+/// A place to write to. `-o --json` would name a folder that nobody means.
+template <class Path>
+CLI::Option* add_place(CLI::App& command, const char* name, Path& path, const char* type, const char* kind,
+                       const char* meaning) {
+  const auto check = [kind](const std::string& text) {
+    if (!text.starts_with("-")) return std::string{};
+    return fmt::format("found {1}, which is an option; allowed: a {0} (./{1} for one of this name)", kind,
+                       text);
+  };
+  return command.add_option(name, path, meaning)->check(CLI::Validator(check, ""))->type_name(type);
+}
+
+template <class Path>
+CLI::Option* add_folder(CLI::App& command, Path& path, const char* meaning) {
+  return add_place(command, "-o,--output", path, "DIR", "folder", meaning);
 }
 
 /// An option whose text is read by `parse`.
@@ -49,16 +77,14 @@ void add_longest_run(CLI::App& command, std::optional<double>& longest_run) {
              "Refuse a case that is predicted to take longer; 30d unless given");
 }
 
-CLI::App* add_run(CLI::App& app, Parsed& parsed) {
-  CLI::App* command =
-      app.add_subcommand("run", "Run one case: a scene in, temperatures of the charge bottom out");
-  command->add_option("scene", parsed.run.scene, "Scene file")->required()->type_name("SCENE.toml");
-  command->add_option("-o,--output", parsed.run.output, "Folder to write the HDF5 case file to")
-      ->type_name("DIR");
-  add_longest_run(*command, parsed.run.longest_run);
-  add_output_options(*command, parsed);
-  command->footer(run_footer);
-  return command;
+void add_run(CLI::App& app, Parsed& parsed) {
+  CLI::App& command =
+      add_command(app, parsed, parsed.run, "run",
+                  "Run one case: a scene in, temperatures of the charge bottom out", run_footer);
+  command.add_option("scene", parsed.run.scene, "Scene file")->required()->type_name("SCENE.toml");
+  add_folder(command, parsed.run.output, "Folder to write the HDF5 case file to");
+  add_longest_run(command, parsed.run.longest_run);
+  add_output_options(command, parsed);
 }
 
 void add_jobs(CLI::App& command, int& jobs, const char* meaning) {
@@ -93,124 +119,106 @@ void add_update(CLI::App& command, bool& update) {
                    "Use the stored cases of another study in DIR; its report moves to DIR/earlier-N");
 }
 
-CLI::App* add_study(CLI::App& app, Parsed& parsed) {
+void add_study(CLI::App& app, Parsed& parsed) {
   StudyArguments& study = parsed.study;
-  CLI::App* command = app.add_subcommand("study", "Run a study: many cases, a verdict for every gap");
-  command->add_option("study", study.study, "Study file")->required()->type_name("STUDY.toml");
-  command
-      ->add_option("-o,--output", study.output,
-                   "Folder for cases, tables and report; what is stored there is used again")
+  CLI::App& command = add_command(app, parsed, study, "study",
+                                  "Run a study: many cases, a verdict for every gap", study_footer);
+  command.add_option("study", study.study, "Study file")->required()->type_name("STUDY.toml");
+  add_folder(command, study.output, "Folder for cases, tables and report; what is stored there is used again")
       ->type_name("DIR");
-  add_jobs(*command, study.jobs, "Cases at a time; as many as there are processors unless given");
-  add_limits(*command, study.memory, study.time_limit);
-  add_longest_run(*command, study.longest_run);
-  add_shard(*command, study.shard);
-  add_tolerance(*command, study.tolerance);
-  command->add_flag("--dry-run", study.dry_run, "Say what would be run and at what cost; write nothing");
-  command->add_flag("--explain", study.explain, "Say of every mechanical run why it runs or is used again");
-  add_update(*command, study.update);
-  add_output_options(*command, parsed);
-  command->footer(study_footer);
-  return command;
+  add_jobs(command, study.jobs, "Cases at a time; as many as there are processors unless given");
+  add_limits(command, study.memory, study.time_limit);
+  add_longest_run(command, study.longest_run);
+  add_shard(command, study.shard);
+  add_tolerance(command, study.tolerance);
+  command.add_flag("--dry-run", study.dry_run, "Say what would be run and at what cost; write nothing");
+  command.add_flag("--explain", study.explain, "Say of every mechanical run why it runs or is used again");
+  add_update(command, study.update);
+  add_output_options(command, parsed);
 }
 
-CLI::App* add_merge(CLI::App& app, Parsed& parsed) {
+void add_merge(CLI::App& app, Parsed& parsed) {
   MergeArguments& merge = parsed.merge;
-  CLI::App* command = app.add_subcommand("merge", "Make one report of the shards of a study; runs nothing");
-  command->add_option("study", merge.study, "Study file")->required()->type_name("STUDY.toml");
-  command->add_option("-o,--output", merge.output, "Folder for cases, tables and report")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("folder", merge.folders, "Folders of shards; none where they all used DIR")
+  CLI::App& command = add_command(app, parsed, merge, "merge",
+                                  "Make one report of the shards of a study; runs nothing", merge_footer);
+  command.add_option("study", merge.study, "Study file")->required()->type_name("STUDY.toml");
+  add_folder(command, merge.output, "Folder for cases, tables and report")->required();
+  command.add_option("folder", merge.folders, "Folders of shards; none where they all used DIR")
       ->type_name("FOLDER...");
-  add_update(*command, merge.update);
-  add_tolerance(*command, merge.tolerance);
-  add_jobs(*command, merge.jobs, "Threads that judge gaps; as many as there are processors unless given");
-  add_output_options(*command, parsed);
-  command->footer(merge_footer);
-  return command;
+  add_update(command, merge.update);
+  add_tolerance(command, merge.tolerance);
+  add_jobs(command, merge.jobs, "Threads that judge gaps; as many as there are processors unless given");
+  add_output_options(command, parsed);
 }
 
-CLI::App* add_emit(CLI::App& app, Parsed& parsed) {
+void add_emit(CLI::App& app, Parsed& parsed) {
   EmitArguments& emit = parsed.emit;
-  CLI::App* command =
-      app.add_subcommand("emit", "Write batch scripts that run a study on a cluster, in shards");
-  command->add_option("engine", emit.engine, "What the scripts are for: slurm")
+  CLI::App& command = add_command(
+      app, parsed, emit, "emit", "Write batch scripts that run a study on a cluster, in shards", emit_footer);
+  command.add_option("engine", emit.engine, "What the scripts are for: slurm")
       ->required()
       ->check(CLI::IsMember({"slurm"}))
       ->type_name("slurm");
-  command->add_option("study", emit.study, "Study file")->required()->type_name("STUDY.toml");
-  command->add_option("-o,--output", emit.output, "Folder for cases, tables and report, seen by all nodes")
-      ->required()
-      ->type_name("DIR");
+  command.add_option("study", emit.study, "Study file")->required()->type_name("STUDY.toml");
+  add_folder(command, emit.output, "Folder for cases, tables and report, seen by all nodes")->required();
   constexpr int most_shards = 10000;
-  command->add_option("--shards", emit.shards, "Number of shards")
+  command.add_option("--shards", emit.shards, "Number of shards")
       ->required()
       ->check(CLI::Range(1, most_shards))
       ->type_name("N");
-  add_jobs(*command, emit.jobs, "Cases at a time, and processors, of every shard");
-  add_limits(*command, emit.memory, emit.time_limit);
-  command->add_option("--sbatch", emit.sbatch, "A further #SBATCH option, such as --sbatch=--partition=long")
+  add_jobs(command, emit.jobs, "Cases at a time, and processors, of every shard");
+  add_limits(command, emit.memory, emit.time_limit);
+  command.add_option("--sbatch", emit.sbatch, "A further #SBATCH option, such as --sbatch=--partition=long")
       ->allow_extra_args(false)
       ->type_name("TEXT");
-  add_output_options(*command, parsed);
-  command->footer(emit_footer);
-  return command;
+  add_output_options(command, parsed);
 }
 
-CLI::App* add_model_form(CLI::App& app, Parsed& parsed) {
+void add_model_form(CLI::App& app, Parsed& parsed) {
   ModelFormArguments& form = parsed.model_form;
-  CLI::App* command = app.add_subcommand(
-      "model-form", "Compare the critical gaps of models, and record how far they move towards ignition");
+  CLI::App& command =
+      add_command(app, parsed, form, "model-form",
+                  "Compare the critical gaps of models, and record how far they move towards ignition",
+                  model_form_footer);
   command
-      ->add_option("models", form.folders,
-                   "Folders of models, the default first, each with the report of a calibration in "
-                   "calibration/ and that of its sweep over the peak pressure in sweep/")
+      .add_option("models", form.folders,
+                  "Folders of models, the default first, each with the report of a calibration in "
+                  "calibration/ and that of its sweep over the peak pressure in sweep/")
       ->required()
       ->expected(2, 1000)
       ->type_name("DIR");
-  command->add_option("-o,--output", form.output, "Folder for table, picture and record")
-      ->required()
-      ->type_name("DIR");
-  add_output_options(*command, parsed);
-  command->footer(model_form_footer);
-  return command;
+  add_folder(command, form.output, "Folder for table, picture and record")->required();
+  add_output_options(command, parsed);
 }
 
-CLI::App* add_verify(CLI::App& app, Parsed& parsed) {
-  CLI::App* command = app.add_subcommand("verify", "Compare the program with closed-form solutions");
-  command->add_option("--filter", parsed.verify.filter, "Only checks with this in their name, case ignored")
+void add_verify(CLI::App& app, Parsed& parsed) {
+  CLI::App& command = add_command(app, parsed, parsed.verify, "verify",
+                                  "Compare the program with closed-form solutions", verify_footer);
+  command.add_option("--filter", parsed.verify.filter, "Only checks with this in their name, case ignored")
       ->type_name("TEXT");
-  CLI::Option* table = command->add_flag(
+  CLI::Option* table = command.add_flag(
       "--error-against-time", parsed.verify.error_against_time,
       "Error against processor time of the parts with exact solutions, over step, tolerance and mesh");
   command
-      ->add_flag("--finite-elements", parsed.verify.finite_elements,
-                 "Static stresses at the charge bottom against CalculiX (ccx): minutes")
+      .add_flag("--finite-elements", parsed.verify.finite_elements,
+                "Static stresses at the charge bottom against CalculiX (ccx): minutes")
       ->excludes(table);
-  command
-      ->add_option("-o,--output", parsed.verify.output,
-                   "Folder for parts.md, parts.csv and parts.svg of --error-against-time, or summary.md and "
-                   "stresses.csv of --finite-elements")
-      ->type_name("DIR");
-  add_output_options(*command, parsed);
-  command->footer(verify_footer);
-  return command;
+  add_folder(command, parsed.verify.output,
+             "Folder for parts.md, parts.csv and parts.svg of --error-against-time, or summary.md and "
+             "stresses.csv of --finite-elements");
+  add_output_options(command, parsed);
 }
 
-CLI::App* add_explain(CLI::App& app, Parsed& parsed) {
-  CLI::App* command = app.add_subcommand(
-      "explain", "Say what a scene or a study will compute, what it leaves out, and the cost");
-  command->add_option("file", parsed.explain.file, "Scene or study file")->type_name("SCENE.toml|STUDY.toml");
-  command->add_flag("--keys", parsed.explain.keys,
-                    "List every key of a scene file: unit, range, default, standing, meaning");
-  command
-      ->add_option("--grid", parsed.explain.picture,
-                   "File to draw the half section of a scene and its grid to")
-      ->type_name("FILE.svg");
-  add_output_options(*command, parsed);
-  command->footer(explain_footer);
-  return command;
+void add_explain(CLI::App& app, Parsed& parsed) {
+  CLI::App& command = add_command(
+      app, parsed, parsed.explain, "explain",
+      "Say what a scene or a study will compute, what it leaves out, and the cost", explain_footer);
+  command.add_option("file", parsed.explain.file, "Scene or study file")->type_name("SCENE.toml|STUDY.toml");
+  command.add_flag("--keys", parsed.explain.keys,
+                   "List every key of a scene file: unit, range, default, standing, meaning");
+  add_place(command, "--grid", parsed.explain.picture, "FILE.svg", "file",
+            "File to draw the half section of a scene and its grid to");
+  add_output_options(command, parsed);
 }
 
 std::string text_of_success(const CLI::App& app, const CLI::Success& success) {
@@ -229,25 +237,25 @@ bool asks_for_json(int argument_count, const char* const* arguments) {
   return false;
 }
 
-/// `-o --json` would name a folder that nobody means.
-std::optional<UsageError> option_taken_for_place(const Parsed& parsed) {
-  struct Place {
-    const char *option, *kind;
-    std::filesystem::path path;
-  };
-  for (const auto& [option, kind, path] :
-       {Place{"--output", "folder", parsed.run.output.value_or("")},
-        Place{"--output", "folder", parsed.study.output}, Place{"--output", "folder", parsed.merge.output},
-        Place{"--output", "folder", parsed.emit.output},
-        Place{"--output", "folder", parsed.model_form.output},
-        Place{"--output", "folder", parsed.verify.output.value_or("")},
-        Place{"--grid", "file", parsed.explain.picture.value_or("")}}) {
-    if (!path.string().starts_with("-")) continue;
-    return UsageError{
-        fmt::format("{0}: found {2}, which is an option; allowed: a {1} (./{2} for one of this name)", option,
-                    kind, path.string())};
-  }
-  return std::nullopt;
+/// What the options of one command ask for makes no sense together.
+std::string contradiction(const StudyArguments& study) {
+  return study.output.empty() && !study.dry_run ? "study: --output is required unless with --dry-run" : "";
+}
+std::string contradiction(const VerifyArguments& verify) {
+  const bool writes = verify.error_against_time || verify.finite_elements;
+  return verify.output && !writes ? "verify: --output requires --error-against-time or --finite-elements"
+                                  : "";
+}
+std::string contradiction(const ExplainArguments& explain) {
+  if (explain.keys != explain.file.empty())
+    return "explain: allowed: either a scene or study file, or --keys";
+  if (explain.keys && explain.picture)
+    return "explain: --grid draws the grid of a scene; allowed: with a scene file";
+  return {};
+}
+template <class Other>
+std::string contradiction(const Other&) {
+  return {};
 }
 
 }  // namespace
@@ -258,12 +266,13 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
   app.require_subcommand(1);
   app.footer(footer);
   app.set_version_flag("--version", version_text, "Version, commit, compiler, flags and libraries");
-  const CLI::App* run = add_run(app, parsed);
-  const CLI::App* study = add_study(app, parsed);
-  const CLI::App* merge = add_merge(app, parsed);
-  const CLI::App* emit = add_emit(app, parsed);
-  const CLI::App* model_form = add_model_form(app, parsed);
-  const CLI::App* verify = add_verify(app, parsed);
+  parsed.study.command = parsed.merge.command = shell_command({arguments, arguments + argument_count});
+  add_run(app, parsed);
+  add_study(app, parsed);
+  add_merge(app, parsed);
+  add_emit(app, parsed);
+  add_model_form(app, parsed);
+  add_verify(app, parsed);
   add_explain(app, parsed);
 
   CommandLine& line = parsed.line;
@@ -279,38 +288,9 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     line.json = asks_for_json(argument_count, arguments);
     return line;
   }
-  if (const auto mistake = option_taken_for_place(parsed)) {
-    line.request = *mistake;
-    line.json = asks_for_json(argument_count, arguments);
-    return line;
-  }
-  const std::string command = shell_command({arguments, arguments + argument_count});
-  parsed.study.command = command;
-  parsed.merge.command = command;
-  if (run->parsed()) {
-    line.request = parsed.run;
-  } else if (study->parsed() && parsed.study.output.empty() && !parsed.study.dry_run) {
-    line.request = UsageError{"study: --output is required unless with --dry-run"};
-  } else if (study->parsed()) {
-    line.request = parsed.study;
-  } else if (merge->parsed()) {
-    line.request = parsed.merge;
-  } else if (emit->parsed()) {
-    line.request = parsed.emit;
-  } else if (model_form->parsed()) {
-    line.request = parsed.model_form;
-  } else if (verify->parsed() && parsed.verify.output && !parsed.verify.error_against_time &&
-             !parsed.verify.finite_elements) {
-    line.request = UsageError{"verify: --output requires --error-against-time or --finite-elements"};
-  } else if (verify->parsed()) {
-    line.request = parsed.verify;
-  } else if (parsed.explain.keys != parsed.explain.file.empty()) {
-    line.request = UsageError{"explain: allowed: either a scene or study file, or --keys"};
-  } else if (parsed.explain.keys && parsed.explain.picture) {
-    line.request = UsageError{"explain: --grid draws the grid of a scene; allowed: with a scene file"};
-  } else {
-    line.request = parsed.explain;
-  }
+  const std::string fault =
+      std::visit([](const auto& request) { return contradiction(request); }, line.request);
+  if (!fault.empty()) line.request = UsageError{fault};
   return line;
 }
 
