@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <string_view>
 
 namespace launchsafe::app {
@@ -22,10 +23,8 @@ using scene::Dimension;
 constexpr double early_time = 10e-3;
 
 bool has_observation_points(const trace::BottomTrace& trace) {
-  for (const trace::Station& station : trace.stations) {
-    if (station.observation) return true;
-  }
-  return false;
+  return std::any_of(trace.stations.begin(), trace.stations.end(),
+                     [](const trace::Station& station) { return station.observation; });
 }
 
 bool reaches_early_time(const run::MechanicsResult& mechanics) {
@@ -182,8 +181,7 @@ nlohmann::ordered_json energy_json(const run::EnergyBalance& energy) {
           {"crack_j", energy.crack},       {"drift", energy.drift()}};
 }
 
-}  // namespace
-
+/// A row a gap: highest temperatures, where and when, ignition.
 report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result) {
   const trace::BottomTrace& trace = result.mechanics.trace;
   const bool early = reaches_early_time(result.mechanics), points = has_observation_points(trace);
@@ -204,6 +202,8 @@ report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result
       "use them. At a point beside the wall the stress is singular, and does not settle as cells shrink.");
   return table;
 }
+
+}  // namespace
 
 std::string case_text(const scene::Scene& scene, const run::CaseResult& result) {
   std::string text;

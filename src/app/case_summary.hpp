@@ -1,7 +1,6 @@
 // One case as people and programs read it.
 #pragma once
 
-#include "launchsafe/report/table.hpp"
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/scene.hpp"
 
@@ -11,10 +10,7 @@
 
 namespace launchsafe::app {
 
-/// A row a gap: highest temperatures, where and when, ignition.
-report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result);
-
-/// The table, then the energy balance, the limiters that acted, and what the run cost.
+/// A table of the gaps, then the energy balance, the limiters that acted, and what the run cost.
 std::string case_text(const scene::Scene& scene, const run::CaseResult& result);
 
 /// The same for programs, in SI units but for the gaps (see the keys).

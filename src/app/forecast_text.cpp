@@ -36,34 +36,21 @@ std::string forecast_line(std::string_view label, const std::string& value) {
   return fmt::format("  {:<21} {}\n", label, value);
 }
 
-std::size_t cases_in(const Forecast& forecast) {
-  std::size_t cases = 0;
-  for (const ForecastRun& run : forecast.runs) cases += run.cases;
-  return cases;
-}
+/// What the runs of a forecast add up to.
+struct Totals {
+  std::size_t cases = 0, stored = 0, refused = 0, to_run = 0;
+  double updates = 0;  ///< of particles, in the runs that are left
+};
 
-std::size_t stored_in(const Forecast& forecast) {
-  return static_cast<std::size_t>(
-      std::count_if(forecast.runs.begin(), forecast.runs.end(),
-                    [](const ForecastRun& run) { return run.stored || (run.given_up && !run.refused); }));
-}
-
-std::size_t refused_in(const Forecast& forecast) {
-  return static_cast<std::size_t>(std::count_if(forecast.runs.begin(), forecast.runs.end(),
-                                                [](const ForecastRun& run) { return run.refused; }));
-}
-
-std::size_t to_run_in(const Forecast& forecast) {
-  return forecast.runs.size() - stored_in(forecast) - refused_in(forecast);
-}
-
-double updates_in(const Forecast& forecast) {
-  double updates = 0;
+Totals totals_of(const Forecast& forecast) {
+  Totals totals;
   for (const ForecastRun& run : forecast.runs) {
+    totals.cases += run.cases;
+    ++(run.refused ? totals.refused : run.stored || run.given_up ? totals.stored : totals.to_run);
     if (!run.stored && !run.given_up)
-      updates += static_cast<double>(run.particles) * static_cast<double>(run.steps);
+      totals.updates += static_cast<double>(run.particles) * static_cast<double>(run.steps);
   }
-  return updates;
+  return totals;
 }
 
 bool judges_gaps(study::StudyKind kind) { return kind != study::StudyKind::calibration; }
@@ -73,17 +60,19 @@ std::size_t gaps_of(const study::StudyFile& file) {
 }
 
 std::string runs_text(const Forecast& forecast) {
-  const std::size_t stored = stored_in(forecast), cases = cases_in(forecast);
-  const std::size_t refused = refused_in(forecast);
-  std::string text = fmt::format("{} for {} case{}", forecast.runs.size(), cases, cases == 1 ? "" : "s");
-  if (refused > 0) text += fmt::format("; {} refused", refused);
-  if (stored > 0 || refused > 0) text += fmt::format("; {} stored, {} to run", stored, to_run_in(forecast));
+  const Totals totals = totals_of(forecast);
+  std::string text =
+      fmt::format("{} for {} case{}", forecast.runs.size(), totals.cases, totals.cases == 1 ? "" : "s");
+  if (totals.refused > 0) text += fmt::format("; {} refused", totals.refused);
+  if (totals.stored > 0 || totals.refused > 0)
+    text += fmt::format("; {} stored, {} to run", totals.stored, totals.to_run);
   return text;
 }
 
 std::string time_text(const Forecast& forecast, const std::filesystem::path& folder) {
-  if (refused_in(forecast) > 0 && to_run_in(forecast) == 0) return "none: nothing is left that may run";
-  if (stored_in(forecast) == forecast.runs.size()) return "next to none: every mechanical run is stored";
+  const Totals totals = totals_of(forecast);
+  if (totals.refused > 0 && totals.to_run == 0) return "none: nothing is left that may run";
+  if (totals.stored == forecast.runs.size()) return "next to none: every mechanical run is stored";
   const std::string origin = forecast.learned_from == 0
                                  ? "measured now"
                                  : fmt::format("learned from {} run{} in {}", forecast.learned_from,
@@ -116,17 +105,18 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
 }
 
 nlohmann::ordered_json forecast_json(const study::StudyFile& file, const Forecast& forecast) {
+  const Totals totals = totals_of(forecast);
   return {{"title", file.study.title},
           {"kind", study::to_string(file.study.kind)},
-          {"cases", cases_in(forecast)},
+          {"cases", totals.cases},
           {"mechanical_runs", forecast.runs.size()},
-          {"stored", stored_in(forecast)},
-          {"to_run", to_run_in(forecast)},
-          {"refused", refused_in(forecast)},
+          {"stored", totals.stored},
+          {"to_run", totals.to_run},
+          {"refused", totals.refused},
           {"coupled_runs_at_most", forecast.confirmations},
           {"gaps", gaps_of(file)},
           {"jobs", forecast.jobs},
-          {"particle_updates", updates_in(forecast)},
+          {"particle_updates", totals.updates},
           {"updates_per_second", forecast.update_rate},
           {"rate_learned_from_runs", forecast.learned_from},
           {"memory_bytes", forecast.memory},
