@@ -98,7 +98,7 @@ void Console::add_error(const std::string& message, const scene::InputError& par
                          {"suggestion", text_or_null(parts.suggestion)}};
 }
 
-void Console::failures(const std::vector<Failure>& failures) {
+void Console::failures(const std::vector<kinds::Failure>& failures) {
   const std::size_t named = std::min(failures.size(), most_failures_named);
   for (std::size_t i = 0; i < named; ++i)
     say(fmt::format("launchsafe: {}: {}\n", failures[i].label, failures[i].reason));
@@ -106,7 +106,7 @@ void Console::failures(const std::vector<Failure>& failures) {
     say(fmt::format("launchsafe: and {} more cases failed\n", failures.size() - named));
   if (!json_ || failures.empty()) return;
   auto& list = (*object_)["failures"];
-  for (const Failure& failure : failures)
+  for (const kinds::Failure& failure : failures)
     list.push_back({{"case", failure.label}, {"reason", failure.reason}});
 }
 

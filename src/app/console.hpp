@@ -1,9 +1,9 @@
 // Where a command's words go: results to stdout, everything else to stderr; and the exit codes.
 #pragma once
 
+#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/scene/input_error.hpp"
 #include "launchsafe/store/result.hpp"
-#include "launchsafe/study/options.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -22,13 +22,6 @@ enum class ExitCode {
   indeterminate = 4,
   failed = 70,
   interrupted = 75
-};
-
-/// A case that came to nothing.
-struct Failure {
-  std::string label;
-  std::string reason;
-  study::RunOutcome outcome = study::RunOutcome::failed;  ///< of the run behind it
 };
 
 /// Text goes out at once. What is wanted as JSON is collected, results and errors alike, and goes out as one
@@ -59,7 +52,7 @@ class Console {
   /// What kept a result from being stored: a folder that is wrong, or a machine that fails.
   ExitCode end_with(const store::Error& error);
   /// Cases that failed, the first of them by name on stderr, all of them as the member `failures`.
-  void failures(const std::vector<Failure>& failures);
+  void failures(const std::vector<kinds::Failure>& failures);
 
   /// Writes the JSON object, if it is wanted. To be called once, at the end. The exit code, which is `failed`
   /// where something could not be written to stdout. That its reader has gone is the reader's choice and no

@@ -1,5 +1,6 @@
 // launchsafe emit: scripts that run a study elsewhere.
 #include "commands.hpp"
+#include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
 #include "shell_words.hpp"
@@ -144,13 +145,13 @@ void print_scripts(const SlurmStudy& study, const path& folder, const std::vecto
 }  // namespace
 
 ExitCode perform(const EmitArguments& arguments, Console& console) {
-  const auto file = study::read_study(arguments.study);
+  const auto file = kinds::read_study(arguments.study);
   if (!file) return console.refuse(file.error());
   if (const auto error = study::all_out_of_reach(*file, {})) return console.refuse(*error);
   SlurmStudy study = slurm_study(arguments, *file);
   if (const auto fault = fault_of(study)) return console.refuse(*fault);
   const store::Manifest manifest = study_manifest(*file, study.jobs);
-  if (const auto obstacle = obstacle_in_folder(study.output, file->study.kind, manifest, false))
+  if (const auto obstacle = obstacle_in_folder(study.output, kinds::kind_of(file->study), manifest, false))
     return console.refuse(*obstacle);
   study::StudyOptions options;
   options.jobs = study.jobs;

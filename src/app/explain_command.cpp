@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "explain_scene.hpp"
 #include "forecast_text.hpp"
+#include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/section_drawing.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
@@ -55,10 +56,10 @@ std::vector<std::string> plausibility_lines(const scene::Scene& scene) {
   return lines;
 }
 
-/// The same for the cases of a study and what it states itself, each with the number of cases. Empty for kind
-/// stability, which judges without.
+/// The same for the cases of a study and what it states itself, each with the number of cases. Empty for a
+/// kind whose cases have scenes of their own, which judges without.
 std::vector<std::string> plausibility_lines(const study::StudyFile& study) {
-  if (study.study.kind == study::StudyKind::stability) return {};
+  if (study.study.kind.own_scenes) return {};
   std::vector<std::string> lines;
   for (const scene::Implausible& each : study.study.implausible) lines.push_back(line_of(each));
   std::vector<std::string> order;
@@ -123,7 +124,7 @@ ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
 }
 
 ExitCode explain_study(const std::filesystem::path& path, Console& console) {
-  const auto file = study::read_study(path);
+  const auto file = kinds::read_study(path);
   if (!file) return console.refuse(file.error());
   const double update_rate = measured_update_rate(file->cases.front().scene.scene);
   if (stop_requested()) return interrupted(console);

@@ -1,8 +1,8 @@
 // Every key of a scene file and of a study file, from the same descriptions that read them.
 #include "explain_scene.hpp"
+#include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
-#include "launchsafe/study/read_study.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -91,13 +91,13 @@ std::string keys_text() {
              standings(), documented(scene::describe_keys())) +
          derived_text() +
          "\n\nStudy files\n\nA study file also has [set], a table of scene keys with other values.\n" +
-         documented(study::describe_study_keys());
+         documented(kinds::describe_study_keys());
 }
 
 nlohmann::ordered_json keys_json() {
   return {{"keys", json_of(scene::describe_keys())},
           {"derived_quantities", derived_json()},
-          {"study_keys", json_of(study::describe_study_keys())}};
+          {"study_keys", json_of(kinds::describe_study_keys())}};
 }
 
 }  // namespace launchsafe::app

@@ -53,12 +53,6 @@ Totals totals_of(const Forecast& forecast) {
   return totals;
 }
 
-bool judges_gaps(study::StudyKind kind) { return kind != study::StudyKind::calibration; }
-
-std::size_t gaps_of(const study::StudyFile& file) {
-  return judges_gaps(file.study.kind) ? file.study.gaps.size() : 0;
-}
-
 std::string runs_text(const Forecast& forecast) {
   const Totals totals = totals_of(forecast);
   std::string text =
@@ -87,7 +81,7 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
                           const std::filesystem::path& folder) {
   std::string text = file.study.title.empty() ? std::string{} : file.study.title + "\n\n";
   text += "Study\n";
-  text += forecast_line("kind", study::to_string(file.study.kind));
+  text += forecast_line("kind", file.study.kind.name);
   text += forecast_line("scene", file.study.scene);
   for (const auto& [key, value] : file.overrides) text += forecast_line("  " + key, value);
   text += forecast_line("mechanical runs", runs_text(forecast));
@@ -95,9 +89,9 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
     text += forecast_line("coupled runs",
                           fmt::format("at most {} more, to confirm the critical gap; their time comes on top",
                                       forecast.confirmations));
-  if (judges_gaps(file.study.kind))
-    text +=
-        forecast_line("gaps", fmt::format("{} on the trace of each run, then a bisection", gaps_of(file)));
+  if (!file.study.kind.gaps_key.empty())
+    text += forecast_line(
+        "gaps", fmt::format("{} on the trace of each run, then a bisection", file.study.gaps.size()));
   text += forecast_line("at a time", fmt::format("{}", forecast.jobs));
   text += forecast_line("memory", fmt::format("about {:.3g} MB", forecast.memory / 1e6));
   text += forecast_line("time", time_text(forecast, folder));
@@ -107,14 +101,14 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
 nlohmann::ordered_json forecast_json(const study::StudyFile& file, const Forecast& forecast) {
   const Totals totals = totals_of(forecast);
   return {{"title", file.study.title},
-          {"kind", study::to_string(file.study.kind)},
+          {"kind", file.study.kind.name},
           {"cases", totals.cases},
           {"mechanical_runs", forecast.runs.size()},
           {"stored", totals.stored},
           {"to_run", totals.to_run},
           {"refused", totals.refused},
           {"coupled_runs_at_most", forecast.confirmations},
-          {"gaps", gaps_of(file)},
+          {"gaps", file.study.gaps.size()},
           {"jobs", forecast.jobs},
           {"particle_updates", totals.updates},
           {"updates_per_second", forecast.update_rate},

@@ -1,5 +1,6 @@
 // launchsafe merge: the shards of a study as one.
 #include "commands.hpp"
+#include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "signals.hpp"
 #include "study_manifest.hpp"
@@ -48,9 +49,9 @@ std::size_t list_missing(const study::Forecast& forecast, Console& console) {
 
 /// Names the runs that only turned out to be missing when they were asked for: coupled runs, whose gaps
 /// follow from the mechanics, and files that were damaged after they had been looked at.
-std::size_t list_not_stored(const StudyResult& result, Console& console) {
+std::size_t list_not_stored(const kinds::StudyOutcome& result, Console& console) {
   nlohmann::ordered_json missing = nlohmann::ordered_json::array();
-  for (const Failure& failure : failures_of(result)) {
+  for (const kinds::Failure& failure : result.failures) {
     if (failure.outcome != study::RunOutcome::not_stored) continue;
     console.print_text(fmt::format("missing: {}\n", failure.label));
     missing.push_back({{"run", failure.label}});
@@ -62,7 +63,7 @@ std::size_t list_not_stored(const StudyResult& result, Console& console) {
 }  // namespace
 
 ExitCode perform(const MergeArguments& arguments, Console& console) {
-  const auto file = study::read_study(arguments.study, {arguments.tolerance});
+  const auto file = kinds::read_study(arguments.study, {arguments.tolerance});
   if (!file) return console.refuse(file.error());
   study::StudyOptions options;
   options.jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
@@ -70,7 +71,7 @@ ExitCode perform(const MergeArguments& arguments, Console& console) {
   options.compute = false;
   StudySession session({arguments.study,
                         arguments.output,
-                        file->study.kind,
+                        kinds::kind_of(file->study),
                         arguments.update,
                         {},
                         arguments.command,
@@ -87,7 +88,7 @@ ExitCode perform(const MergeArguments& arguments, Console& console) {
                               forecast.runs.size()));
     return ExitCode::cases_failed;
   }
-  const StudyResult result = run_study(*file, options);
+  const kinds::StudyOutcome result = kinds::run_study(*file, options);
   if (const std::size_t missing = list_not_stored(result, console); missing > 0) {
     console.error(fmt::format("{} runs are missing; there is no report", missing));
     return ExitCode::cases_failed;

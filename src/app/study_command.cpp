@@ -2,6 +2,7 @@
 // cost.
 #include "commands.hpp"
 #include "forecast_text.hpp"
+#include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/forecast.hpp"
@@ -40,11 +41,11 @@ study::StudyOptions options_of(const StudyArguments& arguments, int jobs, store:
   return options;
 }
 
-StudyResult run_with_progress(const study::StudyFile& file, study::StudyOptions options,
-                              const Console& console) {
+kinds::StudyOutcome run_with_progress(const study::StudyFile& file, study::StudyOptions options,
+                                      const Console& console) {
   Progress progress(progress_style(console.quiet()));
   options.progress = [&progress](const study::Progress& state) { progress.show(progress_line(state)); };
-  return run_study(file, options);
+  return kinds::run_study(file, options);
 }
 
 void explain_runs(const study::StudyFile& file, const study::StudyOptions& options, const Console& console) {
@@ -80,8 +81,8 @@ store::Result<std::unique_ptr<store::CaseStore>> store_for(const StudyArguments&
 /// Says so where the study itself would refuse the folder.
 void remark_obstacle(const study::StudyFile& file, const StudyArguments& arguments, const Console& console) {
   if (arguments.output.empty()) return;
-  if (const auto obstacle =
-          obstacle_in_folder(arguments.output, file.study.kind, study_manifest(file, 1), arguments.update))
+  if (const auto obstacle = obstacle_in_folder(arguments.output, kinds::kind_of(file.study),
+                                               study_manifest(file, 1), arguments.update))
     console.remark(*obstacle);
 }
 
@@ -109,14 +110,14 @@ ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, 
 }  // namespace
 
 ExitCode perform(const StudyArguments& arguments, Console& console) {
-  const auto file = study::read_study(arguments.study, {arguments.tolerance});
+  const auto file = kinds::read_study(arguments.study, {arguments.tolerance});
   if (!file) return console.refuse(file.error());
   if (!file->chosen_setting.empty()) console.remark("setting: " + file->chosen_setting);
   if (arguments.dry_run) return dry_run(*file, arguments, console);
   const int jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
   study::StudyOptions options = options_of(arguments, jobs, nullptr);
   if (const auto error = refusal_of(*file, arguments, options)) return console.refuse(*error);
-  StudySession session({arguments.study, arguments.output, file->study.kind, arguments.update,
+  StudySession session({arguments.study, arguments.output, kinds::kind_of(file->study), arguments.update,
                         arguments.shard.part(), arguments.command, study_manifest(*file, options.jobs)},
                        console);
   if (const ExitCode code = session.open(); code != ExitCode::done) return code;

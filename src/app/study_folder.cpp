@@ -1,6 +1,6 @@
 #include "study_folder.hpp"
 
-#include "launchsafe/report/report_names.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/own_files.hpp"
@@ -31,12 +31,12 @@ store::Result<store::OwnFiles> own_files(const path& folder, const store::Result
 }
 
 /// The names in the folder that a report of this kind would give its files, in alphabetical order.
-std::vector<std::string> report_names_in(const path& folder, study::StudyKind kind) {
+std::vector<std::string> report_names_in(const path& folder, const kinds::Kind& kind) {
   std::vector<std::string> names;
   std::error_code failed;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
     const std::string name = entry.path().filename();
-    if (report::may_write(kind, name)) names.push_back(name);
+    if (kinds::may_write(kind, name)) names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -99,7 +99,7 @@ std::vector<std::string> names_of_earlier(const store::OwnFiles& own,
   std::vector<std::string> names = record ? names_of(*record) : std::vector<std::string>{};
   if (names.empty()) {
     names = own.present();
-    std::erase_if(names, [](const std::string& name) { return !report::may_write(name); });
+    std::erase_if(names, [](const std::string& name) { return !kinds::may_write(name); });
   }
   if (!names.empty() && record) names.emplace_back(manifest_name);
   return names;
@@ -124,7 +124,7 @@ bool holds_store(const path& folder) {
   return false;
 }
 
-std::optional<std::string> obstacle_in_folder(const path& folder, study::StudyKind kind,
+std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::Kind& kind,
                                               const store::Manifest& manifest, bool update) {
   const auto record = read_study_record(folder);
   if (!record && record.error().kind != store::Error::Kind::missing) {

@@ -17,7 +17,7 @@ bool holds_store(const std::filesystem::path& folder);
 
 /// Why the results of a study may not go into the folder: it holds those of a different study and `update` is
 /// not set, or files of somebody else under names that the report needs. Nothing is changed.
-std::optional<std::string> obstacle_in_folder(const std::filesystem::path& folder, study::StudyKind kind,
+std::optional<std::string> obstacle_in_folder(const std::filesystem::path& folder, const kinds::Kind& kind,
                                               const store::Manifest& manifest, bool update);
 
 /// Removes what killed processes left of report files that they were writing; while no other process is at

@@ -113,9 +113,8 @@ std::string recorded_uncertainties(const study::StudyFile& file) {
   return text;
 }
 
-/// The cases of a stability study may come from scenes of their own.
 std::string scenes_of_cases(const study::StudyFile& file) {
-  if (file.study.kind != study::StudyKind::stability) return {};
+  if (!file.study.kind.own_scenes) return {};
   std::string text;
   for (const study::StudyCase& each : file.cases) text += scene::to_toml(each.scene.scene);
   return "\n\n# SHA-256 of the scenes of all cases\n" + store::sha256(text) + "\n";

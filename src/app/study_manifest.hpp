@@ -4,7 +4,7 @@
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/result.hpp"
-#include "launchsafe/study/read_study.hpp"
+#include "launchsafe/study/study_file.hpp"
 
 #include <filesystem>
 #include <optional>

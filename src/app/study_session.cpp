@@ -19,9 +19,9 @@
 namespace launchsafe::app {
 namespace {
 
-std::string digest_of(const std::vector<Failure>& failures) {
+std::string digest_of(const std::vector<kinds::Failure>& failures) {
   std::string text;
-  for (const Failure& failure : failures) text += failure.label + "\n" + failure.reason + "\n";
+  for (const kinds::Failure& failure : failures) text += failure.label + "\n" + failure.reason + "\n";
   return store::sha256(text);
 }
 
@@ -29,15 +29,15 @@ std::string runs(std::size_t count) {
   return fmt::format("{} mechanical run{}", count, count == 1 ? "" : "s");
 }
 
-/// The names that a report gave, and those of the files that it put beside them.
-std::vector<std::string> all_names(const std::filesystem::path& folder, std::vector<std::string> names) {
-  const std::size_t count = names.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::filesystem::path name(names[i]);
-    const std::string beside = std::filesystem::path(name).replace_extension(".xdmf");
-    if (name.extension() == ".h5" && std::filesystem::exists(folder / beside)) names.push_back(beside);
-  }
-  return names;
+/// "re-used 3 mechanical runs, ran 12 ...": runs, rate, wall time.
+std::string timing_text(const study::Timing& timing) {
+  std::string text = fmt::format("re-used {} mechanical run{}, ran {}", timing.reused,
+                                 timing.reused == 1 ? "" : "s", timing.runs);
+  if (timing.run_time > 0)
+    text += fmt::format(" at {} particle updates per second and core",
+                        report::scientific(timing.updates_per_second(), 2));
+  return text + fmt::format("; {} of wall time with {} job{}", report::duration(timing.wall_time),
+                            timing.jobs, timing.jobs == 1 ? "" : "s");
 }
 
 /// Whether the report in the folder says what a new one would. A study's results follow from its input, but
@@ -50,18 +50,18 @@ bool report_stands(const std::filesystem::path& folder, const StudyRecord& recor
          files_unchanged(folder, record.files);
 }
 
-ExitCode exit_code_of(const std::vector<Failure>& failures, bool indeterminate) {
+ExitCode exit_code_of(const std::vector<kinds::Failure>& failures, bool indeterminate) {
   if (!failures.empty()) return ExitCode::cases_failed;
   return indeterminate ? ExitCode::indeterminate : ExitCode::done;
 }
 
-nlohmann::ordered_json shard_json(const StudyResult& result, const study::Shard& shard,
-                                  const std::vector<Failure>& failures) {
+nlohmann::ordered_json shard_json(const kinds::StudyOutcome& result, const study::Shard& shard,
+                                  const std::vector<kinds::Failure>& failures) {
   return {{"shard", shard.index},
           {"shards", shard.count},
-          {"mechanical_runs", timing_of(result).runs},
-          {"reused", timing_of(result).reused},
-          {"wall_s", timing_of(result).wall_time},
+          {"mechanical_runs", result.timing.runs},
+          {"reused", result.timing.reused},
+          {"wall_s", result.timing.wall_time},
           {"failed", failures.size()}};
 }
 
@@ -123,18 +123,18 @@ ExitCode StudySession::report_interruption(const study::StudyFile& file, const s
   return ExitCode::interrupted;
 }
 
-ExitCode StudySession::conclude(const StudyResult& result, const study::StudyFile& file,
+ExitCode StudySession::conclude(const kinds::StudyOutcome& result, const study::StudyFile& file,
                                 const study::StudyOptions& options) {
-  if (interrupted(result)) return report_interruption(file, options);
+  if (result.interrupted) return report_interruption(file, options);
   if (!kept()) return ExitCode::failed;
   return options.shard.whole() ? deliver_whole(result) : deliver_shard(result, options.shard);
 }
 
-ExitCode StudySession::deliver_shard(const StudyResult& result, const study::Shard& shard) {
-  const std::vector<Failure> failures = failures_of(result);
+ExitCode StudySession::deliver_shard(const kinds::StudyOutcome& result, const study::Shard& shard) {
+  const std::vector<kinds::Failure>& failures = result.failures;
   console_.print_json(shard_json(result, shard, failures));
   console_.failures(failures);
-  console_.remark(timing_text(timing_of(result)));
+  console_.remark(timing_text(result.timing));
   console_.remark(fmt::format(
       "shard {}/{} is done{}; once all are: {} (then the folders of shards that have one of their own)",
       shard.index, shard.count, failures.empty() ? "" : fmt::format(", {} failed", failures.size()),
@@ -142,15 +142,14 @@ ExitCode StudySession::deliver_shard(const StudyResult& result, const study::Sha
   return exit_code_of(failures, false);
 }
 
-ExitCode StudySession::deliver_whole(const StudyResult& result) {
-  const std::vector<Failure> failures = failures_of(result);
-  const report::Report report = report_of(result);
-  console_.print_text(report::to_text(report, request_.folder));
-  if (console_.json()) console_.print_json(to_json(result));
+ExitCode StudySession::deliver_whole(const kinds::StudyOutcome& result) {
+  const std::vector<kinds::Failure>& failures = result.failures;
+  console_.print_text(report::to_text(result.report, request_.folder));
+  if (console_.json()) console_.print_json(nlohmann::ordered_json::parse(result.report.json));
   console_.failures(failures);
-  console_.remark(timing_text(timing_of(result)));
+  console_.remark(timing_text(result.timing));
   const ExitCode written = write_files(result, failures);
-  return written == ExitCode::done ? exit_code_of(failures, any_indeterminate(result)) : written;
+  return written == ExitCode::done ? exit_code_of(failures, result.indeterminate) : written;
 }
 
 ExitCode StudySession::keep_edited_files() {
@@ -162,23 +161,24 @@ ExitCode StudySession::keep_edited_files() {
   return ExitCode::done;
 }
 
-ExitCode StudySession::write_files(const StudyResult& result, const std::vector<Failure>& failures) {
+ExitCode StudySession::write_files(const kinds::StudyOutcome& result,
+                                   const std::vector<kinds::Failure>& failures) {
   const std::string digest = digest_of(failures);
   const auto present = read_study_record(request_.folder);
-  if (timing_of(result).runs == 0 && present &&
+  if (result.timing.runs == 0 && present &&
       report_stands(request_.folder, *present, request_.manifest, digest)) {
     console_.remark(fmt::format("the report in {} stands as it is", request_.folder.string()));
     return ExitCode::done;
   }
   if (const ExitCode code = keep_edited_files(); code != ExitCode::done) return code;
-  const auto written = report::write_report(report_of(result), request_.folder, {.stop = &stop_requested()});
+  const auto written = report::write_report(result.report, request_.folder, {.stop = &stop_requested()});
   if (!written) return console_.end_with(written.error());
   for (const std::string& remark : written->remarks) console_.remark(remark);
   StudyRecord record{request_.manifest, {}, true, digest};
-  record.manifest.wall_time = timing_of(result).wall_time;
+  record.manifest.wall_time = result.timing.wall_time;
   // A report that lacks a picture is no finished one: the next time it is written again.
   record.complete = written->pictures_missing == 0;
-  const std::vector<std::string> names = all_names(request_.folder, written->files);
+  const std::vector<std::string>& names = written->files;
   record.files = record_files(request_.folder, names);
   if (present) {
     const auto stale = set_stale_aside(request_.folder, *present, names);

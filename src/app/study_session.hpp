@@ -2,9 +2,9 @@
 #pragma once
 
 #include "commands.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/manifest.hpp"
-#include "study_outcome.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -16,7 +16,7 @@ namespace launchsafe::app {
 struct SessionRequest {
   std::filesystem::path study;  ///< file
   std::filesystem::path folder;
-  study::StudyKind kind = study::StudyKind::critical_gap;
+  const kinds::Kind& kind;
   bool update = false;  ///< the folder may hold the results of an earlier study
   std::string part;     ///< of a shard
   std::string command;  ///< to be repeated after an interruption
@@ -39,18 +39,18 @@ class StudySession {
 
   /// Keeps what is to be kept and says what came of the study: what an interruption left, what a shard did,
   /// or report, tables and answer of the whole.
-  ExitCode conclude(const StudyResult& result, const study::StudyFile& file,
+  ExitCode conclude(const kinds::StudyOutcome& result, const study::StudyFile& file,
                     const study::StudyOptions& options);
 
  private:
   /// Whether all that was to be kept is on disk; prints why not.
   bool kept();
   ExitCode report_interruption(const study::StudyFile& file, const study::StudyOptions& options);
-  ExitCode deliver_shard(const StudyResult& result, const study::Shard& shard);
-  ExitCode deliver_whole(const StudyResult& result);
+  ExitCode deliver_shard(const kinds::StudyOutcome& result, const study::Shard& shard);
+  ExitCode deliver_whole(const kinds::StudyOutcome& result);
   /// Remarks edited files of an earlier report, which keep their content under another name.
   ExitCode keep_edited_files();
-  ExitCode write_files(const StudyResult& result, const std::vector<Failure>& failures);
+  ExitCode write_files(const kinds::StudyOutcome& result, const std::vector<kinds::Failure>& failures);
 
   SessionRequest request_;
   Console& console_;

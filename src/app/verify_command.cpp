@@ -163,8 +163,8 @@ std::vector<MeasuredSeries> measured(const std::vector<verify::ErrorSeries>& all
 }
 
 /// The settings whose computation failed.
-std::vector<Failure> failures_of(const std::vector<MeasuredSeries>& results) {
-  std::vector<Failure> failures;
+std::vector<kinds::Failure> failures_of(const std::vector<MeasuredSeries>& results) {
+  std::vector<kinds::Failure> failures;
   for (const MeasuredSeries& each : results) {
     for (const verify::PartSetting& row : each.settings) {
       if (std::isfinite(row.error)) continue;
@@ -195,7 +195,7 @@ ExitCode tabulate_errors(const VerifyArguments& arguments, Console& console) {
   const std::string command = errors_command(arguments);
   console.print_text(error_table_text(results, command));
   console.print_json(error_table_json(results, command));
-  const std::vector<Failure> failures = failures_of(results);
+  const std::vector<kinds::Failure> failures = failures_of(results);
   console.failures(failures);
   if (arguments.output) {
     const auto written = write_error_table(results, command, *arguments.output, {.stop = &stop_requested()});

@@ -1,8 +1,6 @@
 // Limits of the gap from the literature beside the critical gaps of a study.
-#include "columns.hpp"
-#include "launchsafe/report/critical_gap_report.hpp"
-#include "launchsafe/report/sweep_report.hpp"
-#include "verdict_text.hpp"
+#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/verdict_text.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +9,6 @@
 namespace launchsafe::report {
 namespace {
 
-using detail::named_text, detail::optional_number, detail::significant_column;
-
 std::vector<Cell> cells_of(const study::LimitComparison& comparison, const study::StudyFile& study,
                            const std::vector<const study::CriticalGap*>& critical) {
   std::vector<Cell> cells{100.0 * comparison.limit.gap,
@@ -20,13 +16,15 @@ std::vector<Cell> cells_of(const study::LimitComparison& comparison, const study
   if (!comparison.nearest) return cells;
   const study::StudyCase& input = study.cases[*comparison.nearest];
   const study::CriticalGap& gap = *critical[*comparison.nearest];
-  cells.insert(cells.end(),
-               {1e-6 * input.peak_pressure, input.label, optional_number(100.0 * detail::value_of(gap)),
-                detail::reads_as(gap), optional_number(100.0 * comparison.difference)});
+  cells.insert(cells.end(), {1e-6 * input.peak_pressure, input.label, optional_number(100.0 * value_of(gap)),
+                             reads_as(gap), optional_number(100.0 * comparison.difference)});
   return cells;
 }
 
-Table limits_against(const study::StudyFile& study, const std::vector<const study::CriticalGap*>& critical) {
+}  // namespace
+
+Table cited_limit_table(const study::StudyFile& study,
+                        const std::vector<const study::CriticalGap*>& critical) {
   Table table;
   if (study.study.cited_limits.empty()) return table;
   table.title = "Cited limits of the gap";
@@ -51,20 +49,6 @@ Table limits_against(const study::StudyFile& study, const std::vector<const stud
     table.notes.emplace_back(
         "Of several cases at that pressure it is the one with the smallest critical gap.");
   return table;
-}
-
-}  // namespace
-
-Table cited_limit_table(const study::CriticalGapResult& result) {
-  std::vector<const study::CriticalGap*> critical;
-  for (const study::CaseOutcome& outcome : result.cases) critical.push_back(&outcome.critical);
-  return limits_against(result.study, critical);
-}
-
-Table cited_limit_table(const study::SweepResult& result) {
-  std::vector<const study::CriticalGap*> critical;
-  for (const study::CaseAnswer& answer : result.answers) critical.push_back(&answer.critical);
-  return limits_against(result.study, critical);
 }
 
 }  // namespace launchsafe::report

@@ -1,8 +1,8 @@
-#include "columns.hpp"
+#include "launchsafe/report/columns.hpp"
 
 #include <fmt/format.h>
 
-namespace launchsafe::report::detail {
+namespace launchsafe::report {
 
 Table first_rows(Table table, std::size_t most, const std::string& file) {
   if (table.rows.size() <= most) return table;
@@ -12,4 +12,4 @@ Table first_rows(Table table, std::size_t most, const std::string& file) {
   return table;
 }
 
-}  // namespace launchsafe::report::detail
+}  // namespace launchsafe::report

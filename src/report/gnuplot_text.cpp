@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace launchsafe::report::detail {
+namespace launchsafe::report {
 
 std::string quoted(const std::string& text) {
   constexpr std::string_view harmless = " ,.:;()[]+-=/_<>";
@@ -37,4 +37,4 @@ std::string data_block(const std::string& name, const std::string& lines) {
   return fmt::format("${} << END_OF_DATA\n{}END_OF_DATA\n", name, lines);
 }
 
-}  // namespace launchsafe::report::detail
+}  // namespace launchsafe::report

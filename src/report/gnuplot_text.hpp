@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace launchsafe::report::detail {
+namespace launchsafe::report {
 
 /// A gnuplot string. All ASCII but letters, digits and a few harmless signs goes in as octal escapes, so that
 /// no quote, backslash, backtick or line end is ever seen by gnuplot's scanner.
@@ -34,4 +34,4 @@ MapCommands map_commands(const Plot& plot);
 /// Why values do not fit their grid; empty where they do.
 std::string unfit(const Map& map, const Plot& plot);
 
-}  // namespace launchsafe::report::detail
+}  // namespace launchsafe::report

@@ -1,6 +1,6 @@
 #include "launchsafe/report/interface_table.hpp"
 
-#include "columns.hpp"
+#include "launchsafe/report/columns.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -9,8 +9,6 @@
 
 namespace launchsafe::report {
 namespace {
-
-using detail::number_column, detail::significant_column;
 
 double largest(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());

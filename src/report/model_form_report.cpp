@@ -1,10 +1,10 @@
 #include "launchsafe/report/model_form_report.hpp"
 
-#include "columns.hpp"
+#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/store/own_files.hpp"
 #include "launchsafe/study/calibration_record.hpp"
-#include "study_text.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,6 @@
 namespace launchsafe::report {
 namespace {
 
-using detail::optional_number;
 using study::ModelFormEntry, study::ModelFormRecord;
 
 std::string megapascals(double pressure) { return significant(1e-6 * pressure, 6); }
@@ -87,19 +86,18 @@ Table model_form_table(const ModelForm& form) {
 Table model_constants_table(const ModelForm& form) {
   Table table;
   table.title = "Constants of each model, calibrated by the same rule";
-  table.columns = {
-      text_column("model"),
-      detail::significant_column("peak time", "ms", 6, "peak_time_ms"),
-      detail::significant_column("exponent", "", 6, "exponent"),
-      detail::significant_column("localisation", "", 6, "localisation"),
-      detail::significant_column("exchange time", "ms", 6, "exchange_time_ms"),
-      detail::significant_column("T1", "K", 6, "ignition_temperature_K"),
-      detail::significant_column("RMS of selection", "K", 4, "selection_rms_K"),
-      detail::significant_column("largest computed - published, held out", "K", 3,
-                                 "held_out_computed_minus_published_K"),
-      detail::significant_column("change to the finer mesh", "K", 3, "station_change_to_finer_K"),
-      detail::significant_column("from the coarser", "K", 3, "station_change_from_coarser_K"),
-      text_column("stations converge")};
+  table.columns = {text_column("model"),
+                   significant_column("peak time", "ms", 6, "peak_time_ms"),
+                   significant_column("exponent", "", 6, "exponent"),
+                   significant_column("localisation", "", 6, "localisation"),
+                   significant_column("exchange time", "ms", 6, "exchange_time_ms"),
+                   significant_column("T1", "K", 6, "ignition_temperature_K"),
+                   significant_column("RMS of selection", "K", 4, "selection_rms_K"),
+                   significant_column("largest computed - published, held out", "K", 3,
+                                      "held_out_computed_minus_published_K"),
+                   significant_column("change to the finer mesh", "K", 3, "station_change_to_finer_K"),
+                   significant_column("from the coarser", "K", 3, "station_change_from_coarser_K"),
+                   text_column("stations converge")};
   for (const ModelFormEntry& each : form.entries) {
     const study::CalibrationRecord& record = *each.calibration;
     if (!record.failure.empty()) continue;

@@ -14,8 +14,6 @@
 namespace launchsafe::report {
 namespace {
 
-using detail::coordinate, detail::data_block, detail::drawable, detail::quoted;
-
 // --- series ---
 
 bool has_bars(const Series& series) {
@@ -147,7 +145,7 @@ std::string page_commands(const Plot& plot) {
 }
 
 /// Label, limits, scale and tics of the axis "x" or "y".
-std::string axis_commands(const std::string& name, const Axis& axis) {
+std::string axis_commands(const std::string& name, const PlotAxis& axis) {
   std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label));
   if (axis.minimum) text += fmt::format("set {}range [{}:]\n", name, exact(*axis.minimum));
   if (axis.maximum) text += fmt::format("set {}range [:{}]\n", name, exact(*axis.maximum));
@@ -162,7 +160,7 @@ std::string axis_commands(const std::string& name, const Axis& axis) {
 
 /// Why a plot cannot be drawn; empty where it can.
 std::string unfit(const Plot& plot) {
-  for (const Axis* axis : {&plot.x, &plot.y}) {
+  for (const PlotAxis* axis : {&plot.x, &plot.y}) {
     const bool fits = drawable(axis->minimum.value_or(1.0), axis->scale) &&
                       drawable(axis->maximum.value_or(1.0), axis->scale);
     if (!fits) return "a limit has no place on its axis: " + axis->label;
@@ -173,7 +171,7 @@ std::string unfit(const Plot& plot) {
     if (has_bars(series) && (series.lower.size() != points || series.upper.size() != points))
       return "a series has a bar for every point: " + series.label;
   }
-  if (plot.map) return detail::unfit(*plot.map, plot);
+  if (plot.map) return unfit(*plot.map, plot);
   const bool has_points = std::any_of(plot.series.begin(), plot.series.end(),
                                       [](const Series& series) { return !series.x.empty(); });
   return has_points ? "" : "it has no points";
@@ -198,7 +196,7 @@ std::string to_gnuplot(const Plot& plot) {
   std::string text = page_commands(plot);
   Commands commands;
   if (plot.map) {
-    detail::MapCommands map = detail::map_commands(plot);
+    MapCommands map = map_commands(plot);
     text += map.settings;
     commands.plots = std::move(map.plots);
   }

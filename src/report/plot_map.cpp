@@ -9,7 +9,7 @@
 #include <cmath>
 #include <functional>
 
-namespace launchsafe::report::detail {
+namespace launchsafe::report {
 namespace {
 
 /// Viridis without its darkest part, so that black lines show everywhere; its lightness rises evenly.
@@ -189,4 +189,4 @@ MapCommands map_commands(const Plot& plot) {
   return commands;
 }
 
-}  // namespace launchsafe::report::detail
+}  // namespace launchsafe::report

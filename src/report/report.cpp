@@ -1,7 +1,7 @@
 #include "launchsafe/report/report.hpp"
 
-#include "columns.hpp"
-#include "study_text.hpp"
+#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/study_text.hpp"
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ std::string block_of(const Statement& statement, const std::vector<std::string>&
 
 std::string block_of(const ReportTable& item, const std::vector<std::string>&) {
   if (!on_page(item) || item.table.rows.empty()) return {};
-  return to_markdown(detail::first_rows(item.table, item.most_rows, rest_of(item)));
+  return to_markdown(first_rows(item.table, item.most_rows, rest_of(item)));
 }
 
 std::string block_of(const Picture& picture, const std::vector<std::string>& missing) {
@@ -56,7 +56,7 @@ store::Result<std::vector<std::string>> draw(const Report& report, const std::fi
     if (picture == nullptr) continue;
     std::string name;
     if (missing.empty()) {
-      auto drawn = detail::write_picture(picture->plot, folder, picture->file, written, limits);
+      auto drawn = write_picture(picture->plot, folder, picture->file, written, limits);
       if (!drawn) return drawn.error();
       name = *drawn;
     }
@@ -99,13 +99,13 @@ store::Result<WrittenFiles> write_report(const Report& report, const std::filesy
       texts.emplace_back(table->csv, to_csv(table->table));
   }
   for (const TextFile& file : report.files) texts.emplace_back(file.name, file.text);
-  if (auto error = detail::write_texts(folder, texts, written)) return *error;
+  if (auto error = write_texts(folder, texts, written)) return *error;
   const auto missing = draw(report, folder, limits, written);
   if (!missing) return missing.error();
   written.remarks.insert(written.remarks.end(), report.remarks.begin(), report.remarks.end());
   texts = {{"report.md", to_markdown(report, *missing)}};
   if (!report.json.empty()) texts.emplace_back("study.json", report.json);
-  if (auto error = detail::write_texts(folder, texts, written)) return *error;
+  if (auto error = write_texts(folder, texts, written)) return *error;
   return written;
 }
 

@@ -1,4 +1,4 @@
-#include "shown_key.hpp"
+#include "launchsafe/report/shown_key.hpp"
 
 #include "launchsafe/report/number.hpp"
 
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace launchsafe::report::detail {
+namespace launchsafe::report {
 namespace {
 
 /// The double nearest to the shortest decimal of a value times ten to the power.
@@ -132,21 +132,13 @@ std::string ShownKey::heading() const { return unit.empty() ? name : name + " ["
 
 Column ShownKey::column() const { return {name, unit, Alignment::right, 6, Notation::significant, key}; }
 
-ShownKey shown(const study::Axis& axis) { return shown_numbers(axis.name, axis.key, axis.values); }
-
-ShownKey shown(const study::UncertainInput& input) {
-  return shown_numbers(input.name, input.key, marks_of(input.distribution));
+ShownKey shown(const study::Axis& axis) {
+  return shown_numbers(axis.name, axis.key, axis.distribution ? marks_of(*axis.distribution) : axis.values);
 }
 
 std::vector<ShownKey> shown_axes(const study::Study& study) {
   std::vector<ShownKey> keys;
   for (const study::Axis& axis : study.axes) keys.push_back(shown(axis));
-  return keys;
-}
-
-std::vector<ShownKey> shown_inputs(const study::Study& study) {
-  std::vector<ShownKey> keys;
-  for (const study::UncertainInput& input : study.inputs) keys.push_back(shown(input));
   return keys;
 }
 
@@ -192,4 +184,4 @@ std::string place_text(const std::vector<ShownKey>& keys, const std::vector<doub
   return text;
 }
 
-}  // namespace launchsafe::report::detail
+}  // namespace launchsafe::report

@@ -1,13 +1,13 @@
-#include "study_text.hpp"
+#include "launchsafe/report/study_text.hpp"
 
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/sha256.hpp"
-#include "shown_key.hpp"
 
 #include <fmt/format.h>
 
@@ -15,25 +15,19 @@
 #include <cctype>
 #include <cmath>
 
-namespace launchsafe::report::detail {
+namespace launchsafe::report {
 namespace {
 
-/// The scene keys that a study varies, each with its values.
-std::vector<std::pair<std::string, std::string>> varied_keys(const study::Study& study) {
-  std::vector<std::pair<std::string, std::string>> keys;
-  for (const study::Axis& axis : study.axes)
-    keys.emplace_back(axis.key.name, values_text(shown(axis), axis.values));
-  for (const study::UncertainInput& input : study.inputs)
-    keys.emplace_back(input.key.name, distribution_text(shown(input), input.distribution));
-  return keys;
+std::string values_or_distribution(const study::Axis& axis) {
+  const ShownKey key = shown(axis);
+  return axis.distribution ? distribution_text(key, *axis.distribution) : values_text(key, axis.values);
 }
 
 }  // namespace
 
 bool varies(const study::Study& study, const std::string& key) {
-  const auto named = [&key](const auto& each) { return each.key.name == key; };
-  return std::any_of(study.axes.begin(), study.axes.end(), named) ||
-         std::any_of(study.inputs.begin(), study.inputs.end(), named);
+  return std::any_of(study.axes.begin(), study.axes.end(),
+                     [&key](const study::Axis& axis) { return axis.key.name == key; });
 }
 
 std::string study_file_name(const study::StudyFile& study) {
@@ -51,8 +45,8 @@ std::string setup_text(const study::StudyFile& study) {
   text += "\n";
   if (!study.chosen_setting.empty())
     text += fmt::format("- Setting picked from `{}`: {}\n", study.study.accuracy, study.chosen_setting);
-  for (const auto& [key, values] : varied_keys(study.study))
-    text += fmt::format("- `{}` is varied: {}\n", key, values);
+  for (const study::Axis& axis : study.study.axes)
+    text += fmt::format("- `{}` is varied: {}\n", axis.key.name, values_or_distribution(axis));
   const std::vector<std::string> shown_keys{"symmetry",
                                             "frame",
                                             "barrel",
@@ -144,4 +138,4 @@ store::MaybeError write_texts(const std::filesystem::path& folder,
   return {};
 }
 
-}  // namespace launchsafe::report::detail
+}  // namespace launchsafe::report

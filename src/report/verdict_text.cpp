@@ -1,19 +1,18 @@
-#include "verdict_text.hpp"
+#include "launchsafe/report/verdict_text.hpp"
 
-#include "columns.hpp"
+#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/stations.hpp"
-#include "launchsafe/study/calibration.hpp"
 #include "launchsafe/study/uncertainty_text.hpp"
-#include "study_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace launchsafe::report::detail {
+namespace launchsafe::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -36,7 +35,7 @@ Json json_of(const std::optional<study::NamedIgnition>& ignition) {
 /// bodies of their own.
 std::string off_grid_note(const study::StudyFile& study) {
   constexpr const char* meaning = "calibrated constants do not carry over from a grid that fits.";
-  if (study.study.axes.empty() && study.study.inputs.empty()) {
+  if (study.study.axes.empty()) {
     const std::string edges = scene::charge_edges_off_grid(study.scene.scene);
     return edges.empty() ? "" : fmt::format("The charge lies off the grid lines ({}): {}", edges, meaning);
   }
@@ -206,4 +205,4 @@ bool acted(const run::LimiterCounts& limiters) {
   return limiters.crack_at_bound + limiters.tension_cutoff + limiters.hugoniot_guard > 0;
 }
 
-}  // namespace launchsafe::report::detail
+}  // namespace launchsafe::report

@@ -1,7 +1,7 @@
 // Accuracy records as JSON, written and read with distrust.
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
-#include "record_reader.hpp"
+#include "launchsafe/study/record_reader.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,7 +15,6 @@
 namespace launchsafe::study {
 namespace {
 
-using detail::RecordReader, detail::found_in, detail::quoted;
 using nlohmann::ordered_json;
 using scene::Limits;
 
@@ -263,7 +262,7 @@ AccuracyRecord record_from(const ordered_json& object, RecordReader& reader) {
 
 std::string to_json_text(const AccuracyRecord& record) {
   ordered_json object = content_of(record);
-  return detail::record_text(std::move(object));
+  return record_text(std::move(object));
 }
 
 scene::Expected<AccuracyRecord> parse_accuracy_record(const std::string& text, const std::string& file) {

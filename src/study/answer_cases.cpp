@@ -1,6 +1,6 @@
-#include "answer_cases.hpp"
+#include "launchsafe/study/answer_cases.hpp"
 
-#include "case_uncertainty.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/version.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace launchsafe::study::detail {
+namespace launchsafe::study {
 namespace {
 
 /// What of a study influences an answer, as text; and the build, since answers are cheap to draw again, while
@@ -186,4 +186,4 @@ bool any_failed(const std::vector<CaseAnswer>& answers) {
                      [](const CaseAnswer& each) { return !each.completed(); });
 }
 
-}  // namespace launchsafe::study::detail
+}  // namespace launchsafe::study

@@ -1,8 +1,8 @@
 #include "launchsafe/study/case_answer.hpp"
 
-#include "case_uncertainty.hpp"
-#include "gap_analysis.hpp"
 #include "launchsafe/run/load_coverage.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct InputStatements {
 };
 
 InputStatements statements_of(const Study& study, const StudyCase& input) {
-  InputStatements statements{detail::doubts_of_input(study, input), detail::accepted_text(study, input),
+  InputStatements statements{doubts_of_input(study, input), accepted_text(study, input),
                              distance_to_calibration(input.scene.scene, study.calibration)};
   for (std::string& each : run::uncovered_load(input.scene.scene.load))
     statements.doubts.push_back(std::move(each));
@@ -46,14 +46,13 @@ bool says(const GapVerdict& row, const InputStatements& statements, const Study&
   const Uncertainty& u = row.uncertainty;
   return std::all_of(statements.doubts.begin(), statements.doubts.end(), is_said) &&
          row.evidence.accepted == statements.accepted &&
-         row.evidence.optimistic == detail::optimistic_text(input.scene.scene) &&
-         row.evidence.extrapolated == detail::extrapolation_text(study, input, row.gap) &&
+         row.evidence.optimistic == optimistic_text(input.scene.scene) &&
+         row.evidence.extrapolated == extrapolation_text(study, input, row.gap) &&
          !(u.numerical < input.numerical_uncertainty) &&
-         !(u.fit < detail::fit_share(study, statements.distance, {})) &&
-         !(u.model_form < detail::stated_model_form_share(study, input).value_or(0.0)) &&
-         row.evidence.model_form ==
-             detail::model_form_text(study, input, row.gap, row.ignition.has_value()) &&
-         !(u.input < detail::stated_input_share(study, input));
+         !(u.fit < fit_share(study, statements.distance, {})) &&
+         !(u.model_form < stated_model_form_share(study, input).value_or(0.0)) &&
+         row.evidence.model_form == model_form_text(study, input, row.gap, row.ignition.has_value()) &&
+         !(u.input < stated_input_share(study, input));
 }
 
 }  // namespace
@@ -65,10 +64,10 @@ CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::Mech
   outcome.result.mechanics = mechanics;
   outcome.failure = failure_of(mechanics);
   outcome.raised = raised;
-  detail::find_critical_gaps(study, outcome);
-  detail::evaluate_gaps(study, outcome);
-  detail::apply_confirmations(study, outcome);
-  detail::conclude(study, outcome);
+  find_critical_gaps(study, outcome);
+  evaluate_gaps(study, outcome);
+  apply_confirmations(study, outcome);
+  conclude(study, outcome);
   CaseAnswer answer = without_histories(outcome);
   for (const GapVerdict& row : answer.verdicts)
     answer.heated_temperature.push_back(answer.completed() ? row.heated : not_a_number);
@@ -82,9 +81,9 @@ CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome 
   outcome.outcome = of_run;
   outcome.input = input;
   outcome.failure = std::move(failure);
-  detail::find_critical_gaps(study, outcome);
-  detail::evaluate_gaps(study, outcome);
-  detail::conclude(study, outcome);
+  find_critical_gaps(study, outcome);
+  evaluate_gaps(study, outcome);
+  conclude(study, outcome);
   CaseAnswer answer = without_histories(outcome);
   answer.heated_temperature.assign(study.gaps.size(), not_a_number);
   return answer;

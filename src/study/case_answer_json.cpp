@@ -1,6 +1,6 @@
 // Answers as JSON, to be stored and read back exactly. Verdicts are not stored: they follow from what is.
 #include "launchsafe/study/case_answer.hpp"
-#include "row_judgement.hpp"
+#include "launchsafe/study/row_judgement.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -168,13 +168,13 @@ RunSummary run_of(const json& value) {
 /// The verdicts, as they follow from what was read.
 void judge_rows(CaseAnswer& answer) {
   for (GapVerdict& row : answer.verdicts) {
-    Evidence evidence = detail::evidence_of(row, answer.failure, answer.run.limiters);
+    Evidence evidence = evidence_of(row, answer.failure, answer.run.limiters);
     evidence.doubt = row.evidence.doubt;
     evidence.accepted = row.evidence.accepted;
     evidence.optimistic = row.evidence.optimistic;
     evidence.model_form = row.evidence.model_form;
     evidence.extrapolated = row.evidence.extrapolated;
-    detail::judge_row(std::move(evidence), answer.critical, row);
+    judge_row(std::move(evidence), answer.critical, row);
   }
 }
 

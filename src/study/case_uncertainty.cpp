@@ -1,4 +1,4 @@
-#include "case_uncertainty.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace launchsafe::study::detail {
+namespace launchsafe::study {
 namespace {
 
 /// What a scene says of using the constants in spite of a difference: of its key, or of all of them. Where T
@@ -54,9 +54,7 @@ std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCa
 
 }  // namespace
 
-bool gives_verdicts(const Study& study) {
-  return study.kind == StudyKind::critical_gap || study.kind == StudyKind::sweep;
-}
+bool gives_verdicts(const Study& study) { return study.kind.gives_verdicts; }
 
 bool propagates_spread(const Study& study) {
   return gives_verdicts(study) && !std::isfinite(study.input_uncertainty);
@@ -157,7 +155,7 @@ std::string extrapolation_text(const Study& study, const StudyCase& input, doubl
   return beyond.empty() ? std::string{} : fmt::format("extrapolated: {}", fmt::join(beyond, ", "));
 }
 
-}  // namespace launchsafe::study::detail
+}  // namespace launchsafe::study
 
 namespace launchsafe::study {
 
@@ -201,7 +199,7 @@ std::string model_form_uncertainty_text(const StudyFile& study) {
   const std::string otherwise = fmt::format(
       "{:.3g} K are assumed, more than any of the models of the 155 mm "
       "shell that count moves T max, growing with the power {:g} of the pressure",
-      assumed_model_form, detail::heat_exponent);
+      assumed_model_form, heat_exponent);
   if (std::isfinite(s.model_form_uncertainty))
     return fmt::format("{:.3g} K, as the study states for its own scene.", s.model_form_uncertainty);
   if (!s.model_form) return "the study names no record of other models, so that " + otherwise + ".";
@@ -231,12 +229,12 @@ std::string input_uncertainty_text(const Study& study) {
           ? fmt::format(
                 "{:.3g} K, as the study states for its own scene; at a higher peak it grows with the power "
                 "{:g} of the pressure",
-                study.input_uncertainty, detail::heat_exponent)
+                study.input_uncertainty, heat_exponent)
           : fmt::format(
                 "the study states none, so that an assumed spread is propagated: the load {:.3g} % higher, "
                 "by "
                 "a run of its own, and the initial temperature {:.3g} K higher, both together",
-                100.0 * detail::assumed_load_spread, detail::assumed_temperature_spread);
+                100.0 * assumed_load_spread, assumed_temperature_spread);
   return spread + ". The noise of a measured curve and what smoothing took from its peak come on top.";
 }
 

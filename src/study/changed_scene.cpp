@@ -1,10 +1,10 @@
-#include "changed_scene.hpp"
+#include "launchsafe/study/changed_scene.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-namespace launchsafe::study::detail {
+namespace launchsafe::study {
 
 void ChangedScene::apply(const Change& change) {
   if (auto error = try_to(change)) {
@@ -65,4 +65,4 @@ scene::InputError ChangedScene::error() const {
   return error;
 }
 
-}  // namespace launchsafe::study::detail
+}  // namespace launchsafe::study

@@ -1,4 +1,4 @@
-#include "cited_limits.hpp"
+#include "launchsafe/study/cited_limits.hpp"
 
 #include "launchsafe/study/bracket.hpp"
 
@@ -6,7 +6,6 @@
 #include <cmath>
 
 namespace launchsafe::study {
-namespace detail {
 namespace {
 
 using scene::Dimension, scene::Key;
@@ -49,8 +48,6 @@ Fault read_cited_limits(const toml::table& root, StudyFile& study) {
   }
   return std::nullopt;
 }
-
-}  // namespace detail
 
 namespace {
 

@@ -1,5 +1,5 @@
 // The optimistic bound of a case: its gaps with air that conserves energy.
-#include "gap_analysis.hpp"
+#include "launchsafe/study/gap_analysis.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace launchsafe::study::detail {
+namespace launchsafe::study {
 namespace {
 
 GapState film_state(const surface::SkinHistory& history) {
@@ -60,4 +60,4 @@ void evaluate_film(const Study& study, CaseOutcome& outcome) {
   outcome.film = std::move(film);
 }
 
-}  // namespace launchsafe::study::detail
+}  // namespace launchsafe::study

@@ -1,7 +1,7 @@
 #include "launchsafe/study/forecast.hpp"
 
-#include "answer_cases.hpp"
 #include "launchsafe/scene/plan.hpp"
+#include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
 #include <fmt/format.h>
@@ -17,8 +17,6 @@ namespace launchsafe::study {
 namespace {
 
 using store::CaseState, store::JournalEntry;
-
-bool draws_answers(StudyKind kind) { return kind == StudyKind::sweep || kind == StudyKind::sensitivity; }
 
 /// The lines of one text that the other does not have, "key = value" each.
 std::vector<std::string> lines_only_in(const std::string& text, const std::string& other) {
@@ -161,8 +159,8 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
   learn_rate(forecast, options);
   const Reasons reasons(options.store);
   std::vector<CaseRuns> cases = case_runs(study, options.shard.count);
-  const bool drawn = options.store != nullptr && draws_answers(study.study.kind);
-  const auto keys = drawn ? detail::answer_keys(study, cases) : std::vector<std::string>{};
+  const bool drawn = options.store != nullptr && study.study.kind.keeps_answers;
+  const auto keys = drawn ? answer_keys(study, cases) : std::vector<std::string>{};
   std::erase_if(cases, [&](const CaseRuns& each) { return each.shard != options.shard.index; });
   std::vector<std::vector<ForecastRun>> runs(cases.size());
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
@@ -186,8 +184,7 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
     memories.push_back(run.memory);
   }
   forecast.jobs = std::max(1, std::min(jobs_of(options), static_cast<int>(forecast.runs.size())));
-  if (study.study.kind == StudyKind::critical_gap && study.study.confirm)
-    forecast.confirmations = 2 * cases.size();
+  forecast.confirmations = study.confirmations_per_case * cases.size();
   forecast.time = time_on(times, forecast.jobs);
   std::sort(memories.rbegin(), memories.rend());
   memories.resize(std::min<std::size_t>(memories.size(), static_cast<std::size_t>(forecast.jobs)));

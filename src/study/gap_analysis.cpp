@@ -1,8 +1,8 @@
-#include "gap_analysis.hpp"
+#include "launchsafe/study/gap_analysis.hpp"
 
-#include "case_uncertainty.hpp"
 #include "launchsafe/run/doubts.hpp"
-#include "row_judgement.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/row_judgement.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-namespace launchsafe::study::detail {
+namespace launchsafe::study {
 namespace {
 
 using trace::BottomTrace;
@@ -314,4 +314,4 @@ void conclude(const Study& study, CaseOutcome& outcome) {
   outcome.fit = fit_gaps(gaps, temperatures, study.reference_line);
 }
 
-}  // namespace launchsafe::study::detail
+}  // namespace launchsafe::study

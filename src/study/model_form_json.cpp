@@ -1,7 +1,7 @@
 // Critical gaps of models and the record of model form as JSON, read with distrust.
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/model_form.hpp"
-#include "record_reader.hpp"
+#include "launchsafe/study/record_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 namespace launchsafe::study {
 namespace {
 
-using detail::RecordReader;
 using nlohmann::ordered_json;
 
 constexpr const char* curve_format = "launchsafe critical gaps 1";
@@ -101,7 +100,7 @@ std::vector<GapOrBound> gaps_from(const ordered_json& list, const std::string& p
                                   RecordReader& reader) {
   std::vector<GapOrBound> gaps;
   if (!list.is_array() || list.size() != count) {
-    reader.refuse(path, detail::found_in(list), fmt::format("{} critical gaps", count));
+    reader.refuse(path, found_in(list), fmt::format("{} critical gaps", count));
     return gaps;
   }
   for (const ordered_json& each : list) {
@@ -129,8 +128,8 @@ ModelAlternative alternative_from(const ordered_json& object, const std::string&
 
 }  // namespace
 
-std::string to_json_text(const CriticalGapCurve& curve) { return detail::record_text(content_of(curve)); }
-std::string to_json_text(const ModelFormRecord& record) { return detail::record_text(content_of(record)); }
+std::string to_json_text(const CriticalGapCurve& curve) { return record_text(content_of(curve)); }
+std::string to_json_text(const ModelFormRecord& record) { return record_text(content_of(record)); }
 
 scene::Expected<CriticalGapCurve> parse_critical_gap_curve(const std::string& text, const std::string& file) {
   RecordReader reader(file);
@@ -166,7 +165,7 @@ scene::Expected<ModelFormRecord> parse_model_form(const std::string& text, const
     record.critical_gap = gaps_from((*object)["critical_gap_m"], "critical_gap_m", pressures, reader);
     const ordered_json& alternatives = (*object)["alternatives"];
     if (!alternatives.is_array() || alternatives.empty() || alternatives.size() > most_alternatives)
-      reader.refuse("alternatives", detail::found_in(alternatives), "1 to 1000 alternatives");
+      reader.refuse("alternatives", found_in(alternatives), "1 to 1000 alternatives");
     for (std::size_t i = 0; !reader.fault() && i < alternatives.size(); ++i)
       record.alternatives.push_back(
           alternative_from(alternatives[i], fmt::format("alternatives.{}", i), pressures, reader));

@@ -1,4 +1,4 @@
-#include "record_reader.hpp"
+#include "launchsafe/study/record_reader.hpp"
 
 #include "launchsafe/store/sha256.hpp"
 
@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-namespace launchsafe::study::detail {
+namespace launchsafe::study {
 namespace {
 
 using nlohmann::ordered_json;
@@ -144,4 +144,4 @@ std::string RecordReader::text(const ordered_json& value, const std::string& pat
   return value.is_string() ? value.get<std::string>() : std::string{};
 }
 
-}  // namespace launchsafe::study::detail
+}  // namespace launchsafe::study

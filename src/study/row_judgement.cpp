@@ -1,10 +1,10 @@
-#include "row_judgement.hpp"
+#include "launchsafe/study/row_judgement.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-namespace launchsafe::study::detail {
+namespace launchsafe::study {
 
 Evidence evidence_of(const GapVerdict& row, const std::string& failure, const run::LimiterCounts& limiters) {
   Evidence evidence;
@@ -28,4 +28,4 @@ void judge_row(Evidence evidence, const CriticalGap& critical, GapVerdict& row) 
   row.evidence = std::move(evidence);
 }
 
-}  // namespace launchsafe::study::detail
+}  // namespace launchsafe::study

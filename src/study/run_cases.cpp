@@ -1,8 +1,8 @@
 #include "launchsafe/study/run_cases.hpp"
 
-#include "case_uncertainty.hpp"
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/scene/mechanical_part.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -273,11 +273,10 @@ std::vector<CaseRuns> case_runs(const StudyFile& study, int shards) {
     if (is_new) cases.push_back({{}, {std::move(own[i])}, 1});
     cases[found->second].members.push_back(i);
   }
-  if (detail::propagates_spread(study.study)) {
+  if (propagates_spread(study.study)) {
     tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
       const StudyCase& first = study.cases[cases[i].members.front()];
-      cases[i].runs.push_back(
-          mechanics_run(detail::with_raised_load(first.scene.scene), detail::label_of_raised(first)));
+      cases[i].runs.push_back(mechanics_run(with_raised_load(first.scene.scene), label_of_raised(first)));
     });
   }
   std::vector<double> costs;

@@ -1,4 +1,4 @@
-#include "study_axes.hpp"
+#include "launchsafe/study/study_axes.hpp"
 
 #include "launchsafe/scene/scene_keys.hpp"
 
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-namespace launchsafe::study::detail {
+namespace launchsafe::study {
 namespace {
 
 using scene::InputError, scene::KeyDescription, scene::KeyKind, scene::Place;
@@ -70,53 +70,6 @@ void collect_leaves(const toml::table& table, const std::string& prefix, std::ve
   }
 }
 
-Fault read_gap_axis(const toml::node& node, StudyFile& study) {
-  const std::string key = "axes." + std::string(gap_axis);
-  KeyDescription description = *scene::find_key(scene::scene_keys(), "gap.thickness");
-  description.name = key;
-  const auto value = scene::read_value(node, description, study.file);
-  if (!value) return value.error();
-  study.study.gaps = std::get<std::vector<double>>(*value);
-  return check_twice(study, key, description.dimension, study.study.gaps);
-}
-
-/// A scene key that varies and also stands in [set], or that varies twice.
-Fault check_conflicts(const StudyFile& study, const std::string& key, const Axis& axis) {
-  if (study.overrides.contains(axis.key.name)) {
-    return fault_at(study, key, axis.key.name + ", which [set] or the calibration fixes",
-                    fmt::format("{} either in [axes], or in [set] or a calibration", axis.key.name));
-  }
-  for (const Axis& other : study.study.axes) {
-    if (other.key.name != axis.key.name) continue;
-    return fault_at(study, key, fmt::format("{} a second time, after {}", axis.key.name, other.name),
-                    "each scene key once");
-  }
-  return std::nullopt;
-}
-
-Fault read_axis(const Leaf& leaf, StudyFile& study) {
-  const Place place = scene::place_of(*leaf.node, study.file);
-  const std::string key = "axes." + leaf.name;
-  study.places[key] = place;
-  if (leaf.name == gap_axis) return read_gap_axis(*leaf.node, study);
-  if (leaf.name == "gap.thickness") {
-    return fault_at(study, key, "gap.thickness as an axis", "gap, which all gaps of one mechanical run share",
-                    std::string(gap_axis));
-  }
-  const auto description = varied_key(study, leaf.name, key, place, {std::string(gap_axis)});
-  if (!description) return description.error();
-  Axis axis{leaf.name, *description, {}};
-  if (Fault fault = check_conflicts(study, key, axis)) return fault;
-  KeyDescription as_written = *description;
-  as_written.name = key;
-  const auto values = scene::read_values(*leaf.node, as_written, study.file);
-  if (!values) return values.error();
-  for (const scene::Value& value : *values) axis.values.push_back(std::get<double>(value));
-  if (Fault fault = check_twice(study, key, axis.key.dimension, axis.values)) return fault;
-  study.study.axes.push_back(std::move(axis));
-  return std::nullopt;
-}
-
 /// The peak matters under a measured curve that is rescaled to it; the other numbers of the analytic shape
 /// never do.
 Fault check_load_axis(const StudyFile& study, const std::string& key, const std::string& scene_key) {
@@ -170,31 +123,19 @@ double number_in(const scene::SceneFile& file, const std::string& key) {
   return std::get<double>(scene::value_in(file, key));
 }
 
-Fault read_axes(const toml::table& root, StudyFile& study) {
-  const toml::node* node = root.get("axes");
-  if (!node) return std::nullopt;
-  const toml::table* table = node->as_table();
-  if (!table) {
-    return scene::error_at(scene::place_of(*node, study.file), "axes", scene::found_text(*node),
-                           "a table, written [axes], of what varies");
-  }
-  for (const Leaf& leaf : leaves_as_written(*table)) {
-    if (Fault fault = read_axis(leaf, study)) return fault;
+Fault check_load_axes(const StudyFile& study) {
+  for (const Axis& axis : study.study.axes) {
+    if (Fault fault = check_load_axis(study, axis.study_key, axis.key.name)) return fault;
   }
   return std::nullopt;
 }
 
-Fault check_load_axes(const StudyFile& study) {
-  for (const Axis& axis : study.study.axes) {
-    if (Fault fault = check_load_axis(study, "axes." + axis.name, axis.key.name)) return fault;
-  }
-  for (std::size_t i = 0; i < study.study.inputs.size(); ++i) {
-    Fault fault = check_load_axis(study, fmt::format("input.{}.key", i), study.study.inputs[i].key.name);
-    if (!fault) continue;
-    fault->key = "input.key";
-    return fault;
-  }
-  return std::nullopt;
+scene::Expected<Axis> axis_over(const StudyFile& study, const std::string& name, const std::string& study_key,
+                                std::vector<double> values) {
+  auto key = varied_key(study, name, study_key, place_of_key(study, study_key));
+  if (!key) return key.error();
+  if (Fault fault = check_twice(study, study_key, key->dimension, values)) return *fault;
+  return Axis{name, study_key, std::move(*key), std::move(values)};
 }
 
 Fault check_twice(const StudyFile& study, const std::string& key, scene::Dimension dimension,
@@ -207,4 +148,4 @@ Fault check_twice(const StudyFile& study, const std::string& key, scene::Dimensi
   return fault_at(study, key, scene::format_quantity(*twice, dimension) + " twice", "each value once");
 }
 
-}  // namespace launchsafe::study::detail
+}  // namespace launchsafe::study

@@ -1,7 +1,7 @@
-#include "study_calibration.hpp"
+#include "launchsafe/study/study_calibration.hpp"
 
-#include "changed_scene.hpp"
 #include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/changed_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace launchsafe::study::detail {
+namespace launchsafe::study {
 namespace {
 
 constexpr std::array constants{"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"};
@@ -117,4 +117,4 @@ Fault read_model_form(StudyFile& study, const std::filesystem::path& folder) {
   return std::nullopt;
 }
 
-}  // namespace launchsafe::study::detail
+}  // namespace launchsafe::study

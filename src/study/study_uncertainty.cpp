@@ -1,8 +1,8 @@
-#include "study_uncertainty.hpp"
+#include "launchsafe/study/study_uncertainty.hpp"
 
-#include "changed_scene.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/study/changed_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <map>
 #include <utility>
 
-namespace launchsafe::study::detail {
+namespace launchsafe::study {
 namespace {
 
 /// Whether any case has a key of a kind otherwise than the scene as it was written.
@@ -20,8 +20,7 @@ bool has_other(const StudyFile& study, bool (*is_of_the_kind)(const std::string&
   const Study& s = study.study;
   return std::any_of(study.overrides.begin(), study.overrides.end(),
                      [=](const auto& each) { return is_of_the_kind(each.first); }) ||
-         std::any_of(s.axes.begin(), s.axes.end(), varies) ||
-         std::any_of(s.inputs.begin(), s.inputs.end(), varies);
+         std::any_of(s.axes.begin(), s.axes.end(), varies);
 }
 
 bool has_other_numerics(const StudyFile& study) { return has_other(study, belongs_to_setting); }
@@ -189,4 +188,4 @@ void settle_uncertainty(StudyFile& study, const std::optional<AccuracyRecord>& r
   }
 }
 
-}  // namespace launchsafe::study::detail
+}  // namespace launchsafe::study

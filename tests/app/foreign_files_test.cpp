@@ -1,6 +1,6 @@
 // Somebody else's files, under every name that the program gives a file of its own, and its own files after
 // somebody edited them: nothing is overwritten, emptied, appended to or deleted.
-#include "launchsafe/report/report_names.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "stored_study.hpp"
 
@@ -162,21 +162,21 @@ class OwnFolder : public StoredStudy {
 
 // What a report writes has to be on the list by which a folder is refused before anything is computed.
 TEST_F(OwnFolder, HoldsOnlyNamesThatAreExpected) {
-  using study::StudyKind;
-  const std::map<StudyKind, std::string> kinds{{StudyKind::sweep, sweep_study},
-                                               {StudyKind::sensitivity, sensitivity_study},
-                                               {StudyKind::critical_gap, critical_gap_study},
-                                               {StudyKind::accuracy, accuracy_study},
-                                               {StudyKind::stability, stability_study}};
-  for (const auto& [kind, text] : kinds) {
+  const std::map<std::string, std::string> studies{{"sweep", sweep_study},
+                                                   {"sensitivity", sensitivity_study},
+                                                   {"critical-gap", critical_gap_study},
+                                                   {"accuracy", accuracy_study},
+                                                   {"stability", stability_study}};
+  for (const auto& [kind, text] : studies) {
     write("study.toml", text);
-    const std::string out = "out of " + to_string(kind);
+    const std::string out = "out of " + kind;
     const Outcome outcome = run({"study", "study.toml", "-o", out});
     ASSERT_TRUE(outcome.code == 0 || outcome.code == 3 || outcome.code == 4) << outcome.err;
     const auto files = nlohmann::json::parse(read(out + "/manifest.json"))["files"];
     EXPECT_GT(files.size(), 3u);
     for (const auto& file : files)
-      EXPECT_TRUE(report::may_write(kind, file["name"].get<std::string>())) << out << ": " << file["name"];
+      EXPECT_TRUE(kinds::may_write(kinds::kind_named(kind), file["name"].get<std::string>()))
+          << out << ": " << file["name"];
   }
 }
 

@@ -2,7 +2,7 @@
 // scene.toml, and that of an accuracy record, accuracy.json. Whatever is read must have cases fit to be
 // computed; whatever is not must say why. "@shell" in the record stands for the digest of the scene's shell,
 // which no fuzzer guesses; such a record gets the digest of its content, too.
-#include "launchsafe/study/read_study.hpp"
+#include "launchsafe/kinds/read_study.hpp"
 
 #include "fuzz_input.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
@@ -30,7 +30,7 @@ void check_case(const study::StudyCase& each) {
 }
 
 void check_study(const study::StudyFile& file) {
-  if (file.study.kind == study::StudyKind::stability) return;  // its cases may be laws without a scene
+  if (file.study.kind.own_scenes) return;  // its cases may be laws without a scene
   fuzz::require(!file.cases.empty(), "a study has cases");
   check_case(file.cases.front());
   check_case(file.cases.back());
@@ -60,9 +60,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } else {
     folder.remove("accuracy.json");
   }
-  study::StudyRequest request;
+  kinds::StudyRequest request;
   request.most_cases = 400;  // more only take longer
-  const auto file = study::parse_study(parts[0], folder.path() / "study.toml", request);
+  const auto file = kinds::parse_study(parts[0], folder.path() / "study.toml", request);
   file ? check_study(*file) : fuzz::require_told(file.error());
   return 0;
 }

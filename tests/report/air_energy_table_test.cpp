@@ -1,9 +1,10 @@
 // The energy of the air and the cited limits, in tables and in words.
 #include "launchsafe/report/air_energy_table.hpp"
 
-#include "launchsafe/report/critical_gap_report.hpp"
-#include "launchsafe/report/sweep_report.hpp"
-#include "made_studies.hpp"
+#include "kinds/made_studies.hpp"
+#include "launchsafe/kinds/critical_gap.hpp"
+#include "launchsafe/kinds/critical_gap_report.hpp"
+#include "launchsafe/kinds/sweep_report.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,8 @@
 
 namespace launchsafe::report {
 namespace {
+
+using namespace kinds;
 
 constexpr scene::AirModel reservoir = scene::AirModel::reservoir;
 constexpr scene::AirModel balance = scene::AirModel::balance;
@@ -79,7 +82,7 @@ const std::string limited_study = study::critical_text + "gaps = \"0, 0.03 cm\"\
 
 TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
   const study::StudyFile file = study::study_of(limited_study + study::synthetic_constants);
-  const auto result = study::run_critical_gap(file, study::synthetic_options());
+  const auto result = kinds::run_critical_gap(file, study::synthetic_options());
   const std::string page = to_markdown(report_of(result));
   EXPECT_TRUE(says(page, "The energy of the air")) << page;
   EXPECT_TRUE(says(page, "calibrated, and not derived"));
@@ -98,19 +101,19 @@ TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
 TEST(CriticalGapReport, WithBalancedAirSaysThatEnergyIsConserved) {
   const study::StudyFile file = study::study_of(
       study::critical_text + "gaps = \"0, 0.03 cm\"\nconfirm = false\n[set]\ngap.air = \"balance\"\n");
-  const std::string page = to_markdown(report_of(study::run_critical_gap(file, study::synthetic_options())));
+  const std::string page = to_markdown(report_of(kinds::run_critical_gap(file, study::synthetic_options())));
   EXPECT_TRUE(says(page, "At no gap did the skin take more than compression can supply")) << page;
 }
 
 TEST(CriticalGapReport, WithoutCitedLimitsHasNoTableOfThem) {
   const study::StudyFile file = study::study_of(study::critical_text + study::synthetic_constants);
-  const auto result = study::run_critical_gap(file, study::synthetic_options());
+  const auto result = kinds::run_critical_gap(file, study::synthetic_options());
   EXPECT_FALSE(says(to_markdown(report_of(result)), "Cited limits"));
   EXPECT_TRUE(to_json(result)["cited_limits"].empty());
 }
 
 TEST(SweepReport, SaysWhatTheSkinTookWhereItTookMost) {
-  study::SweepResult result = made_sweep();
+  kinds::SweepResult result = made_sweep();
   EXPECT_TRUE(says(critical_gap_table(result).notes.back(), "No gap with air in it was computed"));
   result.answers[0].verdicts[1].air = {7000, 230, 160, 70};
   result.answers[3].verdicts[3].air = {32700, 925, 660, 286};
@@ -121,7 +124,7 @@ TEST(SweepReport, SaysWhatTheSkinTookWhereItTookMost) {
 
 // The made sweep has 496 MPa and 30 um, the scene's own, with 0.0395 cm, and no 506 MPa.
 TEST(SweepReport, CitedLimitsStandBesideTheNearestPressure) {
-  study::SweepResult result = made_sweep();
+  kinds::SweepResult result = made_sweep();
   for (study::StudyCase& each : result.study.cases) {
     each.peak_pressure = each.coordinates[0];
     each.crack_radius = each.coordinates[1];

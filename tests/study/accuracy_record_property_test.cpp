@@ -1,4 +1,5 @@
 // No edit of a record's text gives a case a smaller uncertainty than the record did.
+#include "launchsafe/kinds/read_study.hpp"
 #include "study/made_record.hpp"
 
 #include <gtest/gtest.h>
@@ -16,6 +17,7 @@
 namespace {
 
 using namespace launchsafe;
+using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 using nlohmann::ordered_json;
 

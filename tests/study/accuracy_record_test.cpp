@@ -1,5 +1,6 @@
 #include "launchsafe/study/accuracy_record.hpp"
 
+#include "launchsafe/kinds/read_study.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/made_record.hpp"
 
@@ -14,6 +15,7 @@
 namespace {
 
 using namespace launchsafe;
+using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 
 TEST(AccuracyRecord, ItsBoundsFollowFromWhatTheSettingsGave) {

@@ -1,5 +1,7 @@
 #include "launchsafe/study/calibration_record.hpp"
 
+#include "launchsafe/kinds/calibration.hpp"
+#include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/scene/load_shape.hpp"
 #include "study/synthetic_launch.hpp"
 
@@ -12,6 +14,7 @@
 namespace {
 
 using namespace launchsafe;
+using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 
 /// The bottom of a launch whose friction heats with the square of the pressure, in loading as in unloading.

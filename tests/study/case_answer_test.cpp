@@ -1,5 +1,6 @@
 #include "launchsafe/study/case_answer.hpp"
 
+#include "launchsafe/kinds/critical_gap.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 namespace {
 
 using namespace launchsafe;
+using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 
 StudyFile six_gaps() {

@@ -1,9 +1,9 @@
 // The shares of a verdict's uncertainty, and the doubts of a calibration outside its domain, on a launch in
 // closed form.
+#include "launchsafe/kinds/critical_gap.hpp"
+#include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/study/calibration_domain.hpp"
 #include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/critical_gap.hpp"
-#include "launchsafe/study/sweep.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +15,7 @@
 namespace {
 
 using namespace launchsafe;
+using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 
 /// The friction energy that heats by `kelvin` with the calibrated localisation.

@@ -1,5 +1,5 @@
 // [[cited_limit]]: how it is read, and which case stands beside it.
-#include "launchsafe/study/critical_gap.hpp"
+#include "launchsafe/study/gap_verdict.hpp"
 #include "study/read_error.hpp"
 
 #include <gtest/gtest.h>

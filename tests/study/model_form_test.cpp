@@ -1,8 +1,8 @@
 #include "launchsafe/study/model_form.hpp"
 
+#include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/calibration_record.hpp"
-#include "launchsafe/study/critical_gap.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <nlohmann/json.hpp>
@@ -14,6 +14,7 @@
 namespace {
 
 using namespace launchsafe;
+using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 
 /// Calibrations and sweeps of some models of the synthetic launch, the default first.

@@ -1,9 +1,10 @@
 // A launch in closed form in place of the mechanics, so that studies run in milliseconds.
 #pragma once
 
+#include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/study/options.hpp"
-#include "launchsafe/study/read_study.hpp"
+#include "launchsafe/study/study_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ inline const std::filesystem::path studies_folder = std::filesystem::path(LAUNCH
 
 /// A study text as if it stood beside the shipped ones.
 inline scene::Expected<StudyFile> parse_here(const std::string& text) {
-  return parse_study(text, studies_folder / "some_study.toml");
+  return kinds::parse_study(text, studies_folder / "some_study.toml");
 }
 
 inline StudyFile study_of(const std::string& text) {

@@ -111,8 +111,8 @@ const Key<Owner>* find_key(const std::vector<Key<Owner>>& keys, std::string_view
   return found == keys.end() ? nullptr : &*found;
 }
 
-// --- Making keys. `member` returns a reference to the bound member: [](auto& s) -> auto& { return
-// s.load.peak; } ---
+// --- Making keys. `member` is a pointer to the bound member, &Load::peak, or a function that returns a
+// reference to it. ---
 
 /// A quantity, or a whole number if the dimension is `count`.
 template <class Owner, class Member>
@@ -121,10 +121,10 @@ Key<Owner> number_key(std::string name, Dimension dimension, Limits limits, Stan
   Key<Owner> key{
       {std::move(name), KeyKind::number, dimension, limits, {}, 0, standing, std::move(sentence)}, {}, {}};
   key.set = [member](Owner& owner, const Value& value) {
-    using Number = std::remove_reference_t<decltype(member(owner))>;
-    member(owner) = static_cast<Number>(std::get<double>(value));
+    using Number = std::remove_reference_t<decltype(std::invoke(member, owner))>;
+    std::invoke(member, owner) = static_cast<Number>(std::get<double>(value));
   };
-  key.get = [member](const Owner& owner) { return Value(static_cast<double>(member(owner))); };
+  key.get = [member](const Owner& owner) { return Value(static_cast<double>(std::invoke(member, owner))); };
   return key;
 }
 
@@ -132,8 +132,10 @@ template <class Owner, class Member>
 Key<Owner> flag_key(std::string name, Standing standing, std::string sentence, Member member) {
   Key<Owner> key{
       {std::move(name), KeyKind::flag, Dimension::number, {}, {}, 0, standing, std::move(sentence)}, {}, {}};
-  key.set = [member](Owner& owner, const Value& value) { member(owner) = std::get<bool>(value); };
-  key.get = [member](const Owner& owner) { return Value(static_cast<bool>(member(owner))); };
+  key.set = [member](Owner& owner, const Value& value) {
+    std::invoke(member, owner) = std::get<bool>(value);
+  };
+  key.get = [member](const Owner& owner) { return Value(static_cast<bool>(std::invoke(member, owner))); };
   return key;
 }
 
@@ -141,8 +143,10 @@ template <class Owner, class Member>
 Key<Owner> text_key(std::string name, Standing standing, std::string sentence, Member member) {
   Key<Owner> key{
       {std::move(name), KeyKind::text, Dimension::number, {}, {}, 0, standing, std::move(sentence)}, {}, {}};
-  key.set = [member](Owner& owner, const Value& value) { member(owner) = std::get<std::string>(value); };
-  key.get = [member](const Owner& owner) { return Value(std::string(member(owner))); };
+  key.set = [member](Owner& owner, const Value& value) {
+    std::invoke(member, owner) = std::get<std::string>(value);
+  };
+  key.get = [member](const Owner& owner) { return Value(std::string(std::invoke(member, owner))); };
   return key;
 }
 
@@ -155,12 +159,12 @@ Key<Owner> word_key(std::string name, Standing standing, std::string sentence,
   for (const auto& word : words) key.words.push_back(word.first);
   key.set = [member, words](Owner& owner, const Value& value) {
     for (const auto& [word, meaning] : words) {
-      if (word == std::get<std::string>(value)) member(owner) = meaning;
+      if (word == std::get<std::string>(value)) std::invoke(member, owner) = meaning;
     }
   };
   key.get = [member, words](const Owner& owner) {
     for (const auto& [word, meaning] : words) {
-      if (meaning == member(owner)) return Value(word);
+      if (meaning == std::invoke(member, owner)) return Value(word);
     }
     return Value(std::string{});
   };
@@ -177,7 +181,7 @@ Key<Owner> list_key(std::string name, Dimension dimension, Limits limits, Standi
       {}};
   key.set = [member](Owner& owner, const Value& value) {
     const auto& numbers = std::get<std::vector<double>>(value);
-    auto& target = member(owner);
+    auto& target = std::invoke(member, owner);
     if constexpr (requires { target.assign(numbers.begin(), numbers.end()); }) {
       target.assign(numbers.begin(), numbers.end());
     } else {
@@ -185,7 +189,7 @@ Key<Owner> list_key(std::string name, Dimension dimension, Limits limits, Standi
     }
   };
   key.get = [member](const Owner& owner) {
-    const auto& source = member(owner);
+    const auto& source = std::invoke(member, owner);
     return Value(std::vector<double>(source.begin(), source.end()));
   };
   return key;
@@ -199,10 +203,12 @@ Key<Owner> range_key(std::string name, Dimension dimension, Limits limits, Stand
       {std::move(name), KeyKind::range, dimension, limits, {}, 2, standing, std::move(sentence)}, {}, {}};
   key.set = [begin, end](Owner& owner, const Value& value) {
     const auto& numbers = std::get<std::vector<double>>(value);
-    begin(owner) = numbers[0];
-    end(owner) = numbers[1];
+    std::invoke(begin, owner) = numbers[0];
+    std::invoke(end, owner) = numbers[1];
   };
-  key.get = [begin, end](const Owner& owner) { return Value(std::vector<double>{begin(owner), end(owner)}); };
+  key.get = [begin, end](const Owner& owner) {
+    return Value(std::vector<double>{std::invoke(begin, owner), std::invoke(end, owner)});
+  };
   return key;
 }
 

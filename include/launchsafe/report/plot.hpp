@@ -20,7 +20,7 @@ struct Tic {
   std::string label;
 };
 
-struct Axis {
+struct PlotAxis {
   std::string label;  ///< with its unit: "gap [cm]"
   Scale scale = Scale::linear;
   std::optional<double> minimum = {}, maximum = {};  ///< from the data where absent
@@ -86,7 +86,7 @@ struct Map {
 
 struct Plot {
   std::string title;
-  Axis x, y;
+  PlotAxis x, y;
   std::vector<Series> series = {};
   std::vector<Line> vertical_lines = {}, horizontal_lines = {};
   std::optional<Map> map = {};    ///< below the series; the limits of both axes are those of its cells

@@ -2,12 +2,22 @@
 #pragma once
 
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/study/calibration.hpp"
+#include "launchsafe/study/calibration_domain.hpp"
+#include "launchsafe/study/study_file.hpp"
 
 #include <optional>
 #include <string>
 
 namespace launchsafe::study {
+
+/// Largest change of the end temperature of any station without a gap, with the constants of one mesh, to a
+/// finer mesh and from a coarser one.
+struct StationConvergence {
+  double finer = not_a_number;    ///< K
+  double coarser = not_a_number;  ///< K
+  /// By the rule of studies/model_form/README.md.
+  bool converges() const;
+};
 
 /// The calibrated launch, how well it meets what is published, and whether its stations converge; or why
 /// there is no calibration.
@@ -25,8 +35,8 @@ struct CalibrationRecord {
   StationConvergence stations;                       ///< K; NaN where not measured
 };
 
-/// Nothing of a calibration that was interrupted.
-std::optional<CalibrationRecord> record_of(const CalibrationResult& result);
+/// Of a calibration that found no constants.
+inline constexpr CalibrationEvidence no_evidence{not_a_number, not_a_number, not_a_number, not_a_number};
 
 /// The record as a file, with the SHA-256 of its content.
 std::string to_json_text(const CalibrationRecord& record);

@@ -1,7 +1,7 @@
 // What a study wants to know of one case: all that tables need, and no histories.
 #pragma once
 
-#include "launchsafe/study/critical_gap.hpp"
+#include "launchsafe/study/gap_verdict.hpp"
 
 #include <optional>
 #include <string>

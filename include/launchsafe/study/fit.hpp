@@ -2,7 +2,7 @@
 #pragma once
 
 #include "launchsafe/math/statistics.hpp"
-#include "launchsafe/study/read_study.hpp"
+#include "launchsafe/study/study_file.hpp"
 
 #include <optional>
 #include <vector>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "launchsafe/study/options.hpp"
-#include "launchsafe/study/read_study.hpp"
+#include "launchsafe/study/study_file.hpp"
 
 #include <cstdint>
 #include <optional>

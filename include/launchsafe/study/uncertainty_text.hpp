@@ -1,7 +1,7 @@
 // What the shares of a verdict's uncertainty are, in words.
 #pragma once
 
-#include "launchsafe/study/read_study.hpp"
+#include "launchsafe/study/study_file.hpp"
 
 #include <string>
 

@@ -1,0 +1,137 @@
+// The study of kind accuracy: what settings cost, and how wrong the answers are that users decide by.
+#pragma once
+
+#include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/study/accuracy_record.hpp"
+#include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/reference_value.hpp"
+#include "launchsafe/study/study_file.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::kinds {
+
+/// A scene key with the values that it takes in one [[settings]].
+struct SettingsAxis {
+  scene::KeyDescription key;
+  std::vector<scene::Value> values;
+};
+
+/// What a study file of this kind says besides.
+struct AccuracySettings {
+  std::vector<double> reference_cell_sizes;         ///< m, finest first once read; at least three
+  std::vector<std::vector<SettingsAxis>> settings;  ///< every combination within each
+  std::vector<double> times;                        ///< s, at which temperatures are compared too
+};
+
+/// Pressure of the charge bottom over the launch.
+struct PressureTrace {
+  std::vector<double> time;      ///< s
+  std::vector<double> pressure;  ///< Pa
+};
+
+/// T max of one observation point, first gap, of a skin that does not react.
+struct PointTemperature {
+  std::string name;
+  double temperature = 0;  ///< K
+};
+
+/// What one case came to, without judging it.
+struct AccuracyMeasurement {
+  std::string failure;  ///< why there are no numbers; empty for a completed run
+  std::string
+      doubt;  ///< why its numbers are no basis for a verdict (see run::doubts_of); empty for a sound run
+  double cell = 0;                    ///< m, sqrt(dx dr) of the fitted grid
+  double processor_time = 0;          ///< s; the wall time where the run did not note it
+  double wall_time = 0;               ///< s
+  double particle_steps = 0;          ///< particles times steps
+  double memory = 0;                  ///< bytes of particles, grid and histories, as planned
+  double energy_drift = 0;            ///< largest, share of the largest energy
+  std::vector<double> temperature;    ///< K, T max at the observation points for every gap
+  std::vector<double> heated;         ///< K, the same of a skin that does not react
+  std::vector<bool> ignites;          ///< for every gap
+  std::vector<double> ignition_time;  ///< s, for every gap; NaN where it does not ignite
+  std::vector<double>
+      at_times;  ///< K, highest observation point at Study::times, first gap, without reaction
+  std::vector<PointTemperature> points;  ///< all observation points
+  study::CriticalGap critical;           ///< at the observation points
+  double peak_pressure = 0;              ///< Pa, largest of the bottom pressure
+  PressureTrace bottom;
+};
+
+struct AccuracyReference {
+  std::vector<study::ReferenceValue> temperature;  ///< K, for every gap
+  std::vector<bool> inert;              ///< for every gap: of a skin that does not react, since one ignites
+  study::ReferenceValue critical_gap;   ///< m; no values where a mesh has none
+  study::ReferenceValue peak_pressure;  ///< Pa
+  std::vector<study::ReferenceValue>
+      ignition_time;                            ///< s, for every gap; no values where a mesh does not ignite
+  std::vector<study::ReferenceValue> at_times;  ///< K
+  std::vector<study::ReferenceValue> points;    ///< K, of every observation point
+  PressureTrace bottom;                         ///< of the finest mesh
+};
+
+/// One setting against the reference. Errors are signed: this minus the extrapolated value; NaN where one of
+/// them is none.
+struct AccuracyRow {
+  std::size_t index = 0;     ///< of StudyFile::cases
+  bool reference = false;    ///< one of the reference meshes
+  bool baseline = false;     ///< the scene as it is
+  bool other_model = false;  ///< differs in more than a setting: its difference is no numerical error
+  AccuracyMeasurement measured;
+  std::vector<double> temperature_error;    ///< K, for every gap
+  double largest_temperature_error = 0;     ///< K, absolute
+  double temperature_bound = 0;             ///< K, largest over the gaps (see bound_against)
+  double critical_gap_error = 0;            ///< m
+  double critical_gap_bound = 0;            ///< m
+  double pressure_error = 0;                ///< relative L2 over the launch, against the finest mesh
+  double peak_pressure_error = 0;           ///< relative
+  std::vector<double> ignition_time_error;  ///< s, for every gap
+  std::vector<double> error_at_times;       ///< K
+  bool on_front = false;                    ///< no other setting is both cheaper and nearer to the reference
+  bool computed() const { return measured.failure.empty(); }
+  bool sound() const { return computed() && measured.doubt.empty(); }
+};
+
+struct AccuracyResult {
+  study::StudyFile study;
+  std::vector<study::CaseAnswer> answers;  ///< one for each of StudyFile::cases
+  std::vector<AccuracyMeasurement> measured;
+  std::optional<AccuracyReference> reference;  ///< none where a reference mesh failed
+  std::string no_reference;                    ///< why there is none
+  std::vector<AccuracyRow> rows;               ///< in the order of the cases; none without a reference
+  study::AccuracyRecord record;                ///< for the studies that use these settings
+  study::Timing timing;
+  bool interrupted = false;
+  bool any_failed() const;
+  bool any_indeterminate()
+      const;  ///< there is no reference, or no extrapolation of a temperature is justified
+};
+
+/// T max (K) as settings are compared at a gap: of a skin that does not react where `inert`.
+double compared_temperature(const AccuracyMeasurement& measured, std::size_t gap, bool inert);
+
+/// What the reference meshes, finest first, tend to. All of them must be sound.
+AccuracyReference reference_of(const std::vector<AccuracyMeasurement>& meshes, std::size_t gaps,
+                               const std::vector<bool>& inert);
+
+/// Errors of one measurement.
+AccuracyRow row_against(const AccuracyReference& reference, const AccuracyMeasurement& measured);
+
+/// Marks the rows that are no worse than all cheaper ones; of sound rows of the same model alone.
+void mark_front(std::vector<AccuracyRow>& rows);
+
+/// Relative L2 difference of two pressure histories over the shorter one: the root of int (p - q)^2 dt over
+/// int q^2 dt.
+double relative_difference(const PressureTrace& p, const PressureTrace& q);
+
+/// Runs a study of kind accuracy.
+AccuracyResult run_accuracy(const study::StudyFile& study, const study::StudyOptions& options = {});
+
+/// The row of the table of kinds.
+Kind accuracy_kind();
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,82 @@
+// A kind of study as one value: all that the rest of the program asks of it. kinds.cpp has the table of them.
+#pragma once
+
+#include "launchsafe/report/report.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/study_faults.hpp"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace launchsafe::kinds {
+
+/// A case that came to nothing.
+struct Failure {
+  std::string label;
+  std::string reason;
+  study::RunOutcome outcome = study::RunOutcome::failed;  ///< of the run behind it
+};
+
+/// What became of a study of any kind.
+struct StudyOutcome {
+  bool interrupted = false;
+  bool indeterminate = false;     ///< something that was asked has no answer
+  std::vector<Failure> failures;  ///< in the order of the cases; without those that another shard runs
+  study::Timing timing;
+  report::Report report;  ///< nothing of a study that was interrupted
+};
+
+/// A table of a study file that is read apart from the keys.
+struct StudyTable {
+  std::string name;                        ///< "axes", "reference"
+  std::vector<scene::DocumentedKey> keys;  ///< "reference.gap"; none where any scene key may stand
+};
+
+/// The name of a file, or its beginning and end where what is between depends on the study.
+struct FileName {
+  std::string begin, end = {};
+  bool fits(std::string_view name) const;
+};
+
+/// A study file as text.
+struct StudySource {
+  const toml::table& root;
+  std::filesystem::path folder;  ///< of the file, from which paths in it start
+};
+
+struct Kind {
+  study::KindTraits traits;
+  std::vector<scene::Key<study::Study>> keys;  ///< of its study files, besides those of every kind
+  std::vector<StudyTable> tables;
+  /// What to write for a key of another kind, where this one has something like it.
+  std::vector<std::pair<std::string, std::string>> instead_of;
+  /// Reads its own tables and fills Study::axes. The study has its scene with the overrides.
+  study::Fault (*read)(const StudySource& source, study::StudyFile& study);
+  /// Fills StudyFile::cases. All else is known, the gaps to judge too.
+  study::Fault (*make_cases)(const StudySource& source, study::StudyFile& study);
+  StudyOutcome (*run)(const study::StudyFile& study, const study::StudyOptions& options);
+  std::vector<FileName> files;  ///< that its reports may have, besides report.md and study.json
+};
+
+/// Every kind of study there is.
+const std::vector<Kind>& kinds();
+/// The kind of a study that was read.
+const Kind& kind_of(const study::Study& study);
+/// The kind of that name; a name that no kind has is a programming error.
+const Kind& kind_named(std::string_view name);
+inline const study::KindTraits& traits_of(std::string_view name) { return kind_named(name).traits; }
+
+/// Runs a study as its kind asks.
+StudyOutcome run_study(const study::StudyFile& study, const study::StudyOptions& options);
+
+/// Whether a report of a study of that kind may have a file of that name, whatever the study says.
+bool may_write(const Kind& kind, std::string_view name);
+/// The same of any kind.
+bool may_write(std::string_view name);
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,77 @@
+// The study of kind sensitivity: which inputs the answer depends on, with intervals.
+#pragma once
+
+#include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/math/sensitivity.hpp"
+#include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/study_file.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace launchsafe::kinds {
+
+/// How a sensitivity study asks.
+enum class SensitivityMethod {
+  sobol,  ///< first- and total-order indices (Saltelli 2010, Jansen 1999): samples x (inputs + 2) evaluations
+  morris  ///< elementary effects (Morris 1991): trajectories x (inputs + 1) evaluations, a cheap first look
+};
+std::string to_string(SensitivityMethod method);
+
+/// What a study file of this kind says besides; its inputs are Study::axes, with distributions.
+struct SensitivitySettings {
+  SensitivityMethod method = SensitivityMethod::sobol;
+  math::Design design = math::Design::latin_hypercube;
+  int samples = 64;        ///< N: rows of the matrices A and B
+  int trajectories = 10;   ///< of Morris
+  int levels = 4;          ///< of Morris, even
+  std::uint64_t seed = 1;  ///< of design and bootstrap
+  int resamples = 1000;    ///< of the bootstrap
+  double confidence = 0.95;
+};
+
+/// One output of a case as a number.
+enum class SensitivityOutput {
+  maximum_temperature,  ///< K, T max of the verdict at the study's gap; see OutputSensitivity::inert
+  critical_gap,         ///< m
+  margin                ///< K, ignition temperature minus that maximum temperature
+};
+std::string to_string(SensitivityOutput output);  ///< "T_max", "critical_gap", "margin"
+
+/// What an output depends on.
+struct OutputSensitivity {
+  SensitivityOutput output;
+  /// Temperature and margin are those of a skin that does not react, CaseAnswer::heated_temperature: so where
+  /// any evaluation ignites, since T max then jumps to that of the burning skin. Kinetics do not show in
+  /// them.
+  bool inert = false;
+  std::vector<double> values;  ///< of every evaluation; NaN where there is none
+  std::size_t missing = 0;  ///< evaluations without a number: failed runs, or a critical gap that is a bound
+  std::size_t bounds = 0;   ///< of these, critical gaps that are bounds
+  double mean = study::not_a_number,
+         deviation = study::not_a_number;   ///< over the evaluations that sample the inputs
+  math::SobolIndices sobol;                 ///< for the method sobol
+  std::vector<math::MorrisEffects> morris;  ///< of every input, for the method morris
+  /// Why there are no indices; empty where there are. Rows with a missing number are left out; where a
+  /// critical gap is a bound none are given, since leaving those rows out would bias the rest.
+  std::string reason;
+};
+
+struct SensitivityResult {
+  study::StudyFile study;
+  std::vector<study::CaseAnswer> answers;  ///< one for each of StudyFile::cases
+  std::vector<OutputSensitivity> outputs;
+  study::Timing timing;
+  bool interrupted = false;
+  bool any_failed() const;
+  bool any_indeterminate() const;
+};
+
+SensitivityResult run_sensitivity(const study::StudyFile& study, const study::StudyOptions& options = {});
+
+/// The row of the table of kinds.
+Kind sensitivity_kind();
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,99 @@
+// The study of kind stability: a matrix of hard cases, and what became of each.
+#pragma once
+
+#include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/study_file.hpp"
+#include "launchsafe/verify/stress_test.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace launchsafe::kinds {
+
+/// One [[case]] of a stability study: a launch that is extreme, or whose computation is, and what must hold.
+struct HardLaunch {
+  std::string group, name;
+  std::string must_hold;                  ///< a sentence
+  std::vector<verify::Outcome> expected;  ///< acceptable ones; empty: anything but WRONG
+  /// Steps within which a broken computation must be caught; 0: any number.
+  std::uint64_t caught_within = 0;
+  std::vector<double> gaps;            ///< m, to judge; all on one run
+  std::optional<std::size_t> run;      ///< of StudyFile::cases; none for a case of the reader
+  std::optional<std::size_t> against;  ///< of StudyFile::cases: a safe computation of the same launch
+  std::string must_refuse;             ///< a case of the reader: what its message must say; else empty
+  std::string refusal;                 ///< what the reader said; empty where it took the scene
+};
+
+/// What a study file of this kind says besides.
+struct StabilitySettings {
+  bool laws = true;                  ///< the laws by themselves too (verify::law_stress_tests)
+  std::vector<HardLaunch> launches;  ///< in the order written; their runs are among the cases
+};
+
+/// What every computation that completed must fulfil, each as a sentence about how it does not; none for a
+/// sound one. Finite numbers, masses to round-off, the balance of momentum (in the co-moving frame none; in
+/// the lab's the impulse of the load), energy drift within the scene's limit, dissipation and friction heat
+/// that never fall, and no skin colder than charge and air were at first, whose pressure never falls below
+/// the initial one.
+std::vector<std::string> violations_of(const scene::Scene& scene, const run::MechanicsResult& mechanics,
+                                       const std::vector<double>& gaps);
+
+/// One gap of a hard launch beside the safe computation of the same launch.
+struct HardGap {
+  double gap = 0;                            ///< m
+  double temperature = study::not_a_number;  ///< K, T max over the stations
+  double heated = study::not_a_number;       ///< K, the same of a skin that neither reacts nor is triggered
+  double heated_against = study::not_a_number;  ///< K, of the safe computation; NaN without one
+  double ignition = study::not_a_number;        ///< K, ignition temperature
+  double uncertainty = study::not_a_number;     ///< K
+  study::Judgement judgement;
+  /// K, of `heated` from the safe computation, both up to ignition: beyond it they say the same. NaN without
+  /// a safe computation.
+  double deviation() const {
+    return (heated > ignition ? ignition : heated) - (heated_against > ignition ? ignition : heated_against);
+  }
+  bool deviates() const { return deviation() > uncertainty || deviation() < -uncertainty; }
+};
+
+/// A row of the matrix.
+struct HardRow {
+  std::string group, name, must_hold;
+  verify::Finding finding;
+  std::vector<verify::Outcome> expected;               ///< empty: anything but WRONG
+  study::RunOutcome outcome = study::RunOutcome::ran;  ///< of its run, or of that of the safe computation
+  std::string failure;                                 ///< why it was not computed at all; empty where it was
+  bool ran = false;                                    ///< a launch: the members below tell of its run
+  study::RunSummary run;
+  double end_time = study::not_a_number;  ///< s, reached
+  std::vector<std::string> violations;    ///< of invariants
+  std::vector<std::string> doubts;
+  std::vector<HardGap> gaps;
+
+  bool computed() const { return failure.empty(); }
+  bool is_wrong() const { return computed() && finding.outcome == verify::Outcome::wrong; }
+  /// Neither WRONG nor other than what the study expects.
+  bool is_as_expected() const;
+};
+
+struct StabilityResult {
+  study::StudyFile study;
+  std::vector<HardRow> rows;  ///< laws first, then the cases as written
+  study::Timing timing;
+  bool interrupted = false;
+  std::size_t count(verify::Outcome outcome) const;  ///< rows that were computed and came out so
+  std::size_t wrong() const { return count(verify::Outcome::wrong); }
+  std::size_t unexpected() const;  ///< computed, not WRONG, and yet not what the study expects
+  std::size_t failed() const;      ///< not computed
+};
+
+/// Runs a study of kind stability. A case that breaks is its row. Laws are computed with the whole study
+/// only, not with a shard of it. Apart from the timing the result depends on the study alone.
+StabilityResult run_stability(const study::StudyFile& study, const study::StudyOptions& options = {});
+
+/// The row of the table of kinds.
+Kind stability_kind();
+
+}  // namespace launchsafe::kinds

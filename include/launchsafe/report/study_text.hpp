@@ -1,0 +1,51 @@
+// Text and files that the reports of all studies share.
+#pragma once
+
+#include "launchsafe/report/plot.hpp"
+#include "launchsafe/report/written_files.hpp"
+#include "launchsafe/run/case_result.hpp"
+#include "launchsafe/store/result.hpp"
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/study_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace launchsafe::report {
+
+/// The study file as in a command that works anywhere: never an absolute path.
+std::string study_file_name(const study::StudyFile& study);
+/// The command that remakes a report.
+std::string remaking_command(const study::StudyFile& study);
+/// What was simulated, as Markdown list items: scene, overrides, what is varied, load, mesh, surface
+/// constants.
+std::string setup_text(const study::StudyFile& study);
+/// Whether a study varies the scene key of that name.
+bool varies(const study::Study& study, const std::string& key);
+/// Runs, update rate and wall time in one sentence.
+std::string timing_text(const study::Timing& timing);
+nlohmann::ordered_json timing_json(const study::Timing& timing);
+/// "crack bound 12, tension cut-off 3", or "none".
+std::string limiters_text(const run::LimiterCounts& limiters);
+/// A number, or null where it is not finite.
+nlohmann::ordered_json number(double value);
+/// An object as a file holds it. What is not UTF-8, such as an odd name of a file, is replaced.
+std::string json_file_text(const nlohmann::ordered_json& object);
+/// A length in cm as people read it, six digits.
+std::string centimetres(double length);
+
+/// Draws a picture into a folder, which is there. Its name, or nothing where gnuplot is missing, fails or
+/// takes too long, which is a remark. Errors: write_failed.
+store::Result<std::string> write_picture(const Plot& plot, const std::filesystem::path& folder,
+                                         const std::string& name, WrittenFiles& written,
+                                         const DrawingLimits& limits);
+/// Makes a folder and writes texts into it, one file each.
+store::MaybeError write_texts(const std::filesystem::path& folder,
+                              const std::vector<std::pair<std::string, std::string>>& texts,
+                              WrittenFiles& written);
+
+}  // namespace launchsafe::report

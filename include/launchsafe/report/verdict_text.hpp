@@ -1,0 +1,51 @@
+// Verdicts and critical gaps as cells, JSON and sentences, the same in every study that judges gaps.
+#pragma once
+
+#include "launchsafe/report/table.hpp"
+#include "launchsafe/study/gap_verdict.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace launchsafe::report {
+
+/// From T max to the energy of the air: what is known of one gap of one case.
+std::vector<Column> verdict_columns(const study::Study& study);
+/// The cells under them, put behind those that a row already has.
+void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells);
+
+/// What every table of verdicts must say: an assumed uncertainty, a charge off the grid lines.
+std::vector<std::string> mesh_notes(const study::StudyFile& study);
+/// What temperatures are read over.
+std::string station_note(const study::StudyFile& study);
+
+/// What the published highest temperature of a gap was used for.
+std::string used_for(const study::Reference& paper);
+
+/// The members of a verdict's object from "T_max_K" to "taken_over_supplied".
+void add_verdict(nlohmann::ordered_json& json, const study::GapVerdict& row);
+/// value, bracket, uncertainty, kind and reason; what is no value is null.
+nlohmann::ordered_json critical_gap_json(const study::CriticalGap& gap);
+
+/// The value in m, NaN for anything that is none: a bound never passes for a value.
+double value_of(const study::CriticalGap& gap);
+/// "0.0395 cm", "> 0.1 cm", "ignites without a gap", "indeterminate".
+std::string reads_as(const study::CriticalGap& gap);
+
+/// The study's cited limits beside the critical gaps of its cases, which are in their order; without rows
+/// where it cites none.
+Table cited_limit_table(const study::StudyFile& study,
+                        const std::vector<const study::CriticalGap*>& critical);
+
+/// On what the absolute value of a critical gap rests.
+std::string friction_remark(const study::StudyFile& study);
+
+/// What the uncertainty of a margin is made of, as a sentence.
+std::string uncertainty_remark(const study::StudyFile& study);
+
+/// Whether any limiter acted.
+bool acted(const run::LimiterCounts& limiters);
+
+}  // namespace launchsafe::report

@@ -1,0 +1,39 @@
+// Answers to all cases of a study with the fewest mechanical runs: cases that differ in thermal keys alone
+// share one, and what is stored is not computed again.
+#pragma once
+
+#include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/run_cases.hpp"
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+/// The key of the stored answer of every case: all that determines it. `runs`: those of the study.
+std::vector<std::string> answer_keys(const StudyFile& study, const std::vector<CaseRuns>& runs);
+
+/// An answer for every case; one that was not run, failed or belongs to another shard says so.
+std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing);
+
+/// The result of a study that answers all its cases: `conclude` draws from the answers what the kind is
+/// after, unless the study was interrupted.
+template <class Result, class Conclude>
+Result run_answering(const StudyFile& study, const StudyOptions& options, Conclude conclude) {
+  const auto start = std::chrono::steady_clock::now();
+  Result result;
+  result.study = study;
+  result.timing.jobs = jobs_of(options);
+  result.answers = answer_cases(study, options, result.timing);
+  result.interrupted = stop_requested(options);
+  if (!result.interrupted) conclude(result);
+  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+/// Whether the run behind any answer failed.
+bool any_failed(const std::vector<CaseAnswer>& answers);
+
+}  // namespace launchsafe::study

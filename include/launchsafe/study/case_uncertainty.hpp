@@ -1,0 +1,81 @@
+// What a verdict's uncertainty is made of besides the computation itself: the calibrated constants, and what
+// is not known of the launch.
+#pragma once
+
+#include "launchsafe/study/calibration_domain.hpp"
+#include "launchsafe/study/gap_verdict.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+/// Half widths (about 95 %) that are assumed of a launch of which a study states no input uncertainty: the
+/// chamber pressure from round to round, as in the shipped sensitivity study, and the temperature of the
+/// charge.
+inline constexpr double assumed_load_spread = 0.04;
+inline constexpr double assumed_temperature_spread = 12.0;  ///< K
+
+/// Heat grows with the square of the pressure where the steel stays elastic; near 496 MPa, where the wall of
+/// the 155 mm shell yields, with its power of 3.6 (17 K of 116 K for 4 %). Rounded up.
+inline constexpr double heat_exponent = 4.0;
+
+/// Whether a kind of study says which gaps are safe. A stability study judges the computation alone, and the
+/// others compare numbers.
+bool gives_verdicts(const Study& study);
+
+/// Whether the uncertainty of the inputs is found by propagating the assumed spread, which takes a run with a
+/// raised load beside every case: where verdicts are given and the study states none.
+bool propagates_spread(const Study& study);
+
+/// The same launch with the pressure at the hot end of the assumed spread.
+scene::Scene with_raised_load(const scene::Scene& scene);
+/// "CASE, load +4 %".
+std::string label_of_raised(const StudyCase& input);
+
+/// How far a skin without reaction is heated (K) above the initial temperature: by friction, and by the air
+/// of a gap in addition.
+struct Rises {
+  double friction = 0;
+  double air = 0;
+};
+
+/// K, uncertainty of T max by the calibrated constants: the stated one, or the largest misfit of the held-out
+/// rows. It is that of the rows that the constants were fitted to; their relative errors are carried to the
+/// case's own rises. Another load shape was held out in no row but those at another time, and other numerics
+/// have another mesh error than the constants absorbed: both add to it. 0 for a study without verdicts.
+double fit_share(const Study& study, const CalibrationDistance& distance, const Rises& rises);
+
+/// K, as a study states it for its own scene; it grows with the pressure as the heat does.
+/// What the study states of the model form, or assumes where its record does not speak of a case, K.
+/// Nothing where the record does: it gives a shift of the gap.
+std::optional<double> stated_model_form_share(const Study& study, const StudyCase& input);
+/// The models that could change the verdict on a gap (m) that ignites or not, for people; empty for none.
+std::string model_form_text(const Study& study, const StudyCase& input, double gap, bool ignites);
+double stated_input_share(const Study& study, const StudyCase& input);
+
+/// What the measured curve of a load may have wrong, as shares of the rises; 0 for an analytic load.
+struct LoadCurveErrors {
+  double of_friction = 0;  ///< the noise of a gauge heats by friction; swings that smoothing took out did
+  double of_both = 0;      ///< what smoothing took from the peak
+  double in_kelvin(const Rises& rises) const {
+    return rises.friction * of_friction + (rises.friction + rises.air) * of_both;
+  }
+};
+LoadCurveErrors load_curve_errors(const scene::Load& load);
+
+/// What a case's own input says against a verdict, besides its load (run::uncovered_load): values that are
+/// not plausible and that nobody accepted, constants from elsewhere. Nothing for a study without verdicts.
+std::vector<std::string> doubts_of_input(const Study& study, const StudyCase& input);
+/// What is not plausible and why it is meant, for its verdict; empty for nothing.
+std::string accepted_text(const Study& study, const StudyCase& input);
+
+/// Why a case that does not ignite is not safe for that, as its model is a bound on that side; empty for the
+/// others.
+std::string optimistic_text(const scene::Scene& scene);
+
+/// What is extrapolated for a gap (m), for its verdict; empty for nothing.
+std::string extrapolation_text(const Study& study, const StudyCase& input, double gap);
+
+}  // namespace launchsafe::study

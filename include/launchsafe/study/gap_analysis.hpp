@@ -1,0 +1,26 @@
+// One finished mechanical run: critical gap, verdict rows, fit. Everything here is integrated on its trace.
+#pragma once
+
+#include "launchsafe/study/gap_verdict.hpp"
+
+namespace launchsafe::study {
+
+/// A skin that air and friction heat, and nothing else.
+surface::SkinModel without_reaction(surface::SkinModel model);
+
+/// The critical gap, by the hottest station; indeterminate for a failed run.
+void find_critical_gaps(const Study& study, CaseOutcome& outcome);
+
+/// The gaps of the study on the trace: skin histories and the rows without verdict.
+void evaluate_gaps(const Study& study, CaseOutcome& outcome);
+
+/// The gaps of the study and the critical gap with air as a film, on the same trace.
+void evaluate_film(const Study& study, CaseOutcome& outcome);
+
+/// What the confirmations say about the critical gap: a disagreement makes it indeterminate.
+void apply_confirmations(const Study& study, CaseOutcome& outcome);
+
+/// Uncertainties, verdicts and the fit, once all runs are done.
+void conclude(const Study& study, CaseOutcome& outcome);
+
+}  // namespace launchsafe::study

@@ -1,0 +1,91 @@
+// What a study knows of one gap, and of one case with its gaps.
+#pragma once
+
+#include "launchsafe/study/bracket.hpp"
+#include "launchsafe/study/fit.hpp"
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/study_file.hpp"
+#include "launchsafe/study/verdict.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+/// A maximum with its place by name.
+struct Peak {
+  double temperature = not_a_number;  ///< K
+  double time = not_a_number;         ///< s
+  std::string point;                  ///< station
+};
+
+struct NamedIgnition {
+  surface::IgnitionCause cause = surface::IgnitionCause::trigger;
+  double time = 0;  ///< s
+  std::string point;
+  double chemical_share = 0;  ///< of the heating rate at ignition
+};
+std::string to_string(surface::IgnitionCause cause);
+
+/// A row of the verdict table.
+struct GapVerdict {
+  double gap = 0;                      ///< m
+  Peak maximum;                        ///< over the observation points: what the verdict uses
+  Peak early;                          ///< the same at Study::early_time
+  double spread = not_a_number;        ///< K, over the observation points at the end
+  double early_spread = not_a_number;  ///< K, at Study::early_time
+  double margin = not_a_number;        ///< K, to the ignition temperature
+  double heated = not_a_number;  ///< K, T max of a skin that air and friction heat and that never reacts
+  surface::AirEnergy air;        ///< what the skin took from the air; NaN where nothing was computed
+  Uncertainty uncertainty;
+  std::optional<NamedIgnition> ignition;  ///< at an observation point
+  Evidence evidence;                      ///< what the judgement rests on
+  Judgement judgement;
+  std::optional<Reference> reference;
+  /// K, this minus the reference; NaN without one or where either ignited
+  double misfit() const;
+  double early_misfit() const;
+};
+
+/// A complete coupled run on one side of the bracket.
+struct Confirmation {
+  double gap = 0;  ///< m
+  bool expected_ignition = false;
+  bool ran = false;
+  bool completed = false;
+  bool ignited = false;
+  double maximum_temperature = not_a_number;  ///< K, at the observation points
+  double difference = not_a_number;           ///< K, coupled minus traced; NaN where either ignited
+  double wall_time = 0;                       ///< s
+  RunOutcome outcome = RunOutcome::ran;       ///< of its run
+  std::string failure;                        ///< why it did not complete
+  bool agrees() const { return completed && ignited == expected_ignition; }
+};
+
+/// The same case with its air as a film that conserves energy: the optimistic bound beside the reservoir. It
+/// gives no verdict.
+struct FilmBound {
+  std::vector<double> maximum_temperature;  ///< K, of the charge's surface, for every gap of the study
+  CriticalGap critical;                     ///< without an uncertainty
+};
+
+/// One mechanical case with its gaps.
+struct CaseOutcome {
+  StudyCase input;
+  run::CaseResult result;                ///< mechanics, and a skin history for every gap
+  RunOutcome outcome = RunOutcome::ran;  ///< of the mechanics, or of the run for want of which there are none
+  std::string failure;                   ///< why every verdict is indeterminate; empty for a completed run
+  std::string hash;                      ///< of the mechanical run: the name of its file in the store
+  /// The mechanics under the raised load that shows what the inputs do, where the study states no uncertainty
+  /// of them; empty for the others.
+  std::optional<run::MechanicsResult> raised;
+  CriticalGap critical;  ///< at the observation points
+  std::vector<Confirmation> confirmations;
+  std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps
+  std::optional<GapFit> fit;         ///< over the rows that do not ignite
+  std::optional<FilmBound> film;     ///< of a completed run with the reservoir
+  bool completed() const { return failure.empty(); }
+};
+
+}  // namespace launchsafe::study

@@ -1,0 +1,183 @@
+// A study as read from its file: what is asked of a scene, and the cases that follow.
+#pragma once
+
+#include "launchsafe/math/sampling.hpp"
+#include "launchsafe/scene/plausibility.hpp"
+#include "launchsafe/scene/read_scene.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/study/calibration_domain.hpp"
+#include "launchsafe/study/cited_limit.hpp"
+#include "launchsafe/study/model_form.hpp"
+
+#include <any>
+#include <cassert>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// What the engine has to know of a kind of study.
+struct KindTraits {
+  std::string name;      ///< as in `kind = "critical-gap"`
+  std::string gaps_key;  ///< where a study file has the gaps to judge; empty for a kind that judges none
+  bool gives_verdicts = true;  ///< SAFE or UNSAFE, for which the uncertainty of fit, inputs and model counts
+  bool keeps_answers = false;  ///< what is concluded of a case is stored beside its runs
+  bool own_scenes = false;     ///< cases may bring scenes and uncertainties of their own
+};
+
+/// A scene key that the cases of a study vary.
+struct Axis {
+  std::string name;            ///< as the user wrote it: "peak_pressure" or "load.exponent"
+  std::string study_key;       ///< where in the study file it was asked for: "axes.peak_pressure"
+  scene::KeyDescription key;   ///< of the scene key
+  std::vector<double> values;  ///< SI, in the order written; none where there is a distribution
+  std::optional<math::Distribution> distribution = {};  ///< SI, of a value that is not known exactly
+};
+
+/// A row of published results to compare with; what it does not say is NaN or empty.
+struct Reference {
+  double gap = not_a_number;                  ///< m, >= 0
+  double maximum_temperature = not_a_number;  ///< K, over the whole launch
+  std::string point;                          ///< where that was
+  double early_temperature = not_a_number;    ///< K, highest at Study::early_time
+  std::string early_point;                    ///< where that was
+  double spread = not_a_number;               ///< K, highest minus lowest observation point at the end
+  double early_spread = not_a_number;         ///< K, likewise at Study::early_time
+  double ignition_time = not_a_number;        ///< s; NaN for a gap that did not ignite
+  bool calibrated = false;        ///< constants are fitted to the maximum temperature; otherwise a hold-out
+  bool early_calibrated = false;  ///< the load is fitted to the temperature at Study::early_time
+  bool selection = false;         ///< the rest of the row was used to choose the model, apart from T max
+  bool ignited() const { return ignition_time == ignition_time; }
+};
+
+/// Straight line of maximum temperature against gap as published: slope in K per cm (as printed), intercept
+/// in K.
+struct ReferenceLine {
+  double slope = not_a_number;
+  double intercept = not_a_number;
+  bool given() const { return slope == slope && intercept == intercept; }
+};
+
+/// What a study file says, in SI.
+struct Study {
+  KindTraits kind;
+  std::any settings;  ///< what its kind alone asks, of the type that the kind says; see settings_of
+  std::string title;
+  std::string scene;          ///< path of the scene from the study file's folder, as the user wrote it
+  double early_time = 10e-3;  ///< s; an instant at which temperatures are compared too
+  std::vector<Reference> references;
+  ReferenceLine reference_line;
+  std::vector<CitedLimit> cited_limits;
+  std::string
+      references_file;  ///< path of a file with the references, from the study file's folder; or empty
+
+  // every kind that judges gaps
+  std::vector<double> gaps;  ///< m; those of the scene where the file has none
+
+  std::vector<Axis> axes;     ///< of a full factorial the last is the fastest; none for other kinds
+  double tolerance = 1e-6;    ///< m, largest width of the bracket of the critical gap
+  double largest_gap = 1e-3;  ///< m, where the search for the critical gap ends
+  /// K, of the maximum temperature, from a mesh study. `assumed_numerical_uncertainty` where the file states
+  /// none, or states one that does not apply; of several cases with settings of their own the largest.
+  double numerical_uncertainty = not_a_number;
+  bool numerical_uncertainty_assumed = false;
+
+  // kinds that may use the record of a calibration
+  std::string calibration_record;                   ///< path from the study file's folder; empty: none
+  Calibration calibration = shipped_calibration();  ///< where the constants of the scene are known
+
+  // kinds that give verdicts
+  std::string model_form_record;                 ///< path from the study file's folder; empty: none
+  std::optional<ModelFormRecord> model_form;     ///< what it says
+  double model_form_uncertainty = not_a_number;  ///< K, of T max, instead of a record; NaN: not stated
+
+  // kinds that may use the record of an accuracy study
+  std::string accuracy;  ///< path of the record from the study file's folder; empty: none
+  double setting_tolerance =
+      not_a_number;  ///< K, of T max; picks a setting from the record; NaN: the scene's
+  /// K, of T max by the calibrated constants on the rows that they were fitted to; NaN: not stated
+  double fit_uncertainty = not_a_number;
+  /// K, of T max by what is not known of the launch, for the study's own scene; NaN: not stated
+  double input_uncertainty = not_a_number;
+
+  /// What the study itself states, rather than its scene, and is not plausible; accepted or not.
+  std::vector<scene::Implausible> implausible;
+};
+
+/// The settings of a study's kind, of the type that the kind says: another one is a programming error. A
+/// study that has none yet has the defaults.
+template <class Settings>
+const Settings& settings_of(const Study& study) {
+  static const Settings defaults{};
+  if (!study.settings.has_value()) return defaults;
+  const auto* settings = std::any_cast<Settings>(&study.settings);
+  assert(settings != nullptr);
+  return *settings;
+}
+template <class Settings>
+Settings& settings_of(Study& study) {
+  if (!study.settings.has_value()) study.settings.emplace<Settings>();
+  auto* settings = std::any_cast<Settings>(&study.settings);
+  assert(settings != nullptr);
+  return *settings;
+}
+
+/// K. By so much was T max of the 155 mm shell seen to move between meshes of 1 to 10 mm with one set of
+/// constants.
+inline constexpr double assumed_numerical_uncertainty = 60.0;
+/// K, on a grid that does not run along the charge, or with other than one particle a cell: the largest bound
+/// that the record of the 155 mm shell has for such numerics is 99 K.
+inline constexpr double assumed_uncertainty_off_grid = 100.0;
+
+/// K, where no record of other models speaks of a launch: more than any alternative that counts moves T max
+/// of the 155 mm shell, 0.0173 cm at 550 MPa, some 45 K (reports/model_form).
+inline constexpr double assumed_model_form = 50.0;
+
+/// One mechanical run of a study: a complete, valid scene.
+struct StudyCase {
+  std::string label;           ///< "496 MPa, 30 um, 1 mm", or "2.5 mm" for the mesh of a calibration
+  double peak_pressure = 0;    ///< Pa
+  double crack_radius = 0;     ///< m
+  double flaw_size = 0;        ///< m
+  double cell_size = 0;        ///< m
+  bool own_conditions = true;  ///< the load and defect of the study's scene, which the references belong to
+  std::vector<double> coordinates;                               ///< SI, of Study::axes
+  double numerical_uncertainty = assumed_numerical_uncertainty;  ///< K, of T max with these numerics
+  /// K; the rise of T max above the initial temperature for which that was found; NaN where it holds for any.
+  /// Hotter skins have proportionally larger errors.
+  double rise_of_uncertainty = not_a_number;
+  double pressure_ratio = 1.0;  ///< peak pressure over that of the study's scene
+  scene::SceneFile scene;
+};
+
+/// Largest number of cases of a study.
+inline constexpr std::size_t largest_case_count = 1'000'000;
+
+/// A valid study with its scene and its cases.
+struct StudyFile {
+  Study study;
+  std::string file;                              ///< as named by the user
+  std::map<std::string, scene::Place> places;    ///< of every key the user gave
+  std::map<std::string, std::string> overrides;  ///< [set]: scene key, value as people read it
+  scene::SceneFile scene;                        ///< with the overrides
+  std::string uncertainty_source;                ///< where the numerical uncertainty comes from, a clause
+  std::string chosen_setting;    ///< what a tolerance picked from an accuracy record, for people; else empty
+  std::vector<StudyCase> cases;  ///< in the order that the kind says
+  std::size_t most_cases = largest_case_count;  ///< a study with more is refused
+  std::size_t confirmations_per_case = 0;       ///< coupled runs that may follow once its gaps are judged
+};
+
+/// What a published number is used for.
+enum class Use { held_out, selection, calibration };
+std::string to_string(Use use);
+
+/// As in scene files.
+std::string to_string(scene::FrictionClosure closure);
+
+}  // namespace launchsafe::study

@@ -1,0 +1,212 @@
+#include "launchsafe/kinds/accuracy.hpp"
+
+#include "launchsafe/run/doubts.hpp"
+#include "launchsafe/run/model_version.hpp"
+#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/study/answer_cases.hpp"
+#include "launchsafe/study/gap_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+
+bool AccuracyResult::any_failed() const { return study::any_failed(answers); }
+
+bool AccuracyResult::any_indeterminate() const {
+  return !reference || std::any_of(reference->temperature.begin(), reference->temperature.end(),
+                                   [](const ReferenceValue& value) { return !value.limit.justified; });
+}
+
+namespace {
+
+std::string doubt_of(const StudyCase& input, const run::MechanicsResult& mechanics) {
+  return fmt::format("{}", fmt::join(run::doubts_of(input.scene.scene, mechanics), "; "));
+}
+
+/// What the skin of the first gap was in detail; without reaction, since after ignition all are alike.
+void add_first_gap(const Study& study, const StudyCase& input, const trace::BottomTrace& trace,
+                   AccuracyMeasurement& measured) {
+  const auto skin = surface::integrate_skin(without_reaction(surface::skin_model(input.scene.scene)), trace,
+                                            study.gaps.front());
+  for (const double time : settings_of<AccuracySettings>(study).times)
+    measured.at_times.push_back(surface::maximum_at_time(skin, trace, time).temperature);
+  const std::size_t stations = trace.stations.size();
+  for (std::size_t station = 0; station < stations; ++station) {
+    if (trace.stations[station].observation) continue;
+    PointTemperature point{trace.stations[station].name, 0.0};
+    for (std::size_t i = station; i < skin.temperature.size(); i += stations)
+      point.temperature = std::max(point.temperature, skin.temperature[i]);
+    measured.points.push_back(std::move(point));
+  }
+}
+
+AccuracyMeasurement measure(const Study& study, const StudyCase& input, const CaseAnswer& answer,
+                            const run::MechanicsResult& mechanics) {
+  AccuracyMeasurement measured;
+  measured.failure = failure_of(mechanics);
+  const scene::CellRange mesh = scene::cells_of_charge(input.scene.scene);
+  measured.cell = std::sqrt(mesh.shortest_x * mesh.shortest_r);
+  measured.wall_time = mechanics.wall_time;
+  measured.processor_time = mechanics.processor_time > 0 ? mechanics.processor_time : mechanics.wall_time;
+  measured.particle_steps = static_cast<double>(mechanics.particles) * static_cast<double>(mechanics.steps);
+  measured.memory = run::cost_of(input.scene.scene).memory();
+  measured.energy_drift = answer.run.energy_drift;
+  if (!measured.failure.empty()) return measured;
+  measured.doubt = doubt_of(input, mechanics);
+  for (const GapVerdict& row : answer.verdicts) {
+    measured.temperature.push_back(row.maximum.temperature);
+    measured.ignites.push_back(row.ignition.has_value());
+    measured.ignition_time.push_back(row.ignition ? row.ignition->time : not_a_number);
+  }
+  measured.heated = answer.heated_temperature;
+  add_first_gap(study, input, mechanics.trace, measured);
+  measured.critical = answer.critical;
+  measured.bottom = {mechanics.trace.time, mechanics.trace.bottom_pressure};
+  measured.peak_pressure =
+      *std::max_element(measured.bottom.pressure.begin(), measured.bottom.pressure.end());
+  return measured;
+}
+
+/// What was measured on the runs of all cases.
+void run_settings(AccuracyResult& result, const StudyOptions& options) {
+  const StudyFile& study = result.study;
+  result.answers.resize(study.cases.size());
+  result.measured.resize(study.cases.size());
+  ProgressTracker tracker(options.progress);
+  const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
+  run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+    const FinishedRun& run = finished.front();
+    for (const std::size_t member : runs[i].members) {
+      const StudyCase& input = study.cases[member];
+      CaseAnswer& answer = result.answers[member];
+      if (run.has_result()) {
+        answer = answer_of(study.study, input, run.result.mechanics);
+        answer.outcome = run.outcome;
+        result.measured[member] = measure(study.study, input, answer, run.result.mechanics);
+      } else {
+        answer = failed_answer(study.study, input, run.outcome, run.failure);
+        result.measured[member].failure = run.failure;
+      }
+    }
+  });
+}
+
+/// A gap at which any sound setting of the same model ignites is compared by a skin that does not react:
+/// after ignition T max is that of the flame.
+std::vector<bool> inert_gaps(const AccuracyResult& result, const std::vector<bool>& other_model) {
+  std::vector<bool> inert(result.study.study.gaps.size(), false);
+  for (std::size_t i = 0; i < result.measured.size(); ++i) {
+    const AccuracyMeasurement& measured = result.measured[i];
+    if (other_model[i] || !measured.failure.empty() || !measured.doubt.empty()) continue;
+    for (std::size_t gap = 0; gap < inert.size(); ++gap) inert[gap] = inert[gap] || measured.ignites[gap];
+  }
+  return inert;
+}
+
+/// Whether a case differs from the study's scene in more than a setting.
+bool is_other_model(const scene::Scene& scene, const scene::Scene& own) {
+  scene::Scene same = scene;
+  for (const auto& key : scene::scene_keys()) {
+    if (belongs_to_setting(key.name)) key.set(same, key.get(own));
+  }
+  return scene::to_toml(same) != scene::to_toml(own);
+}
+
+/// A setting for the record; nothing where it did not run soundly or has temperatures that nothing has.
+std::optional<RecordedSetting> recorded(const StudyCase& input, const AccuracyMeasurement& measured,
+                                        const std::vector<bool>& inert) {
+  if (!measured.failure.empty() || !measured.doubt.empty()) return std::nullopt;
+  RecordedSetting setting;
+  setting.label = input.label;
+  setting.setting = setting_of(input.scene.scene);
+  setting.cell = measured.cell;
+  for (std::size_t gap = 0; gap < inert.size(); ++gap) {
+    setting.temperature.push_back(compared_temperature(measured, gap, inert[gap]));
+    if (!(setting.temperature.back() <= highest_recorded_temperature)) return std::nullopt;
+  }
+  if (measured.critical.kind == CriticalGapKind::value) setting.critical_gap = measured.critical.value;
+  setting.processor_time = measured.processor_time;
+  return setting;
+}
+
+AccuracyRecord record_of(const AccuracyResult& result, const std::vector<bool>& inert,
+                         const std::vector<bool>& other_model) {
+  const scene::Scene& scene = result.study.scene.scene;
+  AccuracyRecord record;
+  record.title = result.study.study.title;
+  record.model_version = run::model_version;
+  record.shell = shell_of(scene);
+  record.initial_temperature = scene.initial_temperature;
+  record.launch = launch_of(scene, result.study.study.gaps);
+  for (std::size_t i = 0; i < result.measured.size(); ++i) {
+    if (other_model[i]) continue;
+    auto setting = recorded(result.study.cases[i], result.measured[i], inert);
+    // 0.25 cm is not always 2.5 mm to the last digit.
+    if (!setting || recorded_setting(record, result.study.cases[i].scene.scene) != nullptr) continue;
+    setting->reference = i < settings_of<AccuracySettings>(result.study.study).reference_cell_sizes.size();
+    record.settings.push_back(std::move(*setting));
+  }
+  find_bounds(record);
+  return record;
+}
+
+/// The reference of the rows is that of the record: the limit may be off by what no mesh has exact.
+void add_inexactness(const AccuracyRecord& record, AccuracyReference& reference) {
+  const RecordedReference recorded = reference_of(record);
+  for (std::size_t gap = 0; gap < recorded.temperature.size(); ++gap)
+    reference.temperature[gap].inexactness = recorded.temperature[gap].inexactness;
+  reference.critical_gap.inexactness = recorded.critical_gap.inexactness;
+}
+
+void compare(AccuracyResult& result) {
+  const StudyFile& study = result.study;
+  const std::size_t meshes = settings_of<AccuracySettings>(study.study).reference_cell_sizes.size();
+  for (std::size_t i = 0; i < meshes; ++i) {
+    const AccuracyMeasurement& mesh = result.measured[i];
+    if (mesh.failure.empty() && mesh.doubt.empty()) continue;
+    result.no_reference = fmt::format("the reference mesh {} {}", study.cases[i].label,
+                                      mesh.failure.empty() ? "is in doubt: " + mesh.doubt : mesh.failure);
+    return;
+  }
+  std::vector<bool> other_model;
+  for (const StudyCase& each : study.cases)
+    other_model.push_back(is_other_model(each.scene.scene, study.scene.scene));
+  const auto first = result.measured.begin();
+  const std::vector<bool> inert = inert_gaps(result, other_model);
+  result.reference = reference_of({first, first + static_cast<std::ptrdiff_t>(meshes)}, inert.size(), inert);
+  result.record = record_of(result, inert, other_model);
+  add_inexactness(result.record, *result.reference);
+  const Setting own = setting_of(study.scene.scene);
+  for (std::size_t i = 0; i < study.cases.size(); ++i) {
+    AccuracyRow row = row_against(*result.reference, result.measured[i]);
+    row.index = i;
+    row.reference = i < meshes;
+    row.other_model = other_model[i];
+    row.baseline = !row.other_model && same_setting(setting_of(study.cases[i].scene.scene), own);
+    result.rows.push_back(std::move(row));
+  }
+  mark_front(result.rows);
+}
+
+}  // namespace
+
+AccuracyResult run_accuracy(const StudyFile& study, const StudyOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  AccuracyResult result;
+  result.study = study;
+  result.timing.jobs = jobs_of(options);
+  run_settings(result, options);
+  result.interrupted = stop_requested(options);
+  if (!result.interrupted && options.shard.whole()) compare(result);
+  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace launchsafe::kinds

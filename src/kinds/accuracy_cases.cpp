@@ -1,0 +1,227 @@
+// A study of kind accuracy as a file: its reference meshes, its settings, and the cases that follow from
+// both.
+#include "launchsafe/kinds/accuracy.hpp"
+#include "launchsafe/kinds/accuracy_report.hpp"
+#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/study/study_axes.hpp"
+#include "launchsafe/study/study_cases.hpp"
+#include "study_keys.hpp"
+#include "study_outcome.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+namespace {
+
+using scene::KeyDescription, scene::KeyKind, scene::Place, scene::Value;
+
+constexpr std::size_t least_reference_meshes = 3;
+constexpr const char* cell_size = "numerics.cell_size";
+
+std::string key_in_block(std::size_t block, const std::string& key) {
+  return fmt::format("settings.{}.{}", block, key);
+}
+
+Fault read_axis(const Leaf& leaf, std::size_t block, StudyFile& study) {
+  const Place place = scene::place_of(*leaf.node, study.file);
+  const std::string key = key_in_block(block, leaf.name);
+  study.places[key] = place;
+  if (leaf.name == "gap.thickness") {
+    return fault_at(study, key, "gap.thickness as a setting",
+                    "numerics keys, frame, friction.closure, ...; the gaps are the study's");
+  }
+  auto description = scene::describe_key(study.scene, leaf.name, place);
+  if (!description) return in_table(description.error(), "settings");
+  const auto values = scene::read_values(*leaf.node, *description, study.file);
+  if (!values) return in_table(values.error(), "settings");
+  settings_of<AccuracySettings>(study.study).settings[block].push_back({*description, *values});
+  return std::nullopt;
+}
+
+Fault check_reference_meshes(StudyFile& study) {
+  std::vector<double>& sizes = settings_of<AccuracySettings>(study.study).reference_cell_sizes;
+  std::sort(sizes.begin(), sizes.end());
+  const std::string key = "reference_cell_sizes";
+  if (Fault fault = check_twice(study, key, scene::Dimension::length, sizes)) return fault;
+  if (sizes.size() >= least_reference_meshes) return std::nullopt;
+  return fault_at(
+      study, key, fmt::format("{} cell sizes", sizes.size()),
+      fmt::format("at least {}, from which the reference is extrapolated", least_reference_meshes));
+}
+
+/// Of one grid to the next. Between grids that are nearer to each other the values differ by less than their
+/// ripple, which would pass for convergence; Celik et al. (2008) ask for 1.3 as a rule.
+constexpr double least_refinement = 1.2;
+
+/// Grids beside the charge's edge converge to something else, and two nominal sizes may be one grid.
+Fault check_reference_grids(const StudyFile& study) {
+  const std::size_t count = settings_of<AccuracySettings>(study.study).reference_cell_sizes.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string size = scene::format_quantity(
+        settings_of<AccuracySettings>(study.study).reference_cell_sizes[i], scene::Dimension::length);
+    const scene::Scene& scene = study.cases[i].scene.scene;
+    if (const std::string edges = scene::charge_edges_off_grid(scene); !edges.empty()) {
+      return fault_at(study, "reference_cell_sizes",
+                      fmt::format("{}, whose grid does not run along the charge: {}", size, edges),
+                      "cells that divide the outer radius and the radius of the charge, rounded up a little");
+    }
+    if (i == 0) continue;
+    const scene::CellRange finer = scene::cells_of(study.cases[i - 1].scene.scene),
+                           mesh = scene::cells_of(scene);
+    if (!(mesh.shortest_r > finer.shortest_r && mesh.shortest_x > finer.shortest_x))
+      return fault_at(study, "reference_cell_sizes",
+                      fmt::format("{}, whose fitted grid is not coarser than the one before it", size),
+                      "cell sizes that make different grids");
+    if (mesh.shortest_r >= least_refinement * finer.shortest_r &&
+        mesh.shortest_x >= least_refinement * finer.shortest_x)
+      continue;
+    return fault_at(study, "reference_cell_sizes",
+                    fmt::format("{}, whose fitted grid is less than {} times as coarse as the one before it",
+                                size, least_refinement),
+                    "grids far enough apart to show how T max moves with them");
+  }
+  return std::nullopt;
+}
+
+/// "cell_size 0.5 cm, inertial_scaling 16".
+std::string label_of(const std::vector<Change>& changes) {
+  std::string label;
+  for (const Change& change : changes) {
+    const std::string name = change.key.substr(change.key.rfind('.') + 1);
+    label += fmt::format("{}{} {}", label.empty() ? "" : ", ", name, change.text);
+  }
+  return label;
+}
+
+/// Makes cases of valid scenes, each once.
+class AccuracyCaseMaker {
+ public:
+  explicit AccuracyCaseMaker(StudyFile& study) : study_(study) {}
+
+  Fault add(std::string label, const std::vector<Change>& changes) {
+    ChangedScene scene(study_.scene);
+    for (const Change& change : changes) scene.apply(change);
+    if (!scene.complete()) return scene.error();
+    if (!known_.insert(scene::to_toml(scene.scene().scene)).second) return std::nullopt;
+    StudyCase made = case_of(std::move(label), scene.take());
+    made.own_conditions = true;
+    study_.cases.push_back(std::move(made));
+    return std::nullopt;
+  }
+
+ private:
+  StudyFile& study_;
+  std::set<std::string> known_;
+};
+
+Change change_of(const StudyFile& study, const KeyDescription& key, const Value& value,
+                 const std::string& study_key) {
+  return {key.name, value, scene::format_value(key, value), study_key, place_of_key(study, study_key)};
+}
+
+/// Every combination of the values of a block, the last key fastest.
+Fault add_block(const StudyFile& study, std::size_t block, std::vector<Change> changes,
+                AccuracyCaseMaker& maker) {
+  const std::vector<SettingsAxis>& axes = settings_of<AccuracySettings>(study.study).settings[block];
+  if (changes.size() == axes.size()) return maker.add(label_of(changes), changes);
+  const SettingsAxis& axis = axes[changes.size()];
+  for (const Value& value : axis.values) {
+    std::vector<Change> more = changes;
+    more.push_back(change_of(study, axis.key, value, key_in_block(block, axis.key.name)));
+    if (Fault fault = add_block(study, block, std::move(more), maker)) return fault;
+  }
+  return std::nullopt;
+}
+
+Fault check_setting_count(const StudyFile& study) {
+  double count = 1.0;
+  for (const auto& block : settings_of<AccuracySettings>(study.study).settings) {
+    double product = 1.0;
+    for (const SettingsAxis& axis : block) product *= static_cast<double>(axis.values.size());
+    count += product;
+  }
+  if (count <= static_cast<double>(study.most_cases)) return std::nullopt;
+  return fault_at(study, "settings", fmt::format("{:.0f} settings", count),
+                  fmt::format("at most {}", study.most_cases));
+}
+
+Fault read_settings(const toml::table& root, StudyFile& study) {
+  if (Fault fault = check_reference_meshes(study)) return fault;
+  const toml::node* node = root.get("settings");
+  if (!node || (node->is_array() && node->as_array()->empty())) return std::nullopt;
+  if (!node->is_array_of_tables()) {
+    return scene::error_at(scene::place_of(*node, study.file), "settings", scene::found_text(*node),
+                           "tables, each written [[settings]], of scene keys with several values");
+  }
+  for (const toml::node& element : *node->as_array()) {
+    const std::size_t block = settings_of<AccuracySettings>(study.study).settings.size();
+    settings_of<AccuracySettings>(study.study).settings.emplace_back();
+    for (const Leaf& leaf : leaves_as_written(*element.as_table())) {
+      if (Fault fault = read_axis(leaf, block, study)) return fault;
+    }
+  }
+  return check_setting_count(study);
+}
+
+Fault make_accuracy_cases(const StudySource&, StudyFile& study) {
+  AccuracyCaseMaker maker(study);
+  const KeyDescription description = *scene::find_key(scene::scene_keys(), cell_size);
+  for (const double size : settings_of<AccuracySettings>(study.study).reference_cell_sizes) {
+    const Change change = change_of(study, description, size, "reference_cell_sizes");
+    if (Fault fault = maker.add(label_of({change}), {change})) return fault;
+  }
+  if (Fault fault = check_reference_grids(study)) return fault;
+  if (Fault fault = maker.add("as in the scene", {})) return fault;
+  for (std::size_t block = 0; block < settings_of<AccuracySettings>(study.study).settings.size(); ++block) {
+    if (Fault fault = add_block(study, block, {}, maker)) return fault;
+  }
+  return std::nullopt;
+}
+
+std::vector<scene::Key<AccuracySettings>> accuracy_keys() {
+  return {
+      scene::list_key<AccuracySettings>(
+          "reference_cell_sizes", scene::Dimension::length, scene::between(1e-5, 1), scene::Standing::assumed,
+          "Cell sizes of at least three grids, each fitting the charge, that the reference is "
+          "extrapolated from.",
+          &AccuracySettings::reference_cell_sizes),
+      scene::list_key<AccuracySettings>(
+          "times", scene::Dimension::time, scene::between(0, 1), scene::Standing::assumed,
+          "Instants at which temperatures are compared too.", &AccuracySettings::times),
+  };
+}
+
+Fault read_accuracy(const StudySource& source, StudyFile& study) { return read_settings(source.root, study); }
+
+StudyOutcome accuracy_outcome(const StudyFile& study, const StudyOptions& options) {
+  const AccuracyResult result = run_accuracy(study, options);
+  return outcome_of(result, options, result.any_indeterminate(), failures_of(study, result.answers));
+}
+
+}  // namespace
+
+Kind accuracy_kind() {
+  return {
+      .traits = {.name = "accuracy", .gaps_key = "gaps", .gives_verdicts = false},
+      .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), own_keys(accuracy_keys())}),
+      .tables = {{"settings", {}}},
+      .read = read_accuracy,
+      .make_cases = make_accuracy_cases,
+      .run = accuracy_outcome,
+      .files = {{"accuracy.json"},
+                {"accuracy.csv"},
+                {"reference.csv"},
+                {"points.csv"},
+                {"times.csv"},
+                {"error_against_time.svg"},
+                {"summary.md"}},
+  };
+}
+
+}  // namespace launchsafe::kinds

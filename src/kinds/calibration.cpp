@@ -1,0 +1,311 @@
+#include "launchsafe/kinds/calibration.hpp"
+
+#include "calibration_hold_outs.hpp"
+#include "calibration_load.hpp"
+#include "launchsafe/store/manifest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+
+bool CalibrationResult::any_failed() const {
+  if (load && !load->failure.empty()) return true;
+  return std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.failure.empty(); });
+}
+
+namespace {
+
+using scene::FrictionClosure;
+
+/// A load belongs to the closure that it was fitted with.
+std::vector<FrictionClosure> closures_of(const StudyFile& study) {
+  if (!settings_of<CalibrationSettings>(study.study).fast_rise.empty())
+    return {study.scene.scene.surface.friction};
+  return {FrictionClosure::literal, FrictionClosure::inelastic, FrictionClosure::none};
+}
+
+/// A kinetics to calibrate with.
+struct NamedKinetics {
+  std::string name;
+  materials::KineticsParameters parameters;
+};
+
+std::vector<NamedKinetics> kinetics_of(const StudyFile& study) {
+  const materials::KineticsParameters& own = study.scene.scene.charge().kinetics;
+  std::vector<NamedKinetics> all{{own.name, own}};
+  if (!settings_of<CalibrationSettings>(study.study).compare_kinetics) return all;
+  const auto key = scene::describe_key(study.scene, "kinetics.set", {});
+  if (!key) return all;
+  for (const std::string& word : key->words) {
+    const auto changed = scene::with_written_key(study.scene, "kinetics.set", word, {});
+    if (changed && word != own.name && word != "custom")
+      all.push_back({word, changed->scene.charge().kinetics});
+  }
+  return all;
+}
+
+void run_meshes(CalibrationResult& result, const StudyOptions& options) {
+  StudyFile study = result.study;
+  for (std::size_t i = 0; i < result.runs.size(); ++i) study.cases[i] = result.runs[i].input;
+  ProgressTracker tracker(options.progress);
+  const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
+  run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+    for (const std::size_t member : runs[i].members) {
+      CalibrationRun& run = result.runs[member];
+      run.outcome = finished.front().outcome;
+      run.failure = finished.front().failure;
+      run.mechanics = finished.front().result.mechanics;
+    }
+  });
+}
+
+CalibrationRow row_of(const StudyFile& study, const CalibrationRun& run, FrictionClosure closure,
+                      const NamedKinetics& kinetics, const CalibrationTargets& targets) {
+  CalibrationRow row;
+  row.cell_size = run.input.cell_size;
+  row.closure = closure;
+  row.kinetics = kinetics.name;
+  row.calibratable = closure != FrictionClosure::none;
+  row.failure = run.failure;
+  if (row.failure.empty()) row.failure = calibration_doubts(run.input.scene.scene, run.mechanics);
+  if (!row.failure.empty()) return row;
+  surface::SkinModel model = surface::skin_model(run.input.scene.scene);
+  model.surface.friction = closure;
+  model.kinetics = kinetics.parameters;
+  if (row.calibratable) {
+    row.calibrated = calibrate(model, run.mechanics.trace, targets);
+    row.failure = row.calibrated.failure;
+    if (!row.failure.empty()) return row;
+    model.surface.localisation = row.calibrated.constants.localisation;
+    model.surface.exchange_time = row.calibrated.constants.exchange_time;
+    model.kinetics.ignition_temperature = row.calibrated.constants.ignition_temperature;
+  }
+  predict(study.study, model, run.mechanics.trace, row);
+  return row;
+}
+
+const CalibrationRow* find_row(const CalibrationResult& result, double cell_size, FrictionClosure closure,
+                               const std::string& kinetics) {
+  for (const CalibrationRow& row : result.rows) {
+    if (row.cell_size == cell_size && row.closure == closure && row.kinetics == kinetics) return &row;
+  }
+  return nullptr;
+}
+
+/// Finest and coarsest mesh that were run, m.
+std::pair<double, double> mesh_range(const CalibrationResult& result) {
+  double finest = 1e300, coarsest = 0;
+  for (const CalibrationRun& run : result.runs) {
+    finest = std::min(finest, run.input.cell_size);
+    coarsest = std::max(coarsest, run.input.cell_size);
+  }
+  return {finest, coarsest};
+}
+
+void compare_meshes(CalibrationResult& result, const std::vector<NamedKinetics>& kinetics) {
+  const auto [finest, coarsest] = mesh_range(result);
+  if (!(finest < coarsest)) return;
+  for (const NamedKinetics& set : kinetics) {
+    for (const FrictionClosure closure : closures_of(result.study)) {
+      if (closure == FrictionClosure::none) continue;
+      const CalibrationRow* fine = find_row(result, finest, closure, set.name);
+      const CalibrationRow* coarse = find_row(result, coarsest, closure, set.name);
+      Convergence convergence{closure, set.name};
+      if (fine && coarse) {
+        const Constants &a = fine->calibrated.constants, &b = coarse->calibrated.constants;
+        convergence.localisation_change = (a.localisation - b.localisation) / a.localisation;
+        convergence.exchange_time_change = (a.exchange_time - b.exchange_time) / a.exchange_time;
+      }
+      result.convergence.push_back(convergence);
+    }
+  }
+}
+
+double change_of(const CalibrationResult& result, FrictionClosure closure, const std::string& kinetics) {
+  for (const Convergence& each : result.convergence) {
+    if (each.closure == closure && each.kinetics == kinetics) return std::abs(each.localisation_change);
+  }
+  return not_a_number;
+}
+
+/// The mesh that the scene's constants belong to: its own where it was run, else the finest.
+double recommended_mesh(const CalibrationResult& result) {
+  const double own = result.study.scene.scene.numerics.cell_size;
+  for (const CalibrationRun& run : result.runs) {
+    if (run.input.cell_size == own) return own;
+  }
+  return mesh_range(result).first;
+}
+
+/// K. Closures whose misfits differ by less predict equally well: the misfits themselves are of tens of
+/// kelvin.
+constexpr double distinguishable_rms = 0.5;
+
+FrictionClosure study_closure(const CalibrationResult& result) {
+  return result.study.scene.scene.surface.friction;
+}
+
+/// Of a study that fits the load there is one closure alone.
+void recommend_own(CalibrationResult& result, const std::string& kinetics, double mesh) {
+  const CalibrationRow* own = find_row(result, mesh, study_closure(result), kinetics);
+  if (own == nullptr || !own->failure.empty()) {
+    result.recommendation.reason =
+        "no constants are recommended: " + (own == nullptr ? std::string("no run was made") : own->failure);
+    return;
+  }
+  result.recommendation.row = static_cast<std::size_t>(own - result.rows.data());
+  result.recommendation.reason =
+      fmt::format("The load and the constants of closure \"{}\" were fitted on cells of {:.6g} mm.",
+                  to_string(own->closure), 1e3 * mesh);
+}
+
+/// What the hold-outs and the meshes say of the two closures with the scene's own kinetics.
+void recommend(CalibrationResult& result) {
+  const std::string kinetics = result.study.scene.scene.charge().kinetics.name;
+  const double finest = mesh_range(result).first, mesh = recommended_mesh(result);
+  const CalibrationRow* literal = find_row(result, finest, FrictionClosure::literal, kinetics);
+  const CalibrationRow* inelastic = find_row(result, finest, FrictionClosure::inelastic, kinetics);
+  const auto usable = [](const CalibrationRow* row) { return row && std::isfinite(row->root_mean_square); };
+  Recommendation& said = result.recommendation;
+  if (result.load) {
+    recommend_own(result, kinetics, mesh);
+    return;
+  }
+  if (!usable(literal) || !usable(inelastic)) {
+    said.reason =
+        "no closure is recommended: not both could be calibrated on the finest mesh and compared with "
+        "rows that are held out";
+    return;
+  }
+  const double gain = std::abs(literal->root_mean_square - inelastic->root_mean_square);
+  const bool separates = gain > distinguishable_rms;
+  // Where the hold-outs do not separate the closures, the scene keeps the one it has (if it has one).
+  const bool keep_inelastic = study_closure(result) == FrictionClosure::inelastic;
+  const bool choose_inelastic =
+      separates ? inelastic->root_mean_square < literal->root_mean_square : keep_inelastic;
+  const CalibrationRow* better = choose_inelastic ? inelastic : literal;
+  const CalibrationRow* other = choose_inelastic ? literal : inelastic;
+  said.reason = fmt::format(
+      "On the finest mesh ({:.6g} mm) \"{}\" misses the temperature hold-outs by {:.4g} K (RMS), \"{}\" by "
+      "{:.4g} K{}. {}",
+      1e3 * finest, to_string(better->closure), better->root_mean_square, to_string(other->closure),
+      other->root_mean_square,
+      std::isfinite(better->spread_root_mean_square) && std::isfinite(other->spread_root_mean_square)
+          ? fmt::format("; the spreads by {:.4g} K and {:.4g} K", better->spread_root_mean_square,
+                        other->spread_root_mean_square)
+          : std::string{},
+      separates ? "The hold-outs separate them."
+                : fmt::format("A difference below {} K does not separate them, and the scene keeps \"{}\".",
+                              distinguishable_rms, to_string(better->closure)));
+  const double change = change_of(result, better->closure, kinetics);
+  const double other_change = change_of(result, other->closure, kinetics);
+  if (std::isfinite(change) && std::isfinite(other_change)) {
+    said.reason += fmt::format(
+        " From the coarsest to the finest mesh its localisation changes by {:.3g} %, the other's by {:.3g} "
+        "%.",
+        100.0 * change, 100.0 * other_change);
+  } else {
+    said.reason += " With one mesh nothing is known about convergence.";
+  }
+  const CalibrationRow* chosen = find_row(result, mesh, better->closure, kinetics);
+  if (chosen && chosen->failure.empty()) said.row = static_cast<std::size_t>(chosen - result.rows.data());
+}
+
+/// End temperature (K) of every station without a gap, with constants.
+std::vector<double> end_temperatures(const CalibrationRun& run, const CalibrationRow& constants) {
+  surface::SkinModel model = surface::skin_model(run.input.scene.scene);
+  model.surface.friction = constants.closure;
+  model.surface.localisation = constants.calibrated.constants.localisation;
+  model.kinetics.ignition_temperature = constants.calibrated.constants.ignition_temperature;
+  const trace::BottomTrace& trace = run.mechanics.trace;
+  const auto history = surface::integrate_skin(model, trace, 0.0);
+  std::vector<double> temperatures;
+  for (std::size_t station = 0; station < trace.stations.size(); ++station) {
+    if (!trace.stations[station].observation)
+      temperatures.push_back(surface::temperature_at_time(history, trace, station, trace.time.back()));
+  }
+  return temperatures;
+}
+
+/// NaN where the runs do not have the same stations.
+double largest_change(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) return not_a_number;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double change = std::abs(a[i] - b[i]);
+    if (!(change <= largest)) largest = change;
+  }
+  return largest;
+}
+
+/// The run of the next finer or coarser mesh; nullptr without one.
+const CalibrationRun* neighbour(const CalibrationResult& result, double mesh, bool finer) {
+  const CalibrationRun* next = nullptr;
+  for (const CalibrationRun& run : result.runs) {
+    const double cell = run.input.cell_size;
+    if (!run.failure.empty() || cell == mesh || (cell < mesh) != finer) continue;
+    if (next == nullptr || (cell < next->input.cell_size) != finer) next = &run;
+  }
+  return next;
+}
+
+void compare_stations(CalibrationResult& result) {
+  if (!result.recommendation.row) return;
+  const CalibrationRow& row = result.rows[*result.recommendation.row];
+  const auto own = std::find_if(result.runs.begin(), result.runs.end(),
+                                [&](const auto& run) { return run.input.cell_size == row.cell_size; });
+  const auto temperatures = end_temperatures(*own, row);
+  const auto change_to = [&](bool finer) {
+    const CalibrationRun* other = neighbour(result, row.cell_size, finer);
+    return other == nullptr ? not_a_number : largest_change(temperatures, end_temperatures(*other, row));
+  };
+  result.stations = {change_to(true), change_to(false)};
+}
+
+}  // namespace
+
+CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  CalibrationResult result;
+  result.study = study;
+  result.timing.jobs = jobs_of(options);
+  const scene::Scene& scene = study.scene.scene;
+  result.in_scene = {scene.surface.localisation, scene.surface.exchange_time,
+                     scene.charge().kinetics.ignition_temperature};
+  const auto targets = calibration_targets(study);
+  if (targets && !settings_of<CalibrationSettings>(study.study).fast_rise.empty())
+    result.load = fit_load(study, *targets, options, result.timing);
+  for (const StudyCase& input : study.cases) {
+    CalibrationRun run;
+    run.input = input;
+    if (result.load) run.input.scene = with_load(input.scene, *result.load);
+    if (result.load) run.failure = result.load->failure;
+    result.runs.push_back(std::move(run));
+  }
+  if (!result.load || result.load->failure.empty()) run_meshes(result, options);
+  const auto kinetics = kinetics_of(study);
+  for (const CalibrationRun& run : result.runs) {
+    for (const NamedKinetics& set : kinetics) {
+      for (const FrictionClosure closure : closures_of(study)) {
+        if (targets) result.rows.push_back(row_of(study, run, closure, set, *targets));
+      }
+    }
+  }
+  compare_meshes(result, kinetics);
+  if (!result.rows.empty()) recommend(result);
+  if (result.load && !result.load->failure.empty())
+    result.recommendation.reason = "no load is recommended: " + result.load->failure;
+  compare_stations(result);
+  result.interrupted = stop_requested(options);
+  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace launchsafe::kinds

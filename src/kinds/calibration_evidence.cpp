@@ -1,0 +1,96 @@
+// The record of a calibration: what its result says of the launch that it was made on.
+#include "launchsafe/kinds/calibration.hpp"
+#include "launchsafe/run/model_version.hpp"
+#include "launchsafe/store/sha256.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+
+namespace {
+
+/// K, the largest |predicted - published| of a temperature for which `counts` holds, infinite where one is
+/// not known; where there is none, that of the shipped calibration.
+template <class Counts>
+double misfit_or_shipped(const CalibrationRow& row, Counts counts) {
+  bool any = false;
+  double largest = 0.0;
+  for (const HoldOut& each : row.hold_outs) {
+    if (!each.temperature || !counts(each)) continue;
+    any = true;
+    const double misfit = std::abs(each.misfit());
+    largest = std::max(largest, std::isnan(misfit) ? std::numeric_limits<double>::infinity() : misfit);
+  }
+  return any ? largest : CalibrationEvidence{}.largest_misfit;
+}
+
+/// K; where nothing is held out, any other misfit, or what the shipped calibration misses if that is larger.
+double held_out_misfit(const CalibrationRow& row, double largest) {
+  const auto held_out = [](const HoldOut& each) { return each.temperature && each.use == Use::held_out; };
+  return std::any_of(row.hold_outs.begin(), row.hold_outs.end(), held_out)
+             ? misfit_or_shipped(row, held_out)
+             : std::max(largest, CalibrationEvidence{}.largest_misfit);
+}
+
+std::string digest_of(const std::vector<Reference>& references) {
+  std::string text;
+  for (const Reference& row : references) {
+    text += fmt::format("{} {} {} {} {} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.point,
+                        row.early_temperature, row.early_point, row.spread, row.early_spread,
+                        row.ignition_time, row.calibrated, row.early_calibrated, row.selection);
+  }
+  return store::sha256(text);
+}
+
+/// The scene of the recommended row, with its constants.
+scene::Scene calibrated_scene(const CalibrationResult& result, const CalibrationRow& row) {
+  const auto run = std::find_if(result.runs.begin(), result.runs.end(),
+                                [&](const auto& each) { return each.input.cell_size == row.cell_size; });
+  scene::Scene scene = run->input.scene.scene;
+  scene.surface.friction = row.closure;
+  scene.surface.localisation = row.calibrated.constants.localisation;
+  scene.surface.exchange_time = row.calibrated.constants.exchange_time;
+  scene.charge().kinetics.ignition_temperature = row.calibrated.constants.ignition_temperature;
+  scene.accepted.clear();
+  return scene;
+}
+
+}  // namespace
+
+std::optional<CalibrationRecord> record_of(const CalibrationResult& result) {
+  const auto targets = calibration_targets(result.study);
+  if (!targets || result.interrupted) return std::nullopt;
+  CalibrationRecord record;
+  record.title = result.study.study.title;
+  record.model_version = run::model_version;
+  record.load_fitted = result.load.has_value();
+  record.references_digest = digest_of(result.study.study.references);
+  if (!result.recommendation.row) {
+    record.failure = result.recommendation.reason;
+    record.calibration = {result.study.scene.scene, no_evidence};
+    return record;
+  }
+  const CalibrationRow& row = result.rows[*result.recommendation.row];
+  record.calibration.scene = calibrated_scene(result, row);
+  CalibrationEvidence& evidence = record.calibration.evidence;
+  evidence.friction_rise =
+      targets->zero_gap.maximum_temperature - record.calibration.scene.initial_temperature;
+  evidence.air_rise = targets->wide_gap.maximum_temperature - targets->zero_gap.maximum_temperature;
+  evidence.largest_gap = targets->igniting_gap;
+  evidence.largest_misfit =
+      misfit_or_shipped(row, [](const HoldOut& each) { return each.use != Use::calibration; });
+  record.held_out_misfit = held_out_misfit(row, evidence.largest_misfit);
+  record.ignition_lowest = row.calibrated.ignition_lowest;
+  record.ignition_highest = row.calibrated.ignition_highest;
+  record.selection_root_mean_square = row.selection_root_mean_square;
+  record.stations = result.stations;
+  return record;
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,342 @@
+// Tables, page, JSON and files of a calibration.
+#include "launchsafe/kinds/calibration_report.hpp"
+
+#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/study_text.hpp"
+#include "launchsafe/study/calibration_record.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Column six_digits(std::string name, std::string unit, std::string key) {
+  return significant_column(std::move(name), std::move(unit), 6, std::move(key));
+}
+
+std::string remark_of(const CalibrationRow& row) {
+  if (!row.failure.empty()) return row.failure;
+  return row.calibratable ? std::string{}
+                          : "not calibratable at gap 0; with the scene's exchange time and T1";
+}
+
+/// Whether the calibrated ignition temperature lies in the published bracket.
+std::string bracket_check(const study::Study& study, const CalibrationRow& row) {
+  const double value = row.calibrated.constants.ignition_temperature;
+  if (!std::isfinite(value) || !std::isfinite(settings_of<CalibrationSettings>(study).ignition_lowest))
+    return {};
+  const bool inside = value >= settings_of<CalibrationSettings>(study).ignition_lowest &&
+                      value <= settings_of<CalibrationSettings>(study).ignition_highest;
+  return inside ? "inside" : "outside";
+}
+
+}  // namespace
+
+Table calibration_table(const CalibrationResult& result) {
+  Table table;
+  table.title = "Calibrated constants, and how far they miss what they were not fitted to";
+  table.columns = {six_digits("cell", "mm", "cell_size_mm"),
+                   text_column("closure"),
+                   text_column("kinetics"),
+                   six_digits("localisation", "", "localisation"),
+                   six_digits("exchange time", "ms", "exchange_time_ms"),
+                   number_column("T1", "K", 2, "ignition_temperature_K"),
+                   number_column("T1 from", "K", 2, "ignition_lowest_K"),
+                   number_column("to", "K", 2, "ignition_highest_K"),
+                   text_column("published bracket"),
+                   number_column("RMS", "K", 2, "rms_K"),
+                   number_column("RMS of spreads", "K", 2, "spread_rms_K"),
+                   number_column("RMS of selection", "K", 2, "selection_rms_K"),
+                   text_column("remark")};
+  for (const CalibrationRow& row : result.rows) {
+    const CalibratedConstants& fitted = row.calibrated;
+    table.rows.push_back({1e3 * row.cell_size, study::to_string(row.closure), row.kinetics,
+                          optional_number(fitted.constants.localisation),
+                          optional_number(1e3 * fitted.constants.exchange_time),
+                          optional_number(fitted.constants.ignition_temperature),
+                          optional_number(fitted.ignition_lowest), optional_number(fitted.ignition_highest),
+                          bracket_check(result.study.study, row), optional_number(row.root_mean_square),
+                          optional_number(row.spread_root_mean_square),
+                          optional_number(row.selection_root_mean_square), remark_of(row)});
+  }
+  table.notes.push_back(
+      "RMS: over the temperature hold-outs, predicted minus published. T1 is the middle between "
+      "the untriggered T max of the largest published gap that is safe and of the smallest that "
+      "ignites.");
+  return table;
+}
+
+Table hold_out_table(const CalibrationResult& result, const CalibrationRow& row) {
+  Table table;
+  table.title = fmt::format("Against the published results: {} mm, {}, {}",
+                            significant(1e3 * row.cell_size, 6), study::to_string(row.closure), row.kinetics);
+  table.columns = {text_column("quantity"),
+                   six_digits("gap", "cm", "gap_cm"),
+                   number_column("predicted", "", 2, "predicted"),
+                   number_column("published", "", 2, "published"),
+                   number_column("computed - published", "", 2, "computed_minus_published"),
+                   text_column("unit"),
+                   text_column("used for")};
+  for (const HoldOut& each : row.hold_outs) {
+    const double scale = each.in_seconds ? 1e3 : 1.0;
+    table.rows.push_back({each.quantity, 100.0 * each.gap, optional_number(scale * each.predicted),
+                          scale * each.published, optional_number(scale * each.misfit()),
+                          std::string(each.in_seconds ? "ms" : "K"), study::to_string(each.use)});
+  }
+  for (const Placement& each : row.placements) {
+    table.notes.push_back(fmt::format("Place of {} at {}: predicted {}, published {}.", each.quantity,
+                                      centimetres(each.gap), each.predicted, each.published));
+  }
+  if (result.study.study.references.empty()) table.notes.push_back("The study has no published rows.");
+  return table;
+}
+
+Table selection_table(const CalibrationResult& result) {
+  Table table;
+  if (!result.recommendation.row) return table;
+  const CalibrationRow& row = result.rows[*result.recommendation.row];
+  table.title = "Differences that choose among models";
+  table.columns = {text_column("quantity"),
+                   number_column("computed - published", "K", 2, "computed_minus_published_K")};
+  for (const SelectionMisfit& each : row.selection)
+    table.rows.push_back({each.quantity, optional_number(each.misfit)});
+  table.notes.push_back(
+      fmt::format("Their root mean square is {} K. A spread is the root mean square over the gaps; a hottest "
+                  "place is the "
+                  "temperature of the published place minus the highest.",
+                  significant(row.selection_root_mean_square, 4)));
+  return table;
+}
+
+Table convergence_table(const CalibrationResult& result) {
+  Table table;
+  table.title = "From the coarsest to the finest mesh";
+  table.columns = {text_column("closure"), text_column("kinetics"),
+                   number_column("localisation", "%", 1, "localisation_change_percent"),
+                   number_column("exchange time", "%", 1, "exchange_time_change_percent")};
+  for (const Convergence& each : result.convergence) {
+    table.rows.push_back({study::to_string(each.closure), each.kinetics,
+                          optional_number(100.0 * each.localisation_change),
+                          optional_number(100.0 * each.exchange_time_change)});
+  }
+  return table;
+}
+
+Table constants_table(const CalibrationResult& result) {
+  Table table;
+  if (!result.recommendation.row) return table;
+  const CalibrationRow& row = result.rows[*result.recommendation.row];
+  const Constants &fitted = row.calibrated.constants, &now = result.in_scene;
+  const std::string closure_now = study::to_string(result.study.scene.scene.surface.friction);
+  table.title = "Constants the scene should hold";
+  table.columns = {text_column("key"), text_column("calibrated"), text_column("in the scene now"),
+                   number_column("difference", "%", 2, "difference_percent")};
+  const auto add = [&table](std::string key, double value, double held, double scale, const char* unit) {
+    table.rows.push_back({std::move(key), significant(scale * value, 6) + unit,
+                          significant(scale * held, 6) + unit, 100.0 * (held - value) / value});
+  };
+  table.rows.push_back({"friction.closure", study::to_string(row.closure), closure_now, Cell()});
+  add("friction.localisation", fitted.localisation, now.localisation, 1.0, "");
+  add("gap.exchange_time", fitted.exchange_time, now.exchange_time, 1e3, " ms");
+  if (result.load) {
+    const scene::Load& held = result.study.scene.scene.load;
+    add("load.peak_time", result.load->peak_time, held.peak_time, 1e3, " ms");
+    add("load.exponent", result.load->exponent, held.exponent, 1.0, "");
+  }
+  add("kinetics.ignition_temperature", fitted.ignition_temperature, now.ignition_temperature, 1.0, " K");
+  table.notes.push_back(fmt::format("They belong to cells of {} mm and the scene's other settings.",
+                                    significant(1e3 * row.cell_size, 6)));
+  return table;
+}
+
+std::string answer(const CalibrationResult& result) {
+  std::string text = result.recommendation.reason;
+  if (result.recommendation.row) {
+    const CalibrationRow& row = result.rows[*result.recommendation.row];
+    const Constants& fitted = row.calibrated.constants;
+    text += fmt::format(
+        " The scene should hold \"{}\": at {} mm, localisation {}, exchange time {} ms, ignition "
+        "temperature {} K.",
+        study::to_string(row.closure), significant(1e3 * row.cell_size, 6),
+        significant(fitted.localisation, 6), significant(1e3 * fitted.exchange_time, 6),
+        significant(fitted.ignition_temperature, 6));
+  }
+  return text.empty() ? "No calibration: no run was made." : text;
+}
+
+namespace {
+
+/// What was fitted of the load, and how far the stations move from mesh to mesh. Empty without either.
+std::string load_and_stations_text(const CalibrationResult& result) {
+  std::string text;
+  if (result.load && result.load->failure.empty()) {
+    const FittedLoad& load = *result.load;
+    const std::vector<double>& rise = settings_of<CalibrationSettings>(result.study.study).fast_rise;
+    text += fmt::format(
+        "Under the fitted load, its peak at {} ms with an exponent of {}, temperatures without a gap rise "
+        "fast "
+        "from {:.2f} to {:.2f} ms (published: {} to {} ms; the time between is fitted), and the highest at "
+        "{} "
+        "ms is {:+.3f} K off the published one.\n",
+        significant(1e3 * load.peak_time, 6), significant(load.exponent, 6), 1e3 * load.turning.fast,
+        1e3 * load.turning.slow, significant(1e3 * rise[0], 4), significant(1e3 * rise[1], 4),
+        significant(1e3 * result.study.study.early_time, 4), load.early_misfit);
+  }
+  if (std::isfinite(result.stations.finer)) {
+    if (!text.empty()) text += "\n";
+    text += fmt::format(
+        "With these constants no station without a gap changes by more than {:.2f} K on the next finer mesh, "
+        "and by more than {:.2f} K from the next coarser one: the stations {} by the rule of "
+        "`studies/model_form/README.md`.\n",
+        result.stations.finer, result.stations.coarser,
+        result.stations.converges() ? "converge" : "do not converge");
+  }
+  return text;
+}
+
+}  // namespace
+
+namespace {
+
+Json json_of(const CalibrationRow& row, const study::Study& study) {
+  Json json{{"cell_size_mm", number(1e3 * row.cell_size)},
+            {"closure", study::to_string(row.closure)},
+            {"kinetics", row.kinetics},
+            {"calibratable", row.calibratable},
+            {"localisation", number(row.calibrated.constants.localisation)},
+            {"exchange_time_s", number(row.calibrated.constants.exchange_time)},
+            {"ignition_temperature_K", number(row.calibrated.constants.ignition_temperature)},
+            {"ignition_lowest_K", number(row.calibrated.ignition_lowest)},
+            {"ignition_highest_K", number(row.calibrated.ignition_highest)},
+            {"published_bracket", bracket_check(study, row)},
+            {"zero_gap_computed_minus_published_K", number(row.calibrated.zero_gap_misfit)},
+            {"wide_gap_computed_minus_published_K", number(row.calibrated.wide_gap_misfit)},
+            {"rms_K", number(row.root_mean_square)},
+            {"spread_rms_K", number(row.spread_root_mean_square)},
+            {"selection_rms_K", number(row.selection_root_mean_square)},
+            {"reason", remark_of(row)},
+            {"hold_outs", Json::array()},
+            {"placements", Json::array()}};
+  for (const HoldOut& each : row.hold_outs) {
+    json["hold_outs"].push_back({{"quantity", each.quantity},
+                                 {"gap_cm", number(100.0 * each.gap)},
+                                 {"unit", each.in_seconds ? "s" : "K"},
+                                 {"predicted", number(each.predicted)},
+                                 {"published", number(each.published)},
+                                 {"computed_minus_published", number(each.misfit())},
+                                 {"used_for", study::to_string(each.use)}});
+  }
+  for (const Placement& each : row.placements) {
+    json["placements"].push_back({{"quantity", each.quantity},
+                                  {"gap_cm", number(100.0 * each.gap)},
+                                  {"predicted", each.predicted},
+                                  {"published", each.published}});
+  }
+  return json;
+}
+
+Json recommendation_json(const CalibrationResult& result) {
+  Json json{{"reason", result.recommendation.reason}, {"row", nullptr}};
+  if (result.recommendation.row) json["row"] = *result.recommendation.row;
+  return json;
+}
+
+Table run_table(const CalibrationResult& result) {
+  Table table;
+  table.title = "Runs";
+  table.columns = {text_column("mesh"), text_column("status"), scientific_column("energy drift", "", 1, {}),
+                   scientific_column("updates", "1/s", 2, {}),
+                   text_column("limiters that acted (particle steps)")};
+  for (const CalibrationRun& run : result.runs) {
+    table.rows.push_back({run.input.label, run.failure.empty() ? "completed" : run.failure,
+                          optional_number(run::largest_energy_drift(run.mechanics)),
+                          optional_number(run.mechanics.update_rate()),
+                          limiters_text(run.mechanics.limiters)});
+  }
+  return table;
+}
+
+/// All hold-outs of all rows in one table, for other programs.
+Table all_hold_outs(const CalibrationResult& result) {
+  Table table;
+  for (const CalibrationRow& row : result.rows) {
+    const Table one = hold_out_table(result, row);
+    if (table.columns.empty()) {
+      table.columns = {six_digits("cell", "mm", "cell_size_mm"), text_column("closure"),
+                       text_column("kinetics")};
+      table.columns.insert(table.columns.end(), one.columns.begin(), one.columns.end());
+    }
+    for (const std::vector<Cell>& cells : one.rows) {
+      std::vector<Cell> extended{1e3 * row.cell_size, study::to_string(row.closure), row.kinetics};
+      extended.insert(extended.end(), cells.begin(), cells.end());
+      table.rows.push_back(std::move(extended));
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+Json to_json(const CalibrationResult& result) {
+  Json json{{"kind", "calibration"},
+            {"study", study_file_name(result.study)},
+            {"title", result.study.study.title},
+            {"answer", answer(result)},
+            {"calibrations", Json::array()},
+            {"convergence", to_json(convergence_table(result))["rows"]},
+            {"recommendation", recommendation_json(result)},
+            {"in_scene",
+             {{"closure", study::to_string(result.study.scene.scene.surface.friction)},
+              {"localisation", number(result.in_scene.localisation)},
+              {"exchange_time_s", number(result.in_scene.exchange_time)},
+              {"ignition_temperature_K", number(result.in_scene.ignition_temperature)}}},
+            {"timing", timing_json(result.timing)}};
+  if (result.load) {
+    json["load"] = {{"peak_time_s", number(result.load->peak_time)},
+                    {"exponent", number(result.load->exponent)},
+                    {"rises_fast_from_s", number(result.load->turning.fast)},
+                    {"rises_fast_until_s", number(result.load->turning.slow)},
+                    {"early_computed_minus_published_K", number(result.load->early_misfit)},
+                    {"reason", result.load->failure}};
+  }
+  json["stations"] = {{"change_to_finer_K", number(result.stations.finer)},
+                      {"change_from_coarser_K", number(result.stations.coarser)},
+                      {"converge", result.stations.converges()}};
+  for (const CalibrationRow& row : result.rows)
+    json["calibrations"].push_back(json_of(row, result.study.study));
+  return json;
+}
+
+Report report_of(const CalibrationResult& result) {
+  Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+  if (const auto record = record_of(result))
+    report.files.push_back({"calibration.json", study::to_json_text(*record)});
+  report.items.push_back(Statement{load_and_stations_text(result)});
+  report.items.push_back(ReportTable{constants_table(result)});
+  report.items.push_back(ReportTable{calibration_table(result), "calibration.csv"});
+  Table selection = selection_table(result);
+  if (selection.rows.size() < 2) selection.rows.clear();
+  report.items.push_back(ReportTable{.table = std::move(selection), .shown = Shown::page});
+  report.items.push_back(ReportTable{convergence_table(result)});
+  for (std::size_t row = 0; row < result.rows.size(); ++row) {
+    const Shown shown = result.recommendation.row == row ? Shown::page_and_terminal : Shown::page;
+    report.items.push_back(ReportTable{.table = hold_out_table(result, result.rows[row]), .shown = shown});
+  }
+  report.items.push_back(ReportTable{all_hold_outs(result), "hold_outs.csv", Shown::file});
+  report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
+  report.items.push_back(ReportTable{.table = run_table(result), .shown = Shown::page});
+  report.items.push_back(Statement{timing_text(result.timing) + "\n"});
+  report.json = json_file_text(to_json(result));
+  return report;
+}
+
+}  // namespace launchsafe::kinds

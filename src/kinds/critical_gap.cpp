@@ -1,0 +1,144 @@
+#include "launchsafe/kinds/critical_gap.hpp"
+
+#include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/gap_analysis.hpp"
+#include "launchsafe/study/run_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+
+bool CriticalGapResult::any_failed() const {
+  return std::any_of(cases.begin(), cases.end(), [](const CaseOutcome& each) {
+    return !each.completed() ||
+           std::any_of(each.confirmations.begin(), each.confirmations.end(),
+                       [](const Confirmation& confirmation) { return !confirmation.completed; });
+  });
+}
+
+bool CriticalGapResult::any_indeterminate() const {
+  return std::any_of(cases.begin(), cases.end(), [](const CaseOutcome& each) {
+    return each.critical.kind == CriticalGapKind::indeterminate ||
+           std::any_of(each.verdicts.begin(), each.verdicts.end(),
+                       [](const GapVerdict& row) { return row.judgement.verdict == Verdict::indeterminate; });
+  });
+}
+
+std::string label_of_coupled(const CaseOutcome& outcome, double gap) {
+  return fmt::format("{}, coupled at {:.6g} cm", outcome.input.label, 100.0 * gap);
+}
+
+namespace {
+
+/// A case without a run: rows without numbers, and the reason.
+void give_up(const Study& study, CaseOutcome& outcome, const FinishedRun& run) {
+  // Whatever was left half done is thrown away.
+  const CaseOutcome broken = std::move(outcome);
+  outcome = CaseOutcome{};
+  outcome.input = broken.input;
+  outcome.hash = broken.hash;
+  outcome.outcome = run.outcome;
+  outcome.failure = run.failure;
+  find_critical_gaps(study, outcome);
+  evaluate_gaps(study, outcome);
+}
+
+/// Judges the gaps of one case on its runs: the mechanics, and those under a raised load where there are.
+void judge(const Study& study, CaseOutcome& outcome, std::vector<FinishedRun> runs) {
+  if (const FinishedRun* run = run_without_result(runs)) return give_up(study, outcome, *run);
+  outcome.outcome = runs.front().outcome;
+  outcome.failure = runs.front().failure;
+  outcome.result.mechanics = std::move(runs.front().result.mechanics);
+  if (runs.size() > 1 && outcome.completed()) {
+    outcome.raised = std::move(runs[1].result.mechanics);
+    outcome.raised->monitor.clear();
+    outcome.raised->snapshots.clear();
+  }
+  find_critical_gaps(study, outcome);
+  evaluate_gaps(study, outcome);
+  evaluate_film(study, outcome);
+}
+
+Confirmation expectation(double gap, bool ignition) {
+  Confirmation confirmation;
+  confirmation.gap = gap;
+  confirmation.expected_ignition = ignition;
+  return confirmation;
+}
+
+void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confirmation& confirmation) {
+  confirmation.ran = true;
+  confirmation.outcome = run.outcome;
+  confirmation.failure = run.failure;
+  confirmation.wall_time = run.result.mechanics.wall_time;
+  if (!confirmation.failure.empty()) return;
+  const std::vector<run::GapResult>& gaps = run.result.gaps;
+  if (gaps.empty() || !std::isfinite(gaps.front().at_points.temperature)) {
+    confirmation.failure = "its temperature is not a number";
+    return;
+  }
+  confirmation.completed = true;
+  confirmation.ignited = gaps.front().skin.ignition.has_value();
+  confirmation.maximum_temperature = gaps.front().at_points.temperature;
+  const run::GapResult traced =
+      run::evaluate_gap(outcome.input.scene.scene, outcome.result.mechanics.trace, confirmation.gap);
+  if (!confirmation.ignited && !traced.skin.ignition)
+    confirmation.difference = confirmation.maximum_temperature - traced.at_points.temperature;
+}
+
+/// Complete coupled runs on both sides of every bracket.
+void run_confirmations(CriticalGapResult& result, const StudyOptions& options, ProgressTracker& tracker) {
+  std::vector<CaseRuns> runs;
+  std::vector<std::pair<CaseOutcome*, std::size_t>> places;
+  for (CaseOutcome& outcome : result.cases) {
+    if (outcome.critical.kind != CriticalGapKind::value) continue;
+    outcome.confirmations = {expectation(outcome.critical.lower, false),
+                             expectation(outcome.critical.upper, true)};
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double gap = outcome.confirmations[side].gap;
+      runs.push_back({{},
+                      {coupled_run(outcome.input.scene.scene, gap, label_of_coupled(outcome, gap))},
+                      options.shard.index});
+      places.emplace_back(&outcome, side);
+    }
+  }
+  run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+    const auto [outcome, side] = places[i];
+    take_confirmation(*outcome, finished.front(), outcome->confirmations[side]);
+  });
+}
+
+}  // namespace
+
+CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  CriticalGapResult result;
+  result.study = study;
+  result.timing.jobs = jobs_of(options);
+  ProgressTracker tracker(options.progress);
+  for (const StudyCase& input : study.cases) result.cases.emplace_back().input = input;
+  const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
+  run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+    for (const std::size_t member : runs[i].members) {
+      result.cases[member].hash = runs[i].runs.front().hash;
+      judge(study.study, result.cases[member], finished);
+    }
+  });
+  if (settings_of<CriticalGapSettings>(study.study).confirm) run_confirmations(result, options, tracker);
+  for (CaseOutcome& outcome : result.cases) {
+    apply_confirmations(study.study, outcome);
+    conclude(study.study, outcome);
+  }
+  result.interrupted = stop_requested(options);
+  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,98 @@
+// A study of kind critical-gap as a file: its keys, and the cases that follow.
+#include "launchsafe/kinds/critical_gap.hpp"
+#include "launchsafe/kinds/critical_gap_report.hpp"
+#include "launchsafe/study/cited_limits.hpp"
+#include "launchsafe/study/study_axes.hpp"
+#include "launchsafe/study/study_cases.hpp"
+#include "study_keys.hpp"
+#include "study_outcome.hpp"
+
+namespace launchsafe::kinds {
+
+using namespace study;
+
+namespace {
+
+using scene::Dimension;
+
+scene::Key<CriticalGapSettings> critical_gap_list(std::string name, Dimension dimension, scene::Limits limits,
+                                                  std::string sentence,
+                                                  std::vector<double> CriticalGapSettings::*member) {
+  return scene::list_key<CriticalGapSettings>(std::move(name), dimension, limits, scene::Standing::assumed,
+                                              std::move(sentence), member);
+}
+
+std::vector<scene::Key<CriticalGapSettings>> critical_gap_keys() {
+  return {
+      critical_gap_list("peak_pressures", Dimension::pressure, scene::above_to(0, 10e9),
+                        "Peak chamber pressures, each a mechanical run; the scene's if absent.",
+                        &CriticalGapSettings::peak_pressures),
+      critical_gap_list("crack_radii", Dimension::length, scene::between(0, 0.01),
+                        "Initial crack radii c(0), each a mechanical run; the scene's if absent.",
+                        &CriticalGapSettings::crack_radii),
+      critical_gap_list("flaw_sizes", Dimension::length, scene::between(0, 0.01),
+                        "Flaw sizes a, each a mechanical run; the scene's if absent.",
+                        &CriticalGapSettings::flaw_sizes),
+      scene::flag_key<CriticalGapSettings>("confirm", scene::Standing::assumed,
+                                           "Complete coupled runs on both sides of the bracket.",
+                                           &CriticalGapSettings::confirm),
+  };
+}
+
+/// The lists that are given become axes, in this order.
+Fault read_critical_gap(const StudySource& source, StudyFile& study) {
+  if (Fault fault = read_references(source, study)) return fault;
+  if (Fault fault = read_cited_limits(source.root, study)) return fault;
+  const CriticalGapSettings& own = settings_of<CriticalGapSettings>(study.study);
+  const std::vector<std::tuple<const char*, const char*, const std::vector<double>*>> lists{
+      {"peak_pressure", "peak_pressures", &own.peak_pressures},
+      {"crack_radius", "crack_radii", &own.crack_radii},
+      {"flaw_size", "flaw_sizes", &own.flaw_sizes}};
+  for (const auto& [name, study_key, values] : lists) {
+    if (values->empty()) continue;
+    auto axis = axis_over(study, name, study_key, *values);
+    if (!axis) return axis.error();
+    study.study.axes.push_back(std::move(*axis));
+  }
+  study.confirmations_per_case = own.confirm ? 2 : 0;
+  return std::nullopt;
+}
+
+Fault make_critical_gap_cases(const StudySource&, StudyFile& study) {
+  return make_factorial(study, launch_label);
+}
+
+std::vector<Failure> critical_gap_failures(const CriticalGapResult& result) {
+  std::vector<Failure> failures;
+  for (const CaseOutcome& each : result.cases) {
+    add_failure(failures, each.input.label, each.outcome, each.failure);
+    for (const Confirmation& confirmation : each.confirmations)
+      add_failure(failures, label_of_coupled(each, confirmation.gap), confirmation.outcome,
+                  confirmation.failure);
+  }
+  return failures;
+}
+
+StudyOutcome critical_gap_outcome(const StudyFile& study, const StudyOptions& options) {
+  const CriticalGapResult result = run_critical_gap(study, options);
+  return outcome_of(result, options, result.any_indeterminate(), critical_gap_failures(result));
+}
+
+}  // namespace
+
+Kind critical_gap_kind() {
+  return {
+      .traits = {.name = "critical-gap", .gaps_key = "gaps"},
+      .keys = joined({reference_keys(), gaps_keys(), own_keys(critical_gap_keys()), judging_keys(),
+                      calibration_record_keys(), uncertainty_keys()}),
+      .tables = {reference_table(), cited_limit_table()},
+      .instead_of = {{"gap", "gaps"}},
+      .read = read_critical_gap,
+      .make_cases = make_critical_gap_cases,
+      .run = critical_gap_outcome,
+      // Reports of older programs had files of cases too.
+      .files = {{"verdicts.csv"}, {"verdicts.md"}, {"temperature.svg"}, {"case_", ".h5"}, {"case_", ".xdmf"}},
+  };
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,51 @@
+#include "launchsafe/kinds/accuracy.hpp"
+#include "launchsafe/kinds/calibration.hpp"
+#include "launchsafe/kinds/critical_gap.hpp"
+#include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/kinds/sensitivity.hpp"
+#include "launchsafe/kinds/stability.hpp"
+#include "launchsafe/kinds/sweep.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace launchsafe::kinds {
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> all{
+      critical_gap_kind(), calibration_kind(), sweep_kind(),
+      sensitivity_kind(),  accuracy_kind(),    stability_kind(),
+  };
+  return all;
+}
+
+const Kind& kind_named(std::string_view name) {
+  const auto found = std::find_if(kinds().begin(), kinds().end(),
+                                  [name](const Kind& kind) { return kind.traits.name == name; });
+  assert(found != kinds().end());
+  return *found;
+}
+
+const Kind& kind_of(const study::Study& study) { return kind_named(study.kind.name); }
+
+StudyOutcome run_study(const study::StudyFile& study, const study::StudyOptions& options) {
+  return kind_of(study.study).run(study, options);
+}
+
+bool FileName::fits(std::string_view name) const {
+  if (end.empty()) return name == begin;
+  return name.size() >= begin.size() + end.size() && name.starts_with(begin) && name.ends_with(end);
+}
+
+bool may_write(const Kind& kind, std::string_view name) {
+  return name == "report.md" || name == "study.json" ||
+         std::any_of(kind.files.begin(), kind.files.end(),
+                     [name](const FileName& file) { return file.fits(name); });
+}
+
+bool may_write(std::string_view name) {
+  return std::any_of(kinds().begin(), kinds().end(),
+                     [name](const Kind& kind) { return may_write(kind, name); });
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,128 @@
+#include "launchsafe/kinds/sensitivity.hpp"
+
+#include "launchsafe/study/answer_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+
+std::string to_string(SensitivityOutput output) {
+  switch (output) {
+    case SensitivityOutput::maximum_temperature:
+      return "T_max";
+    case SensitivityOutput::critical_gap:
+      return "critical_gap";
+    case SensitivityOutput::margin:
+      return "margin";
+  }
+  return "";
+}
+
+bool SensitivityResult::any_failed() const { return study::any_failed(answers); }
+
+bool SensitivityResult::any_indeterminate() const {
+  return std::any_of(outputs.begin(), outputs.end(), [](const auto& each) { return !each.reason.empty(); });
+}
+
+namespace {
+
+double value_of(const OutputSensitivity& of, const CaseAnswer& answer, const StudyCase& input) {
+  if (!answer.completed()) return not_a_number;
+  if (of.output == SensitivityOutput::critical_gap) return answer.critical.value;
+  const double temperature =
+      of.inert ? answer.heated_temperature.front() : answer.verdicts.front().maximum.temperature;
+  return of.output == SensitivityOutput::margin
+             ? input.scene.scene.charge().kinetics.ignition_temperature - temperature
+             : temperature;
+}
+
+bool any_ignites(const SensitivityResult& result) {
+  return std::any_of(result.answers.begin(), result.answers.end(), [](const CaseAnswer& answer) {
+    return !answer.verdicts.empty() && answer.verdicts.front().ignition.has_value();
+  });
+}
+
+bool is_bound(const CaseAnswer& answer) {
+  return answer.critical.kind == CriticalGapKind::all_safe ||
+         answer.critical.kind == CriticalGapKind::all_ignite;
+}
+
+/// Whether an evaluation is a random sample of the inputs, rather than one made for differences: the blocks A
+/// and B of a Saltelli design, and every point of a Morris design.
+bool samples_inputs(const Study& study, std::size_t evaluation) {
+  return settings_of<SensitivitySettings>(study).method == SensitivityMethod::morris ||
+         evaluation % (study.axes.size() + 2) < 2;
+}
+
+void summarise(const Study& study, OutputSensitivity& output) {
+  std::vector<double> sample;
+  for (std::size_t i = 0; i < output.values.size(); ++i) {
+    if (samples_inputs(study, i) && std::isfinite(output.values[i])) sample.push_back(output.values[i]);
+  }
+  if (sample.size() < 2) return;
+  const auto count = static_cast<double>(sample.size());
+  output.mean = std::accumulate(sample.begin(), sample.end(), 0.0) / count;
+  double squares = 0;
+  for (const double value : sample) squares += (value - output.mean) * (value - output.mean);
+  output.deviation = std::sqrt(squares / (count - 1.0));
+}
+
+void estimate(const Study& study, OutputSensitivity& output) {
+  const auto resamples = static_cast<std::size_t>(settings_of<SensitivitySettings>(study).resamples);
+  if (settings_of<SensitivitySettings>(study).method == SensitivityMethod::morris) {
+    const auto design =
+        math::morris_design(static_cast<std::size_t>(settings_of<SensitivitySettings>(study).trajectories),
+                            static_cast<std::size_t>(settings_of<SensitivitySettings>(study).levels),
+                            study.axes.size(), settings_of<SensitivitySettings>(study).seed);
+    output.morris = math::morris_effects(design, output.values,
+                                         {settings_of<SensitivitySettings>(study).confidence, resamples,
+                                          settings_of<SensitivitySettings>(study).seed});
+    return;
+  }
+  math::SobolOptions options;
+  options.level = settings_of<SensitivitySettings>(study).confidence;
+  options.resamples = resamples;
+  options.seed = settings_of<SensitivitySettings>(study).seed;
+  output.sobol = math::sobol_indices(study.axes.size(), output.values, options);
+  output.reason = output.sobol.reason;
+}
+
+OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOutput which) {
+  OutputSensitivity output;
+  output.output = which;
+  output.inert = which != SensitivityOutput::critical_gap && any_ignites(result);
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const CaseAnswer& answer = result.answers[i];
+    output.values.push_back(value_of(output, answer, result.study.cases[i]));
+    if (std::isfinite(output.values.back())) continue;
+    ++output.missing;
+    if (which == SensitivityOutput::critical_gap && is_bound(answer)) ++output.bounds;
+  }
+  summarise(result.study.study, output);
+  if (output.bounds > 0) {
+    output.reason =
+        fmt::format("{} of {} critical gaps are bounds, not numbers", output.bounds, output.values.size());
+  } else {
+    estimate(result.study.study, output);
+  }
+  return output;
+}
+
+}  // namespace
+
+SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& options) {
+  return run_answering<SensitivityResult>(study, options, [](SensitivityResult& result) {
+    for (const auto output :
+         {SensitivityOutput::maximum_temperature, SensitivityOutput::critical_gap, SensitivityOutput::margin})
+      result.outputs.push_back(sensitivity_of(result, output));
+  });
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,254 @@
+// A study of kind sensitivity as a file: its keys, and the evaluations of its design.
+#include "launchsafe/kinds/sensitivity.hpp"
+#include "launchsafe/kinds/sensitivity_report.hpp"
+#include "launchsafe/math/sensitivity.hpp"
+#include "launchsafe/study/study_cases.hpp"
+#include "sensitivity_inputs.hpp"
+#include "study_keys.hpp"
+#include "study_outcome.hpp"
+
+#include <fmt/format.h>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+
+std::string to_string(SensitivityMethod method) {
+  return method == SensitivityMethod::sobol ? "sobol" : "morris";
+}
+
+namespace {
+
+using scene::Dimension, scene::SceneFile;
+
+/// Whole numbers that a double holds exactly.
+constexpr double largest_seed = 9007199254740992.0;
+
+template <class Number>
+scene::Key<SensitivitySettings> sensitivity_number(std::string name, Dimension dimension,
+                                                   scene::Limits limits, std::string sentence,
+                                                   Number SensitivitySettings::*member) {
+  return scene::number_key<SensitivitySettings>(std::move(name), dimension, limits, scene::Standing::assumed,
+                                                std::move(sentence), member);
+}
+
+/// The one gap of a sensitivity study.
+scene::Key<Study> one_gap_key() {
+  scene::Key<Study> key{
+      {.name = "gap",
+       .dimension = Dimension::length,
+       .limits = scene::between(0, 0.01),
+       .sentence = "The gap at which temperatures are compared; the scene's if it has one alone."},
+      {},
+      {}};
+  key.set = [](Study& study, const scene::Value& value) { study.gaps = {std::get<double>(value)}; };
+  key.get = [](const Study& study) {
+    return scene::Value(study.gaps.empty() ? not_a_number : study.gaps[0]);
+  };
+  return key;
+}
+
+std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
+  return {
+      scene::word_key<SensitivitySettings, SensitivityMethod>(
+          "method", scene::Standing::assumed, "Indices of Sobol, or the elementary effects of Morris.",
+          {{to_string(SensitivityMethod::sobol), SensitivityMethod::sobol},
+           {to_string(SensitivityMethod::morris), SensitivityMethod::morris}},
+          &SensitivitySettings::method),
+      sensitivity_number("seed", Dimension::count, scene::between(0, largest_seed),
+                         "Seed of the design and of the bootstrap.", &SensitivitySettings::seed),
+      sensitivity_number("resamples", Dimension::count, scene::between(100, 1e6),
+                         "Resamples of the bootstrap.", &SensitivitySettings::resamples),
+      sensitivity_number("confidence", Dimension::number, scene::between(0.5, 0.999),
+                         "Confidence of the intervals.", &SensitivitySettings::confidence),
+  };
+}
+
+std::vector<scene::Key<SensitivitySettings>> sobol_keys() {
+  return {
+      scene::word_key<SensitivitySettings, math::Design>(
+          "design", scene::Standing::assumed,
+          "How the samples are laid out; a power of two of them is best "
+          "for scrambled-sobol.",
+          {{"scrambled-sobol", math::Design::scrambled_sobol},
+           {"latin-hypercube", math::Design::latin_hypercube},
+           {"monte-carlo", math::Design::monte_carlo}},
+          &SensitivitySettings::design),
+      sensitivity_number("samples", Dimension::count, scene::between(2, 1e6),
+                         "Samples N of the inputs, each (inputs + 2) mechanical runs.",
+                         &SensitivitySettings::samples),
+  };
+}
+
+std::vector<scene::Key<SensitivitySettings>> morris_keys() {
+  return {
+      sensitivity_number("trajectories", Dimension::count, scene::between(2, 1e6),
+                         "Trajectories through the inputs, each (inputs + 1) mechanical runs.",
+                         &SensitivitySettings::trajectories),
+      sensitivity_number("levels", Dimension::count, scene::between(2, 1000),
+                         "Levels of every input, an even number.", &SensitivitySettings::levels),
+  };
+}
+
+/// Keys of the other method, which would silently do nothing, and what the limits of single keys do not say.
+Fault check_method(const StudyFile& study) {
+  const SensitivitySettings& own = settings_of<SensitivitySettings>(study.study);
+  const bool sobol = own.method == SensitivityMethod::sobol;
+  for (const auto& other : sobol ? morris_keys() : sobol_keys()) {
+    if (!study.places.contains(other.name)) continue;
+    const SensitivityMethod wanted = sobol ? SensitivityMethod::morris : SensitivityMethod::sobol;
+    return fault_at(study, other.name, "a key of method \"" + to_string(wanted) + '"',
+                    "keys of method \"" + to_string(own.method) + '"');
+  }
+  if (own.levels % 2 == 0) return std::nullopt;
+  return fault_at(study, "levels", fmt::format("{}", own.levels), "an even number of levels",
+                  fmt::format("{}", own.levels + 1));
+}
+
+/// Values (SI) of the inputs at a point of the unit cube, in their order.
+std::vector<double> coordinates_of(const std::vector<Axis>& inputs, const std::vector<double>& unit_point) {
+  std::vector<double> coordinates;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    coordinates.push_back(math::quantile(*inputs[i].distribution, unit_point[i]));
+  return coordinates;
+}
+
+std::string input_key(std::size_t input, const char* key) { return fmt::format("input.{}.{}", input, key); }
+
+/// Builds the cases of a design. Most evaluations differ from an earlier one in a single input.
+class DesignBuilder {
+ public:
+  explicit DesignBuilder(StudyFile& study)
+      : study_(study), maker_(study), start_(without_places(study.scene)) {}
+
+  /// The next evaluation at a point of the unit cube; `alike` is an earlier one that it resembles, or
+  /// nullptr.
+  Fault add(std::string label, const std::vector<double>& unit_point, const StudyCase* alike) {
+    const std::vector<Axis>& inputs = study_.study.axes;
+    std::vector<double> coordinates = coordinates_of(inputs, unit_point);
+    ChangedScene scene(alike ? alike->scene : start_);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (alike && alike->coordinates[i] == coordinates[i]) continue;
+      if (Fault fault = check_limits(i, coordinates[i])) return fault;
+      scene.apply(change_of(i, coordinates[i]));
+    }
+    if (!scene.complete()) return scene.error();
+    maker_.add(std::move(label), std::move(coordinates), scene.take());
+    return std::nullopt;
+  }
+
+ private:
+  /// Beyond four deviations a normal without a range may still leave the limits of its key.
+  Fault check_limits(std::size_t input, double value) const {
+    const scene::KeyDescription& key = study_.study.axes[input].key;
+    if (key.limits.contain(value)) return std::nullopt;
+    return fault_at(study_, input_key(input, "deviation"),
+                    fmt::format("a sample of {}", scene::format_quantity(value, key.dimension)),
+                    "a range that cuts the normal off: " + scene::allowed_text(key));
+  }
+
+  Change change_of(std::size_t input, double value) const {
+    const scene::KeyDescription& key = study_.study.axes[input].key;
+    const bool cut = study_.places.contains(input_key(input, "range"));
+    const std::string study_key = input_key(input, cut ? "range" : "deviation");
+    return {key.name, value, scene::format_value(key, value), study_key, place_of_key(study_, study_key)};
+  }
+
+  StudyFile& study_;
+  CaseMaker maker_;
+  SceneFile start_;
+};
+
+Fault make_saltelli(StudyFile& study) {
+  const Study& s = study.study;
+  const SensitivitySettings& own = settings_of<SensitivitySettings>(s);
+  const std::size_t rows = static_cast<std::size_t>(own.samples), inputs = s.axes.size();
+  const double count = static_cast<double>(rows) * static_cast<double>(inputs + 2);
+  if (Fault fault =
+          check_count(study, "samples", count, fmt::format("{} samples x ({} inputs + 2)", rows, inputs)))
+    return fault;
+  study.cases.reserve(rows * (inputs + 2));
+  const math::SaltelliDesign design = math::saltelli_design(own.design, rows, inputs, own.seed);
+  DesignBuilder builder(study);
+  for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation) {
+    const std::size_t row = evaluation / design.blocks(), block = evaluation % design.blocks();
+    const bool mixed = block != design.block_a && block != design.block_b;
+    const std::string name = mixed                     ? fmt::format("AB({})", s.axes[block - 2].name)
+                             : block == design.block_a ? "A"
+                                                       : "B";
+    const StudyCase* alike = mixed ? &study.cases[design.index(design.block_a, row)] : nullptr;
+    if (Fault fault =
+            builder.add(fmt::format("sample {} of {}", row + 1, name), design.point(evaluation), alike))
+      return fault;
+  }
+  return std::nullopt;
+}
+
+Fault make_morris(StudyFile& study) {
+  const Study& s = study.study;
+  const SensitivitySettings& own = settings_of<SensitivitySettings>(s);
+  const std::size_t trajectories = static_cast<std::size_t>(own.trajectories), inputs = s.axes.size();
+  const double count = static_cast<double>(trajectories) * static_cast<double>(inputs + 1);
+  if (Fault fault = check_count(study, "trajectories", count,
+                                fmt::format("{} trajectories x ({} inputs + 1)", trajectories, inputs)))
+    return fault;
+  study.cases.reserve(trajectories * (inputs + 1));
+  const auto levels = static_cast<std::size_t>(own.levels);
+  const math::MorrisDesign design = math::morris_design(trajectories, levels, inputs, own.seed);
+  DesignBuilder builder(study);
+  for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation) {
+    const std::size_t trajectory = evaluation / (inputs + 1), step = evaluation % (inputs + 1);
+    std::string label = fmt::format("trajectory {}, start", trajectory + 1);
+    const StudyCase* alike = nullptr;
+    if (step > 0) {
+      const std::size_t changed = design.changed[trajectory * inputs + step - 1];
+      label = fmt::format("trajectory {}, step {} ({})", trajectory + 1, step, s.axes[changed].name);
+      alike = &study.cases.back();
+    }
+    if (Fault fault = builder.add(std::move(label), design.point(evaluation), alike)) return fault;
+  }
+  return std::nullopt;
+}
+
+Fault read_sensitivity(const StudySource& source, StudyFile& study) {
+  if (Fault fault = check_method(study)) return fault;
+  return read_inputs(source.root, study);
+}
+
+Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
+  const std::vector<double>& gaps = study.study.gaps;
+  if (gaps.size() != 1) {
+    return fault_at(study, "gap", fmt::format("no gap, and {} gaps in the scene", gaps.size()), "one gap",
+                    fmt::format("gap = \"{}\"", scene::format_quantity(gaps.back(), Dimension::length)));
+  }
+  const bool sobol = settings_of<SensitivitySettings>(study.study).method == SensitivityMethod::sobol;
+  return sobol ? make_saltelli(study) : make_morris(study);
+}
+
+StudyOutcome sensitivity_outcome(const StudyFile& study, const StudyOptions& options) {
+  const SensitivityResult result = run_sensitivity(study, options);
+  return outcome_of(result, options, result.any_indeterminate(), failures_of(study, result.answers));
+}
+
+}  // namespace
+
+Kind sensitivity_kind() {
+  return {
+      .traits = {.name = "sensitivity", .gaps_key = "gap", .gives_verdicts = false, .keeps_answers = true},
+      .keys = joined({{one_gap_key()},
+                      judging_keys(),
+                      calibration_record_keys(),
+                      uncertainty_keys(),
+                      own_keys(sensitivity_keys()),
+                      own_keys(sobol_keys()),
+                      own_keys(morris_keys())}),
+      .tables = {input_table()},
+      .instead_of = {{"gaps", "gap"}},
+      .read = read_sensitivity,
+      .make_cases = make_sensitivity_cases,
+      .run = sensitivity_outcome,
+      .files = {{"sensitivity.csv"}, {"evaluations.csv"}, {"sensitivity_", ".svg"}},
+  };
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,252 @@
+// [[input]] of a sensitivity study: keys that are not known exactly, and their distributions.
+#include "sensitivity_inputs.hpp"
+
+#include "launchsafe/kinds/sensitivity.hpp"
+#include "launchsafe/study/study_axes.hpp"
+#include "study_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+namespace {
+
+using math::Distribution;
+using scene::Dimension, scene::InputError, scene::KeyDescription, scene::KeyKind, scene::Limits, scene::Place;
+
+/// Deviations of a normal that is not cut off which must lie within the limits of its key.
+constexpr double deviations_within_limits = 4.0;
+
+/// One [[input]] as read.
+struct InputText {
+  std::string name;
+  KeyDescription key;  ///< of the scene
+  Distribution::Kind kind = Distribution::Kind::uniform;
+  double lower = -std::numeric_limits<double>::infinity();  ///< SI, as all of these
+  double upper = std::numeric_limits<double>::infinity();
+  double mean = not_a_number;
+  double deviation = not_a_number;
+  Distribution distribution() const;
+};
+
+std::string to_string(math::Distribution::Kind kind) {
+  switch (kind) {
+    case math::Distribution::Kind::uniform:
+      return "uniform";
+    case math::Distribution::Kind::log_uniform:
+      return "log-uniform";
+    case math::Distribution::Kind::normal:
+      return "normal";
+  }
+  return {};
+}
+
+std::vector<scene::Key<InputText>> input_keys(const scene::KeyDescription& scene_key) {
+  using Kind = math::Distribution::Kind;
+  const Dimension dimension = scene_key.dimension;
+  return {
+      scene::required(scene::text_key<InputText>(
+          "key", scene::Standing::input,
+          "What is uncertain: peak_pressure, crack_radius, flaw_size, or a scene key that takes one number.",
+          &InputText::name)),
+      scene::required(scene::word_key<InputText, Kind>("distribution", scene::Standing::input,
+                                                       "How its values are distributed.",
+                                                       {{to_string(Kind::uniform), Kind::uniform},
+                                                        {to_string(Kind::log_uniform), Kind::log_uniform},
+                                                        {to_string(Kind::normal), Kind::normal}},
+                                                       &InputText::kind)),
+      scene::range_key<InputText>(
+          "range", dimension, scene_key.limits, scene::Standing::input,
+          "Least and greatest value, in a unit of the key; of a normal, where it is cut off.",
+          &InputText::lower, &InputText::upper),
+      scene::number_key<InputText>("mean", dimension, scene::any_number(), scene::Standing::input,
+                                   "Mean of a normal before it is cut off, in a unit of the key.",
+                                   &InputText::mean),
+      scene::number_key<InputText>(
+          "deviation", scene::difference_of(dimension), scene::above(0), scene::Standing::input,
+          "Standard deviation of a normal before it is cut off, in a unit of the key.",
+          &InputText::deviation),
+  };
+}
+
+Distribution InputText::distribution() const {
+  switch (kind) {
+    case Distribution::Kind::uniform:
+      return Distribution::uniform(lower, upper);
+    case Distribution::Kind::log_uniform:
+      return Distribution::log_uniform(lower, upper);
+    case Distribution::Kind::normal:
+      break;
+  }
+  return Distribution::normal(mean, deviation, lower, upper);
+}
+
+/// One [[input]] while it is read.
+struct InputReader {
+  StudyFile& study;
+  const toml::table& table;
+  std::size_t index;
+  InputText text;
+  std::map<std::string, Place> places;
+
+  bool given(const std::string& key) const { return places.contains(key); }
+  Place place_of(const std::string& key) const {
+    const auto found = places.find(key);
+    return found == places.end() ? scene::place_of(table, study.file) : found->second;
+  }
+  InputError fault(const std::string& key, std::string found, std::string allowed,
+                   std::string suggestion = {}) const {
+    return scene::error_at(place_of(key), "input." + key, std::move(found), std::move(allowed),
+                           std::move(suggestion));
+  }
+};
+
+/// The scene key that an [[input]] names, which the dimension of its other keys follows from.
+scene::Expected<KeyDescription> read_scene_key(InputReader& reader, std::string& name) {
+  const toml::node* node = reader.table.get("key");
+  const KeyDescription description = *scene::find_key(input_keys({}), "key");
+  if (!node) return reader.fault("key", "nothing; the key is missing", scene::allowed_text(description));
+  const auto value = scene::read_value(*node, description, reader.study.file);
+  if (!value) return in_table(value.error(), "input");
+  name = std::get<std::string>(*value);
+  const Place place = scene::place_of(*node, reader.study.file);
+  reader.places["key"] = place;
+  if (name == "gap" || name == "gap.thickness") {
+    return reader.fault("key", name + ", which is one for all evaluations",
+                        "a scene key that takes one number; the gap is the study's key gap");
+  }
+  auto key = varied_key(reader.study, name, "input.key", place);
+  if (key && key->dimension == Dimension::count) {
+    return reader.fault("key", name + ", a whole number", "a key that may take any number between two");
+  }
+  return key;
+}
+
+Fault check_conflicts(const InputReader& reader, const KeyDescription& key) {
+  if (reader.study.overrides.contains(key.name)) {
+    return reader.fault("key", key.name + ", which [set] or the calibration fixes",
+                        fmt::format("{} either as an input, or in [set] or a calibration", key.name));
+  }
+  for (const Axis& other : reader.study.study.axes) {
+    if (other.key.name != key.name) continue;
+    return reader.fault("key", fmt::format("{} a second time, after {}", key.name, other.name),
+                        "each scene key once");
+  }
+  return std::nullopt;
+}
+
+/// Keys that the distribution needs, and those that would silently do nothing.
+Fault check_given(const InputReader& reader) {
+  const bool normal = reader.text.kind == Distribution::Kind::normal;
+  const auto missing = [&](const char* key) {
+    return reader.fault(key, fmt::format("nothing; a {} input needs it", to_string(reader.text.kind)),
+                        scene::allowed_text(*scene::find_key(input_keys(reader.text.key), key)));
+  };
+  if (!normal && !reader.given("range")) return missing("range");
+  for (const char* key : {"mean", "deviation"}) {
+    if (normal && !reader.given(key)) return missing(key);
+    if (!normal && reader.given(key)) {
+      return reader.fault(key, "a key of distribution \"normal\"",
+                          fmt::format("range alone for distribution \"{}\"", to_string(reader.text.kind)));
+    }
+  }
+  return std::nullopt;
+}
+
+std::string range_text(double lower, double upper, Dimension dimension) {
+  return fmt::format("{} to {}", scene::format_quantity(lower, dimension),
+                     scene::format_quantity(upper, dimension));
+}
+
+/// The range to write for a normal that needs one; empty where the limits leave none.
+std::string suggested_range(const InputText& text) {
+  const double reach = deviations_within_limits * text.deviation;
+  const double lower = std::max(text.mean - reach, text.key.limits.lowest);
+  const double upper = std::min(text.mean + reach, text.key.limits.highest);
+  if (!(lower < upper) || !text.key.limits.contain(lower) || !text.key.limits.contain(upper)) return {};
+  return fmt::format("range = \"{}\"", range_text(lower, upper, text.key.dimension));
+}
+
+/// A normal without a range must in practice stay within the limits of its key, and a Morris design, whose
+/// points lie on the boundary, needs a boundary.
+Fault check_reach(const InputReader& reader) {
+  const InputText& text = reader.text;
+  if (text.kind != Distribution::Kind::normal || reader.given("range")) return std::nullopt;
+  const double reach = deviations_within_limits * text.deviation;
+  const double lower = text.mean - reach, upper = text.mean + reach;
+  if (!text.key.limits.contain(lower) || !text.key.limits.contain(upper)) {
+    return reader.fault(
+        "deviation",
+        fmt::format("values of {} within {:g} deviations, outside the limits of {}",
+                    range_text(lower, upper, text.key.dimension), deviations_within_limits, text.key.name),
+        "a range that cuts the normal off: " + scene::allowed_text(text.key), suggested_range(text));
+  }
+  if (settings_of<SensitivitySettings>(reader.study.study).method != SensitivityMethod::morris)
+    return std::nullopt;
+  return reader.fault("distribution", "a normal without ends, while Morris' method steps from end to end",
+                      "a normal with a range", suggested_range(text));
+}
+
+Fault check_distribution(const InputReader& reader) {
+  const InputText& text = reader.text;
+  if (text.kind == Distribution::Kind::log_uniform && !(text.lower > 0.0)) {
+    return reader.fault("range",
+                        fmt::format("{}, whose lower end has no logarithm",
+                                    range_text(text.lower, text.upper, text.key.dimension)),
+                        "a range above 0 for distribution \"log-uniform\"");
+  }
+  if (Fault fault = check_reach(reader)) return fault;
+  if (math::is_valid(text.distribution())) return std::nullopt;
+  return reader.fault(
+      "range",
+      fmt::format("{}, where a normal of mean {} and deviation {} has no share",
+                  range_text(text.lower, text.upper, text.key.dimension),
+                  scene::format_quantity(text.mean, text.key.dimension),
+                  scene::format_quantity(text.deviation, scene::difference_of(text.key.dimension))),
+      "a range near the mean");
+}
+
+Fault read_input(InputReader& reader) {
+  std::string name;
+  const auto key = read_scene_key(reader, name);
+  if (!key) return key.error();
+  reader.text.key = *key;
+  auto read = scene::read_table(reader.table, input_keys(*key), {}, reader.study.file, reader.text);
+  if (!read) return in_table(read.error(), "input");
+  reader.places = std::move(*read);
+  for (const auto& [given, place] : reader.places)
+    reader.study.places[fmt::format("input.{}.{}", reader.index, given)] = place;
+  if (Fault fault = check_conflicts(reader, *key)) return fault;
+  if (Fault fault = check_given(reader)) return fault;
+  if (Fault fault = check_distribution(reader)) return fault;
+  reader.study.study.axes.push_back(
+      {std::move(name), fmt::format("input.{}.key", reader.index), *key, {}, reader.text.distribution()});
+  return std::nullopt;
+}
+
+}  // namespace
+
+StudyTable input_table() { return table_of("input", input_keys({})); }
+
+Fault read_inputs(const toml::table& root, StudyFile& study) {
+  const toml::node* node = root.get("input");
+  const std::string allowed = "at least one table, written [[input]], with key and distribution";
+  if (!node || (node->is_array() && node->as_array()->empty()))
+    return scene::error_at(place_of_key(study, node ? "input" : "kind"), "input", "no input", allowed);
+  if (!node->is_array_of_tables())
+    return scene::error_at(scene::place_of(*node, study.file), "input", scene::found_text(*node), allowed);
+  std::size_t index = 0;
+  for (const toml::node& element : *node->as_array()) {
+    InputReader reader{study, *element.as_table(), index++, {}, {}};
+    if (Fault fault = read_input(reader)) return fault;
+  }
+  return std::nullopt;
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,173 @@
+// The answer, the page and the files of a sensitivity study.
+#include "launchsafe/kinds/sensitivity_report.hpp"
+
+#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/shown_key.hpp"
+#include "launchsafe/report/study_text.hpp"
+#include "launchsafe/report/verdict_text.hpp"
+#include "sensitivity_text.hpp"
+#include "sweep_text.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+namespace {
+
+/// Below this share of the variance with all interactions an input does not matter.
+constexpr double negligible_share = 0.05;
+/// Evaluations on the page; the file has all.
+constexpr std::size_t most_evaluation_rows = 200;
+
+std::string joined(const std::vector<std::string>& names) {
+  if (names.size() < 2) return names.empty() ? std::string{} : names.front();
+  const std::vector<std::string> first(names.begin(), names.end() - 1);
+  return fmt::format("{} and {}", fmt::join(first, ", "), names.back());
+}
+
+/// "0.52 [0.4, 0.63]", or "12 K [9, 15]".
+std::string estimate_text(const math::Estimate& estimate, double scale, const std::string& unit) {
+  return fmt::format("{}{} [{}, {}]", significant(scale * estimate.value, 3), unit.empty() ? "" : " " + unit,
+                     significant(scale * estimate.lower, 3), significant(scale * estimate.upper, 3));
+}
+
+/// What is said of one output.
+class OutputAnswer {
+ public:
+  OutputAnswer(const SensitivityResult& result, const OutputSensitivity& output)
+      : result_(result),
+        output_(output),
+        sobol_(settings_of<SensitivitySettings>(result.study.study).method == SensitivityMethod::sobol),
+        shown_(shown_output(output.output)),
+        keys_(shown_axes(result.study.study)),
+        importance_(importance_of(result, output)) {
+    importance_.resize(keys_.size(), {study::not_a_number, study::not_a_number, study::not_a_number});
+  }
+
+  std::string text() const {
+    std::string what = shown_.phrase;
+    if (what.starts_with('t')) what.front() = 'T';
+    if (const std::string reason = reason_of(result_, output_); !reason.empty())
+      return fmt::format("{}: no indices, {}.", what, reason);
+    const auto groups = ranked(importance_);
+    return fmt::format("{}: by {}, {}.{}{}", what, sobol_ ? "total order" : "mu*", ranking(groups),
+                       untold(groups), negligible());
+  }
+
+ private:
+  /// "A (0.6 [0.5, 0.7]), then B (...) and C (...)".
+  std::string ranking(const std::vector<std::vector<std::size_t>>& groups) const {
+    std::string text;
+    for (const auto& group : groups) {
+      std::vector<std::string> names;
+      for (const std::size_t input : group) names.push_back(named(input));
+      text += (text.empty() ? "" : ", then ") + joined(names);
+    }
+    return text;
+  }
+
+  std::string named(std::size_t input) const {
+    return fmt::format("{} ({})", keys_[input].name,
+                       sobol_ ? estimate_text(importance_[input], 1.0, "")
+                              : estimate_text(importance_[input], shown_.scale, shown_.unit));
+  }
+
+  std::string size() const {
+    return fmt::format("N = {} {}", size_of(result_.study.study), size_noun(result_.study.study));
+  }
+
+  /// What the intervals do not tell apart.
+  std::string untold(const std::vector<std::vector<std::size_t>>& groups) const {
+    if (groups.size() == 1 && keys_.size() > 1) {
+      return fmt::format(" {} are too few to tell which matters more: the intervals overlap.", size());
+    }
+    std::vector<std::string> open;
+    for (const auto& group : groups) {
+      if (group.size() < 2) continue;
+      std::vector<std::string> names;
+      for (const std::size_t input : group) names.push_back(keys_[input].name);
+      open.push_back(joined(names));
+    }
+    if (open.empty()) return {};
+    return fmt::format(" {} do not tell {} apart.", size(), fmt::join(open, ", nor "));
+  }
+
+  /// Inputs whose whole interval is small. For effects there is no such scale but the largest of them.
+  std::string negligible() const {
+    double scale = 1.0;
+    if (!sobol_) {
+      scale = 0;
+      for (const math::Estimate& each : importance_)
+        if (std::isfinite(each.value)) scale = std::max(scale, each.value);
+    }
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      if (importance_[i].upper < negligible_share * scale) names.push_back(keys_[i].name);
+    }
+    if (names.empty()) return {};
+    return fmt::format(" Below {}% of {}, and so without influence here: {}.", 100.0 * negligible_share,
+                       sobol_ ? "the variance" : "the largest effect", joined(names));
+  }
+
+  const SensitivityResult& result_;
+  const OutputSensitivity& output_;
+  bool sobol_;
+  ShownOutput shown_;
+  std::vector<ShownKey> keys_;
+  std::vector<math::Estimate> importance_;
+};
+
+std::string share_failed(const SensitivityResult& result) {
+  const std::size_t all = result.answers.size(), failed = counts_of(result.answers).failed;
+  if (failed == 0) return fmt::format("All {} evaluations completed.", all);
+  return fmt::format("Failed: {} of {} evaluations ({:.1f}%): {}.", failed, all,
+                     100.0 * static_cast<double>(failed) / static_cast<double>(all),
+                     failures_list({}, result.study, result.answers));
+}
+
+std::string picture_name(const OutputSensitivity& output) {
+  return "sensitivity_" + shown_output(output.output).key + ".svg";
+}
+
+}  // namespace
+
+std::string answer(const SensitivityResult& result) {
+  std::vector<std::string> lines;
+  for (const OutputSensitivity& output : result.outputs) lines.push_back(OutputAnswer(result, output).text());
+  if (result.outputs.empty()) lines.emplace_back("There are no indices: the study did not come to its end.");
+  lines.push_back(share_failed(result));
+  lines.push_back(limited_text(counts_of(result.answers), "evaluation"));
+  for (std::string& note : mesh_notes(result.study)) lines.push_back(std::move(note));
+  if (result.interrupted) lines.emplace_back("The study was interrupted.");
+  std::erase(lines, "");
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+Report report_of(const SensitivityResult& result) {
+  Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+  report.items.push_back(ReportTable{sensitivity_table(result), "sensitivity.csv", Shown::terminal});
+  for (const OutputSensitivity& output : result.outputs) {
+    report.items.push_back(ReportTable{.table = sensitivity_table(result, output), .shown = Shown::page});
+    if (has_indices(result, output))
+      report.items.push_back(Picture{picture_name(output), sensitivity_plot(result, output),
+                                     "sensitivity of " + shown_output(output.output).name});
+  }
+  report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
+  report.items.push_back(Statement{
+      "The indices are those of these distributions: another range of an input gives it another share. Bound "
+      "critical gaps have no number, and where there are any no indices are given.\n"});
+  report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
+  report.items.push_back(
+      ReportTable{evaluation_table(result), "evaluations.csv", Shown::page, most_evaluation_rows});
+  report.json = json_file_text(to_json(result));
+  return report;
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,177 @@
+// The tables of a sensitivity study.
+#include "launchsafe/kinds/sensitivity_report.hpp"
+#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/shown_key.hpp"
+#include "launchsafe/report/study_text.hpp"
+#include "launchsafe/report/verdict_text.hpp"
+#include "sensitivity_text.hpp"
+#include "sweep_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+namespace {
+
+std::vector<Column> index_columns() {
+  return {number_column("S1", "", 3, "S1"),       number_column("from", "", 3, "S1_low"),
+          number_column("to", "", 3, "S1_high"),  number_column("ST", "", 3, "ST"),
+          number_column("from", "", 3, "ST_low"), number_column("to", "", 3, "ST_high"),
+          count_column("rows used", "used"),      count_column("of", "of")};
+}
+
+/// `unit` is empty where it stands in a column of its own.
+std::vector<Column> effect_columns(const std::string& unit) {
+  return {significant_column("mu", unit, 4, "mu"),
+          significant_column("mu*", unit, 4, "mu_star"),
+          significant_column("from", unit, 4, "mu_star_low"),
+          significant_column("to", unit, 4, "mu_star_high"),
+          significant_column("sigma", unit, 4, "sigma"),
+          count_column("effects used", "used"),
+          count_column("of", "of")};
+}
+
+void add_estimate(const math::Estimate& estimate, double scale, std::vector<Cell>& cells) {
+  for (const double value : {estimate.value, estimate.lower, estimate.upper})
+    cells.push_back(optional_number(scale * value));
+}
+
+void add_index_cells(const OutputSensitivity& output, std::size_t input, std::vector<Cell>& cells) {
+  const math::SobolIndices& indices = output.sobol;
+  add_estimate(indices.inputs[input].first, 1.0, cells);
+  add_estimate(indices.inputs[input].total, 1.0, cells);
+  cells.emplace_back(static_cast<std::int64_t>(indices.rows_used));
+  cells.emplace_back(static_cast<std::int64_t>(indices.rows_used + indices.rows_left_out));
+}
+
+void add_effect_cells(const SensitivityResult& result, const OutputSensitivity& output, std::size_t input,
+                      std::vector<Cell>& cells) {
+  const math::MorrisEffects& effects = output.morris[input];
+  const double scale = shown_output(output.output).scale;
+  cells.push_back(optional_number(scale * effects.mu));
+  add_estimate(effects.mu_star, scale, cells);
+  cells.push_back(optional_number(scale * effects.sigma));
+  cells.emplace_back(static_cast<std::int64_t>(effects.effects));
+  cells.emplace_back(
+      static_cast<std::int64_t>(settings_of<SensitivitySettings>(result.study.study).trajectories));
+}
+
+/// Input and distribution, and the numbers where there are any.
+std::vector<Cell> cells_of(const SensitivityResult& result, const OutputSensitivity& output,
+                           std::size_t input) {
+  const study::Axis& each = result.study.study.axes[input];
+  const ShownKey key = shown(each);
+  std::vector<Cell> cells{key.name, distribution_text(key, *each.distribution)};
+  if (!has_indices(result, output)) return cells;
+  const bool sobol = settings_of<SensitivitySettings>(result.study.study).method == SensitivityMethod::sobol;
+  if (input >= (sobol ? output.sobol.inputs.size() : output.morris.size())) return cells;
+  if (sobol) {
+    add_index_cells(output, input, cells);
+  } else {
+    add_effect_cells(result, output, input, cells);
+  }
+  return cells;
+}
+
+std::string inert_note() {
+  return "Some evaluations ignite. T max and margin are therefore those of a skin that air and friction heat "
+         "and "
+         "that does not react: the burning skin's T max would jump. What matters to the reaction shows in "
+         "the "
+         "critical gap.";
+}
+
+std::string missing_note(const OutputSensitivity& output) {
+  return fmt::format("{} of {} evaluations have no number here{}.", output.missing, output.values.size(),
+                     output.bounds > 0 ? fmt::format(", {} of them bounds", output.bounds) : std::string{});
+}
+
+std::string spread_note(const OutputSensitivity& output) {
+  const ShownOutput shown = shown_output(output.output);
+  return fmt::format("Mean {0} {2}, standard deviation {1} {2} over the evaluations that sample the inputs.",
+                     significant(shown.scale * output.mean, 4),
+                     significant(shown.scale * output.deviation, 3), shown.unit);
+}
+
+std::vector<std::string> notes_of(const SensitivityResult& result, const OutputSensitivity& output) {
+  std::vector<std::string> notes;
+  if (const std::string reason = reason_of(result, output); !reason.empty())
+    notes.push_back("No indices: " + reason + ".");
+  if (std::isfinite(output.mean)) notes.push_back(spread_note(output));
+  if (output.missing > 0) notes.push_back(missing_note(output));
+  notes.push_back(method_text(result));
+  if (output.inert) notes.push_back(inert_note());
+  return notes;
+}
+
+}  // namespace
+
+Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity& output) {
+  const bool sobol = settings_of<SensitivitySettings>(result.study.study).method == SensitivityMethod::sobol;
+  const ShownOutput shown = shown_output(output.output);
+  Table table;
+  table.title = "Sensitivity of " + shown.phrase + at_gap(result.study.study, output.output);
+  table.columns = {named_text("input", "input"), named_text("distribution", "distribution")};
+  append(table.columns, sobol ? index_columns() : effect_columns(shown.unit));
+  for (std::size_t i = 0; i < result.study.study.axes.size(); ++i)
+    table.rows.push_back(cells_of(result, output, i));
+  table.notes = notes_of(result, output);
+  return table;
+}
+
+Table sensitivity_table(const SensitivityResult& result) {
+  const bool sobol = settings_of<SensitivitySettings>(result.study.study).method == SensitivityMethod::sobol;
+  Table table;
+  table.title = "Sensitivity";
+  table.columns = {named_text("output", "output"), named_text("unit", "unit"), named_text("reason", "reason"),
+                   named_text("input", "input"), named_text("distribution", "distribution")};
+  append(table.columns, sobol ? index_columns() : effect_columns(""));
+  for (const OutputSensitivity& output : result.outputs) {
+    const ShownOutput shown = shown_output(output.output);
+    for (std::size_t i = 0; i < result.study.study.axes.size(); ++i) {
+      std::vector<Cell> cells{shown.key, sobol ? std::string{} : shown.unit, reason_of(result, output)};
+      for (Cell& cell : cells_of(result, output, i)) cells.push_back(std::move(cell));
+      table.rows.push_back(std::move(cells));
+    }
+  }
+  table.notes = {method_text(result)};
+  return table;
+}
+
+Table evaluation_table(const SensitivityResult& result) {
+  const auto keys = shown_axes(result.study.study);
+  Table table;
+  table.title = "Evaluations";
+  table.columns = {count_column("number", "number"), named_text("evaluation", "evaluation")};
+  for (const ShownKey& key : keys) table.columns.push_back(key.column());
+  for (const OutputSensitivity& output : result.outputs) {
+    const ShownOutput shown = shown_output(output.output);
+    table.columns.push_back(significant_column(shown.name, shown.unit, 6, shown.key + "_" + shown.unit));
+  }
+  append(table.columns, {named_text("critical gap", "critical_gap_reads_as"), named_text("run", "status"),
+                         named_text("failure", "failure")});
+  for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) {
+    const study::StudyCase& input = result.study.cases[i];
+    const study::CaseAnswer& answer = result.answers[i];
+    std::vector<Cell> cells{static_cast<std::int64_t>(i + 1), input.label};
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      cells.push_back(k < input.coordinates.size() ? Cell(keys[k].value(input.coordinates[k])) : Cell());
+    for (const OutputSensitivity& output : result.outputs)
+      cells.push_back(i < output.values.size()
+                          ? optional_number(shown_output(output.output).scale * output.values[i])
+                          : Cell());
+    cells.emplace_back(reads_as(answer.critical));
+    cells.emplace_back(status_of(answer));
+    cells.emplace_back(answer.failure);
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+}  // namespace launchsafe::kinds

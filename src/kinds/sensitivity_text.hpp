@@ -1,0 +1,44 @@
+// What the tables, the page, the pictures and the JSON of a sensitivity study share.
+#pragma once
+
+#include "launchsafe/kinds/sensitivity.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace launchsafe::kinds {
+
+/// How an output is shown.
+struct ShownOutput {
+  std::string name;    ///< "T max"
+  std::string phrase;  ///< "T max", "the margin": within a sentence
+  std::string key;     ///< "T_max", also of its picture's file
+  std::string unit;    ///< "K", "cm"
+  double scale = 1;    ///< units per SI unit
+};
+ShownOutput shown_output(SensitivityOutput output);
+
+/// " at a gap of 0.02 cm", for outputs that belong to the study's gap.
+std::string at_gap(const study::Study& study, SensitivityOutput output);
+
+/// Whether an output has indices (or effects) that can be shown.
+bool has_indices(const SensitivityResult& result, const OutputSensitivity& output);
+/// Why it has none; empty where it has.
+std::string reason_of(const SensitivityResult& result, const OutputSensitivity& output);
+
+/// N: rows of a Saltelli design, trajectories of a Morris design.
+std::size_t size_of(const study::Study& study);
+/// "rows" or "trajectories".
+std::string size_noun(const study::Study& study);
+/// Method, design, N, evaluations, seed and confidence in a sentence or two.
+std::string method_text(const SensitivityResult& result);
+
+/// What an input is ranked by: its total order, or mu*.
+std::vector<math::Estimate> importance_of(const SensitivityResult& result, const OutputSensitivity& output);
+
+/// Inputs by falling importance in groups: all intervals of a group lie above all of the following groups;
+/// within a group the intervals overlap, and its order means nothing.
+std::vector<std::vector<std::size_t>> ranked(const std::vector<math::Estimate>& importance);
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,29 @@
+// Held, degraded, caught or WRONG: the rules for a hard launch.
+#pragma once
+
+#include "launchsafe/kinds/stability.hpp"
+
+namespace launchsafe::kinds {
+
+/// What is known of one launch.
+struct LaunchRecord {
+  study::RunOutcome outcome = RunOutcome::ran;
+  std::string failure;                    ///< why it was not run at all; then nothing else is known
+  std::string reason;                     ///< when and where it was stopped, if it was
+  double end_time = study::not_a_number;  ///< s, reached
+  double ignition_temperature = study::not_a_number;  ///< K
+  study::CaseAnswer answer;
+  std::vector<std::string> violations;  ///< of invariants
+  std::vector<std::string> doubts;
+};
+
+/// The row of a launch. `record` is nullptr for a case of the reader, `against` for one without a safe
+/// computation to compare with.
+///
+/// Caught: the run was stopped, or the reader refused the scene. WRONG: an invariant is violated, or T max is
+/// further from the safe computation than its uncertainty, and a verdict says SAFE or UNSAFE. Degraded: the
+/// same with an indeterminate verdict; doubts, limiters, a temperature that is no number, a stop that came
+/// later than it must, or nothing left to compare with. Held: everything else.
+HardRow judge_launch(const HardLaunch& launch, const LaunchRecord* record, const LaunchRecord* against);
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,15 @@
+// What the tables, the page and the JSON of a stability study share.
+#pragma once
+
+#include "launchsafe/kinds/stability.hpp"
+
+#include <string>
+
+namespace launchsafe::kinds {
+
+/// "held", "degraded", "caught", "WRONG", or "not computed".
+std::string outcome_text(const HardRow& row);
+/// The finding, or why there is none.
+std::string finding_text(const HardRow& row);
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,276 @@
+#include "study_keys.hpp"
+
+#include "launchsafe/study/cited_limits.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+
+namespace {
+
+using scene::above_to, scene::any_number, scene::at_least, scene::between;
+using scene::Dimension, scene::Key, scene::plausibly, scene::Standing;
+
+template <class Number>
+Key<Study> study_number(std::string name, Dimension dimension, scene::Limits limits, std::string sentence,
+                        Number Study::*member) {
+  return scene::number_key<Study>(std::move(name), dimension, limits, Standing::assumed, std::move(sentence),
+                                  member);
+}
+
+/// Of a temperature, K.
+Key<Study> stated_uncertainty(std::string name, std::string sentence, double Study::*member) {
+  return plausibly(study_number(std::move(name), Dimension::temperature_difference, between(0, 1000),
+                                std::move(sentence), member),
+                   between(1, 1000),
+                   "no published temperature is met, and no mesh known to be exact, to a kelvin");
+}
+
+/// The kind by its name.
+Key<Study> kind_key() {
+  Key<Study> key{{.name = "kind", .kind = scene::KeyKind::word, .standing = Standing::input}, {}, {}};
+  key.sentence = "What is asked.";
+  key.required = true;
+  for (const Kind& each : kinds()) key.words.push_back(each.traits.name);
+  key.set = [](Study& study, const scene::Value& value) {
+    study.kind = traits_of(std::get<std::string>(value));
+  };
+  key.get = [](const Study& study) { return scene::Value(study.kind.name); };
+  return key;
+}
+
+StudyKeys make_common_keys() {
+  return {
+      kind_key(),
+      scene::text_key<Study>("title", Standing::input,
+                             "What this study is, for reports; the scene's title where there is none.",
+                             &Study::title),
+      scene::required(scene::text_key<Study>(
+          "scene", Standing::input, "Path of the scene from the study file's folder.", &Study::scene)),
+      study_number("early_time", Dimension::time, above_to(0, 1),
+                   "An instant at which temperatures are listed and compared too.", &Study::early_time),
+  };
+}
+
+Key<Reference> reference_number(std::string name, Dimension dimension, std::string sentence,
+                                double Reference::*member) {
+  return scene::number_key<Reference>(std::move(name), dimension, at_least(0), Standing::paper,
+                                      std::move(sentence), member);
+}
+
+std::vector<Key<Reference>> make_published_row_keys() {
+  return {
+      scene::required(reference_number("gap", Dimension::length, "Gap of a published row.", &Reference::gap)),
+      reference_number("maximum_temperature", Dimension::temperature, "Its highest temperature.",
+                       &Reference::maximum_temperature),
+      scene::text_key<Reference>("point", Standing::paper, "Observation point of the highest temperature.",
+                                 &Reference::point),
+      reference_number("early_temperature", Dimension::temperature, "Its highest temperature at early_time.",
+                       &Reference::early_temperature),
+      scene::text_key<Reference>("early_point", Standing::paper,
+                                 "Observation point of the highest temperature at early_time.",
+                                 &Reference::early_point),
+      reference_number("spread", Dimension::temperature_difference,
+                       "Highest minus lowest published temperature of the bottom at the end of the launch.",
+                       &Reference::spread),
+      reference_number("early_spread", Dimension::temperature_difference, "The same at early_time.",
+                       &Reference::early_spread),
+      reference_number("ignition_time", Dimension::time, "When it ignited; absent where it did not.",
+                       &Reference::ignition_time),
+      scene::flag_key<Reference>("calibrated", Standing::input,
+                                 "True where constants are fitted to it, false for a hold-out.",
+                                 &Reference::calibrated),
+      scene::flag_key<Reference>("early_calibrated", Standing::input,
+                                 "True where the load is fitted to its temperature at early_time.",
+                                 &Reference::early_calibrated),
+      scene::flag_key<Reference>(
+          "selection", Standing::input,
+          "True where its temperature at early_time, spreads and places were used to choose among models.",
+          &Reference::selection),
+  };
+}
+
+const std::vector<Key<Reference>>& published_row_keys() {
+  static const std::vector<Key<Reference>> keys = make_published_row_keys();
+  return keys;
+}
+
+Fault read_reference_tables(const toml::table& root, const std::string& file, StudyFile& study) {
+  const toml::node* node = root.get("reference");
+  if (!node || (node->is_array() && node->as_array()->empty())) return std::nullopt;
+  if (!node->is_array_of_tables()) {
+    return scene::error_at(scene::place_of(*node, file), "reference", scene::found_text(*node),
+                           "tables, each written [[reference]]");
+  }
+  for (const toml::node& element : *node->as_array()) {
+    Reference reference;
+    auto read = scene::read_table(*element.as_table(), published_row_keys(), {}, file, reference);
+    if (!read) return in_table(read.error(), "reference");
+    const std::size_t index = study.study.references.size();
+    for (auto& [key, place] : *read) study.places[fmt::format("reference.{}.{}", index, key)] = place;
+    study.study.references.push_back(std::move(reference));
+  }
+  return std::nullopt;
+}
+
+/// The references of a file of their own, which several studies share.
+Fault read_references_file(StudyFile& study, const std::filesystem::path& folder) {
+  const std::string& name = study.study.references_file;
+  if (name.empty()) return std::nullopt;
+  if (!study.study.references.empty())
+    return fault_at(study, "references", "a file of references beside [[reference]]", "one of both");
+  const std::string file = (folder / name).string();
+  const auto text = scene::read_text_file(file);
+  if (!text) {
+    return fault_at(study, "references", fmt::format("\"{}\", which cannot be read", name),
+                    "a file with [[reference]], by its path from the study file's folder",
+                    text.error().suggestion);
+  }
+  const auto table = scene::parse_toml(*text, file);
+  if (!table) return table.error();
+  for (const auto& [key, node] : *table) {
+    if (key.str() != "reference") {
+      return scene::error_at(scene::place_of(node, file), std::string(key.str()),
+                             "a key of another kind of file", "only [[reference]]");
+    }
+  }
+  return read_reference_tables(*table, file, study);
+}
+
+Fault check_references(const StudyFile& study) {
+  const auto& references = study.study.references;
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (std::abs(references[i].gap - references[j].gap) > 1e-9) continue;
+      return fault_at(study, fmt::format("reference.{}.gap", i),
+                      scene::format_quantity(references[i].gap, Dimension::length) + " twice",
+                      "each gap once");
+    }
+  }
+  const ReferenceLine& line = study.study.reference_line;
+  if (std::isnan(line.slope) == std::isnan(line.intercept)) return std::nullopt;
+  const bool slope = !std::isnan(line.slope);
+  return fault_at(study, slope ? "reference_line.slope" : "reference_line.intercept",
+                  slope ? "a slope without an intercept" : "an intercept without a slope",
+                  "both reference_line.slope and reference_line.intercept");
+}
+
+}  // namespace
+
+const StudyKeys& common_keys() {
+  static const StudyKeys keys = make_common_keys();
+  return keys;
+}
+
+StudyKeys gaps_keys() {
+  return {scene::list_key<Study>("gaps", Dimension::length, between(0, 0.01), Standing::assumed,
+                                 "Gaps to judge; those of the scene if absent.", &Study::gaps)};
+}
+
+StudyKeys judging_keys() {
+  return {
+      plausibly(study_number("tolerance", Dimension::length, between(1e-9, 1e-3),
+                             "Largest width of the bracket of the critical gap.", &Study::tolerance),
+                between(1e-9, 2e-4), "a wider bracket says little of gaps that are tenths of a millimetre"),
+      plausibly(study_number("largest_gap", Dimension::length, above_to(0, 0.01),
+                             "Where the search for the critical gap ends.", &Study::largest_gap),
+                between(1e-4, 0.01), "a search that ends at less finds no gap that ignites"),
+      stated_uncertainty("numerical_uncertainty",
+                         "Uncertainty of the maximum temperature from the mesh, from a mesh study.",
+                         &Study::numerical_uncertainty),
+  };
+}
+
+StudyKeys calibration_record_keys() {
+  return {scene::text_key<Study>(
+      "calibration", Standing::input,
+      "Path of the record of a calibration, calibration.json, from the study file's folder; its load and "
+      "constants replace the scene's, and hold where the calibrated launch is the study's.",
+      &Study::calibration_record)};
+}
+
+StudyKeys uncertainty_keys() {
+  return {
+      scene::text_key<Study>(
+          "accuracy", Standing::input,
+          "Path of the record of an accuracy study, accuracy.json, from the study file's folder; it gives "
+          "the "
+          "numerical uncertainty of every setting in it.",
+          &Study::accuracy),
+      study_number(
+          "setting_tolerance", Dimension::temperature_difference, above_to(0, 1000),
+          "Replaces the scene's numerics by the cheapest setting of the record that knows the maximum "
+          "temperature to this; on the command line --tolerance.",
+          &Study::setting_tolerance),
+      stated_uncertainty(
+          "fit_uncertainty",
+          "Uncertainty of the margin from the calibrated constants, on the rows that they were "
+          "fitted to; what the record of the calibration says if absent, and without one the largest misfit "
+          "of a published temperature that nothing was fitted to.",
+          &Study::fit_uncertainty),
+      stated_uncertainty(
+          "input_uncertainty",
+          "Uncertainty of the maximum temperature from what is not known of the launch (see "
+          "kind sensitivity), for the study's own scene; if absent an assumed spread of load and "
+          "initial temperature is propagated, which takes a second run for every case.",
+          &Study::input_uncertainty),
+      scene::text_key<Study>(
+          "model_form", Standing::input,
+          "Path of the record of other models, model_form.json, from the study file's folder; it says how "
+          "far "
+          "they move the critical gap towards ignition.",
+          &Study::model_form_record),
+      stated_uncertainty(
+          "model_form_uncertainty",
+          "By how much other models of the launch could be hotter, instead of such a record; an assumed one "
+          "if absent.",
+          &Study::model_form_uncertainty),
+  };
+}
+
+StudyKeys reference_keys() {
+  return {
+      scene::text_key<Study>(
+          "references", Standing::input,
+          "Path of a file that holds the published rows, [[reference]], from the study file's folder.",
+          &Study::references_file),
+      scene::number_key<Study>(
+          "reference_line.slope", Dimension::number, any_number(), Standing::paper,
+          "Slope of a published line of maximum temperature against gap, K per cm.",
+          [](auto& s) -> auto& { return s.reference_line.slope; }),
+      scene::number_key<Study>(
+          "reference_line.intercept", Dimension::temperature, at_least(0), Standing::paper,
+          "Its value at gap 0.", [](auto& s) -> auto& { return s.reference_line.intercept; }),
+  };
+}
+
+StudyKeys joined(std::vector<StudyKeys> lists) {
+  StudyKeys result;
+  for (StudyKeys& list : lists) std::move(list.begin(), list.end(), std::back_inserter(result));
+  return result;
+}
+
+std::string default_text(const scene::KeyDescription& key, const scene::Value& value) {
+  const auto* number = std::get_if<double>(&value);
+  const auto* numbers = std::get_if<std::vector<double>>(&value);
+  const bool none = key.required || (number && !std::isfinite(*number)) ||
+                    (numbers && !numbers->empty() && !std::isfinite(numbers->front()));
+  return none ? std::string{} : scene::format_value(key, value);
+}
+
+StudyTable reference_table() { return table_of("reference", published_row_keys()); }
+
+StudyTable cited_limit_table() { return table_of("cited_limit", cited_limit_keys()); }
+
+Fault read_references(const StudySource& source, StudyFile& study) {
+  if (Fault fault = read_reference_tables(source.root, study.file, study)) return fault;
+  if (Fault fault = read_references_file(study, source.folder)) return fault;
+  return check_references(study);
+}
+
+}  // namespace launchsafe::kinds

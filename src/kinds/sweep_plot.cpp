@@ -1,0 +1,284 @@
+// The pictures of a sweep: the critical gap over one or two axes.
+#include "launchsafe/kinds/sweep_report.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/study_text.hpp"
+#include "launchsafe/report/verdict_text.hpp"
+#include "sweep_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+namespace {
+
+constexpr std::size_t most_maps = 9;
+
+/// An axis of the sweep with its values in the unit shown, ascending, each once.
+struct SweptAxis {
+  std::size_t index;  ///< among the study's axes
+  ShownKey key;
+  std::vector<double> values;
+};
+
+std::vector<SweptAxis> swept_axes(const study::Study& study) {
+  std::vector<SweptAxis> axes;
+  for (std::size_t i = 0; i < study.axes.size(); ++i) {
+    SweptAxis axis{i, shown(study.axes[i]), {}};
+    for (const double value : study.axes[i].values) axis.values.push_back(axis.key.value(value));
+    std::sort(axis.values.begin(), axis.values.end());
+    axis.values.erase(std::unique(axis.values.begin(), axis.values.end()), axis.values.end());
+    axes.push_back(std::move(axis));
+  }
+  return axes;
+}
+
+/// Tics at the values themselves, where these are few and stand far enough apart to be read.
+std::vector<Tic> tics_at(const std::vector<double>& values, Scale scale) {
+  constexpr std::size_t most = 12;
+  constexpr double least_share = 0.07;
+  const auto place = [scale](double value) { return scale == Scale::linear ? value : std::log10(value); };
+  if (values.size() > most) return {};
+  const double whole = place(values.back()) - place(values.front());
+  std::vector<Tic> tics;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0 && place(values[i]) - place(values[i - 1]) < least_share * whole) return {};
+    tics.push_back({values[i], significant(values[i], 6)});
+  }
+  return tics;
+}
+
+PlotAxis picture_axis(const SweptAxis& swept) {
+  PlotAxis axis;
+  axis.label = swept.key.heading();
+  if (swept.values.front() > 0 && swept.values.back() > 10.0 * swept.values.front())
+    axis.scale = Scale::logarithmic;
+  axis.tics = tics_at(swept.values, axis.scale);
+  return axis;
+}
+
+/// "Critical gap at flaw size 1 mm": with the values of the axes that the picture does not show.
+std::string title_of(const char* quantity, const std::vector<SweptAxis>& axes,
+                     const std::vector<std::size_t>& shown_axes, const study::StudyCase& input) {
+  std::string fixed;
+  for (const SweptAxis& axis : axes) {
+    const bool is_shown = std::find(shown_axes.begin(), shown_axes.end(), axis.index) != shown_axes.end();
+    if (is_shown || axis.index >= input.coordinates.size()) continue;
+    fixed += fmt::format("{}{} {}", fixed.empty() ? " at " : ", ", axis.key.name,
+                         axis.key.text(input.coordinates[axis.index]));
+  }
+  return quantity + fixed;
+}
+
+// --- kinds of answers ---
+
+/// What a bound of one kind says, if all of them say the same.
+std::string bound_label(const SweepResult& result, CriticalGapKind kind, const std::string& otherwise) {
+  std::string label;
+  for (const CaseAnswer& answer : result.answers) {
+    if (answer.critical.kind != kind) continue;
+    const std::string text = reads_as(answer.critical);
+    if (!label.empty() && text != label) return otherwise;
+    label = text;
+  }
+  return label;
+}
+
+/// In the order of CriticalGapKind.
+std::array<std::string, 4> kind_labels(const SweepResult& result) {
+  return {"computed value",
+          bound_label(result, CriticalGapKind::all_safe, "above the searched gaps") + " (bound)",
+          bound_label(result, CriticalGapKind::all_ignite, "ignites at every gap") + " (bound)",
+          "indeterminate or failed"};
+}
+
+/// The kind as it is drawn: a value that is not finite is none.
+CriticalGapKind drawn_kind(const CaseAnswer& answer) {
+  const bool broken = answer.critical.kind == CriticalGapKind::value && !std::isfinite(answer.critical.value);
+  return broken ? CriticalGapKind::indeterminate : answer.critical.kind;
+}
+
+std::size_t index_of(CriticalGapKind kind) { return static_cast<std::size_t>(kind); }
+
+double value_in_cm(const CaseAnswer& answer) { return 100.0 * value_of(answer.critical); }
+
+// --- maps ---
+
+/// What a map shows, cm: NaN where there is no value, for which the kind of the answer is the reason, or else
+/// `without_value`.
+struct MappedQuantity {
+  const char* file;  ///< start of its name
+  const char* title;
+  const char* label;
+  double (*value)(const CaseAnswer&);
+  const char* without_value;
+};
+constexpr MappedQuantity critical_gap{"critical_gap", "Critical gap", "critical gap [cm]", value_in_cm,
+                                      "not known"};
+
+/// Up to which gap nothing ignites in spite of the uncertainty, cm; NaN where there is no such gap.
+double surely_safe_in_cm(const CaseAnswer& answer) {
+  const double least = value_in_cm(answer) - 100.0 * answer.critical.uncertainty;
+  return least > 0.0 ? least : study::not_a_number;
+}
+constexpr MappedQuantity safe_gap{"safe_gap", "Critical gap less its uncertainty",
+                                  "critical gap less its uncertainty [cm]", surely_safe_in_cm,
+                                  "no gap surely safe"};
+
+std::size_t place_in(const std::vector<double>& values, double value) {
+  return static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
+}
+
+/// The map of a case's plane, without values.
+Plot empty_map(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& x,
+               const SweptAxis& y, const MappedQuantity& quantity, const study::StudyCase& input) {
+  Plot plot;
+  plot.title = title_of(quantity.title, axes, {x.index, y.index}, input);
+  plot.x = picture_axis(x);
+  plot.y = picture_axis(y);
+  plot.width = 900;
+  plot.height = 620;
+  Map map;
+  map.x = x.values;
+  map.y = y.values;
+  map.values.assign(x.values.size() * y.values.size(), study::not_a_number);
+  map.label = quantity.label;
+  for (const CaseAnswer& answer : result.answers) {  // of all maps, so that their colours compare
+    const double value = quantity.value(answer);
+    if (!std::isfinite(value)) continue;
+    map.minimum = std::min(map.minimum.value_or(value), value);
+    map.maximum = std::max(map.maximum.value_or(value), value);
+  }
+  auto labels = kind_labels(result);
+  labels[index_of(CriticalGapKind::value)] = quantity.without_value;
+  constexpr std::array<Hatching, 4> hatchings{Hatching::rising, Hatching::dense, Hatching::falling,
+                                              Hatching::crossed};
+  for (std::size_t kind = 0; kind < labels.size(); ++kind)
+    map.hatched.push_back({labels[kind], hatchings[kind], {}});
+  plot.map = std::move(map);
+  return plot;
+}
+
+/// One map over two axes for every combination of the others.
+std::vector<Plot> maps_of(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& x,
+                          const SweptAxis& y, const MappedQuantity& quantity) {
+  std::vector<std::vector<double>> combinations;
+  std::vector<Plot> plots;
+  for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) {
+    const study::StudyCase& input = result.study.cases[i];
+    if (input.coordinates.size() < axes.size()) continue;
+    std::vector<double> others = input.coordinates;
+    others[x.index] = others[y.index] = 0;
+    const auto found = std::find(combinations.begin(), combinations.end(), others);
+    const auto number = static_cast<std::size_t>(found - combinations.begin());
+    if (found == combinations.end()) {
+      combinations.push_back(std::move(others));
+      plots.push_back(empty_map(result, axes, x, y, quantity, input));
+    }
+    Map& map = *plots[number].map;
+    const std::size_t cell = place_in(y.values, y.key.value(input.coordinates[y.index])) * x.values.size() +
+                             place_in(x.values, x.key.value(input.coordinates[x.index]));
+    map.values[cell] = quantity.value(result.answers[i]);
+    if (!std::isfinite(map.values[cell]))
+      map.hatched[index_of(drawn_kind(result.answers[i]))].cells.push_back(cell);
+  }
+  return plots;
+}
+
+/// Names the maps, and leaves out what would be too many.
+void add_maps(std::vector<Plot> plots, const MappedQuantity& quantity, SweepPictures& made) {
+  for (std::size_t i = 0; i < std::min(plots.size(), most_maps); ++i) {
+    made.pictures.push_back({fmt::format("{}{}.svg", quantity.file, i == 0 ? "" : fmt::format("_{}", i + 1)),
+                             std::move(plots[i])});
+  }
+}
+
+// --- one axis ---
+
+/// Where the mark of a case without a value stands, cm: a bound at its end, anything else on the ground line.
+double height_of(const CaseAnswer& answer) {
+  switch (drawn_kind(answer)) {
+    case CriticalGapKind::value:
+      return value_in_cm(answer);
+    case CriticalGapKind::all_safe:
+      return 100.0 * answer.critical.lower;
+    case CriticalGapKind::all_ignite:
+      return 100.0 * answer.critical.upper;
+    case CriticalGapKind::indeterminate:
+      break;
+  }
+  return 0;
+}
+
+/// One mark and colour for every kind, in the order of CriticalGapKind.
+constexpr std::array<Mark, 4> kind_marks{Mark::circle, Mark::up_triangle, Mark::down_triangle, Mark::cross};
+constexpr std::array<int, 4> kind_colours{0, 2, 1, 7};
+
+std::vector<Series> series_of_kinds(const SweepResult& result) {
+  const auto labels = kind_labels(result);
+  std::vector<Series> series;
+  for (std::size_t kind = 0; kind < labels.size(); ++kind) {
+    series.push_back({labels[kind], {}, {}, kind == 0 ? Style::vertical_bars : Style::points});
+    series.back().colour = kind_colours[kind];
+    series.back().mark = kind_marks[kind];
+  }
+  return series;
+}
+
+Plot curve_of(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& axis) {
+  Plot plot;
+  plot.x = picture_axis(axis);
+  plot.y.label = "critical gap [cm]";
+  Series line{"", axis.values, std::vector<double>(axis.values.size(), study::not_a_number), Style::line};
+  line.colour = 0;
+  std::vector<Series> kinds = series_of_kinds(result);
+  for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) {
+    const study::StudyCase& input = result.study.cases[i];
+    if (input.coordinates.size() < axes.size()) continue;
+    if (plot.title.empty()) plot.title = title_of(critical_gap.title, axes, {axis.index}, input);
+    const CaseAnswer& answer = result.answers[i];
+    const double x = axis.key.value(input.coordinates[axis.index]);
+    const double y = height_of(answer), error = 100.0 * answer.critical.uncertainty;
+    line.y[place_in(axis.values, x)] = value_in_cm(answer);
+    Series& series = kinds[index_of(drawn_kind(answer))];
+    series.x.push_back(x);
+    series.y.push_back(y);
+    series.lower.push_back(y - error);
+    series.upper.push_back(y + error);
+  }
+  plot.series.push_back(std::move(line));
+  for (Series& series : kinds) {
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+}  // namespace
+
+SweepPictures pictures(const SweepResult& result) {
+  const std::vector<SweptAxis> axes = swept_axes(result.study.study);
+  std::vector<const SweptAxis*> several;
+  for (const SweptAxis& axis : axes) {
+    if (axis.values.size() > 1) several.push_back(&axis);
+  }
+  if (several.empty() || result.answers.empty()) return {};
+  if (several.size() == 1) return {{{"critical_gap.svg", curve_of(result, axes, *several.front())}}, {}};
+  SweepPictures made;
+  for (const MappedQuantity* quantity : {&critical_gap, &safe_gap}) {
+    std::vector<Plot> maps = maps_of(result, axes, *several[0], *several[1], *quantity);
+    if (maps.size() > most_maps && made.remarks.empty()) {
+      made.remarks.push_back(fmt::format(
+          "The pictures show {} of the {} combinations of the other axes; critical_gaps.csv has all.",
+          most_maps, maps.size()));
+    }
+    add_maps(std::move(maps), *quantity, made);
+  }
+  return made;
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,175 @@
+// The tables of a sweep.
+#include "launchsafe/kinds/sweep_report.hpp"
+#include "launchsafe/report/air_energy_table.hpp"
+#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/study_text.hpp"
+#include "launchsafe/report/verdict_text.hpp"
+#include "sweep_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+namespace {
+
+/// The columns of the axes, and room for others behind them.
+std::vector<Column> axis_columns(const std::vector<ShownKey>& keys) {
+  std::vector<Column> columns;
+  for (const ShownKey& key : keys) columns.push_back(key.column());
+  return columns;
+}
+
+std::vector<Cell> axis_cells(const std::vector<ShownKey>& keys, const study::StudyCase& input) {
+  std::vector<Cell> cells(keys.size());
+  for (std::size_t i = 0; i < std::min(keys.size(), input.coordinates.size()); ++i)
+    cells[i] = keys[i].value(input.coordinates[i]);
+  return cells;
+}
+
+/// Calls with every case and its answer.
+template <class Function>
+void for_each_case(const SweepResult& result, Function function) {
+  const std::size_t cases = std::min(result.study.cases.size(), result.answers.size());
+  for (std::size_t i = 0; i < cases; ++i) function(result.study.cases[i], result.answers[i]);
+}
+
+/// Places of the smallest and largest gap among those judged; one of them where they are the same.
+std::vector<std::size_t> outer_gaps(const std::vector<double>& gaps) {
+  if (gaps.empty()) return {};
+  const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
+  std::vector<std::size_t> places{static_cast<std::size_t>(least - gaps.begin())};
+  if (*most > *least) places.push_back(static_cast<std::size_t>(most - gaps.begin()));
+  return places;
+}
+
+std::vector<Column> outer_gap_columns(const std::vector<double>& gaps) {
+  std::vector<Column> columns;
+  for (const std::size_t place : outer_gaps(gaps)) {
+    const char* key = columns.empty() ? "T_max_smallest_gap_K" : "T_max_largest_gap_K";
+    columns.push_back(number_column("T max at " + centimetres(gaps[place]), "K", 1, key));
+  }
+  return columns;
+}
+
+void add_critical_gap_cells(const CaseAnswer& answer, std::vector<Cell>& cells) {
+  const study::CriticalGap& gap = answer.critical;
+  cells.emplace_back(study::to_string(gap.kind));
+  cells.push_back(optional_number(100.0 * value_of(gap)));
+  cells.emplace_back(reads_as(gap));
+  cells.push_back(optional_number(100.0 * gap.lower));
+  cells.push_back(optional_number(100.0 * gap.upper));
+  cells.push_back(optional_number(100.0 * gap.uncertainty));
+}
+
+std::string verdict_mark(study::Verdict verdict) {
+  return verdict == study::Verdict::indeterminate ? "INDET." : study::to_string(verdict);
+}
+
+/// What the audit of the air says of the gap where most was taken; there may be millions of others.
+std::string air_energy_note(const SweepResult& result, const std::vector<ShownKey>& keys) {
+  std::vector<AuditedGap> worst;
+  for_each_case(result, [&](const study::StudyCase& input, const CaseAnswer& answer) {
+    for (const study::GapVerdict& row : answer.verdicts) {
+      if (!std::isfinite(row.air.ratio())) continue;
+      if (worst.empty() || row.air.ratio() > worst.front().air.ratio())
+        worst = {{name_of(keys, input), row.gap, row.air}};
+    }
+  });
+  return air_energy_statement(result.study.scene.scene.surface.air_model, worst);
+}
+
+/// A table whose rows begin with the values of the axes.
+Table table_by_axes(std::string title, const std::vector<ShownKey>& keys) {
+  Table table;
+  table.title = std::move(title);
+  table.columns = axis_columns(keys);
+  return table;
+}
+
+}  // namespace
+
+Table critical_gap_table(const SweepResult& result) {
+  const auto keys = shown_axes(result.study.study);
+  const std::vector<double>& gaps = result.study.study.gaps;
+  Table table = table_by_axes("Critical gaps", keys);
+  append(table.columns,
+         {named_text("kind", "kind"), significant_column("critical gap", "cm", 6, "critical_gap_cm"),
+          named_text("reads as", "reads_as"), significant_column("no ignition", "cm", 6, "lower_cm"),
+          significant_column("ignites", "cm", 6, "upper_cm"),
+          significant_column("uncertainty", "cm", 2, "uncertainty_cm")});
+  append(table.columns, outer_gap_columns(gaps));
+  append(table.columns,
+         {named_text("run", "status"), scientific_column("energy drift", "", 1, "energy_drift"),
+          named_text("limiters (particle steps)", "limiters"), named_text("remark", "reason")});
+  for_each_case(result, [&](const study::StudyCase& input, const CaseAnswer& answer) {
+    std::vector<Cell> cells = axis_cells(keys, input);
+    add_critical_gap_cells(answer, cells);
+    for (const std::size_t place : outer_gaps(gaps))
+      cells.push_back(place < answer.verdicts.size()
+                          ? optional_number(answer.verdicts[place].maximum.temperature)
+                          : Cell());
+    cells.emplace_back(status_of(answer));
+    cells.push_back(optional_number(answer.run.energy_drift));
+    cells.emplace_back(limiters_text(answer.run.limiters));
+    cells.emplace_back(answer.completed() ? answer.critical.reason : answer.failure);
+    table.rows.push_back(std::move(cells));
+  });
+  table.notes.emplace_back(
+      "Only a critical gap of kind value is a number. T max of a gap that ignites is that of the burning "
+      "skin.");
+  table.notes.push_back(air_energy_note(result, keys));
+  return table;
+}
+
+Table verdict_table(const SweepResult& result) {
+  const auto keys = shown_axes(result.study.study);
+  Table table;
+  table.title = "Verdicts";
+  table.columns = axis_columns(keys);
+  append(table.columns, {significant_column("gap", "cm", 6, "gap_cm")});
+  append(table.columns, verdict_columns(result.study.study));
+  for_each_case(result, [&](const study::StudyCase& input, const CaseAnswer& answer) {
+    const std::vector<Cell> place = axis_cells(keys, input);
+    for (const study::GapVerdict& row : answer.verdicts) {
+      std::vector<Cell>& cells = table.rows.emplace_back();
+      cells.reserve(table.columns.size());
+      cells.insert(cells.end(), place.begin(), place.end());
+      cells.emplace_back(in_centimetres(row.gap));
+      add_verdict_cells(row, cells);
+    }
+  });
+  table.notes = mesh_notes(result.study);
+  table.notes.push_back(station_note(result.study));
+  return table;
+}
+
+Table verdict_matrix(const SweepResult& result) {
+  const auto keys = shown_axes(result.study.study);
+  const std::vector<double>& gaps = result.study.study.gaps;
+  Table table = table_by_axes("Verdicts by gap", keys);
+  for (const double gap : gaps) {
+    table.columns.push_back(named_text(centimetres(gap), fmt::format("gap_{:.6g}_cm", in_centimetres(gap))));
+  }
+  for_each_case(result, [&](const study::StudyCase& input, const CaseAnswer& answer) {
+    std::vector<Cell> cells = axis_cells(keys, input);
+    for (std::size_t i = 0; i < std::min(gaps.size(), answer.verdicts.size()); ++i)
+      cells.emplace_back(verdict_mark(answer.verdicts[i].judgement.verdict));
+    table.rows.push_back(std::move(cells));
+  });
+  if (counts_of(result.answers).undecided > 0)
+    table.notes.emplace_back("INDET.: indeterminate; verdicts.csv has the reasons.");
+  return table;
+}
+
+Table cited_limit_table(const SweepResult& result) {
+  std::vector<const CriticalGap*> critical;
+  for (const CaseAnswer& answer : result.answers) critical.push_back(&answer.critical);
+  return report::cited_limit_table(result.study, critical);
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,99 @@
+#include "sweep_text.hpp"
+
+#include "launchsafe/report/study_text.hpp"
+#include "launchsafe/report/verdict_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+namespace {
+
+void count_critical_gap(const study::CriticalGap& gap, SweepCounts& counts) {
+  switch (gap.kind) {
+    case study::CriticalGapKind::value:
+      ++counts.values;
+      return;
+    case study::CriticalGapKind::all_safe:
+      ++counts.all_safe;
+      return;
+    case study::CriticalGapKind::all_ignite:
+      ++counts.all_ignite;
+      return;
+    case study::CriticalGapKind::indeterminate:
+      break;
+  }
+  ++counts.indeterminate;
+}
+
+void count_verdict(const study::Judgement& judgement, SweepCounts& counts) {
+  switch (judgement.verdict) {
+    case study::Verdict::safe:
+      ++counts.safe;
+      return;
+    case study::Verdict::unsafe:
+      ++counts.unsafe;
+      return;
+    case study::Verdict::indeterminate:
+      break;
+  }
+  ++counts.undecided;
+}
+
+}  // namespace
+
+SweepCounts counts_of(const std::vector<study::CaseAnswer>& answers) {
+  SweepCounts counts;
+  counts.cases = answers.size();
+  for (const study::CaseAnswer& answer : answers) {
+    if (!answer.completed()) ++counts.failed;
+    if (acted(answer.run.limiters)) ++counts.limited;
+    counts.limiters.crack_at_bound += answer.run.limiters.crack_at_bound;
+    counts.limiters.tension_cutoff += answer.run.limiters.tension_cutoff;
+    counts.limiters.hugoniot_guard += answer.run.limiters.hugoniot_guard;
+    count_critical_gap(answer.critical, counts);
+    for (const study::GapVerdict& row : answer.verdicts) count_verdict(row.judgement, counts);
+  }
+  return counts;
+}
+
+std::string status_of(const study::CaseAnswer& answer) {
+  if (answer.completed()) return "completed";
+  return answer.run.status == run::RunStatus::completed ? "failed" : run::to_string(answer.run.status);
+}
+
+std::string name_of(const std::vector<ShownKey>& keys, const study::StudyCase& input) {
+  std::string place = place_text(keys, input.coordinates);
+  return place.empty() ? input.label : place;
+}
+
+std::string failures_list(const std::vector<ShownKey>& keys, const study::StudyFile& study,
+                          const std::vector<study::CaseAnswer>& answers) {
+  constexpr std::size_t named = 3;
+  std::size_t failed = 0;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(answers.size(), study.cases.size()); ++i) {
+    if (answers[i].completed()) continue;
+    if (++failed > named) continue;
+    list +=
+        fmt::format("{}{} ({})", list.empty() ? "" : "; ", name_of(keys, study.cases[i]), answers[i].failure);
+  }
+  if (failed > named) list += fmt::format("; and {} more", failed - named);
+  return list;
+}
+
+std::string limited_text(const SweepCounts& counts, const std::string& noun) {
+  if (counts.limited == 0) return {};
+  return fmt::format("Limiters acted in {} ({} particle steps in all), whose results rest on them too.",
+                     counted(counts.limited, noun), limiters_text(counts.limiters));
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace launchsafe::kinds

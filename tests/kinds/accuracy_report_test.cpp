@@ -1,0 +1,96 @@
+#include "launchsafe/kinds/accuracy_report.hpp"
+
+#include "launchsafe/scene/mesh.hpp"
+#include "report/report_folder.hpp"
+#include "study/synthetic_launch.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::kinds;
+using namespace launchsafe::study;
+
+/// Three meshes whose friction heat is off by 2 K times (cell/2.5 mm)^1.5; a run costs the cube of the
+/// fineness.
+AccuracyResult made_accuracy(bool fails = false) {
+  StudyOptions options = synthetic_options(2);
+  options.runners.mechanics = [fails](const scene::Scene& scene, const run::RunOptions&) {
+    const double size = scene::fit_mesh(scene).dr / 2.5e-3;
+    run::MechanicsResult result = synthetic_mechanics(scene, 116.1 + 2.0 * std::pow(size, 1.5));
+    result.processor_time = std::pow(size, -3.0);
+    if (fails && size < 0.3) result.status = run::RunStatus::non_finite;
+    return result;
+  };
+  return run_accuracy(study_of("kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\ngaps = \"0, 0.02 cm\"\n"
+                               "reference_cell_sizes = \"0.625, 1.25, 2.5 mm\"\ntimes = \"10 ms\"\n"
+                               "settings = [ { numerics.time_step_factor = [0.25] } ]\n" +
+                               constants_on_even_lattice),
+                      options);
+}
+
+const report::Cell& cell_of(const report::Table& table, std::size_t row, const std::string& key) {
+  const auto keys = report::keys_of(table);
+  const auto found = std::find(keys.begin(), keys.end(), key);
+  EXPECT_NE(found, keys.end()) << key;
+  return table.rows.at(row).at(static_cast<std::size_t>(found - keys.begin()));
+}
+
+TEST(AccuracyReport, HasARowForEverySettingWithItsErrorAndCost) {
+  const AccuracyResult result = made_accuracy();
+  const report::Table table = kinds::setting_table(result);
+  ASSERT_EQ(table.rows.size(), 4u);
+  EXPECT_NEAR(std::get<double>(cell_of(table, 2, "T_error_0_cm_K")), 2.0, 0.05);
+  EXPECT_NEAR(std::get<double>(cell_of(table, 2, "processor_time_s")), 1.0, 1e-6);
+  EXPECT_GT(std::get<double>(cell_of(table, 2, "T_bound_K")), 2.0);
+  EXPECT_NE(std::get<std::string>(cell_of(table, 2, "remark")).find("the scene as it is"), std::string::npos);
+  const report::Table times = kinds::time_table(result);
+  EXPECT_TRUE(std::isfinite(std::get<double>(cell_of(times, 2, "error_10_ms_K"))));
+}
+
+TEST(AccuracyReport, SaysWhatTheMeshesTendTo) {
+  const report::Table table = kinds::reference_table(made_accuracy());
+  EXPECT_EQ(std::get<std::string>(cell_of(table, 0, "quantity")), "T max at 0 cm");
+  EXPECT_NEAR(std::get<double>(cell_of(table, 0, "order")), 1.5, 0.02);
+  EXPECT_NEAR(std::get<double>(cell_of(table, 0, "extrapolated")), 416.1, 0.03);
+}
+
+TEST(AccuracyReport, AnswersInOneScreen) {
+  const std::string page = kinds::summary(made_accuracy());
+  for (const char* part : {"How wrong is the critical gap?", "Why believe that?", "halve the error",
+                           "launchsafe study", "observed order 1.5", "0.625, 1.25, 2.5 mm"})
+    EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;
+  EXPECT_LT(std::count(page.begin(), page.end(), '\n'), 45);
+}
+
+TEST(AccuracyReport, WithoutAReferenceThereIsNoRecordAndTheReasonIsSaid) {
+  const AccuracyResult result = made_accuracy(true);
+  EXPECT_NE(kinds::answer(result).find("non-finite"), std::string::npos);
+  EXPECT_NE(kinds::summary(result).find("no reference"), std::string::npos);
+  EXPECT_TRUE(kinds::setting_table(result).rows.empty());
+  EXPECT_TRUE(kinds::to_json(result)["reference"].is_null());
+  const report::Folder folder;
+  const auto written = report::write_report(kinds::report_of(result), folder.path);
+  ASSERT_TRUE(written);
+  EXPECT_EQ(std::count(written->files.begin(), written->files.end(), "accuracy.json"), 0);
+}
+
+TEST(AccuracyReport, WritesARecordThatOtherStudiesCanRead) {
+  const report::Folder folder;
+  const AccuracyResult result = made_accuracy();
+  ASSERT_TRUE(report::write_report(kinds::report_of(result), folder.path));
+  const auto record =
+      parse_accuracy_record(report::content_of(folder.path / "accuracy.json"), "accuracy.json");
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->settings.size(), 4u);
+  EXPECT_NE(recorded_setting(*record, result.study.scene.scene), nullptr);
+  const auto json = nlohmann::json::parse(report::content_of(folder.path / "study.json"));
+  EXPECT_EQ(json["reference"]["T_max_K"].size(), 2u);
+}
+
+}  // namespace

@@ -1,0 +1,184 @@
+#include "launchsafe/kinds/accuracy.hpp"
+
+#include "launchsafe/scene/mesh.hpp"
+#include "study/synthetic_launch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::kinds;
+using namespace launchsafe::study;
+
+const std::string accuracy_text =
+    "kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\ngaps = \"0, 0.02, 0.039 cm\"\n"
+    "reference_cell_sizes = \"2.5, 0.625, 1.25 mm\"\nlargest_gap = \"0.2 cm\"\ntolerance = \"1e-6 cm\"\n"
+    "times = \"10, 18 ms\"\n"
+    "settings = [ { \"numerics.cell_size\" = \"2.5, 5 mm\", \"numerics.inertial_scaling\" = [1, 16] },\n"
+    "             { friction.closure = [\"inelastic\"] } ]\n" +
+    constants_on_even_lattice + "station.width = \"1.3 cm\"\nstation.depth = \"1 cm\"\n";
+
+constexpr double heated_by = 116.1;  // K, of the synthetic friction on an infinitely fine mesh
+
+/// Kelvin of friction heat on a mesh: an error of the order 1.5 that is 2 K at 2.5 mm, and one of 1 K a
+/// factor four of inertial scaling. A run costs what cells and steps cost.
+run::MechanicsResult converging(const scene::Scene& scene) {
+  const scene::CellRange mesh = scene::cells_of_charge(scene);
+  const double scaling = scene.numerics.inertial_scaling;
+  const double size = std::sqrt(mesh.shortest_x * mesh.shortest_r) / 2.5e-3;
+  run::MechanicsResult result =
+      synthetic_mechanics(scene, heated_by + 2.0 * std::pow(size, 1.5) + 0.5 * std::log2(scaling));
+  result.processor_time = std::pow(size, -3.0) / std::sqrt(scaling);
+  result.wall_time = 2.0 * result.processor_time;
+  return result;
+}
+
+AccuracyResult result_of(
+    const std::function<run::MechanicsResult(const scene::Scene&)>& mechanics = converging,
+    const std::string& text = accuracy_text) {
+  StudyOptions options = synthetic_options(2);
+  options.runners.mechanics = [mechanics](const scene::Scene& scene, const run::RunOptions&) {
+    return mechanics(scene);
+  };
+  return run_accuracy(study_of(text), options);
+}
+
+const AccuracyRow& row_of(const AccuracyResult& result, const std::string& label) {
+  for (const AccuracyRow& row : result.rows) {
+    if (result.study.cases[row.index].label == label) return row;
+  }
+  ADD_FAILURE() << "no row " << label;
+  static const AccuracyRow none;
+  return none;
+}
+
+TEST(Accuracy, FindsTheOrderAndTheLimitOfAManufacturedError) {
+  const AccuracyResult result = result_of();
+  ASSERT_TRUE(result.reference) << result.no_reference;
+  EXPECT_FALSE(result.any_failed());
+  // Without a gap T max is the initial temperature and the friction heat: 300 + 116.1 K in the limit.
+  const ReferenceValue& zero_gap = result.reference->temperature[0];
+  EXPECT_TRUE(zero_gap.limit.justified) << zero_gap.limit.reason;
+  EXPECT_NEAR(zero_gap.limit.order, 1.5, 0.02);
+  EXPECT_NEAR(zero_gap.limit.value, 300.0 + heated_by, 0.02);
+  ASSERT_EQ(zero_gap.values.size(), 3u);
+  EXPECT_NEAR(zero_gap.values.front(), 300.0 + heated_by + 2.0 * std::pow(0.25, 1.5), 1e-3);
+  EXPECT_FALSE(result.reference->critical_gap.values.empty());
+}
+
+TEST(Accuracy, MeasuresErrorsOfSettingsAgainstTheLimit) {
+  const AccuracyResult result = result_of();
+  const AccuracyRow& own = row_of(result, "cell_size 0.25 cm");
+  EXPECT_TRUE(own.baseline);
+  EXPECT_TRUE(own.reference);
+  EXPECT_NEAR(own.temperature_error[0], 2.0, 0.03);
+  EXPECT_GE(own.temperature_bound, own.largest_temperature_error);
+  EXPECT_GT(own.measured.critical.value, 0);
+  EXPECT_LT(own.critical_gap_error, 0) << "more friction heat, a smaller critical gap";
+  EXPECT_GE(own.critical_gap_bound, std::abs(own.critical_gap_error));
+  const AccuracyRow& scaled = row_of(result, "cell_size 0.25 cm, inertial_scaling 16");
+  EXPECT_NEAR(scaled.temperature_error[0], 4.0, 0.03);  // 2 K and log2(16)/2 K
+  EXPECT_FALSE(scaled.baseline);
+  ASSERT_EQ(scaled.error_at_times.size(), 2u);
+  // Without reaction the error is the power law to round-off: 2 K of the mesh and log2(16)/2 K of the
+  // scaling.
+  EXPECT_NEAR(scaled.error_at_times[1], 4.0, 1e-6);
+  EXPECT_LT(scaled.pressure_error, 1e-12) << "the synthetic pressure does not know the mesh";
+}
+
+TEST(Accuracy, MarksTheSettingsThatNoCheaperOneBeats) {
+  std::vector<AccuracyRow> rows(5);
+  const double time[] = {1, 2, 3, 4, 0.5}, error[] = {4, 5, 2, 1, 9};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].measured.processor_time = time[i];
+    rows[i].largest_temperature_error = error[i];
+  }
+  rows[3].other_model = true;
+  mark_front(rows);
+  EXPECT_TRUE(rows[0].on_front);
+  EXPECT_FALSE(rows[1].on_front) << "the first is cheaper and nearer";
+  EXPECT_TRUE(rows[2].on_front);
+  EXPECT_FALSE(rows[3].on_front) << "another model is no better computation";
+  EXPECT_TRUE(rows[4].on_front);
+}
+
+TEST(Accuracy, TellsAnotherModelFromAnError) {
+  const AccuracyResult result = result_of();
+  const AccuracyRow& other = row_of(result, "closure inelastic");
+  EXPECT_TRUE(other.other_model);
+  EXPECT_FALSE(other.on_front);
+  for (const RecordedSetting& each : result.record.settings) EXPECT_NE(each.label, "closure inelastic");
+  EXPECT_EQ(result.record.settings.size(), result.rows.size() - 1);
+}
+
+TEST(Accuracy, DoesNotExtrapolateWhatDoesNotConverge) {
+  // The meshes alternate: 2 K up, then 2 K down.
+  const AccuracyResult result = result_of([](const scene::Scene& scene) {
+    const double cell = scene.numerics.cell_size;
+    return synthetic_mechanics(scene, heated_by + (cell > 1e-3 && cell < 2e-3 ? -2.0 : 2.0));
+  });
+  ASSERT_TRUE(result.reference);
+  EXPECT_FALSE(result.reference->temperature[0].limit.justified);
+  EXPECT_FALSE(result.reference->temperature[0].limit.reason.empty());
+  EXPECT_EQ(result.reference->temperature[0].limit.value, result.reference->temperature[0].values.front());
+  EXPECT_GE(row_of(result, "cell_size 0.25 cm").temperature_bound, 4.0);
+  EXPECT_TRUE(result.any_indeterminate());
+}
+
+TEST(Accuracy, AReferenceMeshThatFailsLeavesNoReference) {
+  const AccuracyResult result = result_of([](const scene::Scene& scene) {
+    run::MechanicsResult mechanics = converging(scene);
+    if (scene.numerics.cell_size < 1e-3) {
+      mechanics.status = run::RunStatus::energy_drift;
+      mechanics.reason = "drifted";
+    }
+    return mechanics;
+  });
+  EXPECT_FALSE(result.reference);
+  EXPECT_NE(result.no_reference.find("drifted"), std::string::npos);
+  EXPECT_TRUE(result.any_indeterminate());
+  EXPECT_TRUE(result.record.settings.empty());
+}
+
+TEST(Accuracy, ASettingThatFailsIsARowWithoutNumbers) {
+  const AccuracyResult result = result_of([](const scene::Scene& scene) {
+    run::MechanicsResult mechanics = converging(scene);
+    if (scene.numerics.inertial_scaling > 1.0) mechanics.status = run::RunStatus::non_finite;
+    return mechanics;
+  });
+  ASSERT_TRUE(result.reference);
+  const AccuracyRow& row = row_of(result, "cell_size 0.25 cm, inertial_scaling 16");
+  EXPECT_FALSE(row.sound());
+  EXPECT_TRUE(std::isnan(row.temperature_bound));
+  EXPECT_FALSE(row.on_front);
+  EXPECT_EQ(cheapest_within(result.record, 1e9)->label, "cell_size 0.5 cm, inertial_scaling 1");
+}
+
+TEST(Accuracy, ASettingInDoubtIsShownWithItsErrorAndNotRecommended) {
+  const AccuracyResult result = result_of([](const scene::Scene& scene) {
+    run::MechanicsResult mechanics = converging(scene);
+    if (scene.numerics.inertial_scaling > 1.0) mechanics.monitor.back().energy.kinetic = 1.0;
+    return mechanics;
+  });
+  ASSERT_TRUE(result.reference);
+  const AccuracyRow& row = row_of(result, "cell_size 0.25 cm, inertial_scaling 16");
+  EXPECT_FALSE(row.measured.doubt.empty());
+  EXPECT_TRUE(row.computed());
+  EXPECT_FALSE(row.sound());
+  EXPECT_NEAR(row.temperature_error[0], 4.0, 0.03);
+  EXPECT_FALSE(row.on_front);
+  for (const RecordedSetting& each : result.record.settings)
+    EXPECT_NE(each.label, result.study.cases[row.index].label);
+}
+
+TEST(RelativeDifference, IsThatOfTheSquares) {
+  const PressureTrace one{{0, 1, 2}, {1, 1, 1}}, other{{0, 0.5, 1, 1.5, 2}, {1.1, 1.1, 1.1, 1.1, 1.1}};
+  EXPECT_NEAR(relative_difference(other, one), 0.1, 1e-12);
+  EXPECT_EQ(relative_difference(one, one), 0.0);
+  EXPECT_TRUE(std::isnan(relative_difference({}, one)));
+}
+
+}  // namespace

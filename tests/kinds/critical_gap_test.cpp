@@ -1,0 +1,210 @@
+#include "launchsafe/kinds/critical_gap.hpp"
+
+#include "study/synthetic_launch.hpp"
+
+#include <cmath>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::kinds;
+using namespace launchsafe::study;
+
+const std::string gap_keys = "gaps = \"0, 0.01, 0.02, 0.03, 0.06 cm\"\n";
+
+/// Silence about the mesh is no certainty: the same gaps as above, nothing stated.
+TEST(CriticalGapStudy, WithoutAStatedUncertaintyASmallMarginIsNotSafe) {
+  const auto result =
+      run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), synthetic_options());
+  for (const GapVerdict& row : result.cases.front().verdicts)
+    if (row.judgement.verdict == Verdict::safe) {
+      EXPECT_GT(row.margin, assumed_numerical_uncertainty);
+    }
+  EXPECT_TRUE(result.any_indeterminate());
+}
+
+TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
+  const CriticalGapResult result = run_critical_gap(
+      study_of(critical_text + gap_keys + "numerical_uncertainty = \"1 K\"\n" + synthetic_constants),
+      synthetic_options());
+  ASSERT_EQ(result.cases.size(), 1u);
+  const CaseOutcome& outcome = result.cases[0];
+  ASSERT_EQ(outcome.critical.kind, CriticalGapKind::value) << outcome.critical.reason;
+  EXPECT_LE(outcome.critical.upper - outcome.critical.lower, 1e-6);
+  EXPECT_GT(outcome.critical.value, 3e-4);
+  EXPECT_LT(outcome.critical.value, 6e-4);
+  ASSERT_EQ(outcome.confirmations.size(), 2u);
+  for (const Confirmation& each : outcome.confirmations) EXPECT_TRUE(each.agrees());
+  EXPECT_EQ(outcome.confirmations[0].difference, 0.0);
+  EXPECT_EQ(result.timing.runs, 3u);
+  ASSERT_EQ(outcome.verdicts.size(), 5u);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(outcome.verdicts[i].judgement.verdict, Verdict::safe) << outcome.verdicts[i].judgement.reason;
+  EXPECT_EQ(outcome.verdicts[4].judgement.verdict, Verdict::unsafe);
+  ASSERT_TRUE(outcome.verdicts[4].ignition.has_value());
+  EXPECT_EQ(outcome.verdicts[4].ignition->point, "S2");
+  EXPECT_EQ(outcome.verdicts[0].maximum.point, "S2");
+  // The point G1, which is hotter, is read beside it.
+  ASSERT_TRUE(outcome.fit.has_value());
+  EXPECT_EQ(outcome.fit->gaps.size(), 4u);
+  EXPECT_FALSE(result.any_failed());
+  EXPECT_FALSE(result.any_indeterminate());
+}
+
+TEST(CriticalGapStudy, TheResultDoesNotDependOnTheNumberOfThreads) {
+  const StudyFile study =
+      study_of(critical_text + gap_keys + "peak_pressures = \"300, 496, 450 MPa\"\n" + synthetic_constants);
+  const CriticalGapResult one = run_critical_gap(study, synthetic_options(1));
+  const CriticalGapResult many = run_critical_gap(study, synthetic_options(4));
+  ASSERT_EQ(one.cases.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const CaseOutcome &a = one.cases[i], &b = many.cases[i];
+    EXPECT_EQ(a.input.label, b.input.label);
+    EXPECT_EQ(a.critical.lower, b.critical.lower);
+    EXPECT_EQ(a.critical.upper, b.critical.upper);
+    EXPECT_EQ(a.critical.uncertainty, b.critical.uncertainty);
+    for (std::size_t gap = 0; gap < a.verdicts.size(); ++gap) {
+      EXPECT_EQ(a.verdicts[gap].maximum.temperature, b.verdicts[gap].maximum.temperature);
+      EXPECT_EQ(a.verdicts[gap].judgement.reason, b.verdicts[gap].judgement.reason);
+    }
+  }
+  EXPECT_GT(one.cases[0].critical.value, one.cases[1].critical.value);  // less pressure, wider gap
+}
+
+TEST(CriticalGapStudy, AFailingCaseIsIndeterminateAndTheOthersGoOn) {
+  for (const bool throws : {true, false}) {
+    StudyOptions options = synthetic_options(2);
+    options.runners.mechanics = [throws](const scene::Scene& scene, const run::RunOptions&) {
+      run::MechanicsResult result = synthetic_mechanics(scene);
+      if (scene.load.peak != 450e6) return result;
+      if (throws) throw std::runtime_error("out of memory");
+      result.status = run::RunStatus::energy_drift;
+      result.reason = "at 3 ms";
+      return result;
+    };
+    const CriticalGapResult result = run_critical_gap(
+        study_of(critical_text + gap_keys + "peak_pressures = \"400, 450, 496 MPa\"\n" + synthetic_constants),
+        options);
+    EXPECT_TRUE(result.any_failed());
+    const CaseOutcome& broken = result.cases[1];
+    EXPECT_EQ(broken.critical.kind, CriticalGapKind::indeterminate);
+    EXPECT_TRUE(std::isnan(broken.critical.value));
+    EXPECT_TRUE(broken.confirmations.empty());
+    EXPECT_FALSE(broken.fit.has_value());
+    ASSERT_EQ(broken.verdicts.size(), 5u);
+    for (const GapVerdict& row : broken.verdicts) {
+      EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
+      EXPECT_NE(row.judgement.reason.find(throws ? "out of memory" : "energy drift: at 3 ms"),
+                std::string::npos)
+          << row.judgement.reason;
+    }
+    for (const std::size_t i : {0u, 2u}) {
+      EXPECT_EQ(result.cases[i].critical.kind, CriticalGapKind::value);
+      EXPECT_EQ(result.cases[i].verdicts[0].judgement.verdict, Verdict::safe);
+    }
+  }
+}
+
+TEST(CriticalGapStudy, ACoupledRunThatDisagreesMakesItIndeterminate) {
+  StudyOptions options = synthetic_options();
+  options.runners.coupled = synthetic_runners(160.0).coupled;
+  const CriticalGapResult result =
+      run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
+  const CaseOutcome& outcome = result.cases[0];
+  EXPECT_EQ(outcome.critical.kind, CriticalGapKind::indeterminate);
+  EXPECT_TRUE(std::isnan(outcome.critical.value));
+  EXPECT_NE(outcome.critical.reason.find("ignites"), std::string::npos) << outcome.critical.reason;
+  EXPECT_EQ(outcome.verdicts[0].judgement.verdict, Verdict::indeterminate);
+  EXPECT_EQ(outcome.verdicts[4].judgement.verdict, Verdict::unsafe);
+}
+
+TEST(CriticalGapStudy, ACoupledRunThatFailsMakesItIndeterminate) {
+  for (const bool throws : {true, false}) {
+    StudyOptions options = synthetic_options();
+    options.runners.coupled = [throws, agree = options.runners.coupled](const scene::Scene& scene, double gap,
+                                                                        const run::RunOptions& run) {
+      if (throws) throw std::runtime_error("broken");
+      run::CaseResult result = agree(scene, gap, run);
+      result.mechanics.status = run::RunStatus::non_finite;
+      return result;
+    };
+    const CriticalGapResult result =
+        run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
+    EXPECT_EQ(result.cases[0].critical.kind, CriticalGapKind::indeterminate);
+    EXPECT_NE(result.cases[0].critical.reason.find(throws ? "broken" : "non-finite"), std::string::npos);
+    EXPECT_TRUE(result.any_failed());
+  }
+}
+
+TEST(CriticalGapStudy, BoundsAreNotConfirmedAndNotNumbers) {
+  StudyOptions options = synthetic_options();
+  options.runners = synthetic_runners(1.0);
+  const std::string text =
+      critical_text +
+      "gaps = \"0, 0.001 cm\"\nlargest_gap = \"0.002 cm\"\n"
+      "accept = [{ key = \"largest_gap\", because = \"the search is to end without a gap\" }]\n";
+  const CriticalGapResult cold = run_critical_gap(study_of(text + synthetic_constants), options);
+  EXPECT_EQ(cold.cases[0].critical.kind, CriticalGapKind::all_safe);
+  EXPECT_TRUE(cold.cases[0].confirmations.empty());
+  EXPECT_EQ(cold.cases[0].verdicts[1].judgement.verdict, Verdict::safe);
+  options.runners = synthetic_runners(400.0);
+  const CriticalGapResult hot = run_critical_gap(study_of(text + synthetic_constants), options);
+  EXPECT_EQ(hot.cases[0].critical.kind, CriticalGapKind::all_ignite);
+  EXPECT_EQ(hot.cases[0].verdicts[0].judgement.verdict, Verdict::unsafe);
+}
+
+TEST(CriticalGapStudy, TheStatedMeshUncertaintyCanMakeAGapIndeterminate) {
+  const CriticalGapResult result = run_critical_gap(
+      study_of(critical_text + gap_keys + "numerical_uncertainty = \"60 K\"\n" + synthetic_constants),
+      synthetic_options());
+  const auto& rows = result.cases[0].verdicts;
+  EXPECT_EQ(rows[0].judgement.verdict, Verdict::safe) << rows[0].judgement.reason;
+  EXPECT_EQ(rows[3].judgement.verdict, Verdict::indeterminate) << rows[3].judgement.reason;
+}
+
+TEST(CriticalGapStudy, AnEmptyOrBrokenTraceIsIndeterminate) {
+  for (const bool empty : {true, false}) {
+    StudyOptions options = synthetic_options();
+    options.runners.mechanics = [empty](const scene::Scene& scene, const run::RunOptions&) {
+      run::MechanicsResult result = synthetic_mechanics(scene);
+      if (empty) result.trace = {};
+      if (!empty) result.trace.mean_bottom_pressure[100] = std::nan("");
+      return result;
+    };
+    const CriticalGapResult result =
+        run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
+    EXPECT_EQ(result.cases[0].critical.kind, CriticalGapKind::indeterminate);
+    for (const GapVerdict& row : result.cases[0].verdicts) {
+      if (row.gap > 0 || empty) {
+        EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate) << row.gap;
+      }
+    }
+  }
+}
+
+TEST(CriticalGapStudy, StoppedBeforeItBeganNothingIsSafe) {
+  std::atomic<bool> stop{true};
+  StudyOptions options = synthetic_options();
+  options.stop = &stop;
+  const CriticalGapResult result =
+      run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.timing.runs, 0u);
+  for (const GapVerdict& row : result.cases[0].verdicts)
+    EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
+}
+
+TEST(CriticalGapStudy, ComparesWithPublishedRows) {
+  const CriticalGapResult result =
+      run_critical_gap(study_of(critical_text + gap_keys +
+                                "reference = [{ gap = \"0.01 cm\", maximum_temperature = \"442.2 K\", "
+                                "early_temperature = \"339.1 K\" }]\n" +
+                                synthetic_constants),
+                       synthetic_options());
+  const auto& rows = result.cases[0].verdicts;
+  EXPECT_TRUE(std::isnan(rows[0].misfit()));
+  EXPECT_NEAR(rows[1].misfit(), rows[1].maximum.temperature - 442.2, 1e-12);
+  EXPECT_NEAR(rows[1].early_misfit(), rows[1].early.temperature - 339.1, 1e-12);
+}
+
+}  // namespace

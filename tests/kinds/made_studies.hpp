@@ -1,0 +1,222 @@
+// Sweeps and sensitivity studies made by hand, with every kind of answer in them.
+#pragma once
+
+#include "launchsafe/kinds/sensitivity.hpp"
+#include "launchsafe/kinds/sweep.hpp"
+#include "report/report_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace launchsafe::kinds {
+
+/// The shipped 155 mm scene as a study without cases.
+inline study::StudyFile bare_study(const study::KindTraits& kind, std::vector<double> gaps) {
+  study::StudyFile file;
+  file.file = "studies/made.toml";
+  file.study.kind = kind;
+  file.study.title = "A made study";
+  file.study.scene = "scene_155mm.toml";
+  file.study.gaps = std::move(gaps);
+  file.study.numerical_uncertainty = 1.2;
+  const auto scene =
+      scene::read_scene(std::filesystem::path(LAUNCHSAFE_SOURCE_DIR) / "studies" / "scene_155mm.toml");
+  EXPECT_TRUE(scene);
+  if (scene) file.scene = *scene;
+  return file;
+}
+
+inline study::Axis axis(const study::StudyFile& file, const std::string& name, const std::string& key,
+                        std::vector<double> values) {
+  const auto description = scene::describe_key(file.scene, key, {});
+  EXPECT_TRUE(description) << key;
+  return {name, "axes." + name, description ? *description : scene::KeyDescription{}, std::move(values)};
+}
+
+/// A gap that stays below ignition.
+inline study::GapVerdict verdict(double gap, study::Verdict verdict, double temperature) {
+  study::GapVerdict row;
+  row.gap = gap;
+  row.maximum = {temperature, 18e-3, "G1"};
+  row.early = {350.5, 10e-3, "G1"};
+  row.margin = 521.52 - temperature;
+  row.uncertainty.numerical = 1.2;
+  row.judgement = {verdict, verdict == study::Verdict::safe ? "margin over uncertainty" : "ignition"};
+  if (verdict == study::Verdict::unsafe)
+    row.ignition = study::NamedIgnition{surface::IgnitionCause::trigger, 17.86e-3, "G1", 0.1};
+  return row;
+}
+
+/// Answers of every kind; gaps are judged against the critical gap (m).
+inline study::CaseAnswer answer_with(const study::Study& study, double critical) {
+  study::CaseAnswer answer;
+  answer.run = {run::RunStatus::completed, 1000, 500, 2e-3, {}};
+  for (const double gap : study.gaps) {
+    const bool safe = gap < critical;
+    answer.verdicts.push_back(verdict(gap, safe ? study::Verdict::safe : study::Verdict::unsafe,
+                                      safe ? 416.1 + 2.7e5 * gap : 784.5));
+    answer.heated_temperature.push_back(416.1 + 2.7e5 * gap);
+  }
+  return answer;
+}
+
+inline study::CaseAnswer value_answer(const study::Study& study, double critical) {
+  study::CaseAnswer answer = answer_with(study, critical);
+  answer.critical.kind = study::CriticalGapKind::value;
+  answer.critical.value = critical;
+  answer.critical.lower = critical - 5e-7;
+  answer.critical.upper = critical + 5e-7;
+  answer.critical.uncertainty = 4e-6;
+  return answer;
+}
+
+inline study::CaseAnswer all_safe_answer(const study::Study& study) {
+  study::CaseAnswer answer = answer_with(study, 1.0);
+  answer.critical.kind = study::CriticalGapKind::all_safe;
+  answer.critical.lower = 1e-3;
+  answer.critical.reason = "no ignition up to 0.1 cm, where the search ended";
+  return answer;
+}
+
+inline study::CaseAnswer all_ignite_answer(const study::Study& study) {
+  study::CaseAnswer answer = answer_with(study, -1.0);
+  answer.critical.kind = study::CriticalGapKind::all_ignite;
+  answer.critical.upper = 0.0;
+  answer.critical.reason = "ignition at every gap, also without one";
+  return answer;
+}
+
+inline study::CaseAnswer broken_answer(const study::Study& study, const std::string& why) {
+  study::CaseAnswer answer;
+  answer.failure = why;
+  answer.run.status = run::RunStatus::energy_drift;
+  answer.critical.reason = why;
+  for (const double gap : study.gaps) {
+    study::GapVerdict row;
+    row.gap = gap;
+    row.judgement = {study::Verdict::indeterminate, why};
+    answer.verdicts.push_back(std::move(row));
+    answer.heated_temperature.push_back(study::not_a_number);
+  }
+  return answer;
+}
+
+using Answerer = std::function<study::CaseAnswer(const study::Study&, const std::vector<double>&)>;
+
+/// The full factorial of the study's axes, the last fastest, each case answered by a function of its
+/// coordinates.
+inline kinds::SweepResult swept(study::StudyFile file, const Answerer& answerer) {
+  std::vector<std::vector<double>> places{{}};
+  for (const study::Axis& each : file.study.axes) {
+    std::vector<std::vector<double>> longer;
+    for (const auto& place : places) {
+      for (const double value : each.values) {
+        longer.push_back(place);
+        longer.back().push_back(value);
+      }
+    }
+    places = std::move(longer);
+  }
+  kinds::SweepResult result;
+  for (auto& place : places) {
+    study::StudyCase input;
+    input.coordinates = place;
+    input.label = "case " + std::to_string(file.cases.size() + 1);
+    input.scene = file.scene;
+    file.cases.push_back(std::move(input));
+    result.answers.push_back(answerer(file.study, place));
+  }
+  result.study = std::move(file);
+  result.timing = {12.5, 3, 0, 1e6, 11.0, 2};
+  return result;
+}
+
+/// Critical gap in closed form: falls with pressure (Pa) and crack radius (m).
+inline double closed_form(double pressure, double crack_radius) {
+  return 3.95e-4 * std::pow(496e6 / pressure, 2.5) * std::pow(30e-6 / crack_radius, 0.5);
+}
+
+/// Pressure x crack radius with values, both bounds, and a failure in the middle.
+inline kinds::SweepResult made_sweep(std::vector<double> more = {}, const std::string& more_key = {}) {
+  study::StudyFile file = bare_study(kinds::traits_of("sweep"), {0, 1e-4, 2e-4, 3.9e-4, 4e-4});
+  file.study.axes = {
+      axis(file, "peak_pressure", "load.peak", {350e6, 400e6, 450e6, 496e6, 550e6, 600e6}),
+      axis(file, "crack_radius", "charge.crack_radius", {10e-6, 20e-6, 30e-6, 50e-6, 100e-6, 200e-6})};
+  if (!more.empty()) file.study.axes.push_back(axis(file, more_key, more_key, std::move(more)));
+  return swept(std::move(file), [](const study::Study& study, const std::vector<double>& place) {
+    const double critical = closed_form(place[0], place[1]);
+    if (place[0] == 450e6 && place[1] == 100e-6) return broken_answer(study, "energy drift 0.2 at 3 ms");
+    if (critical > 1e-3) return all_safe_answer(study);
+    if (critical < 1.1e-4) return all_ignite_answer(study);
+    study::CaseAnswer answer = value_answer(study, critical);
+    if (place[0] == 600e6) answer.run.limiters.crack_at_bound = 12;
+    return answer;
+  });
+}
+
+// --- sensitivity ---
+
+inline math::Estimate estimate(double value, double half) { return {value, value - half, value + half}; }
+
+/// Three inputs, 4 rows of a Saltelli design, the third evaluation failed.
+inline kinds::SensitivityResult made_sensitivity(kinds::SensitivityMethod method) {
+  study::StudyFile file = bare_study(kinds::traits_of("sensitivity"), {2e-4});
+  study::settings_of<kinds::SensitivitySettings>(file.study).method = method;
+  study::settings_of<kinds::SensitivitySettings>(file.study).samples = 4;
+  study::settings_of<kinds::SensitivitySettings>(file.study).design = math::Design::scrambled_sobol;
+  study::settings_of<kinds::SensitivitySettings>(file.study).trajectories = 5;
+  const auto input = [&](const std::string& name, const std::string& key, math::Distribution distribution) {
+    return study::Axis{name, "input.key", axis(file, name, key, {}).key, {}, distribution};
+  };
+  file.study.axes = {
+      input("peak_pressure", "load.peak", math::Distribution::uniform(400e6, 600e6)),
+      input("charge.crack_radius", "charge.crack_radius", math::Distribution::log_uniform(10e-6, 100e-6)),
+      input("flaw_size", "charge.flaw_size", math::Distribution::normal(1e-3, 0.1e-3, 0.5e-3, 1.5e-3))};
+  kinds::SensitivityResult result;
+  for (std::size_t i = 0; i < 20; ++i) {
+    study::StudyCase each;
+    each.label = "sample " + std::to_string(i / 5 + 1);
+    each.coordinates = {400e6 + 10e6 * static_cast<double>(i), 30e-6, 1e-3};
+    each.scene = file.scene;
+    file.cases.push_back(std::move(each));
+    result.answers.push_back(i == 2 ? broken_answer(file.study, "energy drift 0.2 at 3 ms")
+                                    : value_answer(file.study, 4e-4 - 1e-6 * static_cast<double>(i)));
+  }
+  for (const auto which : {kinds::SensitivityOutput::maximum_temperature,
+                           kinds::SensitivityOutput::critical_gap, kinds::SensitivityOutput::margin}) {
+    kinds::OutputSensitivity output;
+    output.output = which;
+    const bool is_gap = which == kinds::SensitivityOutput::critical_gap;
+    for (std::size_t i = 0; i < result.answers.size(); ++i)
+      output.values.push_back(is_gap ? result.answers[i].critical.value
+                                     : result.answers[i].heated_temperature.front());
+    output.missing = 1;
+    output.mean = is_gap ? 3.9e-4 : 470.0;
+    output.deviation = is_gap ? 5e-6 : 12.0;
+    const double scale = is_gap ? 1e-4 : 40.0;
+    if (method == kinds::SensitivityMethod::sobol) {
+      output.sobol.rows_used = 3;
+      output.sobol.rows_left_out = 1;
+      output.sobol.inputs = {{estimate(0.6, 0.1), estimate(0.7, 0.1)},
+                             {estimate(0.2, 0.1), estimate(0.3, 0.1)},
+                             {estimate(0.0, 0.01), estimate(0.02, 0.01)}};
+    } else {
+      output.morris = {{scale, estimate(scale, 0.1 * scale), 0.2 * scale, 5},
+                       {-0.5 * scale, estimate(0.5 * scale, 0.1 * scale), 0.4 * scale, 5},
+                       {0.0, estimate(0.45 * scale, 0.1 * scale), 0.1 * scale, 4}};
+    }
+    result.outputs.push_back(std::move(output));
+  }
+  result.study = std::move(file);
+  return result;
+}
+
+}  // namespace launchsafe::kinds

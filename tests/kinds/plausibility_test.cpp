@@ -1,0 +1,151 @@
+// Values that no launch has: their verdicts are in doubt, unless scene or study says why they are meant.
+#include "launchsafe/kinds/critical_gap.hpp"
+#include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/kinds/sweep.hpp"
+#include "launchsafe/study/accuracy_record.hpp"
+#include "launchsafe/study/case_answer.hpp"
+#include "study/synthetic_launch.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::kinds;
+using namespace launchsafe::study;
+
+/// A study that finds the gap 0 safe; more top-level keys before, more overrides after.
+std::string safe_study(const std::string& keys, const std::string& overrides = "") {
+  std::string text = keys + critical_kind + "gaps = \"0 cm\"\nconfirm = false\n";
+  for (const std::string key :
+       {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty", "model_form_uncertainty"}) {
+    if (keys.find(key) == std::string::npos) text += key + " = \"1 K\"\n";
+  }
+  return text + synthetic_constants + overrides;
+}
+
+const Judgement& judgement_in(const CriticalGapResult& result) {
+  return result.cases.at(0).verdicts.at(0).judgement;
+}
+
+CriticalGapResult run_safe_study(const std::string& keys, const std::string& overrides = "") {
+  return run_critical_gap(study_of(safe_study(keys, overrides)), synthetic_options());
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string accept(const std::string& key, const std::string& because) {
+  return fmt::format("accept = [{{ key = \"{}\", because = \"{}\" }}]\n", key, because);
+}
+
+TEST(StudyPlausibility, AVerdictOnWhatIsPlausibleSaysNothingOfIt) {
+  const Judgement judgement = judgement_in(run_safe_study(""));
+  EXPECT_EQ(judgement.verdict, Verdict::safe) << judgement.reason;
+  EXPECT_FALSE(says(judgement.reason, "plausible")) << judgement.reason;
+  EXPECT_FALSE(says(judgement.reason, "accepted")) << judgement.reason;
+}
+
+TEST(StudyPlausibility, AnImplausibleValueIsIndeterminateUntilItIsAccepted) {
+  // Key and what is printed of it, and how it is overridden.
+  const std::vector<std::array<std::string, 3>> edits{
+      {"gap.skin_thickness", "gap.skin_thickness = 1 cm", "gap.skin_thickness = \"1 cm\"\n"},
+      {"gap.air_pressure", "gap.air_pressure = 0.13 MPa",
+       "gap.air_pressure = \"130 kPa\"\ngap.air_density = \"1.51 kg/m3\"\n"},
+      {"charge.sliding_friction", "charge.sliding_friction = 0 ", "charge.sliding_friction = 0\n"},
+      {"charge.toughness", "charge.toughness = ", "charge.toughness = \"5e7 Pa m^0.5\"\n"},
+      {"numerics.energy_drift_limit", "numerics.energy_drift_limit = 100 ",
+       "numerics.energy_drift_limit = 100\n"},
+      {"body.wall.r",
+       "body.wall.r = ", "body.wall.r = \"6.5 to 6.53 cm\"\nnumerics.cell_size = \"0.5 mm\"\n"},
+      {"gap.gas_law", "gap.gas_law = 0.59", "gap.air_density = \"0.7 kg/m3\"\n"},
+  };
+  for (const auto& [key, named, overrides] : edits) {
+    const CriticalGapResult doubted = run_safe_study("", overrides);
+    EXPECT_EQ(judgement_in(doubted).verdict, Verdict::indeterminate) << key;
+    EXPECT_TRUE(says(judgement_in(doubted).reason, named)) << judgement_in(doubted).reason;
+    EXPECT_TRUE(says(judgement_in(doubted).reason, "not plausible")) << judgement_in(doubted).reason;
+    EXPECT_EQ(doubted.cases[0].critical.kind, CriticalGapKind::indeterminate) << key;
+    const std::string shell =
+        key.starts_with("body.") ? "{ key = \"calibration\", because = \"another shell\" }, " : "";
+    std::string reasons = accept(key, "it was measured so");
+    reasons.insert(reasons.find('[') + 1, shell);
+    const Judgement accepted = judgement_in(run_safe_study(reasons, overrides));
+    EXPECT_FALSE(says(accepted.reason, "not plausible")) << accepted.reason;
+    EXPECT_TRUE(says(accepted.reason, "accepted: " + key)) << accepted.reason;
+    EXPECT_TRUE(says(accepted.reason, "because it was measured so")) << accepted.reason;
+  }
+}
+
+TEST(StudyPlausibility, AStatedUncertaintyMustBePlausibleToo) {
+  for (const std::string key :
+       {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty", "model_form_uncertainty"}) {
+    for (const std::string value : {"0 K", "0.01 K"}) {
+      const std::string stated = fmt::format("{} = \"{}\"\n", key, value);
+      const Judgement doubted = judgement_in(run_safe_study(stated));
+      EXPECT_EQ(doubted.verdict, Verdict::indeterminate) << key;
+      EXPECT_TRUE(says(doubted.reason, key + " = ")) << doubted.reason;
+      const Judgement accepted = judgement_in(run_safe_study(stated + accept(key, "a test of the search")));
+      EXPECT_EQ(accepted.verdict, Verdict::safe) << accepted.reason;
+      EXPECT_TRUE(says(accepted.reason, "accepted: " + key)) << accepted.reason;
+    }
+    EXPECT_FALSE(parse_here(safe_study(key + " = \"1e300 K\"\n"))) << key;
+  }
+}
+
+TEST(StudyPlausibility, EveryCaseOfASweepIsJudgedOnItsOwnValues) {
+  const std::string text =
+      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = \"1 K\"\n" +
+      synthetic_statements + synthetic_constants +
+      "[axes]\ngap = \"0 cm\"\n\"gap.skin_thickness\" = \"0.1, 5 mm\"\n";
+  const SweepResult result = run_sweep(study_of(text), synthetic_options());
+  ASSERT_EQ(result.answers.size(), 2u);
+  EXPECT_EQ(result.answers[0].verdicts[0].judgement.verdict, Verdict::safe);
+  EXPECT_EQ(result.answers[1].verdicts[0].judgement.verdict, Verdict::indeterminate);
+  EXPECT_TRUE(says(result.answers[1].verdicts[0].judgement.reason, "gap.skin_thickness = 0.5 cm"))
+      << result.answers[1].verdicts[0].judgement.reason;
+}
+
+// Its hard cases ask what the computation makes of them; none may pass because its input is called
+// implausible.
+TEST(StudyPlausibility, AStabilityStudyJudgesWithoutIt) {
+  StudyFile study = study_of(safe_study("", "gap.skin_thickness = \"5 mm\"\n"));
+  const run::MechanicsResult mechanics = synthetic_mechanics(study.cases[0].scene.scene);
+  EXPECT_EQ(answer_of(study.study, study.cases[0], mechanics).verdicts[0].judgement.verdict,
+            Verdict::indeterminate);
+  study.study.kind = kinds::traits_of("stability");
+  EXPECT_EQ(answer_of(study.study, study.cases[0], mechanics).verdicts[0].judgement.verdict, Verdict::safe);
+}
+
+TEST(StudyPlausibility, EveryCaseOfTheShippedStudiesIsPlausible) {
+  // Studies of accuracy vary numerics beyond what a verdict may rest on.
+  for (const char* name :
+       {"critical_gap_155mm", "sweep_pressure_defect", "sweep_smoke", "sensitivity", "calibrate_table8"}) {
+    const auto study = read_study(studies_folder / (std::string(name) + ".toml"));
+    ASSERT_TRUE(study) << study.error().message();
+    EXPECT_TRUE(study->study.implausible.empty()) << name;
+    for (const StudyCase& each : study->cases) {
+      for (const scene::Implausible& value : scene::implausible_values(each.scene.scene))
+        ADD_FAILURE() << name << ", " << each.label << ": " << scene::doubt_text(value);
+    }
+  }
+}
+
+TEST(StudyPlausibility, AcceptancesOfAStudyReplaceThoseOfItsSceneAndReachEveryCase) {
+  const StudyFile study = study_of(accept("gap.skin_thickness", "a coated charge") + critical_text +
+                                   "peak_pressures = \"400, 496 MPa\"\n");
+  for (const StudyCase& each : study.cases) {
+    ASSERT_EQ(each.scene.scene.accepted.size(), 1u);
+    EXPECT_EQ(each.scene.scene.accepted[0].because, "a coated charge");
+  }
+  EXPECT_FALSE(parse_here(accept("gap.skin_thicknes", "a coated charge") + critical_text));
+}
+
+TEST(StudyPlausibility, AnAcceptanceIsNoOtherShellForAnAccuracyRecord) {
+  const StudyFile plain = study_of(critical_text);
+  const StudyFile accepted = study_of(accept("gap.skin_thickness", "a coated charge") + critical_text);
+  EXPECT_EQ(shell_of(plain.scene.scene), shell_of(accepted.scene.scene));
+}
+
+}  // namespace

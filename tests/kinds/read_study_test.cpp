@@ -1,0 +1,151 @@
+#include "launchsafe/kinds/read_study.hpp"
+
+#include "launchsafe/kinds/critical_gap.hpp"
+#include "study/read_error.hpp"
+#include "study/synthetic_launch.hpp"
+
+#include <cstddef>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::kinds;
+using namespace launchsafe::study;
+
+scene::InputError error_of(const std::string& text) {
+  const auto study = parse_here(text);
+  EXPECT_FALSE(study) << "the study was accepted";
+  return study ? scene::InputError{} : study.error();
+}
+
+/// A study with one more line must fail there.
+void expect_error(const std::string& line, const std::string& key, const std::string& found,
+                  const std::string& allowed = "") {
+  const scene::InputError error = error_of(critical_kind + line + "\n");
+  EXPECT_NE(error.file.find("some_study.toml"), std::string::npos) << error.message();
+  EXPECT_EQ(error.line, 3) << error.message();
+  EXPECT_EQ(error.key, key) << error.message();
+  EXPECT_NE(error.found.find(found), std::string::npos) << error.message();
+  EXPECT_NE(error.allowed.find(allowed), std::string::npos) << error.message();
+  EXPECT_FALSE(error.allowed.empty()) << error.message();
+}
+
+TEST(ReadStudy, SetsInterfacesThatTheSceneDoesNotHave) {
+  const std::string start = "kind = \"critical-gap\"\nscene = \"scene_155mm.toml\"\n";
+  const StudyFile study =
+      study_of(start + "[set]\ninterface.base.condition = \"sliding\"\ninterface.base.friction = 0\n");
+  ASSERT_EQ(study.scene.scene.interfaces.size(), 3u);  // nose and wall stand in the scene
+  EXPECT_EQ(study.scene.scene.interfaces[2].body, "base");
+  EXPECT_EQ(study.scene.scene.interfaces[2].friction, 0.0);
+  expect_error_in(start + "[set]\ninterface.base.condition = \"sliding\"\n",
+                  {4, "set.interface.base.condition", "without their friction", "interface.base.friction"});
+  expect_error_in(start + "[set]\ninterface.barrel.friction = 0.1\n",
+                  {4, "set.interface.barrel.friction", "unknown"});
+  expect_error_in(start + "[set]\ninterface.wall.condition = \"sliding\"\ninterface.wall.friction = 11\n",
+                  {5, "set.interface.wall.friction", "11", "0 to 10"});
+}
+
+TEST(ReadStudy, TheShippedStudiesAreValid) {
+  const auto critical = read_study(studies_folder / "critical_gap_155mm.toml");
+  ASSERT_TRUE(critical) << critical.error().message();
+  EXPECT_EQ(critical->study.kind.name, kinds::traits_of("critical-gap").name);
+  EXPECT_EQ(critical->study.gaps.size(), 6u);
+  EXPECT_EQ(critical->study.tolerance, 1e-6);
+  EXPECT_EQ(critical->study.references.size(), 6u);
+  EXPECT_EQ(critical->cases.size(), 1u);
+  const auto calibration = read_study(studies_folder / "calibrate_table8.toml");
+  ASSERT_TRUE(calibration) << calibration.error().message();
+  EXPECT_EQ(calibration->study.kind.name, kinds::traits_of("calibration").name);
+  ASSERT_EQ(calibration->cases.size(), 3u);
+  EXPECT_EQ(calibration->cases[1].cell_size, 2.5e-3);
+  EXPECT_EQ(calibration->cases[1].scene.scene.numerics.cell_size, 2.5e-3);
+}
+
+TEST(ReadStudy, TakesWhatItDoesNotSayFromTheScene) {
+  const StudyFile study = study_of(critical_kind);
+  EXPECT_EQ(study.study.gaps, study.scene.scene.surface.gaps);
+  ASSERT_EQ(study.cases.size(), 1u);
+  EXPECT_EQ(study.cases[0].label, "496 MPa, 30 um, 1 mm");
+  EXPECT_EQ(study.study.largest_gap, 1e-3);
+  EXPECT_TRUE(study::settings_of<kinds::CriticalGapSettings>(study.study).confirm);
+}
+
+TEST(ReadStudy, MakesTheProductOfPressuresAndDefects) {
+  const StudyFile study = study_of(critical_kind +
+                                   "peak_pressures = \"400, 500 MPa\"\ncrack_radii = \"10, 30, 100 um\"\n"
+                                   "flaw_sizes = \"1, 2 mm\"\n");
+  ASSERT_EQ(study.cases.size(), 12u);
+  EXPECT_EQ(study.cases[0].label, "400 MPa, 10 um, 1 mm");
+  EXPECT_EQ(study.cases[1].label, "400 MPa, 10 um, 2 mm");
+  EXPECT_EQ(study.cases[11].label, "500 MPa, 100 um, 2 mm");
+  EXPECT_EQ(study.cases[11].scene.scene.load.peak, 500e6);
+  EXPECT_EQ(study.cases[11].scene.scene.charge().strength.initial_crack_radius, 1e-4);
+  EXPECT_EQ(study.cases[11].scene.scene.charge().strength.flaw_size, 2e-3);
+}
+
+TEST(ReadStudy, OverridesSceneKeys) {
+  const StudyFile study =
+      study_of(critical_kind + "[set]\nnumerics.inertial_scaling = 16\n\"gap.exchange_time\" = \"0.5 ms\"\n");
+  EXPECT_EQ(study.cases.at(0).scene.scene.numerics.inertial_scaling, 16.0);
+  EXPECT_EQ(study.cases.at(0).scene.scene.surface.exchange_time, 5e-4);
+  EXPECT_EQ(study.overrides.size(), 2u);
+}
+
+TEST(ReadStudy, FaultsNameFileLineKeyFoundAndAllowed) {
+  expect_error("gaps = \"0, 0.01, 0.01 cm\"", "gaps", "twice", "once");
+  expect_error("gaps = []", "gaps", "empty");
+  expect_error("gaps = \"\"", "gaps", "");
+  expect_error("gaps = \"-0.01 cm\"", "gaps", "-0.01");
+  expect_error("gaps = \"nan cm\"", "gaps", "nan");
+  expect_error("gaps = [0.01]", "gaps", "without a unit");
+  expect_error("gaps = \"1 MPa\"", "gaps", "MPa");
+  expect_error("peak_pressures = \"500, 500 MPa\"", "peak_pressures", "twice");
+  expect_error("crack_radii = \"-1 um\"", "crack_radii", "-1");
+  expect_error("tolerance = \"0 cm\"", "tolerance", "0 cm");
+  expect_error("numerical_uncertainty = \"-2 K\"", "numerical_uncertainty", "-2");
+  expect_error("confirm = \"yes\"", "confirm", "yes");
+  expect_error("gap = \"0.01 cm\"", "gap", "kind \"sensitivity\"", "critical-gap");
+  expect_error("meshes = \"1 mm\"", "meshes", "kind \"calibration\"", "critical-gap");
+  expect_error("early_time = \"1 s\"", "early_time", "1 s", "18 ms");
+  expect_error("reference_line.slope = 2702.1", "reference_line.slope", "without an intercept");
+  expect_error("set = 3", "set", "3", "[set]");
+  expect_error("set = { numerics.cell_sise = \"1 mm\" }", "set.numerics.cell_sise", "unknown key");
+  expect_error("set = { numerics.cell_size = \"1 K\" }", "set.numerics.cell_size", "1 K");
+  expect_error("reference = [{ gap = \"0 cm\" }, { gap = \"0 cm\" }]", "reference.gap", "twice");
+  expect_error("reference = [{ maximum_temperature = \"400 K\" }]", "reference.gap", "missing");
+  expect_error("reference = [{ gap = \"0 cm\", temperature = \"400 K\" }]", "reference.temperature",
+               "unknown");
+}
+
+TEST(ReadStudy, AnUnknownKindNamesTheKindsThereAre) {
+  const scene::InputError error = error_of("kind = \"critical gap\"\nscene = \"scene_155mm.toml\"\n");
+  EXPECT_EQ(error.line, 1);
+  EXPECT_EQ(error.key, "kind");
+  EXPECT_NE(error.allowed.find("critical-gap"), std::string::npos) << error.message();
+  EXPECT_NE(error.allowed.find("calibration"), std::string::npos) << error.message();
+}
+
+TEST(ReadStudy, AMissingSceneIsNamedWhereItIsAskedFor) {
+  const scene::InputError error = error_of("kind = \"critical-gap\"\nscene = \"scene_155m.toml\"\n");
+  EXPECT_EQ(error.line, 2);
+  EXPECT_EQ(error.key, "scene");
+  EXPECT_NE(error.suggestion.find("scene_155mm.toml"), std::string::npos) << error.message();
+}
+
+TEST(ReadStudy, AMissingFileIsAnError) {
+  const auto study = read_study(studies_folder / "critical_gap_155.toml");
+  ASSERT_FALSE(study);
+  EXPECT_NE(study.error().suggestion.find("critical_gap_155mm.toml"), std::string::npos);
+}
+
+TEST(ReadStudy, ACalibrationNeedsItsRows) {
+  const std::string start = "kind = \"calibration\"\nscene = \"scene_155mm.toml\"\n";
+  EXPECT_EQ(error_of(start).key, "reference");
+  const std::string zero = "{ gap = \"0 cm\", maximum_temperature = \"416.1 K\", calibrated = true }";
+  const std::string wide = "{ gap = \"0.02 cm\", maximum_temperature = \"467.7 K\", calibrated = true }";
+  const scene::InputError error = error_of(start + "reference = [" + zero + ", " + wide + "]\n");
+  EXPECT_NE(error.found.find("no row that ignites"), std::string::npos) << error.message();
+  EXPECT_EQ(error.line, 3);
+}
+
+}  // namespace

@@ -1,0 +1,75 @@
+// Runs that fail before they begin are journaled like any other, whatever they were for.
+#include "launchsafe/kinds/calibration.hpp"
+#include "launchsafe/kinds/critical_gap.hpp"
+#include "launchsafe/run/model_version.hpp"
+#include "store/temporary_folder.hpp"
+#include "study/synthetic_launch.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::kinds;
+using namespace launchsafe::study;
+
+class RefusedRun : public launchsafe::testing::TemporaryFolder {
+ protected:
+  std::unique_ptr<store::CaseStore> open_store() {
+    auto store = store::CaseStore::open(folder() / "results", {"", run::model_version, {}});
+    EXPECT_TRUE(store) << (store ? "" : store.error().message);
+    return std::move(*store);
+  }
+  static StudyOptions options_with(store::CaseStore& store, double memory) {
+    StudyOptions options = synthetic_options();
+    options.store = &store;
+    options.memory_limit = memory;
+    return options;
+  }
+  static std::vector<store::JournalEntry> refused(const store::CaseStore& store) {
+    std::vector<store::JournalEntry> entries = store.entries();
+    std::erase_if(entries, [](const auto& entry) { return entry.state == store::CaseState::done; });
+    return entries;
+  }
+};
+
+constexpr double one_byte = 1.0, plenty = 1e15;
+
+const std::string gap_text = critical_text + "gaps = \"0, 0.05 cm\"\nnumerical_uncertainty = \"1 K\"\n";
+
+TEST_F(RefusedRun, OfAConfirmationIsJournaled) {
+  const auto store = open_store();
+  run_critical_gap(study_of(gap_text + "confirm = false\n" + synthetic_constants),
+                   options_with(*store, plenty));
+  ASSERT_TRUE(refused(*store).empty());
+  const CriticalGapResult result = run_critical_gap(
+      study_of(gap_text + "confirm = true\n" + synthetic_constants), options_with(*store, one_byte));
+  ASSERT_EQ(result.cases.front().confirmations.size(), 2u);
+  EXPECT_EQ(result.cases.front().critical.kind, CriticalGapKind::indeterminate);
+  const auto entries = refused(*store);
+  ASSERT_EQ(entries.size(), 2u);
+  for (const auto& entry : entries) {
+    EXPECT_EQ(entry.state, store::CaseState::failed);
+    EXPECT_NE(entry.label.find("coupled at"), std::string::npos) << entry.label;
+    EXPECT_NE(entry.reason.find("memory"), std::string::npos) << entry.reason;
+  }
+}
+
+TEST_F(RefusedRun, OfACalibrationIsJournaled) {
+  const auto store = open_store();
+  const std::string rows =
+      "reference = [ { gap = \"0 cm\", maximum_temperature = \"416 K\", calibrated = true },\n"
+      "{ gap = \"0.02 cm\", maximum_temperature = \"467 K\", calibrated = true },\n"
+      "{ gap = \"0.03 cm\", maximum_temperature = \"493 K\" },\n"
+      "{ gap = \"0.04 cm\", maximum_temperature = \"800 K\", ignition_time = \"17.7 ms\" } ]\n";
+  const StudyFile study =
+      study_of("kind = \"calibration\"\nscene = \"scene_155mm.toml\"\nmeshes = \"5, 10 mm\"\n" + rows +
+               synthetic_constants);
+  const CalibrationResult result = run_calibration(study, options_with(*store, one_byte));
+  EXPECT_TRUE(result.any_failed());
+  const auto entries = refused(*store);
+  ASSERT_EQ(entries.size(), 2u);
+  for (const auto& entry : entries) EXPECT_NE(entry.reason.find("memory"), std::string::npos) << entry.reason;
+}
+
+}  // namespace

@@ -1,0 +1,183 @@
+// The tables, page, JSON and pictures of sensitivity studies made by hand.
+#include "launchsafe/kinds/sensitivity_report.hpp"
+
+#include "kinds/made_studies.hpp"
+#include "report/gnuplot.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+namespace {
+
+using kinds::SensitivityMethod, kinds::SensitivityResult;
+
+std::string text_of(const Cell& cell) {
+  const auto* text = std::get_if<std::string>(&cell);
+  return text == nullptr ? "no text" : *text;
+}
+
+bool has_note(const Table& table, const std::string& part) {
+  return std::any_of(table.notes.begin(), table.notes.end(),
+                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
+}
+
+TEST(SensitivityReport, IndicesStandWithTheirIntervalsAndN) {
+  const SensitivityResult result = made_sensitivity(SensitivityMethod::sobol);
+  const Table table = sensitivity_table(result, result.outputs[0]);
+  EXPECT_EQ(table.title, "Sensitivity of T max at a gap of 0.02 cm");
+  EXPECT_EQ(keys_of(table), (std::vector<std::string>{"input", "distribution", "S1", "S1_low", "S1_high",
+                                                      "ST", "ST_low", "ST_high", "used", "of"}));
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_EQ(text_of(table.rows[0][0]), "peak pressure");
+  EXPECT_EQ(text_of(table.rows[0][1]), "uniform from 400 to 600 MPa");
+  EXPECT_EQ(text_of(table.rows[1][1]), "log-uniform from 10 to 100 um");
+  EXPECT_EQ(text_of(table.rows[2][1]), "normal, 1 +- 0.1 mm, cut off at 0.5 and 1.5 mm");
+  EXPECT_EQ(std::get<double>(table.rows[0][5]), 0.7);
+  EXPECT_NEAR(std::get<double>(table.rows[0][6]), 0.6, 1e-12);
+  EXPECT_EQ(std::get<std::int64_t>(table.rows[0][8]), 3);
+  EXPECT_EQ(std::get<std::int64_t>(table.rows[0][9]), 4);
+  for (const char* part : {"N = 4 rows", "20 evaluations", "scrambled Sobol", "seed 1", "95%", "Mean 470 K",
+                           "1 of 20 evaluations"})
+    EXPECT_TRUE(has_note(table, part)) << part;
+}
+
+TEST(SensitivityReport, EffectsHaveTheUnitOfTheOutput) {
+  const SensitivityResult result = made_sensitivity(SensitivityMethod::morris);
+  const Table kelvin = sensitivity_table(result, result.outputs[0]);
+  EXPECT_EQ(kelvin.columns[2].unit, "K");
+  EXPECT_EQ(std::get<double>(kelvin.rows[1][2]), -20.0);
+  EXPECT_EQ(std::get<double>(kelvin.rows[1][3]), 20.0);
+  EXPECT_EQ(std::get<std::int64_t>(kelvin.rows[2][7]), 4);
+  EXPECT_EQ(std::get<std::int64_t>(kelvin.rows[2][8]), 5);
+  EXPECT_TRUE(has_note(kelvin, "N = 5 trajectories on 4 levels"));
+  const Table gap = sensitivity_table(result, result.outputs[1]);
+  EXPECT_EQ(gap.columns[2].unit, "cm");
+  EXPECT_NEAR(std::get<double>(gap.rows[0][2]), 0.01, 1e-12);
+}
+
+TEST(SensitivityReport, AnOutputWithoutIndicesShowsTheReason) {
+  SensitivityResult result = made_sensitivity(SensitivityMethod::sobol);
+  result.outputs[1].bounds = 7;
+  result.outputs[1].missing = 8;
+  result.outputs[1].reason = "7 of 20 critical gaps are bounds, not numbers";
+  const Table table = sensitivity_table(result, result.outputs[1]);
+  for (const auto& row : table.rows) EXPECT_EQ(row.size(), 2u) << "no number is shown";
+  EXPECT_TRUE(has_note(table, "No indices: 7 of 20 critical gaps are bounds"));
+  EXPECT_TRUE(has_note(table, "8 of 20 evaluations have no number here, 7 of them bounds"));
+  EXPECT_NE(answer(result).find("The critical gap: no indices, 7 of 20 critical gaps are bounds"),
+            std::string::npos);
+  const std::string csv = to_csv(sensitivity_table(result));
+  EXPECT_NE(csv.find("critical_gap,,\"7 of 20 critical gaps are bounds, not numbers\",peak pressure,"),
+            std::string::npos)
+      << csv;
+  EXPECT_TRUE(to_json(result)["outputs"][1]["inputs"].empty());
+  EXPECT_EQ(to_json(result)["outputs"][1]["reason"], "7 of 20 critical gaps are bounds, not numbers");
+}
+
+TEST(SensitivityReport, RanksOnlyWhatTheIntervalsTellApart) {
+  SensitivityResult result = made_sensitivity(SensitivityMethod::sobol);
+  EXPECT_NE(answer(result).find("T max: by total order, peak pressure (0.7 [0.6, 0.8]), then "
+                                "charge.crack_radius (0.3 [0.2, 0.4]), then flaw size (0.02 [0.01, 0.03])."),
+            std::string::npos)
+      << answer(result);
+  EXPECT_NE(answer(result).find("without influence here: flaw size"), std::string::npos);
+  EXPECT_NE(answer(result).find("Failed: 1 of 20 evaluations (5.0%): sample 1 (energy drift"),
+            std::string::npos);
+  // The first two overlap now.
+  result.outputs.resize(1);
+  result.outputs[0].sobol.inputs[0].total = estimate(0.45, 0.2);
+  EXPECT_NE(answer(result).find("peak pressure (0.45 [0.25, 0.65]) and charge.crack_radius"),
+            std::string::npos)
+      << answer(result);
+  EXPECT_NE(answer(result).find("N = 4 rows do not tell peak pressure and charge.crack_radius apart"),
+            std::string::npos);
+  // And now all of them.
+  for (auto& input : result.outputs[0].sobol.inputs) input.total = estimate(0.5, 0.4);
+  EXPECT_NE(answer(result).find("N = 4 rows are too few to tell which matters more"), std::string::npos)
+      << answer(result);
+}
+
+TEST(SensitivityReport, WithoutIntervalsNothingIsRanked) {
+  SensitivityResult result = made_sensitivity(SensitivityMethod::morris);
+  result.outputs.resize(1);
+  for (auto& effects : result.outputs[0].morris)
+    effects.mu_star.lower = effects.mu_star.upper = study::not_a_number;
+  EXPECT_NE(answer(result).find("too few to tell"), std::string::npos) << answer(result);
+}
+
+TEST(SensitivityReport, EveryEvaluationIsARow) {
+  const SensitivityResult result = made_sensitivity(SensitivityMethod::sobol);
+  const Table table = evaluation_table(result);
+  ASSERT_EQ(table.rows.size(), 20u);
+  EXPECT_EQ(keys_of(table),
+            (std::vector<std::string>{"number", "evaluation", "peak_pressure_MPa", "charge_crack_radius_um",
+                                      "flaw_size_mm", "T_max_K", "critical_gap_cm", "margin_K",
+                                      "critical_gap_reads_as", "status", "failure"}));
+  EXPECT_EQ(std::get<double>(table.rows[4][2]), 440.0);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(table.rows[2][6]));
+  EXPECT_EQ(text_of(table.rows[2][10]), "energy drift 0.2 at 3 ms");
+}
+
+TEST(SensitivityReport, JsonHasMethodInputsOutputsAndEvaluations) {
+  const auto json = to_json(made_sensitivity(SensitivityMethod::morris));
+  EXPECT_EQ(json["kind"], "sensitivity");
+  EXPECT_EQ(json["method"]["name"], "morris");
+  EXPECT_EQ(json["method"]["N"], 5);
+  EXPECT_EQ(json["gap_cm"], 0.02);
+  EXPECT_EQ(json["failed"], 1);
+  EXPECT_EQ(json["outputs"][0]["inputs"][0]["mu_star"]["value"], 40.0);
+  EXPECT_EQ(json["outputs"][1]["unit"], "cm");
+  EXPECT_EQ(json["evaluations"].size(), 20u);
+  EXPECT_TRUE(json["evaluations"][2]["outputs"]["T_max_K"].is_null());
+  const auto sobol = to_json(made_sensitivity(SensitivityMethod::sobol));
+  EXPECT_EQ(sobol["outputs"][0]["inputs"][0]["ST"]["value"], 0.7);
+}
+
+TEST(SensitivityReport, PicturesHaveIntervals) {
+  const SensitivityResult sobol = made_sensitivity(SensitivityMethod::sobol);
+  const Plot indices = sensitivity_plot(sobol, sobol.outputs[0]);
+  ASSERT_EQ(indices.series.size(), 2u);
+  EXPECT_EQ(indices.series[0].style, Style::horizontal_bars);
+  EXPECT_EQ(indices.series[1].upper.size(), 3u);
+  EXPECT_EQ(indices.y.tics.front().label, "peak pressure");
+  const SensitivityResult morris = made_sensitivity(SensitivityMethod::morris);
+  const Plot effects = sensitivity_plot(morris, morris.outputs[1]);
+  ASSERT_EQ(effects.series.size(), 4u);
+  EXPECT_NEAR(effects.series[0].x.front(), 0.01, 1e-12);
+  EXPECT_NE(effects.x.label.find("[cm]"), std::string::npos);
+}
+
+TEST(SensitivityReport, WritesItsFilesTheSameEveryTime) {
+  const Folder folder;
+  for (const SensitivityMethod method : {SensitivityMethod::sobol, SensitivityMethod::morris}) {
+    SensitivityResult result = made_sensitivity(method);
+    const auto first = write_report(report_of(result), folder.path / "first");
+    result.timing = {99.0, 7, 29, 3e9, 88.0, 16};
+    const auto second = write_report(report_of(result), folder.path / "second");
+    ASSERT_TRUE(first) << first.error().message;
+    ASSERT_TRUE(second) << second.error().message;
+    EXPECT_EQ(first->files, second->files);
+    EXPECT_EQ(first->files.size(), gnuplot_is_there() ? 7u : 4u);
+    for (const std::string& name : first->files)
+      EXPECT_EQ(content_of(folder.path / "first" / name), content_of(folder.path / "second" / name)) << name;
+    std::filesystem::remove_all(folder.path);
+  }
+}
+
+TEST(SensitivityReport, ThePageSaysWhatWasVaried) {
+  const SensitivityResult result = made_sensitivity(SensitivityMethod::sobol);
+  const std::string page = to_markdown(report_of(result));
+  EXPECT_NE(page.find("`load.peak` is varied: uniform from 400 to 600 MPa"), std::string::npos);
+  EXPECT_NE(page.find("![sensitivity of T max](sensitivity_T_max.svg)"), std::string::npos);
+  EXPECT_NE(page.find("launchsafe study studies/made.toml -o DIR"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace launchsafe::kinds

@@ -1,0 +1,141 @@
+#include "launchsafe/kinds/sensitivity.hpp"
+
+#include "study/synthetic_launch.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::kinds;
+using namespace launchsafe::study;
+
+/// The margin is T1 minus T max, and T max at gap 0 of the synthetic launch is 300 K + 116.1 K of friction in
+/// proportion to the localisation: a linear function of the two inputs below, whatever the third is.
+std::string linear_text(const std::string& method) {
+  return "kind = \"sensitivity\"\nscene = \"scene_155mm.toml\"\ngap = \"0 cm\"\nlargest_gap = \"0.2 cm\"\n" +
+         method +
+         R"(input = [
+  { key = "friction.localisation", distribution = "uniform", range = "900 to 1700" },
+  { key = "kinetics.ignition_temperature", distribution = "uniform", range = "520 to 540 K" },
+  { key = "peak_pressure", distribution = "uniform", range = "450 to 500 MPa" },
+]
+[set]
+gap.exchange_time = "0.36 ms"
+kinetics.set = "comp-b"
+)";
+}
+
+struct Counted {
+  StudyOptions options;
+  std::shared_ptr<std::atomic<int>> runs = std::make_shared<std::atomic<int>>(0);
+  Counted() {
+    options.jobs = 2;
+    options.runners = synthetic_runners();
+    options.runners.mechanics = [count = runs](const scene::Scene& scene, const run::RunOptions&) {
+      ++*count;
+      return synthetic_mechanics(scene);
+    };
+  }
+};
+
+const OutputSensitivity& output_of(const SensitivityResult& result, SensitivityOutput which) {
+  for (const OutputSensitivity& each : result.outputs) {
+    if (each.output == which) return each;
+  }
+  ADD_FAILURE() << to_string(which);
+  return result.outputs.front();
+}
+
+void expect_holds(const math::Estimate& estimate, double expected, const std::string& what) {
+  EXPECT_LE(estimate.lower, expected) << what;
+  EXPECT_GE(estimate.upper, expected) << what;
+  EXPECT_LT(estimate.upper - estimate.lower, 0.3) << what;
+}
+
+// 116.1 K at localisation 1700: slope 0.0682941 K; ranges of 800 and of 20 K: variances (54.6353^2 and
+// 20^2)/12.
+TEST(Sensitivity, IndicesOfALinearMarginAreItsSharesOfTheVariance) {
+  const StudyFile study = study_of(linear_text("method = \"sobol\"\nsamples = 256\nseed = 7\n"));
+  ASSERT_EQ(study.cases.size(), 256u * 5u);
+  Counted counted;
+  const SensitivityResult result = run_sensitivity(study, counted.options);
+  const OutputSensitivity& margin = output_of(result, SensitivityOutput::margin);
+  EXPECT_EQ(margin.reason, "");
+  EXPECT_EQ(margin.missing, 0u);
+  const double friction = 54.6353 * 54.6353, trigger = 20.0 * 20.0, sum = friction + trigger;
+  expect_holds(margin.sobol.inputs[0].first, friction / sum, "localisation first");
+  expect_holds(margin.sobol.inputs[0].total, friction / sum, "localisation total");
+  expect_holds(margin.sobol.inputs[1].first, trigger / sum, "trigger first");
+  expect_holds(margin.sobol.inputs[1].total, trigger / sum, "trigger total");
+  EXPECT_NEAR(margin.sobol.inputs[2].total.value, 0.0, 1e-6);
+  EXPECT_NEAR(margin.mean, 530.0 - 388.782, 1.0);
+  EXPECT_NEAR(margin.deviation, std::sqrt(sum / 12.0), 1.0);
+  // T1 is nothing to T max.
+  const OutputSensitivity& temperature = output_of(result, SensitivityOutput::maximum_temperature);
+  EXPECT_NEAR(temperature.sobol.inputs[1].total.value, 0.0, 1e-9);
+}
+
+TEST(Sensitivity, ThermalInputsNeedNoMechanicalRunsOfTheirOwn) {
+  const StudyFile study = study_of(linear_text("method = \"sobol\"\nsamples = 16\n"));
+  Counted counted;
+  run_sensitivity(study, counted.options);
+  // A, B, and A with the pressure of B, which is the only mechanical input: its values are those of B.
+  EXPECT_EQ(*counted.runs, 2 * 16);
+}
+
+TEST(Sensitivity, MorrisEffectsOfALinearMarginAreItsRanges) {
+  const StudyFile study =
+      study_of(linear_text("method = \"morris\"\ntrajectories = 8\nlevels = 4\nseed = 3\n"));
+  ASSERT_EQ(study.cases.size(), 8u * 4u);
+  Counted counted;
+  const SensitivityResult result = run_sensitivity(study, counted.options);
+  const OutputSensitivity& margin = output_of(result, SensitivityOutput::margin);
+  ASSERT_EQ(margin.morris.size(), 3u);
+  // At 455 K the reaction adds some millikelvin: (Q Z/c) exp(-21700/455) = 13 K/s.
+  EXPECT_NEAR(margin.morris[0].mu, -54.6353, 0.02);
+  EXPECT_NEAR(margin.morris[0].mu_star.value, 54.6353, 0.02);
+  EXPECT_NEAR(margin.morris[0].sigma, 0.0, 0.02);
+  EXPECT_NEAR(margin.morris[1].mu, 20.0, 1e-6);
+  EXPECT_NEAR(margin.morris[2].mu_star.value, 0.0, 1e-6);
+}
+
+TEST(Sensitivity, ABoundIsNoNumber) {
+  // Up to 0.001 cm nothing ignites: every critical gap is a bound, which says nothing of what it depends on.
+  std::string text = linear_text("method = \"sobol\"\nsamples = 16\n");
+  text.replace(text.find("0.2 cm"), 6, "0.001 cm");
+  const StudyFile study = study_of(
+      "accept = [{ key = \"largest_gap\", because = \"no gap is to be found\" }, "
+      "{ key = \"friction.localisation\", because = \"the launch is synthetic\" }]\n" +
+      text);
+  Counted counted;
+  const SensitivityResult result = run_sensitivity(study, counted.options);
+  const OutputSensitivity& critical = output_of(result, SensitivityOutput::critical_gap);
+  EXPECT_EQ(critical.bounds, study.cases.size());
+  EXPECT_EQ(critical.reason, "80 of 80 critical gaps are bounds, not numbers");
+  EXPECT_TRUE(critical.sobol.inputs.empty());
+  EXPECT_EQ(output_of(result, SensitivityOutput::margin).reason, "");
+}
+
+TEST(Sensitivity, AFailedEvaluationTakesAwayItsRowAlone) {
+  const StudyFile study = study_of(linear_text("method = \"sobol\"\nsamples = 64\n"));
+  Counted counted;
+  const double failing = study.cases[5 * 5].scene.scene.load.peak;  // A of row 5
+  counted.options.runners.mechanics = [failing](const scene::Scene& scene, const run::RunOptions&) {
+    run::MechanicsResult result = synthetic_mechanics(scene);
+    if (scene.load.peak == failing) result.status = run::RunStatus::non_finite;
+    return result;
+  };
+  const SensitivityResult result = run_sensitivity(study, counted.options);
+  EXPECT_TRUE(result.any_failed());
+  const OutputSensitivity& margin = output_of(result, SensitivityOutput::margin);
+  EXPECT_EQ(margin.missing, 3u);  // A, and the two that share its mechanical run
+  EXPECT_EQ(margin.sobol.rows_used, 63u);
+  EXPECT_EQ(margin.sobol.rows_left_out, 1u);
+}
+
+}  // namespace

@@ -1,0 +1,206 @@
+// Answers that somebody edited: what is read back is what was written, or nothing.
+#include "launchsafe/run/model_version.hpp"
+#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/study/case_answer.hpp"
+#include "store/temporary_folder.hpp"
+#include "study/synthetic_launch.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+
+#ifdef LAUNCHSAFE_HAVE_RAPIDCHECK
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+#endif
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::kinds;
+using namespace launchsafe::study;
+using nlohmann::json;
+
+const StudyFile& some_study() {
+  static const StudyFile study =
+      study_of(critical_text + "gaps = \"0, 0.02, 0.04, 0.05 cm\"\nconfirm = false\n" +
+               "numerical_uncertainty = \"1 K\"\n" + synthetic_constants);
+  return study;
+}
+
+const std::string& some_line() {
+  static const std::string line = [] {
+    const StudyCase& input = some_study().cases.front();
+    return to_json_line(answer_of(some_study().study, input, synthetic_mechanics(input.scene.scene)));
+  }();
+  return line;
+}
+
+/// What a study would take a line for.
+std::optional<CaseAnswer> accepted(const std::string& line) {
+  auto answer = answer_from_json(line);
+  if (answer && !fits(*answer, some_study().study, some_study().cases.front())) return std::nullopt;
+  return answer;
+}
+
+TEST(StoredAnswer, HoldsNoVerdict) {
+  ASSERT_TRUE(accepted(some_line()));
+  EXPECT_EQ(some_line().find("verdict\""), std::string::npos);
+  EXPECT_EQ(some_line().find("INDETERMINATE"), std::string::npos);
+}
+
+// Each is one edit of a sound answer.
+TEST(StoredAnswer, ThatContradictsItselfIsNone) {
+  const std::map<std::string, std::function<void(json&)>> edits{
+      {"unknown status", [](json& a) { a["run"]["status"] = 7; }},
+      {"negative status", [](json& a) { a["run"]["status"] = -1; }},
+      {"status that is true", [](json& a) { a["run"]["status"] = false; }},
+      {"failed run without a failure", [](json& a) { a["run"]["status"] = 2; }},
+      {"unknown kind of critical gap", [](json& a) { a["critical"][0] = 4; }},
+      {"kind beyond 32 bits", [](json& a) { a["critical"][0] = 4294967296; }},
+      {"critical gap outside its bracket", [](json& a) { a["critical"][1] = 0.01; }},
+      {"bracket the wrong way round", [](json& a) { std::swap(a["critical"][2], a["critical"][3]); }},
+      {"critical gap surer than its bracket", [](json& a) { a["critical"][4] = 0; }},
+      {"critical gap with a part too few", [](json& a) { a["critical"].erase(5); }},
+      {"unknown cause of ignition", [](json& a) { a["verdicts"][3]["ignition"][0] = 2; }},
+      {"negative uncertainty", [](json& a) { a["verdicts"][0]["uncertainty"][3] = -50; }},
+      {"uncertainty that is a word", [](json& a) { a["verdicts"][0]["uncertainty"][3] = "1"; }},
+      {"uncertainty with a part too few", [](json& a) { a["verdicts"][0]["uncertainty"].erase(5); }},
+      {"uncertainty with a part too many", [](json& a) { a["verdicts"][0]["uncertainty"].push_back(0); }},
+      {"other margin", [](json& a) { a["verdicts"][1]["margin"] = 200; }},
+      {"cooler maximum", [](json& a) { a["verdicts"][1]["maximum"][0] = 400; }},
+      {"maximum colder than the beginning",
+       [](json& a) {
+         a["verdicts"][1]["maximum"][0] = 100;
+         a["verdicts"][1]["margin"] = 421;
+       }},
+      {"maximum after the end", [](json& a) { a["verdicts"][1]["maximum"][1] = 1; }},
+      {"peak with a part too few", [](json& a) { a["verdicts"][1]["early"].erase(2); }},
+      {"another gap", [](json& a) { a["verdicts"][1]["gap"] = 1e-4; }},
+      {"gaps in another order", [](json& a) { std::swap(a["verdicts"][0], a["verdicts"][1]); }},
+      {"a gap less", [](json& a) { a["verdicts"].erase(3); }},
+      {"heated temperatures of another number", [](json& a) { a["heated"].erase(0); }},
+      {"no doubt", [](json& a) { a["verdicts"][0].erase("doubt"); }},
+      {"no energy of the air", [](json& a) { a["verdicts"][0].erase("air"); }},
+      {"energy of the air with a part too few", [](json& a) { a["verdicts"][1]["air"].erase(3); }},
+      {"negative heat from the air", [](json& a) { a["verdicts"][1]["air"][0] = -1; }},
+      {"heat from the air that is no number", [](json& a) { a["verdicts"][1]["air"][0] = nullptr; }},
+      {"compression that supplies less than the air stores", [](json& a) { a["verdicts"][1]["air"][1] = 1; }},
+      {"negative limiters", [](json& a) { a["run"]["limiters"][0] = -1; }},
+  };
+  for (const auto& [name, edit] : edits) {
+    json answer = json::parse(some_line());
+    edit(answer);
+    EXPECT_FALSE(accepted(answer.dump())) << name;
+  }
+}
+
+TEST(StoredAnswer, VerdictsThatSomebodyWritesInAreNotRead) {
+  json answer = json::parse(some_line());
+  for (json& row : answer["verdicts"]) {
+    row["verdict"] = 0;
+    row["reason"] = "margin 300 K";
+  }
+  const auto read = accepted(answer.dump());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(to_json_line(*read), some_line());
+  EXPECT_EQ(read->verdicts[3].judgement.verdict, Verdict::unsafe);
+}
+
+TEST(StoredAnswer, ADoubtStaysOne) {
+  const StudyCase& input = some_study().cases.front();
+  run::MechanicsResult mechanics = synthetic_mechanics(input.scene.scene);
+  mechanics.monitor.clear();  // a run without a history is in doubt
+  const CaseAnswer answer = answer_of(some_study().study, input, mechanics);
+  ASSERT_EQ(answer.verdicts[0].judgement.verdict, Verdict::indeterminate);
+  const auto read = accepted(to_json_line(answer));
+  ASSERT_TRUE(read);
+  for (std::size_t i = 0; i < answer.verdicts.size(); ++i) {
+    EXPECT_EQ(read->verdicts[i].judgement.verdict, answer.verdicts[i].judgement.verdict) << i;
+    EXPECT_EQ(read->verdicts[i].judgement.reason, answer.verdicts[i].judgement.reason) << i;
+  }
+}
+
+#ifdef LAUNCHSAFE_HAVE_RAPIDCHECK
+
+const std::string key(32, 'a');
+
+/// A folder with one stored answer.
+class AnswerFolder : public launchsafe::testing::TemporaryFolder {
+ public:
+  AnswerFolder() { SetUp(); }
+  ~AnswerFolder() override { TearDown(); }
+  void TestBody() override {}
+
+  void store_answer() const {
+    auto store = store::CaseStore::open(folder(), {"", run::model_version, {}});
+    RC_ASSERT(static_cast<bool>(store));
+    (*store)->save_answer(key, some_line());
+  }
+  void replace_answers(const std::string& text) const {
+    std::ofstream(folder() / "answers.jsonl", std::ios::binary) << text;
+  }
+  std::optional<std::string> answer() const {
+    auto store = store::CaseStore::open_to_read(folder(), run::model_version);
+    RC_ASSERT(static_cast<bool>(store));
+    return (*store)->answer(key);
+  }
+};
+
+/// The line with the checksum that anybody can compute.
+std::string rehashed(const std::string& text) {
+  return key + " " + store::sha256(text).substr(0, 16) + " " + text + "\n";
+}
+
+/// Another value in the place of a number, a word or a list somewhere in an answer.
+json with_another_value(json answer) {
+  json* place = &answer;
+  while (place->is_structured() && !place->empty()) {
+    auto child = place->begin();
+    std::advance(child, *rc::gen::inRange<std::size_t>(0, place->size()));
+    place = &*child;
+    if (*rc::gen::inRange(0, 12) == 0) break;
+  }
+  *place = *rc::gen::element(json(0), json(1), json(7), json(-1), json(1e-9), json(300.5), json(1e300),
+                             json(nullptr), json(""), json(true), json::array(), json::object());
+  return answer;
+}
+
+RC_GTEST_PROP(StoredAnswerProperty, NoEditOfTheFileOfAnswersIsTakenForAnAnswer, ()) {
+  static const AnswerFolder folder;
+  static const bool stored = (folder.store_answer(), true);
+  RC_ASSERT(stored);
+  std::string file = rehashed(some_line());
+  if (*rc::gen::inRange(0, 2) == 0) {
+    for (int flips = *rc::gen::inRange(1, 4); flips > 0; --flips)
+      file[*rc::gen::inRange<std::size_t>(0, file.size())] = static_cast<char>(*rc::gen::inRange(0, 256));
+  } else {
+    file = rehashed(with_another_value(json::parse(some_line())).dump());
+  }
+  if (*rc::gen::inRange(0, 4) == 0) file = rehashed(some_line()) + file;
+  folder.replace_answers(file);
+  const auto answer = folder.answer();
+  RC_ASSERT(!answer || *answer == some_line());
+}
+
+// Also without the journal no edit is read as a verdict that contradicts what it stands beside.
+RC_GTEST_PROP(StoredAnswerProperty, AnEditThatIsReadIsJudgedOnWhatItSays, ()) {
+  const auto read = accepted(with_another_value(json::parse(some_line())).dump());
+  if (!read) return;
+  for (const GapVerdict& row : read->verdicts) {
+    if (row.judgement.verdict != Verdict::safe) continue;
+    RC_ASSERT(read->completed());
+    RC_ASSERT(!row.ignition);
+    RC_ASSERT(row.evidence.doubt.empty());
+    RC_ASSERT(row.margin > row.uncertainty.total());
+    RC_ASSERT(row.margin == 519.0 - row.maximum.temperature);
+  }
+}
+
+#endif
+
+}  // namespace

@@ -1,0 +1,369 @@
+// The tables, page, JSON and pictures of sweeps made by hand.
+#include "launchsafe/kinds/sweep_report.hpp"
+
+#include "kinds/made_studies.hpp"
+#include "report/gnuplot.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <regex>
+#include <string>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+namespace {
+
+using kinds::SweepResult;
+
+std::size_t column_of(const Table& table, const std::string& key) {
+  const auto keys = keys_of(table);
+  const auto found = std::find(keys.begin(), keys.end(), key);
+  EXPECT_NE(found, keys.end()) << key;
+  return static_cast<std::size_t>(found - keys.begin());
+}
+
+const Cell& cell(const Table& table, std::size_t row, const std::string& key) {
+  return table.rows.at(row).at(column_of(table, key));
+}
+
+std::string shown_text(const Cell& cell) {
+  const auto* text = std::get_if<std::string>(&cell);
+  return text == nullptr ? "no text" : *text;
+}
+
+bool is_empty(const Cell& cell) { return std::holds_alternative<std::monostate>(cell); }
+
+/// One axis of crack radii with every kind of answer.
+SweepResult one_axis() {
+  study::StudyFile file = bare_study(kinds::traits_of("sweep"), {0, 1e-4});
+  file.study.axes = {axis(file, "crack_radius", "charge.crack_radius", {5e-6, 30e-6, 50e-6, 100e-6, 400e-6}),
+                     axis(file, "flaw_size", "charge.flaw_size", {1e-3})};
+  return swept(std::move(file), [](const study::Study& study, const std::vector<double>& place) {
+    if (place[0] == 5e-6) return all_safe_answer(study);
+    if (place[0] == 50e-6) return broken_answer(study, "non-finite at 2 ms");
+    if (place[0] == 400e-6) return all_ignite_answer(study);
+    return value_answer(study, closed_form(496e6, place[0]));
+  });
+}
+
+TEST(SweepReport, TellsWhatEachAxisChanges) {
+  const SweepResult result = made_sweep();
+  const Table table = axis_effect_table(result);
+  ASSERT_EQ(table.rows.size(), 2u);
+  // Among values at one crack radius: the largest difference of closed forms over the pressures.
+  double most = 0.0;
+  for (std::size_t crack = 0; crack < 6; ++crack) {
+    double least = HUGE_VAL, largest = -HUGE_VAL;
+    for (std::size_t pressure = 0; pressure < 6; ++pressure) {
+      const study::CaseAnswer& answer = result.answers[6 * pressure + crack];
+      if (answer.critical.kind != study::CriticalGapKind::value) continue;
+      least = std::min(least, answer.critical.value);
+      largest = std::max(largest, answer.critical.value);
+    }
+    most = std::max(most, largest - least);
+  }
+  EXPECT_NEAR(std::get<double>(cell(table, 0, "critical_gap_change_cm")), 100.0 * most, 1e-12);
+  EXPECT_NE(to_markdown(report_of(result)).find("What each axis changes"), std::string::npos);
+}
+
+TEST(SweepReport, EveryCaseIsARowInTheUnitsPeopleUse) {
+  const Table table = critical_gap_table(made_sweep());
+  ASSERT_EQ(table.rows.size(), 36u);
+  const auto keys = keys_of(table);
+  EXPECT_EQ(keys[0], "peak_pressure_MPa");
+  EXPECT_EQ(keys[1], "crack_radius_um");
+  EXPECT_EQ(std::get<double>(cell(table, 7, "peak_pressure_MPa")), 400.0);
+  EXPECT_EQ(std::get<double>(cell(table, 8, "crack_radius_um")), 30.0) << "exactly, as it was written";
+  EXPECT_NEAR(std::get<double>(cell(table, 8, "critical_gap_cm")), 100 * closed_form(400e6, 30e-6), 1e-12);
+  EXPECT_EQ(shown_text(cell(table, 8, "kind")), "value");
+}
+
+TEST(SweepReport, ABoundIsNeverANumberAmongTheValues) {
+  SweepResult result = made_sweep();
+  // Even if someone had left a number in it.
+  for (study::CaseAnswer& answer : result.answers) {
+    if (answer.critical.kind != study::CriticalGapKind::value) answer.critical.value = 0.00077;
+  }
+  const Table table = critical_gap_table(result);
+  std::size_t bounds = 0;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (shown_text(cell(table, row, "kind")) == "value") continue;
+    ++bounds;
+    EXPECT_TRUE(is_empty(cell(table, row, "critical_gap_cm")));
+  }
+  EXPECT_EQ(bounds, 5u);
+  EXPECT_EQ(shown_text(cell(table, 0, "reads_as")), "> 0.1 cm");
+  EXPECT_EQ(shown_text(cell(table, 35, "reads_as")), "ignites without a gap");
+  EXPECT_EQ(shown_text(cell(table, 16, "reads_as")), "indeterminate");
+  const auto json = to_json(result);
+  EXPECT_EQ(json.dump().find("0.077"), std::string::npos);
+  EXPECT_TRUE(json["cases"][0]["critical_gap"]["value_cm"].is_null());
+  EXPECT_EQ(json["cases"][0]["critical_gap"]["kind"], "all-safe");
+  EXPECT_EQ(answer(result).find("0.077"), std::string::npos);
+}
+
+TEST(SweepReport, AFailedCaseHasItsReasonAndNoNumbers) {
+  const Table table = critical_gap_table(made_sweep());
+  EXPECT_EQ(shown_text(cell(table, 16, "status")), "energy drift");
+  EXPECT_EQ(shown_text(cell(table, 16, "reason")), "energy drift 0.2 at 3 ms");
+  EXPECT_TRUE(is_empty(cell(table, 16, "T_max_smallest_gap_K")));
+  EXPECT_TRUE(is_empty(cell(table, 16, "energy_drift")));
+  const Table matrix = verdict_matrix(made_sweep());
+  EXPECT_EQ(shown_text(matrix.rows[16].back()), "INDET.");
+  EXPECT_EQ(shown_text(matrix.rows[0].back()), "SAFE");
+  EXPECT_EQ(shown_text(matrix.rows[35].back()), "UNSAFE");
+  EXPECT_EQ(matrix.columns.back().name, "0.04 cm");
+}
+
+TEST(SweepReport, TheLongTableHasARowForEveryGap) {
+  const Table table = verdict_table(made_sweep());
+  EXPECT_EQ(table.rows.size(), 180u);
+  const auto keys = keys_of(table);
+  EXPECT_EQ((std::vector<std::string>{keys.begin(), keys.begin() + 4}),
+            (std::vector<std::string>{"peak_pressure_MPa", "crack_radius_um", "gap_cm", "T_max_K"}));
+  EXPECT_EQ(std::get<double>(cell(table, 8, "gap_cm")), 0.039);
+  EXPECT_EQ(shown_text(cell(table, 179, "ignition")), "T1 at 17.86 ms, G1");
+  const std::string csv = to_csv(table);
+  EXPECT_NE(csv.find("\r\n350,10,0,416.1,G1,"), std::string::npos);
+  EXPECT_NE(csv.find("\r\n450,100,0.01,NaN,"), std::string::npos);
+}
+
+TEST(SweepReport, TheAnswerCountsAndNames) {
+  const std::string text = answer(made_sweep());
+  EXPECT_NE(text.find("36 cases over peak pressure (350, 400, 450, 496, 550, 600 MPa) and crack radius"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("a value in 31 cases"), std::string::npos);
+  EXPECT_NE(text.find("more than 0.1 cm (the end of the search: a bound) in 3 cases"), std::string::npos);
+  EXPECT_NE(text.find("indeterminate in 1 case"), std::string::npos);
+  EXPECT_NE(text.find("at 550 MPa, 200 um"), std::string::npos) << "the smallest value";
+  EXPECT_NE(text.find("No gap is safe at 600 MPa, 200 um"), std::string::npos);
+  EXPECT_NE(text.find("130 SAFE, 45 UNSAFE, 5 INDETERMINATE"), std::string::npos);
+  EXPECT_NE(text.find("450 MPa, 100 um (energy drift 0.2 at 3 ms)"), std::string::npos);
+  EXPECT_NE(text.find("Limiters acted in 5 cases (crack bound 60"), std::string::npos);
+  EXPECT_EQ(text.find("assumed"), std::string::npos);
+  SweepResult assumed = made_sweep();
+  assumed.study.study.numerical_uncertainty = 60;
+  assumed.study.study.numerical_uncertainty_assumed = true;
+  assumed.study.uncertainty_source = "assumed, as the study states none";
+  EXPECT_NE(answer(assumed).find("60 K for mesh, step and scaling, assumed"), std::string::npos);
+}
+
+TEST(SweepReport, ManyFailuresAreNotAllListed) {
+  study::StudyFile file = bare_study(kinds::traits_of("sweep"), {0});
+  file.study.axes = {axis(file, "load.exponent", "load.exponent", {8, 9, 10, 11, 12, 13})};
+  const SweepResult result = swept(
+      std::move(file), [](const study::Study& study, const auto&) { return broken_answer(study, "broken"); });
+  EXPECT_NE(answer(result).find("load.exponent 8 (broken)"), std::string::npos) << answer(result);
+  EXPECT_NE(answer(result).find("and 3 more"), std::string::npos);
+  EXPECT_EQ(keys_of(critical_gap_table(result)).front(), "load_exponent");
+}
+
+TEST(SweepReport, TheAxesTakeTheUnitInWhichTheirValuesReadBest) {
+  study::StudyFile file = bare_study(kinds::traits_of("sweep"), {0});
+  const auto key_of = [&](const std::string& key, std::vector<double> values) {
+    study::StudyFile one = file;
+    one.study.axes = {axis(file, key, key, std::move(values))};
+    return keys_of(critical_gap_table(swept(
+                       one, [](const study::Study& study, const auto&) { return all_safe_answer(study); })))
+        .front();
+  };
+  EXPECT_EQ(key_of("charge.flaw_size", {0.5e-3, 1e-3, 2e-3}), "charge_flaw_size_mm");
+  EXPECT_EQ(key_of("charge.flaw_size", {1e-3, 2e-3, 4e-3}), "charge_flaw_size_mm");
+  EXPECT_EQ(key_of("charge.crack_radius", {10e-6, 30e-6, 100e-6}), "charge_crack_radius_um");
+  EXPECT_EQ(key_of("load.peak", {500e6, 1000e6, 1500e6}), "load_peak_MPa");
+  EXPECT_EQ(key_of("gap.exchange_time", {0.24e-3, 0.36e-3}), "gap_exchange_time_ms");
+  EXPECT_EQ(key_of("numerics.cell_size", {2.5e-3, 1.25e-3}), "numerics_cell_size_mm");
+  EXPECT_EQ(key_of("load.duration", {10e-3, 18e-3}), "load_duration_ms");
+  EXPECT_EQ(key_of("kinetics.ignition_temperature", {520, 525}), "kinetics_ignition_temperature_K");
+  EXPECT_EQ(key_of("friction.localisation", {700, 800}), "friction_localisation");
+}
+
+TEST(SweepReport, JsonHasAxesCountsAndCases) {
+  const SweepResult result = made_sweep();
+  const auto json = to_json(result);
+  EXPECT_EQ(json["kind"], "sweep");
+  EXPECT_EQ(json["axes"][0]["scene_key"], "load.peak");
+  EXPECT_EQ(json["axes"][1]["values"][2], 30.0);
+  EXPECT_EQ(json["counts"]["critical_gaps"]["value"], 31);
+  EXPECT_EQ(json["counts"]["verdicts"]["INDETERMINATE"], 5);
+  ASSERT_EQ(json["cases"].size(), 36u);
+  EXPECT_EQ(json["cases"][8]["coordinates"]["crack_radius_um"], 30.0);
+  EXPECT_EQ(json["cases"][8]["critical_gap"]["kind"], "value");
+  EXPECT_EQ(json["cases"][16]["failure"], "energy drift 0.2 at 3 ms");
+  EXPECT_TRUE(json["cases"][8]["failure"].is_null());
+  ASSERT_EQ(json["cases"][8]["verdicts"].size(), 5u);
+  EXPECT_EQ(json["cases"][8]["verdicts"][1]["gap_cm"], 0.01);
+  EXPECT_EQ(json["cases"][8]["verdicts"][1]["verdict"], "SAFE");
+  EXPECT_NEAR(json["cases"][8]["verdicts"][1]["heated_K"].get<double>(), 443.1, 1e-9);
+  EXPECT_TRUE(json["cases"][16]["verdicts"][0]["T_max_K"].is_null());
+}
+
+// --- pictures ---
+
+TEST(SweepPictures, TwoAxesMakeAMapOfTheGapAndOneLessItsUncertainty) {
+  const SweepPictures made = pictures(made_sweep());
+  ASSERT_EQ(made.pictures.size(), 2u);
+  EXPECT_EQ(made.pictures[0].file, "critical_gap.svg");
+  EXPECT_EQ(made.pictures[1].file, "safe_gap.svg");
+  const Plot& plot = made.pictures[0].plot;
+  EXPECT_EQ(plot.x.label, "peak pressure [MPa]");
+  EXPECT_EQ(plot.y.label, "crack radius [um]");
+  EXPECT_EQ(plot.x.scale, Scale::linear);
+  EXPECT_EQ(plot.y.scale, Scale::logarithmic) << "10 to 200 um is more than a decade";
+  const Map& map = *plot.map;
+  EXPECT_EQ(map.label, "critical gap [cm]");
+  EXPECT_NEAR(map.values[2 * 6 + 3], 0.0395, 1e-12);
+  // Of each cell and its uncertainty, as critical_gap_table has them.
+  EXPECT_NEAR(made.pictures[1].plot.map->values[2 * 6 + 3], 0.0395 - 0.0004, 1e-12);
+}
+
+TEST(SweepPictures, WhatIsNoValueIsHatchedByItsReason) {
+  const Map map = *pictures(made_sweep()).pictures.front().plot.map;
+  ASSERT_EQ(map.hatched.size(), 4u);
+  EXPECT_TRUE(map.hatched[0].cells.empty()) << "computed values";
+  EXPECT_EQ(map.hatched[1].label, "> 0.1 cm (bound)");
+  EXPECT_EQ(map.hatched[1].cells.size(), 3u);
+  EXPECT_EQ(map.hatched[2].cells, std::vector<std::size_t>{5 + 6 * 5}) << "600 MPa, 200 um";
+  EXPECT_EQ(map.hatched[3].cells, std::vector<std::size_t>{2 + 6 * 4}) << "450 MPa, 100 um";
+  for (const HatchedCells& hatched : map.hatched)
+    for (const std::size_t cell : hatched.cells) EXPECT_TRUE(std::isnan(map.values[cell])) << cell;
+  std::size_t coloured = 0;
+  for (const double value : map.values) coloured += std::isfinite(value) ? 1 : 0;
+  EXPECT_EQ(coloured, 31u);
+}
+
+TEST(SweepPictures, AGapThatDoesNotExceedItsUncertaintyIsNotSafe) {
+  SweepResult result = made_sweep();
+  result.answers[15].critical.uncertainty = 1.0;  // m
+  const Map map = *pictures(result).pictures[1].plot.map;
+  ASSERT_EQ(map.hatched[0].cells.size(), 1u);
+  EXPECT_EQ(map.hatched[0].label, "no gap surely safe");
+  EXPECT_TRUE(std::isnan(map.values[map.hatched[0].cells.front()]));
+}
+
+TEST(SweepPictures, AThirdAxisMakesAMapForEachOfItsValues) {
+  const auto made = pictures(made_sweep({0.5e-3, 1e-3, 2e-3}, "charge.flaw_size"));
+  ASSERT_EQ(made.pictures.size(), 6u);
+  EXPECT_EQ(made.pictures[0].plot.title, "Critical gap at charge.flaw_size 0.5 mm");
+  EXPECT_EQ(made.pictures[2].plot.title, "Critical gap at charge.flaw_size 2 mm");
+  EXPECT_EQ(made.pictures[2].file, "critical_gap_3.svg");
+  EXPECT_EQ(made.pictures[0].plot.map->maximum, made.pictures[2].plot.map->maximum) << "colours compare";
+  EXPECT_TRUE(made.remarks.empty());
+  std::vector<double> many;
+  for (int i = 1; i <= 12; ++i) many.push_back(1e-3 * i);
+  const SweepPictures cut = pictures(made_sweep(many, "charge.flaw_size"));
+  EXPECT_EQ(cut.pictures.size(), 18u);
+  ASSERT_EQ(cut.remarks.size(), 1u);
+  EXPECT_NE(cut.remarks[0].find("9 of the 12"), std::string::npos);
+}
+
+TEST(SweepPictures, OneAxisMakesACurveWithErrorBarsAndBounds) {
+  const SweepPictures made = pictures(one_axis());
+  ASSERT_EQ(made.pictures.size(), 1u);
+  EXPECT_EQ(made.pictures[0].file, "critical_gap.svg");
+  const Plot& curve = made.pictures[0].plot;
+  EXPECT_FALSE(curve.map);
+  EXPECT_EQ(curve.title, "Critical gap at flaw size 1 mm");
+  EXPECT_EQ(curve.x.scale, Scale::logarithmic);
+  ASSERT_EQ(curve.series.size(), 5u);
+  EXPECT_TRUE(std::isnan(curve.series[0].y[2])) << "the line breaks at the failure";
+  const Series& values = curve.series[1];
+  EXPECT_EQ(values.style, Style::vertical_bars);
+  EXPECT_EQ(values.x, (std::vector<double>{30, 100}));
+  EXPECT_NEAR(values.upper[0] - values.y[0], 4e-4, 1e-12);
+  EXPECT_NEAR(values.y[0] - values.lower[0], 4e-4, 1e-12);
+  EXPECT_EQ(curve.series[2].mark, Mark::up_triangle);
+  EXPECT_EQ(curve.series[2].y, std::vector<double>{0.1});
+  EXPECT_EQ(curve.series[2].label, "> 0.1 cm (bound)");
+}
+
+TEST(SweepPictures, SingleValuesMakeNoPicture) {
+  study::StudyFile file = bare_study(kinds::traits_of("sweep"), {0});
+  file.study.axes = {axis(file, "peak_pressure", "load.peak", {496e6})};
+  const SweepResult result = swept(
+      std::move(file), [](const study::Study& study, const auto&) { return value_answer(study, 4e-4); });
+  const SweepPictures made = pictures(result);
+  EXPECT_TRUE(made.pictures.empty());
+  const Folder folder;
+  const auto written = write_report(report_of(result), folder.path);
+  ASSERT_TRUE(written) << written.error().message;
+  EXPECT_TRUE(written->remarks.empty());
+}
+
+// --- files ---
+
+TEST(SweepReport, WritesItsFiles) {
+  const Folder folder;
+  const SweepResult result = made_sweep({1e-3, 2e-3}, "charge.flaw_size");
+  const auto written = write_report(report_of(result), folder.path);
+  ASSERT_TRUE(written) << written.error().message;
+  for (const char* name :
+       {"critical_gaps.csv", "critical_gaps.md", "verdicts.csv", "study.json", "report.md"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path / name)) << name;
+  for (const std::string& name : written->files)
+    EXPECT_TRUE(std::filesystem::exists(folder.path / name)) << name;
+  if (gnuplot_is_there()) {
+    EXPECT_TRUE(std::filesystem::exists(folder.path / "critical_gap.svg"));
+    EXPECT_TRUE(std::filesystem::exists(folder.path / "critical_gap_2.svg"));
+  }
+  EXPECT_EQ(nlohmann::ordered_json::parse(content_of(folder.path / "study.json")), to_json(result));
+  const std::string page = content_of(folder.path / "report.md");
+  EXPECT_TRUE(page.starts_with("# A made study\n\n72 cases")) << page.substr(0, 100);
+  EXPECT_NE(page.find("launchsafe study studies/made.toml -o DIR"), std::string::npos);
+  EXPECT_NE(page.find("`load.peak` is varied: 350, 400, 450, 496, 550, 600 MPa"), std::string::npos);
+  EXPECT_EQ(page.find("`load.peak` = "), std::string::npos) << "the scene's own value was not run";
+}
+
+TEST(SweepReport, NothingInTheFilesDependsOnTheRun) {
+  const Folder folder;
+  SweepResult result = made_sweep();
+  const auto first = write_report(report_of(result), folder.path / "first");
+  result.timing = {99.0, 7, 29, 3e9, 88.0, 16};
+  const auto second = write_report(report_of(result), folder.path / "second");
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->files, second->files);
+  for (const std::string& name : first->files)
+    EXPECT_EQ(content_of(folder.path / "first" / name), content_of(folder.path / "second" / name)) << name;
+}
+
+/// Pressures x crack radii on 100 gaps.
+SweepResult large_sweep(int pressures, int radii) {
+  std::vector<double> gaps, first, second;
+  for (int i = 0; i < 100; ++i) gaps.push_back(1e-5 * i);
+  for (int i = 0; i < pressures; ++i) first.push_back(300e6 + 10e6 * i);
+  for (int i = 0; i < radii; ++i) second.push_back(10e-6 + 5e-6 * i);
+  study::StudyFile file = bare_study(kinds::traits_of("sweep"), gaps);
+  file.study.axes = {axis(file, "peak_pressure", "load.peak", first),
+                     axis(file, "crack_radius", "charge.crack_radius", second)};
+  return swept(std::move(file), [](const study::Study& study, const std::vector<double>& place) {
+    return value_answer(study, closed_form(place[0], place[1]));
+  });
+}
+
+TEST(SweepReport, LongTablesAreCutOnThePage) {
+  const SweepResult result = large_sweep(15, 14);
+  const std::string page = to_markdown(report_of(result));
+  EXPECT_NE(page.find("The first 200 of 210 rows; all are in critical\\_gaps.csv."), std::string::npos);
+  EXPECT_NE(page.find("The verdicts at 100 gaps are too many"), std::string::npos);
+  EXPECT_LT(page.size(), 200'000u);
+}
+
+TEST(SweepReport, AHundredThousandRowsAreQuick) {
+  const SweepResult result = large_sweep(40, 30);
+  const auto start = std::chrono::steady_clock::now();
+  const std::string csv = to_csv(verdict_table(result));
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 120'001);
+  // A quarter of a second on a busy core; sanitizers take ten times as long.
+  EXPECT_LT(seconds, 5.0);
+}
+
+}  // namespace
+}  // namespace launchsafe::kinds
