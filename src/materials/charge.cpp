@@ -9,207 +9,180 @@ using namespace keys;
 namespace {
 
 /// Whenever a JWL constant changes, the initial energy follows, so that p(V = 1) = 0.
-void balance(Charge& charge) {
-  charge.eos.initial_energy = -jwl_cold_pressure(charge.eos, 1.0) / charge.eos.omega;
-}
+void balance(JwlParameters& eos) { eos.initial_energy = -jwl_cold_pressure(eos, 1.0) / eos.omega; }
 
 /// Whenever a number of the kinetics changes, their name follows.
-void rename(Charge& charge) { charge.kinetics.name = name_of(charge.kinetics); }
+void rename(KineticsParameters& kinetics) { kinetics.name = name_of(kinetics); }
 
-Key<Charge> crack_friction_key() {
-  Key<Charge> key{{.name = "charge.crack_friction",
-                   .kind = KeyKind::flag,
-                   .standing = Standing::literature,
-                   .sentence = "Friction between closed crack faces; false is face_friction = 0."},
-                  {},
-                  {}};
-  key.set = [](Charge& charge, const Value& value) {
-    double& friction = charge.strength.face_friction;
-    if (!std::get<bool>(value)) friction = 0.0;
-    if (std::get<bool>(value) && friction == 0.0) friction = ViscoScramParameters{}.face_friction;
+Key<ViscoScramParameters> crack_friction_key() {
+  return bound_key<ViscoScramParameters>(
+      {.name = "crack_friction",
+       .kind = KeyKind::flag,
+       .standing = Standing::literature,
+       .sentence = "Friction between closed crack faces; false is face_friction = 0."},
+      &ViscoScramParameters::face_friction,
+      [](double& friction, const Value& value) {
+        if (!std::get<bool>(value)) friction = 0.0;
+        if (std::get<bool>(value) && friction == 0.0) friction = ViscoScramParameters{}.face_friction;
+      },
+      [](double friction) { return friction > 0.0; });
+}
+
+std::vector<Key<ViscoScramParameters>> crack_keys() {
+  return {
+      plausibly(number_key("crack_radius", Dimension::length, between(0, 1), Standing::paper,
+                           "Mean crack radius c(0) before launch; 0 leaves the cracks out.",
+                           &ViscoScramParameters::initial_crack_radius),
+                between(1e-6, 5e-3),
+                "grains are micrometres to millimetres large, and 0 would leave the cracks out"),
+      plausibly(number_key("flaw_size", Dimension::length, between(0, 1), Standing::paper,
+                           "Flaw size a, which cracks are measured against; 0 leaves the cracks out.",
+                           &ViscoScramParameters::flaw_size),
+                between(1e-5, 1e-2),
+                "flaws are as far apart as grains to pebbles, and 0 would leave the cracks out"),
+      plausibly(
+          number_key("largest_crack_radius", Dimension::length, above_to(0, 1), Standing::assumed,
+                     "Crack radius at which growth stops.", &ViscoScramParameters::largest_crack_radius),
+          between(1e-3, 0.1), "a smaller bound would stop what heats the charge"),
+      plausibly(flag_key("crack_growth", Standing::paper, "Whether cracks grow; false freezes their radius.",
+                         &ViscoScramParameters::growth),
+                std::vector<std::string>{"true"}, "cracks grow under load, and what freezes them hides heat"),
+      plausibly(
+          number_key("largest_growth_speed", Dimension::speed, above_to(0, 1e4), Standing::paper,
+                     "Limit v_max of the crack growth speed.", &ViscoScramParameters::largest_growth_speed),
+          between(30, 1.5e3), "cracks run at a share of the Rayleigh wave speed, 1 km/s"),
+      plausibly(number_key("growth_exponent", Dimension::number, above_to(0, 100), Standing::paper,
+                           "Exponent m of slow crack growth.", &ViscoScramParameters::growth_exponent),
+                between(2, 50), "subcritical growth is fitted with 5 to 40"),
+      plausibly(number_key("toughness", Dimension::toughness, above_to(0, 1e9), Standing::paper,
+                           "Threshold stress intensity K0 of frictionless cracks.",
+                           &ViscoScramParameters::toughness),
+                between(1e5, 2e6), "explosives have 0.3 to 1 MPa m^0.5"),
+      plausibly(
+          overriding(number_key("face_friction", Dimension::number, between(0, 1.2), Standing::literature,
+                                "Friction coefficient mu_s of closed crack faces, which raises the "
+                                "toughness; 0 leaves it out.",
+                                &ViscoScramParameters::face_friction),
+                     {"crack_friction"}),
+          between(0, 0.8), "dry crystals rub with 0.3 to 0.6; 0 holds no crack back"),
+      always_plausible(overriding(crack_friction_key(), {"face_friction"}), "without it cracks grow sooner"),
+      plausibly(list_key("shear_moduli", Dimension::pressure, above_to(0, 1e12), Standing::paper,
+                         "Shear moduli G_n of the Maxwell elements.", &ViscoScramParameters::shear_moduli,
+                         maxwell_elements),
+                between(1e6, 1e10), "no part exceeds the whole, some GPa for a crystal"),
+      plausibly(list_key("relaxation_rates", Dimension::frequency, between(0, 1e15), Standing::paper,
+                         "Relaxation rates 1/tau_n of the Maxwell elements; 0 is an elastic spring.",
+                         &ViscoScramParameters::relaxation_rates, maxwell_elements),
+                between(0, 1e9), "faster than 1 ns nothing relaxes in a launch"),
   };
-  key.get = [](const Charge& charge) { return Value(charge.strength.face_friction > 0.0); };
-  return key;
 }
 
-std::vector<Key<Charge>> crack_keys() {
-  return {plausibly(number_key<Charge>(
-                        "charge.crack_radius", Dimension::length, between(0, 1), Standing::paper,
-                        "Mean crack radius c(0) before launch; 0 leaves the cracks out.",
-                        [](auto& s) -> auto& { return s.strength.initial_crack_radius; }),
-                    between(1e-6, 5e-3),
-                    "grains are micrometres to millimetres large, and 0 would leave the cracks out"),
-          plausibly(number_key<Charge>(
-                        "charge.flaw_size", Dimension::length, between(0, 1), Standing::paper,
-                        "Flaw size a, which cracks are measured against; 0 leaves the cracks out.",
-                        [](auto& s) -> auto& { return s.strength.flaw_size; }),
-                    between(1e-5, 1e-2),
-                    "flaws are as far apart as grains to pebbles, and 0 would leave the cracks out"),
-          plausibly(number_key<Charge>(
-                        "charge.largest_crack_radius", Dimension::length, above_to(0, 1), Standing::assumed,
-                        "Crack radius at which growth stops.",
-                        [](auto& s) -> auto& { return s.strength.largest_crack_radius; }),
-                    between(1e-3, 0.1), "a smaller bound would stop what heats the charge"),
-          plausibly(
-              flag_key<Charge>(
-                  "charge.crack_growth", Standing::paper, "Whether cracks grow; false freezes their radius.",
-                  [](auto& s) -> auto& { return s.strength.growth; }),
-              std::vector<std::string>{"true"}, "cracks grow under load, and what freezes them hides heat"),
-          plausibly(number_key<Charge>(
-                        "charge.largest_growth_speed", Dimension::speed, above_to(0, 1e4), Standing::paper,
-                        "Limit v_max of the crack growth speed.",
-                        [](auto& s) -> auto& { return s.strength.largest_growth_speed; }),
-                    between(30, 1.5e3), "cracks run at a share of the Rayleigh wave speed, 1 km/s"),
-          plausibly(number_key<Charge>(
-                        "charge.growth_exponent", Dimension::number, above_to(0, 100), Standing::paper,
-                        "Exponent m of slow crack growth.",
-                        [](auto& s) -> auto& { return s.strength.growth_exponent; }),
-                    between(2, 50), "subcritical growth is fitted with 5 to 40"),
-          plausibly(number_key<Charge>(
-                        "charge.toughness", Dimension::toughness, above_to(0, 1e9), Standing::paper,
-                        "Threshold stress intensity K0 of frictionless cracks.",
-                        [](auto& s) -> auto& { return s.strength.toughness; }),
-                    between(1e5, 2e6), "explosives have 0.3 to 1 MPa m^0.5"),
-          plausibly(
-              overriding(number_key<Charge>(
-                             "charge.face_friction", Dimension::number, between(0, 1.2), Standing::literature,
-                             "Friction coefficient mu_s of closed crack faces, which raises the toughness; 0 "
-                             "leaves it out.",
-                             [](auto& s) -> auto& { return s.strength.face_friction; }),
-                         {"charge.crack_friction"}),
-              between(0, 0.8), "dry crystals rub with 0.3 to 0.6; 0 holds no crack back"),
-          always_plausible(overriding(crack_friction_key(), {"charge.face_friction"}),
-                           "without it cracks grow sooner"),
-          plausibly(list_key<Charge>(
-                        "charge.shear_moduli", Dimension::pressure, above_to(0, 1e12), Standing::paper,
-                        "Shear moduli G_n of the Maxwell elements.",
-                        [](auto& s) -> auto& { return s.strength.shear_moduli; }, maxwell_elements),
-                    between(1e6, 1e10), "no part exceeds the whole, some GPa for a crystal"),
-          plausibly(list_key<Charge>(
-                        "charge.relaxation_rates", Dimension::frequency, between(0, 1e15), Standing::paper,
-                        "Relaxation rates 1/tau_n of the Maxwell elements; 0 is an elastic spring.",
-                        [](auto& s) -> auto& { return s.strength.relaxation_rates; }, maxwell_elements),
-                    between(0, 1e9), "faster than 1 ns nothing relaxes in a launch")};
+std::vector<Key<JwlParameters>> pressure_keys() {
+  return {
+      plausibly(number_key("density", Dimension::density, between(500, 25e3), Standing::paper,
+                           "Density before launch.", &JwlParameters::initial_density),
+                between(1e3, 2.3e3), "pressed and cast explosives have 1.5 to 2 g/cm3"),
+      plausibly(then(number_key("jwl.a", Dimension::pressure, above_to(0, 1e17), Standing::paper,
+                                "A of the unreacted JWL.", &JwlParameters::a),
+                     balance),
+                between(1e12, 1e16), "unreacted explosives are fitted with 17 to 950 TPa"),
+      plausibly(then(number_key("jwl.b", Dimension::pressure, between(-1e12, 1e12), Standing::paper,
+                                "B of the unreacted JWL.", &JwlParameters::b),
+                     balance),
+                between(-5e10, 0), "unreacted explosives are fitted with -4 to -7 GPa"),
+      plausibly(then(number_key("jwl.r1", Dimension::number, above_to(0, 100), Standing::paper,
+                                "R1 of the unreacted JWL.", &JwlParameters::r1),
+                     balance),
+                between(6, 20), "unreacted explosives are fitted with 10 to 14"),
+      plausibly(then(number_key("jwl.r2", Dimension::number, above_to(0, 100), Standing::paper,
+                                "R2 of the unreacted JWL.", &JwlParameters::r2),
+                     balance),
+                between(0.5, 3), "unreacted explosives are fitted with a tenth of R1"),
+      plausibly(then(number_key("jwl.omega", Dimension::number, above_to(0, 10), Standing::paper,
+                                "w of the unreacted JWL; its initial energy follows from p(V = 1) = 0.",
+                                &JwlParameters::omega),
+                     balance),
+                between(0.3, 1.5), "it is the Grueneisen coefficient of an organic solid"),
+  };
 }
 
-std::vector<Key<Charge>> pressure_and_heat_keys() {
-  return {plausibly(number_key<Charge>(
-                        "charge.density", Dimension::density, between(500, 25e3), Standing::paper,
-                        "Density before launch.", [](auto& s) -> auto& { return s.eos.initial_density; }),
-                    between(1e3, 2.3e3), "pressed and cast explosives have 1.5 to 2 g/cm3"),
-          plausibly(then(number_key<Charge>(
-                             "charge.jwl.a", Dimension::pressure, above_to(0, 1e17), Standing::paper,
-                             "A of the unreacted JWL.", [](auto& s) -> auto& { return s.eos.a; }),
-                         balance),
-                    between(1e12, 1e16), "unreacted explosives are fitted with 17 to 950 TPa"),
-          plausibly(then(number_key<Charge>(
-                             "charge.jwl.b", Dimension::pressure, between(-1e12, 1e12), Standing::paper,
-                             "B of the unreacted JWL.", [](auto& s) -> auto& { return s.eos.b; }),
-                         balance),
-                    between(-5e10, 0), "unreacted explosives are fitted with -4 to -7 GPa"),
-          plausibly(then(number_key<Charge>(
-                             "charge.jwl.r1", Dimension::number, above_to(0, 100), Standing::paper,
-                             "R1 of the unreacted JWL.", [](auto& s) -> auto& { return s.eos.r1; }),
-                         balance),
-                    between(6, 20), "unreacted explosives are fitted with 10 to 14"),
-          plausibly(then(number_key<Charge>(
-                             "charge.jwl.r2", Dimension::number, above_to(0, 100), Standing::paper,
-                             "R2 of the unreacted JWL.", [](auto& s) -> auto& { return s.eos.r2; }),
-                         balance),
-                    between(0.5, 3), "unreacted explosives are fitted with a tenth of R1"),
-          plausibly(then(number_key<Charge>(
-                             "charge.jwl.omega", Dimension::number, above_to(0, 10), Standing::paper,
-                             "w of the unreacted JWL; its initial energy follows from p(V = 1) = 0.",
-                             [](auto& s) -> auto& { return s.eos.omega; }),
-                         balance),
-                    between(0.3, 1.5), "it is the Grueneisen coefficient of an organic solid"),
-          plausibly(number_key<Charge>(
-                        "charge.tension_cutoff", Dimension::pressure, above_to(0, 1e12), Standing::assumed,
-                        "Tension that the charge bears; its pressure never falls below minus this.",
-                        [](auto& s) -> auto& { return s.tension_cutoff; }),
-                    between(1e5, 5e7), "explosives tear at 1 to 10 MPa"),
-          plausibly(number_key<Charge>(
-                        "charge.specific_heat", Dimension::specific_heat, between(100, 1e4), Standing::paper,
-                        "Specific heat.", [](auto& s) -> auto& { return s.specific_heat; }),
-                    between(900, 2.2e3), "explosives have 1.0 to 1.4 kJ/(kg K), the published model 1.78"),
-          plausibly(number_key<Charge>(
-                        "charge.conductivity", Dimension::conductivity, between(0, 1e4), Standing::paper,
-                        "Thermal conductivity.", [](auto& s) -> auto& { return s.conductivity; }),
-                    between(0.05, 1), "explosives have 0.1 to 0.5 W/(m K)"),
-          plausibly(number_key<Charge>(
-                        "charge.sliding_friction", Dimension::number, between(0, 10), Standing::paper,
-                        "Coefficient mu_d of the friction that heats the charge.",
-                        [](auto& s) -> auto& { return s.sliding_friction; }),
-                    between(0.1, 0.8), "solids rub with 0.1 to 0.8, and 0 would leave this heat out")};
+std::vector<Key<Charge>> heat_keys() {
+  return {
+      plausibly(number_key("tension_cutoff", Dimension::pressure, above_to(0, 1e12), Standing::assumed,
+                           "Tension that the charge bears; its pressure never falls below minus this.",
+                           &Charge::tension_cutoff),
+                between(1e5, 5e7), "explosives tear at 1 to 10 MPa"),
+      plausibly(number_key("specific_heat", Dimension::specific_heat, between(100, 1e4), Standing::paper,
+                           "Specific heat.", &Charge::specific_heat),
+                between(900, 2.2e3), "explosives have 1.0 to 1.4 kJ/(kg K), the published model 1.78"),
+      plausibly(number_key("conductivity", Dimension::conductivity, between(0, 1e4), Standing::paper,
+                           "Thermal conductivity.", &Charge::conductivity),
+                between(0.05, 1), "explosives have 0.1 to 0.5 W/(m K)"),
+      plausibly(
+          number_key("sliding_friction", Dimension::number, between(0, 10), Standing::paper,
+                     "Coefficient mu_d of the friction that heats the charge.", &Charge::sliding_friction),
+          between(0.1, 0.8), "solids rub with 0.1 to 0.8, and 0 would leave this heat out"),
+  };
 }
 
 /// A named set of kinetics, and what is its own in it.
-Key<Charge> kinetics_set_key() {
-  Key<Charge> key{
-      {.name = "kinetics.set",
+Key<KineticsParameters> kinetics_set_key() {
+  return bound_key<KineticsParameters>(
+      {.name = "set",
        .kind = KeyKind::word,
        .words = {"comp-b", "printed", "custom"},
        .standing = Standing::calibrated,
        .sentence = "Named decomposition kinetics: activation temperature 21700 K (comp-b) or 27000 K as "
                    "printed; custom says that the keys below make their own."},
-      {},
-      {}};
-  key.set = [](Charge& charge, const Value& value) {
-    const KineticsParameters named = named_kinetics(std::get<std::string>(value));
-    KineticsParameters& kinetics = charge.kinetics;
-    kinetics.name = named.name;
-    kinetics.heat_of_reaction = named.heat_of_reaction;
-    kinetics.frequency = named.frequency;
-    kinetics.activation_temperature = named.activation_temperature;
-  };
-  key.get = [](const Charge& charge) { return Value(charge.kinetics.name); };
-  return key;
+      std::identity{},
+      [](KineticsParameters& kinetics, const Value& value) {
+        const KineticsParameters named = named_kinetics(std::get<std::string>(value));
+        kinetics.name = named.name;
+        kinetics.heat_of_reaction = named.heat_of_reaction;
+        kinetics.frequency = named.frequency;
+        kinetics.activation_temperature = named.activation_temperature;
+      },
+      [](const KineticsParameters& kinetics) { return kinetics.name; });
 }
 
-std::vector<Key<Charge>> kinetics_keys() {
-  return {always_plausible(overriding(kinetics_set_key(), {"kinetics.heat_of_reaction", "kinetics.frequency",
-                                                           "kinetics.activation_temperature"}),
-                           "the numbers that it stands for are judged"),
-          plausibly(then(number_key<Charge>(
-                             "kinetics.heat_of_reaction", Dimension::specific_energy, between(0, 1e8),
-                             Standing::paper, "Heat Q that the reaction releases.",
-                             [](auto& s) -> auto& { return s.kinetics.heat_of_reaction; }),
-                         rename),
-                    between(1e6, 1e7), "explosives release 2 to 7 MJ/kg"),
-          plausibly(then(number_key<Charge>(
-                             "kinetics.frequency", Dimension::frequency, between(0, 1e30), Standing::paper,
-                             "Frequency factor Z of the Arrhenius law.",
-                             [](auto& s) -> auto& { return s.kinetics.frequency; }),
-                         rename),
-                    between(1e10, 1e24), "explosives are fitted with 1e11 to 1e20 1/s"),
-          plausibly(
-              then(number_key<Charge>(
-                       "kinetics.activation_temperature", Dimension::temperature_difference, above_to(0, 1e6),
-                       Standing::calibrated, "Activation energy over the gas constant, E/R.",
-                       [](auto& s) -> auto& { return s.kinetics.activation_temperature; }),
-                   rename),
-              between(1.2e4, 3.2e4), "explosives are fitted with 25 to 60 kcal/mol"),
-          plausibly(
-              number_key<Charge>(
-                  "kinetics.ignition_temperature", Dimension::temperature, above_to(0, 2e3),
-                  Standing::calibrated, "Temperature T1 that triggers ignition.",
-                  [](auto& s) -> auto& { return s.kinetics.ignition_temperature; }),
-              between(480, 560),
-              "Composition B explodes within seconds at 551 K, and published launches ask for 515 to 528 K"),
-          plausibly(number_key<Charge>(
-                        "kinetics.burnt_temperature", Dimension::temperature, above_to(0, 1e4),
-                        Standing::paper, "Temperature T2 at which the reaction is complete.",
-                        [](auto& s) -> auto& { return s.kinetics.burnt_temperature; }),
-                    between(600, 3.5e3), "it lies between the ignition and the flame of an explosive")};
+std::vector<Key<KineticsParameters>> kinetics_keys() {
+  return {
+      always_plausible(
+          overriding(kinetics_set_key(), {"heat_of_reaction", "frequency", "activation_temperature"}),
+          "the numbers that it stands for are judged"),
+      plausibly(
+          then(number_key("heat_of_reaction", Dimension::specific_energy, between(0, 1e8), Standing::paper,
+                          "Heat Q that the reaction releases.", &KineticsParameters::heat_of_reaction),
+               rename),
+          between(1e6, 1e7), "explosives release 2 to 7 MJ/kg"),
+      plausibly(then(number_key("frequency", Dimension::frequency, between(0, 1e30), Standing::paper,
+                                "Frequency factor Z of the Arrhenius law.", &KineticsParameters::frequency),
+                     rename),
+                between(1e10, 1e24), "explosives are fitted with 1e11 to 1e20 1/s"),
+      plausibly(then(number_key("activation_temperature", Dimension::temperature_difference, above_to(0, 1e6),
+                                Standing::calibrated, "Activation energy over the gas constant, E/R.",
+                                &KineticsParameters::activation_temperature),
+                     rename),
+                between(1.2e4, 3.2e4), "explosives are fitted with 25 to 60 kcal/mol"),
+      plausibly(
+          number_key("ignition_temperature", Dimension::temperature, above_to(0, 2e3), Standing::calibrated,
+                     "Temperature T1 that triggers ignition.", &KineticsParameters::ignition_temperature),
+          between(480, 560),
+          "Composition B explodes within seconds at 551 K, and published launches ask for 515 to 528 K"),
+      plausibly(number_key("burnt_temperature", Dimension::temperature, above_to(0, 1e4), Standing::paper,
+                           "Temperature T2 at which the reaction is complete.",
+                           &KineticsParameters::burnt_temperature),
+                between(600, 3.5e3), "it lies between the ignition and the flame of an explosive"),
+  };
 }
 
 }  // namespace
 
 std::vector<Key<Charge>> Charge::parameters() {
-  std::vector<Key<Charge>> all = crack_keys();
-  for (Key<Charge>& key : pressure_and_heat_keys()) all.push_back(std::move(key));
-  for (Key<Charge>& key : kinetics_keys()) all.push_back(std::move(key));
-  return all;
+  return joined({keys_of_part("charge.", &Charge::strength, crack_keys()),
+                 keys_of_part("charge.", &Charge::eos, pressure_keys()),
+                 keys_of_part<Charge>("charge.", std::identity{}, heat_keys()),
+                 keys_of_part("kinetics.", &Charge::kinetics, kinetics_keys())});
 }
 
 }  // namespace launchsafe::materials

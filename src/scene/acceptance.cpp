@@ -70,13 +70,12 @@ std::optional<InputError> check(const Acceptance& acceptance, const std::map<std
 
 const std::vector<Key<Acceptance>>& acceptance_keys() {
   static const std::vector<Key<Acceptance>> keys{
-      required(text_key<Acceptance>(
+      required(text_key(
           "key", Standing::input,
           "Key, or quantity that follows from keys, whose value is meant though it is not plausible.",
-          [](auto& a) -> auto& { return a.key; })),
-      required(text_key<Acceptance>(
-          "because", Standing::input, "Why, in words; printed beside every verdict.",
-          [](auto& a) -> auto& { return a.because; })),
+          &Acceptance::key)),
+      required(text_key("because", Standing::input, "Why, in words; printed beside every verdict.",
+                        &Acceptance::because)),
   };
   return keys;
 }

@@ -11,17 +11,15 @@ namespace launchsafe::scene {
 namespace {
 
 /// A number that may be absent.
-template <class Member>
 Key<Interface> optional_number_key(std::string name, Dimension dimension, Limits limits, std::string sentence,
-                                   Member member) {
-  Key<Interface> key{
-      {std::move(name), KeyKind::number, dimension, limits, {}, 0, Standing::input, std::move(sentence)},
-      {},
-      {}};
-  key.set = [member](Interface& faces, const Value& value) { faces.*member = std::get<double>(value) + 0.0; };
-  key.get = [member](const Interface& faces) { return Value((faces.*member).value_or(0.0)); };
-  key.is_written = [member](const Interface& faces) { return (faces.*member).has_value(); };
-  return key;
+                                   std::optional<double> Interface::*member) {
+  auto key = keys::bound_key<Interface>(
+      keys::description(std::move(name), KeyKind::number, Standing::input, std::move(sentence), dimension,
+                        limits),
+      member, [](auto& number, const Value& value) { number = std::get<double>(value) + 0.0; },
+      [](const auto& number) { return number.value_or(0.0); });
+  return written_where(std::move(key),
+                       [member](const Interface& faces) { return (faces.*member).has_value(); });
 }
 
 /// A fault of one interface, at the first of its keys that the file has.
@@ -87,19 +85,19 @@ std::optional<InputError> check_law(const SceneFile& file, const Interface& face
 
 const std::vector<Key<Interface>>& interface_keys() {
   static const std::vector<Key<Interface>> keys = {
-      keys::always_plausible(
-          required(word_key<Interface, Condition>(
-              "condition", Standing::input,
-              "How a body and the charge hold each other: bonded, or sliding with friction, free to part. "
-              "Bodies without a table are bonded.",
-              {{"bonded", Condition::bonded}, {"sliding", Condition::sliding}},
-              [](auto& faces) -> auto& { return faces.condition; })),
+      always_plausible(
+          required(word_key("condition", Standing::input,
+                            "How a body and the charge hold each other: bonded, or sliding with friction, "
+                            "free to part. Bodies without a table are bonded.",
+                            {{"bonded", Condition::bonded}, {"sliding", Condition::sliding}},
+                            &Interface::condition)),
           "launches are published with bonded charges, and shells are loaded with and without a bond"),
-      plausibly(optional_number_key("friction", Dimension::number, between(0, largest_friction),
-                                    "Coulomb's coefficient between the faces; to be given where they can "
-                                    "slide, 0 for smooth ones.",
-                                    &Interface::friction),
-                between(0, 1), "explosives on metals and lacquers are measured between 0.05 and 0.6"),
+      plausibly(
+          optional_number_key(
+              "friction", Dimension::number, between(0, largest_friction),
+              "Coulomb's coefficient between the faces; to be given where they can slide, 0 for smooth ones.",
+              &Interface::friction),
+          between(0, 1), "explosives on metals and lacquers are measured between 0.05 and 0.6"),
       plausibly(optional_number_key("tension_strength", Dimension::pressure, above_to(0, 1e12),
                                     "Tension at which the bond breaks for good; none: it never does.",
                                     &Interface::tension_strength),
@@ -216,8 +214,7 @@ std::vector<InterfaceText> describe_interfaces(const Scene& scene) {
     }
     const std::string sliding = fmt::format(
         "Coulomb's friction {:g} on the pressure of the same instant, no tension, faces may part; the heat "
-        "of "
-        "friction is told and heats no skin",
+        "of friction is told and heats no skin",
         faces->friction.value_or(0.0));
     if (!faces->tension_strength) {
       described.push_back({body, "sliding", sliding});
@@ -225,11 +222,10 @@ std::vector<InterfaceText> describe_interfaces(const Scene& scene) {
     }
     described.push_back(
         {body, "bonded until it breaks",
-         fmt::format(
-             "past {} of tension or {} of shear at a node, each by itself, the bond is gone there for "
-             "good; then {}",
-             format_quantity(*faces->tension_strength, Dimension::pressure),
-             format_quantity(faces->shear_strength.value_or(0.0), Dimension::pressure), sliding)});
+         fmt::format("past {} of tension or {} of shear at a node, each by itself, the bond is gone there "
+                     "for good; then {}",
+                     format_quantity(*faces->tension_strength, Dimension::pressure),
+                     format_quantity(faces->shear_strength.value_or(0.0), Dimension::pressure), sliding)});
   }
   return described;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -95,8 +96,8 @@ struct KeyDescription {
 /// A described key bound to a struct.
 template <class Owner>
 struct Key : KeyDescription {
-  std::function<void(Owner&, const Value&)> set;
-  std::function<Value(const Owner&)> get;
+  std::function<void(Owner&, const Value&)> set = {};
+  std::function<Value(const Owner&)> get = {};
   /// Whether the owner written back has the key; empty: always. What a key came later than, such as results
   /// that are stored, stays what it is where the key does nothing.
   std::function<bool(const Owner&)> is_written = {};
@@ -111,105 +112,164 @@ const Key<Owner>* find_key(const std::vector<Key<Owner>>& keys, std::string_view
   return found == keys.end() ? nullptr : &*found;
 }
 
-// --- Making keys. `member` is a pointer to the bound member, &Load::peak, or a function that returns a
-// reference to it. ---
+namespace detail {
+
+template <class Named, class Member>
+struct OwnerOf {
+  using type = Named;
+};
+template <class Owner, class Part>
+struct OwnerOf<void, Part Owner::*> {
+  using type = Owner;
+};
+
+}  // namespace detail
+
+/// The struct that a key is bound to: that of the pointer to its member, unless it is named.
+template <class Named, class Member>
+using OwnerOf = typename detail::OwnerOf<Named, Member>::type;
+/// The type of the bound member.
+template <class Named, class Member>
+using PartOf = std::remove_cvref_t<std::invoke_result_t<Member, OwnerOf<Named, Member>&>>;
+
+// --- Making keys. `member` is a pointer to the bound member, such as &Load::peak, or a function that returns
+// a reference to it; the owner has to be named for a function only. ---
+
+/// What there is to say about a key, without words.
+inline KeyDescription description(std::string name, KeyKind kind, Standing standing, std::string sentence,
+                                  Dimension dimension = Dimension::number, Limits limits = {},
+                                  std::size_t list_length = 0) {
+  return {.name = std::move(name),
+          .kind = kind,
+          .dimension = dimension,
+          .limits = limits,
+          .list_length = list_length,
+          .standing = standing,
+          .sentence = std::move(sentence)};
+}
+
+/// A key of that description: `assign(part, value)` fills the bound member, `read(part)` gives its value.
+template <class Owner, class Member, class Assign, class Read>
+Key<Owner> bound_key(KeyDescription described, Member member, Assign assign, Read read) {
+  Key<Owner> key{std::move(described)};
+  key.set = [member, assign](Owner& owner, const Value& value) { assign(std::invoke(member, owner), value); };
+  key.get = [member, read](const Owner& owner) { return Value(read(std::invoke(member, owner))); };
+  return key;
+}
 
 /// A quantity, or a whole number if the dimension is `count`.
-template <class Owner, class Member>
-Key<Owner> number_key(std::string name, Dimension dimension, Limits limits, Standing standing,
-                      std::string sentence, Member member) {
-  Key<Owner> key{
-      {std::move(name), KeyKind::number, dimension, limits, {}, 0, standing, std::move(sentence)}, {}, {}};
-  key.set = [member](Owner& owner, const Value& value) {
-    using Number = std::remove_reference_t<decltype(std::invoke(member, owner))>;
-    std::invoke(member, owner) = static_cast<Number>(std::get<double>(value));
-  };
-  key.get = [member](const Owner& owner) { return Value(static_cast<double>(std::invoke(member, owner))); };
-  return key;
+template <class Named = void, class Member>
+auto number_key(std::string name, Dimension dimension, Limits limits, Standing standing, std::string sentence,
+                Member member) {
+  using Number = PartOf<Named, Member>;
+  return bound_key<OwnerOf<Named, Member>>(
+      description(std::move(name), KeyKind::number, standing, std::move(sentence), dimension, limits), member,
+      [](Number& number, const Value& value) { number = static_cast<Number>(std::get<double>(value)); },
+      [](const Number& number) { return static_cast<double>(number); });
 }
 
-template <class Owner, class Member>
-Key<Owner> flag_key(std::string name, Standing standing, std::string sentence, Member member) {
-  Key<Owner> key{
-      {std::move(name), KeyKind::flag, Dimension::number, {}, {}, 0, standing, std::move(sentence)}, {}, {}};
-  key.set = [member](Owner& owner, const Value& value) {
-    std::invoke(member, owner) = std::get<bool>(value);
-  };
-  key.get = [member](const Owner& owner) { return Value(static_cast<bool>(std::invoke(member, owner))); };
-  return key;
+template <class Named = void, class Member>
+auto flag_key(std::string name, Standing standing, std::string sentence, Member member) {
+  return bound_key<OwnerOf<Named, Member>>(
+      description(std::move(name), KeyKind::flag, standing, std::move(sentence)), member,
+      [](bool& flag, const Value& value) { flag = std::get<bool>(value); }, [](bool flag) { return flag; });
 }
 
-template <class Owner, class Member>
-Key<Owner> text_key(std::string name, Standing standing, std::string sentence, Member member) {
-  Key<Owner> key{
-      {std::move(name), KeyKind::text, Dimension::number, {}, {}, 0, standing, std::move(sentence)}, {}, {}};
-  key.set = [member](Owner& owner, const Value& value) {
-    std::invoke(member, owner) = std::get<std::string>(value);
-  };
-  key.get = [member](const Owner& owner) { return Value(std::string(std::invoke(member, owner))); };
-  return key;
+template <class Named = void, class Member>
+auto text_key(std::string name, Standing standing, std::string sentence, Member member) {
+  return bound_key<OwnerOf<Named, Member>>(
+      description(std::move(name), KeyKind::text, standing, std::move(sentence)), member,
+      [](auto& text, const Value& value) { text = std::get<std::string>(value); },
+      [](const auto& text) { return std::string(text); });
 }
 
-/// One of several words, each standing for a value of an enumeration.
-template <class Owner, class Enumeration, class Member>
-Key<Owner> word_key(std::string name, Standing standing, std::string sentence,
-                    std::vector<std::pair<std::string, Enumeration>> words, Member member) {
-  Key<Owner> key{
-      {std::move(name), KeyKind::word, Dimension::number, {}, {}, 0, standing, std::move(sentence)}, {}, {}};
-  for (const auto& word : words) key.words.push_back(word.first);
-  key.set = [member, words](Owner& owner, const Value& value) {
-    for (const auto& [word, meaning] : words) {
-      if (word == std::get<std::string>(value)) std::invoke(member, owner) = meaning;
-    }
-  };
-  key.get = [member, words](const Owner& owner) {
-    for (const auto& [word, meaning] : words) {
-      if (meaning == std::invoke(member, owner)) return Value(word);
-    }
-    return Value(std::string{});
-  };
-  return key;
+/// One of several words, each standing for a value of the member's enumeration. The second parameter is that
+/// enumeration where the owner is named.
+template <class Named = void, class = void, class Member>
+auto word_key(std::string name, Standing standing, std::string sentence,
+              std::vector<std::pair<std::string, PartOf<Named, Member>>> words, Member member) {
+  using Enumeration = PartOf<Named, Member>;
+  KeyDescription described = description(std::move(name), KeyKind::word, standing, std::move(sentence));
+  for (const auto& word : words) described.words.push_back(word.first);
+  return bound_key<OwnerOf<Named, Member>>(
+      std::move(described), member,
+      [words](Enumeration& target, const Value& value) {
+        for (const auto& [word, meaning] : words)
+          if (word == std::get<std::string>(value)) target = meaning;
+      },
+      [words](const Enumeration& source) {
+        for (const auto& [word, meaning] : words)
+          if (meaning == source) return word;
+        return std::string{};
+      });
 }
 
 /// Quantities of one dimension in a container that is assigned or, if its length is fixed, filled.
-template <class Owner, class Member>
-Key<Owner> list_key(std::string name, Dimension dimension, Limits limits, Standing standing,
-                    std::string sentence, Member member, std::size_t fixed_length = 0) {
-  Key<Owner> key{
-      {std::move(name), KeyKind::list, dimension, limits, {}, fixed_length, standing, std::move(sentence)},
-      {},
-      {}};
-  key.set = [member](Owner& owner, const Value& value) {
-    const auto& numbers = std::get<std::vector<double>>(value);
-    auto& target = std::invoke(member, owner);
-    if constexpr (requires { target.assign(numbers.begin(), numbers.end()); }) {
-      target.assign(numbers.begin(), numbers.end());
-    } else {
-      std::copy_n(numbers.begin(), std::min(numbers.size(), target.size()), target.begin());
-    }
-  };
-  key.get = [member](const Owner& owner) {
-    const auto& source = std::invoke(member, owner);
-    return Value(std::vector<double>(source.begin(), source.end()));
-  };
-  return key;
+template <class Named = void, class Member>
+auto list_key(std::string name, Dimension dimension, Limits limits, Standing standing, std::string sentence,
+              Member member, std::size_t fixed_length = 0) {
+  return bound_key<OwnerOf<Named, Member>>(
+      description(std::move(name), KeyKind::list, standing, std::move(sentence), dimension, limits,
+                  fixed_length),
+      member,
+      [](auto& target, const Value& value) {
+        const auto& numbers = std::get<std::vector<double>>(value);
+        if constexpr (requires { target.assign(numbers.begin(), numbers.end()); }) {
+          target.assign(numbers.begin(), numbers.end());
+        } else {
+          std::copy_n(numbers.begin(), std::min(numbers.size(), target.size()), target.begin());
+        }
+      },
+      [](const auto& source) { return std::vector<double>(source.begin(), source.end()); });
 }
 
 /// "a to b", bound to two members.
-template <class Owner, class Begin, class End>
-Key<Owner> range_key(std::string name, Dimension dimension, Limits limits, Standing standing,
-                     std::string sentence, Begin begin, End end) {
-  Key<Owner> key{
-      {std::move(name), KeyKind::range, dimension, limits, {}, 2, standing, std::move(sentence)}, {}, {}};
-  key.set = [begin, end](Owner& owner, const Value& value) {
-    const auto& numbers = std::get<std::vector<double>>(value);
-    std::invoke(begin, owner) = numbers[0];
-    std::invoke(end, owner) = numbers[1];
-  };
-  key.get = [begin, end](const Owner& owner) {
-    return Value(std::vector<double>{std::invoke(begin, owner), std::invoke(end, owner)});
-  };
-  return key;
+template <class Named = void, class Begin, class End>
+auto range_key(std::string name, Dimension dimension, Limits limits, Standing standing, std::string sentence,
+               Begin begin, End end) {
+  using Owner = OwnerOf<Named, Begin>;
+  return bound_key<Owner>(
+      description(std::move(name), KeyKind::range, standing, std::move(sentence), dimension, limits, 2),
+      std::identity{},
+      [begin, end](Owner& owner, const Value& value) {
+        const auto& numbers = std::get<std::vector<double>>(value);
+        std::invoke(begin, owner) = numbers[0];
+        std::invoke(end, owner) = numbers[1];
+      },
+      [begin, end](const Owner& owner) {
+        return std::vector<double>{std::invoke(begin, owner), std::invoke(end, owner)};
+      });
+}
+
+/// The keys of a part as keys of the whole that holds it, their names and those that they override under a
+/// prefix. `member` is a pointer to the part, or a function that returns a reference to it.
+template <class Named = void, class Member>
+auto keys_of_part(const std::string& prefix, Member member,
+                  const std::vector<Key<PartOf<Named, Member>>>& keys) {
+  using Whole = OwnerOf<Named, Member>;
+  std::vector<Key<Whole>> lifted;
+  for (const auto& key : keys) {
+    Key<Whole>& own = lifted.emplace_back(Key<Whole>{static_cast<const KeyDescription&>(key)});
+    own.name = prefix + key.name;
+    for (std::string& other : own.overrides) other = prefix + other;
+    own.set = [member, set = key.set](Whole& whole, const Value& value) {
+      set(std::invoke(member, whole), value);
+    };
+    own.get = [member, get = key.get](const Whole& whole) { return get(std::invoke(member, whole)); };
+    if (key.is_written)
+      own.is_written = [member, is_written = key.is_written](const Whole& whole) {
+        return is_written(std::invoke(member, whole));
+      };
+  }
+  return lifted;
+}
+
+/// Several lists of keys one after the other.
+template <class Owner>
+std::vector<Key<Owner>> joined(std::initializer_list<std::vector<Key<Owner>>> lists) {
+  std::vector<Key<Owner>> all;
+  for (const auto& keys : lists) all.insert(all.end(), keys.begin(), keys.end());
+  return all;
 }
 
 /// The same key, but without a default: the user must give it.
@@ -223,6 +283,12 @@ Key<Owner> required(Key<Owner> key) {
 template <class Owner>
 Key<Owner> plausibly(Key<Owner> key, Limits limits, std::string because) {
   key.plausible = {.limits = limits, .because = std::move(because)};
+  return key;
+}
+/// The same key, of which also 0 is plausible, where it stands for "none".
+template <class Owner>
+Key<Owner> zero_or_plausibly(Key<Owner> key, Limits limits, std::string because) {
+  key.plausible = {.limits = limits, .or_zero = true, .because = std::move(because)};
   return key;
 }
 /// The same word or flag ("true"), of which only these are plausible, and why.
@@ -258,7 +324,7 @@ Key<Owner> overriding(Key<Owner> key, std::vector<std::string> others) {
 
 /// The same key, written back only where a condition holds.
 template <class Owner>
-Key<Owner> written_where(Key<Owner> key, std::function<bool(const Owner&)> condition) {
+Key<Owner> written_where(Key<Owner> key, std::type_identity_t<std::function<bool(const Owner&)>> condition) {
   key.is_written = std::move(condition);
   return key;
 }

@@ -73,26 +73,23 @@ inline std::vector<keys::Key<LinearElastic>> LinearElastic::parameters() {
   const auto number = [](const char* key, Dimension dimension, keys::Limits limits, const char* sentence,
                          auto member) {
     return keys::always_plausible(
-        keys::number_key<LinearElastic>(key, dimension, limits, keys::Standing::assumed, sentence, member),
+        keys::number_key(key, dimension, limits, keys::Standing::assumed, sentence, member),
         "it is for checks against closed forms, and no published launch is of it");
   };
-  return {
-      number(
-          "elastic.density", Dimension::density, between(500, 25e3), "Density before launch.",
-          [](auto& s) -> auto& { return s.density; }),
-      number(
-          "elastic.bulk_modulus", Dimension::pressure, above_to(0, 1e12), "Bulk modulus K.",
-          [](auto& s) -> auto& { return s.bulk; }),
-      number(
-          "elastic.shear_modulus", Dimension::pressure, above_to(0, 1e12), "Shear modulus G.",
-          [](auto& s) -> auto& { return s.shear; }),
-      number(
-          "elastic.specific_heat", Dimension::specific_heat, between(50, 1e4), "Specific heat.",
-          [](auto& s) -> auto& { return s.specific_heat; }),
-      number(
-          "elastic.conductivity", Dimension::conductivity, between(0, 1e4), "Thermal conductivity.",
-          [](auto& s) -> auto& { return s.conductivity; }),
-  };
+  return keys::keys_of_part<LinearElastic>(
+      "elastic.", std::identity{},
+      {
+          number("density", Dimension::density, between(500, 25e3), "Density before launch.",
+                 &LinearElastic::density),
+          number("bulk_modulus", Dimension::pressure, above_to(0, 1e12), "Bulk modulus K.",
+                 &LinearElastic::bulk),
+          number("shear_modulus", Dimension::pressure, above_to(0, 1e12), "Shear modulus G.",
+                 &LinearElastic::shear),
+          number("specific_heat", Dimension::specific_heat, between(50, 1e4), "Specific heat.",
+                 &LinearElastic::specific_heat),
+          number("conductivity", Dimension::conductivity, between(0, 1e4), "Thermal conductivity.",
+                 &LinearElastic::conductivity),
+      });
 }
 
 }  // namespace launchsafe::materials
