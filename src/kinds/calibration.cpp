@@ -28,7 +28,7 @@ using scene::FrictionClosure;
 std::vector<FrictionClosure> closures_of(const StudyFile& study) {
   if (!settings_of<CalibrationSettings>(study.study).fast_rise.empty())
     return {study.scene.scene.surface.friction};
-  return {FrictionClosure::literal, FrictionClosure::inelastic, FrictionClosure::none};
+  return {FrictionClosure::total_strain_rate, FrictionClosure::inelastic, FrictionClosure::none};
 }
 
 /// A kinetics to calibrate with.
@@ -170,7 +170,7 @@ void recommend_own(CalibrationResult& result, const std::string& kinetics, doubl
 void recommend(CalibrationResult& result) {
   const std::string kinetics = result.study.scene.scene.charge().kinetics.name;
   const double finest = mesh_range(result).first, mesh = recommended_mesh(result);
-  const CalibrationRow* literal = find_row(result, finest, FrictionClosure::literal, kinetics);
+  const CalibrationRow* total = find_row(result, finest, FrictionClosure::total_strain_rate, kinetics);
   const CalibrationRow* inelastic = find_row(result, finest, FrictionClosure::inelastic, kinetics);
   const auto usable = [](const CalibrationRow* row) { return row && std::isfinite(row->root_mean_square); };
   Recommendation& said = result.recommendation;
@@ -178,20 +178,20 @@ void recommend(CalibrationResult& result) {
     recommend_own(result, kinetics, mesh);
     return;
   }
-  if (!usable(literal) || !usable(inelastic)) {
+  if (!usable(total) || !usable(inelastic)) {
     said.reason =
         "no closure is recommended: not both could be calibrated on the finest mesh and compared with "
         "rows that are held out";
     return;
   }
-  const double gain = std::abs(literal->root_mean_square - inelastic->root_mean_square);
+  const double gain = std::abs(total->root_mean_square - inelastic->root_mean_square);
   const bool separates = gain > distinguishable_rms;
   // Where the hold-outs do not separate the closures, the scene keeps the one it has (if it has one).
   const bool keep_inelastic = study_closure(result) == FrictionClosure::inelastic;
   const bool choose_inelastic =
-      separates ? inelastic->root_mean_square < literal->root_mean_square : keep_inelastic;
-  const CalibrationRow* better = choose_inelastic ? inelastic : literal;
-  const CalibrationRow* other = choose_inelastic ? literal : inelastic;
+      separates ? inelastic->root_mean_square < total->root_mean_square : keep_inelastic;
+  const CalibrationRow* better = choose_inelastic ? inelastic : total;
+  const CalibrationRow* other = choose_inelastic ? total : inelastic;
   said.reason = fmt::format(
       "On the finest mesh ({:.6g} mm) \"{}\" misses the temperature hold-outs by {:.4g} K (RMS), \"{}\" by "
       "{:.4g} K{}. {}",

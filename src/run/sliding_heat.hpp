@@ -31,7 +31,7 @@ struct StepChange {
 };
 
 /// Friction heat of the step by closure, J per m3 of the charge at rest, with localisation 1: mu_d p V times
-/// the equivalent of the strain increment (literal), or of its inelastic part. None in tension.
+/// the equivalent of the total strain increment, or of its inelastic part. None in tension.
 inline std::array<double, trace::traced_closures> sliding_heat(double sliding_friction,
                                                                const StepChange& change) {
   const double pressure = change.pressure < 0.0 ? 0.0 : change.pressure;  // NaN stays one

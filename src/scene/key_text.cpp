@@ -38,6 +38,14 @@ void append_number(fmt::memory_buffer& text, double number, std::string_view uni
   }
 }
 
+/// The word under which a value is written to texts that identify what is stored: that of the version that
+/// first had it, so that results of earlier versions are found again.
+const std::string& stored_word(const KeyDescription& key, const std::string& word) {
+  for (const auto& [former, present] : key.former_words)
+    if (word == present) return former;
+  return word;
+}
+
 /// As toml++ writes it, which is in single quotes wherever nothing needs an escape.
 void append_string(fmt::memory_buffer& text, const std::string& string) {
   const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\'' && c != '\\'; };
@@ -143,7 +151,8 @@ void append_exact_toml(fmt::memory_buffer& text, const KeyDescription& key, cons
   const std::string_view unit = si_unit_of(key.dimension);
   if (const auto* number = std::get_if<double>(&value)) return append_number(text, *number, unit);
   if (const auto* flag = std::get_if<bool>(&value)) return append(text, *flag ? "true" : "false");
-  if (const auto* string = std::get_if<std::string>(&value)) return append_string(text, *string);
+  if (const auto* string = std::get_if<std::string>(&value))
+    return append_string(text, stored_word(key, *string));
   const auto& numbers = std::get<std::vector<double>>(value);
   if (numbers.empty()) return append(text, "[]");
   const std::string_view separator = key.kind == KeyKind::range ? " to " : ", ";

@@ -124,9 +124,7 @@ Term plan_friction_heat(const Scene& scene) {
   const double factor = scene.charge().sliding_friction * surface.localisation;
   if (!(factor > 0.0)) return {false, false, "sliding_friction or localisation is 0", factor, 0.0};
   return {true, false,
-          fmt::format("closure \"{}\", localisation {:.6g}",
-                      surface.friction == FrictionClosure::literal ? "literal" : "inelastic",
-                      surface.localisation),
+          fmt::format("closure \"{}\", localisation {:.6g}", word_of(surface.friction), surface.localisation),
           surface.localisation, 0.0};
 }
 

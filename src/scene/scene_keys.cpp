@@ -4,6 +4,7 @@
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace launchsafe::scene {
@@ -190,15 +191,22 @@ std::vector<Key<materials::AirParameters>> air_keys() {
   };
 }
 
+const std::vector<std::pair<std::string, FrictionClosure>>& closure_words() {
+  static const std::vector<std::pair<std::string, FrictionClosure>> words{
+      {"total strain rate", FrictionClosure::total_strain_rate},
+      {"inelastic", FrictionClosure::inelastic},
+      {"none", FrictionClosure::none}};
+  return words;
+}
+
 std::vector<Key<Surface>> friction_keys() {
   return {
-      plausibly(word_key("closure", Standing::assumed,
-                         "Which strain rate the sliding friction acts on: total, inelastic or none.",
-                         {{"literal", FrictionClosure::literal},
-                          {"inelastic", FrictionClosure::inelastic},
-                          {"none", FrictionClosure::none}},
-                         &Surface::friction),
-                std::vector<std::string>{"literal", "inelastic"},
+      plausibly(formerly(word_key("closure", Standing::assumed,
+                                  "Which strain rate the sliding friction acts on: total, inelastic or none. "
+                                  "Files may still say \"literal\" for the total strain rate.",
+                                  closure_words(), &Surface::friction),
+                         {"literal", "total strain rate"}),
+                std::vector<std::string>{"total strain rate", "inelastic"},
                 "without friction heat the published temperatures are missed by 80 K"),
       plausibly(
           number_key("localisation", Dimension::number, between(0, 1e6), Standing::calibrated,
@@ -366,6 +374,12 @@ void document(std::vector<DocumentedKey>& documented, const std::vector<Key<Owne
 }
 
 }  // namespace
+
+std::string_view word_of(FrictionClosure closure) {
+  const auto& words = closure_words();
+  return std::find_if(words.begin(), words.end(), [=](const auto& each) { return each.second == closure; })
+      ->first;
+}
 
 const std::vector<Key<Scene>>& scene_keys() {
   static const Keys keys = all_scene_keys();

@@ -130,6 +130,8 @@ Expected<std::vector<double>> read_numbers(const toml::node& node, const KeyDesc
 }
 
 Expected<Value> checked_word(const std::string& word, const KeyDescription& key, const Place& place) {
+  for (const auto& [former, present] : key.former_words)
+    if (word == former) return Value(present);
   if (std::find(key.words.begin(), key.words.end(), word) != key.words.end()) return Value(word);
   const std::string near = nearest_of(word, key.words);
   return error_for(place, key, '"' + word + '"', near.empty() ? near : '"' + near + '"');

@@ -36,6 +36,7 @@ inline constexpr std::array ignition_cause_names{
     Named{surface::IgnitionCause::trigger, "trigger"},
     Named{surface::IgnitionCause::arrhenius, "arrhenius"},
 };
+/// By closure of the friction; "literal" is the total strain rate, under the name that stored cases have.
 inline constexpr std::array<const char*, trace::traced_closures> closure_names{"literal", "inelastic"};
 
 /// A number of any integral type.

@@ -2,17 +2,7 @@
 
 namespace launchsafe::study {
 
-std::string to_string(scene::FrictionClosure closure) {
-  switch (closure) {
-    case scene::FrictionClosure::literal:
-      return "literal";
-    case scene::FrictionClosure::inelastic:
-      return "inelastic";
-    case scene::FrictionClosure::none:
-      return "none";
-  }
-  return "none";
-}
+std::string to_string(scene::FrictionClosure closure) { return std::string(scene::word_of(closure)); }
 
 std::string to_string(Use use) {
   switch (use) {

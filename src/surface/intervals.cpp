@@ -9,7 +9,7 @@ namespace {
 
 const std::vector<double>* friction_of(const SkinModel& model, const trace::BottomTrace& trace) {
   switch (model.surface.friction) {
-    case scene::FrictionClosure::literal:
+    case scene::FrictionClosure::total_strain_rate:
       return &trace.friction[0];
     case scene::FrictionClosure::inelastic:
       return &trace.friction[1];

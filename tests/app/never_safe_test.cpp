@@ -207,7 +207,7 @@ INSTANTIATE_TEST_SUITE_P(
               "confirm = false\nset = { interface = { wall = { friction = 0.2 } } }"}},
             "interface.wall.condition"},
         Mistake{"AnotherExplosive", in_table("charge", "density = \"1.6 g/cm3\""), "charge.density"},
-        Mistake{"AnotherClosure", in_scene("closure = \"literal\"", "closure = \"inelastic\""),
+        Mistake{"AnotherClosure", in_scene("closure = \"total strain rate\"", "closure = \"inelastic\""),
                 "friction.closure"},
         Mistake{"ColderConstants", in_scene("[friction]", "[friction]\nlocalisation = 600"),
                 "friction.localisation"},

@@ -19,7 +19,7 @@ double maximum_at(const surface::SkinModel& model, const trace::BottomTrace& tra
 /// Rows as a shell with the given constants would have published them.
 std::string published(const Constants& truth, const trace::BottomTrace& trace) {
   surface::SkinModel model = surface::skin_model(study_of(critical_text + synthetic_constants).scene.scene);
-  model.surface.friction = scene::FrictionClosure::literal;
+  model.surface.friction = scene::FrictionClosure::total_strain_rate;
   model.surface.localisation = truth.localisation;
   model.surface.exchange_time = truth.exchange_time;
   model.kinetics.ignition_temperature = model.kinetics.burnt_temperature;
@@ -42,18 +42,18 @@ TEST(Calibration, RecoversTheConstantsOfASyntheticTruth) {
   const Constants truth{951.0, 4.2e-4, not_a_number};
   const CalibrationResult result = run_calibration(
       study_of(calibration_text + published(truth, trace) + synthetic_constants), synthetic_options());
-  ASSERT_EQ(result.rows.size(), 3u);  // literal, inelastic, none
-  const CalibrationRow& literal = result.rows[0];
-  ASSERT_TRUE(literal.failure.empty()) << literal.failure;
-  EXPECT_NEAR(literal.calibrated.constants.localisation, truth.localisation, 1e-5);
-  EXPECT_NEAR(literal.calibrated.constants.exchange_time, truth.exchange_time, 1e-11);
-  EXPECT_LT(std::abs(literal.calibrated.zero_gap_misfit), 1e-6);
-  EXPECT_LT(std::abs(literal.calibrated.wide_gap_misfit), 1e-6);
-  EXPECT_GT(literal.calibrated.constants.ignition_temperature, literal.calibrated.ignition_lowest);
-  EXPECT_LT(literal.calibrated.constants.ignition_temperature, literal.calibrated.ignition_highest);
-  EXPECT_LT(literal.root_mean_square, 1e-5);
+  ASSERT_EQ(result.rows.size(), 3u);  // total strain rate, inelastic, none
+  const CalibrationRow& total = result.rows[0];
+  ASSERT_TRUE(total.failure.empty()) << total.failure;
+  EXPECT_NEAR(total.calibrated.constants.localisation, truth.localisation, 1e-5);
+  EXPECT_NEAR(total.calibrated.constants.exchange_time, truth.exchange_time, 1e-11);
+  EXPECT_LT(std::abs(total.calibrated.zero_gap_misfit), 1e-6);
+  EXPECT_LT(std::abs(total.calibrated.wide_gap_misfit), 1e-6);
+  EXPECT_GT(total.calibrated.constants.ignition_temperature, total.calibrated.ignition_lowest);
+  EXPECT_LT(total.calibrated.constants.ignition_temperature, total.calibrated.ignition_highest);
+  EXPECT_LT(total.root_mean_square, 1e-5);
   ASSERT_TRUE(result.recommendation.row.has_value()) << result.recommendation.reason;
-  EXPECT_EQ(result.rows[*result.recommendation.row].closure, scene::FrictionClosure::literal);
+  EXPECT_EQ(result.rows[*result.recommendation.row].closure, scene::FrictionClosure::total_strain_rate);
 }
 
 TEST(Calibration, FitsNothingButItsThreeRows) {
@@ -150,7 +150,7 @@ TEST(Calibration, SaysWhenTheEvidenceDoesNotTellTheClosuresApart) {
   const CalibrationResult result =
       run_calibration(study_of(calibration_text + rows + synthetic_constants), options);
   ASSERT_TRUE(result.recommendation.row.has_value()) << result.recommendation.reason;
-  EXPECT_EQ(result.rows[*result.recommendation.row].closure, scene::FrictionClosure::literal);
+  EXPECT_EQ(result.rows[*result.recommendation.row].closure, scene::FrictionClosure::total_strain_rate);
   EXPECT_NE(result.recommendation.reason.find("does not separate them"), std::string::npos)
       << result.recommendation.reason;
 }

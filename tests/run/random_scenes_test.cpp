@@ -93,7 +93,7 @@ std::string random_air() {
       "friction.localisation = {}\nkinetics.set = {}\n",
       between(0.01, 5), word({"reservoir", "balance", "film"}), word({"charge-bottom", "chamber"}),
       word({"rate", "per-step"}), between_ratios(1e-3, 10), between(220, 400),
-      word({"literal", "inelastic", "none"}), between(0, 1500), word({"comp-b", "printed"}));
+      word({"total strain rate", "inelastic", "none"}), between(0, 1500), word({"comp-b", "printed"}));
 }
 
 /// A load whose shape belongs to some hundred time steps of the scene.

@@ -1,5 +1,6 @@
 #include "launchsafe/study/run_cases.hpp"
 
+#include "scene/scene_text.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <atomic>
@@ -117,6 +118,16 @@ TEST(RunCases, ASecondRunIsNotBegunOnceTheFirstBrokeOff) {
   };
   outcomes_of(study_of(critical_kind), options);
   EXPECT_EQ(begun, 1);
+}
+
+/// The hash is that of the program in which the closure was called "literal": cases stored by it are found.
+TEST(RunCases, RenamedWordsKeepTheIdentityOfStoredCases) {
+  for (const std::string word : {"literal", "total strain rate"}) {
+    const std::string keys = "physics.conduction = \"on\"\nfriction.closure = \"" + word + "\"\n";
+    const auto file = scene::parse_scene(keys + scene::small_scene, "shell.toml");
+    ASSERT_TRUE(file) << file.error().message();
+    EXPECT_EQ(mechanics_run(file->scene, "").hash, "28c1d5af8c00cebcd0952bc79c055bd7") << word;
+  }
 }
 
 }  // namespace

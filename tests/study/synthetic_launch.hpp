@@ -97,7 +97,8 @@ inline Runners synthetic_runners(double kelvin = 116.1) {
 
 /// The constants that the synthetic launch is made for, on the hot side of the calibrated ones.
 inline const std::string synthetic_constants =
-    "[set]\nfriction.closure = \"literal\"\nfriction.localisation = 1700\ngap.exchange_time = \"0.29 ms\"\n"
+    "[set]\nfriction.closure = \"total strain rate\"\nfriction.localisation = 1700\ngap.exchange_time = "
+    "\"0.29 ms\"\n"
     "kinetics.set = \"comp-b\"\nkinetics.ignition_temperature = \"519 K\"\n";
 /// On a lattice of 2.5 mm whose cells do not grow, which needs no setting that tells what growth changes.
 inline const std::string constants_on_even_lattice =

@@ -77,6 +77,11 @@ struct Plausible {
   std::string because = {};             ///< a clause: why; where all is plausible, why that is
 };
 
+/// A word of an earlier version of the program, and the one that has taken its place.
+struct FormerWord {
+  std::string former, present;
+};
+
 /// All there is to say about a key, apart from where its value goes.
 struct KeyDescription {
   std::string name = {};  ///< dotted, such as "charge.crack_radius"
@@ -84,7 +89,10 @@ struct KeyDescription {
   Dimension dimension = Dimension::number;
   Limits limits = {};
   std::vector<std::string> words = {};  ///< of a word
-  std::size_t list_length = 0;          ///< of a list that has a fixed one; 0: any
+  /// Of a word: those of earlier versions. They are still read, and still written where a text is the
+  /// identity of what is stored (scene::exact_toml).
+  std::vector<FormerWord> former_words = {};
+  std::size_t list_length = 0;  ///< of a list that has a fixed one; 0: any
   Standing standing = Standing::assumed;
   std::string sentence = {};
   bool may_be_empty = false;                ///< of a list: [] is allowed
@@ -326,6 +334,13 @@ Key<Owner> overriding(Key<Owner> key, std::vector<std::string> others) {
 template <class Owner>
 Key<Owner> written_where(Key<Owner> key, std::type_identity_t<std::function<bool(const Owner&)>> condition) {
   key.is_written = std::move(condition);
+  return key;
+}
+
+/// The same word, one of which had another name in earlier versions.
+template <class Owner>
+Key<Owner> formerly(Key<Owner> key, FormerWord word) {
+  key.former_words.push_back(std::move(word));
   return key;
 }
 

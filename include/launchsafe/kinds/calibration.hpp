@@ -94,7 +94,7 @@ struct SelectionMisfit {
 /// One mesh with one friction closure and one kinetics.
 struct CalibrationRow {
   double cell_size = 0;  ///< m
-  scene::FrictionClosure closure = scene::FrictionClosure::literal;
+  scene::FrictionClosure closure = scene::FrictionClosure::total_strain_rate;
   std::string kinetics;
   bool calibratable = true;  ///< false for the closure "none": predictions with the scene's constants
   CalibratedConstants calibrated;
@@ -109,7 +109,7 @@ struct CalibrationRow {
 
 /// How much a constant moves from the coarsest to the finest mesh.
 struct Convergence {
-  scene::FrictionClosure closure = scene::FrictionClosure::literal;
+  scene::FrictionClosure closure = scene::FrictionClosure::total_strain_rate;
   std::string kinetics;
   double localisation_change = study::not_a_number;  ///< (finest - coarsest)/finest
   double exchange_time_change = study::not_a_number;

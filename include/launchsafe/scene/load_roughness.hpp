@@ -17,8 +17,8 @@ inline constexpr double least_roughness = 0.01;
 
 /// The integral of p |dp| over the simulated time, of the history that is simulated, over that of the same
 /// curve without noise, minus 1; 0 for the analytic load. Where strain follows pressure, as it does in a
-/// launch, the literal friction closure heats with this integral, so that a share roughness / (1 + roughness)
-/// of the rise is false.
+/// launch, friction on the total strain rate heats with this integral, so that a share roughness / (1 +
+/// roughness) of the rise is false.
 ///
 /// Without noise means without swings that are smaller than eight standard deviations of the measured points
 /// about a cubic through their four neighbours, or than a hundredth of the peak: humps and steps that are

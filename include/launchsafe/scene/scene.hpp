@@ -22,7 +22,10 @@ enum class Barrel { rigid, none };
 enum class Switch { automatic, on, off };
 /// Which configuration gradients and transfer refer to: the one at rest, or the present one (uGIMP).
 enum class Formulation { total_lagrangian, updated_lagrangian };
-enum class FrictionClosure { literal, inelastic, none };
+/// Which strain rate of the charge the sliding friction heats with.
+enum class FrictionClosure { total_strain_rate, inelastic, none };
+/// The word of a closure in scene files and reports: "total strain rate", "inelastic" or "none".
+std::string_view word_of(FrictionClosure closure);
 enum class AirPressure { charge_bottom, chamber };
 enum class AirModel { reservoir, balance, film };
 enum class Exchange { rate, per_step };
@@ -72,7 +75,7 @@ struct Surface {
   double exchange_time = 3.04915e-4;  ///< tau_ex, s [C]
   /// Stations tile the charge's bottom by about this width and this depth, m.
   double station_width = 5e-3, station_depth = 5e-3;
-  FrictionClosure friction = FrictionClosure::literal;
+  FrictionClosure friction = FrictionClosure::total_strain_rate;
   double localisation = 1508.09;  ///< [C]
 };
 

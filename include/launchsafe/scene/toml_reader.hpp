@@ -29,7 +29,7 @@ using keys::Key, keys::KeyDescription, keys::KeyKind, keys::Value;
 using keys::Limits, keys::Plausible, keys::Standing;
 using keys::above, keys::above_to, keys::any_number, keys::at_least, keys::between;
 using keys::flag_key, keys::list_key, keys::number_key, keys::range_key, keys::text_key, keys::word_key;
-using keys::always_plausible, keys::may_be_empty, keys::overriding, keys::plausibly, keys::required, keys::then;
+using keys::always_plausible, keys::formerly, keys::may_be_empty, keys::overriding, keys::plausibly, keys::required, keys::then;
 using keys::written_where, keys::zero_or_plausibly;
 using keys::find_key;
 // clang-format on
@@ -45,7 +45,8 @@ std::string allowed_text(const KeyDescription& key);
 std::string plausible_text(const KeyDescription& key);
 /// A value as people read it ("0.003 cm", "axisymmetric", "0 to 11.8 cm").
 std::string format_value(const KeyDescription& key, const Value& value);
-/// A value as TOML that reads back to exactly the same.
+/// A value as TOML that reads back to exactly the same; words that had another name in earlier versions under
+/// that one, so that texts made of these identify the same stored results as before.
 std::string exact_toml(const KeyDescription& key, const Value& value);
 
 /// What is needed to name a place in a file.

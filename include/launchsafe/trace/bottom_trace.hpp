@@ -19,7 +19,7 @@ struct Station {
 };
 
 /// Friction closures whose heat a trace carries, in this order (see scene::FrictionClosure).
-inline constexpr std::size_t traced_closures = 2;  // literal, inelastic
+inline constexpr std::size_t traced_closures = 2;  // total strain rate, inelastic
 
 /// Samples at increasing times, the first at t = 0. Friction is kept as energy since the start, so thinning
 /// the trace loses none of it; pressure as the value and as the mean over the interval that ends at the
