@@ -17,9 +17,10 @@ constexpr int pairing_steps = 128;
 constexpr double settled = 1e-2;
 constexpr int most_sweeps = 2;
 
-/// Part of an overlap, which only pairing anew can make, that a step takes back: all at once would be a blow.
-/// And at most this part of the shortest cell, which is about this part of the speed of sound: where a face
-/// that bulged out past the other one's end is driven back over it, overlaps are as large as the bulge.
+/// Part of an overlap that one step removes; overlaps arise at a new pairing only. Removing all of it in one
+/// step would give the nodes the velocity overlap/dt. The length removed is also at most this part of the
+/// shortest cell, which limits the velocity to about this part of the speed of sound: where a face that
+/// bulged past the end of the other one is pushed back over it, overlaps are as large as the bulge.
 constexpr double overlap_taken_back = 0.1, most_taken_back = 1e-4;
 
 }  // namespace
@@ -177,11 +178,11 @@ double Contact::sweep() {
 }
 
 /// Ends bonds whose traction is past a strength; whether there were any. The traction of one step decides,
-/// not a mean: while bonds hold, it hardly ripples (on the 155 mm launch its largest values are those of a
-/// mean over the time sound takes through ten cells, to 0.1 % for shear), and where they unzip, what runs
-/// ahead is the wave that the freed stress makes. Half the time step moves the end of the broken part by a
-/// node at base and wall. The strengths say nothing of toughness: at a corner, where stress grows without
-/// bound, finer cells break earlier.
+/// not a mean: while bonds hold, it oscillates little (on the 155 mm launch its largest values are those of a
+/// mean over the time sound takes through ten cells, to 0.1 % for shear), and where bonds break in
+/// succession, the next one is broken by the wave of the stress that the last one released. Half the time
+/// step moves the end of the broken part by a node at base and wall. The strengths say nothing of toughness:
+/// at a corner, where stress grows without bound, finer cells break earlier.
 bool Contact::break_bonds(double dt) {
   bool any = false;
   for (Row& row : rows_) {

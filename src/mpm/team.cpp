@@ -8,7 +8,7 @@ namespace launchsafe::mpm {
 namespace {
 
 /// Polls before a waiting thread yields its processor: the phases of a step take microseconds, and on a
-/// machine with fewer free cores than threads polling would delay the very thread that is waited for.
+/// machine with fewer free cores than threads polling would delay the thread that is waited for.
 constexpr int polls_before_yield = 256;
 /// Yields before it blocks.
 constexpr int yields_before_block = 2000;

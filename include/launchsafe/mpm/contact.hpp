@@ -1,25 +1,26 @@
-// Faces that can part and slide, as a stage of the total-Lagrangian step beside the tie.
+// Contact of faces that can separate and slide: one stage of the total-Lagrangian step, beside the ties.
 //
-// It acts once all nodes have moved freely. Every node of the charge's face has one pair of impulses, along
-// the normal and along the face, which act on it and on the nodes of the other face that it meets (see
-// contact_pairing.hpp) with opposite signs. The normal one keeps the gap at the step's end from falling below
-// 0 and never pulls; the one along the face stops sliding as far as friction times the step's own normal
-// impulse allows. A node at an edge that two faces share obeys both, each by its own rows.
+// The stage follows the free motion of all nodes. Every node of the charge's face has two impulses (kg m/s
+// per radian or metre), one along the normal of the face and one along the face. They act on this node and,
+// with the opposite sign, on the nodes of the other face that contact_pairing.hpp pairs it with. The normal
+// impulse is the smallest one >= 0 with which the gap at the end of the step is >= 0. The impulse along the
+// face stops the sliding, or is the coefficient of friction times the normal impulse of the same step where
+// that is less (Coulomb). A node at a corner of two faces is subject to the conditions of both.
 //
-// Nodal velocities come from particles and do not agree to the last digit between two faces even where they
-// are bonded. There, momentum is first exchanged so that they do, as a tie does. That exchange is no force:
-// it changes neither particles nor energies. Where faces can slide, the impulses correct it.
+// Nodal velocities are sums over particles, so that those of two faces differ by round-off even where the
+// faces are bonded. There the stage first sets both to their common velocity, as a tie does; this exchange of
+// momentum enters neither the particles nor the energies. Where faces can slide, the impulses correct it.
 //
-// Pairs and normals are those of the last pairing, and a gap is the mean over what a node's traction acts on.
-// Pairing anew finds gaps a little different: by 1e-9 m on a launch in its barrel, 1e-7 m where a wall
-// without one bends. To take an overlap back is work that contact gives: up to 4e-6 of the energy there.
-// Where a bulging face slides past the other one's end, the mean is over ever less of a cell, and it gives or
-// takes the force on the cell times the bulge's height in it: 1e-3 of the energy of a charge longer than its
-// wall, on 5 mm.
+// Pairs and normals stay from one pairing to the next, and a gap is the mean over the part of the face on
+// which the node's traction acts. A new pairing changes the gaps by 1e-9 m in a launch within the barrel and
+// by 1e-7 m where a wall without a barrel bends. Removing such an overlap does work, up to 4e-6 of the energy
+// in these launches. Where a bulging face slides past the end of the other face, the mean is taken over a
+// decreasing part of a cell, and the energy changes by the force on the cell times the height of the bulge in
+// it: 1e-3 of the energy for a charge longer than its wall, on cells of 5 mm.
 //
-// A step's impulse J on a pair works J (v_before + v_after)/2, with the relative velocities that the step
-// before and this one move by: that closes the leapfrog balance to round-off. A pair that closes exactly
-// takes J gap_before/(2 dt) >= 0 out of it.
+// An impulse J on a pair does the work J (v_before + v_after)/2, with the relative velocities at which the
+// last step and this one move: with these the leapfrog energy balance holds to round-off. A pair whose gap
+// becomes exactly 0 takes J gap_before/(2 dt) >= 0 out of the energy.
 #pragma once
 
 #include "launchsafe/math/aligned_array.hpp"
@@ -45,8 +46,8 @@ struct FaceState {
   double shear = 0;          ///< Pa, on the other body: along x on a side, along r on an end
   double sliding_speed = 0;  ///< m/s, of the other body against the charge, in the same direction
   double friction_heat = 0;  ///< J/m2, since the start
-  double slid = 0;           ///< m, since the start, to and fro added up
-  double largest_gap = 0;    ///< m, since the start
+  double slid = 0;           ///< m, path of sliding since the start, in both directions
+  double largest_gap = 0;    ///< m, the largest since the start
   double overlap = 0;        ///< m, the largest since the start
   bool bonded = false;
 };
@@ -59,7 +60,7 @@ class Contact {
 
   /// Whether any faces can slide; if none can, nothing else may be called.
   bool any() const { return !faces_.empty(); }
-  /// Takes the nodes' velocities as those of the step before, which had no impulses. Broken bonds stay so.
+  /// Takes the nodes' velocities as those of the step before, without impulses. Broken bonds stay broken.
   void reset(const std::vector<Nodes>& nodes);
   /// Acts on nodes that a step of dt (s) has moved freely, with damping that kept the share `damping_factor`
   /// of their velocity. Tractions are those that the step would have had to apply before damping, as it does
@@ -81,7 +82,7 @@ class Contact {
   struct Velocity {
     double x, r;
   };
-  /// A point is a node, or all nodes of a tie: they move alike.
+  /// A point is a node, or all nodes of a tie, which have one velocity.
   struct Member {
     std::size_t nodes, index, point;
   };
@@ -123,16 +124,15 @@ class Contact {
   struct Share {
     std::uint32_t point;
     double share;           ///< in the relative velocity, other face less own one
-    double give_x, give_r;  ///< 1/kg, velocity that a unit impulse of the row gives to the point
+    double give_x, give_r;  ///< 1/kg, velocity of the point from a unit impulse of the row
   };
-  /// A node of the charge's face with what it meets.
+  /// A node of the charge's face with the points that it is paired with.
   struct Row {
     std::uint32_t begin = 0, end = 0;   ///< in shares_
     double normal_x = 0, normal_r = 0;  ///< from the charge to the other body
     double friction = 0;
-    double inertia = 0, normal_inertia = 0,
-           slide_inertia = 0;  ///< kg: impulse for a unit of relative velocity, were all free to move, along
-                               ///< the normal and across it
+    /// kg, impulse per unit of relative velocity: if no point were held, along the normal, along the face.
+    double inertia = 0, normal_inertia = 0, slide_inertia = 0;
     double area = 0;
     double gap = 0;                                   ///< m, at the begin of the step
     double target = 0;                                ///< m/s, least opening speed
@@ -180,7 +180,7 @@ class Contact {
   std::vector<PairRow> paired_;       ///< of one face, used again
   Field inertia_;                     ///< kg
   Field mass_;                        ///< kg, along x alone
-  Field mobility_;                    ///< 1/kg, how readily a point moves; 0 where it is held along r
+  Field mobility_;                    ///< 1/kg, inverse of inertia_; 0 where the point is held along r
   Field unconstrained_;               ///< 1, or 0 where it is held along r
   Field velocity_;                    ///< m/s, which the step moves by
   Field free_velocity_;               ///< m/s, without contact

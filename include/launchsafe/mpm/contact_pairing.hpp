@@ -26,10 +26,11 @@ struct PairShare {
   double share;
 };
 
-/// What one node of the own face meets. Shares of the own face and of the other one sum to 1 each.
+/// The pairing of one node of the own face. Shares of the own face and of the other one sum to 1 each.
 struct PairRow {
   std::vector<PairShare> own, other;
-  double area = 0;   ///< m2 per radian or per metre, over which the node's traction acts; 0: it meets nothing
+  double area =
+      0;  ///< m2 per radian or per metre, over which the node's traction acts; 0: it is paired with no node
   double slope = 0;  ///< d across / d along of the other face there
 };
 

@@ -22,14 +22,15 @@ struct EnergyTotals {
   double kinetic = 0;
   double internal = 0;  ///< stress power, and what is stored against hourglassing
   double external = 0, body_force = 0;
-  double damping =
-      0;  ///< taken out by damping, the PIC share and FLIP's way from nodes to particles and back
+  /// Dissipated by damping, by the PIC share and by the transfer from nodes to particles and back (FLIP).
+  double damping = 0;
   double plastic = 0, viscous = 0, crack = 0;
   double hourglass = 0;  ///< stored against hourglassing (part of `internal`)
-  double contact = 0;    ///< taken out by contact: friction, and faces that close
+  double contact = 0;    ///< dissipated by contact: by friction, and by faces that close
 };
 
-/// Particle-steps on which a limiter acted, a particle was off the grid or its cell beyond what strains mean.
+/// Number of particle-steps on which a limiter acted, the particle was off the grid, or its cell was inverted
+/// or stretched beyond what the strain measure describes.
 struct EventCounts {
   double tension_cutoff = 0, pressure_guard = 0, crack_at_bound = 0, off_grid = 0, distorted = 0;
 };

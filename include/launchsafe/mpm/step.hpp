@@ -47,8 +47,8 @@ struct ContactTotals {
   double momentum = 0;       ///< kg m/s, axial, of the true mass; 0 where inertia is that
 };
 
-/// Axial motion of all as one mass: of the inertial masses, on which forces act. Where the inertia of some
-/// bodies is scaled more than that of others, their centre is not the true masses'.
+/// Axial motion of the centre of the inertial masses, on which forces act. It is not the centre of the true
+/// masses where the inertia of some bodies is scaled more than that of others.
 struct BulkMotion {
   double inertia = 0;       ///< kg per radian or metre
   double old_momentum = 0;  ///< kg m/s, at the begin of the step
@@ -60,7 +60,7 @@ struct StepTotals {
   ParticleTotals particles;
   NodeTotals nodes;
   BulkMotion bulk;
-  double base_flow = 0;        ///< of the loaded face against unit pressure, m3/s
+  double base_flow = 0;        ///< volume that the loaded face displaces per time, m3/s
   double bore_work = 0;        ///< of bore pressures, J
   double body_force_work = 0;  ///< of body forces on single bodies, J
   ContactTotals contact;
