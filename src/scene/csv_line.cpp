@@ -1,12 +1,12 @@
 #include "csv_line.hpp"
 
+#include "input_text.hpp"
+
 #include <algorithm>
 #include <cstddef>
 
 namespace launchsafe::scene {
 namespace {
-
-constexpr std::string_view blanks = " \t\r";
 
 /// A cell that begins with a quotation mark; what follows it stays in `rest`.
 std::optional<std::string> take_quoted(std::string_view& rest) {
@@ -25,18 +25,11 @@ std::optional<std::string> take_quoted(std::string_view& rest) {
 
 /// Like `without_blanks_around`, but a tab that separates cells stays.
 std::string_view without_blanks_before(std::string_view text, char separator) {
-  while (!text.empty() && text[0] != separator && blanks.find(text[0]) != std::string_view::npos)
-    text.remove_prefix(1);
+  while (!text.empty() && text[0] != separator && (text[0] == ' ' || text[0] == '\t')) text.remove_prefix(1);
   return text;
 }
 
 }  // namespace
-
-std::string_view without_blanks_around(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
 
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());

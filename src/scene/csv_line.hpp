@@ -8,9 +8,6 @@
 
 namespace launchsafe::scene {
 
-/// Without blanks, tabs and carriage returns at its ends.
-std::string_view without_blanks_around(std::string_view text);
-
 /// The next line of a text, which is shortened by it; lines end with LF, CRLF or CR.
 std::string_view take_line(std::string_view& text);
 

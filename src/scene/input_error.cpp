@@ -1,19 +1,14 @@
 #include "launchsafe/scene/input_error.hpp"
 
+#include "input_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 
 namespace launchsafe::scene {
 namespace {
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& letter : result) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  return result;
-}
 
 /// Longest word that is compared letter by letter with others.
 constexpr std::size_t longest_word = 200;

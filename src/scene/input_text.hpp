@@ -1,4 +1,4 @@
-// Text of input files before it is parsed: what no reader may see, and how much of it a message quotes.
+// Text of input files before it is parsed: what no reader may see, and what all readers do with text.
 #pragma once
 
 #include "launchsafe/scene/input_error.hpp"
@@ -8,6 +8,12 @@
 #include <string_view>
 
 namespace launchsafe::scene {
+
+/// Without blanks, tabs and line ends at its ends.
+std::string_view without_blanks_around(std::string_view text);
+
+/// With small letters (ASCII).
+std::string lower_case(std::string_view text);
 
 /// The first byte of a text that is no UTF-8, or a NUL, with its line.
 std::optional<InputError> check_encoding(std::string_view text, const std::string& file);

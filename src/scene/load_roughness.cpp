@@ -136,7 +136,7 @@ std::string roughness_text(const Load& load) {
   Load smoothed = load;
   smoothed.smoothing = *window;
   return text + fmt::format("; load.smoothing = \"{}\" leaves {:.4f} and takes {} from the peak",
-                            format_quantity(*window, Dimension::time), load_roughness(smoothed),
+                            time_text(*window), load_roughness(smoothed),
                             percent(peak_lost_to_smoothing(smoothed)));
 }
 
@@ -144,9 +144,8 @@ std::string smoothing_text(const Load& load) {
   if (!(load.smoothing > 0.0)) return {};
   const double before = PressureHistory(load).stated_peak(), lost = peak_lost_to_smoothing(load);
   return fmt::format("averaged over {}, which takes {} from the peak: {} instead of {}",
-                     format_quantity(load.smoothing, Dimension::time), percent(lost),
-                     format_quantity(before * (1.0 - lost), Dimension::pressure),
-                     format_quantity(before, Dimension::pressure));
+                     time_text(load.smoothing), percent(lost), pressure_text(before * (1.0 - lost)),
+                     pressure_text(before));
 }
 
 }  // namespace

@@ -13,9 +13,6 @@
 namespace launchsafe::scene {
 namespace {
 
-/// Edges closer than this share of the scene's size are one.
-constexpr double coincidence = 1e-9;
-
 /// How many cells there are between two places, not rounded. Away from a refined line cells are
 /// cell_size g^n long, n = 0, 1, ..; n of them reach d = cell_size (g^n - 1)/(g - 1), up to where they are as
 /// long as the largest.
@@ -67,10 +64,9 @@ double position_of(const CellDensity& density, double from, double to, double ce
   return 0.5 * (low + high);
 }
 
-std::vector<double> lines_through(std::vector<double> edges, double size, const CellDensity& density) {
+std::vector<double> lines_through(std::vector<double> edges, double tolerance, const CellDensity& density) {
   std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end(),
-                          [&](double a, double b) { return b - a <= coincidence * size; }),
+  edges.erase(std::unique(edges.begin(), edges.end(), [&](double a, double b) { return b - a <= tolerance; }),
               edges.end());
   std::vector<double> lines{edges.front()};
   for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
@@ -85,13 +81,14 @@ std::vector<double> lines_through(std::vector<double> edges, double size, const 
 }
 
 /// Lines of the grid from one place to another, each interval cut into parts.
-std::vector<double> cut(const std::vector<double>& lines, double from, double to, int parts, double size) {
+std::vector<double> cut(const std::vector<double>& lines, double from, double to, int parts,
+                        double tolerance) {
   std::vector<double> edges;
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
-    if (lines[i] < from - coincidence * size || lines[i + 1] > to + coincidence * size) continue;
+    if (lines[i] < from - tolerance || lines[i + 1] > to + tolerance) continue;
     for (int k = 0; k < parts; ++k) edges.push_back(lines[i] + (lines[i + 1] - lines[i]) * k / parts);
     if (edges.size() % static_cast<std::size_t>(parts) == 0 &&
-        (i + 2 == lines.size() || lines[i + 2] > to + coincidence * size))
+        (i + 2 == lines.size() || lines[i + 2] > to + tolerance))
       edges.push_back(lines[i + 1]);
   }
   return edges;
@@ -110,9 +107,34 @@ std::pair<int, int> cells_beside_anchor(const Mesh& mesh, const Extent& shell) {
   return {cells(mesh.x_anchor - shell.x_begin), cells(shell.x_end - mesh.x_anchor)};
 }
 
-double size_of(const Scene& scene) {
-  const Extent all = extent_of(scene);
-  return std::max(all.x_end - all.x_begin, all.r_end);
+/// Number and lengths of a grid's cells between two of its lines.
+struct CellsBetween {
+  int count = 0;
+  double shortest = 0, longest = 0;  ///< m
+};
+
+CellsBetween cells_between(const std::vector<double>& lines, double from, double to, double tolerance) {
+  const std::vector<double> own = cut(lines, from, to, 1, tolerance);
+  CellsBetween cells{static_cast<int>(own.size()) - 1, to - from, 0.0};
+  for (std::size_t i = 0; i + 1 < own.size(); ++i) {
+    cells.shortest = std::min(cells.shortest, own[i + 1] - own[i]);
+    cells.longest = std::max(cells.longest, own[i + 1] - own[i]);
+  }
+  return cells;
+}
+
+CellRange cells_within(const Scene& scene, const Extent& part) {
+  if (scene.numerics.formulation == Formulation::updated_lagrangian) {
+    const Mesh mesh = fit_mesh(scene);
+    const int nx = parts_of(part.x_end - part.x_begin, mesh.dx),
+              nr = parts_of(part.r_end - part.r_begin, mesh.dr);
+    return {nx, nr, mesh.dx, mesh.dx, mesh.dr, mesh.dr};
+  }
+  const GridLines lines = grid_lines(scene);
+  const double tolerance = length_tolerance(scene);
+  const CellsBetween x = cells_between(lines.x, part.x_begin, part.x_end, tolerance);
+  const CellsBetween r = cells_between(lines.r, part.r_begin, part.r_end, tolerance);
+  return {x.count, r.count, x.shortest, x.longest, r.shortest, r.longest};
 }
 
 }  // namespace
@@ -129,14 +151,14 @@ GridLines grid_lines(const Scene& scene) {
     }
   }
   if (refined_x.empty() && has_charge(scene)) refined_x = {charge_extent(scene).x_end};
-  const double size = size_of(scene), smallest = scene.numerics.cell_size;
+  const double tolerance = length_tolerance(scene), smallest = scene.numerics.cell_size;
   const double largest_x = scene.numerics.largest_cell;
   const std::vector<StationExtent> stations = stations_of(scene);
   const double largest_r =
       stations.empty() ? largest_x : std::min(largest_x, stations.front().r_end - stations.front().r_begin);
-  return {lines_through(std::move(x), size,
+  return {lines_through(std::move(x), tolerance,
                         CellDensity(smallest, largest_x, scene.numerics.growth_x, std::move(refined_x))),
-          lines_through(std::move(r), size,
+          lines_through(std::move(r), tolerance,
                         CellDensity(smallest, largest_r, scene.numerics.growth_r, std::move(refined_r)))};
 }
 
@@ -155,53 +177,25 @@ GridLines particle_edges(const Scene& scene, const Body& body) {
     return {even(body.x_begin, body.x_end, count.nx), even(body.r_begin, body.r_end, count.nr)};
   }
   const GridLines lines = grid_lines(scene);
-  const double size = size_of(scene);
-  return {cut(lines.x, body.x_begin, body.x_end, per_cell, size),
-          cut(lines.r, body.r_begin, body.r_end, per_cell, size)};
+  const double tolerance = length_tolerance(scene);
+  return {cut(lines.x, body.x_begin, body.x_end, per_cell, tolerance),
+          cut(lines.r, body.r_begin, body.r_end, per_cell, tolerance)};
 }
 
 CellRange cells_of(const Scene& scene) {
   const Extent all = extent_of(scene);
-  if (scene.numerics.formulation == Formulation::updated_lagrangian) {
-    const Mesh mesh = fit_mesh(scene);
-    const auto [before, after] = cells_beside_anchor(mesh, all);
-    return {before + after, parts_of(mesh.radius, mesh.dr), mesh.dx, mesh.dx, mesh.dr, mesh.dr};
-  }
-  return cells_of(scene, Body{{}, {}, all.x_begin, all.x_end, all.r_begin, all.r_end});
+  if (scene.numerics.formulation == Formulation::total_lagrangian) return cells_within(scene, all);
+  const Mesh mesh = fit_mesh(scene);
+  const auto [before, after] = cells_beside_anchor(mesh, all);
+  return {before + after, parts_of(mesh.radius, mesh.dr), mesh.dx, mesh.dx, mesh.dr, mesh.dr};
 }
 
 CellRange cells_of_charge(const Scene& scene) {
-  if (!has_charge(scene)) return cells_of(scene);
-  const Extent charge = charge_extent(scene);
-  return cells_of(scene, Body{{}, {}, charge.x_begin, charge.x_end, charge.r_begin, charge.r_end});
+  return has_charge(scene) ? cells_within(scene, charge_extent(scene)) : cells_of(scene);
 }
 
 CellRange cells_of(const Scene& scene, const Body& body) {
-  if (scene.numerics.formulation == Formulation::updated_lagrangian) {
-    const Mesh mesh = fit_mesh(scene);
-    return {parts_of(body.x_end - body.x_begin, mesh.dx),
-            parts_of(body.r_end - body.r_begin, mesh.dr),
-            mesh.dx,
-            mesh.dx,
-            mesh.dr,
-            mesh.dr};
-  }
-  const GridLines lines = grid_lines(scene);
-  const double size = size_of(scene);
-  CellRange range;
-  const auto measure = [&](const std::vector<double>& all, double from, double to, int& count,
-                           double& shortest, double& longest) {
-    const std::vector<double> own = cut(all, from, to, 1, size);
-    count = static_cast<int>(own.size()) - 1;
-    shortest = to - from;
-    for (std::size_t i = 0; i + 1 < own.size(); ++i) {
-      shortest = std::min(shortest, own[i + 1] - own[i]);
-      longest = std::max(longest, own[i + 1] - own[i]);
-    }
-  };
-  measure(lines.x, body.x_begin, body.x_end, range.nx, range.shortest_x, range.longest_x);
-  measure(lines.r, body.r_begin, body.r_end, range.nr, range.shortest_r, range.longest_r);
-  return range;
+  return cells_within(scene, {body.x_begin, body.x_end, body.r_begin, body.r_end});
 }
 
 std::int64_t counted(double count) {

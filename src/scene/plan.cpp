@@ -21,8 +21,6 @@ constexpr double bytes_per_number = 8.0;
 constexpr double bytes_of_conduction = 340.0;
 constexpr double bytes_per_cell = 128.0;
 
-std::string length_text(double length) { return format_quantity(length, Dimension::length); }
-
 /// Setback is exceeded where waves ring through the charge; the bound allows for as much again.
 constexpr double pressure_margin = 2.0;
 

@@ -43,13 +43,13 @@ std::string load_text(const Scene& scene) {
                            ? std::string("analytic")
                            : fmt::format("measured, {} points{}", scene.load.curve_time.size(),
                                          scene.load.rescale_to_peak ? ", rescaled" : ""));
-  text += row("duration", format_quantity(scene.load.duration, Dimension::time));
-  text += row("peak", format_quantity(peak, Dimension::pressure));
+  text += row("duration", time_text(scene.load.duration));
+  text += row("peak", pressure_text(peak));
   if (const std::string measured = measured_load_text(scene.load); !measured.empty())
     text += row("measurement", measured);
   text += row("rigid acceleration", fmt::format("{:.6g} m/s2", rigid_acceleration(scene, peak)));
   if (has_charge(scene)) {
-    text += row("setback pressure", format_quantity(setback_pressure(scene), Dimension::pressure));
+    text += row("setback pressure", pressure_text(setback_pressure(scene)));
   }
   return text;
 }
@@ -108,9 +108,8 @@ std::string cost_text(const Plan& plan, const Scene& scene, double update_rate) 
   if (const std::string edges = charge_edges_off_grid(scene); !edges.empty())
     text +=
         row("charge off the grid", edges + "; calibrated constants do not carry over from a grid that fits");
-  text += row("time step",
-              fmt::format("{} at rest, sound at {:.2f} m/s", format_quantity(plan.time_step, Dimension::time),
-                          longitudinal_speed(scene)));
+  text += row("time step", fmt::format("{} at rest, sound at {:.2f} m/s", time_text(plan.time_step),
+                                       longitudinal_speed(scene)));
   text += row("steps", plan.steps < most_counted ? fmt::format("{}", plan.steps) : "too many to count");
   text += row("memory", fmt::format("about {:.3g} MB", plan.memory / 1e6));
   if (update_rate > 0.0) {

@@ -77,10 +77,9 @@ void judge_switches(const Scene& scene, Judge& judge) {
 void judge_crack_bound(const Scene& scene, Judge& judge) {
   const materials::ViscoScramParameters& strength = scene.charge().strength;
   if (strength.largest_crack_radius > strength.initial_crack_radius) return;
-  const auto text = [](double radius) { return format_quantity(radius, Dimension::length); };
-  judge.add("charge.largest_crack_radius", text(strength.largest_crack_radius),
+  judge.add("charge.largest_crack_radius", length_text(strength.largest_crack_radius),
             fmt::format("more than {}, because cracks of charge.crack_radius could not grow",
-                        text(strength.initial_crack_radius)));
+                        length_text(strength.initial_crack_radius)));
 }
 
 }  // namespace

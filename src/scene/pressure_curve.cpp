@@ -18,12 +18,6 @@ namespace {
 constexpr std::string_view allowed_header =
     "a header that names quantities and units, such as time_ms,pressure_MPa or \"Time (ms);Pressure (bar)\"";
 
-std::string lower_case_of(std::string_view text) {
-  std::string result(text);
-  for (char& letter : result) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  return result;
-}
-
 /// One column of the curve.
 struct Column {
   std::size_t cell = 0;
@@ -57,7 +51,7 @@ Column column_of(const std::string& cell, std::size_t index) {
 
 /// Whether a column's name is the word, whatever its case and the words that follow, or its letter.
 bool is_named(const Column& column, std::string_view word) {
-  const std::string name = lower_case_of(column.name);
+  const std::string name = lower_case(column.name);
   if (name == word.substr(0, 1)) return true;
   const auto may_belong = [](char c) {
     return c == ' ' || c == '-' || std::isalpha(static_cast<unsigned char>(c)) != 0;
@@ -160,18 +154,16 @@ class CurveReader {
     if (*pressure < 0.0 || *pressure > largest_load) {
       return error_at(place, "pressure", (*cells)[header_.pressure.cell] + " " + header_.pressure.unit,
                       fmt::format("a pressure of at least 0 {}, at most {}", header_.pressure.unit,
-                                  format_quantity(largest_load, Dimension::pressure)));
+                                  pressure_text(largest_load)));
     }
     if (std::abs(*time) > largest_curve_time) {
-      return error_at(
-          place, "time", (*cells)[header_.time.cell] + " " + header_.time.unit,
-          fmt::format("a time within {} of the start", format_quantity(largest_curve_time, Dimension::time)));
+      return error_at(place, "time", (*cells)[header_.time.cell] + " " + header_.time.unit,
+                      fmt::format("a time within {} of the start", time_text(largest_curve_time)));
     }
     if (!curve_.time.empty() && !(*time - curve_.time.back() > least_curve_interval)) {
       return error_at(place, "time", (*cells)[header_.time.cell] + " " + header_.time.unit,
                       fmt::format("times in increasing order, here later than {} by more than {}",
-                                  format_quantity(curve_.time.back(), Dimension::time),
-                                  format_quantity(least_curve_interval, Dimension::time)));
+                                  time_text(curve_.time.back()), time_text(least_curve_interval)));
     }
     curve_.time.push_back(*time);
     curve_.pressure.push_back(*pressure);

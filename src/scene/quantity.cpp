@@ -1,5 +1,7 @@
 #include "launchsafe/scene/quantity.hpp"
 
+#include "input_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,8 +45,8 @@ struct DimensionInfo {
   std::string_view name;
   std::string_view example;
   std::string_view si_unit;
-  std::vector<Unit> units;    ///< the one to suggest first
-  std::vector<Unit> display;  ///< to try in this order when formatting for people
+  std::vector<Unit> units;                ///< the one to suggest first
+  std::vector<std::string_view> display;  ///< units to try in this order when formatting for people
 };
 
 const DimensionInfo& info_of(Dimension dimension) {
@@ -55,7 +57,7 @@ const DimensionInfo& info_of(Dimension dimension) {
        "\"2.5 mm\"",
        "m",
        {{"cm", -2}, {"mm", -3}, {"m", 0}, {"um", -6}, {"\u00b5m", -6}, spelling("\u03bcm", -6)},
-       {{"cm", -2}, {"mm", -3}, {"um", -6}, {"m", 0}}},
+       {"cm", "mm", "um", "m"}},
       {"time",
        "\"18 ms\"",
        "s",
@@ -67,7 +69,7 @@ const DimensionInfo& info_of(Dimension dimension) {
         spelling("\u03bcs", -6),
         spelling("msec", -3),
         spelling("sec", 0)},
-       {{"ms", -3}, {"us", -6}, {"s", 0}, {"ns", -9}}},
+       {"ms", "us", "s", "ns"}},
       {"pressure",
        "\"496 MPa\"",
        "Pa",
@@ -82,7 +84,7 @@ const DimensionInfo& info_of(Dimension dimension) {
         scale("psi", psi),
         scale("ksi", 1000 * psi),
         scale("atm", 101325)},
-       {{"MPa", 6}, {"GPa", 9}, {"TPa", 12}, {"kPa", 3}, {"Pa", 0}}},
+       {"MPa", "GPa", "TPa", "kPa", "Pa"}},
       {"temperature",
        "\"300 K\"",
        "K",
@@ -104,7 +106,7 @@ const DimensionInfo& info_of(Dimension dimension) {
        "\"5.82 MJ/kg\"",
        "J/kg",
        {{"MJ/kg", 6}, {"kJ/kg", 3}, {"J/kg", 0}},
-       {{"MJ/kg", 6}, {"kJ/kg", 3}, {"J/kg", 0}}},
+       {"MJ/kg", "kJ/kg", "J/kg"}},
       {"specific heat",
        "\"1780 J/(kg K)\"",
        "J/(kg K)",
@@ -119,16 +121,9 @@ const DimensionInfo& info_of(Dimension dimension) {
        "\"0.5 MPa m^0.5\"",
        "Pa m^0.5",
        {{"MPa m^0.5", 6}, {"Pa m^0.5", 0}},
-       {{"MPa m^0.5", 6}, {"Pa m^0.5", 0}}},
+       {"MPa m^0.5", "Pa m^0.5"}},
   }};
   return table[static_cast<std::size_t>(dimension)];
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
 std::string without_blanks(std::string_view text) {
@@ -236,7 +231,7 @@ struct Token {
 };
 
 Expected<Token, QuantityFault> split(std::string_view text, std::string_view whole, Dimension dimension) {
-  text = trimmed(text);
+  text = without_blanks_around(text);
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0.0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -248,7 +243,8 @@ Expected<Token, QuantityFault> split(std::string_view text, std::string_view who
   }
   const auto length = static_cast<std::size_t>(end - text.data());
   const std::string_view number = text.substr(0, length), rest = text.substr(length);
-  if (rest.size() < 2 || rest[0] != ',' || !is_digit(rest[1])) return Token{number, trimmed(rest)};
+  if (rest.size() < 2 || rest[0] != ',' || !is_digit(rest[1]))
+    return Token{number, without_blanks_around(rest)};
   const bool may_count_thousands =
       number.find('.') != std::string_view::npos || digits_of(rest.substr(1)) == 3;
   if (may_count_thousands) return comma_fault(whole, dimension, {});
@@ -290,7 +286,7 @@ Expected<double, QuantityFault> convert(const Token& token, std::string_view who
   }
   if (token.unit.empty()) {
     return fault(fmt::format("\"{}\", without a unit", whole), dimension,
-                 fmt::format("\"{} {}\"", trimmed(whole), info.units.front().name));
+                 fmt::format("\"{} {}\"", without_blanks_around(whole), info.units.front().name));
   }
   const std::optional<Unit> unit = find_unit(dimension, token.unit);
   if (!unit) {
@@ -380,19 +376,18 @@ Expected<std::vector<double>, QuantityFault> parse_list(std::string_view text, D
 
 std::string format_quantity(double value_si, Dimension dimension) {
   const DimensionInfo& info = info_of(dimension);
-  for (const Unit& unit : info.display) {
-    const double value = in_unit(value_si, dimension, unit.name);
+  for (const std::string_view unit : info.display) {
+    const double value = in_unit(value_si, dimension, unit);
     if (value_si == 0.0 || (std::abs(value) >= 0.0999999 && std::abs(value) < 999.9999)) {
-      return fmt::format("{:.6g} {}", value, unit.name);
+      return fmt::format("{:.6g} {}", value, unit);
     }
   }
   return fmt::format("{:.6g}{}{}", value_si, info.si_unit.empty() ? "" : " ", info.si_unit);
 }
 
-std::string exact_quantity(double value_si, Dimension dimension) {
-  const std::string_view unit = si_unit_of(dimension);
-  return fmt::format("{}{}{}", value_si, unit.empty() ? "" : " ", unit);
-}
+std::string length_text(double length) { return format_quantity(length, Dimension::length); }
+std::string time_text(double time) { return format_quantity(time, Dimension::time); }
+std::string pressure_text(double pressure) { return format_quantity(pressure, Dimension::pressure); }
 
 double in_unit(double value_si, Dimension dimension, std::string_view unit_name) {
   const std::optional<Unit> unit = find_unit(dimension, unit_name);

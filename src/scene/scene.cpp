@@ -117,6 +117,11 @@ Extent inert_extent(const Scene& scene) {
   return extent_where(scene, [&](const Body& body) { return !is_charge(scene, body); });
 }
 
+double length_tolerance(const Scene& scene) {
+  const Extent all = extent_of(scene);
+  return 1e-9 * std::max(all.x_end - all.x_begin, all.r_end);
+}
+
 double mass_of(const Scene& scene, std::string_view material) {
   double volume = 0.0;
   for (const Body& body : scene.bodies) {

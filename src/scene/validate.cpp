@@ -9,14 +9,13 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace launchsafe::scene {
 namespace {
 
 using Fault = std::optional<InputError>;
-
-std::string centimetres(double length) { return format_quantity(length, Dimension::length); }
 
 std::string range_text(double begin, double end) {
   return fmt::format("{:.6g} to {:.6g} cm", in_unit(begin, Dimension::length, "cm"),
@@ -36,64 +35,51 @@ InputError fault_at(const SceneFile& file, const std::string& key, std::string f
   return error_at(place_of_key(file, key), key, std::move(found), std::move(allowed), std::move(suggestion));
 }
 
-/// Round-off of lengths written in decimals, m.
-double tolerance_of(const SceneFile& file) {
-  const Extent all = extent_of(file.scene);
-  return 1e-9 * std::max(all.x_end - all.x_begin, all.r_end);
-}
-
-Fault check_names(const SceneFile& file) {
-  if (file.scene.bodies.empty()) {
-    return fault_at(file, "body", "no body", "at least one [[body]] with name, material, x and r");
-  }
+template <class Owner>
+Fault check_names_of(const SceneFile& file, const std::string& table, const std::string& what,
+                     const std::vector<Owner>& owners) {
   std::set<std::string> names;
-  for (const Body& body : file.scene.bodies) {
-    if (body.name.empty() || !names.insert(body.name).second) {
-      return fault_at(
-          file, "body." + body.name + ".name",
-          fmt::format("\"{}\" {}", body.name, body.name.empty() ? "without letters" : "a second time"),
-          "a name that no other body has");
-    }
-  }
-  names.clear();
-  for (const ObservationPoint& point : file.scene.output.observation_points) {
-    if (point.name.empty() || !names.insert(point.name).second) {
-      return fault_at(
-          file, "observation_point." + point.name + ".name",
-          fmt::format("\"{}\" {}", point.name, point.name.empty() ? "without letters" : "a second time"),
-          "a name that no other observation point has");
-    }
+  for (const Owner& owner : owners) {
+    if (!owner.name.empty() && names.insert(owner.name).second) continue;
+    return fault_at(
+        file, table + "." + owner.name + ".name",
+        fmt::format("\"{}\" {}", owner.name, owner.name.empty() ? "without letters" : "a second time"),
+        fmt::format("a name that no other {} has", what));
   }
   return std::nullopt;
 }
 
+Fault check_names(const SceneFile& file) {
+  if (file.scene.bodies.empty())
+    return fault_at(file, "body", "no body", "at least one [[body]] with name, material, x and r");
+  if (Fault fault = check_names_of(file, "body", "body", file.scene.bodies)) return fault;
+  return check_names_of(file, "observation_point", "observation point", file.scene.output.observation_points);
+}
+
 Fault check_charge_fits(const SceneFile& file) {
-  const bool has_shell = std::any_of(file.scene.bodies.begin(), file.scene.bodies.end(),
-                                     [&](const Body& body) { return !is_charge(file.scene, body); });
+  const Scene& scene = file.scene;
+  const bool has_shell = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                     [&](const Body& body) { return !is_charge(scene, body); });
   if (!has_shell) return std::nullopt;
-  const Extent shell = inert_extent(file.scene);
-  const double tolerance = tolerance_of(file);
-  for (const Body& body : file.scene.bodies) {
-    if (!is_charge(file.scene, body)) continue;
-    const auto sticks_out = [&](const char* axis, double begin, double end, double shell_begin,
-                                double shell_end) {
+  const Extent shell = inert_extent(scene);
+  const double tolerance = length_tolerance(scene);
+  for (const Body& body : scene.bodies) {
+    if (!is_charge(scene, body)) continue;
+    for (const auto& [axis, begin, end, shell_begin, shell_end] :
+         {std::tuple{"x", body.x_begin, body.x_end, shell.x_begin, shell.x_end},
+          std::tuple{"r", body.r_begin, body.r_end, shell.r_begin, shell.r_end}}) {
+      if (begin >= shell_begin - tolerance && end <= shell_end + tolerance) continue;
       return fault_at(
           file, fmt::format("body.{}.{}", body.name, axis),
           fmt::format("\"{}\", which sticks out of the shell", range_text(begin, end)),
           fmt::format("a charge within the shell, {} {}", axis, range_text(shell_begin, shell_end)));
-    };
-    if (body.x_begin < shell.x_begin - tolerance || body.x_end > shell.x_end + tolerance) {
-      return sticks_out("x", body.x_begin, body.x_end, shell.x_begin, shell.x_end);
-    }
-    if (body.r_begin < shell.r_begin - tolerance || body.r_end > shell.r_end + tolerance) {
-      return sticks_out("r", body.r_begin, body.r_end, shell.r_begin, shell.r_end);
     }
   }
   return std::nullopt;
 }
 
 Fault check_overlaps(const SceneFile& file) {
-  const double tolerance = tolerance_of(file);
+  const double tolerance = length_tolerance(file.scene);
   const auto& bodies = file.scene.bodies;
   for (std::size_t j = 1; j < bodies.size(); ++j) {
     for (std::size_t i = 0; i < j; ++i) {
@@ -126,8 +112,8 @@ Fault check_cell_size(const SceneFile& file) {
   if (!thinnest || cell <= largest * (1.0 + 1e-9)) return std::nullopt;
   return fault_at(file, "numerics.cell_size",
                   fmt::format("{}, with which the body \"{}\", {} thick, has no particle of the mesh",
-                              centimetres(cell), thinnest->name, centimetres(0.5 * largest)),
-                  fmt::format("at most {} for this body", centimetres(largest)));
+                              length_text(cell), thinnest->name, length_text(0.5 * largest)),
+                  fmt::format("at most {} for this body", length_text(largest)));
 }
 
 /// What only one of the formulations has is refused with the other, so that nobody believes it at work.
@@ -136,37 +122,35 @@ Fault check_formulation(const SceneFile& file) {
   if (numerics.formulation == Formulation::total_lagrangian) return std::nullopt;
   const Numerics usual;
   const std::string even = " with formulation \"updated-lagrangian\", whose grid is even";
-  const auto only = [&](const char* key, double found, double allowed, const std::string& why) -> Fault {
-    if (!(found < allowed || found > allowed)) return std::nullopt;
-    return fault_at(file, key, fmt::format("{:g}", found), fmt::format("{:g}{}", allowed, why));
-  };
-  const auto nothing = [&](const char* key, const std::vector<double>& found) -> Fault {
-    if (found.empty()) return std::nullopt;
-    return fault_at(file, key, centimetres(found.front()), "absent" + even);
-  };
-  if (Fault f = only("numerics.growth_x", numerics.growth_x, usual.growth_x, even)) return f;
-  if (Fault f = only("numerics.growth_r", numerics.growth_r, usual.growth_r, even)) return f;
-  if (Fault f = nothing("numerics.refined_x", numerics.refined_x)) return f;
-  if (Fault f = nothing("numerics.refined_r", numerics.refined_r)) return f;
-  return only("numerics.steel_inertia", numerics.steel_inertia, usual.steel_inertia,
-              " with formulation \"updated-lagrangian\", which has one factor on all inertia");
+  for (const auto& [key, found, allowed] :
+       {std::tuple{"numerics.growth_x", numerics.growth_x, usual.growth_x},
+        std::tuple{"numerics.growth_r", numerics.growth_r, usual.growth_r}})
+    if (found < allowed || found > allowed)
+      return fault_at(file, key, fmt::format("{:g}", found), fmt::format("{:g}{}", allowed, even));
+  for (const auto& [key, places] : {std::pair{"numerics.refined_x", &numerics.refined_x},
+                                    std::pair{"numerics.refined_r", &numerics.refined_r}})
+    if (!places->empty()) return fault_at(file, key, length_text(places->front()), "absent" + even);
+  if (numerics.steel_inertia < usual.steel_inertia || numerics.steel_inertia > usual.steel_inertia)
+    return fault_at(
+        file, "numerics.steel_inertia", fmt::format("{:g}", numerics.steel_inertia),
+        fmt::format("{:g} with formulation \"updated-lagrangian\", which has one factor on all inertia",
+                    usual.steel_inertia));
+  return std::nullopt;
 }
 
 /// Refined lines belong to the bodies.
 Fault check_refinement(const SceneFile& file) {
   const Extent all = extent_of(file.scene);
-  const double tolerance = tolerance_of(file);
-  const auto outside = [&](const std::vector<double>& places, double begin, double end) {
-    return std::find_if(places.begin(), places.end(),
-                        [&](double place) { return place < begin - tolerance || place > end + tolerance; });
-  };
+  const double tolerance = length_tolerance(file.scene);
   const Numerics& numerics = file.scene.numerics;
-  if (const auto x = outside(numerics.refined_x, all.x_begin, all.x_end); x != numerics.refined_x.end())
-    return fault_at(file, "numerics.refined_x", centimetres(*x),
-                    "places in the shell, x " + range_text(all.x_begin, all.x_end));
-  if (const auto r = outside(numerics.refined_r, all.r_begin, all.r_end); r != numerics.refined_r.end())
-    return fault_at(file, "numerics.refined_r", centimetres(*r),
-                    "radii in the shell, r " + range_text(all.r_begin, all.r_end));
+  for (const auto& [key, places, what, begin, end] :
+       {std::tuple{"numerics.refined_x", &numerics.refined_x, "places in the shell, x ", all.x_begin,
+                   all.x_end},
+        std::tuple{"numerics.refined_r", &numerics.refined_r, "radii in the shell, r ", all.r_begin,
+                   all.r_end}})
+    for (const double place : *places)
+      if (place < begin - tolerance || place > end + tolerance)
+        return fault_at(file, key, length_text(place), what + range_text(begin, end));
   return std::nullopt;
 }
 
@@ -188,16 +172,14 @@ Fault check_curve_use(const SceneFile& file) {
   if (load.curve_time.empty()) return std::nullopt;
   if (!load.curve_file.empty() && !load.rescale_to_peak && has_useless_peak(file)) {
     return fault_at(file, "load.peak",
-                    format_quantity(load.peak, Dimension::pressure) +
-                        " beside a measured curve, which has a peak of its own",
+                    pressure_text(load.peak) + " beside a measured curve, which has a peak of its own",
                     "load.curve alone, or both with load.rescale_to_peak = true");
   }
   if (load.curve_time.back() < load.duration * (1.0 - 1e-9)) {
     const char* key = load.curve_file.empty() ? "load.curve_time" : "load.curve";
-    return fault_at(file, key,
-                    "a curve that ends at " + format_quantity(load.curve_time.back(), Dimension::time),
-                    "a curve that lasts until the end of the launch, " +
-                        format_quantity(load.duration, Dimension::time) + ", or a shorter load.duration");
+    return fault_at(file, key, "a curve that ends at " + time_text(load.curve_time.back()),
+                    "a curve that lasts until the end of the launch, " + time_text(load.duration) +
+                        ", or a shorter load.duration");
   }
   return std::nullopt;
 }
@@ -210,15 +192,14 @@ Fault check_rescaling(const SceneFile& file) {
   const double measured = *std::max_element(load.curve_pressure.begin(), load.curve_pressure.end());
   if (measured >= least_peak) return std::nullopt;
   return fault_at(file, "load.rescale_to_peak",
-                  fmt::format("true with a curve whose largest pressure is {}",
-                              format_quantity(measured, Dimension::pressure)),
-                  "a curve that reaches " + format_quantity(least_peak, Dimension::pressure));
+                  fmt::format("true with a curve whose largest pressure is {}", pressure_text(measured)),
+                  "a curve that reaches " + pressure_text(least_peak));
 }
 
 Fault check_smoothing(const SceneFile& file) {
   const Load& load = file.scene.load;
   if (!(load.smoothing > 0.0)) return std::nullopt;
-  const std::string window = format_quantity(load.smoothing, Dimension::time);
+  const std::string window = time_text(load.smoothing);
   if (load.curve_time.empty())
     return fault_at(file, "load.smoothing", window + " without a measured curve",
                     "a window only together with load.curve");
@@ -226,8 +207,7 @@ Fault check_smoothing(const SceneFile& file) {
   if (load.smoothing >= least_smoothing_share * length && load.smoothing <= length) return std::nullopt;
   return fault_at(file, "load.smoothing", window,
                   fmt::format("a window from {} to that of the measured curve, {}, or 0 ms for none",
-                              format_quantity(least_smoothing_share * length, Dimension::time),
-                              format_quantity(length, Dimension::time)));
+                              time_text(least_smoothing_share * length), time_text(length)));
 }
 
 Fault check_load(const SceneFile& file) {
@@ -245,10 +225,8 @@ Fault check_load(const SceneFile& file) {
                                        [](double a, double b) { return !(b - a > least_curve_interval); });
   if (late != times.end()) {
     return fault_at(file, "load.curve_time",
-                    fmt::format("{} followed by {}", format_quantity(*late, Dimension::time),
-                                format_quantity(*std::next(late), Dimension::time)),
-                    "times in increasing order, more than " +
-                        format_quantity(least_curve_interval, Dimension::time) + " apart");
+                    fmt::format("{} followed by {}", time_text(*late), time_text(*std::next(late))),
+                    "times in increasing order, more than " + time_text(least_curve_interval) + " apart");
   }
   if (Fault fault = check_curve_use(file)) return fault;
   if (Fault fault = check_rescaling(file)) return fault;
@@ -260,8 +238,7 @@ Fault check_load(const SceneFile& file) {
   if (times.empty() && load.base > load.peak) {
     return fault_at(
         file, file.given.contains("load.base") ? "load.base" : "load.peak",
-        fmt::format("a base of {} and a peak of {}", format_quantity(load.base, Dimension::pressure),
-                    format_quantity(load.peak, Dimension::pressure)),
+        fmt::format("a base of {} and a peak of {}", pressure_text(load.base), pressure_text(load.peak)),
         "a base pressure of at most the peak");
   }
   return std::nullopt;
@@ -329,65 +306,62 @@ Fault check_gaps(const SceneFile& file) {
   const auto twice = std::adjacent_find(gaps.begin(), gaps.end(),
                                         [](double a, double b) { return b - a <= 1e-9 * std::max(b, 1e-6); });
   if (twice != gaps.end()) {
-    return fault_at(file, "gap.thickness", fmt::format("{} twice", centimetres(*twice)), "each gap once");
+    return fault_at(file, "gap.thickness", fmt::format("{} twice", length_text(*twice)), "each gap once");
   }
   if (!gaps.empty() && gaps.back() > 0.0 && !has_charge(file.scene)) {
     return fault_at(file, "gap.thickness",
-                    fmt::format("a gap of {} in a scene without a charge", centimetres(gaps.back())),
+                    fmt::format("a gap of {} in a scene without a charge", length_text(gaps.back())),
                     "gaps only under a body of material \"charge\"");
   }
   return std::nullopt;
-}
-
-bool inside(const Body& body, const ObservationPoint& point, double tolerance) {
-  return point.x >= body.x_begin - tolerance && point.x <= body.x_end + tolerance &&
-         point.r >= body.r_begin - tolerance && point.r <= body.r_end + tolerance;
 }
 
 /// The stations that nothing is said of are as wide as a charge that is narrower, and end with a shorter one.
 Fault check_stations(const SceneFile& file) {
   if (!has_charge(file.scene)) return std::nullopt;
   const Extent charge = charge_extent(file.scene);
-  const double tolerance = tolerance_of(file);
-  const auto fault = [&](const char* key, double given, double usual, double largest,
-                         const char* what) -> Fault {
-    if (given <= largest + tolerance || !(given < usual || given > usual)) return std::nullopt;
-    return fault_at(file, key, centimetres(given),
-                    fmt::format("at most the charge's {}, {}", what, centimetres(largest)));
-  };
+  const Surface& surface = file.scene.surface;
   const Surface usual;
-  if (Fault wide = fault("station.width", file.scene.surface.station_width, usual.station_width,
-                         charge.r_end - charge.r_begin, "width"))
-    return wide;
-  return fault("station.depth", file.scene.surface.station_depth, usual.station_depth,
-               charge.x_end - charge.x_begin, "length");
+  for (const auto& [key, given, preset, largest, what] :
+       {std::tuple{"station.width", surface.station_width, usual.station_width, charge.r_end - charge.r_begin,
+                   "width"},
+        std::tuple{"station.depth", surface.station_depth, usual.station_depth, charge.x_end - charge.x_begin,
+                   "length"}}) {
+    const bool is_usual = given >= preset && given <= preset;
+    if (is_usual || given <= largest + length_tolerance(file.scene)) continue;
+    return fault_at(file, key, length_text(given),
+                    fmt::format("at most the charge's {}, {}", what, length_text(largest)));
+  }
+  return std::nullopt;
 }
 
 /// m. Observation points read the skin of the charge's bottom.
 constexpr double largest_point_depth = 10e-3;
 
 Fault check_observation_points(const SceneFile& file) {
-  const double tolerance = tolerance_of(file);
-  for (const ObservationPoint& point : file.scene.output.observation_points) {
-    const bool in_charge = std::any_of(
-        file.scene.bodies.begin(), file.scene.bodies.end(),
-        [&](const Body& body) { return is_charge(file.scene, body) && inside(body, point, tolerance); });
-    const double depth = charge_extent(file.scene).x_end - point.x;
-    if (in_charge && depth > largest_point_depth + tolerance) {
-      return fault_at(file, fmt::format("observation_point.{}.x", point.name), centimetres(point.x),
+  const Scene& scene = file.scene;
+  const double tolerance = length_tolerance(scene);
+  const Extent charge = charge_extent(scene);
+  for (const ObservationPoint& point : scene.output.observation_points) {
+    const auto within = [&](double place, double begin, double end) {
+      return place >= begin - tolerance && place <= end + tolerance;
+    };
+    const bool in_charge = std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
+      return is_charge(scene, body) && within(point.x, body.x_begin, body.x_end) &&
+             within(point.r, body.r_begin, body.r_end);
+    });
+    const std::string key = "observation_point." + point.name;
+    if (in_charge && charge.x_end - point.x > largest_point_depth + tolerance)
+      return fault_at(file, key + ".x", length_text(point.x),
                       fmt::format("at most {} from the charge's bottom, whose temperatures it reads",
-                                  centimetres(largest_point_depth)));
-    }
+                                  length_text(largest_point_depth)));
     if (in_charge) continue;
-    const Extent charge = charge_extent(file.scene);
-    const bool in_x = point.x >= charge.x_begin - tolerance && point.x <= charge.x_end + tolerance;
-    std::string allowed = "none: the scene has no charge";
-    if (has_charge(file.scene)) {
-      allowed = fmt::format("a point in the charge, x {}, r {}", range_text(charge.x_begin, charge.x_end),
-                            range_text(charge.r_begin, charge.r_end));
-    }
-    return fault_at(file, fmt::format("observation_point.{}.{}", point.name, in_x ? "r" : "x"),
-                    fmt::format("x {}, r {}", centimetres(point.x), centimetres(point.r)), allowed);
+    return fault_at(file, key + (within(point.x, charge.x_begin, charge.x_end) ? ".r" : ".x"),
+                    fmt::format("x {}, r {}", length_text(point.x), length_text(point.r)),
+                    has_charge(scene) ? fmt::format("a point in the charge, x {}, r {}",
+                                                    range_text(charge.x_begin, charge.x_end),
+                                                    range_text(charge.r_begin, charge.r_end))
+                                      : "none: the scene has no charge");
   }
   return std::nullopt;
 }
@@ -406,20 +380,18 @@ Fault check_inertia(const SceneFile& file) {
 
 Fault check_output(const SceneFile& file) {
   const double duration = file.scene.load.duration;
-  const std::string until = format_quantity(duration, Dimension::time);
+  const std::string until = time_text(duration);
   if (file.scene.output.trace_interval > duration) {
-    return fault_at(file, "output.trace_interval",
-                    format_quantity(file.scene.output.trace_interval, Dimension::time),
+    return fault_at(file, "output.trace_interval", time_text(file.scene.output.trace_interval),
                     "an interval of at most the load's duration, " + until);
   }
   std::vector<double> times = file.scene.output.snapshot_times;
   std::sort(times.begin(), times.end());
   if (const auto twice = std::adjacent_find(times.begin(), times.end()); twice != times.end())
-    return fault_at(file, "output.snapshots", format_quantity(*twice, Dimension::time) + " twice",
-                    "each time once");
+    return fault_at(file, "output.snapshots", time_text(*twice) + " twice", "each time once");
   for (const double time : times) {
     if (time <= duration * (1.0 + 1e-12)) continue;
-    return fault_at(file, "output.snapshots", format_quantity(time, Dimension::time),
+    return fault_at(file, "output.snapshots", time_text(time),
                     "times from 0 ms to the load's duration, " + until);
   }
   return std::nullopt;

@@ -46,8 +46,11 @@ Expected<std::vector<double>, QuantityFault> parse_list(std::string_view text, D
 
 /// For people: six digits in the unit that reads best, such as "0.25 cm", "18 ms", "496 MPa".
 std::string format_quantity(double value_si, Dimension dimension);
-/// For programs: the shortest decimal that reads back to the same double, in SI.
-std::string exact_quantity(double value_si, Dimension dimension);
+
+/// The same of a length (m), a time (s) and a pressure (Pa).
+std::string length_text(double length);
+std::string time_text(double time);
+std::string pressure_text(double pressure);
 
 /// A value in a named unit of the dimension ("cm"), as a number; NaN for a unit that the dimension does not
 /// have.

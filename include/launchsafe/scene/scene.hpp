@@ -213,6 +213,8 @@ struct Extent {
 Extent extent_of(const Scene& scene);
 Extent charge_extent(const Scene& scene);
 Extent inert_extent(const Scene& scene);
+/// The round-off of lengths that users write in decimals, m: places closer than this are one.
+double length_tolerance(const Scene& scene);
 
 /// Masses in kg (axisymmetric: of the whole shell; plane strain: per metre of depth, half model).
 double mass_of(const Scene& scene, std::string_view material);
