@@ -83,22 +83,12 @@ const std::vector<Key<Acceptance>>& acceptance_keys() {
 Expected<std::vector<Acceptance>> read_acceptances(const toml::table& root,
                                                    const std::vector<std::string>& known,
                                                    const std::string& file) {
+  auto tables = read_tables(root, "accept", acceptance_keys(), file,
+                            "tables, such as accept = [{ key = \"gap.exchange_time\", because = \"...\" }]");
+  if (!tables) return tables.error();
   std::vector<Acceptance> accepted;
-  const toml::node* node = root.get("accept");
-  if (!node || (node->is_array() && node->as_array()->empty())) return accepted;
-  if (!node->is_array_of_tables()) {
-    return error_at(place_of(*node, file), "accept", found_text(*node),
-                    "tables, such as accept = [{ key = \"gap.exchange_time\", because = \"...\" }]");
-  }
-  for (const toml::node& element : *node->as_array()) {
-    Acceptance acceptance;
-    const auto places = read_table(*element.as_table(), acceptance_keys(), {}, file, acceptance);
-    if (!places) {
-      InputError error = places.error();
-      error.key = "accept." + error.key;
-      return error;
-    }
-    if (auto error = check(acceptance, *places, accepted, known)) return *error;
+  for (auto& [acceptance, places] : *tables) {
+    if (auto error = check(acceptance, places, accepted, known)) return *error;
     accepted.push_back(std::move(acceptance));
   }
   return accepted;

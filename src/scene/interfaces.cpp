@@ -1,7 +1,8 @@
 #include "launchsafe/scene/interfaces.hpp"
 
-#include "key_text.hpp"
 #include "launchsafe/scene/read_scene.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,23 +24,14 @@ Key<Interface> optional_number_key(std::string name, Dimension dimension, Limits
 }
 
 /// A fault of one interface, at the first of its keys that the file has.
-class FaultOf {
- public:
-  FaultOf(const SceneFile& file, const Interface& faces) : file_(file), table_("interface." + faces.body) {}
-
-  InputError operator()(const std::string& key, std::string found, std::string allowed,
-                        std::string suggestion = {}) const {
-    const std::string name = key.empty() ? table_ : table_ + "." + key;
-    for (const std::string& each : {name, table_ + ".condition", table_})
-      if (const auto place = file_.places.find(each); place != file_.places.end())
-        return error_at(place->second, name, found, allowed, suggestion);
-    return error_at(Place{file_.file}, name, found, allowed, suggestion);
-  }
-
- private:
-  const SceneFile& file_;
-  std::string table_;
-};
+InputError fault_of(const SceneFile& file, const Interface& faces, const std::string& key, std::string found,
+                    std::string allowed, std::string suggestion = {}) {
+  const std::string table = "interface." + faces.body, name = key.empty() ? table : table + "." + key;
+  Place where{file.file};
+  for (const std::string& each : {table, table + ".condition", name})
+    if (const auto place = file.places.find(each); place != file.places.end()) where = place->second;
+  return error_at(where, name, found, allowed, suggestion);
+}
 
 std::optional<InputError> check_body(const SceneFile& file, const Interface& faces) {
   const Scene& scene = file.scene;
@@ -51,33 +43,33 @@ std::optional<InputError> check_body(const SceneFile& file, const Interface& fac
                      : is_charge(scene, *body)  ? "which is a charge itself"
                                                 : "which does not touch the charge";
   const std::string nearest = nearest_of(faces.body, touching);
-  return FaultOf(file, faces)("", fmt::format("\"{}\", {}", faces.body, what),
-                              touching.empty() ? "no interface: no body touches a charge"
-                                               : "a body that touches the charge: " + quoted_list(touching),
-                              nearest.empty() ? nearest : "interface." + nearest);
+  return fault_of(file, faces, "", fmt::format("\"{}\", {}", faces.body, what),
+                  touching.empty() ? "no interface: no body touches a charge"
+                                   : "a body that touches the charge: " + quoted_list(touching),
+                  nearest.empty() ? nearest : "interface." + nearest);
 }
 
 std::optional<InputError> check_law(const SceneFile& file, const Interface& faces) {
-  const FaultOf fault(file, faces);
   const bool slides = faces.condition == Condition::sliding;
   const bool breaks = faces.tension_strength || faces.shear_strength;
   const std::string friction = fmt::format("a friction from 0 (smooth) to {:g}", largest_friction);
   if (slides && breaks)
-    return fault(faces.tension_strength ? "tension_strength" : "shear_strength",
-                 "the strength of a bond on faces that slide from the start",
-                 "strengths with condition = \"bonded\", or condition = \"sliding\" without them");
+    return fault_of(file, faces, faces.tension_strength ? "tension_strength" : "shear_strength",
+                    "the strength of a bond on faces that slide from the start",
+                    "strengths with condition = \"bonded\", or condition = \"sliding\" without them");
   if (slides && !faces.friction)
-    return fault("friction", "nothing: faces that slide without their friction", friction);
+    return fault_of(file, faces, "friction", "nothing: faces that slide without their friction", friction);
   if (breaks && !faces.friction)
-    return fault("friction", "nothing: a bond that can break without the friction of the faces after it",
-                 friction);
+    return fault_of(file, faces, "friction",
+                    "nothing: a bond that can break without the friction of the faces after it", friction);
   if (breaks && !(faces.tension_strength && faces.shear_strength))
-    return fault(faces.tension_strength ? "shear_strength" : "tension_strength",
-                 "nothing, beside the other strength of the bond", "both strengths of a bond, or none");
+    return fault_of(file, faces, faces.tension_strength ? "shear_strength" : "tension_strength",
+                    "nothing, beside the other strength of the bond", "both strengths of a bond, or none");
   if (faces.friction && !slides && !breaks)
-    return fault("friction", fmt::format("{:g} on faces that are bonded for good", *faces.friction),
-                 "friction with condition = \"sliding\", or with the strengths of a bond that can break",
-                 "condition = \"sliding\"");
+    return fault_of(file, faces, "friction",
+                    fmt::format("{:g} on faces that are bonded for good", *faces.friction),
+                    "friction with condition = \"sliding\", or with the strengths of a bond that can break",
+                    "condition = \"sliding\"");
   return std::nullopt;
 }
 
@@ -111,8 +103,7 @@ const std::vector<Key<Interface>>& interface_keys() {
 }
 
 bool share_a_face(const Scene& scene, const Body& a, const Body& b) {
-  const Extent all = extent_of(scene);
-  const double tolerance = 1e-9 * std::max(all.x_end - all.x_begin, all.r_end);
+  const double tolerance = length_tolerance(scene);
   const auto meet = [&](double end, double begin) { return std::abs(end - begin) <= tolerance; };
   const double common_x = std::min(a.x_end, b.x_end) - std::max(a.x_begin, b.x_begin);
   const double common_r = std::min(a.r_end, b.r_end) - std::max(a.r_begin, b.r_begin);
@@ -167,39 +158,30 @@ std::optional<InputError> check_interfaces(const SceneFile& file) {
     if (auto error = check_body(file, faces)) return error;
     if (auto error = check_law(file, faces)) return error;
     if (!can_slide(faces) || file.scene.numerics.formulation == Formulation::total_lagrangian) continue;
-    return FaultOf(file, faces)("condition", "faces that can slide with formulation \"updated-lagrangian\"",
-                                "faces bonded for good with \"updated-lagrangian\", which has one velocity a "
-                                "place; sliding with numerics.formulation = \"total-lagrangian\"",
-                                "formulation = \"total-lagrangian\"");
+    return fault_of(file, faces, "condition", "faces that can slide with formulation \"updated-lagrangian\"",
+                    "faces bonded for good with \"updated-lagrangian\", which has one velocity a "
+                    "place; sliding with numerics.formulation = \"total-lagrangian\"",
+                    "formulation = \"total-lagrangian\"");
   }
   return std::nullopt;
 }
 
-void append_interfaces(fmt::memory_buffer& text, std::vector<Interface> interfaces) {
+std::string interfaces_as_toml(std::vector<Interface> interfaces) {
   const KeyDescription name{.kind = KeyKind::text};
   // In the order of names, in which files are read: the order in which a program made them says nothing.
   std::stable_sort(interfaces.begin(), interfaces.end(),
                    [](const Interface& a, const Interface& b) { return a.body < b.body; });
+  std::string text;
   for (const Interface& faces : interfaces) {
-    const auto begin = [&](std::string_view key) {
-      append(text, "interface.");
-      append_exact_toml(text, name, Value(faces.body));
-      append(text, ".");
-      append(text, key);
-      append(text, " = ");
+    const auto add = [&](std::string_view key, const std::string& value) {
+      text += fmt::format("interface.{}.{} = {}\n", exact_toml(name, faces.body), key, value);
     };
-    for (const Key<Interface>& key : interface_keys()) {
-      if (key.is_written && !key.is_written(faces)) continue;
-      begin(key.name);
-      append_exact_toml(text, key, key.get(faces));
-      append(text, "\n");
-    }
-    if (faces.against.empty()) continue;
+    for (const Key<Interface>& key : interface_keys())
+      if (!key.is_written || key.is_written(faces)) add(key.name, exact_toml(key, key.get(faces)));
     // Only programs make these; files cannot say them, but texts of different scenes differ.
-    begin("against");
-    append_exact_toml(text, name, Value(faces.against));
-    append(text, "\n");
+    if (!faces.against.empty()) add("against", exact_toml(name, faces.against));
   }
+  return text;
 }
 
 std::vector<InterfaceText> describe_interfaces(const Scene& scene) {
@@ -224,8 +206,8 @@ std::vector<InterfaceText> describe_interfaces(const Scene& scene) {
         {body, "bonded until it breaks",
          fmt::format("past {} of tension or {} of shear at a node, each by itself, the bond is gone there "
                      "for good; then {}",
-                     format_quantity(*faces->tension_strength, Dimension::pressure),
-                     format_quantity(faces->shear_strength.value_or(0.0), Dimension::pressure), sliding)});
+                     pressure_text(*faces->tension_strength),
+                     pressure_text(faces->shear_strength.value_or(0.0)), sliding)});
   }
   return described;
 }

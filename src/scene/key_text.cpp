@@ -1,9 +1,11 @@
 // How keys and their values are written, for people and for programs.
-#include "key_text.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <iterator>
 #include <sstream>
 
 namespace launchsafe::scene {
@@ -30,14 +32,6 @@ std::string first_unit(Dimension dimension) {
   return units.empty() ? std::string{} : " " + units.front();
 }
 
-void append_number(fmt::memory_buffer& text, double number, std::string_view unit) {
-  if (unit.empty()) {
-    fmt::format_to(std::back_inserter(text), "{}", number);
-  } else {
-    fmt::format_to(std::back_inserter(text), "\"{} {}\"", number, unit);
-  }
-}
-
 /// The word under which a value is written to texts that identify what is stored: that of the version that
 /// first had it, so that results of earlier versions are found again.
 const std::string& stored_word(const KeyDescription& key, const std::string& word) {
@@ -47,53 +41,25 @@ const std::string& stored_word(const KeyDescription& key, const std::string& wor
 }
 
 /// As toml++ writes it, which is in single quotes wherever nothing needs an escape.
-void append_string(fmt::memory_buffer& text, const std::string& string) {
+std::string string_as_toml(const std::string& string) {
   const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\'' && c != '\\'; };
-  if (!string.empty() && std::all_of(string.begin(), string.end(), is_plain)) {
-    fmt::format_to(std::back_inserter(text), "'{}'", string);
-    return;
-  }
+  if (!string.empty() && std::all_of(string.begin(), string.end(), is_plain)) return "'" + string + "'";
   std::ostringstream stream;
   stream << toml::value<std::string>(string);
-  append(text, stream.str());
+  return stream.str();
 }
 
 }  // namespace
 
 std::string_view letter_of(Standing standing) {
-  switch (standing) {
-    case Standing::input:
-      return "input";
-    case Standing::paper:
-      return "P";
-    case Standing::literature:
-      return "L";
-    case Standing::derived:
-      return "D";
-    case Standing::assumed:
-      return "A";
-    case Standing::calibrated:
-      return "C";
-  }
-  return {};
+  constexpr std::array<std::string_view, 6> letters{"input", "P", "L", "D", "A", "C"};
+  return letters[static_cast<std::size_t>(standing)];
 }
 
 std::string_view meaning_of(Standing standing) {
-  switch (standing) {
-    case Standing::input:
-      return "given in the file";
-    case Standing::paper:
-      return "stated in the paper";
-    case Standing::literature:
-      return "literature";
-    case Standing::derived:
-      return "derived";
-    case Standing::assumed:
-      return "assumed";
-    case Standing::calibrated:
-      return "calibrated";
-  }
-  return {};
+  constexpr std::array<std::string_view, 6> meanings{
+      "given in the file", "stated in the paper", "literature", "derived", "assumed", "calibrated"};
+  return meanings[static_cast<std::size_t>(standing)];
 }
 
 std::string allowed_text(const KeyDescription& key) {
@@ -147,29 +113,16 @@ std::string format_value(const KeyDescription& key, const Value& value) {
   return joined;
 }
 
-void append_exact_toml(fmt::memory_buffer& text, const KeyDescription& key, const Value& value) {
-  const std::string_view unit = si_unit_of(key.dimension);
-  if (const auto* number = std::get_if<double>(&value)) return append_number(text, *number, unit);
-  if (const auto* flag = std::get_if<bool>(&value)) return append(text, *flag ? "true" : "false");
-  if (const auto* string = std::get_if<std::string>(&value))
-    return append_string(text, stored_word(key, *string));
-  const auto& numbers = std::get<std::vector<double>>(value);
-  if (numbers.empty()) return append(text, "[]");
-  const std::string_view separator = key.kind == KeyKind::range ? " to " : ", ";
-  append(text, "\"");
-  for (const double& number : numbers) {
-    if (&number != numbers.data()) append(text, separator);
-    fmt::format_to(std::back_inserter(text), "{}", number);
-  }
-  append(text, unit.empty() ? "" : " ");
-  append(text, unit);
-  append(text, "\"");
-}
-
 std::string exact_toml(const KeyDescription& key, const Value& value) {
-  fmt::memory_buffer text;
-  append_exact_toml(text, key, value);
-  return fmt::to_string(text);
+  const std::string_view unit = si_unit_of(key.dimension);
+  if (const auto* number = std::get_if<double>(&value))
+    return unit.empty() ? fmt::format("{}", *number) : fmt::format("\"{} {}\"", *number, unit);
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* string = std::get_if<std::string>(&value)) return string_as_toml(stored_word(key, *string));
+  const auto& numbers = std::get<std::vector<double>>(value);
+  if (numbers.empty()) return "[]";
+  return fmt::format("\"{}{}{}\"", fmt::join(numbers, key.kind == KeyKind::range ? " to " : ", "),
+                     unit.empty() ? "" : " ", unit);
 }
 
 }  // namespace launchsafe::scene

@@ -1,6 +1,5 @@
 #include "launchsafe/scene/read_scene.hpp"
 
-#include "key_text.hpp"
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/plausibility.hpp"
@@ -9,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <iterator>
 #include <utility>
 
 namespace launchsafe::scene {
@@ -19,28 +17,15 @@ const std::vector<std::string> tables_read_apart{"body", "observation_point", "a
 
 /// Reads [[name]] tables into `owners`; the places become "name.<name of the owner>.<key>".
 template <class Owner>
-std::optional<InputError> read_tables(const toml::table& root, const std::string& name,
-                                      const std::vector<Key<Owner>>& keys, const std::string& file,
-                                      std::vector<Owner>& owners, std::map<std::string, Place>& places) {
-  const toml::node* node = root.get(name);
-  if (!node || (node->is_array() && node->as_array()->empty())) return std::nullopt;
-  const toml::array* array = node->as_array();
-  if (!array || !node->is_array_of_tables()) {
-    return error_at(place_of(*node, file), name, found_text(*node),
-                    fmt::format("tables, each written [[{}]]", name));
-  }
-  for (const toml::node& element : *array) {
-    Owner owner;
-    auto read = read_table(*element.as_table(), keys, {}, file, owner);
-    if (!read) {
-      InputError error = read.error();
-      error.key = name + "." + error.key;
-      return error;
-    }
-    for (auto& [key, place] : *read) {
-      // Of two with one name the second one's place stands: that is the one to complain about.
+std::optional<InputError> read_named(const toml::table& root, const std::string& name,
+                                     const std::vector<Key<Owner>>& keys, const std::string& file,
+                                     std::vector<Owner>& owners, std::map<std::string, Place>& places) {
+  auto tables = read_tables(root, name, keys, file, fmt::format("tables, each written [[{}]]", name));
+  if (!tables) return tables.error();
+  for (auto& [owner, own_places] : *tables) {
+    // Of two with one name the second one's place stands: that is the one to complain about.
+    for (auto& [key, place] : own_places)
       places.insert_or_assign(fmt::format("{}.{}.{}", name, owner.name, key), std::move(place));
-    }
     owners.push_back(std::move(owner));
   }
   return std::nullopt;
@@ -66,12 +51,6 @@ std::optional<InputError> read_curve_file(SceneFile& file) {
   return std::nullopt;
 }
 
-/// Takes over a curve that was read from the same file before.
-void keep_curve(Scene& scene, Load&& read) {
-  scene.load.curve_time = std::move(read.curve_time);
-  scene.load.curve_pressure = std::move(read.curve_pressure);
-}
-
 /// The scene from its bodies, its points and the given keys, applied in the order of their declaration. The
 /// file of a measured curve is read unless the scene has it already.
 std::optional<InputError> rebuild(SceneFile& file, bool has_curve) {
@@ -86,7 +65,8 @@ std::optional<InputError> rebuild(SceneFile& file, bool has_curve) {
   }
   std::swap(file.scene, fresh);
   if (has_curve && !file.scene.load.curve_file.empty()) {
-    keep_curve(file.scene, std::move(fresh.load));
+    file.scene.load.curve_time = std::move(fresh.load.curve_time);
+    file.scene.load.curve_pressure = std::move(fresh.load.curve_pressure);
   } else if (auto error = read_curve_file(file)) {
     return error;
   }
@@ -161,10 +141,10 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
     const std::string& name = scene_keys()[index].name;
     file.given[name] = {read->places[name], std::move(value)};
   }
-  if (auto error = read_tables(*table, "body", body_keys(), file.file, scene.bodies, file.places))
+  if (auto error = read_named(*table, "body", body_keys(), file.file, scene.bodies, file.places))
     return *error;
-  if (auto error = read_tables(*table, "observation_point", observation_point_keys(), file.file,
-                               scene.output.observation_points, file.places)) {
+  if (auto error = read_named(*table, "observation_point", observation_point_keys(), file.file,
+                              scene.output.observation_points, file.places)) {
     return *error;
   }
   auto interfaces = read_interfaces(*table, file.file, file.places);
@@ -184,18 +164,13 @@ Expected<SceneFile> read_scene(const std::filesystem::path& file) {
 }
 
 Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& name, const Place& place) {
-  if (const Key<Scene>* key = find_key(scene_keys(), name)) return static_cast<const KeyDescription&>(*key);
-  if (const auto found = find_body_key(file.scene, name)) {
-    KeyDescription description = *found->key;
-    description.name = name;
-    return description;
-  }
-  if (const auto found = find_interface_key(file.scene, name)) {
-    KeyDescription description = *found->key;
-    description.name = name;
-    return description;
-  }
-  return unknown_key(place, name, names_of_keys(file.scene));
+  if (const Key<Scene>* key = find_key(scene_keys(), name)) return KeyDescription(*key);
+  const auto of_body = find_body_key(file.scene, name);
+  const auto of_faces = find_interface_key(file.scene, name);
+  if (!of_body && !of_faces) return unknown_key(place, name, names_of_keys(file.scene));
+  KeyDescription description = of_body ? KeyDescription(*of_body->key) : KeyDescription(*of_faces->key);
+  description.name = name;
+  return description;
 }
 
 Value value_in(const SceneFile& file, const std::string& name) {
@@ -261,59 +236,49 @@ std::vector<ListedKey> list_keys(const SceneFile& file) {
 namespace {
 
 template <class Owner>
-void append_inline_tables(fmt::memory_buffer& text, std::string_view name,
-                          const std::vector<Key<Owner>>& keys, const std::vector<Owner>& owners) {
-  append(text, name);
-  append(text, " = [\n");
+std::string inline_tables(std::string_view name, const std::vector<Key<Owner>>& keys,
+                          const std::vector<Owner>& owners) {
+  std::string text = fmt::format("{} = [\n", name);
   for (const Owner& owner : owners) {
     std::string_view before = "  { ";
     for (const Key<Owner>& key : keys) {
-      append(text, before);
-      append(text, key.name);
-      append(text, " = ");
-      append_exact_toml(text, key, key.get(owner));
+      text += fmt::format("{}{} = {}", before, key.name, exact_toml(key, key.get(owner)));
       before = ", ";
     }
-    append(text, " },\n");
+    text += " },\n";
   }
-  append(text, "]\n");
+  return text + "]\n";
 }
 
 /// Materials under other names than their law's, which only programs make. Files cannot declare them, but
 /// texts of different scenes differ.
-void append_own_materials(fmt::memory_buffer& text, const Scene& scene) {
+std::string own_materials(const Scene& scene) {
+  std::string text;
   for (const Material& material : scene.materials) {
     std::visit(
         [&]<class Law>(const Law& law) {
           if (material.name == Law::name) return;
-          fmt::format_to(std::back_inserter(text), "material.\"{}\".law = '{}'\n", material.name, Law::name);
-          for (const Key<Law>& key : Law::parameters()) {
-            fmt::format_to(std::back_inserter(text), "material.\"{}\".{} = ", material.name, key.name);
-            append_exact_toml(text, key, key.get(law));
-            append(text, "\n");
-          }
+          text += fmt::format("material.\"{}\".law = '{}'\n", material.name, Law::name);
+          for (const Key<Law>& key : Law::parameters())
+            text += fmt::format("material.\"{}\".{} = {}\n", material.name, key.name,
+                                exact_toml(key, key.get(law)));
         },
         material.law);
   }
+  return text;
 }
 
 }  // namespace
 
 std::string to_toml(const Scene& scene) {
-  fmt::memory_buffer text;
-  for (const Key<Scene>& key : scene_keys()) {
-    if (key.is_written && !key.is_written(scene)) continue;
-    append(text, key.name);
-    append(text, " = ");
-    append_exact_toml(text, key, key.get(scene));
-    append(text, "\n");
-  }
-  append_own_materials(text, scene);
-  append_interfaces(text, scene.interfaces);
-  append_inline_tables(text, "body", body_keys(), scene.bodies);
-  append_inline_tables(text, "observation_point", observation_point_keys(), scene.output.observation_points);
-  if (!scene.accepted.empty()) append_inline_tables(text, "accept", acceptance_keys(), scene.accepted);
-  return fmt::to_string(text);
+  std::string text;
+  for (const Key<Scene>& key : scene_keys())
+    if (!key.is_written || key.is_written(scene))
+      text += fmt::format("{} = {}\n", key.name, exact_toml(key, key.get(scene)));
+  text += own_materials(scene) + interfaces_as_toml(scene.interfaces) +
+          inline_tables("body", body_keys(), scene.bodies) +
+          inline_tables("observation_point", observation_point_keys(), scene.output.observation_points);
+  return scene.accepted.empty() ? text : text + inline_tables("accept", acceptance_keys(), scene.accepted);
 }
 
 }  // namespace launchsafe::scene

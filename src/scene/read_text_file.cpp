@@ -1,4 +1,4 @@
-// The one place where files that users write are opened.
+// The one place where whole files are read.
 #include "launchsafe/scene/toml_reader.hpp"
 
 #include <fcntl.h>
@@ -31,7 +31,8 @@ class Descriptor {
   int number_;
 };
 
-InputError missing(const std::filesystem::path& file) {
+/// The nearest name in the folder of a file that does not exist, in quotation marks; empty for none.
+std::string nearest_file(const std::filesystem::path& file) {
   std::error_code failure;
   std::vector<std::string> names;
   const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
@@ -41,10 +42,7 @@ InputError missing(const std::filesystem::path& file) {
   }
   std::sort(names.begin(), names.end());
   const std::string near = nearest_of(file.filename().string(), names);
-  InputError error = error_at({file.string()}, {}, {}, {},
-                              near.empty() ? near : '"' + (file.parent_path() / near).string() + '"');
-  error.file_missing = true;
-  return error;
+  return near.empty() ? near : '"' + (file.parent_path() / near).string() + '"';
 }
 
 /// What a path leads to that is no regular file.
@@ -56,8 +54,13 @@ std::string_view kind_of(const struct stat& status) {
 }
 
 InputError unreadable(const Place& place, int reason) {
-  return error_at(place, {}, fmt::format("a file that cannot be read ({})", std::strerror(reason)),
-                  "a readable file");
+  const bool missing = reason == ENOENT || reason == ENOTDIR;
+  InputError error =
+      missing ? error_at(place, {}, {}, {})
+              : error_at(place, {}, fmt::format("a file that cannot be read ({})", std::strerror(reason)),
+                         "a readable file");
+  error.file_missing = missing;
+  return error;
 }
 
 InputError too_large(const Place& place, std::size_t largest) {
@@ -67,11 +70,10 @@ InputError too_large(const Place& place, std::size_t largest) {
 
 }  // namespace
 
-Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest) {
+Expected<std::string> read_regular_file(const std::filesystem::path& file, std::size_t largest) {
   const Place place{file.string()};
   struct stat status {};
-  if (::stat(file.c_str(), &status) != 0)
-    return errno == ENOENT || errno == ENOTDIR ? missing(file) : unreadable(place, errno);
+  if (::stat(file.c_str(), &status) != 0) return unreadable(place, errno);
   // Before it is opened, because that alone may do something to a device.
   if (!S_ISREG(status.st_mode)) return error_at(place, {}, kind_of(status), allowed_file);
   // Should it have become a pipe by now, opening it does not wait for a writer.
@@ -79,7 +81,8 @@ Expected<std::string> read_text_file(const std::filesystem::path& file, std::siz
   if (descriptor.number() < 0 || ::fstat(descriptor.number(), &status) != 0) return unreadable(place, errno);
   if (!S_ISREG(status.st_mode)) return error_at(place, {}, kind_of(status), allowed_file);
   std::string text;
-  std::array<char, std::size_t{1} << 13> part;
+  text.reserve(std::min(static_cast<std::size_t>(status.st_size), largest));
+  std::array<char, std::size_t{1} << 16> part;
   for (;;) {
     const ssize_t count = ::read(descriptor.number(), part.data(), part.size());
     if (count < 0 && errno == EINTR) continue;
@@ -88,6 +91,14 @@ Expected<std::string> read_text_file(const std::filesystem::path& file, std::siz
     text.append(part.data(), static_cast<std::size_t>(count));
     if (text.size() > largest) return too_large(place, largest);
   }
+}
+
+Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest) {
+  auto text = read_regular_file(file, largest);
+  if (text || !text.error().file_missing) return text;
+  InputError error = text.error();
+  error.suggestion = quotable(nearest_file(file), longest_quoted);
+  return error;
 }
 
 }  // namespace launchsafe::scene

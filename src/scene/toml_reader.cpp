@@ -233,12 +233,6 @@ Expected<toml::table> parse_toml(std::string_view text, const std::string& file)
   }
 }
 
-Expected<toml::table> read_toml_file(const std::filesystem::path& file) {
-  const auto text = read_text_file(file);
-  if (!text) return text.error();
-  return parse_toml(*text, file.string());
-}
-
 Expected<Value> read_value(const toml::node& node, const KeyDescription& key, const std::string& file) {
   const Place place = place_of(node, file);
   switch (key.kind) {

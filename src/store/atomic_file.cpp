@@ -1,5 +1,6 @@
 #include "launchsafe/store/atomic_file.hpp"
 
+#include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "posix_file.hpp"
 
@@ -8,8 +9,11 @@
 #include <sys/stat.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <cstdio>
+#include <limits>
 #include <random>
+#include <utility>
 
 namespace launchsafe::store {
 namespace {
@@ -110,30 +114,10 @@ Result<std::filesystem::path> move_to_numbered_name(const std::filesystem::path&
 }
 
 Result<std::string> read_file(const std::filesystem::path& path) {
-  const auto failure = [&path](int error_number) {
-    const bool missing = error_number == ENOENT || error_number == ENOTDIR;
-    return Error{missing ? Error::Kind::missing : Error::Kind::unreadable,
-                 fmt::format("cannot read {}: {}", path.string(), system_reason(error_number))};
-  };
-  // O_NONBLOCK so that a named pipe is refused below rather than waited for.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  struct stat status {};
-  if (!file.is_open() || ::fstat(file.number(), &status) != 0) return failure(errno);
-  if (S_ISDIR(status.st_mode)) return failure(EISDIR);
-  if (!S_ISREG(status.st_mode))
-    return Error{Error::Kind::unreadable, path.string() + " is not a regular file"};
-
-  std::string content(static_cast<std::size_t>(status.st_size), '\0');
-  std::size_t filled = 0;
-  while (filled < content.size()) {
-    const ssize_t taken = ::read(file.number(), content.data() + filled, content.size() - filled);
-    if (taken < 0 && errno == EINTR) continue;
-    if (taken < 0) return failure(errno);
-    if (taken == 0) break;
-    filled += static_cast<std::size_t>(taken);
-  }
-  content.resize(filled);
-  return content;
+  auto content = scene::read_regular_file(path, std::numeric_limits<std::size_t>::max());
+  if (content) return std::move(*content);
+  return Error{content.error().file_missing ? Error::Kind::missing : Error::Kind::unreadable,
+               "cannot read " + content.error().message()};
 }
 
 }  // namespace launchsafe::store

@@ -18,23 +18,15 @@ struct Thing {
 
 std::vector<Key<Thing>> thing_keys() {
   return {
-      number_key<Thing>(
-          "length", Dimension::length, above(0), Standing::paper, "A length.",
-          [](auto& t) -> auto& { return t.length; }),
-      number_key<Thing>(
-          "part.count", Dimension::count, between(1, 9), Standing::assumed, "A count.",
-          [](auto& t) -> auto& { return t.count; }),
-      flag_key<Thing>(
-          "part.flag", Standing::assumed, "A flag.", [](auto& t) -> auto& { return t.flag; }),
-      word_key<Thing, Colour>(
-          "colour", Standing::assumed, "A word.", {{"red", Colour::red}, {"green", Colour::green}},
-          [](auto& t) -> auto& { return t.colour; }),
-      may_be_empty(list_key<Thing>(
-          "times", Dimension::time, at_least(0), Standing::assumed, "A list.",
-          [](auto& t) -> auto& { return t.times; })),
-      number_key<Thing>(
-          "share", Dimension::number, between(0, 1), Standing::assumed, "A share.",
-          [](auto& t) -> auto& { return t.share; }),
+      number_key("length", Dimension::length, above(0), Standing::paper, "A length.", &Thing::length),
+      number_key("part.count", Dimension::count, between(1, 9), Standing::assumed, "A count.", &Thing::count),
+      flag_key("part.flag", Standing::assumed, "A flag.", &Thing::flag),
+      formerly(word_key("colour", Standing::assumed, "A word.",
+                        {{"red", Colour::red}, {"green", Colour::green}}, &Thing::colour),
+               {"verdant", "green"}),
+      may_be_empty(
+          list_key("times", Dimension::time, at_least(0), Standing::assumed, "A list.", &Thing::times)),
+      number_key("share", Dimension::number, between(0, 1), Standing::assumed, "A share.", &Thing::share),
   };
 }
 
@@ -71,6 +63,38 @@ TEST(TomlReader, LeavesDefaultsWhereNothingIsSaid) {
   ASSERT_TRUE(thing);
   EXPECT_EQ(thing->length, 2.5e-3);
   EXPECT_EQ(std::get<double>(thing_keys()[0].default_value()), 2.5e-3);
+}
+
+TEST(TomlReader, ExactTextReadsBackToTheSameDouble) {
+  for (const double value : {0.1 + 0.2, 1.0 / 3.0, 5e-324, 1.7976931348623157e308, 0.118}) {
+    const auto thing = read_thing("length = " + exact_toml(thing_keys()[0], value));
+    ASSERT_TRUE(thing) << thing.error().message();
+    EXPECT_EQ(thing->length, value);
+  }
+}
+
+TEST(TomlReader, AFormerWordIsReadAsThePresentOneAndKeptInExactText) {
+  const auto thing = read_thing("colour = \"verdant\"");
+  ASSERT_TRUE(thing) << thing.error().message();
+  EXPECT_EQ(thing->colour, Colour::green);
+  const Key<Thing> colour = *find_key(thing_keys(), "colour");
+  EXPECT_EQ(std::get<std::string>(colour.get(*thing)), "green");
+  EXPECT_EQ(exact_toml(colour, colour.get(*thing)), "'verdant'");
+  EXPECT_EQ(exact_toml(colour, std::string("red")), "'red'");
+}
+
+TEST(TomlReader, KeysOfAPartStandUnderItsPrefix) {
+  struct Box {
+    Thing thing;
+  };
+  const auto keys = keys::keys_of_part("box.", &Box::thing, thing_keys());
+  const Key<Box>* count = find_key(keys, "box.part.count");
+  ASSERT_NE(count, nullptr);
+  Box box;
+  count->set(box, 7.0);
+  EXPECT_EQ(box.thing.count, 7);
+  EXPECT_EQ(std::get<double>(count->get(box)), 7.0);
+  EXPECT_EQ(std::get<double>(count->default_value()), 3.0);
 }
 
 TEST(TomlReader, ReportsTheFirstFaultByLine) {

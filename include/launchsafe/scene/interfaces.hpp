@@ -4,8 +4,6 @@
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
-#include <fmt/format.h>
-
 #include <map>
 #include <optional>
 #include <string>
@@ -32,8 +30,8 @@ Expected<std::vector<Interface>> read_interfaces(const toml::table& root, const 
 /// would do nothing, sliding in a form that has none.
 std::optional<InputError> check_interfaces(const SceneFile& file);
 
-/// Writes the interfaces as "interface.'NAME'.KEY = VALUE", one a line.
-void append_interfaces(fmt::memory_buffer& text, std::vector<Interface> interfaces);
+/// The interfaces as "interface.'NAME'.KEY = VALUE", one a line.
+std::string interfaces_as_toml(std::vector<Interface> interfaces);
 
 /// What holds the charge, as people read it: one line a body that touches it, with what that assumes.
 struct InterfaceText {

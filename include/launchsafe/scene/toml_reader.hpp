@@ -61,15 +61,17 @@ InputError error_at(const Place& place, std::string_view key, std::string_view f
 /// `"abc"`, `12`, `a table`: a TOML value as found, for messages.
 std::string found_text(const toml::node& node);
 
-/// The whole file as a table, or why it cannot be read or is no TOML. Never throws.
-Expected<toml::table> read_toml_file(const std::filesystem::path& file);
+/// A text as a table, or why it is no TOML. Never throws.
 Expected<toml::table> parse_toml(std::string_view text, const std::string& file);
 
 /// Bytes of the largest scene, study or record that is read, and of the largest pressure curve.
 inline constexpr std::size_t largest_input = std::size_t{16} << 20, largest_curve = std::size_t{64} << 20;
 
-/// The text of a regular file of at most `largest` bytes, or why it cannot be read, with the nearest name in
-/// its folder. Never waits for a pipe or a device.
+/// The content of a regular file of at most `largest` bytes, or why it cannot be read. Never waits for a pipe
+/// or a device.
+Expected<std::string> read_regular_file(const std::filesystem::path& file, std::size_t largest);
+/// The same of a file that a user named: in the place of a missing one the nearest name in its folder is
+/// suggested.
 Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest = largest_input);
 
 /// One value of a table, checked against its key.
@@ -109,6 +111,36 @@ Expected<std::map<std::string, Place>> read_table(const toml::table& table,
   if (!read) return read.error();
   for (const auto& [index, value] : read->values) keys[index].set(owner, value);
   return std::move(read->places);
+}
+
+/// What one of several tables says, and where.
+template <class Owner>
+struct ReadOwner {
+  Owner owner;
+  std::map<std::string, Place> places;
+};
+
+/// Reads all tables of an array of that name, none if there is no such array; a fault within one is that of
+/// the key "name.key". `allowed`: what the fault says of anything else than tables under that name.
+template <class Owner>
+Expected<std::vector<ReadOwner<Owner>>> read_tables(const toml::table& root, const std::string& name,
+                                                    const std::vector<Key<Owner>>& keys,
+                                                    const std::string& file, const std::string& allowed) {
+  std::vector<ReadOwner<Owner>> owners;
+  const toml::node* node = root.get(name);
+  if (!node || (node->is_array() && node->as_array()->empty())) return owners;
+  if (!node->is_array_of_tables()) return error_at(place_of(*node, file), name, found_text(*node), allowed);
+  for (const toml::node& element : *node->as_array()) {
+    Owner owner;
+    auto places = read_table(*element.as_table(), keys, {}, file, owner);
+    if (!places) {
+      InputError error = places.error();
+      error.key = name + "." + error.key;
+      return error;
+    }
+    owners.push_back({std::move(owner), std::move(*places)});
+  }
+  return owners;
 }
 
 /// The error for a name that no key has, with the nearest one that exists.
