@@ -2,6 +2,7 @@
 
 #include "launchsafe/scene/toml_reader.hpp"
 
+#include <boost/locale/utf.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,29 +21,6 @@ Place place_at(std::string_view text, std::size_t position, const std::string& f
   const std::size_t line_begin = before.rfind('\n') + 1;  // 0 where there is none
   return {file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
           1 + static_cast<int>(position - line_begin)};
-}
-
-/// Bytes of the UTF-8 character that a text begins with; 0 if it begins with none. By table 3-7 of the
-/// Unicode standard: neither overlong forms nor surrogates nor what is beyond U+10FFFF.
-std::size_t length_of_character(std::string_view text) {
-  const auto byte = [text](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-  };
-  const auto continues = [&](std::size_t i, unsigned lowest = 0x80, unsigned highest = 0xBF) {
-    return byte(i) >= lowest && byte(i) <= highest;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first <= 0xDF) return continues(1) ? 2 : 0;
-  if (first >= 0xE0 && first <= 0xEF) {
-    const bool second = continues(1, first == 0xE0 ? 0xA0 : 0x80, first == 0xED ? 0x9F : 0xBF);
-    return second && continues(2) ? 3 : 0;
-  }
-  if (first >= 0xF0 && first <= 0xF4) {
-    const bool second = continues(1, first == 0xF0 ? 0x90 : 0x80, first == 0xF4 ? 0x8F : 0xBF);
-    return second && continues(2) && continues(3) ? 4 : 0;
-  }
-  return 0;
 }
 
 /// Walks over the texts and comments of TOML, so that what is between them can be counted. It need only be
@@ -117,17 +95,16 @@ std::string lower_case(std::string_view text) {
 }
 
 std::optional<InputError> check_encoding(std::string_view text, const std::string& file) {
-  for (std::size_t i = 0; i < text.size();) {
-    if (text[i] == '\0')
-      return error_at(place_at(text, i, file), {}, "a NUL byte, as in UTF-16 or in a file that is no text",
-                      "text in UTF-8");
-    const std::size_t length = length_of_character(text.substr(i, 4));
-    if (length == 0)
-      return error_at(
-          place_at(text, i, file), {},
-          fmt::format("the byte 0x{:02X}, which is no UTF-8", static_cast<unsigned char>(text[i])),
-          "text in UTF-8");
-    i += length;
+  for (const char* at = text.data(); at != text.data() + text.size();) {
+    const char* const character = at;
+    // Neither overlong forms nor surrogates nor what is beyond U+10FFFF are characters (Unicode, table 3-7).
+    const auto code = boost::locale::utf::utf_traits<char>::decode(at, text.data() + text.size());
+    if (code != 0 && boost::locale::utf::is_valid_codepoint(code)) continue;
+    const std::string found = code == 0 ? "a NUL byte, as in UTF-16 or in a file that is no text"
+                                        : fmt::format("the byte 0x{:02X}, which is no UTF-8",
+                                                      static_cast<unsigned char>(*character));
+    return error_at(place_at(text, static_cast<std::size_t>(character - text.data()), file), {}, found,
+                    "text in UTF-8");
   }
   return std::nullopt;
 }

@@ -84,13 +84,13 @@ std::vector<double> lines_through(std::vector<double> edges, double tolerance, c
 std::vector<double> cut(const std::vector<double>& lines, double from, double to, int parts,
                         double tolerance) {
   std::vector<double> edges;
+  double end = from;
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
     if (lines[i] < from - tolerance || lines[i + 1] > to + tolerance) continue;
     for (int k = 0; k < parts; ++k) edges.push_back(lines[i] + (lines[i + 1] - lines[i]) * k / parts);
-    if (edges.size() % static_cast<std::size_t>(parts) == 0 &&
-        (i + 2 == lines.size() || lines[i + 2] > to + tolerance))
-      edges.push_back(lines[i + 1]);
+    end = lines[i + 1];
   }
+  if (!edges.empty()) edges.push_back(end);
   return edges;
 }
 

@@ -73,56 +73,59 @@ std::optional<InputError> rebuild(SceneFile& file, bool has_curve) {
   return validate(file);
 }
 
-/// "body.<name>.<key>" taken apart.
-struct BodyKey {
-  std::size_t body = 0;
-  const Key<Body>* key = nullptr;
-};
-
-std::optional<BodyKey> find_body_key(const Scene& scene, const std::string& name) {
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const std::string prefix = "body." + scene.bodies[i].name + ".";
-    if (!name.starts_with(prefix)) continue;
-    const Key<Body>* key = find_key(body_keys(), name.substr(prefix.size()));
-    if (key && key->kind == KeyKind::range) return BodyKey{i, key};
-  }
-  return std::nullopt;
-}
-
-/// "interface.<name>.<key>" taken apart, of a body that touches the charge.
-struct InterfaceKey {
-  std::string body;
-  const Key<Interface>* key = nullptr;
-};
-
-std::optional<InterfaceKey> find_interface_key(const Scene& scene, const std::string& name) {
-  for (const std::string& body : bodies_at_the_charge(scene)) {
-    const std::string prefix = "interface." + body + ".";
-    if (!name.starts_with(prefix)) continue;
-    if (const Key<Interface>* key = find_key(interface_keys(), name.substr(prefix.size())))
-      return InterfaceKey{body, key};
-  }
-  return std::nullopt;
-}
-
 /// The interface of a body; a bonded one where the scene says nothing of it.
 Interface& interface_of(Scene& scene, const std::string& body) {
   for (Interface& faces : scene.interfaces)
     if (faces.body == body) return faces;
   return scene.interfaces.emplace_back(Interface{.body = body});
 }
+const Interface& interface_of(const Scene& scene, const std::string& body) {
+  static const Interface bonded{};
+  for (const Interface& faces : scene.interfaces)
+    if (faces.body == body) return faces;
+  return bonded;
+}
+
+/// The key, which takes back the friction of faces that slid where it makes them bonded.
+Key<Scene> with_friction_only_where_used(Key<Scene> key, const std::string& body) {
+  key.set = [set = std::move(key.set), body](Scene& scene, const Value& value) {
+    const bool slid = interface_of(scene, body).condition == Condition::sliding;
+    set(scene, value);
+    Interface& faces = interface_of(scene, body);
+    if (slid && faces.condition == Condition::bonded) faces.friction.reset();
+  };
+  return key;
+}
+
+/// Keys of the scene's bodies that say where they lie, "body.<name>.x" and ".r", and of the interfaces of all
+/// bodies that touch the charge, "interface.<name>.<key>".
+std::vector<Key<Scene>> keys_of_tables(const Scene& scene) {
+  std::vector<Key<Scene>> all;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    for (Key<Scene>& key : keys::keys_of_part<Scene>(
+             "body." + scene.bodies[i].name + ".", [i](auto& owner) -> auto& { return owner.bodies[i]; },
+             body_keys()))
+      if (key.kind == KeyKind::range) all.push_back(std::move(key));
+  for (const std::string& body : bodies_at_the_charge(scene))
+    for (Key<Scene>& key : keys::keys_of_part<Scene>(
+             "interface." + body + ".", [body](auto& owner) -> auto& { return interface_of(owner, body); },
+             interface_keys()))
+      all.push_back(with_friction_only_where_used(std::move(key), body));
+  return all;
+}
 
 std::vector<std::string> names_of_keys(const Scene& scene) {
   std::vector<std::string> names;
-  for (const Key<Scene>& key : scene_keys()) names.push_back(key.name);
-  for (const Body& body : scene.bodies) {
-    names.push_back(fmt::format("body.{}.x", body.name));
-    names.push_back(fmt::format("body.{}.r", body.name));
-  }
-  for (const std::string& body : bodies_at_the_charge(scene))
-    for (const Key<Interface>& key : interface_keys())
-      names.push_back(fmt::format("interface.{}.{}", body, key.name));
+  for (const auto& keys : {scene_keys(), keys_of_tables(scene)})
+    for (const Key<Scene>& key : keys) names.push_back(key.name);
   return names;
+}
+
+Expected<Key<Scene>> key_named(const Scene& scene, const std::string& name, const Place& place) {
+  if (const Key<Scene>* key = find_key(scene_keys(), name)) return *key;
+  const std::vector<Key<Scene>> of_tables = keys_of_tables(scene);
+  if (const Key<Scene>* key = find_key(of_tables, name)) return *key;
+  return unknown_key(place, name, names_of_keys(scene));
 }
 
 }  // namespace
@@ -164,43 +167,30 @@ Expected<SceneFile> read_scene(const std::filesystem::path& file) {
 }
 
 Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& name, const Place& place) {
-  if (const Key<Scene>* key = find_key(scene_keys(), name)) return KeyDescription(*key);
-  const auto of_body = find_body_key(file.scene, name);
-  const auto of_faces = find_interface_key(file.scene, name);
-  if (!of_body && !of_faces) return unknown_key(place, name, names_of_keys(file.scene));
-  KeyDescription description = of_body ? KeyDescription(*of_body->key) : KeyDescription(*of_faces->key);
-  description.name = name;
-  return description;
+  const auto key = key_named(file.scene, name, place);
+  if (!key) return key.error();
+  return KeyDescription(*key);
 }
 
 Value value_in(const SceneFile& file, const std::string& name) {
-  if (const Key<Scene>* key = find_key(scene_keys(), name)) return key->get(file.scene);
-  const auto faces = find_interface_key(file.scene, name);
-  assert(faces);
-  Scene scene = file.scene;
-  return faces->key->get(interface_of(scene, faces->body));
+  const auto key = key_named(file.scene, name, {});
+  assert(key);
+  return key->get(file.scene);
 }
 
 Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange>& changes) {
   SceneFile changed = file;
   bool other_curve = false;
   for (const auto& [name, value, place] : changes) {
-    const auto description = describe_key(file, name, place);
-    if (!description) return description.error();
-    if (const auto found = find_body_key(file.scene, name)) {
-      found->key->set(changed.scene.bodies[found->body], value);
+    const auto key = key_named(file.scene, name, place);
+    if (!key) return key.error();
+    if (find_key(scene_keys(), name) == nullptr) {
+      key->set(changed.scene, value);
       changed.places[name] = place;
-    } else if (const auto faces = find_interface_key(file.scene, name)) {
-      Interface& owner = interface_of(changed.scene, faces->body);
-      const bool slid = owner.condition == Condition::sliding;
-      faces->key->set(owner, value);
-      // The friction of faces that slid is none of theirs once they are bonded.
-      if (slid && owner.condition == Condition::bonded) owner.friction.reset();
-      changed.places[name] = place;
-    } else {
-      for (const std::string& overridden : description->overrides) changed.given.erase(overridden);
-      changed.given[name] = {place, value};
+      continue;
     }
+    for (const std::string& overridden : key->overrides) changed.given.erase(overridden);
+    changed.given[name] = {place, value};
     other_curve = other_curve || name == "load.curve";
   }
   if (auto error = rebuild(changed, !other_curve)) return *error;

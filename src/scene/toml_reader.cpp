@@ -114,15 +114,14 @@ Expected<std::vector<double>> parse_numbers(const std::string& text, const KeyDe
 }
 
 Expected<std::vector<double>> read_numbers(const toml::node& node, const KeyDescription& key,
-                                           const std::string& file) {
-  const Place place = place_of(node, file);
+                                           const Place& place) {
   if (const auto text = node.value<std::string>()) return parse_numbers(*text, key, place);
   const toml::array* array = node.as_array();
   const bool too_short = array && array->empty() && !key.may_be_empty;
   if (!array || key.kind == KeyKind::range || too_short) return error_for(place, key, found_text(node));
   std::vector<double> numbers;
   for (const toml::node& element : *array) {
-    const auto number = read_number(element, key, place_of(element, file));
+    const auto number = read_number(element, key, place_of(element, place.file));
     if (!number) return number.error();
     numbers.push_back(*number);
   }
@@ -159,6 +158,24 @@ Expected<Value> checked_number(double number, const std::string& found, const Ke
                                const Place& place) {
   if (const auto error = check_limits({number}, found, key, place)) return *error;
   return Value(number);
+}
+
+/// One value of a table, which stands at a place.
+Expected<Value> value_at(const toml::node& node, const KeyDescription& key, const Place& place) {
+  const auto* text = node.as_string();
+  if (key.kind == KeyKind::flag && node.is_boolean()) return Value(node.as_boolean()->get());
+  if (key.kind == KeyKind::word && text) return checked_word(text->get(), key, place);
+  if (key.kind == KeyKind::text && text) return checked_text(text->get(), key, place);
+  if (key.kind == KeyKind::number) {
+    const auto number = read_number(node, key, place);
+    if (!number) return number.error();
+    return checked_number(*number, found_text(node), key, place);
+  }
+  if (key.kind != KeyKind::list && key.kind != KeyKind::range) return error_for(place, key, found_text(node));
+  auto numbers = read_numbers(node, key, place);
+  if (!numbers) return numbers.error();
+  if (const auto error = check_limits(*numbers, found_text(node), key, place)) return *error;
+  return Value(std::move(*numbers));
 }
 
 std::string last_part(const std::string& name) { return name.substr(name.rfind('.') + 1); }
@@ -234,82 +251,37 @@ Expected<toml::table> parse_toml(std::string_view text, const std::string& file)
 }
 
 Expected<Value> read_value(const toml::node& node, const KeyDescription& key, const std::string& file) {
-  const Place place = place_of(node, file);
-  switch (key.kind) {
-    case KeyKind::number: {
-      const auto number = read_number(node, key, place);
-      if (!number) return number.error();
-      return checked_number(*number, found_text(node), key, place);
-    }
-    case KeyKind::list:
-    case KeyKind::range: {
-      auto numbers = read_numbers(node, key, file);
-      if (!numbers) return numbers.error();
-      if (const auto error = check_limits(*numbers, found_text(node), key, place)) return *error;
-      return Value(std::move(*numbers));
-    }
-    case KeyKind::flag:
-      if (const auto* flag = node.as_boolean()) return Value(flag->get());
-      return error_for(place, key, found_text(node));
-    case KeyKind::word:
-      if (const auto* word = node.as_string()) return checked_word(word->get(), key, place);
-      return error_for(place, key, found_text(node));
-    case KeyKind::text:
-      if (const auto* text = node.as_string()) return checked_text(text->get(), key, place);
-      return error_for(place, key, found_text(node));
-  }
-  return error_for(place, key, found_text(node));
+  return value_at(node, key, place_of(node, file));
 }
 
 Expected<Value> parse_value(std::string_view text, const KeyDescription& key, const Place& place) {
   const std::string written(text);
-  switch (key.kind) {
-    case KeyKind::number: {
-      const auto number = parse_quantity(text, key.dimension);
-      if (!number) return error_for(place, key, number.error().found, number.error().suggestion);
-      if (key.dimension == Dimension::count && *number != std::round(*number)) {
-        return error_for(place, key, written + ", which is no whole number");
-      }
-      return checked_number(*number, '"' + written + '"', key, place);
-    }
-    case KeyKind::list:
-    case KeyKind::range: {
-      auto numbers = parse_numbers(written, key, place);
-      if (!numbers) return numbers.error();
-      if (const auto error = check_limits(*numbers, '"' + written + '"', key, place)) return *error;
-      return Value(std::move(*numbers));
-    }
-    case KeyKind::flag:
-      if (text == "true" || text == "false") return Value(text == "true");
-      return error_for(place, key, '"' + written + '"');
-    case KeyKind::word:
-      return checked_word(written, key, place);
-    case KeyKind::text:
-      return checked_text(written, key, place);
+  if (key.kind == KeyKind::number) {
+    const auto number = parse_quantity(text, key.dimension);
+    if (!number) return error_for(place, key, number.error().found, number.error().suggestion);
+    if (key.dimension == Dimension::count && *number != std::round(*number))
+      return error_for(place, key, written + ", which is no whole number");
+    return checked_number(*number, '"' + written + '"', key, place);
   }
-  return error_for(place, key, '"' + written + '"');
+  if (key.kind == KeyKind::flag && (text == "true" || text == "false")) return Value(text == "true");
+  return value_at(toml::value<std::string>(written), key, place);
 }
 
 Expected<std::vector<Value>> read_values(const toml::node& node, const KeyDescription& key,
                                          const std::string& file) {
-  const auto* text = node.as_string();
+  const Place place = place_of(node, file);
   std::vector<Value> values;
-  if (text && key.kind == KeyKind::number && !units_of(key.dimension).empty()) {
-    const auto numbers = parse_numbers(text->get(), key, place_of(node, file));
+  if (node.is_string() && key.kind == KeyKind::number && !units_of(key.dimension).empty()) {
+    const auto numbers = parse_numbers(node.as_string()->get(), key, place);
     if (!numbers) return numbers.error();
-    if (const auto error = check_limits(*numbers, found_text(node), key, place_of(node, file))) return *error;
+    if (const auto error = check_limits(*numbers, found_text(node), key, place)) return *error;
     values.assign(numbers->begin(), numbers->end());
     return values;
   }
   const toml::array* array = node.as_array();
-  if (!array) {
-    auto value = read_value(node, key, file);
-    if (!value) return value.error();
-    return std::vector<Value>{std::move(*value)};
-  }
-  if (array->empty()) return error_for(place_of(node, file), key, found_text(node));
-  for (const toml::node& element : *array) {
-    auto value = read_value(element, key, file);
+  if (array && array->empty()) return error_for(place, key, found_text(node));
+  for (std::size_t i = 0; i < (array ? array->size() : 1); ++i) {
+    auto value = read_value(array ? (*array)[i] : node, key, file);
     if (!value) return value.error();
     values.push_back(std::move(*value));
   }
