@@ -4,9 +4,7 @@
 #include "finite_element_command.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/table.hpp"
-#include "launchsafe/verify/material_checks.hpp"
-#include "launchsafe/verify/mechanics_checks.hpp"
-#include "launchsafe/verify/surface_checks.hpp"
+#include "launchsafe/verify/check.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
 #include "shell_words.hpp"
@@ -38,17 +36,12 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-void append(Checks& checks, Checks more) {
-  checks.insert(checks.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
-
 Checks all_checks(Progress& progress) {
-  Checks checks = verify::material_checks();
-  append(checks, verify::surface_checks());
-  for (const verify::Computation& computation : verify::mechanics_computations()) {
+  Checks checks;
+  for (const verify::Computation& computation : verify::computations()) {
     if (stop_requested()) break;
-    progress.show("computing: " + computation.name);
-    append(checks, computation.run());
+    progress.show("computing: " + computation.group);
+    for (verify::Check& check : computation.run()) checks.push_back(std::move(check));
   }
   return checks;
 }
@@ -100,7 +93,7 @@ ExitCode refuse_filter(const std::vector<Item>& items, const std::string& filter
 /// Relative measures carry no unit.
 std::string measure(double value, const verify::Check& check) {
   const std::string number = report::significant(value, 3);
-  return check.absolute && !check.unit.empty() ? number + " " + check.unit : number;
+  return check.absolute() && !check.unit.empty() ? number + " " + check.unit : number;
 }
 
 report::Table table_of(const Checks& checks, std::int64_t failed) {
@@ -132,7 +125,7 @@ nlohmann::ordered_json json_of(const Checks& checks, std::int64_t failed) {
                                 {"unit", check.unit},
                                 {"error", check.error()},
                                 {"tolerance", check.tolerance},
-                                {"absolute", check.absolute},
+                                {"absolute", check.absolute()},
                                 {"source", check.source},
                                 {"pass", check.pass()}});
   }

@@ -1,34 +1,13 @@
-// The scenes that the checks of the mechanics simulate, and the computations themselves.
+// The scenes that the checks of the mechanics simulate, and simulations that more than one of them makes.
 #pragma once
 
 #include "launchsafe/mpm/simulation.hpp"
-#include "launchsafe/verify/check.hpp"
 
 #include <cmath>
 #include <limits>
-#include <vector>
+#include <string>
 
 namespace launchsafe::verify::mechanics {
-
-using Checks = std::vector<Check>;
-
-// One file of computations each: waves, statics, launch, conduction.
-Checks longitudinal_pulse(scene::Formulation formulation);
-Checks free_bar_pulse(scene::Formulation formulation);
-Checks plateau_in_a_bar(scene::Formulation formulation);
-Checks thick_walled_tube(scene::Formulation formulation);
-Checks setback_column(scene::Formulation formulation);
-Checks rigid_acceleration(scene::Formulation formulation);
-/// Updated-Lagrangian: in the other form no particle leaves its cell.
-Checks free_flight(scene::Formulation formulation);
-Checks energy_of_a_pulse(scene::Formulation formulation);
-Checks lab_against_co_moving(scene::Formulation formulation);
-Checks semi_infinite_conduction(scene::Formulation formulation);
-Checks conduction_under_flux(scene::Formulation formulation);
-Checks conduction_keeps_heat(scene::Formulation formulation);
-Checks conduction_in_long_steps(scene::Formulation formulation);
-
-// The simulations behind some of them, whose mesh and step the table of error against run time varies.
 
 /// Relative L2 errors of a travelling pulse.
 struct WaveError {

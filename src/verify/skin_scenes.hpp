@@ -3,7 +3,6 @@
 
 #include "launchsafe/surface/skin.hpp"
 #include "launchsafe/trace/bottom_trace.hpp"
-#include "launchsafe/verify/check.hpp"
 
 #include <functional>
 #include <vector>
@@ -30,7 +29,5 @@ PressureOfInterval with_integral(FunctionOfTime pressure, FunctionOfTime integra
 /// A bottom without friction under a pressure, over `duration` (s) in equal intervals.
 trace::BottomTrace pressed_bottom(std::vector<trace::Station> stations, int intervals, double duration,
                                   const PressureOfInterval& pressure);
-
-std::vector<Check> film_checks();
 
 }  // namespace launchsafe::verify

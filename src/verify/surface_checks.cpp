@@ -1,16 +1,14 @@
-#include "launchsafe/verify/surface_checks.hpp"
-
+#include "checks.hpp"
 #include "launchsafe/surface/skin.hpp"
 #include "skin_scenes.hpp"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
 
 namespace launchsafe::verify {
-
 namespace {
-
-using Checks = std::vector<Check>;
 
 /// A skin that never ignites, with the printed kinetics.
 /// Round constants, so that the checks do not move when the calibrated defaults do.
@@ -43,24 +41,23 @@ double induction_time(double temperature, double dt) {
   return point.ignited ? time : std::nan("");
 }
 
-void add_induction(Checks& checks) {
-  const auto add = [&](double temperature, double expected, double dt) {
-    const std::string name = "induction from " + std::to_string(static_cast<int>(temperature)) +
-                             " K, calls every " +
-                             (dt < 1e-8   ? "1 ns"
-                              : dt < 1e-6 ? "0.1 us"
-                              : dt < 1e-4 ? "10 us"
-                                          : "1 ms");
-    checks.push_back({"induction", name, induction_time(temperature, dt), expected, 1e-6, "s",
-                      "quadrature of dT/(Q Z/c exp(-27000 K/T)) to 2000 K", false});
+Checks induction_checks() {
+  Checks checks;
+  const auto add = [&](int temperature, double expected, const std::string& called, double dt) {
+    checks.push_back({fmt::format("induction from {} K, calls every {}", temperature, called),
+                      induction_time(temperature, dt), expected, 1e-6, "s",
+                      "quadrature of dT/(Q Z/c exp(-27000 K/T)) to 2000 K", Tolerance::relative});
   };
-  for (const double dt : {1e-5, 1e-3}) add(600.0, 7.425578e-2, dt);
-  for (const double dt : {1e-7, 1e-5, 1e-3}) {
-    add(650.0, 2.746044e-3, dt);
-    add(700.0, 1.645534e-4, dt);
-    add(750.0, 1.449736e-5, dt);
+  add(600, 7.425578e-2, "10 us", 1e-5);
+  add(600, 7.425578e-2, "1 ms", 1e-3);
+  for (const auto& [called, dt] :
+       {std::pair{"0.1 us", 1e-7}, std::pair{"10 us", 1e-5}, std::pair{"1 ms", 1e-3}}) {
+    add(650, 2.746044e-3, called, dt);
+    add(700, 1.645534e-4, called, dt);
+    add(750, 1.449736e-5, called, dt);
   }
-  add(750.0, 1.449736e-5, 1e-9);
+  add(750, 1.449736e-5, "1 ns", 1e-9);
+  return checks;
 }
 
 /// Skin temperature under air from `air_begin` to `air_end` over `duration`, in `calls` calls.
@@ -74,15 +71,16 @@ double skin_after(const surface::SkinModel& model, double gap, double duration, 
   return point.temperature;
 }
 
-void add_exchange(Checks& checks) {
-  const std::string group = "exchange";
+Checks exchange_checks() {
+  using enum Tolerance;
+  Checks checks;
   constexpr double gap = 4e-4, duration = 18e-3;
   surface::SkinModel model = inert_skin(3.6e-4);
   const double ratio = surface::heat_capacity_ratio(model, 0.01);
-  checks.push_back({group, "heat capacity of the air over that of the skin, gap 1 cm", ratio, 0.03869052,
-                    5.01e-9, "", "1.1766 0.01 1005/(1717 1e-4 1780) by hand", true});
-  checks.push_back({group, "the same against the number with the air's density unrounded", ratio, 0.0386911,
-                    4.3e-5, "", "the density 1.1766 is known to 4.3e-5", false});
+  checks.push_back({"heat capacity of the air over that of the skin, gap 1 cm", ratio, 0.03869052, 5.01e-9,
+                    "", "1.1766 0.01 1005/(1717 1e-4 1780) by hand"});
+  checks.push_back({"the same against the number with the air's density unrounded", ratio, 0.0386911, 4.3e-5,
+                    "", "the density 1.1766 is known to 4.3e-5", relative});
   const double rate = surface::heat_capacity_ratio(model, gap) / 3.6e-4;
   const double constant = 1500.0 - 1200.0 * std::exp(-rate * duration);
   // T' = k (300 + s t - T) from 300: T = 300 + s (t - (1 - exp(-k t))/k).
@@ -90,18 +88,19 @@ void add_exchange(Checks& checks) {
   const double linear = 300.0 + slope * (duration + std::expm1(-rate * duration) / rate);
   for (const int calls : {1, 1000, 100000}) {
     const std::string in_calls = ", " + std::to_string(calls) + " calls";
-    checks.push_back({group, "air at 1500 K for 18 ms" + in_calls,
+    checks.push_back({"air at 1500 K for 18 ms" + in_calls,
                       skin_after(model, gap, duration, calls, 1500.0, 1500.0), constant, 1e-10, "K",
-                      "exact solution", false});
-    checks.push_back({group, "air rising to 2300 K over 18 ms" + in_calls,
+                      "exact solution", relative});
+    checks.push_back({"air rising to 2300 K over 18 ms" + in_calls,
                       skin_after(model, gap, duration, calls, 300.0, 2300.0), linear, 1e-10, "K",
-                      "exact solution", false});
+                      "exact solution", relative});
   }
   const double stiff_rate = surface::heat_capacity_ratio(model, gap) / 1e-9;
-  checks.push_back({group, "air rising to 2300 K, tau_ex = 1 ns",
+  checks.push_back({"air rising to 2300 K, tau_ex = 1 ns",
                     skin_after(inert_skin(1e-9), gap, duration, 1000, 300.0, 2300.0),
                     2300.0 - slope / stiff_rate, 1e-10, "K",
-                    "the skin follows the air by one relaxation time", false});
+                    "the skin follows the air by one relaxation time", relative});
+  return checks;
 }
 
 /// A smooth launch on `samples` intervals: the default load on the charge bottom and friction that follows
@@ -136,29 +135,26 @@ double hottest(const surface::SkinModel& model, const trace::BottomTrace& trace,
   return surface::maximum_at_stations(surface::integrate_skin(model, trace, gap), trace).temperature;
 }
 
-void add_launch(Checks& checks) {
-  const std::string group = "launch";
+Checks launch_checks() {
   const trace::BottomTrace trace = smooth_launch(900);
   surface::SkinModel model = plain_model();
-  const double thinned = hottest(model, trace::thinned(trace), 3e-4);
-  checks.push_back({group, "a trace with half the samples, gap 0.3 mm", thinned, hottest(model, trace, 3e-4),
-                    1e-3, "K", "the trace with all samples", true});
+  const double thinned = hottest(model, trace::thinned(trace), 3e-4), whole = hottest(model, trace, 3e-4);
   // Concave: each further tenth of a millimetre adds less than the one before.
   double increments[3];
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 3; ++k)
     increments[k] = hottest(model, trace, 1e-4 * (k + 1)) - hottest(model, trace, 1e-4 * k);
-  }
   const bool concave = increments[0] > increments[1] && increments[1] > increments[2] && increments[2] > 0.0;
-  checks.push_back({group, "gap increments fall from 0.1 to 0.3 mm", concave ? 1.0 : 0.0, 1.0, 0.0, "",
-                    "shape of the paper's Table 8: 26.1, 25.5, 25.2 K", true});
   model.surface.air_model = scene::AirModel::balance;
-  const surface::SkinHistory balanced = surface::integrate_skin(model, trace, 3e-4);
-  checks.push_back({group, "energy lost between air and skin, relative", balanced.energy_residual, 0.0, 1e-9,
-                    "", "conservation to round-off", true});
+  const double residual = surface::integrate_skin(model, trace, 3e-4).energy_residual;
+  return {
+      {"a trace with half the samples, gap 0.3 mm", thinned, whole, 1e-3, "K", "the trace with all samples"},
+      {"gap increments fall from 0.1 to 0.3 mm", concave ? 1.0 : 0.0, 1.0, 0.0, "",
+       "shape of the paper's Table 8: 26.1, 25.5, 25.2 K"},
+      {"energy lost between air and skin, relative", residual, 0.0, 1e-9, "", "conservation to round-off"}};
 }
 
 /// Air at the pressure of the peak gives all it has: both end at the temperature of the mixture.
-void add_mixture(Checks& checks) {
+Checks mixture_checks() {
   surface::SkinModel model = inert_skin(1e-6);
   model.surface.air_model = scene::AirModel::balance;
   model.surface.friction = scene::FrictionClosure::none;
@@ -167,21 +163,18 @@ void add_mixture(Checks& checks) {
   const surface::SkinHistory history = surface::integrate_skin(model, trace, 4e-4);
   const double ratio = surface::heat_capacity_ratio(model, 4e-4);
   const double air = materials::adiabatic_temperature(model.surface.air, 140e6);
-  checks.push_back({"launch", "skin in balance with air of 140 MPa", history.temperature.back(),
-                    (300.0 + ratio * air) / (1.0 + ratio), 1e-10, "K", "mixing temperature of two bodies",
-                    false});
+  return {{"skin in balance with air of 140 MPa", history.temperature.back(),
+           (300.0 + ratio * air) / (1.0 + ratio), 1e-10, "K", "mixing temperature of two bodies",
+           Tolerance::relative}};
 }
 
 }  // namespace
 
-std::vector<Check> surface_checks() {
-  Checks checks;
-  add_induction(checks);
-  add_exchange(checks);
-  add_launch(checks);
-  add_mixture(checks);
-  for (Check& check : film_checks()) checks.push_back(std::move(check));
-  return checks;
+std::vector<Computation> surface_computations() {
+  return {{"induction", induction_checks},
+          {"exchange", exchange_checks},
+          {"launch", launch_checks},
+          {"launch", mixture_checks}};
 }
 
 }  // namespace launchsafe::verify
