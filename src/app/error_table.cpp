@@ -16,7 +16,7 @@
 namespace launchsafe::app {
 namespace {
 
-using verify::ErrorSeries, verify::PartSetting;
+using verify::ErrorSeries, verify::MeasuredSetting;
 
 const char* const title = "Error against processor time of the parts with exact solutions";
 
@@ -50,9 +50,10 @@ report::Table settings_table(const std::vector<MeasuredSeries>& measured) {
                    report::text_column("setting"), {.name = "error", .unit = ""},
                    {.name = "order", .unit = ""},  significant_column("processor time", "s", 3)};
   for (const MeasuredSeries& each : measured) {
-    for (const PartSetting& row : each.settings) {
-      table.rows.push_back({row.part, row.quantity, row.setting, amount(row.error, row.error_unit),
-                            order_cell(row.order), row.processor_time});
+    for (const MeasuredSetting& row : each.settings) {
+      table.rows.push_back({each.series.part, each.series.quantity, row.text,
+                            amount(row.error, each.series.error_unit), order_cell(row.order),
+                            row.processor_time});
     }
   }
   table.notes = {
@@ -92,10 +93,10 @@ report::Table whole_table(const std::vector<MeasuredSeries>& measured) {
                    report::text_column("work"),
                    report::text_column("reference")};
   for (const MeasuredSeries& each : measured) {
-    for (const PartSetting& row : each.settings) {
-      table.rows.push_back({row.part, row.quantity, row.setting, row.size, row.error, row.error_unit,
-                            row.order, each.series.order, row.processor_time, each.series.work,
-                            each.series.reference});
+    for (const MeasuredSetting& row : each.settings) {
+      table.rows.push_back({each.series.part, each.series.quantity, row.text, row.size, row.error,
+                            each.series.error_unit, row.order, each.series.order, row.processor_time,
+                            each.series.work, each.series.reference});
     }
   }
   return table;
@@ -103,7 +104,7 @@ report::Table whole_table(const std::vector<MeasuredSeries>& measured) {
 
 bool is_exact(const MeasuredSeries& each) {
   return std::all_of(each.settings.begin(), each.settings.end(),
-                     [&](const PartSetting& row) { return row.error <= each.series.round_off; });
+                     [&](const MeasuredSetting& row) { return row.error <= each.series.round_off; });
 }
 
 /// Exact parts are left out: round-off against time shows nothing. One colour a part, one mark a quantity of
@@ -129,7 +130,7 @@ report::Plot plot_of(const std::vector<MeasuredSeries>& measured) {
     report::Series line{part + ": " + each.series.quantity + unit, {}, {}};
     line.colour = colour;
     line.mark = marks[mark % std::size(marks)];
-    for (const PartSetting& row : each.settings) {
+    for (const MeasuredSetting& row : each.settings) {
       line.x.push_back(row.processor_time);
       line.y.push_back(row.error);
     }
@@ -165,8 +166,8 @@ nlohmann::ordered_json error_table_json(const std::vector<MeasuredSeries>& measu
   for (const MeasuredSeries& each : measured) {
     const ErrorSeries& series = each.series;
     nlohmann::ordered_json settings = nlohmann::ordered_json::array();
-    for (const PartSetting& row : each.settings) {
-      settings.push_back({{"setting", row.setting},
+    for (const MeasuredSetting& row : each.settings) {
+      settings.push_back({{"setting", row.text},
                           {"size", row.size},
                           {"error", number(row.error)},
                           {"order", number(row.order)},

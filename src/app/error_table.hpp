@@ -18,7 +18,7 @@ namespace launchsafe::app {
 /// A series and what it gave.
 struct MeasuredSeries {
   verify::ErrorSeries series;
-  std::vector<verify::PartSetting> settings;
+  std::vector<verify::MeasuredSetting> settings;
 };
 
 /// For a terminal; `command` is the one that makes it.

@@ -150,7 +150,7 @@ std::vector<MeasuredSeries> measured(const std::vector<verify::ErrorSeries>& all
   for (const verify::ErrorSeries& series : all) {
     if (stop_requested()) break;
     progress.show("measuring: " + name_of(series));
-    results.push_back({series, series.compute()});
+    results.push_back({series, verify::measured(series)});
   }
   return results;
 }
@@ -159,10 +159,9 @@ std::vector<MeasuredSeries> measured(const std::vector<verify::ErrorSeries>& all
 std::vector<kinds::Failure> failures_of(const std::vector<MeasuredSeries>& results) {
   std::vector<kinds::Failure> failures;
   for (const MeasuredSeries& each : results) {
-    for (const verify::PartSetting& row : each.settings) {
+    for (const verify::MeasuredSetting& row : each.settings) {
       if (std::isfinite(row.error)) continue;
-      failures.push_back(
-          {fmt::format("{}, {}", name_of(each.series), row.setting), "the computation failed"});
+      failures.push_back({fmt::format("{}, {}", name_of(each.series), row.text), "the computation failed"});
     }
   }
   return failures;

@@ -1,6 +1,6 @@
 #include "launchsafe/verify/error_against_time.hpp"
 
-#include "error_against_time_parts.hpp"
+#include "error_settings.hpp"
 #include "launchsafe/run/processor_time.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +11,6 @@
 #include <utility>
 
 namespace launchsafe::verify {
-namespace parts {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -26,13 +25,12 @@ double time_of(const std::function<void()>& work, long repetitions) {
 }
 
 /// Without an order where the finer error is of round-off: what it fell to says nothing about the method.
-double order_between(const PartSetting& coarse, const PartSetting& fine, double round_off) {
+double order_between(const MeasuredSetting& coarse, const MeasuredSetting& fine, double round_off) {
   if (!(fine.error > round_off)) return not_a_number;
   return std::log(coarse.error / fine.error) / std::log(coarse.size / fine.size);
 }
 
-}  // namespace
-
+/// Least processor time (s) that one call takes. Short work is repeated until a clock can see it.
 double least_processor_time(const std::function<void()>& work) {
   long repetitions = 1;
   double batch = time_of(work, repetitions);
@@ -45,40 +43,42 @@ double least_processor_time(const std::function<void()>& work) {
   return batch / static_cast<double>(repetitions);
 }
 
-std::vector<PartSetting> measured(const ErrorSeries& series, const std::vector<Setting>& settings) {
-  std::vector<PartSetting> rows;
-  for (const Setting& setting : settings) {
-    PartSetting row{series.part,  series.quantity,   setting.text, setting.size,
-                    not_a_number, series.error_unit, not_a_number, not_a_number};
-    row.processor_time = least_processor_time([&] { row.error = std::abs(setting.error()); });
-    if (!rows.empty()) row.order = order_between(rows.back(), row, series.round_off);
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-ErrorSeries with_settings(ErrorSeries series, std::function<std::vector<Setting>()> settings) {
-  ErrorSeries whole = series;
-  whole.compute = [series = std::move(series), settings = std::move(settings)] {
-    return measured(series, settings());
-  };
-  return whole;
-}
-
+/// "10 us", "0.5 ms"; of a time in s.
 std::string time_text(double time) {
   if (time < 0.999e-6) return fmt::format("{:.3g} ns", 1e9 * time);
   if (time < 0.999e-3) return fmt::format("{:.3g} us", 1e6 * time);
   return fmt::format("{:.3g} ms", 1e3 * time);
 }
 
-}  // namespace parts
+}  // namespace
+
+Setting with_steps(double duration, int steps, std::function<double()> work) {
+  const double step = duration / steps;
+  return {"step " + time_text(step), step, std::move(work)};
+}
+
+Setting with_cell(double cell, std::function<double()> work) {
+  const bool small = cell < 1e-4;
+  return {fmt::format("cell {:g} {}", small ? 1e6 * cell : 1e3 * cell, small ? "um" : "mm"), cell,
+          std::move(work)};
+}
+
+std::vector<MeasuredSetting> measured(const ErrorSeries& series) {
+  std::vector<MeasuredSetting> rows;
+  for (const Setting& setting : series.settings()) {
+    MeasuredSetting row{setting.text, setting.size, not_a_number, not_a_number, not_a_number};
+    row.processor_time = least_processor_time([&] { row.error = std::abs(setting.work()); });
+    if (!rows.empty()) row.order = order_between(rows.back(), row, series.round_off);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
 
 std::vector<ErrorSeries> error_series() {
   std::vector<ErrorSeries> all;
-  for (const auto& group :
-       {parts::skin_series(), parts::solid_series(), parts::mechanics_series(), parts::shape_series()}) {
-    all.insert(all.end(), group.begin(), group.end());
-  }
+  for (const auto& topic :
+       {skin_series(), solid_series(), conduction_series(), wave_series(), flight_series(), shape_series()})
+    all.insert(all.end(), topic.begin(), topic.end());
   return all;
 }
 

@@ -1,16 +1,12 @@
 // Shape functions: known fields on the grid, read by particles anywhere in it.
-#include "error_against_time_parts.hpp"
+#include "error_settings.hpp"
 #include "launchsafe/mpm/transfer.hpp"
 #include "mechanics_scenes.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <numbers>
 
-namespace launchsafe::verify::parts {
+namespace launchsafe::verify {
 namespace {
 
 using math::Pack;
@@ -81,33 +77,39 @@ ReadError read_error(const Field& field, const mpm::Grid& grid) {
   return {value.value(), slope.value()};
 }
 
-std::vector<Setting> meshes(const Field& field, double ReadError::*error) {
-  std::vector<Setting> settings;
-  for (const double cell : {10e-3, 5e-3, 2.5e-3, 1.25e-3}) {
-    settings.push_back({fmt::format("cell {:g} mm", 1e3 * cell), cell,
-                        [=, grid = grid_with(field, cell)] { return read_error(field, grid).*error; }});
-  }
-  return settings;
+ErrorSeries grid_series(const char* quantity, const char* reference, const char* theory, double order,
+                        double round_off, const Field& field, double ReadError::*error) {
+  return {"shape functions",
+          quantity,
+          "4096 particles read the grid",
+          reference,
+          "",
+          theory,
+          order,
+          round_off,
+          [=] {
+            return settings_for({10e-3, 5e-3, 2.5e-3, 1.25e-3}, [=](double cell) {
+              return with_cell(cell,
+                               [=, grid = grid_with(field, cell)] { return read_error(field, grid).*error; });
+            });
+          }};
 }
 
 }  // namespace
 
 std::vector<ErrorSeries> shape_series() {
-  constexpr double exact = std::numeric_limits<double>::infinity();
   const Field linear{linear_value, linear_slope}, wave{wave_value, wave_slope};
-  const std::string part = "shape functions", work = "4096 particles read the grid";
-  const std::string reproduced = "exact at any mesh: linear fields are reproduced";
-  const std::string sine = "the sine, root mean square";
-  return {with_settings({part, "value of a linear field", work, "the field", "", reproduced, exact, 1e-13},
-                        [=] { return meshes(linear, &ReadError::value); }),
-          with_settings({part, "slope of a linear field", work, "the field", "", reproduced, exact, 1e-12},
-                        [=] { return meshes(linear, &ReadError::slope); }),
-          with_settings({part, "value of a sine of 0.16 m", work, sine, "",
-                         "linear interpolation is of second order", 2.0, 1e-13},
-                        [=] { return meshes(wave, &ReadError::value); }),
-          with_settings({part, "slope of a sine of 0.16 m", work, sine, "",
-                         "the slope of a linear interpolation is of first order", 1.0, 1e-12},
-                        [=] { return meshes(wave, &ReadError::slope); })};
+  const char* const reproduced = "exact at any mesh: linear fields are reproduced";
+  const char* const sine = "the sine, root mean square";
+  return {
+      grid_series("value of a linear field", "the field", reproduced, exact_order, 1e-13, linear,
+                  &ReadError::value),
+      grid_series("slope of a linear field", "the field", reproduced, exact_order, 1e-12, linear,
+                  &ReadError::slope),
+      grid_series("value of a sine of 0.16 m", sine, "linear interpolation is of second order", 2.0, 1e-13,
+                  wave, &ReadError::value),
+      grid_series("slope of a sine of 0.16 m", sine, "the slope of a linear interpolation is of first order",
+                  1.0, 1e-12, wave, &ReadError::slope)};
 }
 
-}  // namespace launchsafe::verify::parts
+}  // namespace launchsafe::verify

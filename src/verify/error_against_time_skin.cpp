@@ -1,5 +1,5 @@
 // The skin equation: thermal explosion and exchange with the air.
-#include "error_against_time_parts.hpp"
+#include "error_settings.hpp"
 #include "launchsafe/surface/skin.hpp"
 #include "skin_scenes.hpp"
 
@@ -7,13 +7,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
-namespace launchsafe::verify::parts {
+namespace launchsafe::verify {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double initial = 700.0, exploded = 2000.0;  // K
 constexpr double share_before = 0.9;                  // of the induction time
 
@@ -57,12 +55,10 @@ double temperature_after(const surface::SkinModel& model, double time, int calls
 }
 
 std::vector<Setting> tolerances(const std::function<double(const surface::SkinModel&)>& error) {
-  std::vector<Setting> settings;
-  for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
-    settings.push_back({fmt::format("tolerance {:.0e}", tolerance), tolerance,
-                        [error, model = explosive(tolerance)] { return error(model); }});
-  }
-  return settings;
+  return settings_for({1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}, [&](double tolerance) {
+    return Setting{fmt::format("tolerance {:.0e}", tolerance), tolerance,
+                   [error, model = explosive(tolerance)] { return error(model); }};
+  });
 }
 
 std::vector<Setting> induction_settings() {
@@ -85,12 +81,9 @@ std::vector<Setting> step_settings() {
   const surface::SkinModel model = explosive(1e9);
   const double time = share_before * induction_between(model, initial, exploded);
   const double exact = exact_temperature(model, time);
-  std::vector<Setting> settings;
-  for (const int steps : {8, 16, 32, 64, 128, 256}) {
-    settings.push_back({"step " + time_text(time / steps), time / steps,
-                        [=] { return temperature_after(model, time, steps) - exact; }});
-  }
-  return settings;
+  return settings_for({8, 16, 32, 64, 128, 256}, [&](int steps) {
+    return with_steps(time, steps, [=] { return temperature_after(model, time, steps) - exact; });
+  });
 }
 
 /// Skin under air whose temperature is given at the begin and the end of every call.
@@ -122,15 +115,21 @@ struct Exchange {
   }
 };
 
-std::vector<Setting> exchange_settings(double exponent) {
-  const Exchange exchange{exponent};
-  std::vector<Setting> settings;
-  for (const int calls : {4, 16, 64, 256, 1024}) {
-    const double step = Exchange::duration / calls;
-    settings.push_back({"step " + time_text(step), step,
-                        [=, exact = exchange.exact()] { return exchange.computed(calls) - exact; }});
-  }
-  return settings;
+ErrorSeries exchange_series(const char* quantity, double exponent, const char* theory, double order) {
+  return {"exchange with the air",
+          quantity,
+          "one skin point over 18 ms",
+          "exact solution",
+          "K",
+          theory,
+          order,
+          1e-9,
+          [exponent] {
+            return settings_for({4, 16, 64, 256, 1024}, [exchange = Exchange{exponent}](int calls) {
+              return with_steps(Exchange::duration, calls,
+                                [=, exact = exchange.exact()] { return exchange.computed(calls) - exact; });
+            });
+          }};
 }
 
 }  // namespace
@@ -138,27 +137,21 @@ std::vector<Setting> exchange_settings(double exponent) {
 std::vector<ErrorSeries> skin_series() {
   const std::string part = "skin equation", explosion = "closed form of the zero-order induction";
   const std::string from = fmt::format("one skin point, from {:.0f} K", initial);
+  const std::string before = from + " to 0.9 of the induction time";
   return {
-      with_settings({part, "induction time", fmt::format("{} to {:.0f} K", from, exploded), explosion, "",
-                     "the step control holds the error per step, of the embedded third order, to the "
-                     "tolerance: the error of the fourth-order result goes with it",
-                     1.0, 2e-14},
-                    induction_settings),
-      with_settings({part, "T before explosion, by tolerance", from + " to 0.9 of the induction time",
-                     explosion, "K", "as the induction time", 1.0, 1e-11},
-                    temperature_settings),
-      with_settings({part, "T before explosion, by step", from + " to 0.9 of the induction time", explosion,
-                     "K", "exprb43 is of fourth order", 4.0, 1e-11},
-                    step_settings),
-      with_settings(
-          {"exchange with the air", "T, air rising linearly", "one skin point over 18 ms", "exact solution",
-           "K", "exact at any step: exponential integrator, air linear over each step", infinity, 1e-9},
-          [] { return exchange_settings(1.0); }),
-      with_settings(
-          {"exchange with the air", "T, air rising as time squared", "one skin point over 18 ms",
-           "exact solution", "K",
-           "the air's temperature is taken as linear over each step, which is of second order", 2.0, 1e-9},
-          [] { return exchange_settings(2.0); })};
+      {part, "induction time", fmt::format("{} to {:.0f} K", from, exploded), explosion, "",
+       "the step control holds the error per step, of the embedded third order, to the tolerance: the "
+       "error of the fourth-order result goes with it",
+       1.0, 2e-14, induction_settings},
+      {part, "T before explosion, by tolerance", before, explosion, "K", "as the induction time", 1.0, 1e-11,
+       temperature_settings},
+      {part, "T before explosion, by step", before, explosion, "K", "exprb43 is of fourth order", 4.0, 1e-11,
+       step_settings},
+      exchange_series("T, air rising linearly", 1.0,
+                      "exact at any step: exponential integrator, air linear over each step", exact_order),
+      exchange_series("T, air rising as time squared", 2.0,
+                      "the air's temperature is taken as linear over each step, which is of second order",
+                      2.0)};
 }
 
-}  // namespace launchsafe::verify::parts
+}  // namespace launchsafe::verify

@@ -1,11 +1,11 @@
 // Visco-SCRAM: relaxation and loading without cracks, which it integrates exactly, and with growing cracks.
-#include "error_against_time_parts.hpp"
+#include "error_settings.hpp"
 #include "launchsafe/materials/visco_scram.hpp"
 
 #include <cmath>
 #include <limits>
 
-namespace launchsafe::verify::parts {
+namespace launchsafe::verify {
 namespace {
 
 using materials::ViscoScramParameters;
@@ -65,12 +65,9 @@ double loading_error(int steps) {
 }
 
 std::vector<Setting> uncracked_settings(double (*error)(int)) {
-  std::vector<Setting> settings;
-  for (const int steps : {1, 10, 100, 1000}) {
-    const double step = relaxing_time / steps;
-    settings.push_back({"step " + time_text(step), step, [=] { return error(steps); }});
-  }
-  return settings;
+  return settings_for({1, 10, 100, 1000}, [error](int steps) {
+    return with_steps(relaxing_time, steps, [=] { return error(steps); });
+  });
 }
 
 /// Constant-rate shear that makes the cracks grow.
@@ -86,48 +83,38 @@ struct Growth {
 
 double crack_radius(const State& state) { return state.crack_radius[0]; }
 
-std::vector<Setting> growth_settings(const Growth& growth, const std::vector<int>& all_steps, int fine) {
+std::vector<Setting> growth_settings(const Growth& growth, std::initializer_list<int> steps, int fine) {
   const double reference = growth.value(fine);
-  std::vector<Setting> settings;
-  for (const int steps : all_steps) {
-    const double step = growth.time / steps;
-    settings.push_back(
-        {"step " + time_text(step), step, [=] { return growth.value(steps) / reference - 1.0; }});
-  }
-  return settings;
+  return settings_for(steps, [&](int each) {
+    return with_steps(growth.time, each, [=] { return growth.value(each) / reference - 1.0; });
+  });
 }
 
 }  // namespace
 
 std::vector<ErrorSeries> solid_series() {
-  constexpr double exact_order = std::numeric_limits<double>::infinity();
   const std::string part = "Visco-SCRAM", exact = "sum over the Maxwell elements";
   const std::string elements = "exact at any step: the relaxation is integrated by exponentials";
   // 200/s for 30 us: the radius grows by half a per cent. 1000/s for 10 us: from 30 to 563 um.
   // The signed error of the runaway passes through zero between these steps (2e-7 at 78 ns): no single
   // setting of it says how good the next one is.
   const Growth slow{200.0, 30e-6, crack_radius}, runaway{1000.0, 10e-6, shear_stress};
-  return {
-      with_settings({part, "stress relaxing, no cracks", "8 particles over 0.1 ms", exact, "", elements,
-                     exact_order, 1e-12},
-                    [] { return uncracked_settings(relaxation_error); }),
-      with_settings({part, "stress loaded, no cracks", "8 particles over 0.1 ms at 100/s", exact, "",
-                     elements, exact_order, 1e-12},
-                    [] { return uncracked_settings(loading_error); }),
-      with_settings({part, "radius of slow cracks", "8 particles over 30 us at 200/s",
-                     "itself with 16384 steps (no exact solution)", "",
-                     "second order in the step, below about 0.5 us, where no step is divided", 2.0, 1e-11},
-                    [=] {
-                      return growth_settings(slow, {64, 128, 256, 512, 1024}, 16384);
-                    }),
-      with_settings({part, "stress, runaway cracks", "8 particles over 10 us at 1000/s",
-                     "itself with 131072 steps, good to 1e-6 (no exact solution)", "",
-                     "none: sub-steps, of at most a hundredth of the radius each, bound the error before the "
-                     "step does",
-                     std::numeric_limits<double>::quiet_NaN(), 1e-11},
-                    [=] {
-                      return growth_settings(runaway, {4, 16, 64, 256, 1024}, 131072);
-                    })};
+  return {{part, "stress relaxing, no cracks", "8 particles over 0.1 ms", exact, "", elements, exact_order,
+           1e-12, [] { return uncracked_settings(relaxation_error); }},
+          {part, "stress loaded, no cracks", "8 particles over 0.1 ms at 100/s", exact, "", elements,
+           exact_order, 1e-12, [] { return uncracked_settings(loading_error); }},
+          {part, "radius of slow cracks", "8 particles over 30 us at 200/s",
+           "itself with 16384 steps (no exact solution)", "",
+           "second order in the step, below about 0.5 us, where no step is divided", 2.0, 1e-11,
+           [=] {
+             return growth_settings(slow, {64, 128, 256, 512, 1024}, 16384);
+           }},
+          {part, "stress, runaway cracks", "8 particles over 10 us at 1000/s",
+           "itself with 131072 steps, good to 1e-6 (no exact solution)", "",
+           "none: sub-steps, of at most a hundredth of the radius each, bound the error before the step does",
+           std::numeric_limits<double>::quiet_NaN(), 1e-11, [=] {
+             return growth_settings(runaway, {4, 16, 64, 256, 1024}, 131072);
+           }}};
 }
 
-}  // namespace launchsafe::verify::parts
+}  // namespace launchsafe::verify

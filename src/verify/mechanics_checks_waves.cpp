@@ -1,6 +1,7 @@
 // Elastic waves in steel against d'Alembert. Loads are small (strains of 1e-7), so that the laws are linear,
 // and the numbers are scaled to 100 MPa where model section 10 gives them so.
 #include "checks.hpp"
+#include "error_settings.hpp"
 #include "mechanics_scenes.hpp"
 
 #include <fmt/format.h>
@@ -24,12 +25,15 @@ Elasticity elasticity_of(const scene::Steel& steel) {
           std::sqrt(young / steel.eos.density)};
 }
 
-}  // namespace
+/// Relative L2 errors of a travelling pulse.
+struct WaveError {
+  double velocity = 0, stress = 0;
+};
 
-/// A pulse enters a strip of 1 m in a rigid barrel, where only the longitudinal wave can run:
-/// v = -p(t - (L - X)/c)/(rho c), sigma = -p(t - (L - X)/c). After a step the velocity is that of its middle.
-/// It is compared as the mean of two neighbours, which is what their node sees: the alternating part of the
-/// particles' velocities (1e-3 of the peak here) is invisible to the grid and acts on nothing.
+/// A pulse enters a strip of 1 m, divided into `cells`, in a rigid barrel, where only the longitudinal wave
+/// can run: v = -p(t - (L - X)/c)/(rho c), sigma = -p(t - (L - X)/c). After a step the velocity is that of
+/// its middle. It is compared as the mean of two neighbours, which is what their node sees: the alternating
+/// part of the particles' velocities (1e-3 of the peak here) is invisible to the grid and acts on nothing.
 WaveError longitudinal_error(scene::Formulation formulation, int cells) {
   const double length = 1.0;
   scene::Scene strip = block("steel", length, 2.0 / cells, length / cells, formulation);
@@ -55,8 +59,6 @@ WaveError longitudinal_error(scene::Formulation formulation, int cells) {
   }
   return {velocity.value(), stress.value()};
 }
-
-namespace {
 
 Checks longitudinal_pulse(scene::Formulation formulation) {
   Checks checks;
@@ -133,6 +135,28 @@ std::vector<Computation> wave_computations(scene::Formulation formulation) {
              checks.push_back(mechanics::plateau_in_a_free_bar(formulation));
              return checks;
            }}};
+}
+
+std::vector<ErrorSeries> wave_series() {
+  const auto of = [](const char* quantity, double mechanics::WaveError::*error) {
+    return ErrorSeries{
+        "bar wave",
+        quantity,
+        "a pulse over 0.9 m of a strip",
+        "d'Alembert, relative L2",
+        "",
+        "uGIMP on smooth fields and the leapfrog are of second order",
+        2.0,
+        1e-12,
+        [error] {
+          return settings_for({25, 50, 100, 200, 400}, [error](int cells) {
+            return with_cell(1.0 / cells, [=] {
+              return mechanics::longitudinal_error(scene::Formulation::total_lagrangian, cells).*error;
+            });
+          });
+        }};
+  };
+  return {of("velocity", &mechanics::WaveError::velocity), of("stress", &mechanics::WaveError::stress)};
 }
 
 }  // namespace launchsafe::verify

@@ -9,17 +9,6 @@
 
 namespace launchsafe::verify::mechanics {
 
-/// Relative L2 errors of a travelling pulse.
-struct WaveError {
-  double velocity = 0, stress = 0;
-};
-/// Of a pulse in a strip of 1 m that is divided into `cells`, when its front has travelled 0.9 m.
-WaveError longitudinal_error(scene::Formulation formulation, int cells);
-
-/// Relative L2 error of the temperature rise in a half space whose face is held 1 K hotter, after 1 ms, in
-/// cells of `cell` (m) and `steps` equal steps.
-double half_space_error(double cell, int steps);
-
 /// Bore and outer radius of the thick-walled tube, m.
 inline constexpr double tube_bore = 0.065, tube_outside = 0.0775;
 /// A relaxed tube under 100 MPa inside.
@@ -29,18 +18,6 @@ struct Tube {
 };
 /// With `radial_cells` from the axis to the outside.
 Tube relaxed_tube(scene::Formulation formulation, int radial_cells);
-
-/// What a uniform stress in balance may not do to a block in flight.
-struct FlightDrift {
-  double momentum = 0;  ///< relative
-  double kinetic = 0;   ///< relative
-  double stress = 0;    ///< largest axial stress over the pressure
-  double work = 0;      ///< of the stress, over the kinetic energy
-  double place = 0;     ///< of the centre of mass, over the way flown
-};
-/// A block of 50 mm flies `way` (m) through the cells, of `cell` (m), of an updated-Lagrangian grid at 500
-/// m/s.
-FlightDrift drift_in_flight(double cell, double way);
 
 /// The 155 mm shell of model section 1.
 scene::Scene shell_155(double cell_size,

@@ -12,52 +12,48 @@
 namespace {
 
 using launchsafe::verify::ErrorSeries;
-using launchsafe::verify::PartSetting;
+using launchsafe::verify::MeasuredSetting;
 
 class ErrorAgainstTime : public testing::TestWithParam<ErrorSeries> {};
 
-void expect_described(const ErrorSeries& series, const std::vector<PartSetting>& rows) {
-  for (const PartSetting& row : rows) {
-    EXPECT_EQ(row.part, series.part);
-    EXPECT_EQ(row.quantity, series.quantity);
-    EXPECT_EQ(row.error_unit, series.error_unit);
-    EXPECT_FALSE(row.setting.empty());
-    EXPECT_TRUE(std::isfinite(row.error)) << row.setting;
-    EXPECT_GE(row.error, 0.0) << row.setting;
-    EXPECT_GT(row.processor_time, 0.0) << row.setting;
+void expect_complete(const std::vector<MeasuredSetting>& rows) {
+  for (const MeasuredSetting& row : rows) {
+    EXPECT_FALSE(row.text.empty());
+    EXPECT_TRUE(std::isfinite(row.error)) << row.text;
+    EXPECT_GE(row.error, 0.0) << row.text;
+    EXPECT_GT(row.processor_time, 0.0) << row.text;
   }
   EXPECT_TRUE(std::isnan(rows.front().order));
   for (std::size_t k = 1; k < rows.size(); ++k) EXPECT_LT(rows[k].size, rows[k - 1].size);
 }
 
 /// Exact methods: nothing but round-off at any setting, and no order made of it.
-void expect_exact(const ErrorSeries& series, const std::vector<PartSetting>& rows) {
-  for (const PartSetting& row : rows) {
-    EXPECT_LE(row.error, series.round_off) << row.setting;
-    EXPECT_TRUE(std::isnan(row.order)) << row.setting;
+void expect_exact(const ErrorSeries& series, const std::vector<MeasuredSetting>& rows) {
+  for (const MeasuredSetting& row : rows) {
+    EXPECT_LE(row.error, series.round_off) << row.text;
+    EXPECT_TRUE(std::isnan(row.order)) << row.text;
   }
 }
 
 /// The error falls at every setting, in the end with the order that `series.theory` gives. The last two
 /// orders are averaged: a step control changes its number of steps by whole ones.
-void expect_order(const ErrorSeries& series, const std::vector<PartSetting>& rows) {
-  for (std::size_t k = 1; k < rows.size(); ++k)
-    EXPECT_LT(rows[k].error, rows[k - 1].error) << rows[k].setting;
+void expect_order(const ErrorSeries& series, const std::vector<MeasuredSetting>& rows) {
+  for (std::size_t k = 1; k < rows.size(); ++k) EXPECT_LT(rows[k].error, rows[k - 1].error) << rows[k].text;
   const double last = 0.5 * (rows.back().order + rows[rows.size() - 2].order);
   EXPECT_NEAR(last, series.order, 0.1) << series.theory;
 }
 
 /// Without an order, the finest setting still is far better than the coarsest.
-void expect_bounded(const std::vector<PartSetting>& rows) {
+void expect_bounded(const std::vector<MeasuredSetting>& rows) {
   EXPECT_LT(rows.back().error, 1e-2 * rows.front().error);
   EXPECT_LT(rows.back().error, 1e-4);
 }
 
 TEST_P(ErrorAgainstTime, FallsAsTheMethodsTheorySays) {
   const ErrorSeries& series = GetParam();
-  const std::vector<PartSetting> rows = series.compute();
+  const std::vector<MeasuredSetting> rows = measured(series);
   ASSERT_GE(rows.size(), 3U);
-  expect_described(series, rows);
+  expect_complete(rows);
   if (std::isnan(series.order)) {
     expect_bounded(rows);
   } else if (std::isinf(series.order)) {
@@ -96,7 +92,7 @@ TEST(ErrorSeries, CoverEveryPartWithAnExactSolutionAndSayWhatTheyAre) {
 TEST(ErrorSeries, MoreStepsTakeMoreTime) {
   for (const ErrorSeries& series : launchsafe::verify::error_series()) {
     if (series.part != "exchange with the air") continue;
-    const std::vector<PartSetting> rows = series.compute();
+    const std::vector<MeasuredSetting> rows = measured(series);
     // From 4 to 1024 steps of one point.
     EXPECT_GT(rows.back().processor_time, 50.0 * rows.front().processor_time);
     EXPECT_LT(rows.back().processor_time, 1000.0 * rows.front().processor_time);
