@@ -1,15 +1,88 @@
-#include "launchsafe/verify/finite_element_deck.hpp"
-
-#include "finite_element_nodes.hpp"
+#include "launchsafe/verify/finite_elements.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace launchsafe::verify {
 namespace {
+
+using Text = std::back_insert_iterator<std::string>;
+
+/// Decks are in m, s and MPa, hence units of mass of 1000 t: a compressibility as small as steel's is in
+/// 1/Pa, CalculiX 2.20 takes for none, and puts one of its own in its place.
+constexpr double pascal = 1.0 / deck_stress_unit;
+
+/// Nodes lie on a lattice of corners and mid-sides; the places in the middle of elements stay empty. Where
+/// faces can part, a place has a copy for each body, or for each group of bodies that are bonded there.
+class NodeLattice {
+ public:
+  explicit NodeLattice(const FiniteElementModel& model);
+
+  int columns, rows, copies = 1;
+  /// How many nodes a place has; 0 in the middle of an element.
+  int copies_at(int a, int b) const;
+  int number_of_copy(int a, int b, int copy) const { return 1 + a + columns * (b + rows * copy); }
+  /// The node of a body.
+  int number(int a, int b, int body) const;
+
+ private:
+  /// Bodies around a place, those that are bonded there in one group.
+  std::vector<std::vector<int>> groups_at(int a, int b) const;
+
+  const FiniteElementModel* model_;
+};
+
+/// Coefficient of friction from which on faces that stick do not become stiffer.
+constexpr double stiffest_friction = 0.1;
+
+bool holds(const std::vector<int>& bodies, int body) {
+  return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
+}
+
+NodeLattice::NodeLattice(const FiniteElementModel& model)
+    : columns(2 * model.columns() + 1), rows(2 * model.rows() + 1), model_(&model) {
+  for (int b = 0; b < rows; ++b)
+    for (int a = 0; a < columns; ++a) copies = std::max(copies, copies_at(a, b));
+}
+
+int NodeLattice::copies_at(int a, int b) const {
+  if (a % 2 != 0 && b % 2 != 0) return 0;
+  return model_->contacts.empty() ? 1 : static_cast<int>(groups_at(a, b).size());
+}
+
+int NodeLattice::number(int a, int b, int body) const {
+  if (model_->contacts.empty()) return number_of_copy(a, b, 0);
+  const std::vector<std::vector<int>> groups = groups_at(a, b);
+  const auto own = std::find_if(groups.begin(), groups.end(),
+                                [body](const std::vector<int>& group) { return holds(group, body); });
+  return number_of_copy(a, b, static_cast<int>(own - groups.begin()));
+}
+
+std::vector<std::vector<int>> NodeLattice::groups_at(int a, int b) const {
+  std::vector<std::vector<int>> groups;
+  for (int j = std::max(0, (b - 1) / 2); j <= std::min(model_->rows() - 1, b / 2); ++j)
+    for (int i = std::max(0, (a - 1) / 2); i <= std::min(model_->columns() - 1, a / 2); ++i) {
+      const int body = model_->body(model_->element(i, j));
+      if (std::any_of(groups.begin(), groups.end(),
+                      [body](const std::vector<int>& group) { return holds(group, body); }))
+        continue;
+      // The body joins all groups that have one to which it is bonded.
+      std::vector<int> joined{body};
+      std::erase_if(groups, [&](const std::vector<int>& group) {
+        const bool bonded = std::any_of(group.begin(), group.end(), [&](int each) {
+          return model_->contact_between(body, each) == nullptr;
+        });
+        if (bonded) joined.insert(joined.end(), group.begin(), group.end());
+        return bonded;
+      });
+      groups.push_back(std::move(joined));
+    }
+  return groups;
+}
 
 double place(const std::vector<double>& edges, int half_steps) {
   const auto k = static_cast<std::size_t>(half_steps / 2);
@@ -42,7 +115,7 @@ void write_elements(const FiniteElementModel& model, const NodeLattice& nodes, T
     for (int j = 0; j < model.rows(); ++j)
       for (int i = 0; i < model.columns(); ++i) {
         const int element = model.element(i, j);
-        if (model.material_of[static_cast<std::size_t>(element)] != static_cast<int>(material)) continue;
+        if (model.material(element) != static_cast<int>(material)) continue;
         const int a = 2 * i, b = 2 * j, body = model.body(element);
         const auto node = [&](int da, int db) { return nodes.number(a + da, b + db, body); };
         fmt::format_to(text, "{},{},{},{},{},{},{},{},{}\n", element + 1, node(0, 0), node(0, 2), node(2, 2),
@@ -99,6 +172,53 @@ void write_supports(const FiniteElementModel& model, const NodeLattice& nodes, T
   }
 }
 
+/// A face of an element, by CalculiX's name for it: S1 (x least), S2 (r most), S3 (x most), S4 (r least).
+struct ElementFace {
+  int element;
+  const char* name;
+};
+
+/// Where two bodies touch: the face of `body`, and that of `other` on which it lies.
+std::vector<std::pair<ElementFace, ElementFace>> faces_between(const FiniteElementModel& model, int body,
+                                                               int other) {
+  std::vector<std::pair<ElementFace, ElementFace>> faces;
+  const auto look = [&](const ElementFace& before, const ElementFace& after) {
+    const int first = model.body(before.element), second = model.body(after.element);
+    if (first == body && second == other) faces.emplace_back(before, after);
+    if (first == other && second == body) faces.emplace_back(after, before);
+  };
+  for (int j = 0; j < model.rows(); ++j)
+    for (int i = 0; i < model.columns(); ++i) {
+      if (i > 0) look({model.element(i - 1, j), "S3"}, {model.element(i, j), "S1"});
+      if (j > 0) look({model.element(i, j - 1), "S2"}, {model.element(i, j), "S4"});
+    }
+  return faces;
+}
+
+/// The faces in contact: CalculiX's face-to-face penalty contact.
+void write_contacts(const FiniteElementModel& model, Text text) {
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const FiniteElementContact& contact = model.contacts[k];
+    const auto faces = faces_between(model, contact.body, contact.other);
+    if (faces.empty()) continue;
+    const auto write_face = [&](const ElementFace& face) {
+      fmt::format_to(text, "{},{}\n", face.element + 1, face.name);
+    };
+    fmt::format_to(text, "*SURFACE,NAME=OWN{},TYPE=ELEMENT\n", k);
+    for (const auto& [own, other] : faces) write_face(own);
+    fmt::format_to(text, "*SURFACE,NAME=OTHER{},TYPE=ELEMENT\n", k);
+    for (const auto& [own, other] : faces) write_face(other);
+    fmt::format_to(text,
+                   "*CONTACT PAIR,INTERACTION=FACES{},TYPE=SURFACE TO SURFACE\nOWN{},OTHER{}\n"
+                   "*SURFACE INTERACTION,NAME=FACES{}\n*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR\n"
+                   "{:.10g}\n",
+                   k, k, k, k, model.contact_stiffness * pascal);
+    if (contact.friction > 0.0)
+      fmt::format_to(text, "*FRICTION\n{:.10g},{:.10g}\n", contact.friction,
+                     std::min(contact.friction, stiffest_friction) * model.stick_stiffness * pascal);
+  }
+}
+
 void write_loads(const FiniteElementModel& model, double share, Text text) {
   fmt::format_to(text, "*DLOAD\n");
   if (model.acceleration > 0.0)
@@ -140,6 +260,13 @@ std::vector<double> halved(const std::vector<double>& edges) {
 
 }  // namespace
 
+const FiniteElementContact* FiniteElementModel::contact_between(int a, int b) const {
+  for (const FiniteElementContact& contact : contacts)
+    if ((contact.body == a && contact.other == b) || (contact.body == b && contact.other == a))
+      return &contact;
+  return nullptr;
+}
+
 IntegrationPoint integration_point(const FiniteElementModel& model, int element, int point) {
   const auto i = static_cast<std::size_t>(element % model.columns()),
              j = static_cast<std::size_t>(element / model.columns());
@@ -172,16 +299,15 @@ FiniteElementModel refined(const FiniteElementModel& model) {
   FiniteElementModel finer = model;
   finer.edges_x = halved(model.edges_x);
   finer.edges_r = halved(model.edges_r);
-  finer.material_of.assign(static_cast<std::size_t>(finer.elements()), 0);
-  for (int j = 0; j < finer.rows(); ++j)
-    for (int i = 0; i < finer.columns(); ++i)
-      finer.material_of[static_cast<std::size_t>(finer.element(i, j))] =
-          model.material_of[static_cast<std::size_t>(model.element(i / 2, j / 2))];
-  if (model.body_of.empty()) return finer;
-  finer.body_of = finer.material_of;
-  for (int j = 0; j < finer.rows(); ++j)
-    for (int i = 0; i < finer.columns(); ++i)
-      finer.body_of[static_cast<std::size_t>(finer.element(i, j))] = model.body(model.element(i / 2, j / 2));
+  const auto refine = [&](std::vector<int>& of_element) {
+    if (of_element.empty()) return;
+    const std::vector<int> coarse = std::exchange(of_element, {});
+    for (int j = 0; j < finer.rows(); ++j)
+      for (int i = 0; i < finer.columns(); ++i)
+        of_element.push_back(coarse[static_cast<std::size_t>(model.element(i / 2, j / 2))]);
+  };
+  refine(finer.material_of);
+  refine(finer.body_of);
   return finer;
 }
 

@@ -1,14 +1,16 @@
-#include "launchsafe/verify/finite_element_run.hpp"
+#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/verify/finite_elements.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 namespace launchsafe::verify {
 namespace {
@@ -51,14 +53,6 @@ std::string_view next_line(std::string_view& text) {
   return line;
 }
 
-/// As many numbers as stand in a line, at most 8.
-std::vector<double> numbers_in(std::string_view line) {
-  std::istringstream stream{std::string(line)};
-  std::vector<double> numbers;
-  for (double number; numbers.size() < 8 && stream >> number;) numbers.push_back(number);
-  return numbers;
-}
-
 /// The printed components are those of the plane's axes; the point stands beside it, at the Gauss place of
 /// the half wedge. Turned about the axis of symmetry back to the radial direction of the point.
 CauchyStress in_own_plane(double rr, double xx, double tt, double rx, double rt) {
@@ -68,24 +62,29 @@ CauchyStress in_own_plane(double rr, double xx, double tt, double rx, double rt)
           sine * sine * rr + cosine * cosine * tt - 2.0 * sine * cosine * rt, rx / cosine};
 }
 
-/// The table of stresses that follows its heading. The last four points of an element mirror the first.
-bool read_stresses(std::string_view& text, int elements, std::vector<CauchyStress>& stress) {
+/// The table of stresses that follows its heading; none where it is not whole. The last four points of an
+/// element mirror the first.
+std::optional<std::vector<CauchyStress>> read_stresses(std::string_view& text, int elements) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();
-  stress.assign(static_cast<std::size_t>(elements * integration_points),
-                {nothing, nothing, nothing, nothing});
+  std::vector<CauchyStress> stresses(static_cast<std::size_t>(elements * integration_points),
+                                     {nothing, nothing, nothing, nothing});
   next_line(text);  // an empty one
   std::size_t found = 0;
   for (std::string_view line = next_line(text); !line.empty(); line = next_line(text)) {
-    const std::vector<double> n = numbers_in(line);  // element, point, rr, xx, tt, rx, rt, xt
-    if (n.size() != 8 || n[0] < 1 || n[0] > elements || n[1] < 1 || n[1] > printed_points) return false;
-    if (n[1] > integration_points) continue;
-    const auto slot = static_cast<std::size_t>((n[0] - 1) * integration_points + (n[1] - 1));
+    std::istringstream numbers{std::string(line)};
+    int element = 0, point = 0;
+    double rr = 0, xx = 0, tt = 0, rx = 0, rt = 0, xt = 0;  // MPa
+    if (!(numbers >> element >> point >> rr >> xx >> tt >> rx >> rt >> xt)) return std::nullopt;
+    if (element < 1 || element > elements || point < 1 || point > printed_points) return std::nullopt;
+    if (point > integration_points) continue;
     // Points 1 to 4 lie at negative angles: the turn has the other sign.
-    const auto in_pascal = [&](std::size_t k) { return n[k] * deck_stress_unit; };
-    stress[slot] = in_own_plane(in_pascal(2), in_pascal(3), in_pascal(4), in_pascal(5), -in_pascal(6));
+    stresses[static_cast<std::size_t>((element - 1) * integration_points + point - 1)] =
+        in_own_plane(rr * deck_stress_unit, xx * deck_stress_unit, tt * deck_stress_unit,
+                     rx * deck_stress_unit, -(rt * deck_stress_unit));
     ++found;
   }
-  return found == stress.size();
+  if (found != stresses.size()) return std::nullopt;
+  return stresses;
 }
 
 /// The last lines of a text that say something.
@@ -100,11 +99,6 @@ std::string end_of(const std::string& text) {
   return end;
 }
 
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 }  // namespace
 
 StressMeasures CauchyStress::measures() const {
@@ -114,18 +108,15 @@ StressMeasures CauchyStress::measures() const {
 }
 
 store::Result<FiniteElementResult> read_finite_element_output(std::string_view text, int elements) {
-  FiniteElementResult result;
-  bool has_stress = false;
+  std::optional<FiniteElementResult> last;
   while (!text.empty()) {
-    const std::string_view line = next_line(text);
-    if (line.find(" stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz)") == 0) {
-      if (!read_stresses(text, elements, result.stress))
-        return corrupt(fmt::format("has no whole table of the stresses in {} elements", elements));
-      has_stress = true;
-    }
+    if (next_line(text).find(" stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz)") != 0) continue;
+    auto stresses = read_stresses(text, elements);
+    if (!stresses) return corrupt(fmt::format("has no whole table of the stresses in {} elements", elements));
+    last = FiniteElementResult{std::move(*stresses)};
   }
-  if (!has_stress) return corrupt("has no table of stresses");
-  return result;
+  if (!last) return corrupt("has no table of stresses");
+  return std::move(*last);
 }
 
 store::Result<std::string> finite_element_version() {
@@ -143,19 +134,19 @@ store::Result<FiniteElementResult> run_finite_elements(const FiniteElementModel&
                                                        const store::ProgramLimits& limits) {
   const WorkFolder folder;
   const std::filesystem::path base = folder.path() / job;
-  std::ofstream deck(base.string() + ".inp", std::ios::binary);
-  deck << deck_of(model) << std::flush;
-  if (folder.path().empty() || !deck)
+  if (folder.path().empty() ||
+      store::write_file_atomically(base.string() + ".inp", {deck_of(model)}, store::IfExists::replace))
     return store::Error{store::Error::Kind::write_failed,
                         "cannot write the input of ccx to a temporary folder"};
-  deck.close();
   const auto run = store::run_program(program, {"-i", job}, "", limits, folder.path());
   if (!run) return run.error();
   // Its exit code is 0 after most failures too.
   if (!run->succeeded || run->output.find("Job finished") == std::string::npos)
     return store::Error{store::Error::Kind::failed,
                         "ccx did not finish: " + end_of(run->output + "\n" + run->errors)};
-  return read_finite_element_output(content_of(base.string() + ".dat"), model.elements());
+  const auto printed = store::read_file(base.string() + ".dat");
+  if (!printed) return printed.error();
+  return read_finite_element_output(*printed, model.elements());
 }
 
 }  // namespace launchsafe::verify

@@ -1,7 +1,6 @@
 // The cases whose static stresses are compared, and their finite element models.
 #include "launchsafe/verify/static_stress_comparison.hpp"
 #include "mechanics_scenes.hpp"
-#include "static_stress_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -11,31 +10,31 @@
 namespace launchsafe::verify {
 namespace {
 
-/// s: the pressure rises over twice the slowest period of the shell and is then held until damping has taken
-/// what is left of the motion and the charge's Maxwell elements have relaxed (the slowest in 0.14 ms).
+/// s: the pressure rises over two periods of the shell's slowest mode and is then held until the damping has
+/// removed the remaining motion and the charge's Maxwell elements have relaxed (the slowest in 0.14 ms).
 constexpr double usual_rise = 1e-3, held = 2.5e-3, observed = 0.5e-3;
 constexpr int samples = 11;  ///< of the stresses, within the last part of the run
 
-/// How the load is brought to rest, s.
-struct Settling {
+/// How the load is applied and the motion damped, s.
+struct Loading {
   double rise = usual_rise;
   double damping_time = 5e-5;  ///< near critical for the slowest mode: 1/(2 omega), omega = 1e4/s
 };
 
-/// With friction the way matters: damping draws on the charge as it settles, a tenth of its weight with the
-/// usual rise and damping, and leaves its mark where faces stick from then on: 2 % of the pressure beside the
-/// wall at a friction of 0.02, half and a quarter of that with a rise twice and four times as long. This
-/// draws a thirtieth of that, and what the smooth rise excites is damped while it is held.
-constexpr Settling without_drag{4e-3, 4e-4};
+/// With friction the state of rest depends on the path: while the charge moves, the damping bears a part of
+/// its weight, a tenth with the usual rise and damping time, and faces that stick afterwards keep the
+/// difference: 2 % of the pressure beside the wall at a friction of 0.02, half and a quarter of that with a
+/// rise twice and four times as long. With these times the damping bears a thirtieth of that.
+constexpr Loading for_friction{4e-3, 4e-4};
 
-void let_settle(scene::Scene& scene, double pressure, const Settling& settling = {}) {
-  const double end = settling.rise + held;
-  scene.load = mechanics::ramp(pressure, settling.rise, end);
-  scene.numerics.damping_time = settling.damping_time;
+void load_statically(scene::Scene& scene, double pressure, const Loading& loading = {}) {
+  const double end = loading.rise + held;
+  scene.load = mechanics::ramp(pressure, loading.rise, end);
+  scene.numerics.damping_time = loading.damping_time;
   scene.physics.conduction = scene.physics.bulk_reaction = scene::Switch::off;
   scene.charge().strength.flaw_size = 0.0;  // no cracks
   scene.charge().tension_cutoff = 1e12;     // at the nose the bond holds the charge in tension
-  scene.output.trace_interval = settling.rise;
+  scene.output.trace_interval = loading.rise;
   scene.output.snapshot_times = {0.0};
   for (int sample = 0; sample < samples; ++sample)
     scene.output.snapshot_times.push_back(end - observed * (samples - 1 - sample) / (samples - 1));
@@ -45,7 +44,7 @@ StaticCase shell(double pressure) {
   StaticCase shell;
   shell.scene = mechanics::shell_155(2.5e-3);
   shell.pressure = pressure;
-  let_settle(shell.scene, pressure);
+  load_statically(shell.scene, pressure);
   for (int k = 1; k <= 13; ++k) shell.stations.push_back({fmt::format("G{}", k), 0.065 - (k - 0.5) * 5e-3});
   return shell;
 }
@@ -55,8 +54,7 @@ StaticCase elastic_shell() {
   elastic.name = "elastic shell, 50 MPa";
   elastic.description =
       "Charge, wall, nose and base bonded, rigid barrel. Steel that never yields; a charge without cracks "
-      "and "
-      "tension cut-off that has kept only the spring of its Maxwell elements (G = 0.944 GPa).";
+      "and tension cut-off that has kept only the spring of its Maxwell elements (G = 0.944 GPa).";
   mechanics::make_elastic(elastic.scene);
   auto& strength = elastic.scene.charge().strength;
   for (std::size_t n = 0; n < materials::maxwell_elements; ++n)
@@ -70,7 +68,7 @@ StaticCase plastic_shell() {
   plastic.description =
       "The same shell with Johnson-Cook steel without its factor of the rate (C = 0), and a "
       "charge whose Maxwell elements have relaxed (G = 0.944 GPa).";
-  // What the ramp adds to the yield stress would leave its mark on the state of rest: 0.2 % of the pressure.
+  // With it the stresses at rest would depend on the rate of the rise, by 0.2 % of the pressure.
   plastic.scene.steel().strength.c = 0.0;
   return plastic;
 }
@@ -82,14 +80,13 @@ StaticCase free_bar() {
   bar.name = "free bar, 50 MPa";
   bar.description =
       "A steel bar of 100 mm and 40 mm diameter, free all around, under its own weight. Closed form: the "
-      "axial "
-      "stress falls linearly to 0 at the far end, and there is no other.";
+      "axial stress falls linearly to 0 at the far end, and there is no other.";
   bar.scene = mechanics::block("steel", length, radius, 2.5e-3);
   bar.scene.barrel = scene::Barrel::none;
   bar.pressure = 50e6;
-  let_settle(bar.scene, bar.pressure);
+  load_statically(bar.scene, bar.pressure);
   mechanics::make_elastic(bar.scene);
-  bar.scene.numerics.damping_time = 1.2e-5;  // the slowest mode is that of a bar of 100 mm
+  bar.scene.numerics.damping_time = 1.2e-5;  // near critical for the slowest mode of a bar of 100 mm
   const double axial = bar.pressure * (1.0 - 0.5 * stress_box / length);  // mean over the box
   for (int k = 0; k < 4; ++k) {
     bar.stations.push_back({fmt::format("B{}", k + 1), radius - (k + 0.5) * stress_box});
@@ -156,23 +153,25 @@ void set_bodies(const scene::Scene& scene, FiniteElementModel& model) {
                                 faces->friction.value_or(0.0)});
     }
   if (model.contacts.empty()) return;
-  // Faces that begin on the axis collapse to a line there, and CalculiX loses their contact: 8.4 instead of
-  // 13.3 MPa in the station at the axis. A held bore of 10 or of 100 um reads the same to all digits.
+  // On the axis a face degenerates to a line, and CalculiX 2.20 does not find its contact: 8.4 instead of
+  // 13.3 MPa in the station at the axis. Hence a bore, held radially; radii of 10 and 100 um give the same
+  // stresses to all digits.
   model.edges_r.front() = 1e-5;
   model.axis_held = true;
+}
+
+/// What is left of the shear modulus (Pa) when all Maxwell elements that relax have relaxed.
+double static_shear_modulus(const materials::ViscoScramParameters& charge) {
+  double modulus = 0.0;
+  for (std::size_t n = 0; n < materials::maxwell_elements; ++n)
+    if (!(charge.relaxation_rates[n] > 0.0)) modulus += charge.shear_moduli[n];
+  return modulus;
 }
 
 }  // namespace
 
 double bottom_of(const scene::Scene& scene) {
   return scene::has_charge(scene) ? scene::charge_extent(scene).x_end : scene::extent_of(scene).x_end;
-}
-
-double static_shear_modulus(const materials::ViscoScramParameters& charge) {
-  double modulus = 0.0;
-  for (std::size_t n = 0; n < materials::maxwell_elements; ++n)
-    if (!(charge.relaxation_rates[n] > 0.0)) modulus += charge.shear_moduli[n];
-  return modulus;
 }
 
 StaticCase sliding_shell(double friction) {
@@ -183,7 +182,7 @@ StaticCase sliding_shell(double friction) {
       "coefficient of friction {:.4g}.",
       friction);
   sliding.targets.outer = sliding_outer_target;
-  if (friction > 0.0) let_settle(sliding.scene, sliding.pressure, without_drag);
+  if (friction > 0.0) load_statically(sliding.scene, sliding.pressure, for_friction);
   for (const char* body : {"wall", "base", "nose"})
     sliding.scene.interfaces.push_back({body, scene::Condition::sliding, friction});
   return sliding;

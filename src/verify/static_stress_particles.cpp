@@ -1,5 +1,5 @@
 // Box means of particle fields, from snapshots alone: whatever the mesh and however the step is formulated.
-#include "static_stress_parts.hpp"
+#include "launchsafe/verify/static_stress_comparison.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@ struct Cell {
   double x_begin, x_end, r_begin, r_end;
 };
 
-/// Cells tile their body without gaps, each with its particle in the middle: beginning at the body's edge,
-/// every centre gives the next edge.
+/// Edges (m) of cells that fill their body without gaps, each with its particle in the middle: from the edge
+/// of the body on, every centre gives the next edge.
 std::vector<double> edges_around(std::vector<double> centres, double begin) {
   constexpr double same = 1e-9;  // m
   std::sort(centres.begin(), centres.end());
@@ -29,7 +29,7 @@ std::vector<double> edges_around(std::vector<double> centres, double begin) {
   return edges;
 }
 
-/// The distance between two edges that holds the centre.
+/// The two edges between which the centre lies.
 std::pair<double, double> around(const std::vector<double>& edges, double centre) {
   const auto after = std::upper_bound(edges.begin(), edges.end(), centre);
   return {*(after - 1), *after};
@@ -153,21 +153,6 @@ ParticleMeans particle_means(const StaticCase& compared, const std::vector<run::
   for (std::size_t k = 1; k < snapshots.size(); ++k)
     for (std::size_t i = 0; i < pressure.size(); ++i) pressure[i] += snapshots[k].pressure[i] / samples;
   result.alternation = alternation_of(compared, rest, cells, pressure);
-  return result;
-}
-
-ParticleMeans particle_means(const StaticCase& compared, double cell_size, const run::RunOptions& options) {
-  StaticCase meshed = compared;
-  meshed.scene.numerics.cell_size = cell_size;
-  const run::MechanicsResult run = run::run_mechanics(meshed.scene, options);
-  ParticleMeans result;
-  if (run.status == run::RunStatus::completed)
-    result = particle_means(meshed, run.snapshots);
-  else
-    result.failure = run::to_string(run.status) + ": " + run.reason;
-  result.cell_size = cell_size;
-  result.particles = run.particles;
-  result.wall_time = run.wall_time;
   return result;
 }
 

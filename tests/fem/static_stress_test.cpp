@@ -23,8 +23,8 @@ bool is_installed() {
   return version || version.error().kind != store::Error::Kind::missing;
 }
 
-/// A judge that changes, when its elements are cut in four, by at most a fifth of what it judges, and so when
-/// its springs of contact become rigid.
+/// The finite elements' own error, seen when every element is cut in four and when the contact becomes rigid,
+/// is at most a fifth of the tolerance for the particles.
 void expect_convergence(const StaticComparison& comparison) {
   const StressTargets& targets = comparison.compared.targets;
   for (std::size_t k = 0; k < comparison.fine.means.size(); ++k) {

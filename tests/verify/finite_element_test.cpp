@@ -1,5 +1,5 @@
 // The finite element decks that are written, and the output that is read, without CalculiX.
-#include "launchsafe/verify/finite_element_run.hpp"
+#include "launchsafe/verify/finite_elements.hpp"
 
 #include <gtest/gtest.h>
 

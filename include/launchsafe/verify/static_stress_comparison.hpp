@@ -4,7 +4,7 @@
 
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/scene.hpp"
-#include "launchsafe/verify/finite_element_run.hpp"
+#include "launchsafe/verify/finite_elements.hpp"
 
 #include <atomic>
 #include <functional>
@@ -47,6 +47,9 @@ struct StaticCase {
   std::vector<StressMeasures> exact;  ///< of every station, where there is a closed form
   StressTargets targets;
 };
+
+/// x (m) of the bottom of the charge; without one, of the base.
+double bottom_of(const scene::Scene& scene);
 
 /// The elastic shell under 50 MPa whose charge slides on wall, base and nose with a coefficient of friction.
 StaticCase sliding_shell(double friction);
@@ -115,10 +118,6 @@ FiniteElementModel finite_element_model(const StaticCase& compared);
 /// Means of the particles of a case, from snapshots alone, on any mesh of rectangular cells with their
 /// particles in the middle: the first snapshot is at rest and tells the cells, all others are averaged.
 ParticleMeans particle_means(const StaticCase& compared, const std::vector<run::Snapshot>& snapshots);
-
-/// Means over a station's box of what finite elements give.
-StressMeasures box_mean(const FiniteElementModel& model, const FiniteElementResult& result,
-                        const scene::Scene& scene, const StressStation& station);
 
 /// Errors: those of run_finite_elements.
 store::Result<StaticComparison> compare_static_stresses(const StaticCase& compared,

@@ -1,9 +1,13 @@
-// A static, axisymmetric finite element model on a rectangular mesh, and its input deck for CalculiX
-// (Abaqus' format): an independent assessment of the stresses at the charge bottom.
+// A static, axisymmetric finite element model on a rectangular mesh, its input deck for CalculiX (Abaqus'
+// format), and the stresses that CalculiX (program ccx) computes: an independent assessment of the stresses
+// at the charge bottom.
 #pragma once
+
+#include "launchsafe/store/program.hpp"
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace launchsafe::verify {
@@ -58,6 +62,7 @@ struct FiniteElementModel {
   int rows() const { return static_cast<int>(edges_r.size()) - 1; }
   int elements() const { return columns() * rows(); }
   int element(int i, int j) const { return i + columns() * j; }
+  int material(int element) const { return material_of[static_cast<std::size_t>(element)]; }
   int body(int element) const { return body_of.empty() ? 0 : body_of[static_cast<std::size_t>(element)]; }
   /// The contact between two bodies; none where they are bonded, or one.
   const FiniteElementContact* contact_between(int a, int b) const;
@@ -86,5 +91,36 @@ inline constexpr double deck_stress_unit = 1e6;
 /// The input deck of a static, geometrically nonlinear step that prints the stresses at all integration
 /// points at its end.
 std::string deck_of(const FiniteElementModel& model);
+
+/// Pressure (compression positive) and von Mises stress, Pa.
+struct StressMeasures {
+  double pressure = 0, von_mises = 0;
+};
+
+/// Cauchy stress at an integration point, Pa, tension positive.
+struct CauchyStress {
+  double rr = 0, xx = 0, tt = 0, rx = 0;
+  StressMeasures measures() const;
+};
+
+/// What a finite element computation printed.
+struct FiniteElementResult {
+  std::vector<CauchyStress> stress;  ///< of every element, its integration points one after the other
+  const CauchyStress& at(int element, int point) const {
+    return stress[static_cast<std::size_t>(element * integration_points + point)];
+  }
+};
+
+/// Reads the stresses of so many elements at the last increment out of the text that ccx
+/// leaves in its .dat file. Errors: corrupt.
+store::Result<FiniteElementResult> read_finite_element_output(std::string_view text, int elements);
+
+/// What ccx says its version is: "2.20". Errors: missing (it is not installed), failed.
+store::Result<std::string> finite_element_version();
+
+/// Runs ccx on the model's deck in a temporary folder of its own. Errors: missing, failed (what ccx said
+/// last), corrupt, write_failed.
+store::Result<FiniteElementResult> run_finite_elements(const FiniteElementModel& model,
+                                                       const store::ProgramLimits& limits = {.time = 600.0});
 
 }  // namespace launchsafe::verify
