@@ -1,16 +1,17 @@
-#include "error_table.hpp"
-
+// launchsafe verify --error-against-time: error, order and processor time of the parts with exact solutions.
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
+#include "launchsafe/verify/error_against_time.hpp"
 #include "output_folder.hpp"
+#include "signals.hpp"
+#include "verify_command.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace launchsafe::app {
@@ -18,7 +19,14 @@ namespace {
 
 using verify::ErrorSeries, verify::MeasuredSetting;
 
-const char* const title = "Error against processor time of the parts with exact solutions";
+const char* const errors_title = "Error against processor time of the parts with exact solutions";
+const std::vector<std::string> error_files{"parts.csv", "parts.md", "parts.svg"};
+
+/// A series and what it gave.
+struct MeasuredSeries {
+  ErrorSeries series;
+  std::vector<MeasuredSetting> settings;
+};
 
 report::Column significant_column(std::string name, std::string unit, int digits) {
   return {.name = std::move(name),
@@ -45,7 +53,7 @@ std::string amount(double value, const std::string& unit) {
 
 report::Table settings_table(const std::vector<MeasuredSeries>& measured) {
   report::Table table;
-  table.title = title;
+  table.title = errors_title;
   table.columns = {report::text_column("part"),    report::text_column("error of"),
                    report::text_column("setting"), {.name = "error", .unit = ""},
                    {.name = "order", .unit = ""},  significant_column("processor time", "s", 3)};
@@ -58,8 +66,7 @@ report::Table settings_table(const std::vector<MeasuredSeries>& measured) {
   }
   table.notes = {
       "Errors without a unit are relative. The order is that of the error in the step, cell or tolerance, "
-      "from one "
-      "setting to the next; where the error is of round-off there is none.",
+      "from one setting to the next; where the error is of round-off there is none.",
       "Processor time is that of one unit of work, named below: the least of three measurements."};
   return table;
 }
@@ -111,7 +118,7 @@ bool is_exact(const MeasuredSeries& each) {
 /// it.
 report::Plot plot_of(const std::vector<MeasuredSeries>& measured) {
   report::Plot plot;
-  plot.title = title;
+  plot.title = errors_title;
   plot.x = {.label = "processor time of one unit of work [s]", .scale = report::Scale::logarithmic};
   plot.y = {.label = "error [relative, or K where it says so]", .scale = report::Scale::logarithmic};
   plot.width = 1200;
@@ -142,7 +149,7 @@ report::Plot plot_of(const std::vector<MeasuredSeries>& measured) {
 std::string page_of(const std::vector<MeasuredSeries>& measured, const std::string& command,
                     const std::string& picture) {
   std::string page =
-      fmt::format("# {}\n\nMade by `{}`. Times are of the machine that ran it.\n\n", title, command);
+      fmt::format("# {}\n\nMade by `{}`. Times are of the machine that ran it.\n\n", errors_title, command);
   if (!picture.empty()) page += fmt::format("![Error against processor time]({})\n\n", picture);
   report::Table settings = settings_table(measured), series = series_table(measured);
   settings.title = "Settings";
@@ -150,15 +157,12 @@ std::string page_of(const std::vector<MeasuredSeries>& measured, const std::stri
   return page + report::to_markdown(settings) + "\n" + report::to_markdown(series);
 }
 
-}  // namespace
-
-std::string error_table_text(const std::vector<MeasuredSeries>& measured, const std::string& command) {
+std::string errors_text(const std::vector<MeasuredSeries>& measured, const std::string& command) {
   return report::to_text(settings_table(measured)) + "\n" + report::to_text(series_table(measured)) +
          "\nmade by: " + command + "\n";
 }
 
-nlohmann::ordered_json error_table_json(const std::vector<MeasuredSeries>& measured,
-                                        const std::string& command) {
+nlohmann::ordered_json errors_json(const std::vector<MeasuredSeries>& measured, const std::string& command) {
   const auto number = [](double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
   };
@@ -187,10 +191,11 @@ nlohmann::ordered_json error_table_json(const std::vector<MeasuredSeries>& measu
   return object;
 }
 
-store::Result<report::WrittenFiles> write_error_table(const std::vector<MeasuredSeries>& measured,
-                                                      const std::string& command,
-                                                      const std::filesystem::path& folder,
-                                                      const report::DrawingLimits& limits) {
+/// Writes the files, parts.svg only where gnuplot is installed.
+store::Result<report::WrittenFiles> write_errors(const std::vector<MeasuredSeries>& measured,
+                                                 const std::string& command,
+                                                 const std::filesystem::path& folder,
+                                                 const report::DrawingLimits& limits) {
   report::WrittenFiles written;
   std::string picture = "parts.svg";
   const report::Plot plot = plot_of(measured);
@@ -211,6 +216,53 @@ store::Result<report::WrittenFiles> write_error_table(const std::vector<Measured
                                written))
     return *error;
   return written;
+}
+
+std::string name_of(const ErrorSeries& series) { return series.part + ": " + series.quantity; }
+
+/// The settings whose computation failed.
+std::vector<kinds::Failure> failures_of(const std::vector<MeasuredSeries>& measured) {
+  std::vector<kinds::Failure> failures;
+  for (const MeasuredSeries& each : measured)
+    for (const MeasuredSetting& row : each.settings)
+      if (!std::isfinite(row.error))
+        failures.push_back({fmt::format("{}, {}", name_of(each.series), row.text), "the computation failed"});
+  return failures;
+}
+
+}  // namespace
+
+ExitCode tabulate_errors(const VerifyArguments& arguments, Console& console) {
+  std::vector<ErrorSeries> wanted;
+  std::vector<std::string> parts;
+  for (const ErrorSeries& series : verify::error_series()) {
+    parts.push_back(series.part);
+    if (has_in_its_name(name_of(series), arguments.filter)) wanted.push_back(series);
+  }
+  if (wanted.empty()) return refuse_filter(arguments.filter, parts, console);
+  if (arguments.output) {
+    if (const auto obstacle = obstacle_to_report(*arguments.output, error_files))
+      return console.refuse(*obstacle);
+  }
+  std::vector<MeasuredSeries> measured;
+  compute_unless_stopped(console, "error", [&](Progress& progress) {
+    for (const ErrorSeries& series : wanted) {
+      if (stop_requested()) break;
+      progress.show("measuring: " + name_of(series));
+      measured.push_back({series, verify::measured(series)});
+    }
+  });
+  const std::string command = verify_command("--error-against-time", arguments);
+  console.print_text(errors_text(measured, command));
+  console.print_json(errors_json(measured, command));
+  const std::vector<kinds::Failure> failures = failures_of(measured);
+  console.failures(failures);
+  if (arguments.output) {
+    const auto written = write_errors(measured, command, *arguments.output, {.stop = &stop_requested()});
+    if (const ExitCode code = present_report(written, *arguments.output, console); code != ExitCode::done)
+      return code;
+  }
+  return failures.empty() ? ExitCode::done : ExitCode::cases_failed;
 }
 
 }  // namespace launchsafe::app
