@@ -63,20 +63,12 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.4g} {}", value, units[unit]);
 }
 
-StressTest stress_test(std::string group, std::string name, std::string must_hold,
-                       std::function<void(Bounds&)> assess) {
-  return {std::move(group), std::move(name), std::move(must_hold), [assess = std::move(assess)] {
-            Bounds bounds;
-            assess(bounds);
-            return bounds.finding();
-          }};
-}
-
 materials::ViscoScramDissipation<double> advance_solid(const Solid& solid, double dt, SolidState& state,
                                                        math::Deviator<double> strain, double pressure) {
   return materials::visco_scram_update<double>(solid, materials::relaxation(solid, dt), state, strain,
                                                pressure);
 }
+
 }  // namespace law_tests
 
 std::vector<StressTest> law_stress_tests() {
@@ -85,7 +77,13 @@ std::vector<StressTest> law_stress_tests() {
                            law_tests::relaxation_tests, law_tests::growth_tests, law_tests::conduction_tests,
                            law_tests::steel_tests, law_tests::charge_pressure_tests, law_tests::gas_tests,
                            law_tests::denormal_tests}) {
-    for (StressTest& test : topic()) all.push_back(std::move(test));
+    for (law_tests::LawTest& test : topic())
+      all.push_back({std::move(test.group), std::move(test.name), std::move(test.must_hold),
+                     [assess = std::move(test.assess)] {
+                       law_tests::Bounds bounds;
+                       assess(bounds);
+                       return bounds.finding();
+                     }});
   }
   return all;
 }

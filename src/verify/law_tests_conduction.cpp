@@ -54,26 +54,25 @@ void assess_conduction(Bounds& bounds, const ConductionLaw& law, double fourier_
   }
 }
 
-StressTests conduction_tests() {
-  StressTests tests;
+LawTests conduction_tests() {
+  LawTests tests;
   for (const double number : {1e-300, 1e-9, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e8}) {
-    tests.push_back(stress_test(
-        "stiff: conduction", fmt::format("Fourier number {:g}, checkered shell, 10 mm", number),
-        "Heat is conserved to 1e-12; no temperature leaves the range of the step before; at 1e4 and "
-        "beyond the shell is even after three steps.",
-        [number](Bounds& bounds) { assess_conduction(bounds, conduct, number); }));
+    tests.push_back({"stiff: conduction", fmt::format("Fourier number {:g}, checkered shell, 10 mm", number),
+                     "Heat is conserved to 1e-12; no temperature leaves the range of the step before; at 1e4 "
+                     "and beyond the shell is even after three steps.",
+                     [number](Bounds& bounds) { assess_conduction(bounds, conduct, number); }});
   }
-  tests.push_back(
-      stress_test("stiff: conduction", "a temperature that is not a number",
-                  "It does not vanish into finite neighbours.", [](Bounds& bounds) {
-                    mpm::Simulation simulation(mechanics::shell_155(cell));
-                    mpm::Conduction conduction(simulation);
-                    mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
-                    p.temperature[p.lattice.slot(1, 1)] = std::numeric_limits<double>::quiet_NaN();
-                    conduction.advance(simulation, 1.0);
-                    bounds.never("all temperatures are finite again", mechanics::range_of(simulation).finite);
-                    bounds.caught("NaN stays NaN");
-                  }));
+  tests.push_back({"stiff: conduction", "a temperature that is not a number",
+                   "It does not vanish into finite neighbours.", [](Bounds& bounds) {
+                     mpm::Simulation simulation(mechanics::shell_155(cell));
+                     mpm::Conduction conduction(simulation);
+                     mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
+                     p.temperature[p.lattice.slot(1, 1)] = std::numeric_limits<double>::quiet_NaN();
+                     conduction.advance(simulation, 1.0);
+                     bounds.never("all temperatures are finite again",
+                                  mechanics::range_of(simulation).finite);
+                     bounds.caught("NaN stays NaN");
+                   }});
   return tests;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace launchsafe::verify::law_tests {
 
@@ -15,10 +16,9 @@ constexpr double denormals[] = {4.9e-324, 1e-320, 1e-310, 2e-308};
 /// has a few hundred operations.
 constexpr double slow = 1e-4;
 
-StressTest denormal_test(std::string name, std::function<double(double)> call) {
-  return stress_test("extreme: denormals", std::move(name),
-                     "The result is finite and takes less than 0.1 ms.",
-                     [call = std::move(call)](Bounds& bounds) { assess_denormals(bounds, call); });
+LawTest denormal_test(std::string name, std::function<double(double)> call) {
+  return {"extreme: denormals", std::move(name), "The result is finite and takes less than 0.1 ms.",
+          [call = std::move(call)](Bounds& bounds) { assess_denormals(bounds, call); }};
 }
 
 /// Sum of the state and losses of a solid after a step.
@@ -50,7 +50,7 @@ void assess_denormals(Bounds& bounds, const std::function<double(double)>& law) 
   bounds.at_most("results that are not finite", broken, 0.0);
 }
 
-StressTests denormal_tests() {
+LawTests denormal_tests() {
   return {
       denormal_test("charge: strain", [](double d) { return solid_after(3e-5, d, 0.0, 1e-7); }),
       denormal_test("charge: stress", [](double d) { return solid_after(3e-5, 0.0, d, 1e-7); }),

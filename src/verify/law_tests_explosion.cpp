@@ -129,24 +129,21 @@ void assess_explosion(Bounds& bounds, const SkinLaw& law, const surface::SkinMod
   bounds.never("it did not ignite in the time it takes", due < static_cast<double>(calls) * step);
 }
 
-StressTests explosion_tests() {
-  StressTests tests;
+LawTests explosion_tests() {
+  LawTests tests;
   for (const Setting& setting : settings()) {
     for (const double temperature : {300.0, 400.0, 500.0, 600.0, 700.0, 800.0, 1000.0, 1500.0, 2000.0}) {
-      tests.push_back(
-          stress_test("stiff: thermal explosion",
-                      fmt::format("{}, from {:.0f} K, steps 1 ns to 1 ms", setting.name, temperature),
-                      "Temperatures are reached, and ignition is flagged, when the quadrature of the "
-                      "equation says so, to "
-                      "1e-6 of the time and one rounding a call, at every outer step; the temperature never "
-                      "falls and stays "
-                      "finite.",
-                      [setting, temperature](Bounds& bounds) {
-                        for (const double step : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
-                          assess_explosion(bounds, surface::advance_skin, setting.model, temperature,
-                                           setting.heating, step);
-                        }
-                      }));
+      tests.push_back({"stiff: thermal explosion",
+                       fmt::format("{}, from {:.0f} K, steps 1 ns to 1 ms", setting.name, temperature),
+                       "Temperatures are reached, and ignition is flagged, when the quadrature of the "
+                       "equation says so, to 1e-6 of the time and one rounding a call, at every outer step; "
+                       "the temperature never falls and stays finite.",
+                       [setting, temperature](Bounds& bounds) {
+                         for (const double step : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
+                           assess_explosion(bounds, surface::advance_skin, setting.model, temperature,
+                                            setting.heating, step);
+                         }
+                       }});
     }
   }
   return tests;

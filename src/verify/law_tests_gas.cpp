@@ -14,17 +14,12 @@ namespace {
 
 using materials::JwlParameters;
 
+/// The law on one number, or as a run calls it, on a Pack.
+template <class Number>
 materials::JwlState<double> compress(const JwlParameters& m, double v0, double p0, double energy0,
                                      double v1) {
-  return materials::jwl_compress<double>(m, v0, p0, energy0, v1);
-}
-
-/// The same law as the step of a run calls it.
-materials::JwlState<double> compress_packed(const JwlParameters& m, double v0, double p0, double energy0,
-                                            double v1) {
-  using math::Pack;
-  const auto state = materials::jwl_compress<Pack>(m, Pack(v0), Pack(p0), Pack(energy0), Pack(v1));
-  return {state.pressure[0], state.energy[0]};
+  const auto state = materials::jwl_compress<Number>(m, Number(v0), Number(p0), Number(energy0), Number(v1));
+  return {first_of(state.pressure), first_of(state.energy)};
 }
 
 /// Energy on the isentrope through (V = 1, E0): p = A e^(-R1 V) + B e^(-R2 V) + C V^(-1-w), E its integral.
@@ -69,7 +64,7 @@ void assess_tension(Bounds& bounds) {
 
 void assess_no_volume(Bounds& bounds) {
   for (const JwlParameters& m : {materials::unreacted_composition_b(), materials::composition_b_products()}) {
-    for (const JwlLaw& law : {JwlLaw(compress), JwlLaw(compress_packed)}) {
+    for (const JwlLaw& law : {JwlLaw(compress<double>), JwlLaw(compress<math::Pack>)}) {
       for (const double v : {0.0, -0.0, -1e-310, -0.3, -5.0, std::numeric_limits<double>::quiet_NaN()}) {
         const auto state = law(m, 1.0, 0.0, m.initial_energy, v);
         bounds.never("a volume that is none has a pressure",
@@ -145,8 +140,8 @@ void assess_second_virial(Bounds& bounds, const std::function<double(double)>& l
                  std::abs(found - exact) / (1.0 + std::abs(exact)), 1e-9);
 }
 
-StressTests charge_pressure_tests() {
-  StressTests tests;
+LawTests charge_pressure_tests() {
+  LawTests tests;
   const std::string group = "extreme: JWL";
   struct Law {
     const char* name;
@@ -155,59 +150,55 @@ StressTests charge_pressure_tests() {
   for (const Law& law : {Law{"unreacted", materials::unreacted_composition_b()},
                          Law{"products", materials::composition_b_products()}}) {
     for (const double v : {0.3, 0.31, 0.5, 0.95, 1.05, 2.0, 5.0}) {
-      tests.push_back(
-          stress_test(group, fmt::format("{}, V = 1 to {:g} in 1 to 10000 steps", law.name, v),
-                      "Energy and pressure are those of the isentrope to the second order of the step; under "
-                      "compression the pressure rises with every step and the sound speed is real.",
-                      [parameters = law.parameters, v](Bounds& bounds) {
-                        for (const int steps : {1, 2, 5, 10, 100, 10000}) {
-                          assess_jwl(bounds, compress, parameters, v, steps);
-                          assess_jwl(bounds, compress_packed, parameters, v, steps);
-                        }
-                      }));
+      tests.push_back({group, fmt::format("{}, V = 1 to {:g} in 1 to 10000 steps", law.name, v),
+                       "Energy and pressure are those of the isentrope to the second order of the step; "
+                       "under compression the pressure rises with every step and the sound speed is real.",
+                       [parameters = law.parameters, v](Bounds& bounds) {
+                         for (const int steps : {1, 2, 5, 10, 100, 10000}) {
+                           assess_jwl(bounds, compress<double>, parameters, v, steps);
+                           assess_jwl(bounds, compress<math::Pack>, parameters, v, steps);
+                         }
+                       }});
     }
   }
-  tests.push_back(stress_test(
-      group, "unreacted, tension to V = 5: sound speed",
-      "Where the sound speed is not real the tension cut-off has acted, which runs count.", assess_tension));
-  tests.push_back(
-      stress_test(group, "volumes that are none", "No pressure and no energy come out.", assess_no_volume));
+  tests.push_back({group, "unreacted, tension to V = 5: sound speed",
+                   "Where the sound speed is not real the tension cut-off has acted, which runs count.",
+                   assess_tension});
+  tests.push_back({group, "volumes that are none", "No pressure and no energy come out.", assess_no_volume});
   return tests;
 }
 
-StressTests gas_tests() {
-  StressTests tests;
+LawTests gas_tests() {
+  LawTests tests;
   const std::string group = "extreme: virial gas";
   for (const double temperature : {1e-310, 1.0, 100.0, 200.0, 300.0, 500.0, 784.0, 3000.0, 1e5}) {
-    tests.push_back(stress_test(
-        group, fmt::format("{:g} K, densities 0 to beyond the solid's", temperature),
-        "A state is valid, with a positive pressure that rises on compression, or it is flagged and its "
-        "pressure is NaN.",
-        [temperature](Bounds& bounds) {
-          for (const double density : {-1.0, 0.0, 1e-310, 1e-3, 1.0, 30.0, 100.0, 200.0, 300.0, 400.0, 600.0,
-                                       800.0, 1000.0, 1717.0, 5000.0, 1e300})
-            assess_gas(bounds, products, temperature, density);
-        }));
+    tests.push_back({group, fmt::format("{:g} K, densities 0 to beyond the solid's", temperature),
+                     "A state is valid, with a positive pressure that rises on compression, or it is flagged "
+                     "and its pressure is NaN.",
+                     [temperature](Bounds& bounds) {
+                       for (const double density : {-1.0, 0.0, 1e-310, 1e-3, 1.0, 30.0, 100.0, 200.0, 300.0,
+                                                    400.0, 600.0, 800.0, 1000.0, 1717.0, 5000.0, 1e300})
+                         assess_gas(bounds, products, temperature, density);
+                     }});
   }
-  tests.push_back(stress_test(
-      group, "steam at 784 K and the solid's density", "The negative Z is stated and the state flagged.",
-      [](Bounds& bounds) {
-        const auto state = materials::virial_state(materials::water(), 784.0, 1.0 / (1717.0 * 30.447));
-        bounds.at_most("its Z, which should be below 0, is", std::max(0.0, state.compressibility), 0.0);
-        bounds.never("it passes as valid", state.valid || !std::isnan(state.pressure));
-        bounds.caught("flagged, pressure NaN");
-      }));
   tests.push_back(
-      stress_test(group, "second virial coefficient, T* 0.05 to 1e4",
-                  "It is the integral over the Lennard-Jones potential.", [](Bounds& bounds) {
-                    for (const double t : {0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.418, 10.0, 100.0, 1e3, 1e4})
-                      assess_second_virial(bounds, materials::reduced_second_virial, t);
-                  }));
-  tests.push_back(stress_test(group, "second virial coefficient at no temperature", "No number comes out.",
-                              [](Bounds& bounds) {
-                                for (const double t : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
-                                  assess_second_virial(bounds, materials::reduced_second_virial, t);
-                              }));
+      {group, "steam at 784 K and the solid's density", "The negative Z is stated and the state flagged.",
+       [](Bounds& bounds) {
+         const auto state = materials::virial_state(materials::water(), 784.0, 1.0 / (1717.0 * 30.447));
+         bounds.at_most("its Z, which should be below 0, is", std::max(0.0, state.compressibility), 0.0);
+         bounds.never("it passes as valid", state.valid || !std::isnan(state.pressure));
+         bounds.caught("flagged, pressure NaN");
+       }});
+  tests.push_back({group, "second virial coefficient, T* 0.05 to 1e4",
+                   "It is the integral over the Lennard-Jones potential.", [](Bounds& bounds) {
+                     for (const double t : {0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.418, 10.0, 100.0, 1e3, 1e4})
+                       assess_second_virial(bounds, materials::reduced_second_virial, t);
+                   }});
+  tests.push_back(
+      {group, "second virial coefficient at no temperature", "No number comes out.", [](Bounds& bounds) {
+         for (const double t : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+           assess_second_virial(bounds, materials::reduced_second_virial, t);
+       }});
   return tests;
 }
 

@@ -15,43 +15,32 @@ constexpr double steel_round_off = 2.3e-16;
 const materials::JohnsonCookParameters strength;
 const materials::MieGruneisenParameters pressure_law;
 
-materials::JohnsonCookReturn<double> return_one(const materials::JohnsonCookParameters& k,
-                                                math::Deviator<double> trial, double plastic_strain,
-                                                double temperature, double dt) {
-  return materials::johnson_cook_return<double>(k, trial, plastic_strain, temperature, dt);
-}
-
-/// The same law as the step of a run calls it.
-materials::JohnsonCookReturn<double> return_packed(const materials::JohnsonCookParameters& k,
-                                                   math::Deviator<double> trial, double plastic_strain,
-                                                   double temperature, double dt) {
-  using math::Pack;
-  const math::Deviator<Pack> packed{Pack(trial.rr), Pack(trial.xx), Pack(trial.rx)};
+/// The laws on one number, or as a run calls them, on a Pack.
+template <class Number>
+materials::JohnsonCookReturn<double> return_to_yield(const materials::JohnsonCookParameters& k,
+                                                     math::Deviator<double> trial, double plastic_strain,
+                                                     double temperature, double dt) {
   const auto result =
-      materials::johnson_cook_return<Pack>(k, packed, Pack(plastic_strain), Pack(temperature), Pack(dt));
-  return {{result.stress.rr[0], result.stress.xx[0], result.stress.rx[0]},
-          result.plastic_strain_increment[0],
-          result.plastic_work[0]};
+      materials::johnson_cook_return<Number>(k, {Number(trial.rr), Number(trial.xx), Number(trial.rx)},
+                                             Number(plastic_strain), Number(temperature), Number(dt));
+  return {{first_of(result.stress.rr), first_of(result.stress.xx), first_of(result.stress.rx)},
+          first_of(result.plastic_strain_increment),
+          first_of(result.plastic_work)};
 }
 
-double flow_packed(const materials::JohnsonCookParameters& k, double strain, double rate,
+template <class Number>
+double flow_stress(const materials::JohnsonCookParameters& k, double strain, double rate,
                    double temperature) {
-  using math::Pack;
-  return materials::johnson_cook_flow_stress<Pack>(k, Pack(strain), Pack(rate), Pack(temperature))[0];
+  return first_of(
+      materials::johnson_cook_flow_stress<Number>(k, Number(strain), Number(rate), Number(temperature)));
 }
 
+template <class Number>
 materials::MieGruneisenState<double> compress_steel(const materials::MieGruneisenParameters& m, double mu0,
                                                     double p0, double energy0, double mu1) {
-  return materials::mie_gruneisen_compress<double>(m, mu0, p0, energy0, mu1, 0.0);
-}
-
-materials::MieGruneisenState<double> compress_steel_packed(const materials::MieGruneisenParameters& m,
-                                                           double mu0, double p0, double energy0,
-                                                           double mu1) {
-  using math::Pack;
-  const auto state =
-      materials::mie_gruneisen_compress<Pack>(m, Pack(mu0), Pack(p0), Pack(energy0), Pack(mu1), Pack(0.0));
-  return {state.pressure[0], state.energy[0]};
+  const auto state = materials::mie_gruneisen_compress<Number>(m, Number(mu0), Number(p0), Number(energy0),
+                                                               Number(mu1), Number(0.0));
+  return {first_of(state.pressure), first_of(state.energy)};
 }
 
 bool is_valid(const materials::MieGruneisenParameters& m, double mu) {
@@ -83,7 +72,7 @@ constexpr double trials[] = {0.0, 1e-140, 1.0, 1e6, 7.9e8, 8e8, 1e9, 1e10, 1e12,
 constexpr double durations[] = {1e-15, 1e-12, 1e-9, 1e-7, 1e-3, 1.0, 1e9};
 
 void assess_all_returns(Bounds& bounds, double temperature) {
-  for (const ReturnLaw& law : {ReturnLaw(return_one), ReturnLaw(return_packed)})
+  for (const ReturnLaw& law : {ReturnLaw(return_to_yield<double>), ReturnLaw(return_to_yield<math::Pack>)})
     for (const double q : trials)
       for (const double strain : strains)
         for (const double dt : durations) assess_return(bounds, law, q, strain, temperature, dt);
@@ -91,7 +80,7 @@ void assess_all_returns(Bounds& bounds, double temperature) {
 
 void assess_unknown_state(Bounds& bounds) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const ReturnLaw& law : {ReturnLaw(return_one), ReturnLaw(return_packed)}) {
+  for (const ReturnLaw& law : {ReturnLaw(return_to_yield<double>), ReturnLaw(return_to_yield<math::Pack>)}) {
     assess_return(bounds, law, nan, 0.0, 300.0, 1e-7);
     assess_return(bounds, law, 1e9, nan, 300.0, 1e-7);
     assess_return(bounds, law, 1e9, 0.0, nan, 1e-7);
@@ -99,20 +88,19 @@ void assess_unknown_state(Bounds& bounds) {
   }
 }
 
-void add_strength(StressTests& tests) {
+void add_strength(LawTests& tests) {
   const std::string group = "stiff: Johnson-Cook";
   for (const double rate : {0.0, 1e-12, 1.0, 1e9}) {
-    tests.push_back(stress_test(
-        group, fmt::format("flow stress at {:g} 1/s, 200 K to beyond melting", rate),
-        "It is the published formula to 1e-12, with the rate factor 1 below the reference rate and 0 "
-        "from melting on.",
-        [rate](Bounds& bounds) {
-          for (const FlowLaw& law :
-               {FlowLaw(materials::johnson_cook_flow_stress<double>), FlowLaw(flow_packed)})
-            for (const double strain : strains)
-              for (const double t : {200.0, 298.0, 300.0, 1000.0, melting - 1e-9, melting, 5000.0})
-                assess_flow_stress(bounds, law, strain, rate, t);
-        }));
+    tests.push_back(
+        {group, fmt::format("flow stress at {:g} 1/s, 200 K to beyond melting", rate),
+         "It is the published formula to 1e-12, with the rate factor 1 below the reference rate and 0 from "
+         "melting on.",
+         [rate](Bounds& bounds) {
+           for (const FlowLaw& law : {FlowLaw(flow_stress<double>), FlowLaw(flow_stress<math::Pack>)})
+             for (const double strain : strains)
+               for (const double t : {200.0, 298.0, 300.0, 1000.0, melting - 1e-9, melting, 5000.0})
+                 assess_flow_stress(bounds, law, strain, rate, t);
+         }});
   }
   struct Heat {
     const char* name;
@@ -122,20 +110,19 @@ void add_strength(StressTests& tests) {
        {Heat{"0 K", 0.0}, Heat{"298 K", 298.0}, Heat{"1000 K", 1000.0},
         Heat{"1 K below melting", melting - 1.0}, Heat{"1 nK below melting", melting - 1e-9},
         Heat{"melting", melting}, Heat{"10000 K", 1e4}}) {
-    tests.push_back(stress_test(
-        group, fmt::format("return at {}, trial stress 0 to 1e18 Pa, steps 1 fs to 1e9 s", heat.name),
-        "The returned stress lies on the yield surface of its own strain and rate, to 1e-9 of flow stress "
-        "and trial (counted up to 0.8 TPa) and round-off; plastic work is that stress times the strain, "
-        "never negative; elastic states are left alone.",
-        [temperature = heat.temperature](Bounds& bounds) { assess_all_returns(bounds, temperature); }));
+    tests.push_back(
+        {group, fmt::format("return at {}, trial stress 0 to 1e18 Pa, steps 1 fs to 1e9 s", heat.name),
+         "The returned stress lies on the yield surface of its own strain and rate, to 1e-9 of flow stress "
+         "and trial (counted up to 0.8 TPa) and round-off; plastic work is that stress times the strain, "
+         "never negative; elastic states are left alone.",
+         [temperature = heat.temperature](Bounds& bounds) { assess_all_returns(bounds, temperature); }});
   }
-  tests.push_back(
-      stress_test(group, "stress, strain or temperature not a number",
-                  "The result is no number either; above all the steel is not taken to be elastic.",
-                  assess_unknown_state));
+  tests.push_back({group, "stress, strain or temperature not a number",
+                   "The result is no number either; above all the steel is not taken to be elastic.",
+                   assess_unknown_state});
 }
 
-void add_pressure(StressTests& tests) {
+void add_pressure(LawTests& tests) {
   const std::string group = "extreme: Mie-Grueneisen";
   const double bound = materials::largest_compression(pressure_law);
   struct Path {
@@ -147,28 +134,26 @@ void add_pressure(StressTests& tests) {
         Path{"rest to a hundredfold volume", 0.0, -0.99},
         Path{"a tenfold volume to double density", -0.9, 1.0},
         Path{"double density to a tenfold volume", 1.0, -0.9}}) {
-    tests.push_back(stress_test(
-        group, fmt::format("{} in 1 to 10000 steps", path.name),
-        "The energy is that of de = -p dv to the second order of the step; the pressure is the law's own at "
-        "that energy.",
-        [path](Bounds& bounds) {
-          for (const int steps : {1, 10, 100, 10000}) {
-            assess_steel_pressure(bounds, compress_steel, path.mu0, path.mu1, steps);
-            assess_steel_pressure(bounds, compress_steel_packed, path.mu0, path.mu1, steps);
-          }
-        }));
+    tests.push_back({group, fmt::format("{} in 1 to 10000 steps", path.name),
+                     "The energy is that of de = -p dv to the second order of the step; the pressure is the "
+                     "law's own at that energy.",
+                     [path](Bounds& bounds) {
+                       for (const int steps : {1, 10, 100, 10000}) {
+                         assess_steel_pressure(bounds, compress_steel<double>, path.mu0, path.mu1, steps);
+                         assess_steel_pressure(bounds, compress_steel<math::Pack>, path.mu0, path.mu1, steps);
+                       }
+                     }});
   }
-  tests.push_back(stress_test(
-      group, "at the pole, beyond it, and densities that are none",
-      "Every such state is flagged (run results count it as the Hugoniot guard), and none below the "
-      "guard is.",
-      [bound](Bounds& bounds) {
-        const double nan = std::numeric_limits<double>::quiet_NaN();
-        const double infinity = std::numeric_limits<double>::infinity();
-        for (const double mu : {-1.0 + 1e-12, -0.5, 0.0, 0.5, bound, bound * (1.0 + 1e-12), 1.0 / 0.73, 2.0,
-                                1e9, infinity, -1.0, -2.0, -infinity, nan})
-          assess_steel_validity(bounds, is_valid, mu);
-      }));
+  tests.push_back({group, "at the pole, beyond it, and densities that are none",
+                   "Every such state is flagged (run results count it as the Hugoniot guard), and none below "
+                   "the guard is.",
+                   [bound](Bounds& bounds) {
+                     const double nan = std::numeric_limits<double>::quiet_NaN();
+                     const double infinity = std::numeric_limits<double>::infinity();
+                     for (const double mu : {-1.0 + 1e-12, -0.5, 0.0, 0.5, bound, bound * (1.0 + 1e-12),
+                                             1.0 / 0.73, 2.0, 1e9, infinity, -1.0, -2.0, -infinity, nan})
+                       assess_steel_validity(bounds, is_valid, mu);
+                   }});
 }
 
 }  // namespace
@@ -250,8 +235,8 @@ void assess_steel_validity(Bounds& bounds, const ValidityLaw& law, double mu) {
   if (!sound) bounds.caught("flagged as invalid");
 }
 
-StressTests steel_tests() {
-  StressTests tests;
+LawTests steel_tests() {
+  LawTests tests;
   add_strength(tests);
   add_pressure(tests);
   return tests;

@@ -50,10 +50,8 @@ TEST(LawStressTests, AreNamedApartAndSayWhatMustHold) {
 }
 
 TEST(LawStressTests, FindTheSameOnAnyThread) {
-  std::vector<StressTest> tests;
-  for (StressTest& test : growth_tests()) tests.push_back(std::move(test));
-  for (StressTest& test : conduction_tests()) tests.push_back(std::move(test));
-  for (const StressTest& test : tests) {
+  for (const StressTest& test : law_stress_tests()) {
+    if (test.group != "stiff: crack growth" && test.group != "stiff: conduction") continue;
     Finding elsewhere;
     std::thread([&] { elsewhere = test.compute(); }).join();
     const Finding here = test.compute();
