@@ -48,11 +48,9 @@ TEST(Jwl, AdiabaticStepKeepsTheTrapezoidalEnergy) {
   EXPECT_NEAR(state.pressure, jwl_pressure(m, 0.98, state.energy), 1e-5);
 }
 
-TEST(Jwl, ChapmanJouguetStateGivesTheProductsEnergy) {
+TEST(Jwl, ChapmanJouguetVolumeIsThatOfTheRankineHugoniotRelations) {
   const JwlParameters m = composition_b_products();
   EXPECT_NEAR(chapman_jouguet_volume(m, 7980.0, 29.5e9), 1.0 - 29.5e9 / (1717.0 * 7980.0 * 7980.0), 1e-15);
-  // The literature's E0; D and P_CJ have three digits.
-  EXPECT_NEAR(chapman_jouguet_initial_energy(m, 7980.0, 29.5e9) / 8.5e9, 1.0, 5e-3);
 }
 
 TEST(Jwl, LargeStepGoesAlongTheIsentrope) {
@@ -83,14 +81,6 @@ TEST(Jwl, LargeStepOfOneLaneLeavesTheOthersAlone) {
   EXPECT_EQ(state.energy[7], small.energy[7]);
   const auto large = jwl_compress(m, 1.0, 0.0, m.initial_energy, 0.3);
   EXPECT_NEAR(state.pressure[3] / large.pressure, 1.0, 1e-12);
-}
-
-TEST(Jwl, VolumeThatIsNoneGivesNoPressure) {
-  const JwlParameters m = unreacted_composition_b();
-  for (const double v : {0.0, -0.3, -5.0, std::nan("")}) {
-    EXPECT_TRUE(std::isnan(jwl_compress(m, 1.0, 0.0, m.initial_energy, v).pressure)) << v;
-    EXPECT_TRUE(std::isnan(jwl_compress(m, 1.0, 0.0, m.initial_energy, v).energy)) << v;
-  }
 }
 
 TEST(MieGruneisen, BulkModulusIsTheSlopeOfTheAdiabat) {
@@ -252,16 +242,6 @@ TEST(MieGruneisen, TensionIsLargestWhereTheHeaderSays) {
   EXPECT_GT(mie_gruneisen_bulk_modulus(m, 1.0 / 1.6 - 1.0, bears(1.6)), 0.0);
 }
 
-TEST(VirialGas, SeriesAgreesWithTheIntegralOverThePotential) {
-  // -3 integral (exp(-u/T*) - 1) r^2 dr with u = 4 (r^-12 - r^-6), by Simpson's rule to r = 40 and an
-  // analytic tail.
-  EXPECT_NEAR(reduced_second_virial(0.3), -27.8805828, 1e-7);
-  EXPECT_NEAR(reduced_second_virial(0.5), -8.7202054, 1e-7);
-  EXPECT_NEAR(reduced_second_virial(100.0), 0.4640694690, 1e-9);
-  EXPECT_TRUE(std::isnan(reduced_second_virial(0.0)));
-  EXPECT_TRUE(std::isnan(reduced_second_virial(-1.0)));
-}
-
 TEST(VirialGas, DiluteGasIsIdeal) {
   const VirialState state = virial_state(water(), 600.0, 1.0);
   EXPECT_TRUE(state.valid);
@@ -275,15 +255,6 @@ TEST(VirialGas, FurtherTermsFollowTheSeries) {
   EXPECT_NEAR(virial_compressibility(nitrogen(), 800.0, 100e-6, 4) -
                   virial_compressibility(nitrogen(), 800.0, 100e-6),
               b / std::pow(t, 0.25) * x * x * x / 16.0, 1e-14);
-}
-
-TEST(VirialGas, NegativeCompressibilityIsAReportedLimit) {
-  // Steam at the burnt temperature in the molar volume that the products of the charge would have at its
-  // density.
-  const VirialState state = virial_state(water(), 784.0, 1.0 / (1717.0 * 30.447));
-  EXPECT_LT(state.compressibility, 0.0);
-  EXPECT_FALSE(state.valid);
-  EXPECT_TRUE(std::isnan(state.pressure));
 }
 
 TEST(VirialGas, PressureThatFallsOnCompressionIsAReportedLimit) {
@@ -310,13 +281,6 @@ TEST(VirialGas, MixtureIsLinearInTheMoleFractions) {
   const VirialState state = virial_state(gases, temperature, density);
   EXPECT_NEAR(state.compressibility, expected, 1e-13);
   EXPECT_NEAR(state.pressure, expected * gas_constant * temperature * density * amount, 1.0);
-}
-
-TEST(Air, StaysAtItsInitialTemperatureBelowItsInitialPressure) {
-  const AirParameters air;
-  EXPECT_EQ(adiabatic_temperature(air, 0.0), 300.0);
-  EXPECT_EQ(adiabatic_temperature(air, air.initial_pressure), 300.0);
-  EXPECT_TRUE(std::isnan(adiabatic_temperature(air, std::nan(""))));
 }
 
 TEST(ReactionDegree, RisesLinearlyBetweenItsTemperatures) {

@@ -87,39 +87,6 @@ int steps_for(double dt) { return dt < 1e-7 ? 5000 : dt < 1e-5 ? 1000 : 20; }
 
 constexpr double step_sizes[] = {1e-9, 1e-8, 1e-7, 3e-7, 1e-6, 3e-6, 1e-5, 1e-4, 1e-3};
 
-TEST(ViscoScramRelaxation, IsExactWithoutCracksAtAnyStep) {
-  for (const double dt : step_sizes) {
-    const ViscoScramParameters m = frozen(0.0);
-    ViscoScramState<double> state{};
-    for (std::size_t n = 0; n < maxwell_elements; ++n) state.elements[n].rx = 1e-3 * m.shear_moduli[n];
-    const auto step = relaxation(m, dt);
-    const int steps = steps_for(dt);
-    for (int k = 0; k < steps; ++k) visco_scram_update<double>(m, step, state, {}, 0.0);
-    double exact = 0.0;
-    for (std::size_t n = 0; n < maxwell_elements; ++n) {
-      exact += 1e-3 * m.shear_moduli[n] * std::exp(-m.relaxation_rates[n] * dt * steps);
-    }
-    EXPECT_NEAR(total_deviator(state).rx / exact, 1.0, 1e-12) << dt;
-  }
-}
-
-TEST(ViscoScramRelaxation, LoadingIsExactWithoutCracksAtAnyStep) {
-  for (const double dt : step_sizes) {
-    const ViscoScramParameters m = frozen(0.0);
-    ViscoScramState<double> state{};
-    const auto step = relaxation(m, dt);
-    const int steps = steps_for(dt);
-    const double rate = 100.0, time = dt * steps;
-    for (int k = 0; k < steps; ++k) visco_scram_update<double>(m, step, state, {0.0, 0.0, rate * dt}, 0.0);
-    double exact = 2.0 * m.shear_moduli[0] * rate * time;
-    for (std::size_t n = 1; n < maxwell_elements; ++n) {
-      exact +=
-          2.0 * m.shear_moduli[n] * rate * -std::expm1(-m.relaxation_rates[n] * time) / m.relaxation_rates[n];
-    }
-    EXPECT_NEAR(total_deviator(state).rx / exact, 1.0, 1e-12) << dt;
-  }
-}
-
 TEST(ViscoScramFrozenCrack, FollowsARampAndItsRelaxation) {
   for (const double q : {0.027, 0.3, 1.0, 27.0}) {
     for (const double dt : step_sizes)
