@@ -12,8 +12,8 @@ namespace {
 
 using Text = std::back_insert_iterator<std::string>;
 
-/// Decks are in m, s and MPa, hence units of mass of 1000 t: a compressibility as small as steel's is in
-/// 1/Pa, CalculiX 2.20 takes for none, and puts one of its own in its place.
+/// Decks are in m, s and MPa, hence in 1000 t: CalculiX 2.20 takes a compressibility as small as steel's in
+/// 1/Pa for zero and replaces it by a default.
 constexpr double pascal = 1.0 / deck_stress_unit;
 
 /// Nodes lie on a lattice of corners and mid-sides; the places in the middle of elements stay empty. Where
@@ -124,9 +124,10 @@ void write_elements(const FiniteElementModel& model, const NodeLattice& nodes, T
   }
 }
 
-/// What yields is linear in logarithmic strains; what does not is a neo-Hookean solid, whose
-/// volume and shape are apart. The linear law that CalculiX has for large strains is not: under a pressure it
-/// adds to the deviator twice the pressure times the strain, a tenth of it in an explosive at 100 MPa.
+/// A material that yields is linear in logarithmic strains; an elastic one is neo-Hookean, with its
+/// volumetric and deviatoric responses decoupled. CalculiX's linear law for large strains couples them: under
+/// a pressure it adds to the deviator twice the pressure times the strain, a tenth of it in an explosive at
+/// 100 MPa.
 void write_law(const FiniteElementMaterial& material, Text text) {
   const double bulk = material.bulk_modulus, shear = material.shear_modulus;
   if (material.hardening.empty()) {
@@ -166,8 +167,8 @@ void write_supports(const FiniteElementModel& model, const NodeLattice& nodes, T
       for (const int a : {0, nodes.columns - 1})
         fmt::format_to(text, "{},2,2\n", nodes.number_of_copy(a, b, 0));
   } else {
-    // Pressure and body force balance; one node keeps the whole from drifting. It bears what the pressed face
-    // swells (follower load), hence at the far end.
+    // Pressure and body force balance; one node is held against rigid motion. It bears the change of the
+    // pressed face's area (follower load), hence it is at the far end.
     fmt::format_to(text, "{},2,2\n", nodes.number_of_copy(0, 0, 0));
   }
 }
@@ -233,12 +234,12 @@ void write_loads(const FiniteElementModel& model, double share, Text text) {
     for (int i = 0; i < model.columns(); ++i) press(model.element(i, 0), "P4", model.bore_pressure);
 }
 
-/// Leads the load to a share of the whole, in increments of at most a part of the way; only the last one is
-/// printed.
+/// A step that raises the load to a share of the whole, in increments of at most a part of the step; only the
+/// last one is printed.
 void write_step(const FiniteElementModel& model, double share, double increment, Text text) {
   fmt::format_to(text, "*STEP,NLGEOM,INC=1000\n*STATIC\n{},1.,1e-5,{}\n", increment, increment);
-  // The charge slides by 100 um at the nose, and by less than 1 on the base: CalculiX's usual tolerances of
-  // forces (0.5 %) and displacements (1 % of the largest) would be no better than what is to be compared.
+  // The charge slides by 100 um at the nose and by less than 1 um on the base: CalculiX's default tolerances
+  // of forces (0.5 %) and displacements (1 % of the largest) would exceed the differences to be measured.
   if (!model.contacts.empty()) fmt::format_to(text, "*CONTROLS,PARAMETERS=FIELD\n1e-4,1e-5,,,1e-4\n");
   write_loads(model, share, text);
   fmt::format_to(text, "*EL PRINT,ELSET=ELEMENTS,FREQUENCY=1000\nS\n*END STEP\n");

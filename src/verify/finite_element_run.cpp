@@ -22,7 +22,7 @@ constexpr const char *program = "ccx", *job = "job";
 constexpr double wedge = 2.0 * std::numbers::pi / 180.0;
 constexpr int printed_points = 2 * integration_points;
 
-/// A folder that goes when this does.
+/// A temporary folder, removed with its content at the end of its life.
 class WorkFolder {
  public:
   WorkFolder() {

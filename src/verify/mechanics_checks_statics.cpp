@@ -68,8 +68,7 @@ Tube relaxed_tube(scene::Formulation formulation, int radial_cells) {
   const double length = p.x[p.lattice.slot(end, 0)] - p.x[p.lattice.slot(begin, 0)];
   const double axial_strain = length / (p.lattice.x_of(end) - p.lattice.x_of(begin)) - 1.0;
   const auto& steel = ring.steel();
-  const double bulk = steel.eos.density * steel.eos.sound_speed * steel.eos.sound_speed;
-  const double shear = steel.strength.shear_modulus;
+  const double bulk = bulk_modulus(steel), shear = steel.strength.shear_modulus;
   const double poisson = (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear);
   return {scale * (stress.a + stress.b / (bore * bore)), scale * (stress.a + stress.b / (outside * outside)),
           scale * (motion.a * bore + motion.b / bore + poisson * axial_strain * bore)};

@@ -64,6 +64,10 @@ scene::Load pulse(double peak, double peak_time) {
   return load;
 }
 
+double bulk_modulus(const scene::Steel& steel) {
+  return steel.eos.density * steel.eos.sound_speed * steel.eos.sound_speed;
+}
+
 void make_elastic(scene::Scene& scene) { scene.steel().strength.a = 1e15; }
 
 double run_to(mpm::Simulation& simulation, double end) {

@@ -27,6 +27,8 @@ scene::Scene block(const std::string& material, double length, double radius, do
                    scene::Formulation formulation = scene::Formulation::total_lagrangian);
 /// A pressure (Pa) that rises smoothly from 0 over `rise` (s) and then stays.
 scene::Load ramp(double pressure, double rise, double duration);
+/// Of steel at rest, Pa.
+double bulk_modulus(const scene::Steel& steel);
 /// Steel that never yields.
 void make_elastic(scene::Scene& scene);
 

@@ -229,12 +229,12 @@ FiniteElementModel finite_element_model(const StaticCase& compared) {
   }
   const auto& steel = scene.steel();
   const auto& explosive = scene.charge().eos;
-  model.materials = {{steel.eos.density * steel.eos.sound_speed * steel.eos.sound_speed,
-                      steel.strength.shear_modulus, steel.eos.density, hardening_of(scene)},
-                     {materials::jwl_bulk_modulus(explosive, 1.0, explosive.initial_energy),
-                      static_shear_modulus(scene.charge().strength),
-                      explosive.initial_density,
-                      {}}};
+  model.materials = {
+      {mechanics::bulk_modulus(steel), steel.strength.shear_modulus, steel.eos.density, hardening_of(scene)},
+      {materials::jwl_bulk_modulus(explosive, 1.0, explosive.initial_energy),
+       static_shear_modulus(scene.charge().strength),
+       explosive.initial_density,
+       {}}};
   set_bodies(scene, model);
   model.acceleration = scene::rigid_acceleration(scene, compared.pressure);
   model.base_pressure = compared.pressure;

@@ -199,12 +199,9 @@ FiniteElementModel tube_model(const scene::Steel& steel) {
   FiniteElementModel model;
   model.edges_r = graded_edges(bore, outside, 0.625e-3, 0.625e-3);
   model.edges_x = {0.0, 1e-3};
-  model.materials = {{steel.eos.density * steel.eos.sound_speed * steel.eos.sound_speed,
-                      steel.strength.shear_modulus,
-                      steel.eos.density,
-                      {}}};
+  model.materials = {{mechanics::bulk_modulus(steel), steel.strength.shear_modulus, steel.eos.density, {}}};
   model.material_of.assign(static_cast<std::size_t>(model.elements()), 0);
-  // The laws are linear at a thousandth of the load only.
+  // A thousandth of the load, where the laws are linear; stresses are scaled.
   model.bore_pressure = 1e-3 * tube_pressure;
   model.ends_held = true;
   return model;

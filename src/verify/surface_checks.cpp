@@ -28,8 +28,8 @@ surface::SkinModel inert_trigger() {
   return model;
 }
 
-/// Time (s) to thermal explosion from a temperature, with `dt` between calls. The way from 2000 K, where the
-/// expected numbers stop, to the trigger at 1e9 K takes 1e-13 s.
+/// Time (s) to thermal explosion from a temperature (K), with `dt` (s) between calls. The expected numbers
+/// are those to 2000 K; from there to the trigger at 1e9 K it takes 1e-13 s.
 double induction_time(double temperature, double dt) {
   const surface::SkinModel model = inert_trigger();
   surface::SkinPoint point{temperature};

@@ -41,10 +41,10 @@ struct FiniteElementModel {
   std::vector<FiniteElementContact> contacts;
   /// Pa/m, pressure for an overlap.
   double contact_stiffness = 1e15;
-  /// Pa/m, times the coefficient of friction up to 0.1: shear traction for a sliding that friction still
-  /// holds, so that faces give by the same length before they slide whatever their friction. From four times
-  /// this on at a friction of 0.1, and ten times at 0.02, points of an element stick and slide in turns:
-  /// CalculiX finds no equilibrium, or stresses on the base that change by 3 % with the mesh.
+  /// Pa/m, times the coefficient of friction up to 0.1: shear traction over the elastic slip of faces that
+  /// stick, so that the slip at the onset of sliding is the same for any friction. From four times this on at
+  /// a friction of 0.1, and ten times at 0.02, points of an element stick and slide alternately: CalculiX
+  /// finds no equilibrium, or stresses on the base that change by 3 % with the mesh.
   double stick_stiffness = 2e14;
   double acceleration = 0;    ///< m/s2, of the frame
   double base_pressure = 0;   ///< Pa, on the face at the largest x
@@ -53,9 +53,9 @@ struct FiniteElementModel {
   bool rigid_barrel = false;  ///< no radial motion, and no friction, at the largest r
   bool ends_held = false;     ///< no axial motion at either end: plane strain
 
-  /// Of the load, at a time where something may yield. Plastic flow is integrated from one increment to the
-  /// next: a fifth of the load at a time costs 0.3 % of the pressure at the charge bottom, the default a
-  /// tenth of that.
+  /// Load increment where a material may yield, as a share of the load. Plastic flow is integrated over an
+  /// increment: one of 0.2 changes the pressure at the charge bottom by 0.3 %, the default by a tenth of
+  /// that.
   double increment = 0.02;
 
   int columns() const { return static_cast<int>(edges_x.size()) - 1; }
