@@ -1,6 +1,5 @@
 #include "checks.hpp"
 
-#include <iterator>
 #include <utility>
 
 namespace launchsafe::verify {
@@ -22,7 +21,6 @@ std::vector<Computation> computations() {
   };
   append(material_computations());
   append(surface_computations());
-  append(film_computations());
   for (const scene::Formulation formulation : {total_lagrangian, updated_lagrangian}) {
     const char* const prefix = formulation == updated_lagrangian ? "updated-Lagrangian " : "";
     append(wave_computations(formulation), prefix);

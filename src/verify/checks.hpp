@@ -12,9 +12,9 @@ using Checks = std::vector<Check>;
 
 /// Air, JWL, virial gas, steel, cracks, relaxation, and the statistics of studies.
 std::vector<Computation> material_computations();
-/// The heated skin at the charge bottom: induction times, exact solutions, conservation.
+/// The heated skin at the charge bottom and the film of air under it: induction times, exact solutions,
+/// conservation.
 std::vector<Computation> surface_computations();
-std::vector<Computation> film_computations();
 /// Elastic waves, states of rest, momentum and energy, in either formulation.
 std::vector<Computation> wave_computations(scene::Formulation formulation);
 std::vector<Computation> static_computations(scene::Formulation formulation);

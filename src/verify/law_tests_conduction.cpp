@@ -14,15 +14,13 @@ namespace {
 
 constexpr double cell = 10e-3, cold = 300.0, hot = 1300.0;  // m, K
 
-/// Neighbours are cold and hot by turns: the roughest field there is.
+/// Neighbours are cold and hot alternately, the largest differences there can be.
 void make_checkered(mpm::Simulation& simulation) {
-  const auto paint = [](mpm::ParticleFields& p) {
+  simulation.for_each_body([](mpm::ParticleFields& p) {
     for (int j = 0; j < p.lattice.rows(); ++j)
       for (int i = 0; i < p.lattice.columns(); ++i)
         p.temperature[p.lattice.slot(i, j)] = (i + j) % 2 == 0 ? cold : hot;
-  };
-  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) paint(body.particles);
-  for (mpm::Body<materials::Charge>& body : simulation.bodies_of<materials::Charge>()) paint(body.particles);
+  });
 }
 
 void conduct(mpm::Conduction& conduction, mpm::Simulation& simulation, double dt) {

@@ -25,17 +25,17 @@ void conduct(mpm::Conduction& conduction, mpm::Simulation& simulation, double ti
   for (int step = 0; step < steps; ++step) conduction.advance(simulation, time / steps);
 }
 
-/// Temperatures from 300 to 1300 K that jump from particle to particle.
-void make_checkered(mpm::Simulation& simulation) {
+/// Random temperatures from 300 to 1300 K, the same in every run.
+void set_random_temperatures(mpm::Simulation& simulation) {
   std::uint32_t random = 1;
-  const auto shake = [&](mpm::ParticleFields& p) {
+  const auto set = [&](mpm::ParticleFields& p) {
     for (double& temperature : p.temperature) {
       random = random * 1664525U + 1013904223U;
       temperature = 300.0 + 1000.0 * static_cast<double>(random >> 8) / 16777215.0;
     }
   };
-  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) shake(body.particles);
-  for (mpm::Body<materials::Charge>& body : simulation.bodies_of<materials::Charge>()) shake(body.particles);
+  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) set(body.particles);
+  for (mpm::Body<materials::Charge>& body : simulation.bodies_of<materials::Charge>()) set(body.particles);
 }
 
 /// Relative L2 error of the temperature rise in a half space whose face is held 1 K hotter, after 1 ms, in
@@ -97,7 +97,7 @@ Check conduction_under_flux() {
 
 Check conserved_heat() {
   mpm::Simulation simulation(shell_155(10e-3));
-  make_checkered(simulation);
+  set_random_temperatures(simulation);
   mpm::Conduction conduction(simulation);
   const double before = conduction.heat(simulation);
   conduct(conduction, simulation, 20.0, 100);
@@ -114,7 +114,7 @@ Checks conduction_in_long_steps() {
   constexpr double fourier_number = 1e4, cell = 10e-3;
   mpm::Simulation simulation(shell_155(cell));
   const double dt = step_of_fourier_number(simulation.scene().charge(), cell, fourier_number);
-  make_checkered(simulation);
+  set_random_temperatures(simulation);
   mpm::Conduction conduction(simulation);
   const TemperatureRange before = range_of(simulation);
   double outside = 0.0;
