@@ -24,7 +24,7 @@ double time_of(const std::function<void()>& work, long repetitions) {
   return run::thread_processor_time() - start;
 }
 
-/// Without an order where the finer error is of round-off: what it fell to says nothing about the method.
+/// NaN where the finer error is of round-off, which does not depend on the method.
 double order_between(const MeasuredSetting& coarse, const MeasuredSetting& fine, double round_off) {
   if (!(fine.error > round_off)) return not_a_number;
   return std::log(coarse.error / fine.error) / std::log(coarse.size / fine.size);

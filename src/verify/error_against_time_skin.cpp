@@ -76,7 +76,7 @@ std::vector<Setting> temperature_settings() {
       [time, exact](const surface::SkinModel& model) { return temperature_after(model, time, 1) - exact; });
 }
 
-/// Each call is one step: nothing is ever above this tolerance.
+/// The tolerance is so large that each call is one step.
 std::vector<Setting> step_settings() {
   const surface::SkinModel model = explosive(1e9);
   const double time = share_before * induction_between(model, initial, exploded);

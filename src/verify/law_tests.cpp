@@ -46,7 +46,6 @@ Finding Bounds::finding() const {
   }
   if (!broken.empty()) return {Outcome::wrong, broken};
   for (const std::string& reason : reasons_) add(kept, reason);
-  // A case that measured nothing has shown nothing.
   if (kept.empty()) return {Outcome::wrong, "nothing was measured"};
   return {reasons_.empty() ? Outcome::held : Outcome::caught, kept};
 }

@@ -197,7 +197,7 @@ void assess_growth(Bounds& bounds, const SolidLaw& law, double stress, double pr
   bounds.at_most("stress of one step against a thousand, share of the first",
                  std::abs(stress_of(coarse) - stress_of(fine)) / stress, 1e-3);
   for (const HeldStrain* held : {&coarse, &fine}) {
-    // Strain is held, so nothing is put in.
+    // Strain is held: no work is done on the solid.
     const double left = energy - energy_of(solid, held->state) - held->viscous - held->crack;
     bounds.at_most("energy that is neither stored nor lost, share", std::abs(left) / energy, 1e-2);
   }

@@ -31,11 +31,11 @@ TwoTerms fit(const std::vector<double>& r, const std::vector<double>& y, F&& f, 
 }  // namespace
 
 /// A short ring with free ends, where sigma_rr + sigma_tt is uniform: the stresses are Lame's, and plane
-/// strain differs by a uniform axial strain only. It bears 0.1 MPa, where the laws are linear, and is scaled.
-/// The pressure is a suction, so that the outer face recedes into its cell: one that swells past a grid line
-/// meets nodes of almost no mass, which let the outermost particles slacken (an error of the first order in
-/// the cell size that creeps on with time). The meshes have the bore inside a cell, and the ends are left
-/// out, for the same reason.
+/// strain differs by a uniform axial strain only. The load is 0.1 MPa, where the laws are linear; results are
+/// scaled to 100 MPa. It is a suction, so that the outer face moves into its cell: beyond a grid line it
+/// would meet nodes of almost no mass, and the stress of the outermost particles would fall with time (an
+/// error of the first order in the cell size). For the same reason the bore lies inside a cell and the ends
+/// are left out.
 Tube relaxed_tube(scene::Formulation formulation, int radial_cells) {
   constexpr double pressure = -1e5, scale = 100e6 / pressure;
   const double cell_size = outside / radial_cells;

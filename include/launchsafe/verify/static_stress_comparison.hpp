@@ -80,7 +80,7 @@ struct ParticleMeans {
   double ringing_pressure = 0, ringing_von_mises = 0;
   /// Root mean square over the cells of all stations within `alternation_radius`, as a share of the
   /// pressure's: the fourth difference (p[j-2] - 4 p[j-1] + 6 p[j] - 4 p[j+1] + p[j+2])/16 along r, which is
-  /// +-a where neighbours alternate by a, and nothing of a pressure that is cubic over five cells.
+  /// +-a where neighbours alternate by +-a, and 0 for a pressure that is cubic over five cells.
   double alternation = 0;
   double wall_time = 0;  ///< s
 };
@@ -95,7 +95,7 @@ struct StaticComparison {
   }
 };
 
-/// What of a comparison misses a target, a sentence each; empty where nothing does.
+/// A sentence for every number that misses its target; empty where all are met.
 std::vector<std::string> missed_targets(const StaticComparison& comparison);
 
 /// Stresses of a thick tube under pressure inside, at its two faces.
@@ -116,7 +116,7 @@ struct ComparisonOptions {
 FiniteElementModel finite_element_model(const StaticCase& compared);
 
 /// Means of the particles of a case, from snapshots alone, on any mesh of rectangular cells with their
-/// particles in the middle: the first snapshot is at rest and tells the cells, all others are averaged.
+/// particles in the middle: the cells are those of the first snapshot, at rest; all others are averaged.
 ParticleMeans particle_means(const StaticCase& compared, const std::vector<run::Snapshot>& snapshots);
 
 /// Errors: those of run_finite_elements.
