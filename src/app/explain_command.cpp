@@ -57,9 +57,9 @@ std::vector<std::string> plausibility_lines(const scene::Scene& scene) {
 }
 
 /// The same for the cases of a study and what it states itself, each with the number of cases. Empty for a
-/// kind whose cases have scenes of their own, which judges without.
+/// kind that gives no verdicts on scenes of its own.
 std::vector<std::string> plausibility_lines(const study::StudyFile& study) {
-  if (study.study.kind.own_scenes) return {};
+  if (!study.study.kind.gives_verdicts && study.study.kind.own_scenes) return {};
   std::vector<std::string> lines;
   for (const scene::Implausible& each : study.study.implausible) lines.push_back(line_of(each));
   std::vector<std::string> order;

@@ -1,13 +1,11 @@
 #include "launchsafe/kinds/read_study.hpp"
 
 #include "launchsafe/scene/acceptance.hpp"
-#include "launchsafe/scene/interfaces.hpp"
-#include "launchsafe/study/changed_scene.hpp"
 #include "launchsafe/study/study_axes.hpp"
-#include "launchsafe/study/study_calibration.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
 #include "study_keys.hpp"
+#include "study_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -115,129 +113,11 @@ Fault read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys
   return check_twice(study, "gaps", Dimension::length, study.study.gaps);
 }
 
-Fault read_scene_of(StudyFile& study, const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / study.study.scene;
-  std::error_code status;
-  if (!std::filesystem::exists(path, status)) {
-    const auto missing = scene::read_text_file(path);
-    return scene::error_at(place_of_key(study, "scene"), "scene",
-                           fmt::format("\"{}\", which does not exist", study.study.scene),
-                           "a scene file, by its path from the study file's folder",
-                           missing ? std::string{} : missing.error().suggestion);
-  }
-  auto read = scene::read_scene(path);
-  if (!read) return read.error();
-  study.scene = std::move(*read);
-  return std::nullopt;
-}
-
-/// One override of [set], and those of the tables in it.
-Fault apply_override(const toml::node& node, const std::string& name, StudyFile& study, ChangedScene& scene) {
-  const Place place = scene::place_of(node, study.file);
-  if (const toml::table* table = node.as_table()) {
-    for (const auto& [key, inner] : *table) {
-      const std::string dotted = name.empty() ? std::string(key.str()) : name + "." + std::string(key.str());
-      if (Fault fault = apply_override(inner, dotted, study, scene)) return fault;
-    }
-    return std::nullopt;
-  }
-  const auto key = scene::describe_key(study.scene, name, place);
-  if (!key) return in_table(key.error(), "set");
-  const auto value = scene::read_value(node, *key, study.file);
-  if (!value) return in_table(value.error(), "set");
-  study.overrides[name] = scene::format_value(*key, *value);
-  scene.apply({name, *value, study.overrides[name], "set." + name, place});
-  return std::nullopt;
-}
-
-Fault apply_overrides(const toml::table& root, StudyFile& study) {
-  const toml::node* node = root.get("set");
-  if (!node) return std::nullopt;
-  if (!node->is_table()) {
-    return scene::error_at(scene::place_of(*node, study.file), "set", scene::found_text(*node),
-                           "a table, written [set], of scene keys");
-  }
-  ChangedScene scene(study.scene);
-  if (Fault fault = apply_override(*node, "", study, scene)) return fault;
-  if (!scene.complete()) return scene.error();
-  study.scene = scene.take();
-  return std::nullopt;
-}
-
-/// A scene accepts the values that stand in it: where the study gives a key others, it has to accept them
-/// itself.
-void drop_acceptances_of_other_values(StudyFile& study) {
-  std::set<std::string> changed;
-  for (const auto& [key, value] : study.overrides) changed.insert(key);
-  for (const Axis& axis : study.study.axes) changed.insert(axis.key.name);
-  // A reason for how the charge is held, or for all that is foreign, was given of the scene's own interfaces.
-  std::set<std::string> dropped = changed;
-  for (const std::string& key : changed) {
-    if (!key.starts_with("interface.")) continue;
-    dropped.insert(scene::foreign_calibration);
-    for (const auto& other : scene::interface_keys())
-      dropped.insert(key.substr(0, key.rfind('.') + 1) + other.name);
-  }
-  std::erase_if(study.scene.scene.accepted, [&](const auto& each) { return dropped.contains(each.key); });
-}
-
-/// The acceptances of the study: those of scene keys go to its scene, those of its own keys beside what it
-/// states. Needs the overrides and what varies.
-Fault read_accepted(const toml::table& root, const StudyKeys& keys, StudyFile& study) {
-  drop_acceptances_of_other_values(study);
-  std::vector<std::string> known = scene::acceptable_names(study.scene.scene);
-  for (const auto& key : keys) known.push_back(key.name);
-  auto accepted = scene::read_acceptances(root, known, study.file);
-  if (!accepted) return accepted.error();
-  for (const auto& key : keys) {
-    const scene::Value value = key.get(study.study);
-    if (!study.places.contains(key.name) || scene::is_plausible(key, value)) continue;
-    study.study.implausible.push_back({key.name, scene::format_value(key, value), scene::plausible_text(key),
-                                       scene::reason_for(*accepted, key.name)});
-  }
-  for (scene::Acceptance& each : *accepted) {
-    // "calibration" accepts all that is foreign to it, whatever record the study's key of that name names.
-    if (each.key == scene::foreign_calibration || !scene::find_key(keys, each.key))
-      scene::accept(study.scene.scene.accepted, std::move(each));
-  }
-  return std::nullopt;
-}
-
-Fault check_scene(const StudyFile& study) {
-  const scene::Scene& scene = study.scene.scene;
-  if (!scene::has_charge(scene))
-    return fault_at(study, "scene", "a scene without a charge", "a scene with a charge");
-  if (!study.study.kind.own_scenes && study.study.early_time > scene.load.duration) {
-    return fault_at(
-        study, "early_time", scene::format_quantity(study.study.early_time, Dimension::time),
-        "a time within the load's duration, " + scene::format_quantity(scene.load.duration, Dimension::time));
-  }
-  return std::nullopt;
-}
-
-/// The scene that the cases start from: as written, then [set], then the constants of a calibration, then the
-/// numerics that a tolerance picks from an accuracy record.
-Fault settle_scene(const StudySource& source, const std::optional<double>& tolerance, StudyFile& study,
-                   std::optional<AccuracyRecord>& record) {
-  if (Fault fault = read_scene_of(study, source.folder)) return fault;
-  if (Fault fault = apply_overrides(source.root, study)) return fault;
-  if (Fault fault = use_calibration(study, source.folder)) return fault;
-  if (Fault fault = read_model_form(study, source.folder)) return fault;
-  auto read = read_record(study, source.folder);
-  if (!read) return read.error();
-  record = std::move(*read);
-  const double wanted = tolerance.value_or(study.study.setting_tolerance);
-  if (std::isfinite(wanted)) {
-    if (Fault fault = choose_setting(study, record, wanted)) return fault;
-  }
-  return check_scene(study);
-}
-
 /// What varies, and the cases that follow.
 Fault settle_cases(const StudySource& source, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
   if (Fault fault = kind.read(source, study)) return fault;
   if (Fault fault = check_load_axes(study)) return fault;
-  if (Fault fault = read_accepted(source.root, keys, study)) return fault;
+  if (Fault fault = settle_acceptances(source.root, keys, study)) return fault;
   if (Fault fault = settle_gaps(study)) return fault;
   return kind.make_cases(source, study);
 }
@@ -272,7 +152,7 @@ scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesys
   const StudyKeys keys = joined({common_keys(), (*kind)->keys});
   if (Fault fault = read_keys(*table, **kind, keys, study)) return *fault;
   std::optional<AccuracyRecord> record;
-  if (Fault fault = settle_scene(source, request.tolerance, study, record))
+  if (Fault fault = settle_scene(source, {{"set", table->get("set")}}, request.tolerance, study, record))
     return unnumbered(*fault, study.file);
   if (Fault fault = settle_cases(source, **kind, keys, study)) return unnumbered(*fault, study.file);
   if (!study.study.kind.own_scenes) settle_uncertainty(study, record);

@@ -1,0 +1,32 @@
+// The scene that the cases of a study start from.
+#pragma once
+
+#include "launchsafe/study/accuracy_record.hpp"
+#include "study_keys.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::kinds {
+
+/// Scene keys with other values than the scene has: a table of the study file, by its name there. No node:
+/// none.
+struct OverrideTable {
+  std::string name;
+  const toml::node* node = nullptr;
+};
+
+/// Reads the scene that the study names, then the overrides, in their order, then the constants of a
+/// calibration, then the numerics that a tolerance (K, of T max) picks from an accuracy record. `record`
+/// becomes that of the study, if it names one.
+study::Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,
+                          const std::optional<double>& tolerance, study::StudyFile& study,
+                          std::optional<study::AccuracyRecord>& record);
+
+/// The acceptances of a table: those of scene keys go to the study's scene, those of its own keys beside what
+/// it states. What the scene itself accepts goes where the study gives the key other values. Needs the
+/// overrides and what varies.
+study::Fault settle_acceptances(const toml::table& table, const StudyKeys& keys, study::StudyFile& study);
+
+}  // namespace launchsafe::kinds
