@@ -104,6 +104,12 @@ std::optional<std::string> digest_of(const std::filesystem::path& path) {
   return store::sha256(*bytes);
 }
 
+/// Files that a study rests on: with another one its report is no longer true.
+std::string records_of(const study::StudyFile& file) {
+  if (file.records.empty()) return {};
+  return fmt::format("\n\n# SHA-256 of the files that it rests on\n{}\n", fmt::join(file.records, "\n"));
+}
+
 /// What a study took from its accuracy record: another record is another input.
 std::string recorded_uncertainties(const study::StudyFile& file) {
   if (file.study.accuracy.empty()) return {};
@@ -124,8 +130,9 @@ std::string scenes_of_cases(const study::StudyFile& file) {
 
 store::Manifest study_manifest(const study::StudyFile& file, int jobs) {
   return store::make_manifest(
-      fmt::format("# model version {}\n{}\n\n# scene\n{}{}{}", run::model_version, values_of(file.file),
-                  scene::to_toml(file.scene.scene), recorded_uncertainties(file), scenes_of_cases(file)),
+      fmt::format("# model version {}\n{}\n\n# scene\n{}{}{}{}", run::model_version, values_of(file.file),
+                  scene::to_toml(file.scene.scene), recorded_uncertainties(file), records_of(file),
+                  scenes_of_cases(file)),
       jobs);
 }
 

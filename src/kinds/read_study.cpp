@@ -142,7 +142,7 @@ scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesys
                                        const StudyRequest& request) {
   const auto table = scene::parse_toml(text, path.string());
   if (!table) return table.error();
-  const StudySource source{*table, path.parent_path()};
+  const StudySource source{*table, path.parent_path(), request.tolerance};
   StudyFile study;
   study.file = path.string();
   study.most_cases = request.most_cases;
@@ -152,7 +152,7 @@ scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesys
   const StudyKeys keys = joined({common_keys(), (*kind)->keys});
   if (Fault fault = read_keys(*table, **kind, keys, study)) return *fault;
   std::optional<AccuracyRecord> record;
-  if (Fault fault = settle_scene(source, {{"set", table->get("set")}}, request.tolerance, study, record))
+  if (Fault fault = settle_scene(source, {{"set", table->get("set")}}, study, record))
     return unnumbered(*fault, study.file);
   if (Fault fault = settle_cases(source, **kind, keys, study)) return unnumbered(*fault, study.file);
   if (!study.study.kind.own_scenes) settle_uncertainty(study, record);

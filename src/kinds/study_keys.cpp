@@ -1,5 +1,6 @@
 #include "study_keys.hpp"
 
+#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/cited_limits.hpp"
 
 #include <fmt/format.h>
@@ -131,6 +132,7 @@ Fault read_references_file(StudyFile& study, const std::filesystem::path& folder
                     "a file with [[reference]], by its path from the study file's folder",
                     text.error().suggestion);
   }
+  study.records.push_back(store::sha256(*text));
   const auto table = scene::parse_toml(*text, file);
   if (!table) return table.error();
   for (const auto& [key, node] : *table) {

@@ -102,8 +102,7 @@ Fault check_scene(const StudyFile& study) {
 
 }  // namespace
 
-Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,
-                   const std::optional<double>& tolerance, StudyFile& study,
+Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides, StudyFile& study,
                    std::optional<AccuracyRecord>& record) {
   if (Fault fault = read_scene_of(study, source.folder)) return fault;
   for (const OverrideTable& each : overrides) {
@@ -114,7 +113,7 @@ Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& 
   auto read = read_record(study, source.folder);
   if (!read) return read.error();
   record = std::move(*read);
-  const double wanted = tolerance.value_or(study.study.setting_tolerance);
+  const double wanted = source.tolerance.value_or(study.study.setting_tolerance);
   if (std::isfinite(wanted)) {
     if (Fault fault = choose_setting(study, record, wanted)) return fault;
   }

@@ -21,8 +21,7 @@ struct OverrideTable {
 /// calibration, then the numerics that a tolerance (K, of T max) picks from an accuracy record. `record`
 /// becomes that of the study, if it names one.
 study::Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,
-                          const std::optional<double>& tolerance, study::StudyFile& study,
-                          std::optional<study::AccuracyRecord>& record);
+                          study::StudyFile& study, std::optional<study::AccuracyRecord>& record);
 
 /// The acceptances of a table: those of scene keys go to the study's scene, those of its own keys beside what
 /// it states. What the scene itself accepts goes where the study gives the key other values. Needs the

@@ -1,5 +1,6 @@
 #include "launchsafe/study/study_calibration.hpp"
 
+#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/changed_scene.hpp"
 
@@ -77,6 +78,7 @@ Fault use_calibration(StudyFile& study, const std::filesystem::path& folder) {
   const auto text = scene::read_text_file(file);
   if (!text)
     return unreadable(study, "calibration", name, "the calibration.json of a calibration", text.error());
+  study.records.push_back(store::sha256(*text));
   const auto record = parse_calibration_record(*text, file);
   if (!record) return record.error();
   if (!record->failure.empty()) {
@@ -111,6 +113,7 @@ Fault read_model_form(StudyFile& study, const std::filesystem::path& folder) {
   if (!text)
     return unreadable(study, "model_form", name, "the model_form.json of the command model-form",
                       text.error());
+  study.records.push_back(store::sha256(*text));
   auto record = parse_model_form(*text, file);
   if (!record) return record.error();
   study.study.model_form = std::move(*record);

@@ -29,6 +29,18 @@ TEST_F(ChangedStudy, IsRefusedAndToldOfUpdate) {
   EXPECT_FALSE(exists("out/earlier-1"));
 }
 
+// Verdicts rest on such files too: a report that is called up to date after one of them changed may say SAFE
+// of what is no longer safe.
+TEST_F(ChangedStudy, OfAFileThatItRestsOnIsAnotherStudy) {
+  write("rows.toml", "[[reference]]\ngap = \"0 cm\"\nmaximum_temperature = \"400 K\"\n");
+  write("study.toml", "references = \"rows.toml\"\n" + sweep_study);
+  ASSERT_EQ(update().code, 0);
+  write("rows.toml", "[[reference]]\ngap = \"0 cm\"\nmaximum_temperature = \"401 K\"\n");
+  const Outcome refused = run({"study", "study.toml", "-o", "out"});
+  EXPECT_EQ(refused.code, 2) << refused.err;
+  EXPECT_TRUE(refused.says("--update")) << refused.err;
+}
+
 TEST_F(ChangedStudy, WithOtherThermalInputNeedsNoRun) {
   write("study.toml", with(sweep_study, "1, 2 us", "1, 3 us"));
   const Outcome updated = update();

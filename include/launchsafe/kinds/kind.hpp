@@ -8,6 +8,7 @@
 #include "launchsafe/study/study_faults.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,7 +47,8 @@ struct FileName {
 /// A study file as text.
 struct StudySource {
   const toml::table& root;
-  std::filesystem::path folder;  ///< of the file, from which paths in it start
+  std::filesystem::path folder;     ///< of the file, from which paths in it start
+  std::optional<double> tolerance;  ///< K, of T max: asked for on the command line
 };
 
 struct Kind {

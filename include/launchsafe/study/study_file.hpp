@@ -167,6 +167,8 @@ struct StudyFile {
   std::map<std::string, std::string> overrides;  ///< [set]: scene key, value as people read it
   scene::SceneFile scene;                        ///< with the overrides
   std::string uncertainty_source;                ///< where the numerical uncertainty comes from, a clause
+  /// SHA-256 of every file that the study rests on besides its scene: another one is another study.
+  std::vector<std::string> records;
   std::string chosen_setting;    ///< what a tolerance picked from an accuracy record, for people; else empty
   std::vector<StudyCase> cases;  ///< in the order that the kind says
   std::size_t most_cases = largest_case_count;  ///< a study with more is refused
