@@ -1,5 +1,6 @@
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/kinds/calibration.hpp"
+#include "launchsafe/kinds/comparison.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
@@ -13,8 +14,8 @@ namespace launchsafe::kinds {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all{
-      critical_gap_kind(), calibration_kind(), sweep_kind(),
-      sensitivity_kind(),  accuracy_kind(),    stability_kind(),
+      critical_gap_kind(), calibration_kind(), sweep_kind(),      sensitivity_kind(),
+      accuracy_kind(),     stability_kind(),   comparison_kind(),
   };
   return all;
 }

@@ -1,0 +1,80 @@
+// The study of kind comparison: the same scene under several named variants, side by side.
+#pragma once
+
+#include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/case_answer.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::kinds {
+
+/// The scene as it is, which comes first, or with the keys of one [[variant]].
+struct Variant {
+  std::string name;
+  std::string description;           ///< what it is, for people; may be empty
+  std::vector<std::string> changes;  ///< "numerics.cell_size = 2.5 mm": what it has otherwise than the scene
+  study::Study judged;               ///< the study with the constants of this variant
+  std::size_t first = 0;             ///< of its cases, which follow each other in StudyFile::cases
+  std::optional<study::CalibrationRecord> calibration;  ///< of the record that it names, or the study
+};
+
+/// What a study file of this kind says besides.
+struct ComparisonSettings {
+  std::string name = "as in the scene";  ///< of the scene without changes
+  std::vector<double> peak_pressures;    ///< Pa; empty: the scene's
+  std::vector<Variant> variants;         ///< the scene as it is, then those of the file
+};
+
+/// T max of one station over the launch, K, of a skin that air and friction heat and that does not react:
+/// after ignition all stations are as hot as the flame.
+struct StationTemperature {
+  std::string name;
+  double temperature = study::not_a_number;
+};
+
+/// One case of one variant.
+struct ComparedCase {
+  std::size_t variant = 0;  ///< of ComparisonSettings::variants
+  study::CaseAnswer answer;
+  std::vector<std::vector<StationTemperature>> stations;  ///< for every gap; none for a run without a result
+  double processor_time = study::not_a_number;            ///< s, of its run
+};
+
+struct ComparisonResult {
+  study::StudyFile study;
+  std::vector<ComparedCase> cases;  ///< one for each of StudyFile::cases
+  study::Timing timing;
+  bool interrupted = false;
+  const std::vector<Variant>& variants() const {
+    return study::settings_of<ComparisonSettings>(study.study).variants;
+  }
+  /// The case of the scene as it is under the same pressure.
+  std::size_t counterpart(std::size_t index) const;
+  bool any_indeterminate() const;  ///< a verdict or a critical gap is
+};
+
+/// Runs a study of kind comparison. A case's failure is that case's row. Apart from times the result depends
+/// on the study alone.
+ComparisonResult run_comparison(const study::StudyFile& study, const study::StudyOptions& options = {});
+
+/// The answer in a few lines: the scene's critical gap, and how far the variants move it.
+std::string answer(const ComparisonResult& result);
+/// A row for every case: critical gap, hottest temperature, both less those of the scene as it is, and cost.
+report::Table comparison_table(const ComparisonResult& result);
+/// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
+report::Table verdict_matrix(const ComparisonResult& result);
+/// A row for every gap of every case, for other programs.
+report::Table verdict_table(const ComparisonResult& result);
+/// A row for every station of every gap and case.
+report::Table station_table(const ComparisonResult& result);
+
+/// The whole report, with what is printed on a terminal and every file.
+report::Report report_of(const ComparisonResult& result);
+
+/// The row of the table of kinds.
+Kind comparison_kind();
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,277 @@
+// A study of kind comparison as a file: its keys, [[variant]], and the cases that follow.
+#include "launchsafe/kinds/comparison.hpp"
+#include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/study/study_axes.hpp"
+#include "launchsafe/study/study_cases.hpp"
+#include "launchsafe/study/study_uncertainty.hpp"
+#include "study_keys.hpp"
+#include "study_outcome.hpp"
+#include "study_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+
+namespace {
+
+/// One [[variant]] as read, without its tables.
+struct VariantText {
+  std::string name, description, calibration;
+};
+
+std::vector<scene::Key<VariantText>> variant_keys() {
+  using scene::Standing;
+  return {
+      scene::required(scene::text_key<VariantText>(
+          "name", Standing::input, "What it is called in tables; each once.", &VariantText::name)),
+      scene::text_key<VariantText>("description", Standing::input, "What it is, a phrase.",
+                                   &VariantText::description),
+      scene::text_key<VariantText>(
+          "calibration", Standing::input,
+          "Path of the record of its own calibration, from the study file's folder; the study's if absent, "
+          "or "
+          "where the record found no constants. Its scene keys are in the table set, and what it accepts in "
+          "accept.",
+          &VariantText::calibration),
+  };
+}
+
+std::vector<scene::Key<ComparisonSettings>> comparison_keys() {
+  return {
+      scene::text_key<ComparisonSettings>("name", scene::Standing::input,
+                                          "What the scene without changes is called.",
+                                          &ComparisonSettings::name),
+      scene::list_key<ComparisonSettings>(
+          "peak_pressures", scene::Dimension::pressure, scene::above_to(0, 10e9), scene::Standing::assumed,
+          "Peak chamber pressures, each a mechanical run of every variant; the scene's if absent.",
+          &ComparisonSettings::peak_pressures),
+  };
+}
+
+Fault read_comparison(const StudySource&, StudyFile& study) {
+  const std::vector<double>& peaks = settings_of<ComparisonSettings>(study.study).peak_pressures;
+  if (peaks.empty()) return std::nullopt;
+  auto axis = axis_over(study, "peak_pressure", "peak_pressures", peaks);
+  if (!axis) return axis.error();
+  study.study.axes.push_back(std::move(*axis));
+  return std::nullopt;
+}
+
+/// The record of a calibration, with or without constants.
+scene::Expected<CalibrationRecord> read_calibration_record(const StudyFile& study, const StudySource& source,
+                                                           const std::string& name, const std::string& key) {
+  const std::string file = (source.folder / name).string();
+  const auto text = scene::read_text_file(file);
+  if (!text) {
+    return fault_at(study, key, fmt::format("\"{}\", which cannot be read", name),
+                    "the calibration.json of a calibration, by its path from the study file's folder",
+                    text.error().suggestion);
+  }
+  return parse_calibration_record(*text, file);
+}
+
+/// Makes the cases of one variant after another.
+class VariantMaker {
+ public:
+  VariantMaker(const StudySource& source, StudyFile& study)
+      : source_(source),
+        study_(study),
+        keys_(joined({common_keys(), comparison_kind().keys})),
+        table_(source.root) {}
+
+  Fault add_scene_itself() {
+    Variant variant{.name = settings_of<ComparisonSettings>(study_.study).name};
+    return add(std::move(variant), {}, {{"set", source_.root.get("set")}}, source_.root);
+  }
+
+  Fault add_variant(const toml::table& table, const std::string& key) {
+    VariantText text;
+    auto read = scene::read_table(table, variant_keys(), {"set", "accept"}, study_.file, text);
+    if (!read) return in_table(read.error(), "variant");
+    for (const auto& [name, place] : *read) study_.places[key + "." + name] = place;
+    for (const Variant& other : variants()) {
+      if (other.name == text.name)
+        return fault_at(study_, key + ".name", fmt::format("\"{}\" a second time", text.name),
+                        "a name that no other variant has");
+    }
+    Variant variant{.name = text.name, .description = text.description};
+    if (!text.calibration.empty()) {
+      auto record = read_calibration_record(study_, source_, text.calibration, key + ".calibration");
+      if (!record) return record.error();
+      variant.calibration = std::move(*record);
+    }
+    const bool own_constants = variant.calibration && variant.calibration->failure.empty();
+    return add(std::move(variant), own_constants ? text.calibration : std::string{},
+               {{"set", source_.root.get("set")}, {"variant.set", table.get("set")}}, table);
+  }
+
+ private:
+  std::vector<Variant>& variants() { return settings_of<ComparisonSettings>(study_.study).variants; }
+
+  /// `calibration`: the record with the constants of the variant; empty: the study's.
+  Fault add(Variant variant, const std::string& calibration, const std::vector<OverrideTable>& overrides,
+            const toml::table& acceptances) {
+    StudyFile own = start(calibration);
+    std::optional<AccuracyRecord> record;
+    if (Fault fault = settle_scene(source_, overrides, own, record)) return fault;
+    if (Fault fault = check_load_axes(own)) return fault;
+    for (const Axis& axis : own.study.axes) {
+      if (own.overrides.contains(axis.key.name))
+        return fault_at(study_, axis.study_key, axis.key.name + ", which a table of scene keys fixes",
+                        axis.key.name + " either here or there");
+    }
+    if (Fault fault = settle_acceptances(source_.root, keys_, own)) return fault;
+    if (&acceptances != &source_.root) {
+      if (Fault fault = accept_also(acceptances, own)) return fault;
+    }
+    if (own.study.early_time > own.scene.scene.load.duration) {
+      return fault_at(study_, "early_time",
+                      fmt::format("an instant after the launch of variant \"{}\"", variant.name),
+                      "a time within the load's duration of every variant");
+    }
+    if (Fault fault = make_factorial(own, launch_label)) return fault;
+    settle_uncertainty(own, record);
+    return take(std::move(variant), own);
+  }
+
+  /// The study before its scene was read.
+  StudyFile start(const std::string& calibration) const {
+    StudyFile own;
+    own.study = study_.study;
+    own.study.settings.reset();
+    own.study.implausible.clear();
+    own.study.numerical_uncertainty = stated_numerical_uncertainty();
+    own.study.numerical_uncertainty_assumed = false;
+    own.study.calibration = shipped_calibration();
+    own.study.fit_uncertainty = stated_fit_uncertainty();
+    if (!calibration.empty()) own.study.calibration_record = calibration;
+    own.file = study_.file;
+    own.places = study_.places;
+    own.most_cases = study_.most_cases;
+    return own;
+  }
+
+  /// What the file says, and not what was settled for the scene itself since.
+  double stated_numerical_uncertainty() const { return stated("numerical_uncertainty"); }
+  double stated_fit_uncertainty() const { return stated("fit_uncertainty"); }
+  double stated(const char* key) const {
+    const toml::node* node = table_.get(key);
+    if (!node) return not_a_number;
+    // The reader of keys has let it pass.
+    return std::get<double>(*scene::read_value(*node, *scene::find_key(keys_, key), study_.file));
+  }
+
+  /// A variant accepts for itself.
+  Fault accept_also(const toml::table& table, StudyFile& own) const {
+    auto accepted = scene::read_acceptances(table, scene::acceptable_names(own.scene.scene), study_.file);
+    if (!accepted) return in_table(accepted.error(), "variant");
+    for (scene::Acceptance& each : *accepted) scene::accept(own.scene.scene.accepted, std::move(each));
+    return std::nullopt;
+  }
+
+  /// The cases become those of the study.
+  Fault take(Variant variant, StudyFile& own) {
+    const std::size_t count = study_.cases.size() + own.cases.size();
+    if (count > study_.most_cases) {
+      return fault_at(study_, "variant", fmt::format("{} mechanical runs", count),
+                      fmt::format("at most {} mechanical runs", study_.most_cases));
+    }
+    if (!variant.calibration && !own.study.calibration_record.empty()) {
+      auto record = read_calibration_record(study_, source_, own.study.calibration_record, "calibration");
+      if (!record) return record.error();
+      if (variants().empty()) variant.calibration = std::move(*record);
+    }
+    for (const auto& [key, value] : own.overrides) {
+      const auto common = study_.overrides.find(key);
+      if (common == study_.overrides.end() || common->second != value)
+        variant.changes.push_back(key + " = " + value);
+    }
+    variant.first = study_.cases.size();
+    for (StudyCase& each : own.cases) {
+      each.label = variant.name + ": " + each.label;
+      each.own_conditions = each.own_conditions && variants().empty();
+      study_.cases.push_back(std::move(each));
+    }
+    variant.judged = std::move(own.study);
+    study_.study.numerical_uncertainty = variants().empty() ? variant.judged.numerical_uncertainty
+                                                            : std::max(study_.study.numerical_uncertainty,
+                                                                       variant.judged.numerical_uncertainty);
+    study_.study.numerical_uncertainty_assumed =
+        study_.study.numerical_uncertainty_assumed || variant.judged.numerical_uncertainty_assumed;
+    note_source(variant.name, own.uncertainty_source);
+    study_.records.insert(study_.records.end(), own.records.begin(), own.records.end());
+    variants().push_back(std::move(variant));
+    return std::nullopt;
+  }
+
+  /// Where the numerical uncertainty comes from, by variant where that differs.
+  void note_source(const std::string& name, const std::string& source) {
+    std::string& all = study_.uncertainty_source;
+    if (variants().empty()) {
+      all = source;
+    } else if (source != first_source_) {
+      all += fmt::format("; of {} {}", name, source);
+    }
+    if (variants().empty()) first_source_ = source;
+  }
+
+  const StudySource& source_;
+  StudyFile& study_;
+  StudyKeys keys_;
+  std::string first_source_;
+  const toml::table& table_;
+};
+
+Fault make_comparison_cases(const StudySource& source, StudyFile& study) {
+  const toml::node* node = source.root.get("variant");
+  const std::string allowed = "at least one table, written [[variant]], with a name and what it changes";
+  if (!node || (node->is_array() && node->as_array()->empty()))
+    return scene::error_at(place_of_key(study, node ? "variant" : "kind"), "variant", "no variant", allowed);
+  if (!node->is_array_of_tables())
+    return scene::error_at(scene::place_of(*node, study.file), "variant", scene::found_text(*node), allowed);
+  VariantMaker maker(source, study);
+  if (Fault fault = maker.add_scene_itself()) return fault;
+  std::size_t index = 0;
+  for (const toml::node& element : *node->as_array()) {
+    if (Fault fault = maker.add_variant(*element.as_table(), fmt::format("variant.{}", index++)))
+      return fault;
+  }
+  return std::nullopt;
+}
+
+std::vector<Failure> comparison_failures(const ComparisonResult& result) {
+  std::vector<Failure> failures;
+  for (std::size_t i = 0; i < result.cases.size(); ++i)
+    add_failure(failures, result.study.cases[i].label, result.cases[i].answer.outcome,
+                result.cases[i].answer.failure);
+  return failures;
+}
+
+StudyOutcome comparison_outcome(const StudyFile& study, const StudyOptions& options) {
+  const ComparisonResult result = run_comparison(study, options);
+  return outcome_of(result, options, result.any_indeterminate(), comparison_failures(result));
+}
+
+}  // namespace
+
+Kind comparison_kind() {
+  return {
+      .traits = {.name = "comparison", .gaps_key = "gaps", .own_scenes = true},
+      .keys = joined({gaps_keys(), own_keys(comparison_keys()), judging_keys(), calibration_record_keys(),
+                      uncertainty_keys()}),
+      .tables = {table_of("variant", variant_keys())},
+      .instead_of = {{"gap", "gaps"}},
+      .read = read_comparison,
+      .make_cases = make_comparison_cases,
+      .run = comparison_outcome,
+      .files = {{"comparison.csv"}, {"verdicts.csv"}, {"stations.csv"}},
+  };
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,257 @@
+// The answer, the tables and the page of a comparison.
+#include "launchsafe/kinds/comparison.hpp"
+#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/shown_key.hpp"
+#include "launchsafe/report/study_text.hpp"
+#include "launchsafe/report/verdict_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+
+namespace {
+
+/// Gaps in the matrix on the page.
+constexpr std::size_t most_gaps = 30;
+
+/// Variant, and peak pressure where there are several.
+Table table_by_variant(std::string title, const ComparisonResult& result) {
+  Table table;
+  table.title = std::move(title);
+  table.columns = {named_text("variant", "variant")};
+  for (const ShownKey& key : shown_axes(result.study.study)) table.columns.push_back(key.column());
+  return table;
+}
+
+std::vector<Cell> place_cells(const ComparisonResult& result, std::size_t index) {
+  std::vector<Cell> cells{result.variants()[result.cases[index].variant].name};
+  const std::vector<ShownKey> keys = shown_axes(result.study.study);
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    cells.emplace_back(keys[i].value(result.study.cases[index].coordinates[i]));
+  return cells;
+}
+
+double hottest(const ComparedCase& each) {
+  double highest = not_a_number;
+  for (const double temperature : each.answer.heated_temperature) {
+    if (!(temperature <= highest)) highest = temperature;
+  }
+  return highest;
+}
+
+/// "of bonded: `interface.wall.condition` = bonded".
+std::string changes_text(const std::vector<Variant>& variants) {
+  std::string text;
+  for (const Variant& each : variants) {
+    text += fmt::format("- `{}`{}{}", each.name, each.description.empty() ? "" : ": ", each.description);
+    for (const std::string& change : each.changes) text += fmt::format("; `{}`", change);
+    if (each.calibration && !each.calibration->failure.empty())
+      text += "; not calibrated, with the constants of the study: " + each.calibration->failure;
+    text += "\n";
+  }
+  return text;
+}
+
+/// m by which the critical gap of a variant is above that of the scene as it is; NaN where one has none.
+double shift_of(const ComparisonResult& result, std::size_t index) {
+  return value_of(result.cases[index].answer.critical) -
+         value_of(result.cases[result.counterpart(index)].answer.critical);
+}
+
+/// The variant with the smallest critical gap against that of the scene as it is.
+std::string largest_shift_text(const ComparisonResult& result) {
+  std::optional<std::size_t> most;
+  std::size_t unknown = 0;
+  for (std::size_t i = 0; i < result.cases.size(); ++i) {
+    if (result.cases[i].variant == 0) continue;
+    const double shift = shift_of(result, i);
+    if (std::isnan(shift)) ++unknown;
+    if (shift < 0.0 && (!most || shift < shift_of(result, *most))) most = i;
+  }
+  std::string text =
+      most ? fmt::format("The largest step towards ignition is {} cm, of {}.",
+                         significant(100.0 * shift_of(result, *most), 3), result.study.cases[*most].label)
+           : std::string("No variant has a smaller critical gap that is a value.");
+  if (unknown > 0)
+    text += fmt::format(" In {} case{} one of both critical gaps is none or a bound.", unknown,
+                        unknown == 1 ? "" : "s");
+  return text;
+}
+
+}  // namespace
+
+std::string answer(const ComparisonResult& result) {
+  std::vector<std::string> lines{fmt::format("{} variants of a scene, {} cases, each judged at {} gaps.",
+                                             result.variants().size() - 1, result.cases.size(),
+                                             result.study.study.gaps.size())};
+  for (std::size_t i = 0; i < result.cases.size() && result.cases[i].variant == 0; ++i)
+    lines.push_back(fmt::format("{}: critical gap {}.", result.study.cases[i].label,
+                                reads_as(result.cases[i].answer.critical)));
+  lines.push_back(largest_shift_text(result));
+  for (std::string& note : mesh_notes(result.study)) lines.push_back(std::move(note));
+  if (result.interrupted)
+    lines.emplace_back("The study was interrupted: cases without a run are indeterminate.");
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+Table comparison_table(const ComparisonResult& result) {
+  Table table = table_by_variant("Variants side by side", result);
+  append(table.columns,
+         {significant_column("critical gap", "cm", 6, "critical_gap_cm"), named_text("reads as", "reads_as"),
+          significant_column("less that of the scene", "cm", 3, "critical_gap_difference_cm"),
+          number_column("hottest, without reaction", "K", 1, "heated_temperature_max_K"),
+          number_column("less that of the scene", "K", 1, "heated_temperature_difference_K"),
+          significant_column("processor time", "s", 3, "processor_time_s"),
+          count_column("particles", "particles"), count_column("steps", "steps"),
+          scientific_column("energy drift", "", 1, "energy_drift"), named_text("remark", "reason")});
+  for (std::size_t i = 0; i < result.cases.size(); ++i) {
+    const ComparedCase& each = result.cases[i];
+    const ComparedCase& own = result.cases[result.counterpart(i)];
+    std::vector<Cell> cells = place_cells(result, i);
+    cells.push_back(optional_number(100.0 * value_of(each.answer.critical)));
+    cells.emplace_back(reads_as(each.answer.critical));
+    cells.push_back(each.variant == 0 ? Cell() : optional_number(100.0 * shift_of(result, i)));
+    cells.push_back(optional_number(hottest(each)));
+    cells.push_back(each.variant == 0 ? Cell() : optional_number(hottest(each) - hottest(own)));
+    cells.push_back(optional_number(each.processor_time));
+    cells.emplace_back(static_cast<std::int64_t>(each.answer.run.particles));
+    cells.emplace_back(static_cast<std::int64_t>(each.answer.run.steps));
+    cells.push_back(optional_number(each.answer.run.energy_drift));
+    cells.emplace_back(each.answer.completed() ? each.answer.critical.reason : each.answer.failure);
+    table.rows.push_back(std::move(cells));
+  }
+  table.notes.emplace_back(
+      "Hottest: T max over stations and gaps of a skin that does not react. Only a critical gap that is a "
+      "value has a difference.");
+  return table;
+}
+
+Table verdict_matrix(const ComparisonResult& result) {
+  Table table = table_by_variant("Verdicts by gap", result);
+  const std::vector<double>& gaps = result.study.study.gaps;
+  for (const double gap : gaps)
+    table.columns.push_back(named_text(centimetres(gap), fmt::format("gap_{:.6g}_cm", in_centimetres(gap))));
+  for (std::size_t i = 0; i < result.cases.size(); ++i) {
+    std::vector<Cell> cells = place_cells(result, i);
+    for (const GapVerdict& row : result.cases[i].answer.verdicts) {
+      const Verdict verdict = row.judgement.verdict;
+      cells.emplace_back(verdict == Verdict::indeterminate ? "INDET." : study::to_string(verdict));
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  table.notes.emplace_back("INDET.: indeterminate; verdicts.csv has the reasons.");
+  return table;
+}
+
+Table verdict_table(const ComparisonResult& result) {
+  Table table = table_by_variant("Verdicts", result);
+  append(table.columns, {significant_column("gap", "cm", 6, "gap_cm")});
+  append(table.columns, verdict_columns(result.study.study));
+  for (std::size_t i = 0; i < result.cases.size(); ++i) {
+    for (const GapVerdict& row : result.cases[i].answer.verdicts) {
+      std::vector<Cell> cells = place_cells(result, i);
+      cells.emplace_back(in_centimetres(row.gap));
+      add_verdict_cells(row, cells);
+      table.rows.push_back(std::move(cells));
+    }
+  }
+  return table;
+}
+
+Table station_table(const ComparisonResult& result) {
+  Table table = table_by_variant("T max of every station, without reaction", result);
+  append(table.columns, {significant_column("gap", "cm", 6, "gap_cm"), named_text("station", "station"),
+                         number_column("T max", "K", 1, "heated_temperature_K")});
+  const std::vector<double>& gaps = result.study.study.gaps;
+  for (std::size_t i = 0; i < result.cases.size(); ++i) {
+    const auto& stations = result.cases[i].stations;
+    for (std::size_t gap = 0; gap < stations.size(); ++gap) {
+      for (const StationTemperature& each : stations[gap]) {
+        std::vector<Cell> cells = place_cells(result, i);
+        cells.emplace_back(in_centimetres(gaps[gap]));
+        cells.emplace_back(each.name);
+        cells.emplace_back(each.temperature);
+        table.rows.push_back(std::move(cells));
+      }
+    }
+  }
+  return table;
+}
+
+namespace {
+
+/// Stations side by side at the largest gap: a column for each variant and peak pressure.
+Table stations_side_by_side(const ComparisonResult& result) {
+  const std::vector<double>& gaps = result.study.study.gaps;
+  const auto gap = static_cast<std::size_t>(std::max_element(gaps.begin(), gaps.end()) - gaps.begin());
+  Table table;
+  table.title = "T max [K] by station at " + centimetres(gaps[gap]) + ", without reaction";
+  table.columns = {named_text("station", "station")};
+  std::vector<std::string> names;
+  for (const ComparedCase& each : result.cases) {
+    if (each.stations.empty()) continue;
+    for (const StationTemperature& station : each.stations[gap]) {
+      if (std::find(names.begin(), names.end(), station.name) == names.end()) names.push_back(station.name);
+    }
+  }
+  for (const std::string& name : names) table.rows.push_back({name});
+  for (std::size_t i = 0; i < result.cases.size(); ++i) {
+    // Peak pressures are compared in the files; here the first one of every variant.
+    if (result.counterpart(i) != 0) continue;
+    const ComparedCase& each = result.cases[i];
+    const std::string& variant = result.variants()[each.variant].name;
+    table.columns.push_back(number_column(variant, "", 1, variant));
+    for (std::size_t row = 0; row < names.size(); ++row) {
+      Cell cell;
+      for (const StationTemperature& station :
+           each.stations.empty() ? std::vector<StationTemperature>{} : each.stations[gap]) {
+        if (station.name == names[row]) cell = station.temperature;
+      }
+      table.rows[row].push_back(std::move(cell));
+    }
+  }
+  if (!result.study.study.axes.empty())
+    table.notes.emplace_back("Under the first peak pressure; stations.csv has the others.");
+  return table;
+}
+
+std::string json_of(const ComparisonResult& result) {
+  return json_file_text({{"kind", "comparison"},
+                         {"study", study_file_name(result.study)},
+                         {"title", result.study.study.title},
+                         {"answer", answer(result)},
+                         {"variants", to_json(comparison_table(result))["rows"]},
+                         {"verdicts", to_json(verdict_table(result))["rows"]},
+                         {"stations", to_json(station_table(result))["rows"]},
+                         {"timing", timing_json(result.timing)}});
+}
+
+}  // namespace
+
+Report report_of(const ComparisonResult& result) {
+  Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+  report.items = {ReportTable{comparison_table(result), "comparison.csv"},
+                  ReportTable{verdict_table(result), "verdicts.csv", Shown::file},
+                  ReportTable{station_table(result), "stations.csv", Shown::file}};
+  if (result.study.study.gaps.size() <= most_gaps)
+    report.items.push_back(ReportTable{.table = verdict_matrix(result), .rest = "verdicts.csv"});
+  report.items.push_back(
+      ReportTable{.table = stations_side_by_side(result), .shown = Shown::page, .rest = "stations.csv"});
+  report.items.push_back(Statement{"## Variants\n\n" + changes_text(result.variants())});
+  report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
+  report.items.push_back(Statement{uncertainty_remark(result.study) + "\n"});
+  report.items.push_back(Statement{station_note(result.study) + "\n"});
+  report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
+  report.items.push_back(Statement{timing_text(result.timing) + "\n"});
+  report.json = json_of(result);
+  return report;
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,116 @@
+// Variants of a scene side by side, on a launch in closed form.
+#include "launchsafe/kinds/comparison.hpp"
+
+#include "study/read_error.hpp"
+#include "study/synthetic_launch.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::kinds;
+using namespace launchsafe::study;
+
+const std::string comparison_start = "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\nname = \"own\"\n" +
+                                     synthetic_statements + "gaps = \"0, 0.02, 0.04 cm\"\n" +
+                                     "numerical_uncertainty = \"1 K\"\n";
+
+StudyFile comparison_of(const std::string& variants, const std::string& keys = {}) {
+  return study_of(comparison_start + keys + synthetic_constants + variants);
+}
+
+std::string variant(const std::string& name, const std::string& set) {
+  return "\n[[variant]]\nname = \"" + name + "\"\nset = { " + set + " }\n";
+}
+
+TEST(Comparison, TheSceneItselfComesFirstAndEveryVariantHasItsOwnScene) {
+  const StudyFile study = comparison_of(variant("coarse", "numerics.cell_size = \"2.5 mm\"") +
+                                        variant("film", "gap.air = \"film\""));
+  ASSERT_EQ(study.cases.size(), 3u);
+  EXPECT_EQ(study.cases[0].scene.scene.numerics.cell_size, study.scene.scene.numerics.cell_size);
+  EXPECT_EQ(study.cases[1].scene.scene.numerics.cell_size, 2.5e-3);
+  EXPECT_EQ(study.cases[2].scene.scene.surface.air_model, scene::AirModel::film);
+  EXPECT_TRUE(study.cases[1].label.starts_with("coarse: ")) << study.cases[1].label;
+}
+
+TEST(Comparison, EveryVariantIsRunUnderEveryPeakPressure) {
+  const StudyFile study = comparison_of(variant("coarse", "numerics.cell_size = \"2.5 mm\""),
+                                        "peak_pressures = \"450, 496 MPa\"\n");
+  ASSERT_EQ(study.cases.size(), 4u);
+  EXPECT_EQ(study.cases[2].peak_pressure, 450e6);
+  EXPECT_EQ(study.cases[3].peak_pressure, 496e6);
+  const ComparisonResult result = run_comparison(study, synthetic_options());
+  EXPECT_EQ(result.counterpart(3), 1u);
+  // The launch in closed form knows no cells: nothing is different but what the peak does.
+  EXPECT_EQ(result.cases[3].answer.critical.value, result.cases[1].answer.critical.value)
+      << result.cases[3].answer.critical.reason;
+  EXPECT_LT(result.cases[1].answer.critical.value, result.cases[0].answer.critical.value);
+}
+
+// What a study states of its mesh is of the scene's own numerics.
+TEST(Comparison, AStatedNumericalUncertaintyIsNotThatOfAVariantWithOtherNumerics) {
+  const StudyFile study = comparison_of(variant("coarse", "numerics.cell_size = \"2.5 mm\"") +
+                                        variant("dense", "charge.crack_radius = \"31 um\""));
+  EXPECT_EQ(study.cases[0].numerical_uncertainty, 1.0);
+  EXPECT_GE(study.cases[1].numerical_uncertainty, assumed_numerical_uncertainty);
+  EXPECT_EQ(study.cases[2].numerical_uncertainty, 1.0);
+  EXPECT_TRUE(study.study.numerical_uncertainty_assumed);
+}
+
+// The constants say nothing of another way to hold the charge, unless the variant itself says why they may.
+TEST(Comparison, AVariantOutsideTheCalibrationIsIndeterminateUntilItAcceptsThat) {
+  const std::string bonded = variant("bonded", "interface.wall.condition = \"bonded\"");
+  const auto verdicts = [](const std::string& text) {
+    return run_comparison(comparison_of(text), synthetic_options()).cases[1].answer.verdicts;
+  };
+  for (const GapVerdict& row : verdicts(bonded)) EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
+  const auto accepted = verdicts(bonded + "accept = [{ key = \"calibration\", because = \"of this variant alone\" }]\n");
+  EXPECT_EQ(accepted.back().judgement.verdict, Verdict::unsafe) << accepted.back().judgement.reason;
+  const auto foreign =
+      verdicts(bonded + variant("other", "gap.air = \"film\"") +
+               "accept = [{ key = \"calibration\", because = \"of the other variant alone\" }]\n");
+  EXPECT_EQ(foreign.back().judgement.verdict, Verdict::indeterminate);
+}
+
+TEST(Comparison, StationsAreComparedOnASkinThatDoesNotReact) {
+  const ComparisonResult result = run_comparison(
+      comparison_of(variant("coarse", "numerics.cell_size = \"2.5 mm\"")), synthetic_options());
+  const auto& stations = result.cases[0].stations;
+  ASSERT_EQ(stations.size(), 3u);
+  ASSERT_EQ(stations[2].size(), 3u) << "the observation point G1 is no station of its own";
+  // 0.04 cm ignites, and yet the second station, which friction heats most, is not as hot as a flame.
+  EXPECT_TRUE(result.cases[0].answer.verdicts[2].ignition.has_value());
+  EXPECT_GT(stations[2][1].temperature, stations[2][2].temperature);
+  EXPECT_LT(stations[2][1].temperature, 600.0);
+}
+
+TEST(Comparison, TheReportHoldsVariantsVerdictsAndStations) {
+  const ComparisonResult result = run_comparison(
+      comparison_of(variant("coarse", "numerics.cell_size = \"2.5 mm\"")), synthetic_options());
+  const auto json = nlohmann::json::parse(report_of(result).json);
+  EXPECT_EQ(json["kind"], "comparison");
+  EXPECT_EQ(json["variants"].size(), 2u);
+  EXPECT_EQ(json["verdicts"].size(), 6u);
+  EXPECT_EQ(json["stations"].size(), 2u * 3u * 3u);
+  EXPECT_EQ(json["variants"][1]["critical_gap_difference_cm"], 0.0);
+}
+
+TEST(Comparison, FaultsNameTheVariant) {
+  const auto fault = [](const std::string& text) {
+    const auto study = parse_here(comparison_start + text);
+    return study ? std::string("none") : study.error().message();
+  };
+  EXPECT_NE(fault("").find("variant: found no variant"), std::string::npos) << fault("");
+  const std::string unknown = fault(variant("a", "numerics.cell_sise = \"5 mm\""));
+  EXPECT_NE(unknown.find("variant.set.numerics.cell_sise"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("cell_size"), std::string::npos) << unknown;
+  const std::string twice = fault(variant("a", "gap.air = \"film\"") + variant("a", "gap.air = \"balance\""));
+  EXPECT_NE(twice.find("variant.name: found \"a\" a second time"), std::string::npos) << twice;
+  const std::string both =
+      fault("peak_pressures = \"450, 496 MPa\"\n" + variant("a", "load.peak = \"500 MPa\""));
+  EXPECT_NE(both.find("peak_pressures: found load.peak"), std::string::npos) << both;
+}
+
+}  // namespace
