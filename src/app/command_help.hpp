@@ -52,12 +52,6 @@ Examples:
 The report is the one that a single `launchsafe study` writes. Where runs are missing they are listed, and there
 is no report.)";
 
-inline constexpr const char* model_form_footer = R"(
-Examples:
-  launchsafe model-form reports/model_form/smooth_wall reports/model_form/bonded -o reports/model_form
-
-The record, model_form.json, is what studies name with model_form = "...".)";
-
 inline constexpr const char* emit_footer = R"(
 Examples:
   launchsafe emit slurm sweep.toml -o results --shards 20 --jobs 4 --memory 8GB

@@ -23,7 +23,6 @@ struct Parsed {
   StudyArguments study;
   MergeArguments merge;
   EmitArguments emit;
-  ModelFormArguments model_form;
   VerifyArguments verify;
   ExplainArguments explain;
 };
@@ -174,23 +173,6 @@ void add_emit(CLI::App& app, Parsed& parsed) {
   add_output_options(command, parsed);
 }
 
-void add_model_form(CLI::App& app, Parsed& parsed) {
-  ModelFormArguments& form = parsed.model_form;
-  CLI::App& command =
-      add_command(app, parsed, form, "model-form",
-                  "Compare the critical gaps of models, and record how far they move towards ignition",
-                  model_form_footer);
-  command
-      .add_option("models", form.folders,
-                  "Folders of models, the default first, each with the report of a calibration in "
-                  "calibration/ and that of its sweep over the peak pressure in sweep/")
-      ->required()
-      ->expected(2, 1000)
-      ->type_name("DIR");
-  add_folder(command, form.output, "Folder for table, picture and record")->required();
-  add_output_options(command, parsed);
-}
-
 void add_verify(CLI::App& app, Parsed& parsed) {
   CLI::App& command = add_command(app, parsed, parsed.verify, "verify",
                                   "Compare the program with closed-form solutions", verify_footer);
@@ -271,7 +253,6 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
   add_study(app, parsed);
   add_merge(app, parsed);
   add_emit(app, parsed);
-  add_model_form(app, parsed);
   add_verify(app, parsed);
   add_explain(app, parsed);
 

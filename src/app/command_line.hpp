@@ -19,7 +19,7 @@ struct UsageError {
 };
 
 using Request = std::variant<Information, UsageError, RunArguments, StudyArguments, MergeArguments,
-                             EmitArguments, ModelFormArguments, VerifyArguments, ExplainArguments>;
+                             EmitArguments, VerifyArguments, ExplainArguments>;
 
 struct CommandLine {
   Request request;

@@ -56,12 +56,6 @@ struct EmitArguments {
 };
 ExitCode perform(const EmitArguments& arguments, Console& console);
 
-struct ModelFormArguments {
-  std::vector<std::filesystem::path> folders;  ///< of models, the default first
-  std::filesystem::path output;                ///< folder of table, picture and record
-};
-ExitCode perform(const ModelFormArguments& arguments, Console& console);
-
 struct VerifyArguments {
   std::string filter;                           ///< part of a check's group or name, case ignored
   bool error_against_time = false;              ///< tabulate errors against processor time instead

@@ -47,6 +47,8 @@ std::vector<scene::Key<ComparisonSettings>> comparison_keys() {
       scene::text_key<ComparisonSettings>("name", scene::Standing::input,
                                           "What the scene without changes is called.",
                                           &ComparisonSettings::name),
+      scene::text_key<ComparisonSettings>("description", scene::Standing::input, "What that is, a phrase.",
+                                          &ComparisonSettings::description),
       scene::list_key<ComparisonSettings>(
           "peak_pressures", scene::Dimension::pressure, scene::above_to(0, 10e9), scene::Standing::assumed,
           "Peak chamber pressures, each a mechanical run of every variant; the scene's if absent.",
@@ -86,7 +88,8 @@ class VariantMaker {
         table_(source.root) {}
 
   Fault add_scene_itself() {
-    Variant variant{.name = settings_of<ComparisonSettings>(study_.study).name};
+    const auto& settings = settings_of<ComparisonSettings>(study_.study);
+    Variant variant{.name = settings.name, .description = settings.description};
     return add(std::move(variant), {}, {{"set", source_.root.get("set")}}, source_.root);
   }
 
@@ -193,6 +196,7 @@ class VariantMaker {
         variant.changes.push_back(key + " = " + value);
     }
     variant.first = study_.cases.size();
+    variant.scene = own.scene.scene;
     for (StudyCase& each : own.cases) {
       each.label = variant.name + ": " + each.label;
       each.own_conditions = each.own_conditions && variants().empty();
@@ -270,7 +274,12 @@ Kind comparison_kind() {
       .read = read_comparison,
       .make_cases = make_comparison_cases,
       .run = comparison_outcome,
-      .files = {{"comparison.csv"}, {"verdicts.csv"}, {"stations.csv"}},
+      .files = {{"comparison.csv"},
+                {"verdicts.csv"},
+                {"stations.csv"},
+                {"model_form.json"},
+                {"model_form.csv"},
+                {"model_form.svg"}},
   };
 }
 

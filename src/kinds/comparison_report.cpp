@@ -1,4 +1,5 @@
 // The answer, the tables and the page of a comparison.
+#include "comparison_model_form.hpp"
 #include "launchsafe/kinds/comparison.hpp"
 #include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
@@ -244,6 +245,7 @@ Report report_of(const ComparisonResult& result) {
     report.items.push_back(ReportTable{.table = verdict_matrix(result), .rest = "verdicts.csv"});
   report.items.push_back(
       ReportTable{.table = stations_side_by_side(result), .shown = Shown::page, .rest = "stations.csv"});
+  add_model_form(result, report);
   report.items.push_back(Statement{"## Variants\n\n" + changes_text(result.variants())});
   report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
   report.items.push_back(Statement{uncertainty_remark(result.study) + "\n"});

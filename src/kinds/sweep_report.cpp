@@ -159,8 +159,6 @@ Report report_of(const SweepResult& result) {
   Table noted = gaps;
   for (std::string& note : mesh_notes(result.study)) noted.notes.push_back(std::move(note));
   report.files.push_back({"critical_gaps.md", to_markdown(noted)});
-  if (const auto curve = critical_gap_curve(result))
-    report.files.push_back({"critical_gaps.json", study::to_json_text(*curve)});
   report.items = {ReportTable{.table = gaps, .csv = "critical_gaps.csv", .most_rows = most_rows},
                   ReportTable{verdict_table(result), "verdicts.csv", Shown::file},
                   ReportTable{cited_limit_table(result)}};

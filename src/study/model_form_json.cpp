@@ -1,4 +1,4 @@
-// Critical gaps of models and the record of model form as JSON, read with distrust.
+// The record of model form as JSON, read with distrust.
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/model_form.hpp"
 #include "launchsafe/study/record_reader.hpp"
@@ -12,7 +12,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* curve_format = "launchsafe critical gaps 1";
 constexpr const char* model_form_format = "launchsafe model form 1";
 constexpr const char* no_ignition_text = "none";
 constexpr double widest_critical_gap = 0.01;  ///< m
@@ -31,16 +30,6 @@ ordered_json json_of_gaps(const std::vector<GapOrBound>& gaps) {
   return list;
 }
 
-ordered_json content_of(const CriticalGapCurve& curve) {
-  return {{"format", curve_format},
-          {"title", curve.title},
-          {"model_version", curve.model_version},
-          {"scene", scene::to_toml(curve.scene)},
-          {"largest_gap_m", curve.largest_gap},
-          {"peak_pressures_Pa", curve.peak_pressures},
-          {"critical_gap_m", json_of_gaps(curve.critical_gap)}};
-}
-
 ordered_json content_of(const ModelFormRecord& record) {
   ordered_json alternatives = ordered_json::array();
   for (const ModelAlternative& each : record.alternatives) {
@@ -57,10 +46,9 @@ ordered_json content_of(const ModelFormRecord& record) {
           {"alternatives", std::move(alternatives)}};
 }
 
-template <class Record>
-std::vector<std::string> keys_of() {
+std::vector<std::string> keys_of_record() {
   std::vector<std::string> keys{"digest"};
-  const ordered_json content = content_of(Record{});
+  const ordered_json content = content_of(ModelFormRecord{});
   for (const auto& [key, value] : content.items()) keys.push_back(key);
   return keys;
 }
@@ -128,36 +116,14 @@ ModelAlternative alternative_from(const ordered_json& object, const std::string&
 
 }  // namespace
 
-std::string to_json_text(const CriticalGapCurve& curve) { return record_text(content_of(curve)); }
 std::string to_json_text(const ModelFormRecord& record) { return record_text(content_of(record)); }
-
-scene::Expected<CriticalGapCurve> parse_critical_gap_curve(const std::string& text, const std::string& file) {
-  RecordReader reader(file);
-  const auto object =
-      reader.parse(text, curve_format, "critical_gaps.json", "a sweep over the peak pressure");
-  if (!object) return *reader.fault();
-  CriticalGapCurve curve;
-  if (reader.has_keys(*object, "", keys_of<CriticalGapCurve>())) {
-    curve.title = reader.text((*object)["title"], "title");
-    curve.model_version = version_from(*object, reader);
-    curve.scene = scene_from(*object, reader);
-    curve.largest_gap =
-        reader.number((*object)["largest_gap_m"], "largest_gap_m", scene::above_to(0, widest_critical_gap));
-    curve.peak_pressures = pressures_from(*object, reader);
-    curve.critical_gap =
-        gaps_from((*object)["critical_gap_m"], "critical_gap_m", curve.peak_pressures.size(), reader);
-  }
-  if (!reader.fault()) reader.check_digest(*object, content_of(curve));
-  if (reader.fault()) return *reader.fault();
-  return curve;
-}
 
 scene::Expected<ModelFormRecord> parse_model_form(const std::string& text, const std::string& file) {
   RecordReader reader(file);
-  const auto object = reader.parse(text, model_form_format, "model_form.json", "the command model-form");
+  const auto object = reader.parse(text, model_form_format, "model_form.json", "a study of kind comparison");
   if (!object) return *reader.fault();
   ModelFormRecord record;
-  if (reader.has_keys(*object, "", keys_of<ModelFormRecord>())) {
+  if (reader.has_keys(*object, "", keys_of_record())) {
     record.model_version = version_from(*object, reader);
     record.scene = scene_from(*object, reader);
     record.peak_pressures = pressures_from(*object, reader);

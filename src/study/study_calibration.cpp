@@ -111,7 +111,7 @@ Fault read_model_form(StudyFile& study, const std::filesystem::path& folder) {
   const std::string file = (folder / name).string();
   const auto text = scene::read_text_file(file);
   if (!text)
-    return unreadable(study, "model_form", name, "the model_form.json of the command model-form",
+    return unreadable(study, "model_form", name, "the model_form.json of a comparison of calibrated models",
                       text.error());
   study.records.push_back(store::sha256(*text));
   auto record = parse_model_form(*text, file);

@@ -66,7 +66,8 @@ TEST(Comparison, AVariantOutsideTheCalibrationIsIndeterminateUntilItAcceptsThat)
     return run_comparison(comparison_of(text), synthetic_options()).cases[1].answer.verdicts;
   };
   for (const GapVerdict& row : verdicts(bonded)) EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
-  const auto accepted = verdicts(bonded + "accept = [{ key = \"calibration\", because = \"of this variant alone\" }]\n");
+  const auto accepted =
+      verdicts(bonded + "accept = [{ key = \"calibration\", because = \"of this variant alone\" }]\n");
   EXPECT_EQ(accepted.back().judgement.verdict, Verdict::unsafe) << accepted.back().judgement.reason;
   const auto foreign =
       verdicts(bonded + variant("other", "gap.air = \"film\"") +
@@ -95,6 +96,37 @@ TEST(Comparison, TheReportHoldsVariantsVerdictsAndStations) {
   EXPECT_EQ(json["verdicts"].size(), 6u);
   EXPECT_EQ(json["stations"].size(), 2u * 3u * 3u);
   EXPECT_EQ(json["variants"][1]["critical_gap_difference_cm"], 0.0);
+}
+
+// The table of other models that verdicts rest on is a comparison of calibrated models over the peak
+// pressure.
+TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
+  const auto calibrated = [](const std::string& model) {
+    return "calibration = \"../reports/model_form/" + model + "/calibration/calibration.json\"\n";
+  };
+  const std::string start =
+      "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\nname = \"own\"\n"
+      "gaps = \"0, 0.02 cm\"\npeak_pressures = \"496, 450 MPa\"\n"
+      "input_uncertainty = \"1 K\"\nmodel_form_uncertainty = \"1 K\"\n" +
+      calibrated("smooth_wall");
+  const std::string bonded =
+      variant("bonded", "interface.nose.condition = \"bonded\", interface.wall.condition = \"bonded\"");
+  const ComparisonResult result =
+      run_comparison(study_of(start + bonded + calibrated("bonded")), synthetic_options());
+  const auto files = report_of(result).files;
+  ASSERT_EQ(files.size(), 1u);
+  ASSERT_EQ(files[0].name, "model_form.json");
+  const auto record = parse_model_form(files[0].text, files[0].name);
+  ASSERT_TRUE(record) << record.error().message();
+  EXPECT_EQ(record->peak_pressures, (std::vector<double>{450e6, 496e6}));
+  ASSERT_EQ(record->alternatives.size(), 1u);
+  EXPECT_EQ(record->alternatives[0].critical_gap[1], result.cases[2].answer.critical.value);
+  const ComparisonResult without =
+      run_comparison(study_of(start + bonded +
+                              "accept = [{ key = \"calibration\", because = \"of this variant "
+                              "alone\" }]\n"),
+                     synthetic_options());
+  EXPECT_TRUE(report_of(without).files.empty());
 }
 
 TEST(Comparison, FaultsNameTheVariant) {

@@ -16,6 +16,7 @@ struct Variant {
   std::string name;
   std::string description;           ///< what it is, for people; may be empty
   std::vector<std::string> changes;  ///< "numerics.cell_size = 2.5 mm": what it has otherwise than the scene
+  scene::Scene scene;                ///< that its cases start from
   study::Study judged;               ///< the study with the constants of this variant
   std::size_t first = 0;             ///< of its cases, which follow each other in StudyFile::cases
   std::optional<study::CalibrationRecord> calibration;  ///< of the record that it names, or the study
@@ -24,6 +25,7 @@ struct Variant {
 /// What a study file of this kind says besides.
 struct ComparisonSettings {
   std::string name = "as in the scene";  ///< of the scene without changes
+  std::string description;               ///< what that is, for people; may be empty
   std::vector<double> peak_pressures;    ///< Pa; empty: the scene's
   std::vector<Variant> variants;         ///< the scene as it is, then those of the file
 };

@@ -3,11 +3,9 @@
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/model_form.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
 
-#include <optional>
 #include <vector>
 
 namespace launchsafe::kinds {
@@ -24,9 +22,6 @@ struct SweepResult {
 /// Runs a study of kind sweep. A case's failure is that case's row. Apart from the timing the result depends
 /// on the study alone, whatever was stored before.
 SweepResult run_sweep(const study::StudyFile& study, const study::StudyOptions& options = {});
-
-/// The critical gaps of a sweep over the peak pressure alone; nothing of another sweep or an interrupted one.
-std::optional<study::CriticalGapCurve> critical_gap_curve(const SweepResult& result);
 
 /// The row of the table of kinds.
 Kind sweep_kind();

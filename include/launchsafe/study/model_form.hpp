@@ -19,17 +19,15 @@ struct CalibrationRecord;
 using GapOrBound = double;
 inline constexpr GapOrBound no_ignition = std::numeric_limits<double>::infinity();
 
-/// The critical gaps of one model over the peak pressure, as a sweep found them.
+/// The critical gaps of one model over the peak pressure.
 struct CriticalGapCurve {
   std::string title;
   int model_version = 0;
-  scene::Scene scene;                    ///< of the sweep
+  scene::Scene scene;                    ///< of the model
   std::vector<double> peak_pressures;    ///< Pa, increasing
   std::vector<GapOrBound> critical_gap;  ///< m, for every pressure
   double largest_gap = 0;                ///< m, where the searches ended
 };
-std::string to_json_text(const CriticalGapCurve& curve);
-scene::Expected<CriticalGapCurve> parse_critical_gap_curve(const std::string& text, const std::string& file);
 
 /// A model beside the default one.
 struct ModelAlternative {

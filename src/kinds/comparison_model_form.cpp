@@ -1,17 +1,22 @@
-#include "launchsafe/report/model_form_report.hpp"
+#include "comparison_model_form.hpp"
 
 #include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/store/own_files.hpp"
-#include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/report/verdict_text.hpp"
+#include "launchsafe/run/model_version.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-namespace launchsafe::report {
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+
 namespace {
 
 using study::ModelFormEntry, study::ModelFormRecord;
@@ -54,8 +59,6 @@ std::string counts_for(const ModelFormRecord& record, const study::ModelAlternat
   if (pressures.empty()) return "no share: nowhere towards ignition by more than 0.0001 cm";
   return "a share: towards ignition at " + pressures + " MPa";
 }
-
-}  // namespace
 
 Table model_form_table(const ModelForm& form) {
   Table table;
@@ -138,28 +141,84 @@ Plot model_form_plot(const ModelForm& form) {
   return plot;
 }
 
-Report report_of(const ModelForm& form) {
-  Report report{
-      "Model form: the critical gap under other models",
-      "Every model is calibrated on the same published rows by the rule of `studies/model_form/README.md`, "
-      "and "
-      "its critical gap swept over the peak pressure. At the calibration's own pressure they therefore "
-      "agree; "
-      "what differs is how the critical gap moves. A model that ignites at smaller gaps than the default is "
-      "a "
-      "share of the uncertainty of every SAFE. One that ignites at larger gaps alone weakens no SAFE, and an "
-      "UNSAFE names it where it would not ignite. One without a calibration or without a limit of meshes "
-      "enters no share, and is named beside every verdict that it could change.",
-      form.command};
-  report.files.push_back({"model_form.json", study::to_json_text(form.record)});
-  report.items = {ReportTable{model_form_table(form), "model_form.csv"},
-                  Picture{"model_form.svg", model_form_plot(form), "critical gap by model"},
-                  ReportTable{.table = model_constants_table(form), .shown = Shown::page}};
-  return report;
+GapOrBound gap_or_bound(const CriticalGap& gap) {
+  switch (gap.kind) {
+    case CriticalGapKind::value:
+      return gap.value;
+    case CriticalGapKind::all_safe:
+      return no_ignition;
+    case CriticalGapKind::all_ignite:
+      return 0.0;
+    case CriticalGapKind::indeterminate:
+      return not_a_number;
+  }
+  return not_a_number;
 }
 
-std::vector<std::string> model_form_files() {
-  return {"model_form.json", "model_form.csv", "model_form.svg", "report.md"};
+/// The critical gaps of a variant over the peak pressure, which increases.
+CriticalGapCurve curve_of(const ComparisonResult& result, const Variant& variant) {
+  CriticalGapCurve curve;
+  curve.title = variant.description;
+  curve.model_version = run::model_version;
+  curve.scene = variant.scene;
+  curve.largest_gap = variant.judged.largest_gap;
+  const std::size_t count = variant.judged.axes.front().values.size();
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), variant.first);
+  const auto peak = [&](std::size_t i) { return result.study.cases[i].peak_pressure; };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return peak(a) < peak(b); });
+  for (const std::size_t i : order) {
+    curve.peak_pressures.push_back(peak(i));
+    curve.critical_gap.push_back(gap_or_bound(result.cases[i].answer.critical));
+  }
+  return curve;
 }
 
-}  // namespace launchsafe::report
+/// Whether the variants are models that were calibrated: all, or there is nothing to say of models.
+bool is_of_models(const ComparisonResult& result) {
+  const std::vector<Variant>& variants = result.variants();
+  return !result.study.study.axes.empty() &&
+         std::all_of(variants.begin(), variants.end(),
+                     [](const Variant& each) { return each.calibration.has_value(); });
+}
+
+constexpr const char* meaning =
+    "## Other models\n\nWhere every model is calibrated on the same published rows, all agree at the "
+    "calibration's "
+    "own pressure; what differs is how the critical gap moves. A model that ignites at smaller gaps than the "
+    "default "
+    "is a share of the uncertainty of every SAFE. One that ignites at larger gaps alone weakens no SAFE, and "
+    "an "
+    "UNSAFE names it where it would not ignite. One without a calibration or without a limit of meshes "
+    "enters no "
+    "share, and is named beside every verdict that it could change.\n";
+
+}  // namespace
+
+ModelFormOrReason model_form_of(const ComparisonResult& result) {
+  ModelForm form;
+  for (const Variant& each : result.variants()) {
+    form.curves.push_back(curve_of(result, each));
+    form.entries.push_back({each.name, &*each.calibration, &form.curves.back()});
+  }
+  ModelFormOrError made = make_model_form(form.entries);
+  if (!made.record) return {std::nullopt, std::move(made.error)};
+  form.record = std::move(*made.record);
+  return {std::move(form), {}};
+}
+
+void add_model_form(const ComparisonResult& result, Report& report) {
+  if (!is_of_models(result)) return;
+  const ModelFormOrReason made = model_form_of(result);
+  if (!made.form) {
+    report.items.push_back(Statement{"There is no record of other models: " + made.reason + ".\n"});
+    return;
+  }
+  report.files.push_back({"model_form.json", to_json_text(made.form->record)});
+  report.items.push_back(Statement{meaning});
+  report.items.push_back(ReportTable{model_form_table(*made.form), "model_form.csv"});
+  report.items.push_back(Picture{"model_form.svg", model_form_plot(*made.form), "critical gap by model"});
+  report.items.push_back(ReportTable{.table = model_constants_table(*made.form), .shown = Shown::page});
+}
+
+}  // namespace launchsafe::kinds
