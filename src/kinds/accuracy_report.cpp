@@ -19,8 +19,6 @@ using namespace study;
 using namespace report;
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 const AccuracyRow* baseline_of(const AccuracyResult& result) {
   const auto found = std::find_if(result.rows.begin(), result.rows.end(),
                                   [](const AccuracyRow& row) { return row.baseline && row.sound(); });
@@ -199,18 +197,6 @@ std::string unjudged(const AccuracyResult& result) {
                                      : "There is no reference: " + result.no_reference + ".";
 }
 
-Json json_of(const ReferenceValue& value, double scale) {
-  Json values = Json::array();
-  for (const double each : value.values) values.push_back(number(scale * each));
-  return {{"values", std::move(values)},
-          {"justified", value.limit.justified},
-          {"reason", value.limit.reason},
-          {"method", value.limit.method},
-          {"order", number(value.limit.order)},
-          {"limit", number(scale * value.limit.value)},
-          {"uncertainty", number(scale * value.limit.uncertainty)}};
-}
-
 }  // namespace
 
 std::string answer(const AccuracyResult& result) {
@@ -237,44 +223,20 @@ std::string summary(const AccuracyResult& result) {
   return text;
 }
 
-Json to_json(const AccuracyResult& result) {
-  Json json{{"kind", "accuracy"},
-            {"study", study_file_name(result.study)},
-            {"title", result.study.study.title},
-            {"answer", answer(result)},
-            {"reference", nullptr},
-            {"settings", to_json(setting_table(result))},
-            {"times", to_json(time_table(result))},
-            {"points", to_json(point_table(result))},
-            {"timing", timing_json(result.timing)}};
-  if (!result.reference) return json;
-  Json temperatures = Json::array();
-  for (std::size_t gap = 0; gap < result.study.study.gaps.size(); ++gap) {
-    Json each = json_of(result.reference->temperature[gap], 1.0);
-    each["gap_cm"] = number(100.0 * result.study.study.gaps[gap]);
-    each["without_reaction"] = bool(result.reference->inert[gap]);
-    temperatures.push_back(std::move(each));
-  }
-  json["reference"] = {{"T_max_K", std::move(temperatures)},
-                       {"critical_gap_cm", json_of(result.reference->critical_gap, 100.0)},
-                       {"peak_pressure_MPa", json_of(result.reference->peak_pressure, 1e-6)}};
-  return json;
-}
-
 Report report_of(const AccuracyResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
   report.files.push_back({"summary.md", summary(result)});
   if (result.reference) report.files.push_back({"accuracy.json", study::to_json_text(result.record)});
   report.items = {
       Picture{"error_against_time.svg", error_plot(result), "error against run time"},
-      ReportTable{setting_table(result), "accuracy.csv"},
-      ReportTable{reference_table(result), "reference.csv"},
-      ReportTable{time_table(result), "times.csv"},
-      ReportTable{point_table(result), "points.csv"},
+      ReportTable{setting_table(result), "accuracy.csv", "settings"},
+      ReportTable{reference_table(result), "reference.csv", "reference"},
+      ReportTable{time_table(result), "times.csv", "times"},
+      ReportTable{point_table(result), "points.csv", "points"},
       Statement{"## Setup\n\n" + setup_text(result.study)},
       Statement{timing_text(result.timing) + "\n"},
   };
-  report.json = json_file_text(to_json(result));
+  report.json = study_json(result.study, report, {{"timing", timing_json(result.timing)}});
   return report;
 }
 

@@ -1,7 +1,7 @@
 // The tables and the picture of an accuracy study.
 #include "launchsafe/kinds/accuracy_report.hpp"
-#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 
@@ -124,21 +124,20 @@ Table setting_table(const AccuracyResult& result) {
                    significant_column("particle steps", "", 3, "particle_steps"),
                    number_column("memory", "MB", 1, "memory_MB")};
   for (const double gap : study.gaps) {
-    table.columns.push_back(
-        number_column("T error at " + gap_text(gap) + " cm", "K", 2, "T_error_" + gap_text(gap) + "_cm_K"));
+    table.columns.push_back(number_column("T error at " + gap_text(gap) + " cm", "K", 2,
+                                          "temperature_error_" + gap_text(gap) + "_cm_K"));
   }
-  append(table.columns, {number_column("T bound", "K", 2, "T_bound_K"),
-                         significant_column("critical gap", "cm", 4, "critical_gap_cm"),
+  append(table.columns, {number_column("T bound", "K", 2, "temperature_bound_K"), quantity::critical_gap(),
                          significant_column("its error", "cm", 2, "critical_gap_error_cm"),
                          significant_column("its bound", "cm", 2, "critical_gap_bound_cm"),
                          number_column("p(t)", "%", 2, "bottom_pressure_error_percent"),
-                         number_column("p peak", "%", 2, "bottom_peak_error_percent")});
+                         number_column("p peak", "%", 2, "bottom_pressure_peak_error_percent")});
   for (std::size_t gap = 0; gap < study.gaps.size(); ++gap) {
     if (has_ignition_time(result, gap))
       table.columns.push_back(number_column("ignition at " + gap_text(study.gaps[gap]) + " cm", "ms", 3,
-                                            "ignition_error_" + gap_text(study.gaps[gap]) + "_cm_ms"));
+                                            "ignition_time_error_" + gap_text(study.gaps[gap]) + "_cm_ms"));
   }
-  table.columns.push_back(significant_column("energy drift", "%", 2, "energy_drift_percent"));
+  table.columns.push_back(quantity::energy_drift());
   table.columns.push_back(named_text("remark", "remark"));
   for (const AccuracyRow& row : result.rows) {
     const AccuracyMeasurement& m = row.measured;
@@ -154,7 +153,7 @@ Table setting_table(const AccuracyResult& result) {
       if (has_ignition_time(result, gap))
         cells.push_back(row.computed() ? optional_number(1e3 * row.ignition_time_error[gap]) : Cell());
     }
-    cells.push_back(optional_number(100.0 * m.energy_drift));
+    cells.push_back(optional_number(m.energy_drift));
     cells.emplace_back(remark_of(row));
     table.rows.push_back(std::move(cells));
   }
@@ -174,7 +173,7 @@ Table time_table(const AccuracyResult& result) {
   table.columns = {named_text("setting", "setting")};
   for (const double time : settings_of<AccuracySettings>(study).times) {
     table.columns.push_back(number_column(fmt::format("{:.6g} ms", 1e3 * time), "K", 2,
-                                          fmt::format("error_{:.6g}_ms_K", 1e3 * time)));
+                                          fmt::format("temperature_error_{:.6g}_ms_K", 1e3 * time)));
   }
   table.columns.push_back(named_text("remark", "remark"));
   if (settings_of<AccuracySettings>(study).times.empty()) return table;

@@ -1,8 +1,9 @@
-// Tables, page, JSON and files of a calibration.
+// Tables, page and files of a calibration.
 #include "launchsafe/kinds/calibration_report.hpp"
 
-#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
+#include "launchsafe/report/run_table.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 
@@ -18,10 +19,6 @@ using namespace report;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Column six_digits(std::string name, std::string unit, std::string key) {
-  return significant_column(std::move(name), std::move(unit), 6, std::move(key));
-}
 
 std::string remark_of(const CalibrationRow& row) {
   if (!row.failure.empty()) return row.failure;
@@ -44,18 +41,20 @@ std::string bracket_check(const study::Study& study, const CalibrationRow& row) 
 Table calibration_table(const CalibrationResult& result) {
   Table table;
   table.title = "Calibrated constants, and how far they miss what they were not fitted to";
-  table.columns = {six_digits("cell", "mm", "cell_size_mm"),
-                   text_column("closure"),
-                   text_column("kinetics"),
-                   six_digits("localisation", "", "localisation"),
-                   six_digits("exchange time", "ms", "exchange_time_ms"),
-                   number_column("T1", "K", 2, "ignition_temperature_K"),
+  table.columns = {quantity::cell_size(),
+                   quantity::closure(),
+                   quantity::kinetics(),
+                   quantity::localisation(),
+                   quantity::exchange_time(),
+                   quantity::ignition_temperature(),
                    number_column("T1 from", "K", 2, "ignition_lowest_K"),
                    number_column("to", "K", 2, "ignition_highest_K"),
                    text_column("published bracket"),
+                   for_programs(number_column("without gap", "K", 2, "zero_gap_computed_minus_published_K")),
+                   for_programs(number_column("wide gap", "K", 2, "wide_gap_computed_minus_published_K")),
                    number_column("RMS", "K", 2, "rms_K"),
                    number_column("RMS of spreads", "K", 2, "spread_rms_K"),
-                   number_column("RMS of selection", "K", 2, "selection_rms_K"),
+                   quantity::selection_rms(),
                    text_column("remark")};
   for (const CalibrationRow& row : result.rows) {
     const CalibratedConstants& fitted = row.calibrated;
@@ -64,7 +63,8 @@ Table calibration_table(const CalibrationResult& result) {
                           optional_number(1e3 * fitted.constants.exchange_time),
                           optional_number(fitted.constants.ignition_temperature),
                           optional_number(fitted.ignition_lowest), optional_number(fitted.ignition_highest),
-                          bracket_check(result.study.study, row), optional_number(row.root_mean_square),
+                          bracket_check(result.study.study, row), optional_number(fitted.zero_gap_misfit),
+                          optional_number(fitted.wide_gap_misfit), optional_number(row.root_mean_square),
                           optional_number(row.spread_root_mean_square),
                           optional_number(row.selection_root_mean_square), remark_of(row)});
   }
@@ -80,12 +80,12 @@ Table hold_out_table(const CalibrationResult& result, const CalibrationRow& row)
   table.title = fmt::format("Against the published results: {} mm, {}, {}",
                             significant(1e3 * row.cell_size, 6), study::to_string(row.closure), row.kinetics);
   table.columns = {text_column("quantity"),
-                   six_digits("gap", "cm", "gap_cm"),
+                   quantity::gap(),
                    number_column("predicted", "", 2, "predicted"),
                    number_column("published", "", 2, "published"),
                    number_column("computed - published", "", 2, "computed_minus_published"),
                    text_column("unit"),
-                   text_column("used for")};
+                   quantity::used_for()};
   for (const HoldOut& each : row.hold_outs) {
     const double scale = each.in_seconds ? 1e3 : 1.0;
     table.rows.push_back({each.quantity, 100.0 * each.gap, optional_number(scale * each.predicted),
@@ -120,7 +120,7 @@ Table selection_table(const CalibrationResult& result) {
 Table convergence_table(const CalibrationResult& result) {
   Table table;
   table.title = "From the coarsest to the finest mesh";
-  table.columns = {text_column("closure"), text_column("kinetics"),
+  table.columns = {quantity::closure(), quantity::kinetics(),
                    number_column("localisation", "%", 1, "localisation_change_percent"),
                    number_column("exchange time", "%", 1, "exchange_time_change_percent")};
   for (const Convergence& each : result.convergence) {
@@ -203,64 +203,62 @@ std::string load_and_stations_text(const CalibrationResult& result) {
   return text;
 }
 
-}  // namespace
-
-namespace {
-
-Json json_of(const CalibrationRow& row, const study::Study& study) {
-  Json json{{"cell_size_mm", number(1e3 * row.cell_size)},
-            {"closure", study::to_string(row.closure)},
-            {"kinetics", row.kinetics},
-            {"calibratable", row.calibratable},
-            {"localisation", number(row.calibrated.constants.localisation)},
-            {"exchange_time_s", number(row.calibrated.constants.exchange_time)},
-            {"ignition_temperature_K", number(row.calibrated.constants.ignition_temperature)},
-            {"ignition_lowest_K", number(row.calibrated.ignition_lowest)},
-            {"ignition_highest_K", number(row.calibrated.ignition_highest)},
-            {"published_bracket", bracket_check(study, row)},
-            {"zero_gap_computed_minus_published_K", number(row.calibrated.zero_gap_misfit)},
-            {"wide_gap_computed_minus_published_K", number(row.calibrated.wide_gap_misfit)},
-            {"rms_K", number(row.root_mean_square)},
-            {"spread_rms_K", number(row.spread_root_mean_square)},
-            {"selection_rms_K", number(row.selection_root_mean_square)},
-            {"reason", remark_of(row)},
-            {"hold_outs", Json::array()},
-            {"placements", Json::array()}};
-  for (const HoldOut& each : row.hold_outs) {
-    json["hold_outs"].push_back({{"quantity", each.quantity},
-                                 {"gap_cm", number(100.0 * each.gap)},
-                                 {"unit", each.in_seconds ? "s" : "K"},
-                                 {"predicted", number(each.predicted)},
-                                 {"published", number(each.published)},
-                                 {"computed_minus_published", number(each.misfit())},
-                                 {"used_for", study::to_string(each.use)}});
-  }
-  for (const Placement& each : row.placements) {
-    json["placements"].push_back({{"quantity", each.quantity},
-                                  {"gap_cm", number(100.0 * each.gap)},
-                                  {"predicted", each.predicted},
-                                  {"published", each.published}});
-  }
-  return json;
-}
-
 Json recommendation_json(const CalibrationResult& result) {
   Json json{{"reason", result.recommendation.reason}, {"row", nullptr}};
   if (result.recommendation.row) json["row"] = *result.recommendation.row;
   return json;
 }
 
+Json in_scene_json(const CalibrationResult& result) {
+  return {{"closure", study::to_string(result.study.scene.scene.surface.friction)},
+          {"localisation", number(result.in_scene.localisation)},
+          {"exchange_time_ms", number(1e3 * result.in_scene.exchange_time)},
+          {"ignition_temperature_K", number(result.in_scene.ignition_temperature)}};
+}
+
+Json load_json(const CalibrationResult& result) {
+  if (!result.load) return nullptr;
+  const FittedLoad& load = *result.load;
+  return {{"peak_time_ms", number(1e3 * load.peak_time)},
+          {"exponent", number(load.exponent)},
+          {"rises_fast_from_ms", number(1e3 * load.turning.fast)},
+          {"rises_fast_until_ms", number(1e3 * load.turning.slow)},
+          {"early_computed_minus_published_K", number(load.early_misfit)},
+          {"reason", load.failure}};
+}
+
+Json stations_json(const study::StationConvergence& stations) {
+  return {{"change_to_finer_K", number(stations.finer)},
+          {"change_from_coarser_K", number(stations.coarser)},
+          {"converge", stations.converges()}};
+}
+
 Table run_table(const CalibrationResult& result) {
+  std::vector<NamedRun> runs;
+  for (const CalibrationRun& run : result.runs)
+    runs.push_back({run.input.label, run.failure, &run.mechanics, {}});
+  return report::run_table(runs);
+}
+
+/// The columns and cells that tell one calibration from another.
+std::vector<Column> row_columns() {
+  return {quantity::cell_size(), quantity::closure(), quantity::kinetics()};
+}
+std::vector<Cell> row_cells(const CalibrationRow& row) {
+  return {1e3 * row.cell_size, study::to_string(row.closure), row.kinetics};
+}
+
+/// Where maxima were predicted and published, of all rows.
+Table placement_table(const CalibrationResult& result) {
   Table table;
-  table.title = "Runs";
-  table.columns = {text_column("mesh"), text_column("status"), scientific_column("energy drift", "", 1, {}),
-                   scientific_column("updates", "1/s", 2, {}),
-                   text_column("limiters that acted (particle steps)")};
-  for (const CalibrationRun& run : result.runs) {
-    table.rows.push_back({run.input.label, run.failure.empty() ? "completed" : run.failure,
-                          optional_number(run::largest_energy_drift(run.mechanics)),
-                          optional_number(run.mechanics.update_rate()),
-                          limiters_text(run.mechanics.limiters)});
+  table.columns = row_columns();
+  append(table.columns,
+         {text_column("quantity"), quantity::gap(), text_column("predicted"), text_column("published")});
+  for (const CalibrationRow& row : result.rows) {
+    for (const Placement& each : row.placements) {
+      std::vector<Cell>& cells = table.rows.emplace_back(row_cells(row));
+      cells.insert(cells.end(), {each.quantity, 100.0 * each.gap, each.predicted, each.published});
+    }
   }
   return table;
 }
@@ -271,14 +269,12 @@ Table all_hold_outs(const CalibrationResult& result) {
   for (const CalibrationRow& row : result.rows) {
     const Table one = hold_out_table(result, row);
     if (table.columns.empty()) {
-      table.columns = {six_digits("cell", "mm", "cell_size_mm"), text_column("closure"),
-                       text_column("kinetics")};
-      table.columns.insert(table.columns.end(), one.columns.begin(), one.columns.end());
+      table.columns = row_columns();
+      append(table.columns, one.columns);
     }
     for (const std::vector<Cell>& cells : one.rows) {
-      std::vector<Cell> extended{1e3 * row.cell_size, study::to_string(row.closure), row.kinetics};
+      std::vector<Cell>& extended = table.rows.emplace_back(row_cells(row));
       extended.insert(extended.end(), cells.begin(), cells.end());
-      table.rows.push_back(std::move(extended));
     }
   }
   return table;
@@ -286,56 +282,32 @@ Table all_hold_outs(const CalibrationResult& result) {
 
 }  // namespace
 
-Json to_json(const CalibrationResult& result) {
-  Json json{{"kind", "calibration"},
-            {"study", study_file_name(result.study)},
-            {"title", result.study.study.title},
-            {"answer", answer(result)},
-            {"calibrations", Json::array()},
-            {"convergence", to_json(convergence_table(result))["rows"]},
-            {"recommendation", recommendation_json(result)},
-            {"in_scene",
-             {{"closure", study::to_string(result.study.scene.scene.surface.friction)},
-              {"localisation", number(result.in_scene.localisation)},
-              {"exchange_time_s", number(result.in_scene.exchange_time)},
-              {"ignition_temperature_K", number(result.in_scene.ignition_temperature)}}},
-            {"timing", timing_json(result.timing)}};
-  if (result.load) {
-    json["load"] = {{"peak_time_s", number(result.load->peak_time)},
-                    {"exponent", number(result.load->exponent)},
-                    {"rises_fast_from_s", number(result.load->turning.fast)},
-                    {"rises_fast_until_s", number(result.load->turning.slow)},
-                    {"early_computed_minus_published_K", number(result.load->early_misfit)},
-                    {"reason", result.load->failure}};
-  }
-  json["stations"] = {{"change_to_finer_K", number(result.stations.finer)},
-                      {"change_from_coarser_K", number(result.stations.coarser)},
-                      {"converge", result.stations.converges()}};
-  for (const CalibrationRow& row : result.rows)
-    json["calibrations"].push_back(json_of(row, result.study.study));
-  return json;
-}
-
 Report report_of(const CalibrationResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
   if (const auto record = record_of(result))
     report.files.push_back({"calibration.json", study::to_json_text(*record)});
   report.items.push_back(Statement{load_and_stations_text(result)});
-  report.items.push_back(ReportTable{constants_table(result)});
-  report.items.push_back(ReportTable{calibration_table(result), "calibration.csv"});
+  report.items.push_back(ReportTable{constants_table(result), "", "constants"});
+  report.items.push_back(ReportTable{calibration_table(result), "calibration.csv", "calibrations"});
   Table selection = selection_table(result);
   if (selection.rows.size() < 2) selection.rows.clear();
-  report.items.push_back(ReportTable{.table = std::move(selection), .shown = Shown::page});
-  report.items.push_back(ReportTable{convergence_table(result)});
+  report.items.push_back(ReportTable{std::move(selection), "", "selection", Shown::page});
+  report.items.push_back(ReportTable{convergence_table(result), "", "convergence"});
   for (std::size_t row = 0; row < result.rows.size(); ++row) {
     const Shown shown = result.recommendation.row == row ? Shown::page_and_terminal : Shown::page;
     report.items.push_back(ReportTable{.table = hold_out_table(result, result.rows[row]), .shown = shown});
   }
-  report.items.push_back(ReportTable{all_hold_outs(result), "hold_outs.csv", Shown::file});
+  report.items.push_back(ReportTable{all_hold_outs(result), "hold_outs.csv", "hold_outs", Shown::file});
+  report.items.push_back(ReportTable{placement_table(result), "", "placements", Shown::file});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
-  report.items.push_back(ReportTable{.table = run_table(result), .shown = Shown::page});
+  report.items.push_back(ReportTable{run_table(result), "", "runs", Shown::page});
   report.items.push_back(Statement{timing_text(result.timing) + "\n"});
-  report.json = json_file_text(to_json(result));
+  report.json = study_json(result.study, report,
+                           {{"recommendation", recommendation_json(result)},
+                            {"in_scene", in_scene_json(result)},
+                            {"load", load_json(result)},
+                            {"stations", stations_json(result.stations)},
+                            {"timing", timing_json(result.timing)}});
   return report;
 }
 

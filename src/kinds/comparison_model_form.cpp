@@ -1,7 +1,7 @@
 #include "comparison_model_form.hpp"
 
-#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/run/model_version.hpp"
@@ -65,7 +65,8 @@ Table model_form_table(const ModelForm& form) {
   table.title = "Critical gap [cm] by model and peak pressure";
   table.columns = {text_column("model"), text_column("what it is")};
   for (const double pressure : form.record.peak_pressures)
-    table.columns.push_back(text_column(megapascals(pressure) + " MPa"));
+    table.columns.push_back(
+        named_text(megapascals(pressure) + " MPa", "critical_gap_at_" + megapascals(pressure) + "_MPa"));
   table.columns.push_back(text_column("counts as"));
   for (const ModelFormEntry& each : form.entries) {
     std::vector<Cell> cells{each.name, each.curve->title};
@@ -92,8 +93,8 @@ Table model_constants_table(const ModelForm& form) {
   table.columns = {text_column("model"),
                    significant_column("peak time", "ms", 6, "peak_time_ms"),
                    significant_column("exponent", "", 6, "exponent"),
-                   significant_column("localisation", "", 6, "localisation"),
-                   significant_column("exchange time", "ms", 6, "exchange_time_ms"),
+                   quantity::localisation(),
+                   quantity::exchange_time(),
                    significant_column("T1", "K", 6, "ignition_temperature_K"),
                    significant_column("RMS of selection", "K", 4, "selection_rms_K"),
                    significant_column("largest computed - published, held out", "K", 3,

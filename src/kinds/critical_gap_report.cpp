@@ -121,6 +121,12 @@ std::string limiter_remark(const CriticalGapResult& result) {
   return text;
 }
 
+/// The row of the only case; null where there are several, each with its own critical gap.
+nlohmann::ordered_json only_critical_gap(const CriticalGapResult& result) {
+  if (result.cases.size() != 1) return nullptr;
+  return to_json(critical_gap_table(result))["rows"].front();
+}
+
 }  // namespace
 
 std::string answer(const CriticalGapResult& result) {
@@ -179,14 +185,16 @@ Report report_of(const CriticalGapResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
   const Table verdicts = verdict_table(result);
   report.files.push_back({"verdicts.md", to_markdown(verdicts)});
-  report.items = {ReportTable{verdicts, "verdicts.csv"},
+  report.items = {ReportTable{verdicts, "verdicts.csv", "verdicts"},
                   Picture{"temperature.svg", temperature_plot(result), "T max against gap"},
-                  ReportTable{comparison_table(result)},
-                  ReportTable{critical_gap_table(result)},
-                  ReportTable{cited_limit_table(result)},
-                  ReportTable{air_model_table(result)},
-                  ReportTable{air_energy_table(result)}};
-  for (const CaseOutcome& outcome : result.cases) report.items.push_back(ReportTable{fit_table(outcome)});
+                  ReportTable{comparison_table(result), "", "comparison"},
+                  ReportTable{critical_gap_table(result), "", "cases"},
+                  ReportTable{coupled_run_table(result), "", "coupled_runs", Shown::file},
+                  ReportTable{cited_limit_table(result), "", "cited_limits"},
+                  ReportTable{air_model_table(result), "", "air_models"},
+                  ReportTable{air_energy_table(result), "", "air_energy"}};
+  for (const CaseOutcome& outcome : result.cases)
+    report.items.push_back(ReportTable{fit_table(outcome), "", "fit"});
   report.items.push_back(Statement{undecided_text(result)});
   report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
   report.items.push_back(Statement{uncertainty_text(result)});
@@ -197,9 +205,12 @@ Report report_of(const CriticalGapResult& result) {
     if (result.cases.size() > 1) faces.title += ", " + outcome.input.label;
     report.items.push_back(ReportTable{.table = std::move(faces), .shown = Shown::page});
   }
-  report.items.push_back(ReportTable{run_table(result)});
+  report.items.push_back(ReportTable{run_table(result), "", "runs"});
   report.items.push_back(Statement{timing_text(result.timing) + "\n"});
-  report.json = json_file_text(to_json(result));
+  report.json = study_json(result.study, report,
+                           {{"critical_gap", only_critical_gap(result)},
+                            {"early_time_ms", 1e3 * result.study.study.early_time},
+                            {"timing", timing_json(result.timing)}});
   return report;
 }
 

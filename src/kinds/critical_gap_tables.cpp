@@ -2,7 +2,8 @@
 #include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/kinds/critical_gap_report.hpp"
 #include "launchsafe/report/air_energy_table.hpp"
-#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/quantities.hpp"
+#include "launchsafe/report/run_table.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 
@@ -18,31 +19,67 @@ using namespace report;
 namespace {
 
 /// What the published temperature at the early time was used for.
-std::string early_used_for(const study::Reference& paper) {
+std::string early_used_for(const study::Reference& published) {
   using enum study::Use;
-  if (!std::isfinite(paper.early_temperature)) return {};
-  return to_string(paper.early_calibrated ? calibration : paper.selection ? selection : held_out);
+  if (!std::isfinite(published.early_temperature)) return {};
+  return to_string(published.early_calibrated ? calibration : published.selection ? selection : held_out);
 }
 
 /// Computed minus published (K) of a calibrated row above which the scene's constants are not those of its
 /// calibration.
 constexpr double calibration_slack = 0.5;
 
+std::vector<Column> comparison_columns(double early_time) {
+  using namespace quantity;
+  const std::string early = early_text(early_time);
+  return {gap(),
+          used_for(),
+          temperature_max(),
+          number_column("published", "K", 1, "temperature_max_published_K"),
+          computed_minus_published("temperature_max_computed_minus_published_K"),
+          temperature_max_place(),
+          named_text("published at", "temperature_max_published_place"),
+          named_text("used for at " + early, "temperature_early_used_for"),
+          temperature_early(early_time),
+          number_column("published", "K", 1, "temperature_early_published_K"),
+          computed_minus_published("temperature_early_computed_minus_published_K"),
+          temperature_early_place(),
+          named_text("published at", "temperature_early_published_place"),
+          ignition_time(),
+          number_column("published", "ms", 2, "ignition_time_published_ms")};
+}
+
+std::vector<Cell> comparison_cells(const GapVerdict& row, const study::Reference& published) {
+  return {100.0 * row.gap,
+          used_for(published),
+          row.maximum.temperature,
+          optional_number(published.maximum_temperature),
+          optional_number(row.misfit()),
+          row.maximum.point,
+          published.point,
+          early_used_for(published),
+          row.early.temperature,
+          optional_number(published.early_temperature),
+          optional_number(row.early_misfit()),
+          row.early.point,
+          published.early_point,
+          row.ignition ? optional_number(1e3 * row.ignition->time) : Cell(),
+          optional_number(1e3 * published.ignition_time)};
+}
+
 }  // namespace
 
 Table verdict_table(const CriticalGapResult& result) {
   Table table;
   table.title = "Verdicts";
-  table.columns = {significant_column("gap", "cm", 6, "gap_cm"),
-                   significant_column("p max", "MPa", 6, "peak_pressure_MPa"),
-                   significant_column("c(0)", "um", 6, "crack_radius_um"),
-                   significant_column("a", "mm", 6, "flaw_size_mm")};
-  for (Column& column : verdict_columns(result.study.study)) table.columns.push_back(std::move(column));
+  table.columns = {quantity::gap(), quantity::peak_pressure(), quantity::crack_radius(),
+                   quantity::flaw_size()};
+  append(table.columns, verdict_columns(result.study.study));
   for (const CaseOutcome& outcome : result.cases) {
     for (const GapVerdict& row : outcome.verdicts) {
       std::vector<Cell> cells{100.0 * row.gap, 1e-6 * outcome.input.peak_pressure,
                               1e6 * outcome.input.crack_radius, 1e3 * outcome.input.flaw_size};
-      add_verdict_cells(row, cells);
+      add_verdict_cells(row, row.heated, cells);
       table.rows.push_back(std::move(cells));
     }
   }
@@ -53,39 +90,17 @@ Table verdict_table(const CriticalGapResult& result) {
 
 Table comparison_table(const CriticalGapResult& result) {
   Table table;
-  const std::string early = fmt::format("{:.6g} ms", 1e3 * result.study.study.early_time);
   table.title = "Against the published results";
-  table.columns = {significant_column("gap", "cm", 6, "gap_cm"),
-                   named_text("used for", "used_for"),
-                   number_column("T max", "K", 1, "T_max_K"),
-                   number_column("paper", "K", 1, "paper_K"),
-                   number_column("computed - published", "K", 1, "computed_minus_published_K"),
-                   named_text("at", "at"),
-                   named_text("paper at", "paper_at"),
-                   named_text("used for at " + early, "used_for_10ms"),
-                   number_column("T at " + early, "K", 1, "T_max_10ms_K"),
-                   number_column("paper", "K", 1, "paper_10ms_K"),
-                   number_column("computed - published", "K", 1, "computed_minus_published_10ms_K"),
-                   named_text("at", "at_10ms"),
-                   named_text("paper at", "paper_at_10ms"),
-                   number_column("ignition", "ms", 2, "ignition_ms"),
-                   number_column("paper", "ms", 2, "paper_ignition_ms")};
+  table.columns = comparison_columns(result.study.study.early_time);
   bool ignited = false;
   double worst = 0;  // |computed - published| of a calibrated row, K
   for (const CaseOutcome& outcome : result.cases) {
     for (const GapVerdict& row : outcome.verdicts) {
       if (!row.reference) continue;
-      const study::Reference& paper = *row.reference;
-      ignited = ignited || paper.ignited() || row.ignition;
-      if (paper.calibrated)
+      ignited = ignited || row.reference->ignited() || row.ignition;
+      if (row.reference->calibrated)
         worst = std::max(worst, std::isfinite(row.misfit()) ? std::abs(row.misfit()) : HUGE_VAL);
-      table.rows.push_back({100.0 * row.gap, used_for(paper), row.maximum.temperature,
-                            optional_number(paper.maximum_temperature), optional_number(row.misfit()),
-                            row.maximum.point, paper.point, early_used_for(paper), row.early.temperature,
-                            optional_number(paper.early_temperature), optional_number(row.early_misfit()),
-                            row.early.point, paper.early_point,
-                            row.ignition ? optional_number(1e3 * row.ignition->time) : Cell(),
-                            optional_number(1e3 * paper.ignition_time)});
+      table.rows.push_back(comparison_cells(row, *row.reference));
     }
   }
   table.notes.push_back(
@@ -111,13 +126,17 @@ Table comparison_table(const CriticalGapResult& result) {
 
 namespace {
 
+std::string ignition_word(bool ignites) { return ignites ? "ignites" : "does not ignite"; }
+
+std::string outcome_word(const Confirmation& each) {
+  return each.completed ? ignition_word(each.ignited) : "failed";
+}
+
 std::string confirmation_text(const CaseOutcome& outcome) {
   if (outcome.confirmations.empty()) return "not confirmed";
   std::string text;
-  for (const study::Confirmation& each : outcome.confirmations) {
-    const std::string said = !each.completed ? "failed" : each.ignited ? "ignites" : "does not ignite";
-    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", centimetres(each.gap), said);
-  }
+  for (const study::Confirmation& each : outcome.confirmations)
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", centimetres(each.gap), outcome_word(each));
   return text;
 }
 
@@ -126,19 +145,33 @@ std::string confirmation_text(const CaseOutcome& outcome) {
 Table critical_gap_table(const CriticalGapResult& result) {
   Table table;
   table.title = "Critical gap";
-  table.columns = {text_column("case"),
-                   named_text("kind", "kind"),
-                   significant_column("value", "cm", 6, "value_cm"),
-                   significant_column("no ignition", "cm", 6, "lower_cm"),
-                   significant_column("ignites", "cm", 6, "upper_cm"),
-                   significant_column("uncertainty", "cm", 2, "uncertainty_cm"),
-                   named_text("coupled runs", "coupled_runs"),
-                   named_text("remark", "reason")};
+  table.columns = {quantity::case_name()};
+  append(table.columns, critical_gap_columns());
+  append(table.columns, {named_text("coupled runs", "coupled_runs"), named_text("remark", "reason")});
   for (const CaseOutcome& outcome : result.cases) {
-    const study::CriticalGap& gap = outcome.critical;
-    table.rows.push_back({outcome.input.label, study::to_string(gap.kind), optional_number(100.0 * gap.value),
-                          optional_number(100.0 * gap.lower), optional_number(100.0 * gap.upper),
-                          optional_number(100.0 * gap.uncertainty), confirmation_text(outcome), gap.reason});
+    std::vector<Cell>& cells = table.rows.emplace_back();
+    cells.emplace_back(outcome.input.label);
+    add_critical_gap_cells(outcome.critical, cells);
+    cells.insert(cells.end(), {confirmation_text(outcome), outcome.critical.reason});
+  }
+  return table;
+}
+
+Table coupled_run_table(const CriticalGapResult& result) {
+  Table table;
+  table.title = "Coupled runs";
+  table.columns = {quantity::case_name(),
+                   quantity::gap(),
+                   named_text("expected", "expected"),
+                   named_text("outcome", "outcome"),
+                   quantity::temperature_max(),
+                   scientific_column("coupled - traced", "K", 1, "coupled_minus_traced_K"),
+                   quantity::reason()};
+  for (const CaseOutcome& outcome : result.cases) {
+    for (const Confirmation& each : outcome.confirmations)
+      table.rows.push_back({outcome.input.label, 100.0 * each.gap, ignition_word(each.expected_ignition),
+                            outcome_word(each), optional_number(each.maximum_temperature),
+                            optional_number(each.difference), each.failure});
   }
   return table;
 }
@@ -155,9 +188,9 @@ Table air_energy_table(const CriticalGapResult& result) {
 Table air_model_table(const CriticalGapResult& result) {
   Table table;
   table.title = "Under both models of the air";
-  table.columns = {text_column("case"), significant_column("gap", "cm", 6, "gap_cm"),
-                   number_column("T max, reservoir", "K", 1, "T_max_reservoir_K"),
-                   number_column("T max, film", "K", 1, "T_max_film_K")};
+  table.columns = {quantity::case_name(), quantity::gap(),
+                   number_column("T max, reservoir", "K", 1, "temperature_max_reservoir_K"),
+                   number_column("T max, film", "K", 1, "temperature_max_film_K")};
   for (const CaseOutcome& outcome : result.cases) {
     if (!outcome.film) continue;
     for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) {
@@ -184,19 +217,29 @@ Table fit_table(const CaseOutcome& outcome) {
   const study::GapFit& fit = *outcome.fit;
   const auto& ols = fit.least_squares;
   table.title = "T max = intercept + slope * gap over the rows that do not ignite, " + outcome.input.label;
-  table.columns = {text_column("line"), number_column("slope", "K/cm", 1, "slope_K_per_cm"),
+  table.columns = {for_programs(quantity::case_name()), text_column("line"),
+                   number_column("slope", "K/cm", 1, "slope_K_per_cm"),
                    number_column("intercept", "K", 3, "intercept_K"), number_column("RMS", "K", 2, "rms_K")};
   for (const double gap : fit.gaps) {
     table.columns.push_back(number_column(fmt::format("residual {:.6g}", 100.0 * gap), "K", 2,
                                           fmt::format("residual_{:.6g}_cm_K", 100.0 * gap)));
   }
-  const auto add = [&table](std::string name, const study::Line& line) {
-    std::vector<Cell> cells{std::move(name), line.slope, line.intercept, line.root_mean_square};
+  append(table.columns,
+         {for_programs(number_column("slope error", "K/cm", 1, "slope_standard_error_K_per_cm")),
+          for_programs(number_column("intercept error", "K", 2, "intercept_standard_error_K")),
+          for_programs(number_column("R^2", "", 5, "r_squared")),
+          for_programs(number_column("residual deviation", "K", 2, "residual_deviation_K"))});
+  const auto add = [&](std::string name, const study::Line& line) {
+    std::vector<Cell> cells{outcome.input.label, std::move(name), line.slope, line.intercept,
+                            line.root_mean_square};
     for (const double residual : line.residuals) cells.emplace_back(residual);
     table.rows.push_back(std::move(cells));
   };
   add("least squares", fit.ordinary);
-  if (fit.mixed) add("its slope through the zero-gap row (the paper's form)", *fit.mixed);
+  table.rows.back().resize(table.columns.size() - 4);
+  table.rows.back().insert(table.rows.back().end(), {ols.standard_errors[1], ols.standard_errors[0],
+                                                     ols.r_squared, ols.residual_deviation});
+  if (fit.mixed) add("its slope through the zero-gap row (the published form)", *fit.mixed);
   if (fit.published) add("as published", *fit.published);
   if (ols.degrees_of_freedom > 0) {
     table.notes.push_back(
@@ -209,23 +252,11 @@ Table fit_table(const CaseOutcome& outcome) {
 }
 
 Table run_table(const CriticalGapResult& result) {
-  Table table;
-  table.title = "Runs";
-  table.columns = {text_column("case"),
-                   named_text("status", "status"),
-                   scientific_column("energy drift", "", 1, "energy_drift"),
-                   count_column("steps", "steps"),
-                   count_column("particles", "particles"),
-                   scientific_column("updates", "1/s", 2, "updates_per_second"),
-                   named_text("limiters that acted (particle steps)", "limiters")};
-  for (const CaseOutcome& outcome : result.cases) {
-    const run::MechanicsResult& run = outcome.result.mechanics;
-    table.rows.push_back({outcome.input.label, outcome.completed() ? "completed" : outcome.failure,
-                          optional_number(run::largest_energy_drift(run)),
-                          static_cast<std::int64_t>(run.steps), static_cast<std::int64_t>(run.particles),
-                          optional_number(run.update_rate()), limiters_text(run.limiters)});
-  }
-  return table;
+  std::vector<NamedRun> runs;
+  for (const CaseOutcome& outcome : result.cases)
+    runs.push_back({outcome.input.label, outcome.failure, &outcome.result.mechanics,
+                    outcome.completed() ? "cases/" + outcome.hash + ".h5" : std::string{}});
+  return report::run_table(runs);
 }
 
 Table cited_limit_table(const CriticalGapResult& result) {

@@ -16,7 +16,7 @@ using namespace report;
 std::string to_string(SensitivityOutput output) {
   switch (output) {
     case SensitivityOutput::maximum_temperature:
-      return "T_max";
+      return "temperature_max";
     case SensitivityOutput::critical_gap:
       return "critical_gap";
     case SensitivityOutput::margin:

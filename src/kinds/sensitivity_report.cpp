@@ -136,6 +136,21 @@ std::string picture_name(const OutputSensitivity& output) {
   return "sensitivity_" + shown_output(output.output).key + ".svg";
 }
 
+nlohmann::ordered_json method_json(const SensitivityResult& result) {
+  const auto& settings = settings_of<SensitivitySettings>(result.study.study);
+  return {{"name", to_string(settings.method)},
+          {"text", method_text(result)},
+          {"N", size_of(result.study.study)},
+          {"evaluations", result.answers.size()},
+          {"seed", settings.seed},
+          {"resamples", settings.resamples},
+          {"confidence", settings.confidence}};
+}
+
+nlohmann::ordered_json gap_json(const study::Study& study) {
+  return study.gaps.empty() ? nlohmann::ordered_json(nullptr) : number(in_centimetres(study.gaps.front()));
+}
+
 }  // namespace
 
 std::string answer(const SensitivityResult& result) {
@@ -152,7 +167,9 @@ std::string answer(const SensitivityResult& result) {
 
 Report report_of(const SensitivityResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
-  report.items.push_back(ReportTable{sensitivity_table(result), "sensitivity.csv", Shown::terminal});
+  report.items.push_back(
+      ReportTable{sensitivity_table(result), "sensitivity.csv", "indices", Shown::terminal});
+  report.items.push_back(ReportTable{output_table(result), "", "outputs", Shown::file});
   for (const OutputSensitivity& output : result.outputs) {
     report.items.push_back(ReportTable{.table = sensitivity_table(result, output), .shown = Shown::page});
     if (has_indices(result, output))
@@ -164,9 +181,14 @@ Report report_of(const SensitivityResult& result) {
       "The indices are those of these distributions: another range of an input gives it another share. Bound "
       "critical gaps have no number, and where there are any no indices are given.\n"});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
-  report.items.push_back(
-      ReportTable{evaluation_table(result), "evaluations.csv", Shown::page, most_evaluation_rows});
-  report.json = json_file_text(to_json(result));
+  report.items.push_back(ReportTable{evaluation_table(result), "evaluations.csv", "evaluations", Shown::page,
+                                     most_evaluation_rows});
+  report.json = study_json(result.study, report,
+                           {{"method", method_json(result)},
+                            {"gap_cm", gap_json(result.study.study)},
+                            {"inputs", axes_json(result.study.study)},
+                            {"failed", counts_of(result.answers).failed},
+                            {"notes", mesh_notes(result.study)}});
   return report;
 }
 

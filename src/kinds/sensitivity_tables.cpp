@@ -1,7 +1,7 @@
 // The tables of a sensitivity study.
 #include "launchsafe/kinds/sensitivity_report.hpp"
-#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
@@ -20,19 +20,26 @@ using namespace report;
 namespace {
 
 std::vector<Column> index_columns() {
-  return {number_column("S1", "", 3, "S1"),       number_column("from", "", 3, "S1_low"),
-          number_column("to", "", 3, "S1_high"),  number_column("ST", "", 3, "ST"),
-          number_column("from", "", 3, "ST_low"), number_column("to", "", 3, "ST_high"),
-          count_column("rows used", "used"),      count_column("of", "of")};
+  return {number_column("S1", "", 3, "first_order"),
+          number_column("from", "", 3, "first_order_lower"),
+          number_column("to", "", 3, "first_order_upper"),
+          number_column("ST", "", 3, "total_order"),
+          number_column("from", "", 3, "total_order_lower"),
+          number_column("to", "", 3, "total_order_upper"),
+          count_column("rows used", "used"),
+          count_column("of", "of")};
 }
 
 /// `unit` is empty where it stands in a column of its own.
 std::vector<Column> effect_columns(const std::string& unit) {
-  return {significant_column("mu", unit, 4, "mu"),
-          significant_column("mu*", unit, 4, "mu_star"),
-          significant_column("from", unit, 4, "mu_star_low"),
-          significant_column("to", unit, 4, "mu_star_high"),
-          significant_column("sigma", unit, 4, "sigma"),
+  const auto column = [&unit](std::string name, const std::string& key) {
+    return significant_column(std::move(name), unit, 4, unit.empty() ? key : key + "_" + unit);
+  };
+  return {column("mu", "mu"),
+          column("mu*", "mu_star"),
+          column("from", "mu_star_lower"),
+          column("to", "mu_star_upper"),
+          column("sigma", "sigma"),
           count_column("effects used", "used"),
           count_column("of", "of")};
 }
@@ -129,7 +136,7 @@ Table sensitivity_table(const SensitivityResult& result) {
   const bool sobol = settings_of<SensitivitySettings>(result.study.study).method == SensitivityMethod::sobol;
   Table table;
   table.title = "Sensitivity";
-  table.columns = {named_text("output", "output"), named_text("unit", "unit"), named_text("reason", "reason"),
+  table.columns = {named_text("output", "output"), named_text("unit", "unit"), quantity::reason(),
                    named_text("input", "input"), named_text("distribution", "distribution")};
   append(table.columns, sobol ? index_columns() : effect_columns(""));
   for (const OutputSensitivity& output : result.outputs) {
@@ -144,6 +151,26 @@ Table sensitivity_table(const SensitivityResult& result) {
   return table;
 }
 
+Table output_table(const SensitivityResult& result) {
+  Table table;
+  table.title = "Outputs";
+  table.columns = {named_text("output", "output"),
+                   named_text("unit", "unit"),
+                   significant_column("mean", "", 4, "mean"),
+                   significant_column("standard deviation", "", 3, "standard_deviation"),
+                   count_column("without a number", "missing"),
+                   count_column("bounds", "bounds"),
+                   quantity::reason()};
+  for (const OutputSensitivity& output : result.outputs) {
+    const ShownOutput shown = shown_output(output.output);
+    table.rows.push_back({shown.key, shown.unit, optional_number(shown.scale * output.mean),
+                          optional_number(shown.scale * output.deviation),
+                          static_cast<std::int64_t>(output.missing), static_cast<std::int64_t>(output.bounds),
+                          reason_of(result, output)});
+  }
+  return table;
+}
+
 Table evaluation_table(const SensitivityResult& result) {
   const auto keys = shown_axes(result.study.study);
   Table table;
@@ -154,8 +181,9 @@ Table evaluation_table(const SensitivityResult& result) {
     const ShownOutput shown = shown_output(output.output);
     table.columns.push_back(significant_column(shown.name, shown.unit, 6, shown.key + "_" + shown.unit));
   }
-  append(table.columns, {named_text("critical gap", "critical_gap_reads_as"), named_text("run", "status"),
-                         named_text("failure", "failure")});
+  append(table.columns,
+         {for_programs(quantity::critical_gap_kind()), named_text("critical gap", "critical_gap_reads_as"),
+          quantity::status(), named_text("failure", "reason")});
   for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) {
     const study::StudyCase& input = result.study.cases[i];
     const study::CaseAnswer& answer = result.answers[i];
@@ -166,6 +194,7 @@ Table evaluation_table(const SensitivityResult& result) {
       cells.push_back(i < output.values.size()
                           ? optional_number(shown_output(output.output).scale * output.values[i])
                           : Cell());
+    cells.emplace_back(study::to_string(answer.critical.kind));
     cells.emplace_back(reads_as(answer.critical));
     cells.emplace_back(status_of(answer));
     cells.emplace_back(answer.failure);

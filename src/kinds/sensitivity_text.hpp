@@ -1,4 +1,4 @@
-// What the tables, the page, the pictures and the JSON of a sensitivity study share.
+// What the tables, the page and the pictures of a sensitivity study share.
 #pragma once
 
 #include "launchsafe/kinds/sensitivity.hpp"
@@ -13,7 +13,7 @@ namespace launchsafe::kinds {
 struct ShownOutput {
   std::string name;    ///< "T max"
   std::string phrase;  ///< "T max", "the margin": within a sentence
-  std::string key;     ///< "T_max", also of its picture's file
+  std::string key;     ///< "temperature_max", also of its picture's file
   std::string unit;    ///< "K", "cm"
   double scale = 1;    ///< units per SI unit
 };

@@ -79,6 +79,16 @@ std::string uncertainty_text(const study::Study& study) {
       significant(study.numerical_uncertainty, 3));
 }
 
+nlohmann::ordered_json counts_json(const StabilityResult& result) {
+  return {{"cases", result.rows.size()},
+          {"held", result.count(Outcome::held)},
+          {"degraded", result.count(Outcome::degraded)},
+          {"caught", result.count(Outcome::caught)},
+          {"WRONG", result.wrong()},
+          {"not_as_expected", result.unexpected()},
+          {"not_computed", result.failed()}};
+}
+
 }  // namespace
 
 std::string answer(const StabilityResult& result) {
@@ -93,13 +103,13 @@ Report report_of(const StabilityResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
   report.items = {
       ReportTable{.table = stability_summary(result), .shown = Shown::terminal},
-      ReportTable{stability_table(result), "stability.csv", Shown::page},
+      ReportTable{stability_table(result), "stability.csv", "cases", Shown::page},
       Statement{"## What the outcomes mean\n\n" + legend()},
       Statement{uncertainty_text(result.study.study)},
-      ReportTable{launch_table(result), "launches.csv", Shown::page},
+      ReportTable{launch_table(result), "launches.csv", "launches", Shown::page},
       Statement{"## Setup\n\n" + setup_text(result.study)},
   };
-  report.json = json_file_text(to_json(result));
+  report.json = study_json(result.study, report, {{"counts", counts_json(result)}});
   return report;
 }
 

@@ -1,4 +1,4 @@
-// What the tables, the page and the JSON of a stability study share.
+// What the tables and the page of a stability study share.
 #pragma once
 
 #include "launchsafe/kinds/stability.hpp"

@@ -106,7 +106,7 @@ Table axis_effect_table(const SweepResult& result) {
   Table table;
   table.title = "What each axis changes";
   table.columns = {text_column("axis"), text_column("from"), text_column("to"),
-                   significant_column("T max by at most", "K", 3, "temperature_change_K"),
+                   significant_column("T max by at most", "K", 3, "temperature_max_change_K"),
                    significant_column("critical gap by at most", "cm", 3, "critical_gap_change_cm")};
   const auto keys = shown_axes(result.study.study);
   for (std::size_t axis = 0; axis < keys.size(); ++axis) {

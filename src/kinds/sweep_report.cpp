@@ -1,7 +1,6 @@
 // The answer, the page and the files of a sweep.
 #include "launchsafe/kinds/sweep_report.hpp"
 
-#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
@@ -58,15 +57,16 @@ double end_of_search(const SweepResult& result) {
 }
 
 std::string kinds_text(const SweepResult& result, const SweepCounts& counts) {
-  std::string text = fmt::format("The critical gap is a value in {}", counted(counts.values, "case"));
-  if (counts.all_safe > 0)
-    text += fmt::format(", more than {} (the end of the search: a bound) in {}",
-                        centimetres(end_of_search(result)), counted(counts.all_safe, "case"));
-  if (counts.all_ignite > 0)
-    text += fmt::format(", below every gap (ignition even at the smallest: a bound) in {}",
-                        counted(counts.all_ignite, "case"));
-  if (counts.indeterminate > 0)
-    text += fmt::format(", indeterminate in {}", counted(counts.indeterminate, "case"));
+  const auto add = [&](CriticalGapKind kind, const std::string& words) {
+    const std::size_t count = counts.critical_gaps.at(kind);
+    return count > 0 ? fmt::format(", {} in {}", words, counted(count, "case")) : std::string{};
+  };
+  std::string text = fmt::format("The critical gap is a value in {}",
+                                 counted(counts.critical_gaps.at(CriticalGapKind::value), "case"));
+  text += add(CriticalGapKind::all_safe, fmt::format("more than {} (the end of the search: a bound)",
+                                                     centimetres(end_of_search(result))));
+  text += add(CriticalGapKind::all_ignite, "below every gap (ignition even at the smallest: a bound)");
+  text += add(CriticalGapKind::indeterminate, "indeterminate");
   return text + ".";
 }
 
@@ -134,18 +134,30 @@ std::variant<Statement, ReportTable, Picture> matrix_item(const SweepResult& res
       "The verdicts at {} gaps are too many for a table on this page: see `verdicts.csv`.\n", gaps)};
 }
 
+nlohmann::ordered_json counts_json(const SweepCounts& counts) {
+  nlohmann::ordered_json gaps, verdicts;
+  for (const auto& [kind, count] : counts.critical_gaps) gaps[study::to_string(kind)] = count;
+  for (const auto& [verdict, count] : counts.verdicts) verdicts[study::to_string(verdict)] = count;
+  return {{"cases", counts.cases},
+          {"failed", counts.failed},
+          {"limiters_acted", counts.limited},
+          {"critical_gaps", std::move(gaps)},
+          {"verdicts", std::move(verdicts)}};
+}
+
 }  // namespace
 
 std::string answer(const SweepResult& result) {
   const auto keys = shown_axes(result.study.study);
   const SweepCounts counts = counts_of(result.answers);
-  std::vector<std::string> lines{extent_text(result, keys),
-                                 kinds_text(result, counts),
-                                 smallest_text(result, keys),
-                                 fmt::format("Verdicts: {} SAFE, {} UNSAFE, {} INDETERMINATE.", counts.safe,
-                                             counts.unsafe, counts.undecided),
-                                 failures_text(result, keys, counts.failed),
-                                 limited_text(counts, "case")};
+  std::vector<std::string> lines{
+      extent_text(result, keys),
+      kinds_text(result, counts),
+      smallest_text(result, keys),
+      fmt::format("Verdicts: {} SAFE, {} UNSAFE, {} INDETERMINATE.", counts.verdicts.at(Verdict::safe),
+                  counts.verdicts.at(Verdict::unsafe), counts.verdicts.at(Verdict::indeterminate)),
+      failures_text(result, keys, counts.failed),
+      limited_text(counts, "case")};
   for (std::string& note : mesh_notes(result.study)) lines.push_back(std::move(note));
   if (result.interrupted)
     lines.emplace_back("The study was interrupted: cases without a run are indeterminate.");
@@ -159,20 +171,24 @@ Report report_of(const SweepResult& result) {
   Table noted = gaps;
   for (std::string& note : mesh_notes(result.study)) noted.notes.push_back(std::move(note));
   report.files.push_back({"critical_gaps.md", to_markdown(noted)});
-  report.items = {ReportTable{.table = gaps, .csv = "critical_gaps.csv", .most_rows = most_rows},
-                  ReportTable{verdict_table(result), "verdicts.csv", Shown::file},
-                  ReportTable{cited_limit_table(result)}};
+  report.items = {ReportTable{gaps, "critical_gaps.csv", "cases", Shown::page_and_terminal, most_rows},
+                  ReportTable{verdict_table(result), "verdicts.csv", "verdicts", Shown::file},
+                  ReportTable{cited_limit_table(result), "", "cited_limits"}};
   SweepPictures drawn = pictures(result);
   for (SweepPicture& each : drawn.pictures)
     report.items.push_back(Picture{std::move(each.file), std::move(each.plot), "critical gap"});
   report.remarks = std::move(drawn.remarks);
-  report.items.push_back(ReportTable{.table = axis_effect_table(result), .shown = Shown::page});
+  report.items.push_back(ReportTable{axis_effect_table(result), "", "axis_effects", Shown::page});
   report.items.push_back(matrix_item(result));
   report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
   report.items.push_back(Statement{uncertainty_text(result.study)});
   report.items.push_back(Statement{station_note(result.study) + "\n"});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
-  report.json = json_text(result);
+  report.json = study_json(result.study, report,
+                           {{"axes", axes_json(result.study.study)},
+                            {"early_time_ms", 1e3 * result.study.study.early_time},
+                            {"counts", counts_json(counts_of(result.answers))},
+                            {"notes", mesh_notes(result.study)}});
   return report;
 }
 

@@ -1,7 +1,7 @@
 // The tables of a sweep.
 #include "launchsafe/kinds/sweep_report.hpp"
 #include "launchsafe/report/air_energy_table.hpp"
-#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "sweep_text.hpp"
@@ -50,20 +50,19 @@ std::vector<std::size_t> outer_gaps(const std::vector<double>& gaps) {
 std::vector<Column> outer_gap_columns(const std::vector<double>& gaps) {
   std::vector<Column> columns;
   for (const std::size_t place : outer_gaps(gaps)) {
-    const char* key = columns.empty() ? "T_max_smallest_gap_K" : "T_max_largest_gap_K";
+    const char* key = columns.empty() ? "temperature_max_smallest_gap_K" : "temperature_max_largest_gap_K";
     columns.push_back(number_column("T max at " + centimetres(gaps[place]), "K", 1, key));
   }
   return columns;
 }
 
-void add_critical_gap_cells(const CaseAnswer& answer, std::vector<Cell>& cells) {
-  const study::CriticalGap& gap = answer.critical;
-  cells.emplace_back(study::to_string(gap.kind));
-  cells.push_back(optional_number(100.0 * value_of(gap)));
-  cells.emplace_back(reads_as(gap));
-  cells.push_back(optional_number(100.0 * gap.lower));
-  cells.push_back(optional_number(100.0 * gap.upper));
-  cells.push_back(optional_number(100.0 * gap.uncertainty));
+void add_run_cells(const CaseAnswer& answer, std::vector<Cell>& cells) {
+  cells.emplace_back(status_of(answer));
+  cells.push_back(optional_number(answer.run.energy_drift));
+  cells.emplace_back(static_cast<std::int64_t>(answer.run.steps));
+  cells.emplace_back(static_cast<std::int64_t>(answer.run.particles));
+  cells.emplace_back(limiters_text(answer.run.limiters));
+  cells.emplace_back(answer.completed() ? answer.critical.reason : answer.failure);
 }
 
 std::string verdict_mark(study::Verdict verdict) {
@@ -97,26 +96,19 @@ Table critical_gap_table(const SweepResult& result) {
   const auto keys = shown_axes(result.study.study);
   const std::vector<double>& gaps = result.study.study.gaps;
   Table table = table_by_axes("Critical gaps", keys);
-  append(table.columns,
-         {named_text("kind", "kind"), significant_column("critical gap", "cm", 6, "critical_gap_cm"),
-          named_text("reads as", "reads_as"), significant_column("no ignition", "cm", 6, "lower_cm"),
-          significant_column("ignites", "cm", 6, "upper_cm"),
-          significant_column("uncertainty", "cm", 2, "uncertainty_cm")});
+  append(table.columns, critical_gap_columns());
   append(table.columns, outer_gap_columns(gaps));
   append(table.columns,
-         {named_text("run", "status"), scientific_column("energy drift", "", 1, "energy_drift"),
-          named_text("limiters (particle steps)", "limiters"), named_text("remark", "reason")});
+         {quantity::status(), quantity::energy_drift(), for_programs(quantity::steps()),
+          for_programs(quantity::particles()), quantity::limiters(), named_text("remark", "reason")});
   for_each_case(result, [&](const study::StudyCase& input, const CaseAnswer& answer) {
     std::vector<Cell> cells = axis_cells(keys, input);
-    add_critical_gap_cells(answer, cells);
+    add_critical_gap_cells(answer.critical, cells);
     for (const std::size_t place : outer_gaps(gaps))
       cells.push_back(place < answer.verdicts.size()
                           ? optional_number(answer.verdicts[place].maximum.temperature)
                           : Cell());
-    cells.emplace_back(status_of(answer));
-    cells.push_back(optional_number(answer.run.energy_drift));
-    cells.emplace_back(limiters_text(answer.run.limiters));
-    cells.emplace_back(answer.completed() ? answer.critical.reason : answer.failure);
+    add_run_cells(answer, cells);
     table.rows.push_back(std::move(cells));
   });
   table.notes.emplace_back(
@@ -131,16 +123,18 @@ Table verdict_table(const SweepResult& result) {
   Table table;
   table.title = "Verdicts";
   table.columns = axis_columns(keys);
-  append(table.columns, {significant_column("gap", "cm", 6, "gap_cm")});
+  append(table.columns, {quantity::gap()});
   append(table.columns, verdict_columns(result.study.study));
   for_each_case(result, [&](const study::StudyCase& input, const CaseAnswer& answer) {
     const std::vector<Cell> place = axis_cells(keys, input);
-    for (const study::GapVerdict& row : answer.verdicts) {
+    for (std::size_t i = 0; i < answer.verdicts.size(); ++i) {
       std::vector<Cell>& cells = table.rows.emplace_back();
       cells.reserve(table.columns.size());
       cells.insert(cells.end(), place.begin(), place.end());
-      cells.emplace_back(in_centimetres(row.gap));
-      add_verdict_cells(row, cells);
+      cells.emplace_back(in_centimetres(answer.verdicts[i].gap));
+      const bool known = i < answer.heated_temperature.size();
+      add_verdict_cells(answer.verdicts[i], known ? answer.heated_temperature[i] : study::not_a_number,
+                        cells);
     }
   });
   table.notes = mesh_notes(result.study);
@@ -161,7 +155,7 @@ Table verdict_matrix(const SweepResult& result) {
       cells.emplace_back(verdict_mark(answer.verdicts[i].judgement.verdict));
     table.rows.push_back(std::move(cells));
   });
-  if (counts_of(result.answers).undecided > 0)
+  if (counts_of(result.answers).verdicts.at(Verdict::indeterminate) > 0)
     table.notes.emplace_back("INDET.: indeterminate; verdicts.csv has the reasons.");
   return table;
 }

@@ -11,40 +11,6 @@ namespace launchsafe::kinds {
 
 using namespace study;
 using namespace report;
-namespace {
-
-void count_critical_gap(const study::CriticalGap& gap, SweepCounts& counts) {
-  switch (gap.kind) {
-    case study::CriticalGapKind::value:
-      ++counts.values;
-      return;
-    case study::CriticalGapKind::all_safe:
-      ++counts.all_safe;
-      return;
-    case study::CriticalGapKind::all_ignite:
-      ++counts.all_ignite;
-      return;
-    case study::CriticalGapKind::indeterminate:
-      break;
-  }
-  ++counts.indeterminate;
-}
-
-void count_verdict(const study::Judgement& judgement, SweepCounts& counts) {
-  switch (judgement.verdict) {
-    case study::Verdict::safe:
-      ++counts.safe;
-      return;
-    case study::Verdict::unsafe:
-      ++counts.unsafe;
-      return;
-    case study::Verdict::indeterminate:
-      break;
-  }
-  ++counts.undecided;
-}
-
-}  // namespace
 
 SweepCounts counts_of(const std::vector<study::CaseAnswer>& answers) {
   SweepCounts counts;
@@ -55,8 +21,8 @@ SweepCounts counts_of(const std::vector<study::CaseAnswer>& answers) {
     counts.limiters.crack_at_bound += answer.run.limiters.crack_at_bound;
     counts.limiters.tension_cutoff += answer.run.limiters.tension_cutoff;
     counts.limiters.hugoniot_guard += answer.run.limiters.hugoniot_guard;
-    count_critical_gap(answer.critical, counts);
-    for (const study::GapVerdict& row : answer.verdicts) count_verdict(row.judgement, counts);
+    ++counts.critical_gaps.at(answer.critical.kind);
+    for (const study::GapVerdict& row : answer.verdicts) ++counts.verdicts.at(row.judgement.verdict);
   }
   return counts;
 }

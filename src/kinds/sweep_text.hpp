@@ -1,10 +1,11 @@
-// What the tables, the page and the JSON of a sweep share.
+// What the tables and the page of a sweep share.
 #pragma once
 
 #include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/report/shown_key.hpp"
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,12 @@ namespace launchsafe::kinds {
 /// How many cases and verdicts came out how.
 struct SweepCounts {
   std::size_t cases = 0, failed = 0;
-  std::size_t values = 0, all_safe = 0, all_ignite = 0, indeterminate = 0;  ///< critical gaps
-  std::size_t safe = 0, unsafe = 0, undecided = 0;                          ///< verdicts
+  std::map<study::CriticalGapKind, std::size_t> critical_gaps{{study::CriticalGapKind::value, 0},
+                                                              {study::CriticalGapKind::all_safe, 0},
+                                                              {study::CriticalGapKind::all_ignite, 0},
+                                                              {study::CriticalGapKind::indeterminate, 0}};
+  std::map<study::Verdict, std::size_t> verdicts{
+      {study::Verdict::safe, 0}, {study::Verdict::unsafe, 0}, {study::Verdict::indeterminate, 0}};
   std::size_t limited = 0;      ///< cases in which a limiter acted
   run::LimiterCounts limiters;  ///< of all cases
 };
@@ -33,9 +38,6 @@ std::string failures_list(const std::vector<report::ShownKey>& keys, const study
 
 /// What must be said where limiters acted; else empty.
 std::string limited_text(const SweepCounts& counts, const std::string& noun);
-
-/// The JSON of a sweep as text, a line for every case: never the whole of a large sweep as objects in memory.
-std::string json_text(const SweepResult& result);
 
 /// "1 case", "3 cases".
 std::string counted(std::size_t count, const std::string& noun);

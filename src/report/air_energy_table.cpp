@@ -1,7 +1,7 @@
 #include "launchsafe/report/air_energy_table.hpp"
 
-#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 
 #include <fmt/format.h>
 
@@ -69,14 +69,11 @@ Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gap
   const bool labelled =
       std::any_of(gaps.begin(), gaps.end(), [](const AuditedGap& gap) { return !gap.label.empty(); });
   table.title = "The energy of the air";
-  if (labelled) table.columns.push_back(named_text("case", "case"));
-  append(table.columns,
-         {significant_column("gap", "cm", 6, "gap_cm"),
-          significant_column("taken by the skin", "kJ/m2", 3, "skin_took_kJ_per_m2"),
-          significant_column("supplied by compression", "kJ/m2", 3, "compression_supplies_kJ_per_m2"),
-          significant_column("taken over supplied", "", 3, "taken_over_supplied"),
-          significant_column("stored on the adiabat", "kJ/m2", 3, "adiabat_stores_kJ_per_m2"),
-          significant_column("isothermal work", "kJ/m2", 3, "isothermal_work_kJ_per_m2")});
+  if (labelled) table.columns.push_back(quantity::case_name());
+  append(table.columns, {quantity::gap(), quantity::skin_took(), quantity::compression_supplies(),
+                         quantity::taken_over_supplied(),
+                         significant_column("stored on the adiabat", "kJ/m2", 3, "adiabat_stores_kJ_per_m2"),
+                         significant_column("isothermal work", "kJ/m2", 3, "isothermal_work_kJ_per_m2")});
   for (const AuditedGap& gap : gaps) {
     std::vector<Cell>& cells = table.rows.emplace_back();
     if (labelled) cells.emplace_back(gap.label);

@@ -1,5 +1,5 @@
 // Limits of the gap from the literature beside the critical gaps of a study.
-#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 
 #include <fmt/format.h>
@@ -32,9 +32,9 @@ Table cited_limit_table(const study::StudyFile& study,
                    significant_column("at", "MPa", 6, "limit_peak_pressure_MPa"),
                    named_text("source", "source"),
                    significant_column("computed at", "MPa", 6, "peak_pressure_MPa"),
-                   named_text("case", "case"),
-                   significant_column("critical gap", "cm", 6, "critical_gap_cm"),
-                   named_text("reads as", "reads_as"),
+                   quantity::case_name(),
+                   quantity::critical_gap(),
+                   quantity::critical_gap_reads_as(),
                    significant_column("computed minus cited", "cm", 2, "difference_cm")};
   bool chosen = false;
   for (const study::LimitComparison& each : study::compare_with_limits(study, critical)) {

@@ -22,7 +22,7 @@ Table interface_table(const run::MechanicsResult& mechanics) {
   table.columns = {text_column("body"),
                    text_column("face"),
                    significant_column("friction work", "J", 4, "friction_work_J"),
-                   significant_column("largest heat", "kJ/m2", 3, "largest_heat_kJ_m2"),
+                   significant_column("largest heat", "kJ/m2", 3, "largest_heat_kJ_per_m2"),
                    significant_column("at", "cm", 4, "at_cm"),
                    significant_column("slid up to", "mm", 3, "slid_mm"),
                    significant_column("open up to", "mm", 3, "open_mm"),

@@ -1,6 +1,5 @@
 #include "launchsafe/report/report.hpp"
 
-#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/study_text.hpp"
 
 #include <fmt/format.h>
@@ -21,6 +20,15 @@ bool on_terminal(const ReportTable& table) {
 }
 
 const std::string& rest_of(const ReportTable& table) { return table.rest.empty() ? table.csv : table.rest; }
+
+/// The first rows of a table; what was cut off is in `file`, and a note says so.
+Table first_rows(Table table, std::size_t most, const std::string& file) {
+  if (table.rows.size() <= most) return table;
+  table.notes.insert(table.notes.begin(),
+                     fmt::format("The first {} of {} rows; all are in {}.", most, table.rows.size(), file));
+  table.rows.resize(most);
+  return table;
+}
 
 /// A part of the page that ends with a line break; empty for what is not there.
 std::string block_of(const Statement& statement, const std::vector<std::string>&) {
@@ -87,6 +95,31 @@ std::string to_text(const Report& report, const std::filesystem::path& folder) {
     if (const auto* table = std::get_if<ReportTable>(&item)) text += printed(*table, folder);
   }
   return text + report.answer + "\n";
+}
+
+std::string study_json(const study::StudyFile& study, const Report& report,
+                       const nlohmann::ordered_json& members) {
+  nlohmann::ordered_json head{{"kind", study.study.kind.name},
+                              {"study", study_file_name(study)},
+                              {"title", report.title},
+                              {"answer", report.answer}};
+  head.update(members);
+  std::string text = json_file_text(head);
+  text.resize(text.rfind("\n}"));  // open the object again
+  std::vector<const ReportTable*> tables;
+  for (const auto& item : report.items) {
+    const auto* table = std::get_if<ReportTable>(&item);
+    if (table != nullptr && !table->member.empty()) tables.push_back(table);
+  }
+  while (!tables.empty()) {
+    const std::string member = tables.front()->member;
+    text += fmt::format(",\n  \"{}\": [", member);
+    for (const ReportTable* table : tables)
+      if (table->member == member) append_json_rows(text, table->table);
+    text += text.ends_with('[') ? "]" : "\n  ]";
+    std::erase_if(tables, [&](const ReportTable* table) { return table->member == member; });
+  }
+  return text + "\n}\n";
 }
 
 store::Result<WrittenFiles> write_report(const Report& report, const std::filesystem::path& folder,

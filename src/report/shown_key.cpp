@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -62,21 +61,6 @@ std::size_t clutter(double value) {
   const std::size_t whole = std::min(text.find('.'), text.size());
   const std::size_t leading_zero = text.starts_with('0') && text.size() > 1 ? 1 : 0;
   return text.size() - whole + leading_zero + (whole > 3 ? 3 * (whole - 3) : 0);
-}
-
-/// Letters, digits and single underscores: "J/(kg K)" becomes "J_per_kg_K".
-std::string key_text(const std::string& text) {
-  std::string result;
-  for (const char character : text) {
-    if (std::isalnum(static_cast<unsigned char>(character)) != 0) {
-      result += character;
-    } else {
-      if (!result.empty() && result.back() != '_') result += '_';
-      if (character == '/') result += "per_";
-    }
-  }
-  result.resize(result.find_last_not_of('_') + 1);
-  return result;
 }
 
 ShownKey shown_numbers(const std::string& name, const scene::KeyDescription& key,

@@ -4,15 +4,11 @@
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/store/case_file.hpp"
-#include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/own_files.hpp"
-#include "launchsafe/store/sha256.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 namespace launchsafe::report {
@@ -86,11 +82,11 @@ std::string timing_text(const study::Timing& timing) {
 }
 
 nlohmann::ordered_json timing_json(const study::Timing& timing) {
-  return {{"wall_s", number(timing.wall_time)},
+  return {{"wall_time_s", number(timing.wall_time)},
           {"runs", timing.runs},
           {"jobs", timing.jobs},
           {"particle_updates", number(timing.particle_updates)},
-          {"run_s", number(timing.run_time)},
+          {"run_time_s", number(timing.run_time)},
           {"updates_per_second", number(timing.updates_per_second())}};
 }
 
@@ -101,6 +97,22 @@ std::string limiters_text(const run::LimiterCounts& limiters) {
 
 nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json axes_json(const study::Study& study) {
+  auto axes = nlohmann::ordered_json::array();
+  for (const study::Axis& axis : study.axes) {
+    const ShownKey key = shown(axis);
+    nlohmann::ordered_json& json = axes.emplace_back();
+    json = {{"name", axis.name}, {"scene_key", key.scene_key}, {"key", key.key}, {"unit", key.unit}};
+    if (axis.distribution) {
+      json["distribution"] = distribution_text(key, *axis.distribution);
+      continue;
+    }
+    json["values"] = nlohmann::ordered_json::array();
+    for (const double value : axis.values) json["values"].push_back(number(key.value(value)));
+  }
+  return axes;
 }
 
 std::string json_file_text(const nlohmann::ordered_json& object) {

@@ -37,6 +37,16 @@ std::string shown(const Cell& cell, const Column& column) {
   return {};
 }
 
+/// Places of the columns that people or programs read.
+std::vector<std::size_t> places_for(const Table& table, Audience audience) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const Audience reader = table.columns[i].audience;
+    if (reader == Audience::everyone || reader == audience) places.push_back(i);
+  }
+  return places;
+}
+
 std::string heading(const Column& column) {
   return column.unit.empty() ? column.name : column.name + " [" + column.unit + "]";
 }
@@ -46,25 +56,31 @@ std::string padded(const std::string& text, std::size_t width, Alignment alignme
   return alignment == Alignment::left ? text + fill : fill + text;
 }
 
-using Grid = std::vector<std::vector<std::string>>;
+/// What people read: the cells as text, the headings first.
+struct Grid {
+  std::vector<Column> columns;
+  std::vector<std::vector<std::string>> lines;
+};
 
-/// All cells as text, the headings first.
 template <class Escape>
 Grid grid_of(const Table& table, Escape escape) {
-  Grid grid(1);
-  for (const Column& column : table.columns) grid.front().push_back(escape(heading(column)));
+  Grid grid{{}, std::vector<std::vector<std::string>>(1)};
+  const std::vector<std::size_t> places = places_for(table, Audience::people);
+  for (const std::size_t place : places) {
+    grid.columns.push_back(table.columns[place]);
+    grid.lines.front().push_back(escape(heading(table.columns[place])));
+  }
   for (const auto& row : table.rows) {
-    auto& line = grid.emplace_back();
-    for (std::size_t i = 0; i < table.columns.size(); ++i) {
-      line.push_back(escape(shown(cell_at(row, i), table.columns[i])));
-    }
+    auto& line = grid.lines.emplace_back();
+    for (const std::size_t place : places)
+      line.push_back(escape(shown(cell_at(row, place), table.columns[place])));
   }
   return grid;
 }
 
 std::vector<std::size_t> widths_of(const Grid& grid, std::size_t smallest) {
-  std::vector<std::size_t> widths(grid.front().size(), smallest);
-  for (const auto& line : grid) {
+  std::vector<std::size_t> widths(grid.columns.size(), smallest);
+  for (const auto& line : grid.lines) {
     for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], display_width(line[i]));
   }
   return widths;
@@ -147,22 +163,30 @@ nlohmann::ordered_json json_cell(const Cell& cell) {
 
 std::string key_of(const Column& column) {
   if (!column.key.empty()) return column.key;
-  std::string key;
-  for (const char character : column.name + (column.unit.empty() ? "" : " " + column.unit)) {
-    const auto byte = static_cast<unsigned char>(character);
-    if (byte == '%') {
-      key += "percent";
-    } else if (std::isalnum(byte) != 0) {
-      key += static_cast<char>(std::tolower(byte));
-    } else if (!key.empty() && key.back() != '_') {
-      key += '_';
-    }
-  }
-  key.resize(key.find_last_not_of('_') + 1);
-  return key.empty() ? "column" : key;
+  std::string words = key_text(column.name);
+  std::transform(words.begin(), words.end(), words.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  if (words.empty()) words = "column";
+  return column.unit.empty() ? words : words + "_" + key_text(column.unit);
 }
 
 }  // namespace
+
+std::string key_text(const std::string& text) {
+  std::string key;
+  for (const char character : text) {
+    if (character == '%') {
+      key += "percent";
+    } else if (std::isalnum(static_cast<unsigned char>(character)) != 0) {
+      key += character;
+    } else {
+      if (!key.empty() && key.back() != '_') key += '_';
+      if (character == '/') key += "per_";
+    }
+  }
+  key.resize(key.find_last_not_of('_') + 1);
+  return key;
+}
 
 Column text_column(std::string name) {
   Column column;
@@ -188,12 +212,12 @@ std::string to_text(const Table& table) {
   const Grid grid = grid_of(table, on_one_line);
   const auto widths = widths_of(grid, 1);
   std::string text = table.title.empty() ? "" : table.title + "\n\n";
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    text += text_line(grid[i], widths, table.columns);
+  for (std::size_t i = 0; i < grid.lines.size(); ++i) {
+    text += text_line(grid.lines[i], widths, grid.columns);
     if (i > 0) continue;
     std::vector<std::string> rules;
     for (const std::size_t width : widths) rules.emplace_back(width, '-');
-    text += text_line(rules, widths, table.columns);
+    text += text_line(rules, widths, grid.columns);
   }
   for (std::size_t i = 0; i < table.notes.size(); ++i) text += (i == 0 ? "\n" : "") + table.notes[i] + "\n";
   return text;
@@ -203,9 +227,9 @@ std::string to_markdown(const Table& table) {
   const Grid grid = grid_of(table, markdown_escaped);
   const auto widths = widths_of(grid, 3);
   std::string text = table.title.empty() ? "" : "**" + markdown_escaped(table.title) + "**\n\n";
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    text += markdown_line(grid[i], widths, table.columns);
-    if (i == 0) text += markdown_rule(widths, table.columns);
+  for (std::size_t i = 0; i < grid.lines.size(); ++i) {
+    text += markdown_line(grid.lines[i], widths, grid.columns);
+    if (i == 0) text += markdown_rule(widths, grid.columns);
   }
   for (const std::string& note : table.notes) text += "\n" + markdown_escaped(note) + "\n";
   return text;
@@ -214,34 +238,50 @@ std::string to_markdown(const Table& table) {
 std::string to_csv(const Table& table) {
   std::string csv;
   const auto keys = keys_of(table);
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (i > 0) csv += ',';
-    append_csv(csv, keys[i]);
-  }
-  csv += "\r\n";
-  for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < keys.size(); ++i) {
+  const auto places = places_for(table, Audience::programs);
+  const auto append_line = [&](const auto& append_place) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
       if (i > 0) csv += ',';
-      append_csv(csv, cell_at(row, i));
+      append_place(places[i]);
     }
     csv += "\r\n";
-  }
+  };
+  append_line([&](std::size_t place) { append_csv(csv, keys[place]); });
+  for (const auto& row : table.rows)
+    append_line([&](std::size_t place) { append_csv(csv, cell_at(row, place)); });
   return csv;
 }
 
 nlohmann::ordered_json to_json(const Table& table) {
   const auto keys = keys_of(table);
+  const auto places = places_for(table, Audience::programs);
   auto columns = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < keys.size(); ++i) {
+  for (const std::size_t i : places) {
     columns.push_back({{"key", keys[i]}, {"name", table.columns[i].name}, {"unit", table.columns[i].unit}});
   }
   auto rows = nlohmann::ordered_json::array();
   for (const auto& row : table.rows) {
     auto object = nlohmann::ordered_json::object();
-    for (std::size_t i = 0; i < keys.size(); ++i) object[keys[i]] = json_cell(cell_at(row, i));
+    for (const std::size_t i : places) object[keys[i]] = json_cell(cell_at(row, i));
     rows.push_back(std::move(object));
   }
   return {{"title", table.title}, {"columns", std::move(columns)}, {"rows", std::move(rows)}};
+}
+
+void append_json_rows(std::string& text, const Table& table) {
+  constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
+  const auto places = places_for(table, Audience::programs);
+  std::vector<std::string> keys;
+  for (const std::string& key : keys_of(table))
+    keys.push_back(nlohmann::ordered_json(key).dump(-1, ' ', false, replace) + ": ");
+  for (const auto& row : table.rows) {
+    text += text.ends_with('[') ? "\n    {" : ",\n    {";
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (i > 0) text += ", ";
+      text += keys[places[i]] + json_cell(cell_at(row, places[i])).dump(-1, ' ', false, replace);
+    }
+    text += '}';
+  }
 }
 
 }  // namespace launchsafe::report

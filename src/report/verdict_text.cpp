@@ -1,7 +1,7 @@
 #include "launchsafe/report/verdict_text.hpp"
 
-#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/stations.hpp"
@@ -15,20 +15,10 @@
 namespace launchsafe::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::string ignition_text(const study::GapVerdict& row) {
   if (!row.ignition) return {};
   return fmt::format("{} at {:.2f} ms, {}", study::to_string(row.ignition->cause), 1e3 * row.ignition->time,
                      row.ignition->point);
-}
-
-Json json_of(const std::optional<study::NamedIgnition>& ignition) {
-  if (!ignition) return nullptr;
-  return {{"cause", study::to_string(ignition->cause)},
-          {"time_ms", number(1e3 * ignition->time)},
-          {"point", ignition->point},
-          {"chemical_share", number(ignition->chemical_share)}};
 }
 
 /// The charge off the grid lines, in the scene of a study or in those of its cases, which may have meshes and
@@ -54,41 +44,67 @@ std::string off_grid_note(const study::StudyFile& study) {
 }  // namespace
 
 std::vector<Column> verdict_columns(const study::Study& study) {
-  return {number_column("T max", "K", 1, "T_max_K"),
-          named_text("at", "at"),
-          number_column("time", "ms", 2, "time_ms"),
-          number_column(fmt::format("T at {:.6g} ms", 1e3 * study.early_time), "K", 1, "T_max_10ms_K"),
+  using namespace quantity;
+  return {temperature_max(),
+          temperature_max_place(),
+          temperature_max_time(),
+          temperature_early(study.early_time),
+          for_programs(temperature_early_place()),
+          for_programs(number_column("spread", "K", 1, "spread_K")),
+          for_programs(number_column("early spread", "K", 1, "spread_early_K")),
+          for_programs(temperature_max_inert()),
           number_column("margin", "K", 2, "margin_K"),
-          significant_column("uncertainty", "K", 2, "uncertainty_K"),
-          significant_column("of computation", "K", 2, "computation_K"),
-          significant_column("of fit", "K", 2, "fit_K"),
-          significant_column("of inputs", "K", 2, "inputs_K"),
-          significant_column("of model form", "K", 2, "model_form_K"),
-          named_text("verdict", "verdict"),
-          named_text("reason", "reason"),
-          named_text("ignition", "ignition"),
-          significant_column("skin took", "kJ/m2", 3, "skin_took_kJ_per_m2"),
-          significant_column("compression supplies", "kJ/m2", 3, "compression_supplies_kJ_per_m2"),
-          significant_column("taken over supplied", "", 3, "taken_over_supplied")};
+          uncertainty(),
+          significant_column("of computation", "K", 2, "uncertainty_of_computation_K"),
+          for_programs(significant_column("of sliding", "K", 2, "uncertainty_of_sliding_K")),
+          significant_column("of fit", "K", 2, "uncertainty_of_fit_K"),
+          significant_column("of inputs", "K", 2, "uncertainty_of_inputs_K"),
+          for_programs(significant_column("of load curve", "K", 2, "uncertainty_of_load_curve_K")),
+          significant_column("of model form", "K", 2, "uncertainty_of_model_form_K"),
+          verdict(),
+          reason(),
+          for_people(named_text("ignition", "ignition")),
+          for_programs(named_text("ignition cause", "ignition_cause")),
+          for_programs(ignition_time()),
+          for_programs(named_text("ignition at", "ignition_place")),
+          for_programs(number_column("chemical share", "", 3, "ignition_chemical_share")),
+          skin_took(),
+          compression_supplies(),
+          taken_over_supplied()};
 }
 
-void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells) {
-  cells.emplace_back(row.maximum.temperature);
-  cells.emplace_back(row.maximum.point);
-  cells.emplace_back(1e3 * row.maximum.time);
-  cells.emplace_back(row.early.temperature);
-  cells.emplace_back(row.margin);
-  cells.emplace_back(row.uncertainty.total());
-  cells.emplace_back(row.uncertainty.computed());
-  cells.emplace_back(row.uncertainty.fit);
-  cells.emplace_back(row.uncertainty.inputs());
-  cells.emplace_back(row.uncertainty.model_form);
-  cells.emplace_back(study::to_string(row.judgement.verdict));
-  cells.emplace_back(row.judgement.reason);
-  cells.emplace_back(ignition_text(row));
-  cells.push_back(optional_number(1e-3 * row.air.taken));
-  cells.push_back(optional_number(1e-3 * row.air.supplied));
-  cells.push_back(optional_number(row.air.ratio()));
+void add_verdict_cells(const study::GapVerdict& row, double inert, std::vector<Cell>& cells) {
+  cells.insert(cells.end(), {row.maximum.temperature, row.maximum.point, 1e3 * row.maximum.time,
+                             row.early.temperature, row.early.point, optional_number(row.spread),
+                             optional_number(row.early_spread), optional_number(inert), row.margin});
+  const study::Uncertainty& u = row.uncertainty;
+  cells.insert(cells.end(),
+               {u.total(), u.computed(), u.sliding, u.fit, u.inputs(), u.load_curve, u.model_form});
+  cells.insert(cells.end(),
+               {study::to_string(row.judgement.verdict), row.judgement.reason, ignition_text(row)});
+  if (row.ignition) {
+    cells.insert(cells.end(), {study::to_string(row.ignition->cause), 1e3 * row.ignition->time,
+                               row.ignition->point, row.ignition->chemical_share});
+  } else {
+    cells.resize(cells.size() + 4);
+  }
+  cells.insert(cells.end(), {optional_number(1e-3 * row.air.taken), optional_number(1e-3 * row.air.supplied),
+                             optional_number(row.air.ratio())});
+}
+
+std::vector<Column> critical_gap_columns() {
+  return {quantity::critical_gap_kind(),
+          quantity::critical_gap(),
+          quantity::critical_gap_reads_as(),
+          significant_column("no ignition", "cm", 6, "critical_gap_lower_cm"),
+          significant_column("ignites", "cm", 6, "critical_gap_upper_cm"),
+          significant_column("uncertainty", "cm", 2, "critical_gap_uncertainty_cm")};
+}
+
+void add_critical_gap_cells(const study::CriticalGap& gap, std::vector<Cell>& cells) {
+  cells.insert(cells.end(), {study::to_string(gap.kind), optional_number(100.0 * value_of(gap)),
+                             reads_as(gap), optional_number(100.0 * gap.lower),
+                             optional_number(100.0 * gap.upper), optional_number(100.0 * gap.uncertainty)});
 }
 
 std::vector<std::string> mesh_notes(const study::StudyFile& study) {
@@ -108,36 +124,6 @@ std::string station_note(const study::StudyFile& study) {
       "Temperatures are those of the hottest of {} stations that tile the charge's bottom, S1 at the wall, "
       "each {} mm deep; station.width {} mm.",
       count, significant(1e3 * surface.station_depth, 4), significant(1e3 * surface.station_width, 4));
-}
-
-void add_verdict(Json& json, const study::GapVerdict& row) {
-  json["T_max_K"] = number(row.maximum.temperature);
-  json["at"] = row.maximum.point;
-  json["time_ms"] = number(1e3 * row.maximum.time);
-  json["T_max_10ms_K"] = number(row.early.temperature);
-  json["at_10ms"] = row.early.point;
-  json["spread_K"] = number(row.spread);
-  json["spread_10ms_K"] = number(row.early_spread);
-  json["margin_K"] = number(row.margin);
-  json["uncertainty_K"] = number(row.uncertainty.total());
-  json["uncertainty_of_computation_K"] = number(row.uncertainty.computed());
-  json["uncertainty_of_fit_K"] = number(row.uncertainty.fit);
-  json["uncertainty_of_inputs_K"] = number(row.uncertainty.inputs());
-  json["uncertainty_of_model_form_K"] = number(row.uncertainty.model_form);
-  json["of_these_load_curve_K"] = number(row.uncertainty.load_curve);
-  json["of_these_sliding_K"] = number(row.uncertainty.sliding);
-  json["verdict"] = study::to_string(row.judgement.verdict);
-  json["reason"] = row.judgement.reason;
-  json["ignition"] = json_of(row.ignition);
-  json["skin_took_kJ_per_m2"] = number(1e-3 * row.air.taken);
-  json["compression_supplies_kJ_per_m2"] = number(1e-3 * row.air.supplied);
-  json["taken_over_supplied"] = number(row.air.ratio());
-}
-
-Json critical_gap_json(const study::CriticalGap& gap) {
-  return {{"value_cm", number(100.0 * value_of(gap))}, {"lower_cm", number(100.0 * gap.lower)},
-          {"upper_cm", number(100.0 * gap.upper)},     {"uncertainty_cm", number(100.0 * gap.uncertainty)},
-          {"kind", study::to_string(gap.kind)},        {"reason", gap.reason}};
 }
 
 double value_of(const study::CriticalGap& gap) {
@@ -197,8 +183,9 @@ std::string uncertainty_remark(const study::StudyFile& study) {
       study::model_form_uncertainty_text(study));
 }
 
-std::string used_for(const study::Reference& paper) {
-  return to_string(paper.calibrated || paper.ignited() ? study::Use::calibration : study::Use::held_out);
+std::string used_for(const study::Reference& published) {
+  return to_string(published.calibrated || published.ignited() ? study::Use::calibration
+                                                               : study::Use::held_out);
 }
 
 bool acted(const run::LimiterCounts& limiters) {

@@ -14,9 +14,14 @@ class FailingCase : public StoredStudy {
           "K\"\n[axes]\n" +
               axes + "\ngap = \"0, 0.01 cm\"\n");
   }
-  /// The study's cases by what is printed as JSON.
+  /// The study's cases, each with its verdicts, by what is printed as JSON.
   nlohmann::json cases_of(const Outcome& outcome) const {
-    return nlohmann::json::parse(outcome.out)["cases"];
+    const auto object = nlohmann::json::parse(outcome.out);
+    nlohmann::json cases = object["cases"];
+    const std::size_t gaps = object["verdicts"].size() / cases.size();
+    for (std::size_t i = 0; i < object["verdicts"].size(); ++i)
+      cases[i / gaps]["verdicts"].push_back(object["verdicts"][i]);
+    return cases;
   }
 };
 

@@ -39,7 +39,11 @@ TEST_F(Reach, OneCaseThatIsRefusedIsItsRow) {
   EXPECT_EQ(outcome.code, 3) << outcome.err;
   const auto object = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(object["failures"].size(), 1u) << outcome.out;
-  const std::string refused = object["cases"][0].dump(), computed = object["cases"][1].dump();
+  const auto text_of = [&object](std::size_t i) {
+    return object["cases"][i].dump() + object["verdicts"][2 * i].dump() +
+           object["verdicts"][2 * i + 1].dump();
+  };
+  const std::string refused = text_of(0), computed = text_of(1);
   EXPECT_NE(refused.find("30 days"), std::string::npos) << refused;
   EXPECT_EQ(refused.find("\"SAFE\""), std::string::npos) << refused;
   EXPECT_EQ(computed.find("30 days"), std::string::npos) << computed;

@@ -29,7 +29,7 @@ TEST_F(StudyProgram, JsonHoldsGapVerdictsFitAndTiming) {
   const Outcome outcome = run({"study", "study.toml", "-o", "out", "--jobs", "2", "--json", "--quiet"});
   EXPECT_TRUE(outcome.code == 0 || outcome.code == 4) << outcome.code << outcome.err;
   const auto object = nlohmann::json::parse(outcome.out);
-  for (const char* key : {"value_cm", "lower_cm", "upper_cm"}) {
+  for (const char* key : {"critical_gap_cm", "critical_gap_lower_cm", "critical_gap_upper_cm"}) {
     EXPECT_TRUE(object["critical_gap"].contains(key)) << key;
   }
   EXPECT_EQ(object["verdicts"].size(), 3u);

@@ -32,8 +32,10 @@ TEST(SensitivityReport, IndicesStandWithTheirIntervalsAndN) {
   const SensitivityResult result = made_sensitivity(SensitivityMethod::sobol);
   const Table table = sensitivity_table(result, result.outputs[0]);
   EXPECT_EQ(table.title, "Sensitivity of T max at a gap of 0.02 cm");
-  EXPECT_EQ(keys_of(table), (std::vector<std::string>{"input", "distribution", "S1", "S1_low", "S1_high",
-                                                      "ST", "ST_low", "ST_high", "used", "of"}));
+  EXPECT_EQ(keys_of(table),
+            (std::vector<std::string>{"input", "distribution", "first_order", "first_order_lower",
+                                      "first_order_upper", "total_order", "total_order_lower",
+                                      "total_order_upper", "used", "of"}));
   ASSERT_EQ(table.rows.size(), 3u);
   EXPECT_EQ(text_of(table.rows[0][0]), "peak pressure");
   EXPECT_EQ(text_of(table.rows[0][1]), "uniform from 400 to 600 MPa");
@@ -77,8 +79,8 @@ TEST(SensitivityReport, AnOutputWithoutIndicesShowsTheReason) {
   EXPECT_NE(csv.find("critical_gap,,\"7 of 20 critical gaps are bounds, not numbers\",peak pressure,"),
             std::string::npos)
       << csv;
-  EXPECT_TRUE(to_json(result)["outputs"][1]["inputs"].empty());
-  EXPECT_EQ(to_json(result)["outputs"][1]["reason"], "7 of 20 critical gaps are bounds, not numbers");
+  EXPECT_TRUE(json_of(result)["indices"][3]["total_order"].is_null());
+  EXPECT_EQ(json_of(result)["outputs"][1]["reason"], "7 of 20 critical gaps are bounds, not numbers");
 }
 
 TEST(SensitivityReport, RanksOnlyWhatTheIntervalsTellApart) {
@@ -118,26 +120,26 @@ TEST(SensitivityReport, EveryEvaluationIsARow) {
   ASSERT_EQ(table.rows.size(), 20u);
   EXPECT_EQ(keys_of(table),
             (std::vector<std::string>{"number", "evaluation", "peak_pressure_MPa", "charge_crack_radius_um",
-                                      "flaw_size_mm", "T_max_K", "critical_gap_cm", "margin_K",
-                                      "critical_gap_reads_as", "status", "failure"}));
+                                      "flaw_size_mm", "temperature_max_K", "critical_gap_cm", "margin_K",
+                                      "critical_gap_kind", "critical_gap_reads_as", "status", "reason"}));
   EXPECT_EQ(std::get<double>(table.rows[4][2]), 440.0);
   EXPECT_TRUE(std::holds_alternative<std::monostate>(table.rows[2][6]));
-  EXPECT_EQ(text_of(table.rows[2][10]), "energy drift 0.2 at 3 ms");
+  EXPECT_EQ(text_of(table.rows[2][11]), "energy drift 0.2 at 3 ms");
 }
 
 TEST(SensitivityReport, JsonHasMethodInputsOutputsAndEvaluations) {
-  const auto json = to_json(made_sensitivity(SensitivityMethod::morris));
+  const auto json = json_of(made_sensitivity(SensitivityMethod::morris));
   EXPECT_EQ(json["kind"], "sensitivity");
   EXPECT_EQ(json["method"]["name"], "morris");
   EXPECT_EQ(json["method"]["N"], 5);
   EXPECT_EQ(json["gap_cm"], 0.02);
   EXPECT_EQ(json["failed"], 1);
-  EXPECT_EQ(json["outputs"][0]["inputs"][0]["mu_star"]["value"], 40.0);
+  EXPECT_EQ(json["indices"][0]["mu_star"], 40.0);
   EXPECT_EQ(json["outputs"][1]["unit"], "cm");
   EXPECT_EQ(json["evaluations"].size(), 20u);
-  EXPECT_TRUE(json["evaluations"][2]["outputs"]["T_max_K"].is_null());
-  const auto sobol = to_json(made_sensitivity(SensitivityMethod::sobol));
-  EXPECT_EQ(sobol["outputs"][0]["inputs"][0]["ST"]["value"], 0.7);
+  EXPECT_TRUE(json["evaluations"][2]["temperature_max_K"].is_null());
+  const auto sobol = json_of(made_sensitivity(SensitivityMethod::sobol));
+  EXPECT_EQ(sobol["indices"][0]["total_order"], 0.7);
 }
 
 TEST(SensitivityReport, PicturesHaveIntervals) {
@@ -175,7 +177,7 @@ TEST(SensitivityReport, ThePageSaysWhatWasVaried) {
   const SensitivityResult result = made_sensitivity(SensitivityMethod::sobol);
   const std::string page = to_markdown(report_of(result));
   EXPECT_NE(page.find("`load.peak` is varied: uniform from 400 to 600 MPa"), std::string::npos);
-  EXPECT_NE(page.find("![sensitivity of T max](sensitivity_T_max.svg)"), std::string::npos);
+  EXPECT_NE(page.find("![sensitivity of T max](sensitivity_temperature_max.svg)"), std::string::npos);
   EXPECT_NE(page.find("launchsafe study studies/made.toml -o DIR"), std::string::npos);
 }
 

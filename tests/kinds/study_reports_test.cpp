@@ -16,7 +16,7 @@ namespace {
 using namespace launchsafe;
 using namespace launchsafe::kinds;
 using namespace launchsafe::study;
-using report::content_of, report::Folder;
+using report::content_of, report::Folder, report::json_of;
 
 const std::string text = critical_text +
                          "title = \"A test\"\ngaps = \"0, 0.03, 0.06 cm\"\n"
@@ -29,27 +29,34 @@ CriticalGapResult one_case() {
 }
 
 TEST(CriticalGapReport, JsonHasTheKeysThatOtherProgramsReadFrom) {
-  const auto json = kinds::to_json(one_case());
+  const auto json = json_of(one_case());
   for (const char* key : {"critical_gap", "verdicts", "fit", "timing", "cases"})
     EXPECT_TRUE(json.contains(key)) << key;
-  for (const char* key : {"value_cm", "lower_cm", "upper_cm", "kind", "reason"})
-    EXPECT_TRUE(json["critical_gap"].contains(key)) << key;
-  EXPECT_EQ(json["critical_gap"]["kind"], "value");
-  EXPECT_LE(json["critical_gap"]["upper_cm"].get<double>() - json["critical_gap"]["lower_cm"].get<double>(),
+  const auto& critical = json["critical_gap"];
+  for (const char* key :
+       {"critical_gap_cm", "critical_gap_lower_cm", "critical_gap_upper_cm", "critical_gap_kind", "reason"})
+    EXPECT_TRUE(critical.contains(key)) << key;
+  EXPECT_EQ(critical["critical_gap_kind"], "value");
+  EXPECT_LE(critical["critical_gap_upper_cm"].get<double>() - critical["critical_gap_lower_cm"].get<double>(),
             1e-4);
   ASSERT_EQ(json["verdicts"].size(), 3u);
-  for (const char* key : {"gap_cm", "peak_pressure_MPa", "crack_radius_um", "flaw_size_mm", "T_max_K", "at",
-                          "time_ms", "T_max_10ms_K", "margin_K", "uncertainty_K", "verdict", "reason",
-                          "ignition", "paper_K", "computed_minus_published_K", "used_for"}) {
+  for (const char* key :
+       {"gap_cm", "peak_pressure_MPa", "crack_radius_um", "flaw_size_mm", "temperature_max_K",
+        "temperature_max_place", "temperature_max_time_ms", "temperature_early_K", "spread_early_K",
+        "margin_K", "uncertainty_K", "verdict", "reason", "ignition_cause"}) {
     EXPECT_TRUE(json["verdicts"][0].contains(key)) << key;
   }
-  EXPECT_EQ(json["verdicts"][0]["used_for"], "calibration");
-  EXPECT_EQ(json["verdicts"][1]["used_for"], "held out");
-  EXPECT_TRUE(json["verdicts"][2]["used_for"].is_null());
-  EXPECT_TRUE(json["verdicts"][0]["ignition"].is_null());
-  EXPECT_EQ(json["verdicts"][2]["ignition"]["point"], "S2");
-  for (const char* key : {"wall_s", "runs", "updates_per_second"}) EXPECT_TRUE(json["timing"].contains(key));
-  EXPECT_TRUE(json["fit"]["slope_standard_error_K_per_cm"].is_null());  // two rows: no degree of freedom left
+  EXPECT_EQ(json["early_time_ms"], 10.0);
+  ASSERT_EQ(json["comparison"].size(), 2u);
+  EXPECT_EQ(json["comparison"][0]["used_for"], "calibration");
+  EXPECT_EQ(json["comparison"][1]["used_for"], "held out");
+  EXPECT_EQ(json["comparison"][1]["temperature_max_published_K"], 492.9);
+  EXPECT_TRUE(json["verdicts"][0]["ignition_cause"].is_null());
+  EXPECT_EQ(json["verdicts"][2]["ignition_place"], "S2");
+  for (const char* key : {"wall_time_s", "runs", "updates_per_second"})
+    EXPECT_TRUE(json["timing"].contains(key));
+  EXPECT_TRUE(
+      json["fit"][0]["slope_standard_error_K_per_cm"].is_null());  // two rows: no degree of freedom left
 }
 
 TEST(CriticalGapReport, NothingThatFailedIsANumber) {
@@ -57,22 +64,22 @@ TEST(CriticalGapReport, NothingThatFailedIsANumber) {
   options.runners.mechanics = [](const scene::Scene&, const run::RunOptions&) -> run::MechanicsResult {
     throw std::runtime_error("broken");
   };
-  const auto json = kinds::to_json(run_critical_gap(study_of(text + synthetic_constants), options));
-  for (const char* key : {"value_cm", "lower_cm", "upper_cm"})
+  const auto json = json_of(run_critical_gap(study_of(text + synthetic_constants), options));
+  for (const char* key : {"critical_gap_cm", "critical_gap_lower_cm", "critical_gap_upper_cm"})
     EXPECT_TRUE(json["critical_gap"][key].is_null()) << key;
-  EXPECT_EQ(json["critical_gap"]["kind"], "indeterminate");
-  EXPECT_TRUE(json["verdicts"][0]["T_max_K"].is_null());
+  EXPECT_EQ(json["critical_gap"]["critical_gap_kind"], "indeterminate");
+  EXPECT_TRUE(json["verdicts"][0]["temperature_max_K"].is_null());
   EXPECT_EQ(json["verdicts"][0]["verdict"], "INDETERMINATE");
-  EXPECT_TRUE(json["fit"].is_null());
+  EXPECT_TRUE(json["fit"].empty());
 }
 
 TEST(CriticalGapReport, SeveralCasesHaveNoSingleCriticalGap) {
   const CriticalGapResult result = run_critical_gap(
       study_of(text + "peak_pressures = \"400, 496 MPa\"\n" + synthetic_constants), synthetic_options());
-  const auto json = kinds::to_json(result);
+  const auto json = json_of(result);
   EXPECT_EQ(json["cases"].size(), 2u);
   EXPECT_EQ(json["verdicts"].size(), 6u);
-  EXPECT_TRUE(json["critical_gap"]["value_cm"].is_null());
+  EXPECT_TRUE(json["critical_gap"].is_null());
   EXPECT_NE(kinds::answer(result).find("400 MPa"), std::string::npos);
 }
 
@@ -109,10 +116,11 @@ TEST(CalibrationReport, SaysWhatTheEvidenceSupports) {
   StudyFile shipped = *read_study(studies_folder / "calibrate_table8.toml");
   study::settings_of<kinds::CalibrationSettings>(shipped.study).fast_rise.clear();
   const CalibrationResult result = run_calibration(shipped, synthetic_options());
-  const auto json = kinds::to_json(result);
+  const auto json = json_of(result);
   EXPECT_EQ(json["calibrations"].size(), result.rows.size());
   EXPECT_GE(json["calibrations"].size(), 6u);
-  EXPECT_FALSE(json["calibrations"][0]["hold_outs"].empty());
+  EXPECT_FALSE(json["hold_outs"].empty());
+  EXPECT_FALSE(json["placements"].empty());
   ASSERT_TRUE(result.recommendation.row.has_value()) << result.recommendation.reason;
   EXPECT_FALSE(kinds::constants_table(result).rows.empty());
   const std::string page = report::to_markdown(kinds::report_of(result));

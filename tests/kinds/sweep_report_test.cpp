@@ -81,7 +81,7 @@ TEST(SweepReport, EveryCaseIsARowInTheUnitsPeopleUse) {
   EXPECT_EQ(std::get<double>(cell(table, 7, "peak_pressure_MPa")), 400.0);
   EXPECT_EQ(std::get<double>(cell(table, 8, "crack_radius_um")), 30.0) << "exactly, as it was written";
   EXPECT_NEAR(std::get<double>(cell(table, 8, "critical_gap_cm")), 100 * closed_form(400e6, 30e-6), 1e-12);
-  EXPECT_EQ(shown_text(cell(table, 8, "kind")), "value");
+  EXPECT_EQ(shown_text(cell(table, 8, "critical_gap_kind")), "value");
 }
 
 TEST(SweepReport, ABoundIsNeverANumberAmongTheValues) {
@@ -93,18 +93,18 @@ TEST(SweepReport, ABoundIsNeverANumberAmongTheValues) {
   const Table table = critical_gap_table(result);
   std::size_t bounds = 0;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    if (shown_text(cell(table, row, "kind")) == "value") continue;
+    if (shown_text(cell(table, row, "critical_gap_kind")) == "value") continue;
     ++bounds;
     EXPECT_TRUE(is_empty(cell(table, row, "critical_gap_cm")));
   }
   EXPECT_EQ(bounds, 5u);
-  EXPECT_EQ(shown_text(cell(table, 0, "reads_as")), "> 0.1 cm");
-  EXPECT_EQ(shown_text(cell(table, 35, "reads_as")), "ignites without a gap");
-  EXPECT_EQ(shown_text(cell(table, 16, "reads_as")), "indeterminate");
-  const auto json = to_json(result);
+  EXPECT_EQ(shown_text(cell(table, 0, "critical_gap_reads_as")), "> 0.1 cm");
+  EXPECT_EQ(shown_text(cell(table, 35, "critical_gap_reads_as")), "ignites without a gap");
+  EXPECT_EQ(shown_text(cell(table, 16, "critical_gap_reads_as")), "indeterminate");
+  const auto json = json_of(result);
   EXPECT_EQ(json.dump().find("0.077"), std::string::npos);
-  EXPECT_TRUE(json["cases"][0]["critical_gap"]["value_cm"].is_null());
-  EXPECT_EQ(json["cases"][0]["critical_gap"]["kind"], "all-safe");
+  EXPECT_TRUE(json["cases"][0]["critical_gap_cm"].is_null());
+  EXPECT_EQ(json["cases"][0]["critical_gap_kind"], "all-safe");
   EXPECT_EQ(answer(result).find("0.077"), std::string::npos);
 }
 
@@ -112,7 +112,7 @@ TEST(SweepReport, AFailedCaseHasItsReasonAndNoNumbers) {
   const Table table = critical_gap_table(made_sweep());
   EXPECT_EQ(shown_text(cell(table, 16, "status")), "energy drift");
   EXPECT_EQ(shown_text(cell(table, 16, "reason")), "energy drift 0.2 at 3 ms");
-  EXPECT_TRUE(is_empty(cell(table, 16, "T_max_smallest_gap_K")));
+  EXPECT_TRUE(is_empty(cell(table, 16, "temperature_max_smallest_gap_K")));
   EXPECT_TRUE(is_empty(cell(table, 16, "energy_drift")));
   const Table matrix = verdict_matrix(made_sweep());
   EXPECT_EQ(shown_text(matrix.rows[16].back()), "INDET.");
@@ -125,8 +125,9 @@ TEST(SweepReport, TheLongTableHasARowForEveryGap) {
   const Table table = verdict_table(made_sweep());
   EXPECT_EQ(table.rows.size(), 180u);
   const auto keys = keys_of(table);
-  EXPECT_EQ((std::vector<std::string>{keys.begin(), keys.begin() + 4}),
-            (std::vector<std::string>{"peak_pressure_MPa", "crack_radius_um", "gap_cm", "T_max_K"}));
+  EXPECT_EQ(
+      (std::vector<std::string>{keys.begin(), keys.begin() + 4}),
+      (std::vector<std::string>{"peak_pressure_MPa", "crack_radius_um", "gap_cm", "temperature_max_K"}));
   EXPECT_EQ(std::get<double>(cell(table, 8, "gap_cm")), 0.039);
   EXPECT_EQ(shown_text(cell(table, 179, "ignition")), "T1 at 17.86 ms, G1");
   const std::string csv = to_csv(table);
@@ -187,22 +188,24 @@ TEST(SweepReport, TheAxesTakeTheUnitInWhichTheirValuesReadBest) {
 
 TEST(SweepReport, JsonHasAxesCountsAndCases) {
   const SweepResult result = made_sweep();
-  const auto json = to_json(result);
+  const auto json = json_of(result);
   EXPECT_EQ(json["kind"], "sweep");
   EXPECT_EQ(json["axes"][0]["scene_key"], "load.peak");
   EXPECT_EQ(json["axes"][1]["values"][2], 30.0);
   EXPECT_EQ(json["counts"]["critical_gaps"]["value"], 31);
   EXPECT_EQ(json["counts"]["verdicts"]["INDETERMINATE"], 5);
   ASSERT_EQ(json["cases"].size(), 36u);
-  EXPECT_EQ(json["cases"][8]["coordinates"]["crack_radius_um"], 30.0);
-  EXPECT_EQ(json["cases"][8]["critical_gap"]["kind"], "value");
-  EXPECT_EQ(json["cases"][16]["failure"], "energy drift 0.2 at 3 ms");
-  EXPECT_TRUE(json["cases"][8]["failure"].is_null());
-  ASSERT_EQ(json["cases"][8]["verdicts"].size(), 5u);
-  EXPECT_EQ(json["cases"][8]["verdicts"][1]["gap_cm"], 0.01);
-  EXPECT_EQ(json["cases"][8]["verdicts"][1]["verdict"], "SAFE");
-  EXPECT_NEAR(json["cases"][8]["verdicts"][1]["heated_K"].get<double>(), 443.1, 1e-9);
-  EXPECT_TRUE(json["cases"][16]["verdicts"][0]["T_max_K"].is_null());
+  EXPECT_EQ(json["cases"][8]["crack_radius_um"], 30.0);
+  EXPECT_EQ(json["cases"][8]["critical_gap_kind"], "value");
+  EXPECT_EQ(json["cases"][16]["reason"], "energy drift 0.2 at 3 ms");
+  EXPECT_EQ(json["cases"][8]["status"], "completed");
+  ASSERT_EQ(json["verdicts"].size(), 180u) << "five for every case";
+  const auto& second = json["verdicts"][8 * 5 + 1];
+  EXPECT_EQ(second["crack_radius_um"], 30.0);
+  EXPECT_EQ(second["gap_cm"], 0.01);
+  EXPECT_EQ(second["verdict"], "SAFE");
+  EXPECT_NEAR(second["temperature_max_inert_K"].get<double>(), 443.1, 1e-9);
+  EXPECT_TRUE(json["verdicts"][16 * 5]["temperature_max_K"].is_null());
 }
 
 // --- pictures ---
@@ -313,7 +316,7 @@ TEST(SweepReport, WritesItsFiles) {
     EXPECT_TRUE(std::filesystem::exists(folder.path / "critical_gap.svg"));
     EXPECT_TRUE(std::filesystem::exists(folder.path / "critical_gap_2.svg"));
   }
-  EXPECT_EQ(nlohmann::ordered_json::parse(content_of(folder.path / "study.json")), to_json(result));
+  EXPECT_EQ(nlohmann::ordered_json::parse(content_of(folder.path / "study.json")), json_of(result));
   const std::string page = content_of(folder.path / "report.md");
   EXPECT_TRUE(page.starts_with("# A made study\n\n72 cases")) << page.substr(0, 100);
   EXPECT_NE(page.find("launchsafe study studies/made.toml -o DIR"), std::string::npos);

@@ -88,7 +88,7 @@ TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
   EXPECT_TRUE(says(page, "calibrated, and not derived"));
   EXPECT_TRUE(says(page, "Cited limits of the gap"));
   EXPECT_TRUE(says(page, "underwater experiments"));
-  const auto json = to_json(result);
+  const auto json = json_of(result);
   EXPECT_GT(json["verdicts"][1]["taken_over_supplied"].get<double>(), 1.0);
   EXPECT_NEAR(json["verdicts"][1]["skin_took_kJ_per_m2"].get<double>(),
               1e-3 * result.cases[0].verdicts[1].air.taken, 1e-12);
@@ -109,7 +109,7 @@ TEST(CriticalGapReport, WithoutCitedLimitsHasNoTableOfThem) {
   const study::StudyFile file = study::study_of(study::critical_text + study::synthetic_constants);
   const auto result = kinds::run_critical_gap(file, study::synthetic_options());
   EXPECT_FALSE(says(to_markdown(report_of(result)), "Cited limits"));
-  EXPECT_TRUE(to_json(result)["cited_limits"].empty());
+  EXPECT_TRUE(json_of(result)["cited_limits"].empty());
 }
 
 TEST(SweepReport, SaysWhatTheSkinTookWhereItTookMost) {

@@ -1,6 +1,7 @@
 // Where reports are written in tests, and what they hold.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <filesystem>
@@ -13,6 +14,12 @@ namespace launchsafe::report {
 inline std::string content_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// study.json of a study's report.
+template <class Result>
+nlohmann::ordered_json json_of(const Result& result) {
+  return nlohmann::ordered_json::parse(report_of(result).json);
 }
 
 /// A folder of its own, gone with the test.

@@ -1,7 +1,10 @@
 // A report made by hand: its page, its text for a terminal, and its files.
 #include "launchsafe/report/report.hpp"
 
+#include "launchsafe/report/study_text.hpp"
+
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -25,7 +28,7 @@ Report made_report() {
                   Statement{},
                   ReportTable{.table = table_of(3, "On the page"), .shown = Shown::page},
                   ReportTable{.table = table_of(3, "On the terminal"), .shown = Shown::terminal},
-                  ReportTable{table_of(3, "In a file"), "file.csv", Shown::file},
+                  ReportTable{table_of(3, "In a file"), "file.csv", "", Shown::file},
                   ReportTable{table_of(0, "Without rows"), "none.csv"},
                   Picture{"curve.svg", {}, "a curve"},
                   ReportTable{.table = table_of(100, "Long"), .csv = "long.csv", .most_rows = 10}};

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <limits>
+#include <string>
 
 namespace launchsafe::report {
 namespace {
@@ -82,7 +84,7 @@ TEST(Table, CsvFollowsRfc4180) {
                 {"", std::numeric_limits<double>::quiet_NaN()},
                 {"short"}};
   EXPECT_EQ(to_csv(table),
-            "case,t_max_k\r\n"
+            "case,t_max_K\r\n"
             "plain,0.3333333333333333\r\n"
             "\"with, comma\",0.1\r\n"
             "\"a \"\"quote\"\"\",1e+300\r\n"
@@ -96,18 +98,38 @@ TEST(Table, JsonKeepsNumbersExactlyAndOrder) {
   EXPECT_EQ(json["title"], "Verdicts");
   EXPECT_EQ(json["columns"][0], (nlohmann::ordered_json{{"key", "gap_cm"}, {"name", "gap"}, {"unit", "cm"}}));
   EXPECT_EQ(json["rows"][0].dump(),
-            R"({"gap_cm":0.0,"t_max_k":416.149,"at":"G2","steps":36000,"verdict":"SAFE"})");
-  EXPECT_TRUE(json["rows"][1]["t_max_k"].is_null());
+            R"({"gap_cm":0.0,"t_max_K":416.149,"at":"G2","steps":36000,"verdict":"SAFE"})");
+  EXPECT_TRUE(json["rows"][1]["t_max_K"].is_null());
   EXPECT_TRUE(json["rows"][1]["at"].is_null());
 }
 
 TEST(Table, KeysAreMadeOfNameAndUnitAndAllDifferent) {
   Table table;
-  table.columns = {{"T max", "K"},       {"t-max (K)", ""},
+  table.columns = {{"T max", "K"},       {"t-max", "K"},
                    {"density", "kg/m3"}, {"GCI", "%"},
                    {"\u03c4", ""},       {"T max", "K", Alignment::right, 1, Notation::fixed, "own"}};
-  EXPECT_EQ(keys_of(table), (std::vector<std::string>{"t_max_k", "t_max_k_2", "density_kg_m3", "gci_percent",
-                                                      "column", "own"}));
+  EXPECT_EQ(keys_of(table), (std::vector<std::string>{"t_max_K", "t_max_K_2", "density_kg_per_m3",
+                                                      "gci_percent", "column", "own"}));
+}
+
+TEST(Table, AColumnMayBeForPeopleOrForProgramsAlone) {
+  Table table = verdicts();
+  table.columns[1].audience = Audience::people;
+  table.columns[3].audience = Audience::programs;
+  EXPECT_EQ(to_text(table).find("steps"), std::string::npos) << to_text(table);
+  EXPECT_EQ(to_markdown(table).find("36000"), std::string::npos) << to_markdown(table);
+  EXPECT_TRUE(to_csv(table).starts_with("gap_cm,at,steps,verdict\r\n0,G2,36000,SAFE\r\n")) << to_csv(table);
+  EXPECT_EQ(to_json(table)["columns"].size(), 4u);
+  EXPECT_EQ(to_json(table)["rows"][0].dump(), R"({"gap_cm":0.0,"at":"G2","steps":36000,"verdict":"SAFE"})");
+}
+
+TEST(Table, RowsAppendedToAnArrayAreThoseOfTheJson) {
+  std::string text = "[";
+  append_json_rows(text, verdicts());
+  EXPECT_EQ(nlohmann::ordered_json::parse(text + "]"), to_json(verdicts())["rows"]);
+  append_json_rows(text, verdicts());
+  EXPECT_EQ(nlohmann::ordered_json::parse(text + "]").size(), 4u) << "behind what is there";
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4) << "a line each";
 }
 
 TEST(Table, NotationsRound) {
@@ -123,7 +145,7 @@ TEST(Table, WithoutRowsItIsStillATable) {
   table.rows.clear();
   EXPECT_NE(to_text(table).find("gap [cm]"), std::string::npos);
   EXPECT_EQ(to_json(table)["rows"], nlohmann::ordered_json::array());
-  EXPECT_EQ(to_csv(table), "gap_cm,t_max_k,at,steps,verdict\r\n");
+  EXPECT_EQ(to_csv(table), "gap_cm,t_max_K,at,steps,verdict\r\n");
 }
 
 }  // namespace

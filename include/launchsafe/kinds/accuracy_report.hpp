@@ -21,7 +21,6 @@ report::Table time_table(const AccuracyResult& result);
 /// A row for every station: T max on the reference meshes, order, limit, uncertainty.
 report::Table point_table(const AccuracyResult& result);
 
-nlohmann::ordered_json to_json(const AccuracyResult& result);
 /// Error of T max against processor time, with the front of the settings that no other one beats.
 report::Plot error_plot(const AccuracyResult& result);
 /// One screen: how wrong is the critical gap, why believe it, what would it cost to halve the error.

@@ -24,9 +24,6 @@ report::Table convergence_table(const CalibrationResult& result);
 /// The recommended constants beside those of the scene file.
 report::Table constants_table(const CalibrationResult& result);
 
-nlohmann::ordered_json to_json(const CalibrationResult& result);
-std::string to_markdown(const CalibrationResult& result);
-
 /// The whole report, with what is printed on a terminal and every file.
 report::Report report_of(const CalibrationResult& result);
 

@@ -19,18 +19,18 @@ report::Table comparison_table(const CriticalGapResult& result);
 report::Table critical_gap_table(const CriticalGapResult& result);
 /// The study's cited limits beside the critical gaps of its cases; without rows where it cites none.
 report::Table cited_limit_table(const CriticalGapResult& result);
-/// What the skin took from the air of every gap of every case, and what follows from it.
+/// What the complete coupled runs came to that confirm critical gaps.
+report::Table coupled_run_table(const CriticalGapResult& result);
 /// Highest temperatures and critical gaps under the reservoir and under the film of air, by name; no rows
 /// where the study's own air is no reservoir.
 report::Table air_model_table(const CriticalGapResult& result);
+/// What the skin took from the air of every gap of every case, and what follows from it.
 report::Table air_energy_table(const CriticalGapResult& result);
 /// Lines of one case and their residuals.
 report::Table fit_table(const study::CaseOutcome& outcome);
 /// Status, energy drift, limiters and speed of every run.
 report::Table run_table(const CriticalGapResult& result);
 
-/// One object: critical_gap, verdicts, fit, timing, and cases where there are several.
-nlohmann::ordered_json to_json(const CriticalGapResult& result);
 /// Maximum temperature against gap.
 report::Plot temperature_plot(const CriticalGapResult& result);
 

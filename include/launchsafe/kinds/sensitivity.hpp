@@ -38,7 +38,7 @@ enum class SensitivityOutput {
   critical_gap,         ///< m
   margin                ///< K, ignition temperature minus that maximum temperature
 };
-std::string to_string(SensitivityOutput output);  ///< "T_max", "critical_gap", "margin"
+std::string to_string(SensitivityOutput output);  ///< "temperature_max", "critical_gap", "margin"
 
 /// What an output depends on.
 struct OutputSensitivity {

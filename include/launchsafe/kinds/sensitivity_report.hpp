@@ -18,10 +18,10 @@ std::string answer(const SensitivityResult& result);
 report::Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity& output);
 /// All outputs below each other, for other programs.
 report::Table sensitivity_table(const SensitivityResult& result);
+/// A row for every output: its mean and standard deviation, and why it has no indices where it has none.
+report::Table output_table(const SensitivityResult& result);
 /// A row for every evaluation: its inputs, outputs and failure.
 report::Table evaluation_table(const SensitivityResult& result);
-
-nlohmann::ordered_json to_json(const SensitivityResult& result);
 
 /// First and total order of every input with their intervals, or mu* against sigma.
 report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output);

@@ -18,9 +18,6 @@ report::Table stability_summary(const StabilityResult& result);
 /// A row for every gap of every launch that ran, with the numbers behind its outcome.
 report::Table launch_table(const StabilityResult& result);
 
-/// One object: counts, and the cases with their numbers.
-nlohmann::ordered_json to_json(const StabilityResult& result);
-
 /// The whole report, with what is printed on a terminal and every file.
 report::Report report_of(const StabilityResult& result);
 

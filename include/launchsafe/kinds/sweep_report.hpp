@@ -26,9 +26,6 @@ report::Table verdict_table(const SweepResult& result);
 /// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
 report::Table verdict_matrix(const SweepResult& result);
 
-/// One object: axes, counts, and cases with their verdicts.
-nlohmann::ordered_json to_json(const SweepResult& result);
-
 /// A picture and the name of its file.
 struct SweepPicture {
   std::string file;

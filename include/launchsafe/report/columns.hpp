@@ -4,7 +4,6 @@
 #include "launchsafe/report/table.hpp"
 
 #include <cmath>
-#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +37,18 @@ inline Column count_column(std::string name, std::string key) {
   return {std::move(name), "", Alignment::right, 0, Notation::fixed, std::move(key)};
 }
 
+/// The same column in CSV and JSON alone.
+inline Column for_programs(Column column) {
+  column.audience = Audience::programs;
+  return column;
+}
+
+/// The same column in text and Markdown alone.
+inline Column for_people(Column column) {
+  column.audience = Audience::people;
+  return column;
+}
+
 /// Puts columns behind others.
 inline void append(std::vector<Column>& columns, std::vector<Column> more) {
   for (Column& column : more) columns.push_back(std::move(column));
@@ -45,8 +56,5 @@ inline void append(std::vector<Column>& columns, std::vector<Column> more) {
 
 /// Nothing for a number that is not there; other than NaN in a result that should have one.
 inline Cell optional_number(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
-
-/// The first rows of a table; what was cut off is in `file`, and a note says so.
-Table first_rows(Table table, std::size_t most, const std::string& file);
 
 }  // namespace launchsafe::report

@@ -26,7 +26,8 @@ enum class Shown { page_and_terminal, page, terminal, file };
 
 struct ReportTable {
   Table table;
-  std::string csv = {};  ///< name of a file with all of it; empty: none
+  std::string csv = {};     ///< name of a file with all of it; empty: none
+  std::string member = {};  ///< of study.json: an array of the rows of all tables of that name; empty: none
   Shown shown = Shown::page_and_terminal;
   std::size_t most_rows = std::numeric_limits<std::size_t>::max();  ///< on the page
   std::string rest = {};  ///< the file that has the rows which are not shown; `csv` where empty

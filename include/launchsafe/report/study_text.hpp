@@ -1,8 +1,7 @@
 // Text and files that the reports of all studies share.
 #pragma once
 
-#include "launchsafe/report/plot.hpp"
-#include "launchsafe/report/written_files.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/store/result.hpp"
 #include "launchsafe/study/options.hpp"
@@ -35,6 +34,12 @@ std::string limiters_text(const run::LimiterCounts& limiters);
 nlohmann::ordered_json number(double value);
 /// An object as a file holds it. What is not UTF-8, such as an odd name of a file, is replaced.
 std::string json_file_text(const nlohmann::ordered_json& object);
+/// What a study varies: name, scene key, key of its column, unit, and its values or its distribution.
+nlohmann::ordered_json axes_json(const study::Study& study);
+/// study.json: kind, study, title and answer, `members` of the kind, and the rows of the report's tables.
+/// Rows have a line each and are never objects in memory, as large sweeps would take too much of it.
+std::string study_json(const study::StudyFile& study, const Report& report,
+                       const nlohmann::ordered_json& members);
 /// A length in cm as people read it, six digits.
 std::string centimetres(double length);
 

@@ -12,6 +12,8 @@ namespace launchsafe::report {
 
 enum class Alignment { left, right };
 enum class Notation { fixed, scientific, significant };
+/// Who a column is for: people read text and Markdown, programs read CSV and JSON.
+enum class Audience { everyone, people, programs };
 
 struct Column {
   std::string name;  ///< as people read it: "T max"
@@ -19,8 +21,12 @@ struct Column {
   Alignment alignment = Alignment::right;
   int decimals = 1;  ///< of numbers; for Notation::significant the significant digits
   Notation notation = Notation::fixed;
-  std::string key = {};  ///< for CSV and JSON; empty: made of name and unit, such as "t_max_k"
+  std::string key = {};  ///< for CSV and JSON; empty: made of name and unit, such as "peak_time_ms"
+  Audience audience = Audience::everyone;
 };
+
+/// Letters, digits and single underscores: "J/(kg K)" becomes "J_per_kg_K", "%" "percent".
+std::string key_text(const std::string& text);
 
 /// A column of text, left-aligned.
 Column text_column(std::string name);
@@ -35,7 +41,7 @@ struct Table {
   std::vector<std::string> notes = {};  ///< sentences under the table; in text and Markdown only
 };
 
-/// The keys of the columns in CSV and JSON, all different.
+/// The keys of all columns, all different.
 std::vector<std::string> keys_of(const Table& table);
 
 /// For a terminal: title, header, rule, rows; numbers rounded as the columns say.
@@ -51,5 +57,9 @@ std::string to_csv(const Table& table);
 /// {"title", "columns": [{"key", "name", "unit"}], "rows": [{key: value}]}; numbers exact, NaN and nothing as
 /// null.
 nlohmann::ordered_json to_json(const Table& table);
+
+/// Adds the rows of `to_json`, a line each, to a text that ends in an open array: a long table is never the
+/// whole of it as objects in memory.
+void append_json_rows(std::string& text, const Table& table);
 
 }  // namespace launchsafe::report

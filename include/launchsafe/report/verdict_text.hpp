@@ -1,10 +1,8 @@
-// Verdicts and critical gaps as cells, JSON and sentences, the same in every study that judges gaps.
+// Verdicts and critical gaps as cells and sentences, the same in every study that judges gaps.
 #pragma once
 
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/study/gap_verdict.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <string>
 #include <vector>
@@ -13,8 +11,13 @@ namespace launchsafe::report {
 
 /// From T max to the energy of the air: what is known of one gap of one case.
 std::vector<Column> verdict_columns(const study::Study& study);
+/// The cells under them, put behind those that a row already has. `inert`: T max without reaction, K.
+void add_verdict_cells(const study::GapVerdict& row, double inert, std::vector<Cell>& cells);
+
+/// Kind, value, bracket and uncertainty of a critical gap, and how it reads.
+std::vector<Column> critical_gap_columns();
 /// The cells under them, put behind those that a row already has.
-void add_verdict_cells(const study::GapVerdict& row, std::vector<Cell>& cells);
+void add_critical_gap_cells(const study::CriticalGap& gap, std::vector<Cell>& cells);
 
 /// What every table of verdicts must say: an assumed uncertainty, a charge off the grid lines.
 std::vector<std::string> mesh_notes(const study::StudyFile& study);
@@ -22,12 +25,7 @@ std::vector<std::string> mesh_notes(const study::StudyFile& study);
 std::string station_note(const study::StudyFile& study);
 
 /// What the published highest temperature of a gap was used for.
-std::string used_for(const study::Reference& paper);
-
-/// The members of a verdict's object from "T_max_K" to "taken_over_supplied".
-void add_verdict(nlohmann::ordered_json& json, const study::GapVerdict& row);
-/// value, bracket, uncertainty, kind and reason; what is no value is null.
-nlohmann::ordered_json critical_gap_json(const study::CriticalGap& gap);
+std::string used_for(const study::Reference& published);
 
 /// The value in m, NaN for anything that is none: a bound never passes for a value.
 double value_of(const study::CriticalGap& gap);

@@ -1,0 +1,88 @@
+// The keys of the tables of all kinds: one for a quantity, with its unit.
+#include "kinds/made_studies.hpp"
+#include "launchsafe/kinds/accuracy_report.hpp"
+#include "launchsafe/kinds/calibration_report.hpp"
+#include "launchsafe/kinds/critical_gap_report.hpp"
+#include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/kinds/sensitivity_report.hpp"
+#include "launchsafe/kinds/stability_report.hpp"
+#include "launchsafe/kinds/sweep_report.hpp"
+#include "study/synthetic_launch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace launchsafe::kinds {
+namespace {
+
+/// A hard launch with a gap, so that both tables of a stability study have rows.
+StabilityResult stability_with_a_launch() {
+  StabilityResult result;
+  result.study = bare_study(traits_of("stability"), {2e-4});
+  HardRow row;
+  row.ran = true;
+  row.gaps.emplace_back();
+  result.rows = {row};
+  return result;
+}
+
+std::vector<report::Report> reports_of_all_kinds() {
+  const std::string gaps =
+      "gaps = \"0, 0.03, 0.06 cm\"\nreference = [{ gap = \"0 cm\", maximum_temperature = "
+      "\"416.1 K\", point = \"G2\", calibrated = true }]\n";
+  const auto critical = run_critical_gap(
+      study::study_of(study::critical_text + gaps + study::synthetic_constants), study::synthetic_options());
+  study::StudyFile shipped = *read_study(study::studies_folder / "calibrate_table8.toml");
+  study::settings_of<CalibrationSettings>(shipped.study).fast_rise.clear();
+  const auto accuracy = run_accuracy(
+      study::study_of("kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\ngaps = \"0, 0.02 cm\"\n"
+                      "reference_cell_sizes = \"0.625, 1.25, 2.5 mm\"\ntimes = \"10 ms\"\n" +
+                      study::constants_on_even_lattice),
+      study::synthetic_options(2));
+  return {report_of(made_sweep()),
+          report_of(made_sensitivity(SensitivityMethod::sobol)),
+          report_of(made_sensitivity(SensitivityMethod::morris)),
+          report_of(critical),
+          report_of(run_calibration(shipped, study::synthetic_options())),
+          report_of(accuracy),
+          report_of(stability_with_a_launch())};
+}
+
+std::vector<report::Table> tables_of_all_kinds() {
+  std::vector<report::Table> tables;
+  for (const report::Report& report : reports_of_all_kinds()) {
+    for (const auto& item : report.items) {
+      if (const auto* table = std::get_if<report::ReportTable>(&item)) tables.push_back(table->table);
+    }
+  }
+  return tables;
+}
+
+TEST(QuantityKeys, EndWithTheUnitAndAreTheSameInEveryTable) {
+  std::map<std::string, std::string> units;  // by key
+  std::size_t columns = 0;
+  for (const report::Table& table : tables_of_all_kinds()) {
+    const std::vector<std::string> keys = report::keys_of(table);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const std::string& unit = table.columns[i].unit;
+      std::string words = keys[i];
+      if (!unit.empty() && unit != "1/s") {
+        const std::string suffix = "_" + report::key_text(unit);
+        ASSERT_TRUE(words.ends_with(suffix)) << table.title << ": " << words << " in " << unit;
+        words.resize(words.size() - suffix.size());
+      }
+      EXPECT_FALSE(words.ends_with("_2")) << table.title << " has two columns of one key: " << words;
+      const auto [known, is_new] = units.try_emplace(keys[i], unit);
+      EXPECT_TRUE(is_new || known->second == unit) << keys[i];
+      ++columns;
+    }
+  }
+  EXPECT_GT(columns, 200u);
+  EXPECT_TRUE(units.contains("temperature_max_K"));
+}
+
+}  // namespace
+}  // namespace launchsafe::kinds
