@@ -7,6 +7,7 @@
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/quantity.hpp"
+#include "launchsafe/study/gap_verdict.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,16 +20,9 @@ namespace {
 
 using scene::Dimension;
 
-/// The paper tabulates temperatures at this time as well, s.
-constexpr double early_time = 10e-3;
-
 bool has_observation_points(const trace::BottomTrace& trace) {
   return std::any_of(trace.stations.begin(), trace.stations.end(),
                      [](const trace::Station& station) { return station.observation; });
-}
-
-bool reaches_early_time(const run::MechanicsResult& mechanics) {
-  return mechanics.end_time >= early_time && !mechanics.trace.stations.empty();
 }
 
 std::string place_of(const trace::BottomTrace& trace, std::size_t index) {
@@ -58,13 +52,12 @@ void add_maximum(std::vector<report::Cell>& row, const surface::Maximum& maximum
   row.emplace_back(1e3 * maximum.time);
 }
 
-std::vector<report::Column> gap_columns(bool early, bool points) {
+std::vector<report::Column> gap_columns(bool points) {
   std::vector<report::Column> columns{
       {.name = "gap", .unit = "cm", .decimals = 5, .notation = report::Notation::significant},
       {.name = "T max", .unit = "K"},
       report::text_column("at"),
       {.name = "time", .unit = "ms", .decimals = 2}};
-  if (early) columns.push_back({.name = "T at 10 ms", .unit = "K"});
   if (points) {
     columns.push_back({.name = "T max at points", .unit = "K"});
     columns.push_back(report::text_column("where"));
@@ -133,28 +126,19 @@ report::Table air_table(const scene::Scene& scene, const run::CaseResult& result
   return report::air_energy_table(scene.surface.air_model, gaps);
 }
 
-/// What is not a number becomes null when it is written.
-nlohmann::ordered_json air_json(const surface::AirEnergy& air) {
-  return {{"taken_j_per_m2", air.taken},
-          {"supplied_j_per_m2", air.supplied},
-          {"taken_over_supplied", air.ratio()},
-          {"stored_j_per_m2", air.stored},
-          {"isothermal_j_per_m2", air.isothermal}};
-}
-
 nlohmann::ordered_json maximum_json(const surface::Maximum& maximum, const trace::BottomTrace& trace) {
-  return {{"temperature_k", maximum.temperature},
-          {"at", place_of(trace, maximum.station)},
-          {"time_s", maximum.time}};
+  return {{"temperature_max_K", maximum.temperature},
+          {"temperature_max_place", place_of(trace, maximum.station)},
+          {"temperature_max_time_ms", 1e3 * maximum.time}};
 }
 
 nlohmann::ordered_json ignition_json(const std::optional<surface::Ignition>& ignition,
                                      const trace::BottomTrace& trace) {
   if (!ignition) return nullptr;
-  return {{"cause", ignition->cause == surface::IgnitionCause::trigger ? "trigger" : "arrhenius"},
-          {"time_s", ignition->time},
-          {"at", place_of(trace, ignition->station)},
-          {"chemical_share", ignition->chemical_share}};
+  return {{"ignition_cause", study::to_string(ignition->cause)},
+          {"ignition_time_ms", 1e3 * ignition->time},
+          {"ignition_place", place_of(trace, ignition->station)},
+          {"ignition_chemical_share", ignition->chemical_share}};
 }
 
 nlohmann::ordered_json gap_json(const run::GapResult& gap, const run::MechanicsResult& mechanics) {
@@ -164,32 +148,27 @@ nlohmann::ordered_json gap_json(const run::GapResult& gap, const run::MechanicsR
   object["maximum"] = maximum_json(gap.at_stations, trace);
   object["at_observation_points"] =
       observed ? maximum_json(gap.at_points, trace) : nlohmann::ordered_json(nullptr);
-  if (reaches_early_time(mechanics)) {
-    object["at_10_ms"] = maximum_json(surface::maximum_at_time(gap.skin, trace, early_time), trace);
-  }
   object["ignition"] = ignition_json(gap.skin.ignition, trace);
-  object["air_energy"] = air_json(gap.air);
-  object["sampling_error_k"] = gap.sampling_error;
+  object["sampling_error_K"] = gap.sampling_error;
   return object;
 }
 
 nlohmann::ordered_json energy_json(const run::EnergyBalance& energy) {
-  return {{"kinetic_j", energy.kinetic},   {"internal_j", energy.internal},
-          {"external_j", energy.external}, {"body_force_j", energy.body_force},
-          {"damping_j", energy.damping},   {"contact_j", energy.contact},
-          {"plastic_j", energy.plastic},   {"viscous_j", energy.viscous},
-          {"crack_j", energy.crack},       {"drift", energy.drift()}};
+  return {{"kinetic_J", energy.kinetic},   {"internal_J", energy.internal},
+          {"external_J", energy.external}, {"body_force_J", energy.body_force},
+          {"damping_J", energy.damping},   {"contact_J", energy.contact},
+          {"plastic_J", energy.plastic},   {"viscous_J", energy.viscous},
+          {"crack_J", energy.crack},       {"drift", energy.drift()}};
 }
 
 /// A row a gap: highest temperatures, where and when, ignition.
 report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result) {
   const trace::BottomTrace& trace = result.mechanics.trace;
-  const bool early = reaches_early_time(result.mechanics), points = has_observation_points(trace);
-  report::Table table{scene.title, gap_columns(early, points), {}};
+  const bool points = has_observation_points(trace);
+  report::Table table{scene.title, gap_columns(points), {}};
   for (const run::GapResult& gap : result.gaps) {
     std::vector<report::Cell> row{scene::in_unit(gap.gap, Dimension::length, "cm")};
     add_maximum(row, gap.at_stations, trace, !trace.stations.empty());
-    if (early) row.emplace_back(surface::maximum_at_time(gap.skin, trace, early_time).temperature);
     if (points) add_maximum(row, gap.at_points, trace, true);
     row.emplace_back(ignition_text(gap.skin.ignition, trace));
     table.rows.push_back(std::move(row));
@@ -223,9 +202,10 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result) 
 nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResult& result) {
   const run::MechanicsResult& mechanics = result.mechanics;
   nlohmann::ordered_json object{{"title", scene.title},          {"status", run::to_string(mechanics.status)},
-                                {"reason", mechanics.reason},    {"simulated_s", mechanics.end_time},
+                                {"reason", mechanics.reason},    {"end_time_ms", 1e3 * mechanics.end_time},
                                 {"load", load_json(scene.load)}, {"gaps", nlohmann::ordered_json::array()}};
   for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
+  object["air_energy"] = report::to_json(air_table(scene, result))["rows"];
   if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
   object["interfaces"] = report::to_json(report::interface_table(mechanics))["rows"];
   object["limiters"] = {{"crack_at_bound", mechanics.limiters.crack_at_bound},

@@ -61,7 +61,7 @@ nlohmann::ordered_json shard_json(const kinds::StudyOutcome& result, const study
           {"shards", shard.count},
           {"mechanical_runs", result.timing.runs},
           {"reused", result.timing.reused},
-          {"wall_s", result.timing.wall_time},
+          {"wall_time_s", result.timing.wall_time},
           {"failed", failures.size()}};
 }
 
