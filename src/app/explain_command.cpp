@@ -44,7 +44,7 @@ ExitCode interrupted(Console& console) {
 
 std::string line_of(const scene::Implausible& value) {
   if (value.accepted()) return scene::accepted_text({value});
-  return "verdicts are in doubt: " + scene::doubt_text(value);
+  return "validity warning: " + scene::validity_warning(value);
 }
 
 /// One sentence for every value that is not plausible, and for every acceptance that accepts nothing.

@@ -38,8 +38,8 @@ std::string plausible_line(const scene::KeyDescription& key) {
 
 std::string derived_text() {
   std::string text =
-      "Quantities that follow from the keys of a scene; what is not plausible of one puts verdicts in "
-      "doubt too.\n";
+      "Quantities that follow from the keys of a scene; what is not plausible of one gives "
+      "validity warnings too.\n";
   for (const scene::DerivedQuantity& each : scene::derived_quantities()) {
     text += fmt::format("\n{}\n    {}\n{}", each.description.name, each.description.sentence,
                         plausible_line(each.description));

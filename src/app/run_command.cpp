@@ -92,7 +92,7 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
   }
 
   for (const scene::Implausible& each : scene::implausible_values(scene)) {
-    if (!each.accepted()) console.remark("a verdict on this would be in doubt: " + scene::doubt_text(each));
+    if (!each.accepted()) console.remark("validity warning: " + scene::validity_warning(each));
   }
   const run::CaseResult result = run_with_progress(scene, console);
   manifest.wall_time = result.mechanics.wall_time;

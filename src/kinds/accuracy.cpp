@@ -1,7 +1,7 @@
 #include "launchsafe/kinds/accuracy.hpp"
 
-#include "launchsafe/run/doubts.hpp"
 #include "launchsafe/run/model_version.hpp"
+#include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
@@ -26,8 +26,8 @@ bool AccuracyResult::any_indeterminate() const {
 
 namespace {
 
-std::string doubt_of(const StudyCase& input, const run::MechanicsResult& mechanics) {
-  return fmt::format("{}", fmt::join(run::doubts_of(input.scene.scene, mechanics), "; "));
+std::string validity_warnings_of(const StudyCase& input, const run::MechanicsResult& mechanics) {
+  return fmt::format("{}", fmt::join(run::validity_warnings(input.scene.scene, mechanics), "; "));
 }
 
 /// What the skin of the first gap was in detail; without reaction, since after ignition all are alike.
@@ -59,7 +59,7 @@ AccuracyMeasurement measure(const Study& study, const StudyCase& input, const Ca
   measured.memory = run::cost_of(input.scene.scene).memory();
   measured.energy_drift = answer.run.energy_drift;
   if (!measured.failure.empty()) return measured;
-  measured.doubt = doubt_of(input, mechanics);
+  measured.validity_warnings = validity_warnings_of(input, mechanics);
   for (const GapVerdict& row : answer.verdicts) {
     measured.temperature.push_back(row.maximum.temperature);
     measured.ignites.push_back(row.ignition.has_value());
@@ -104,7 +104,7 @@ std::vector<bool> inert_gaps(const AccuracyResult& result, const std::vector<boo
   std::vector<bool> inert(result.study.study.gaps.size(), false);
   for (std::size_t i = 0; i < result.measured.size(); ++i) {
     const AccuracyMeasurement& measured = result.measured[i];
-    if (other_model[i] || !measured.failure.empty() || !measured.doubt.empty()) continue;
+    if (other_model[i] || !measured.failure.empty() || !measured.validity_warnings.empty()) continue;
     for (std::size_t gap = 0; gap < inert.size(); ++gap) inert[gap] = inert[gap] || measured.ignites[gap];
   }
   return inert;
@@ -122,7 +122,7 @@ bool is_other_model(const scene::Scene& scene, const scene::Scene& own) {
 /// A setting for the record; nothing where it did not run soundly or has temperatures that nothing has.
 std::optional<RecordedSetting> recorded(const StudyCase& input, const AccuracyMeasurement& measured,
                                         const std::vector<bool>& inert) {
-  if (!measured.failure.empty() || !measured.doubt.empty()) return std::nullopt;
+  if (!measured.failure.empty() || !measured.validity_warnings.empty()) return std::nullopt;
   RecordedSetting setting;
   setting.label = input.label;
   setting.setting = setting_of(input.scene.scene);
@@ -170,9 +170,10 @@ void compare(AccuracyResult& result) {
   const std::size_t meshes = settings_of<AccuracySettings>(study.study).reference_cell_sizes.size();
   for (std::size_t i = 0; i < meshes; ++i) {
     const AccuracyMeasurement& mesh = result.measured[i];
-    if (mesh.failure.empty() && mesh.doubt.empty()) continue;
-    result.no_reference = fmt::format("the reference mesh {} {}", study.cases[i].label,
-                                      mesh.failure.empty() ? "is in doubt: " + mesh.doubt : mesh.failure);
+    if (mesh.failure.empty() && mesh.validity_warnings.empty()) continue;
+    result.no_reference = fmt::format(
+        "the reference mesh {} {}", study.cases[i].label,
+        mesh.failure.empty() ? "has a validity warning: " + mesh.validity_warnings : mesh.failure);
     return;
   }
   std::vector<bool> other_model;

@@ -37,7 +37,7 @@ std::string remark_of(const AccuracyRow& row) {
   if (!row.computed()) return row.measured.failure;
   std::string text;
   const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-  if (!row.measured.doubt.empty()) add("in doubt: " + row.measured.doubt);
+  if (!row.measured.validity_warnings.empty()) add("validity warning: " + row.measured.validity_warnings);
   if (row.baseline) add("the scene as it is");
   if (row.reference) add("reference mesh");
   if (row.on_front) add("Pareto front");

@@ -74,7 +74,7 @@ CalibrationRow row_of(const StudyFile& study, const CalibrationRun& run, Frictio
   row.kinetics = kinetics.name;
   row.calibratable = closure != FrictionClosure::none;
   row.failure = run.failure;
-  if (row.failure.empty()) row.failure = calibration_doubts(run.input.scene.scene, run.mechanics);
+  if (row.failure.empty()) row.failure = calibration_validity_warnings(run.input.scene.scene, run.mechanics);
   if (!row.failure.empty()) return row;
   surface::SkinModel model = surface::skin_model(run.input.scene.scene);
   model.surface.friction = closure;

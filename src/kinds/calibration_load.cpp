@@ -1,6 +1,6 @@
 #include "calibration_load.hpp"
 
-#include "launchsafe/run/doubts.hpp"
+#include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/load_shape.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/run_cases.hpp"
@@ -53,8 +53,8 @@ class LoadTrial {
     const run::MechanicsResult& mechanics = run.result.mechanics;
     if (!run.failure.empty())
       return fail(fmt::format("the run with its peak at {:.4g} ms: {}", 1e3 * peak_time, run.failure));
-    if (std::string doubt = calibration_doubts(scene, mechanics); !doubt.empty())
-      return fail(std::move(doubt));
+    if (std::string warnings = calibration_validity_warnings(scene, mechanics); !warnings.empty())
+      return fail(std::move(warnings));
     return misfit_of(mechanics.trace, scene);
   }
 
@@ -145,16 +145,16 @@ void close_in(LoadTrial& trial, Tried early, Tried late) {
 
 }  // namespace
 
-std::string calibration_doubts(const scene::Scene& scene, const run::MechanicsResult& mechanics) {
-  std::vector<std::string> doubts = run::doubts_of(scene, mechanics);
+std::string calibration_validity_warnings(const scene::Scene& scene, const run::MechanicsResult& mechanics) {
+  std::vector<std::string> warnings = run::validity_warnings(scene, mechanics);
   for (const scene::Implausible& each : scene::implausible_values(scene)) {
     // What the calibration settles is no input to it.
     constexpr std::array settled{"friction.localisation", "gap.exchange_time",
                                  "kinetics.ignition_temperature", "load.peak_time", "load.exponent"};
     if (!each.accepted() && std::find(settled.begin(), settled.end(), each.key) == settled.end())
-      doubts.push_back(scene::doubt_text(each));
+      warnings.push_back(scene::validity_warning(each));
   }
-  return doubts.empty() ? std::string{} : fmt::format("the run is in doubt: {}", fmt::join(doubts, "; "));
+  return warnings.empty() ? std::string{} : fmt::format("validity warning: {}", fmt::join(warnings, "; "));
 }
 
 FittedLoad fit_load(const StudyFile& study, const CalibrationTargets& targets, const StudyOptions& options,

@@ -6,9 +6,9 @@
 
 namespace launchsafe::kinds {
 
-/// Why constants must not be fitted to a run that completed, a clause: it is in doubt, or its scene has
-/// values that are not plausible and that nobody accepted. Empty for a sound one.
-std::string calibration_doubts(const scene::Scene& scene, const run::MechanicsResult& mechanics);
+/// Why constants must not be fitted to a run that completed, a clause: it has validity warnings, or its scene
+/// has values that are not plausible and that nobody accepted. Empty for a sound one.
+std::string calibration_validity_warnings(const scene::Scene& scene, const run::MechanicsResult& mechanics);
 
 /// Fits exponent and peak time to Study::fast_rise and to the row without a gap whose early temperature is to
 /// be met, with localisation, exchange time and T1 calibrated on every load that is tried: each is a

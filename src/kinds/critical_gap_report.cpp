@@ -73,7 +73,7 @@ double allowed_share(const study::GapVerdict& row, double share) {
 
 bool is_within_uncertainty(const CaseOutcome& outcome, const study::GapVerdict& row) {
   return row.judgement.verdict == study::Verdict::indeterminate && !row.ignition && outcome.completed() &&
-         row.evidence.doubt.empty() && row.margin > 0.0;
+         row.evidence.validity_warnings.empty() && row.margin > 0.0;
 }
 
 std::string undecided_row(const study::GapVerdict& row) {

@@ -1,6 +1,6 @@
 #include "launchsafe/kinds/stability.hpp"
 
-#include "launchsafe/run/doubts.hpp"
+#include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/study/answer_cases.hpp"
 #include "stability_judge.hpp"
 
@@ -67,7 +67,7 @@ LaunchRecord record_of(const StudyFile& study, std::size_t index, const run::Mec
   record.answer = answer_of(judged, input, mechanics);
   if (mechanics.status != run::RunStatus::completed) return record;
   record.violations = violations_of(input.scene.scene, mechanics, judged.gaps);
-  record.doubts = run::doubts_of(input.scene.scene, mechanics);
+  record.validity_warnings = run::validity_warnings(input.scene.scene, mechanics);
   return record;
 }
 

@@ -55,7 +55,7 @@ std::string gaps_text(const std::vector<HardGap>& gaps) {
 
 /// Why a completed run does not stand for itself; empty where it does.
 std::vector<std::string> reserves_of(const HardRow& row) {
-  std::vector<std::string> reserves = row.doubts;
+  std::vector<std::string> reserves = row.validity_warnings;
   if (const std::string limited = run::to_string(row.run.limiters); !limited.empty())
     reserves.push_back("limiters acted: " + limited);
   for (const HardGap& gap : row.gaps) {
@@ -134,7 +134,7 @@ HardRow judge_launch(const HardLaunch& launch, const LaunchRecord* record, const
   row.run = record->answer.run;
   row.end_time = record->end_time;
   row.violations = record->violations;
-  row.doubts = record->doubts;
+  row.validity_warnings = record->validity_warnings;
   row.gaps = hard_gaps(*record, against);
   const bool compared = against == nullptr || against->answer.completed();
   row.finding = record->answer.completed() ? judge_completed(row, compared) : judge_stopped(launch, *record);

@@ -14,7 +14,7 @@ struct LaunchRecord {
   double ignition_temperature = study::not_a_number;  ///< K
   study::CaseAnswer answer;
   std::vector<std::string> violations;  ///< of invariants
-  std::vector<std::string> doubts;
+  std::vector<std::string> validity_warnings;
 };
 
 /// The row of a launch. `record` is nullptr for a case of the reader, `against` for one without a safe
@@ -22,8 +22,8 @@ struct LaunchRecord {
 ///
 /// Caught: the run was stopped, or the reader refused the scene. WRONG: an invariant is violated, or T max is
 /// further from the safe computation than its uncertainty, and a verdict says SAFE or UNSAFE. Degraded: the
-/// same with an indeterminate verdict; doubts, limiters, a temperature that is no number, a stop that came
-/// later than it must, or nothing left to compare with. Held: everything else.
+/// same with an indeterminate verdict; validity warnings, limiters, a temperature that is no number, a stop
+/// that came later than it must, or nothing left to compare with. Held: everything else.
 HardRow judge_launch(const HardLaunch& launch, const LaunchRecord* record, const LaunchRecord* against);
 
 }  // namespace launchsafe::kinds

@@ -56,7 +56,7 @@ std::string failed_text(const StabilityResult& result) {
 
 std::string legend() {
   return "- **held**: what must hold held.\n"
-         "- **degraded**: it did not, or a limiter or a doubt stands behind it, and the result says so "
+         "- **degraded**: it did not, or a limiter acted or a validity warning holds, and the result says so "
          "itself: "
          "the verdict is indeterminate, or names the limiter.\n"
          "- **caught**: the run was stopped and flagged, or the reader refused the scene.\n"

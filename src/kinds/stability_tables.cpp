@@ -61,7 +61,7 @@ Table stability_table(const StabilityResult& result) {
     table.rows.push_back({row.group, row.name, row.must_hold, outcome_text(row), expected_text(row),
                           finding_text(row), std::string(row.is_as_expected() ? "yes" : "no"),
                           fmt::format("{}", fmt::join(row.violations, "; ")),
-                          fmt::format("{}", fmt::join(row.doubts, "; "))});
+                          fmt::format("{}", fmt::join(row.validity_warnings, "; "))});
   return table;
 }
 

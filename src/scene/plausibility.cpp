@@ -84,7 +84,7 @@ void judge_crack_bound(const Scene& scene, Judge& judge) {
 
 }  // namespace
 
-std::string doubt_text(const Implausible& value) {
+std::string validity_warning(const Implausible& value) {
   return fmt::format("{} = {} is not plausible ({})", value.key, value.value, value.range);
 }
 

@@ -103,23 +103,23 @@ class DecimalMark {
                       "one decimal mark, and nothing between thousands");
     }
     if (!has_comma) return number;
-    if (!doubtful_ && may_divide_thousands(number, comma)) doubtful_ = {place, key, number};
+    if (!ambiguous_ && may_divide_thousands(number, comma)) ambiguous_ = {place, key, number};
     sure_ = sure_ || !may_divide_thousands(number, comma);
     number[comma] = '.';
     return number;
   }
 
   /// The fault of commas none of which can only be that of decimals.
-  std::optional<InputError> doubt() const {
-    if (sure_ || !doubtful_) return std::nullopt;
+  std::optional<InputError> ambiguity() const {
+    if (sure_ || !ambiguous_) return std::nullopt;
     return error_at(
-        doubtful_->place, doubtful_->key,
-        fmt::format("\"{}\", where the comma may divide thousands", doubtful_->number),
+        ambiguous_->place, ambiguous_->key,
+        fmt::format("\"{}\", where the comma may divide thousands", ambiguous_->number),
         "numbers with decimal points, or at least one that shows what the commas are, such as 0,5");
   }
 
  private:
-  struct Doubtful {
+  struct Ambiguous {
     Place place;
     std::string key, number;
   };
@@ -134,7 +134,7 @@ class DecimalMark {
 
   bool commas_ = false, points_ = false;  ///< seen in any number
   bool sure_ = false;                     ///< whether a comma was seen that can only be that of decimals
-  std::optional<Doubtful> doubtful_;
+  std::optional<Ambiguous> ambiguous_;
 };
 
 /// Reads the points of a curve line by line.
@@ -170,7 +170,7 @@ class CurveReader {
     return std::nullopt;
   }
 
-  std::optional<InputError> doubt() const { return decimal_mark_.doubt(); }
+  std::optional<InputError> ambiguity() const { return decimal_mark_.ambiguity(); }
 
  private:
   InputError wrong_count(std::size_t count, const Place& place) const {
@@ -245,7 +245,7 @@ Expected<PressureCurve> parse_pressure_curve(const std::string& text, const std:
                     fmt::format("{} point{}", curve.time.size(), curve.time.size() == 1 ? "" : "s"),
                     "a curve of at least two points");
   }
-  if (auto error = reader->doubt()) return *error;
+  if (auto error = reader->ambiguity()) return *error;
   return curve;
 }
 

@@ -23,16 +23,16 @@ CaseAnswer without_histories(CaseOutcome& outcome) {
 
 /// What every verdict of a case has to say, as its input alone shows.
 struct InputStatements {
-  std::vector<std::string> doubts;
+  std::vector<std::string> validity_warnings;
   std::string accepted;
   CalibrationDistance distance;
 };
 
 InputStatements statements_of(const Study& study, const StudyCase& input) {
-  InputStatements statements{doubts_of_input(study, input), accepted_text(study, input),
+  InputStatements statements{input_validity_warnings(study, input), accepted_text(study, input),
                              distance_to_calibration(input.scene.scene, study.calibration)};
   for (std::string& each : run::uncovered_load(input.scene.scene.load))
-    statements.doubts.push_back(std::move(each));
+    statements.validity_warnings.push_back(std::move(each));
   return statements;
 }
 
@@ -40,11 +40,11 @@ InputStatements statements_of(const Study& study, const StudyCase& input) {
 /// have at the least.
 bool says(const GapVerdict& row, const InputStatements& statements, const Study& study,
           const StudyCase& input) {
-  const auto is_said = [&row](const std::string& doubt) {
-    return row.evidence.doubt.find(doubt) != std::string::npos;
+  const auto is_said = [&row](const std::string& warning) {
+    return row.evidence.validity_warnings.find(warning) != std::string::npos;
   };
   const Uncertainty& u = row.uncertainty;
-  return std::all_of(statements.doubts.begin(), statements.doubts.end(), is_said) &&
+  return std::all_of(statements.validity_warnings.begin(), statements.validity_warnings.end(), is_said) &&
          row.evidence.accepted == statements.accepted &&
          row.evidence.optimistic == optimistic_text(input.scene.scene) &&
          row.evidence.extrapolated == extrapolation_text(study, input, row.gap) &&

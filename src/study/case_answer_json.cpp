@@ -120,7 +120,7 @@ json json_of(const GapVerdict& row) {
           {"air", json_of(row.air)},
           {"uncertainty", json_of(row.uncertainty)},
           {"ignition", json_of(row.ignition)},
-          {"doubt", row.evidence.doubt},
+          {"doubt", row.evidence.validity_warnings},  // as stored answers name it
           {"accepted", row.evidence.accepted},
           {"optimistic", row.evidence.optimistic},
           {"model_form", row.evidence.model_form},
@@ -138,7 +138,7 @@ GapVerdict row_of(const json& value) {
   row.air = air_of(value.at("air"));
   row.uncertainty = uncertainty_of(value.at("uncertainty"));
   row.ignition = ignition_of(value.at("ignition"));
-  row.evidence.doubt = value.at("doubt").get<std::string>();
+  row.evidence.validity_warnings = value.at("doubt").get<std::string>();
   row.evidence.accepted = value.at("accepted").get<std::string>();
   row.evidence.optimistic = value.at("optimistic").get<std::string>();
   row.evidence.model_form = value.at("model_form").get<std::string>();
@@ -169,7 +169,7 @@ RunSummary run_of(const json& value) {
 void judge_rows(CaseAnswer& answer) {
   for (GapVerdict& row : answer.verdicts) {
     Evidence evidence = evidence_of(row, answer.failure, answer.run.limiters);
-    evidence.doubt = row.evidence.doubt;
+    evidence.validity_warnings = row.evidence.validity_warnings;
     evidence.accepted = row.evidence.accepted;
     evidence.optimistic = row.evidence.optimistic;
     evidence.model_form = row.evidence.model_form;

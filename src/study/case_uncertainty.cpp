@@ -25,7 +25,7 @@ std::string reason_for(const StudyCase& input, const std::string& difference) {
 
 /// Why the constants say nothing of a case; empty inside the calibration's domain, where a rule carries them,
 /// and where the scene accepts it.
-std::string calibration_doubt(const Study& study, const StudyCase& input) {
+std::string calibration_warning(const Study& study, const StudyCase& input) {
   std::vector<std::string> unknown = distance_to_calibration(input.scene.scene, study.calibration).unknown;
   std::erase_if(unknown, [&](const auto& each) { return !reason_for(input, each).empty(); });
   if (unknown.empty()) return {};
@@ -119,14 +119,15 @@ LoadCurveErrors load_curve_errors(const scene::Load& load) {
           std::pow(kept, -heat_exponent) - 1.0};
 }
 
-std::vector<std::string> doubts_of_input(const Study& study, const StudyCase& input) {
-  std::vector<std::string> doubts;
-  if (!gives_verdicts(study)) return doubts;
+std::vector<std::string> input_validity_warnings(const Study& study, const StudyCase& input) {
+  std::vector<std::string> warnings;
+  if (!gives_verdicts(study)) return warnings;
   for (const scene::Implausible& each : implausible_in(study, input)) {
-    if (!each.accepted()) doubts.push_back(scene::doubt_text(each));
+    if (!each.accepted()) warnings.push_back(scene::validity_warning(each));
   }
-  if (auto doubt = calibration_doubt(study, input); !doubt.empty()) doubts.push_back(std::move(doubt));
-  return doubts;
+  if (auto warning = calibration_warning(study, input); !warning.empty())
+    warnings.push_back(std::move(warning));
+  return warnings;
 }
 
 std::string accepted_text(const Study& study, const StudyCase& input) {

@@ -1,6 +1,6 @@
 #include "launchsafe/study/gap_analysis.hpp"
 
-#include "launchsafe/run/doubts.hpp"
+#include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/row_judgement.hpp"
 
@@ -211,19 +211,19 @@ std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
          (confirmation.expected_ignition ? "do" : "do not");
 }
 
-/// All doubts about a completed run as one clause.
-std::string doubt_of(const Study& study, const CaseOutcome& outcome) {
+/// All validity warnings of a completed run as one clause.
+std::string validity_warnings_of(const Study& study, const CaseOutcome& outcome) {
   if (!outcome.completed()) return {};
-  std::vector<std::string> doubts = doubts_of_input(study, outcome.input);
-  for (std::string& each : run::doubts_of(outcome.input.scene.scene, outcome.result.mechanics))
-    doubts.push_back(std::move(each));
+  std::vector<std::string> warnings = input_validity_warnings(study, outcome.input);
+  for (std::string& each : run::validity_warnings(outcome.input.scene.scene, outcome.result.mechanics))
+    warnings.push_back(std::move(each));
   if (outcome.raised && outcome.raised->status != run::RunStatus::completed) {
-    doubts.push_back(
+    warnings.push_back(
         fmt::format("the run with the load raised by {:.3g} %, for the uncertainty of the inputs: {}{}{}",
                     100.0 * assumed_load_spread, run::to_string(outcome.raised->status),
                     outcome.raised->reason.empty() ? "" : ", ", outcome.raised->reason));
   }
-  return fmt::format("{}", fmt::join(doubts, "; "));
+  return fmt::format("{}", fmt::join(warnings, "; "));
 }
 
 }  // namespace
@@ -237,9 +237,9 @@ surface::SkinModel without_reaction(surface::SkinModel model) {
 }
 
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
-  const std::string doubt = doubt_of(study, outcome);
-  if (!outcome.completed() || !doubt.empty()) {
-    outcome.critical = indeterminate(outcome.completed() ? "the run is in doubt: " + doubt : outcome.failure);
+  const std::string warnings = validity_warnings_of(study, outcome);
+  if (!outcome.completed() || !warnings.empty()) {
+    outcome.critical = indeterminate(outcome.completed() ? "validity warning: " + warnings : outcome.failure);
     return;
   }
   const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
@@ -293,7 +293,7 @@ bool misses_calibrated_rows(const CaseOutcome& outcome) {
 void conclude(const Study& study, CaseOutcome& outcome) {
   const double coupling = coupling_share(outcome);
   const bool foreign = misses_calibrated_rows(outcome);
-  const std::string doubt = doubt_of(study, outcome);
+  const std::string warnings = validity_warnings_of(study, outcome);
   const std::string accepted = accepted_text(study, outcome.input);
   std::vector<double> gaps, temperatures;
   for (GapVerdict& row : outcome.verdicts) {
@@ -301,7 +301,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
     if (foreign)
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
     Evidence evidence = evidence_of(row, outcome.failure, outcome.result.mechanics.limiters);
-    evidence.doubt = doubt;
+    evidence.validity_warnings = warnings;
     evidence.accepted = accepted;
     evidence.optimistic = optimistic_text(outcome.input.scene.scene);
     evidence.model_form = model_form_text(study, outcome.input, row.gap, row.ignition.has_value());

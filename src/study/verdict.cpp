@@ -61,7 +61,8 @@ Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
   if (!evidence.completed)
     return indeterminate(evidence.failure.empty() ? "the run failed" : evidence.failure);
   if (!std::isfinite(evidence.maximum_temperature)) return indeterminate("the temperature is not a number");
-  if (!evidence.doubt.empty()) return indeterminate("the run is in doubt: " + evidence.doubt);
+  if (!evidence.validity_warnings.empty())
+    return indeterminate("validity warning: " + evidence.validity_warnings);
   Judgement judgement = judge_sound(evidence, critical);
   if (!evidence.limited.empty()) judgement.reason += "; limiters acted: " + evidence.limited;
   if (!evidence.noise.empty()) judgement.reason += "; " + evidence.noise;

@@ -50,9 +50,9 @@ void check_load(const scene::Scene& given) {
 void check_plausibility(const scene::Scene& given) {
   for (const scene::Implausible& each : scene::implausible_values(given)) {
     fuzz::require(!each.key.empty() && !each.value.empty() && !each.range.empty(),
-                  "what is not plausible is named, with what would be", scene::doubt_text(each));
+                  "what is not plausible is named, with what would be", scene::validity_warning(each));
     fuzz::require(each.accepted() == !scene::reason_for(given.accepted, each.key).empty(),
-                  "only what the scene accepts is accepted", scene::doubt_text(each));
+                  "only what the scene accepts is accepted", scene::validity_warning(each));
   }
 }
 

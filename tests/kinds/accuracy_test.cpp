@@ -157,7 +157,7 @@ TEST(Accuracy, ASettingThatFailsIsARowWithoutNumbers) {
   EXPECT_EQ(cheapest_within(result.record, 1e9)->label, "cell_size 0.5 cm, inertial_scaling 1");
 }
 
-TEST(Accuracy, ASettingInDoubtIsShownWithItsErrorAndNotRecommended) {
+TEST(Accuracy, ASettingWithAValidityWarningIsShownWithItsErrorAndNotRecommended) {
   const AccuracyResult result = result_of([](const scene::Scene& scene) {
     run::MechanicsResult mechanics = converging(scene);
     if (scene.numerics.inertial_scaling > 1.0) mechanics.monitor.back().energy.kinetic = 1.0;
@@ -165,7 +165,7 @@ TEST(Accuracy, ASettingInDoubtIsShownWithItsErrorAndNotRecommended) {
   });
   ASSERT_TRUE(result.reference);
   const AccuracyRow& row = row_of(result, "cell_size 0.25 cm, inertial_scaling 16");
-  EXPECT_FALSE(row.measured.doubt.empty());
+  EXPECT_FALSE(row.measured.validity_warnings.empty());
   EXPECT_TRUE(row.computed());
   EXPECT_FALSE(row.sound());
   EXPECT_NEAR(row.temperature_error[0], 4.0, 0.03);

@@ -1,4 +1,5 @@
-// Values that no launch has: their verdicts are in doubt, unless scene or study says why they are meant.
+// Values that no launch has: their verdicts have a validity warning, unless scene or study says why they are
+// meant.
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/kinds/sweep.hpp"
@@ -62,11 +63,11 @@ TEST(StudyPlausibility, AnImplausibleValueIsIndeterminateUntilItIsAccepted) {
       {"gap.gas_law", "gap.gas_law = 0.59", "gap.air_density = \"0.7 kg/m3\"\n"},
   };
   for (const auto& [key, named, overrides] : edits) {
-    const CriticalGapResult doubted = run_safe_study("", overrides);
-    EXPECT_EQ(judgement_in(doubted).verdict, Verdict::indeterminate) << key;
-    EXPECT_TRUE(says(judgement_in(doubted).reason, named)) << judgement_in(doubted).reason;
-    EXPECT_TRUE(says(judgement_in(doubted).reason, "not plausible")) << judgement_in(doubted).reason;
-    EXPECT_EQ(doubted.cases[0].critical.kind, CriticalGapKind::indeterminate) << key;
+    const CriticalGapResult warned = run_safe_study("", overrides);
+    EXPECT_EQ(judgement_in(warned).verdict, Verdict::indeterminate) << key;
+    EXPECT_TRUE(says(judgement_in(warned).reason, named)) << judgement_in(warned).reason;
+    EXPECT_TRUE(says(judgement_in(warned).reason, "not plausible")) << judgement_in(warned).reason;
+    EXPECT_EQ(warned.cases[0].critical.kind, CriticalGapKind::indeterminate) << key;
     const std::string shell =
         key.starts_with("body.") ? "{ key = \"calibration\", because = \"another shell\" }, " : "";
     std::string reasons = accept(key, "it was measured so");
@@ -83,9 +84,9 @@ TEST(StudyPlausibility, AStatedUncertaintyMustBePlausibleToo) {
        {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty", "model_form_uncertainty"}) {
     for (const std::string value : {"0 K", "0.01 K"}) {
       const std::string stated = fmt::format("{} = \"{}\"\n", key, value);
-      const Judgement doubted = judgement_in(run_safe_study(stated));
-      EXPECT_EQ(doubted.verdict, Verdict::indeterminate) << key;
-      EXPECT_TRUE(says(doubted.reason, key + " = ")) << doubted.reason;
+      const Judgement warned = judgement_in(run_safe_study(stated));
+      EXPECT_EQ(warned.verdict, Verdict::indeterminate) << key;
+      EXPECT_TRUE(says(warned.reason, key + " = ")) << warned.reason;
       const Judgement accepted = judgement_in(run_safe_study(stated + accept(key, "a test of the search")));
       EXPECT_EQ(accepted.verdict, Verdict::safe) << accepted.reason;
       EXPECT_TRUE(says(accepted.reason, "accepted: " + key)) << accepted.reason;
@@ -127,7 +128,7 @@ TEST(StudyPlausibility, EveryCaseOfTheShippedStudiesIsPlausible) {
     EXPECT_TRUE(study->study.implausible.empty()) << name;
     for (const StudyCase& each : study->cases) {
       for (const scene::Implausible& value : scene::implausible_values(each.scene.scene))
-        ADD_FAILURE() << name << ", " << each.label << ": " << scene::doubt_text(value);
+        ADD_FAILURE() << name << ", " << each.label << ": " << scene::validity_warning(value);
     }
   }
 }

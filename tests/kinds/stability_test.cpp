@@ -142,7 +142,7 @@ TEST(Stability, TemperaturesAreComparedUpToIgnition) {
   expect_outcome(row, Outcome::held, "UNSAFE");
 }
 
-TEST(Stability, DoubtsLimitersAndBrokenTemperaturesDegrade) {
+TEST(Stability, ValidityWarningsLimitersAndBrokenTemperaturesDegrade) {
   expect_outcome(row_of_broken([](run::MechanicsResult& r) { r.monitor.clear(); }), Outcome::degraded,
                  "no monitor history");
   expect_outcome(row_of_broken([](run::MechanicsResult& r) { r.limiters.tension_cutoff = 7; }),

@@ -84,7 +84,7 @@ TEST(StoredAnswer, ThatContradictsItselfIsNone) {
       {"gaps in another order", [](json& a) { std::swap(a["verdicts"][0], a["verdicts"][1]); }},
       {"a gap less", [](json& a) { a["verdicts"].erase(3); }},
       {"heated temperatures of another number", [](json& a) { a["heated"].erase(0); }},
-      {"no doubt", [](json& a) { a["verdicts"][0].erase("doubt"); }},
+      {"no validity warnings", [](json& a) { a["verdicts"][0].erase("doubt"); }},
       {"no energy of the air", [](json& a) { a["verdicts"][0].erase("air"); }},
       {"energy of the air with a part too few", [](json& a) { a["verdicts"][1]["air"].erase(3); }},
       {"negative heat from the air", [](json& a) { a["verdicts"][1]["air"][0] = -1; }},
@@ -111,10 +111,10 @@ TEST(StoredAnswer, VerdictsThatSomebodyWritesInAreNotRead) {
   EXPECT_EQ(read->verdicts[3].judgement.verdict, Verdict::unsafe);
 }
 
-TEST(StoredAnswer, ADoubtStaysOne) {
+TEST(StoredAnswer, AValidityWarningStaysOne) {
   const StudyCase& input = some_study().cases.front();
   run::MechanicsResult mechanics = synthetic_mechanics(input.scene.scene);
-  mechanics.monitor.clear();  // a run without a history is in doubt
+  mechanics.monitor.clear();  // a run without a history has a validity warning
   const CaseAnswer answer = answer_of(some_study().study, input, mechanics);
   ASSERT_EQ(answer.verdicts[0].judgement.verdict, Verdict::indeterminate);
   const auto read = accepted(to_json_line(answer));
@@ -195,7 +195,7 @@ RC_GTEST_PROP(StoredAnswerProperty, AnEditThatIsReadIsJudgedOnWhatItSays, ()) {
     if (row.judgement.verdict != Verdict::safe) continue;
     RC_ASSERT(read->completed());
     RC_ASSERT(!row.ignition);
-    RC_ASSERT(row.evidence.doubt.empty());
+    RC_ASSERT(row.evidence.validity_warnings.empty());
     RC_ASSERT(row.margin > row.uncertainty.total());
     RC_ASSERT(row.margin == 519.0 - row.maximum.temperature);
   }

@@ -319,7 +319,7 @@ struct DemandingLaunch {
   const char* name;
   std::function<void(scene::Scene&)> change;
   double overlap =
-      1e-6;  ///< m, at most; more only where a charge bulges out past a rim, which runs are doubted for
+      1e-6;  ///< m, at most; more only where a charge bulges past a rim, and then with a validity warning
 };
 
 class DemandingLaunches : public testing::TestWithParam<DemandingLaunch> {};

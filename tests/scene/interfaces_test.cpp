@@ -154,7 +154,7 @@ TEST(Interfaces, AreExplainedWithWhatTheyAssume) {
     EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
 }
 
-TEST(Interfaces, OfImplausibleFrictionPutVerdictsInDoubt) {
+TEST(Interfaces, OfImplausibleFrictionAreNamed) {
   const auto file = parse_scene(small_scene + with(sliding_wall, "0.05", "3"), "shell.toml");
   ASSERT_TRUE(file);
   const auto found = implausible_values(file->scene);

@@ -16,9 +16,9 @@ namespace {
 SceneFile shipped() { return read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value(); }
 
 /// What a scene has that is not plausible, one clause each.
-std::string doubts_of(const Scene& scene) {
+std::string validity_warnings_of(const Scene& scene) {
   std::string text;
-  for (const Implausible& each : implausible_values(scene)) text += doubt_text(each) + "\n";
+  for (const Implausible& each : implausible_values(scene)) text += validity_warning(each) + "\n";
   return text;
 }
 
@@ -61,7 +61,7 @@ TEST(Plausibility, EveryNumberThatDecidesIsBoundedOnBothSides) {
 
 TEST(Plausibility, EveryDefaultAndTheShippedSceneArePlausible) {
   for (const Key<Scene>& key : scene_keys()) EXPECT_TRUE(is_plausible(key, key.default_value())) << key.name;
-  EXPECT_EQ(doubts_of(shipped().scene), "");
+  EXPECT_EQ(validity_warnings_of(shipped().scene), "");
 }
 
 // Each of these ended with every gap SAFE, or might have: the air does not heat, the skin is thick, nothing
@@ -126,7 +126,8 @@ TEST(Plausibility, NamesTheKeyOfEveryValueThatNoLaunchHas) {
     if (key == "body.base.x") all.insert(all.begin(), {"numerics.cell_size", "0.2 mm"});
     if (key == "load.peak") all.insert(all.begin(), {"load.base", "0 Pa"});
     const Scene scene = shipped_with(all).scene;
-    EXPECT_TRUE(implausible_keys(scene).contains(key)) << key << " = " << value << "\n" << doubts_of(scene);
+    EXPECT_TRUE(implausible_keys(scene).contains(key)) << key << " = " << value << "\n"
+                                                       << validity_warnings_of(scene);
   }
 }
 
@@ -153,7 +154,7 @@ TEST(Plausibility, JudgesWhatSeveralKeysMakeTogether) {
   };
   for (const auto& [quantities, keys] : edits) {
     const Scene scene = shipped_with(keys).scene;
-    EXPECT_EQ(implausible_keys(scene), quantities) << doubts_of(scene);
+    EXPECT_EQ(implausible_keys(scene), quantities) << validity_warnings_of(scene);
   }
 }
 
@@ -201,7 +202,7 @@ TEST(Plausibility, JudgesAMeasuredCurveByItsLargestPressureAndByWhatIsSimulated)
   EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 496, 100 Pa",
                                "load.rescale_to_peak = true\nload.peak = \"20 MPa\"\n")),
             (Keys{"load.measured_peak", "load.rescaling"}))
-      << "a wrong label stays in doubt where the curve is scaled";
+      << "a wrong label stays implausible where the curve is scaled";
   // Numbers of the analytic shape do nothing under a curve.
   EXPECT_EQ(keys_of("load.exponent = 999\n" + with_curve("0, 5, 10 ms", "0, 20, 5 MPa")), Keys{});
 }

@@ -131,13 +131,13 @@ TEST(CalibrationRecord, WithoutAnyMisfitThatOfTheShippedOneCounts) {
   EXPECT_EQ(record->calibration.evidence.largest_misfit, CalibrationEvidence{}.largest_misfit);
 }
 
-TEST(CalibrationRecord, NoConstantsAreFittedToARunInDoubt) {
+TEST(CalibrationRecord, NoConstantsAreFittedToARunWithAValidityWarning) {
   StudyFile study = study_of(fitted_load);
-  study.scene.scene.numerics.inertial_scaling = 1e6;  // matters: run::doubts_of says so
+  study.scene.scene.numerics.inertial_scaling = 1e6;  // matters: run::validity_warnings says so
   for (StudyCase& each : study.cases) each.scene.scene.numerics.inertial_scaling = 1e6;
   const auto record = record_of(run_calibration(study, synthetic_options()));
   ASSERT_TRUE(record);
-  EXPECT_NE(record->failure.find("in doubt"), std::string::npos) << record->failure;
+  EXPECT_NE(record->failure.find("validity warning"), std::string::npos) << record->failure;
 }
 
 TEST(CalibrationRecord, AFailedCalibrationGivesAReasonAndNoConstants) {

@@ -1,5 +1,5 @@
-// The shares of a verdict's uncertainty, and the doubts of a calibration outside its domain, on a launch in
-// closed form.
+// The shares of a verdict's uncertainty, and the validity warnings of a calibration outside its domain, on a
+// launch in closed form.
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/study/calibration_domain.hpp"

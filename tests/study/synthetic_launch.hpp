@@ -75,7 +75,7 @@ inline run::MechanicsResult synthetic_mechanics(const scene::Scene& scene, doubl
   result.steps = 1000;
   result.particles = 10;
   result.wall_time = 1.0;
-  result.monitor.resize(2);  // a run without a history is in doubt
+  result.monitor.resize(2);  // a run without a history has a validity warning
   result.monitor.back().time = result.end_time;
   result.monitor.back().energy.internal = result.monitor.back().energy.external = 1.0;
   result.trace = synthetic_trace(scene.load.peak, friction_for(kelvin));

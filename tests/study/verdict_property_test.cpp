@@ -1,4 +1,5 @@
-// The verdict's order: more margin never makes a gap less safe, more uncertainty or doubt never safer.
+// The verdict's order: more margin never makes a gap less safe, more uncertainty or a validity warning never
+// safer.
 #include "launchsafe/study/verdict.hpp"
 
 #include <gtest/gtest.h>
@@ -45,7 +46,7 @@ Evidence any_evidence() {
   evidence.margin = kelvin();
   evidence.maximum_temperature = 525.0 - evidence.margin;
   evidence.uncertainty = positive_kelvin();
-  evidence.doubt = *rc::gen::element<std::string>("", "", "", "the air was not resolved");
+  evidence.validity_warnings = *rc::gen::element<std::string>("", "", "", "the air was not resolved");
   evidence.limited = *rc::gen::element<std::string>("", "crack bound 12");
   return evidence;
 }
@@ -88,15 +89,15 @@ RC_GTEST_PROP(VerdictProperty, NeverRisesWithAnUncertainty, ()) {
   RC_ASSERT(rank_of(evidence, wider) <= rank_of(evidence, critical));
 }
 
-RC_GTEST_PROP(VerdictProperty, IsNeverSafeOnAFailureADoubtAnIgnitionOrANumberThatIsNone, ()) {
+RC_GTEST_PROP(VerdictProperty, IsNeverSafeOnAFailureAValidityWarningAnIgnitionOrANumberThatIsNone, ()) {
   const CriticalGap critical = any_critical_gap();
   const Evidence sound = any_evidence();
-  Evidence failed = sound, doubted = sound, ignited = sound;
+  Evidence failed = sound, warned = sound, ignited = sound;
   failed.completed = false;
-  doubted.doubt = "the grid did not fit";
+  warned.validity_warnings = "the grid did not fit";
   ignited.ignited = true;
   RC_ASSERT(judge(failed, critical).verdict == Verdict::indeterminate);
-  RC_ASSERT(judge(doubted, critical).verdict == Verdict::indeterminate);
+  RC_ASSERT(judge(warned, critical).verdict == Verdict::indeterminate);
   RC_ASSERT(judge(ignited, critical).verdict != Verdict::safe);
   for (double Evidence::*number :
        {&Evidence::margin, &Evidence::uncertainty, &Evidence::maximum_temperature}) {
@@ -116,7 +117,7 @@ RC_GTEST_PROP(VerdictProperty, AlwaysHasAReasonAndNamesTheLimitersOfASoundRun, (
   const Evidence evidence = any_evidence();
   const Judgement judged = judge(evidence, any_critical_gap());
   RC_ASSERT(!judged.reason.empty());
-  if (evidence.completed && evidence.doubt.empty() && !evidence.limited.empty())
+  if (evidence.completed && evidence.validity_warnings.empty() && !evidence.limited.empty())
     RC_ASSERT(judged.reason.find(evidence.limited) != std::string::npos);
 }
 

@@ -68,8 +68,8 @@ inline Limits above_to(double lowest, double highest) {
   return {.lowest = lowest, .highest = highest, .lowest_allowed = false};
 }
 
-/// What a key is expected to hold: a value that is allowed but not plausible puts every verdict that rests on
-/// it in doubt (scene/plausibility.hpp).
+/// What a key is expected to hold: a value that is allowed but not plausible makes every verdict that rests
+/// on it indeterminate, with a validity warning (scene/plausibility.hpp).
 struct Plausible {
   Limits limits = {};    ///< SI; of a list those of every number, of a range those of its width
   bool or_zero = false;  ///< 0 too, where it stands for "none"

@@ -42,8 +42,8 @@ struct PointTemperature {
 /// What one case came to, without judging it.
 struct AccuracyMeasurement {
   std::string failure;  ///< why there are no numbers; empty for a completed run
-  std::string
-      doubt;  ///< why its numbers are no basis for a verdict (see run::doubts_of); empty for a sound run
+  /// Why its numbers are no basis for a verdict (see run::validity_warnings); empty for a sound run.
+  std::string validity_warnings;
   double cell = 0;                    ///< m, sqrt(dx dr) of the fitted grid
   double processor_time = 0;          ///< s; the wall time where the run did not note it
   double wall_time = 0;               ///< s
@@ -93,7 +93,7 @@ struct AccuracyRow {
   std::vector<double> error_at_times;       ///< K
   bool on_front = false;                    ///< no other setting is both cheaper and nearer to the reference
   bool computed() const { return measured.failure.empty(); }
-  bool sound() const { return computed() && measured.doubt.empty(); }
+  bool sound() const { return computed() && measured.validity_warnings.empty(); }
 };
 
 struct AccuracyResult {

@@ -69,7 +69,7 @@ struct HardRow {
   study::RunSummary run;
   double end_time = study::not_a_number;  ///< s, reached
   std::vector<std::string> violations;    ///< of invariants
-  std::vector<std::string> doubts;
+  std::vector<std::string> validity_warnings;
   std::vector<HardGap> gaps;
 
   bool computed() const { return failure.empty(); }

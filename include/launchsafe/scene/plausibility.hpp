@@ -1,5 +1,5 @@
-// Values that are allowed but that no launch has: a verdict that rests on one is in doubt, unless the scene
-// says why it is meant.
+// Values that are allowed but that no launch has: a verdict that rests on one is indeterminate, unless the
+// scene says why it is meant.
 #pragma once
 
 #include "launchsafe/scene/scene.hpp"
@@ -22,7 +22,7 @@ struct Implausible {
 };
 
 /// "gap.exchange_time = 100 s is not plausible (0.05 ms to 2 ms, because ...)".
-std::string doubt_text(const Implausible& value);
+std::string validity_warning(const Implausible& value);
 /// "accepted: gap.exchange_time = 100 s, because ...; ..." of those that are; empty if none is.
 std::string accepted_text(const std::vector<Implausible>& values);
 

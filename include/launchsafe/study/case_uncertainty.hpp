@@ -67,7 +67,7 @@ LoadCurveErrors load_curve_errors(const scene::Load& load);
 
 /// What a case's own input says against a verdict, besides its load (run::uncovered_load): values that are
 /// not plausible and that nobody accepted, constants from elsewhere. Nothing for a study without verdicts.
-std::vector<std::string> doubts_of_input(const Study& study, const StudyCase& input);
+std::vector<std::string> input_validity_warnings(const Study& study, const StudyCase& input);
 /// What is not plausible and why it is meant, for its verdict; empty for nothing.
 std::string accepted_text(const Study& study, const StudyCase& input);
 

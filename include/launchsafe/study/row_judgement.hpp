@@ -7,8 +7,8 @@
 
 namespace launchsafe::study {
 
-/// What a row and its run say; `doubt`, `accepted` and `extrapolated` are left empty. `failure` is empty for
-/// a completed run.
+/// What a row and its run say; `validity_warnings`, `accepted` and `extrapolated` are left empty. `failure`
+/// is empty for a completed run.
 Evidence evidence_of(const GapVerdict& row, const std::string& failure, const run::LimiterCounts& limiters);
 
 /// Judges the row on its evidence and keeps both in it.

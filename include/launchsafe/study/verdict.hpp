@@ -42,7 +42,8 @@ struct Evidence {
   double maximum_temperature = 0;  ///< K, over the stations
   double margin = 0;               ///< K, ignition temperature minus maximum temperature
   double uncertainty = 0;          ///< K
-  std::string doubt = {};  ///< why a completed run is no basis (see run::doubts_of); empty for a sound one
+  /// Why a completed run is no basis (see run::validity_warnings); empty for a sound one.
+  std::string validity_warnings = {};
   std::string optimistic = {};  ///< why no ignition shows nothing, for people; empty where it shows something
   std::string limited = {};     ///< limiters that acted, for people; empty where none did
   std::string noise = {};       ///< what the noise of a measured curve counts, for people; empty for nothing
@@ -57,8 +58,9 @@ struct Judgement {
 };
 
 /// Unsafe: ignition. Safe: none on the whole bottom, the margin exceeds the uncertainty, and so does the
-/// distance to the critical gap. Indeterminate: everything else; a failed, doubtful or undefined computation
-/// never is anything else. A verdict on a run in which limiters acted says so.
+/// distance to the critical gap. Indeterminate: everything else; a computation that
+/// failed, is undefined or has validity warnings never is anything else. A verdict on a run in which limiters
+/// acted says so.
 Judgement judge(const Evidence& evidence, const CriticalGap& critical);
 
 }  // namespace launchsafe::study

@@ -1,4 +1,4 @@
-#include "launchsafe/run/doubts.hpp"
+#include "launchsafe/run/validity_warnings.hpp"
 
 #include "launchsafe/run/load_coverage.hpp"
 #include "launchsafe/scene/plan.hpp"
@@ -14,7 +14,7 @@ namespace launchsafe::run {
 namespace {
 
 using scene::Scene;
-using Doubts = std::vector<std::string>;
+using Warnings = std::vector<std::string>;
 
 /// Kinetic energy that only the scaling of the inertia makes, as a share of the internal energy. Measured on
 /// the 155 mm shell (cells of 2.5 mm, gap 0.02 cm): factor 16, share 0.0024, T max 3.9 K too high; 100,
@@ -89,81 +89,81 @@ double largest(const MechanicsResult& mechanics, Number number) {
   return most;
 }
 
-void doubt_history(const MechanicsResult& mechanics, Doubts& doubts) {
+void check_history(const MechanicsResult& mechanics, Warnings& warnings) {
   if (mechanics.monitor.size() < 2) {
-    doubts.emplace_back("the run has no monitor history, so that its stability is not known");
+    warnings.emplace_back("the run has no monitor history, so that its stability is not known");
     return;
   }
   const auto broken = std::find_if_not(mechanics.monitor.begin(), mechanics.monitor.end(),
                                        [](const MonitorSample& sample) { return is_finite(sample); });
   if (broken != mechanics.monitor.end()) {
-    doubts.push_back(fmt::format("the monitor history is not finite from sample {} on",
-                                 broken - mechanics.monitor.begin()));
+    warnings.push_back(fmt::format("the monitor history is not finite from sample {} on",
+                                   broken - mechanics.monitor.begin()));
   }
 }
 
-void doubt_inertia(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
+void check_inertia(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
   const double scaling = scene.numerics.inertial_scaling;
   if (!(scaling > 1.0) || mechanics.monitor.empty()) return;
   const double internal = largest(mechanics, [](const auto& sample) { return sample.energy.internal; });
   const double kinetic = largest(mechanics, [](const auto& sample) { return sample.energy.kinetic; });
   const double share = internal > 0.0 ? (1.0 - 1.0 / scaling) * kinetic / internal : 0.0;
   if (share <= largest_scaled_share) return;
-  doubts.push_back(fmt::format(
+  warnings.push_back(fmt::format(
       "inertia scaled by {:.6g} matters: the kinetic energy that it makes reaches {:.3g} % of the internal "
       "energy, more than {:.3g} %",
       scaling, 100.0 * share, 100.0 * largest_scaled_share));
 }
 
-void doubt_sliding_inertia(const Scene& scene, Doubts& doubts) {
+void check_sliding_inertia(const Scene& scene, Warnings& warnings) {
   if (scene::sliding_interfaces(scene).empty()) return;
   const double all = scene.numerics.inertial_scaling, steel = scene.numerics.steel_inertia;
   const bool measured = all <= largest_scaling_when_sliding && steel <= largest_steel_inertia_when_sliding &&
                         !(all > 1.0 && steel > 1.0);
   if (measured) return;
-  doubts.push_back(
+  warnings.push_back(
       fmt::format("inertia scaled by {:.6g} and that of steel by {:.6g}, of a charge that slides: what that "
                   "does was measured up "
                   "to {:g}, or {:g} of steel alone",
                   all, steel, largest_scaling_when_sliding, largest_steel_inertia_when_sliding));
 }
 
-void doubt_samples(const MechanicsResult& mechanics, Doubts& doubts) {
+void check_samples(const MechanicsResult& mechanics, Warnings& warnings) {
   const std::size_t samples = mechanics.trace.samples();
   if (samples > fewest_intervals) return;
-  doubts.push_back(fmt::format(
+  warnings.push_back(fmt::format(
       "the trace has {} samples: the sampling error is found by leaving out every other one, which "
       "takes {} or more (output.trace_interval of an eighth of the launch)",
       samples, fewest_intervals + 1));
 }
 
-void doubt_cracks(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
+void check_cracks(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
   const double flaw = scene.charge().strength.flaw_size, cell = scene.numerics.cell_size;
   const double crack = largest(mechanics, [](const auto& sample) { return sample.largest_crack_radius; });
   if (!(flaw > 0.0) || !(crack > 0.0)) return;
   const scene::Extent charge = scene::charge_extent(scene);
   const double room = std::min(charge.x_end - charge.x_begin, charge.r_end);
-  const auto doubt = [&](const std::string& against) {
-    doubts.push_back(
+  const auto warn = [&](const std::string& against) {
+    warnings.push_back(
         fmt::format("the crack radius reaches {:.4g} mm, {}, where cracks are no matter of a "
                     "continuum law",
                     1e3 * crack, against));
   };
-  if (crack > largest_crack_over_flaw * flaw) doubt(fmt::format("{:.3g} flaw sizes", crack / flaw));
+  if (crack > largest_crack_over_flaw * flaw) warn(fmt::format("{:.3g} flaw sizes", crack / flaw));
   const double initial = scene.charge().strength.initial_crack_radius, growth = crack - initial;
   const double work = largest(mechanics, [](const auto&sample) { return sample.energy.crack; }),
                viscous = largest(mechanics, [](const auto&sample) { return sample.energy.viscous; });
   const double room_in_cells = largest_crack_over_cell * cell;
   if (initial > room_in_cells ||
       (crack > room_in_cells && !(work <= largest_crack_work_of_a_corner * viscous)))
-    doubt(fmt::format("{:.3g} cells", crack / cell));
+    warn(fmt::format("{:.3g} cells", crack / cell));
   if (growth > largest_growth_over_flaw * flaw && work > largest_crack_work_over_viscous * viscous) {
-    doubts.push_back(
+    warnings.push_back(
         fmt::format("cracks run away, by {:.4g} mm or {:.3g} flaw sizes: the heat of a charge that softens "
                     "depends on cells and steps",
                     1e3 * growth, growth / flaw));
   }
-  if (crack > room) doubt(fmt::format("more than the charge measures, {:.4g} mm", 1e3 * room));
+  if (crack > room) warn(fmt::format("more than the charge measures, {:.4g} mm", 1e3 * room));
 }
 
 /// Largest pressure (Pa) by which a load rises within a time window (s). Sampled eight times a window and
@@ -181,7 +181,7 @@ double largest_rise(const scene::Load& load, double window) {
   return rise;
 }
 
-void doubt_rise(const Scene& scene, Doubts& doubts) {
+void check_rise(const Scene& scene, Warnings& warnings) {
   const double peak = scene::PressureHistory(scene.load).peak();
   if (!(peak > 0.0)) return;
   const scene::Extent charge = scene::charge_extent(scene);
@@ -189,7 +189,7 @@ void doubt_rise(const Scene& scene, Doubts& doubts) {
                          scene::longitudinal_speed(materials::Law(scene.charge()));
   const double share = largest_rise(scene.load, transit) / peak;
   if (!(share > largest_rise_in_a_transit)) return;
-  doubts.push_back(fmt::format(
+  warnings.push_back(fmt::format(
       "the load rises by {:.3g} % of its peak within {:.3g} us, the time that sound takes through "
       "the charge: its stress waves are not resolved by the cells (up to {:.3g} % are)",
       100.0 * share, 1e6 * transit, 100.0 * largest_rise_in_a_transit));
@@ -208,7 +208,7 @@ double bulk_temperature(const Scene& scene, const trace::BottomTrace& trace) {
 
 /// The skin is that of the charge's rearmost face. A part of the charge that ends before it, by however
 /// little, has a face of its own that nobody looks at, unless more charge lies behind all of it.
-void doubt_bottom(const Scene& scene, Doubts& doubts) {
+void check_bottom(const Scene& scene, Warnings& warnings) {
   constexpr double touching = 1e-9;  // m
   const auto is_charge = [&scene](const scene::Body& body) { return scene::is_charge(scene, body); };
   const double bottom = scene::charge_extent(scene).x_end;
@@ -220,18 +220,18 @@ void doubt_bottom(const Scene& scene, Doubts& doubts) {
                  behind.r_begin <= body.r_begin + touching && behind.r_end >= body.r_end - touching;
         });
     if (covered) continue;
-    doubts.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "the charge body \"{}\" ends {:.3g} mm before the charge's bottom, and its face is not looked at",
         body.name, 1e3 * (bottom - body.x_end)));
   }
 }
 
-void doubt_charge(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
+void check_charge(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
   if (scene::make_plan(scene).bulk_reaction.in) return;
   const double temperature = bulk_temperature(scene, mechanics.trace);
   const double ignition = scene.charge().kinetics.ignition_temperature;
   if (temperature < ignition) return;
-  doubts.push_back(
+  warnings.push_back(
       fmt::format("friction heats the bulk of the charge to {:.4g} K, above ignition at {:.4g} K, while its "
                   "reaction is left out",
                   temperature, ignition));
@@ -239,39 +239,39 @@ void doubt_charge(const Scene& scene, const MechanicsResult& mechanics, Doubts& 
 
 /// Averages over less than two cells are those of single cells. Measured on the 155 mm shell, station beside
 /// the wall, change from cells of 2.5 mm: 3 mm, -1.3 K; 3.6 mm, -0.8 K; 4.2 mm, 0.8 K; 5 mm, 7 K.
-void doubt_stations(const Scene& scene, Doubts& doubts) {
+void check_stations(const Scene& scene, Warnings& warnings) {
   constexpr double fewest_in_corner = 2.0 - 1e-9, fewest = 1.0 - 1e-9;
   const scene::StationCells cells = scene::cells_in_stations(scene);
   if (!(cells.corner_x >= fewest_in_corner && cells.corner_r >= fewest_in_corner))
-    doubts.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "the station beside the wall is {:.3g} cells deep and {:.3g} wide; at least two are needed",
         cells.corner_x, cells.corner_r));
   else if (!(cells.fewest_r >= fewest))
-    doubts.push_back(fmt::format("a station is {:.3g} cells wide; at least one is needed away from the wall",
-                                 cells.fewest_r));
+    warnings.push_back(fmt::format(
+        "a station is {:.3g} cells wide; at least one is needed away from the wall", cells.fewest_r));
 }
 
 /// Where a bond that breaks stops depends on cells: stresses at its tip have no limit, and no toughness is
 /// known. Measured on the 155 mm shell, 2 MPa of tension and 30 MPa of shear: 409, 412 and 420 K on cells
 /// of 2.5, 1.25 and 0.834 mm.
-void doubt_bonds(const MechanicsResult& mechanics, Doubts& doubts) {
+void check_bonds(const MechanicsResult& mechanics, Warnings& warnings) {
   for (const InterfaceResult& faces : mechanics.interfaces) {
     const auto held = std::count(faces.bonded.begin(), faces.bonded.end(), 1.0);
     const auto nodes = std::ssize(faces.bonded);
     if (held == 0 || held == nodes) continue;
-    doubts.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "the bond of the body \"{}\" broke at {} of {} nodes, and where it stops depends on the cells",
         faces.body, nodes - held, nodes));
   }
 }
 
-void doubt_faces(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
+void check_faces(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
   for (const InterfaceResult& faces : mechanics.interfaces) {
     const auto most = std::max_element(faces.overlap.begin(), faces.overlap.end());
     if (most == faces.overlap.end() || *most <= largest_overlap_over_cell * scene.numerics.cell_size)
       continue;
-    doubts.push_back(fmt::format("the charge and the body \"{}\" pass into each other by {:.3g} mm",
-                                 faces.body, 1e3 * *most));
+    warnings.push_back(fmt::format("the charge and the body \"{}\" pass into each other by {:.3g} mm",
+                                   faces.body, 1e3 * *most));
   }
 }
 
@@ -291,7 +291,7 @@ double heated_steel(const Scene& scene, double plastic_strain) {
   return temperature;
 }
 
-void doubt_steel(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
+void check_steel(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
   if (!scene::has_law<scene::Steel>(scene)) return;
   const double strain = largest(mechanics, [](const auto& sample) { return sample.largest_plastic_strain; });
   const materials::JohnsonCookParameters& steel = scene.steel().strength;
@@ -299,8 +299,9 @@ void doubt_steel(const Scene& scene, const MechanicsResult& mechanics, Doubts& d
   const double share =
       (temperature - steel.room_temperature) / (steel.melting_temperature - steel.room_temperature);
   if (!(share > largest_homologous_temperature)) return;
-  doubts.push_back(fmt::format("a plastic strain of {:.3g} heats the steel to {:.4g} K; it melts at {:.4g} K",
-                               strain, temperature, steel.melting_temperature));
+  warnings.push_back(
+      fmt::format("a plastic strain of {:.3g} heats the steel to {:.4g} K; it melts at {:.4g} K", strain,
+                  temperature, steel.melting_temperature));
 }
 
 /// Distance (m) that the load drives the whole projectile as one rigid body.
@@ -317,12 +318,12 @@ double flight_of(const Scene& scene, double duration) {
   return distance;
 }
 
-void doubt_flight(const Scene& scene, const MechanicsResult& mechanics, Doubts& doubts) {
+void check_flight(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
   if (scene.frame != scene::Frame::lab) return;
   if (scene.numerics.formulation != scene::Formulation::updated_lagrangian) return;
   const double cells = flight_of(scene, mechanics.end_time) / scene.numerics.cell_size;
   if (!(cells > most_cells_flown)) return;
-  doubts.push_back(fmt::format(
+  warnings.push_back(fmt::format(
       "the projectile flew through {:.3g} cells of a grid at rest: beyond some {:g}, false friction "
       "heat outgrows the true one",
       cells, most_cells_flown));
@@ -330,25 +331,25 @@ void doubt_flight(const Scene& scene, const MechanicsResult& mechanics, Doubts& 
 
 }  // namespace
 
-std::vector<std::string> doubts_of(const Scene& scene, const MechanicsResult& mechanics) {
-  Doubts doubts;
-  doubt_history(mechanics, doubts);
-  doubt_flight(scene, mechanics, doubts);
-  doubt_inertia(scene, mechanics, doubts);
-  doubt_sliding_inertia(scene, doubts);
-  for (std::string& each : uncovered_load(scene.load)) doubts.push_back(std::move(each));
-  doubt_samples(mechanics, doubts);
+std::vector<std::string> validity_warnings(const Scene& scene, const MechanicsResult& mechanics) {
+  Warnings warnings;
+  check_history(mechanics, warnings);
+  check_flight(scene, mechanics, warnings);
+  check_inertia(scene, mechanics, warnings);
+  check_sliding_inertia(scene, warnings);
+  for (std::string& each : uncovered_load(scene.load)) warnings.push_back(std::move(each));
+  check_samples(mechanics, warnings);
   if (scene::has_charge(scene)) {
-    doubt_cracks(scene, mechanics, doubts);
-    doubt_rise(scene, doubts);
-    doubt_charge(scene, mechanics, doubts);
-    doubt_bottom(scene, doubts);
-    doubt_stations(scene, doubts);
+    check_cracks(scene, mechanics, warnings);
+    check_rise(scene, warnings);
+    check_charge(scene, mechanics, warnings);
+    check_bottom(scene, warnings);
+    check_stations(scene, warnings);
   }
-  doubt_faces(scene, mechanics, doubts);
-  doubt_bonds(mechanics, doubts);
-  doubt_steel(scene, mechanics, doubts);
-  return doubts;
+  check_faces(scene, mechanics, warnings);
+  check_bonds(mechanics, warnings);
+  check_steel(scene, mechanics, warnings);
+  return warnings;
 }
 
 }  // namespace launchsafe::run

@@ -1,4 +1,4 @@
-#include "launchsafe/run/doubts.hpp"
+#include "launchsafe/run/validity_warnings.hpp"
 
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/scene/read_scene.hpp"
@@ -36,30 +36,31 @@ MechanicsResult sound_run() {
   return run;
 }
 
-/// That there is one doubt, and that it says `part`.
-void expect_one(const std::vector<std::string>& doubts, const std::string& part) {
-  ASSERT_EQ(doubts.size(), 1u) << (doubts.empty() ? "no doubt" : doubts[1]);
-  EXPECT_NE(doubts[0].find(part), std::string::npos) << doubts[0];
+/// That there is one validity warning, and that it says `part`.
+void expect_one(const std::vector<std::string>& warnings, const std::string& part) {
+  ASSERT_EQ(warnings.size(), 1u) << (warnings.empty() ? "no validity warning" : warnings[1]);
+  EXPECT_NE(warnings[0].find(part), std::string::npos) << warnings[0];
 }
 
-TEST(Doubts, ASoundRunHasNone) {
+TEST(ValidityWarnings, ASoundRunHasNone) {
   scene::Scene scene = shipped_scene();
-  EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
+  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
   scene.numerics.inertial_scaling = 16.0;
-  EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
+  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
   // The extremes of sweep_pressure_defect.toml.
   scene.load.peak = 700e6;
   scene.charge().strength.initial_crack_radius = 3e-3;
   MechanicsResult cracked = sound_run();
   cracked.monitor[2].largest_crack_radius = 3e-3;
-  EXPECT_TRUE(doubts_of(scene, cracked).empty());
+  EXPECT_TRUE(validity_warnings(scene, cracked).empty());
 }
 
-/// Kinetic and internal energy as measured at these factors: see doubts.cpp for what they do to T max.
-TEST(Doubts, InertiaScaledUntilItMatters) {
+/// Kinetic and internal energy as measured at these factors: see validity_warnings.cpp for what they do to T
+/// max.
+TEST(ValidityWarnings, InertiaScaledUntilItMatters) {
   struct Measured {
     double scaling, internal, kinetic;
-    bool doubted;
+    bool warned;
   };
   for (const Measured& each : {Measured{16, 7470, 18.7, false},
                                {100, 7950, 157, false},
@@ -71,20 +72,20 @@ TEST(Doubts, InertiaScaledUntilItMatters) {
     MechanicsResult run = sound_run();
     run.monitor[1].energy.internal = each.internal;
     run.monitor[2].energy.kinetic = each.kinetic;
-    EXPECT_EQ(!doubts_of(scene, run).empty(), each.doubted) << each.scaling;
+    EXPECT_EQ(!validity_warnings(scene, run).empty(), each.warned) << each.scaling;
   }
 }
 
-TEST(Doubts, TheInertiaThatAStepLoadMovesIsTrueWhereNothingScalesIt) {
+TEST(ValidityWarnings, TheInertiaThatAStepLoadMovesIsTrueWhereNothingScalesIt) {
   MechanicsResult run = sound_run();
   run.monitor[1].energy.kinetic = 5000.0;
-  EXPECT_TRUE(doubts_of(shipped_scene(), run).empty());
+  EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty());
   scene::Scene scaled = shipped_scene();
   scaled.numerics.inertial_scaling = 4.0;
-  expect_one(doubts_of(scaled, run), "inertia scaled by 4 matters");
+  expect_one(validity_warnings(scaled, run), "inertia scaled by 4 matters");
 }
 
-TEST(Doubts, AFlightThroughAGridAtRest) {
+TEST(ValidityWarnings, AFlightThroughAGridAtRest) {
   scene::Scene scene = shipped_scene();
   scene.load.peak_time = 11e-3;
   scene.load.exponent = 12.0;
@@ -94,24 +95,24 @@ TEST(Doubts, AFlightThroughAGridAtRest) {
   // 14.1 mm until 6 ms, 2.9 mm until 5 ms: the double integral of p(t) A/m by another program.
   MechanicsResult run = sound_run();
   run.end_time = 6e-3;
-  expect_one(doubts_of(scene, run), "5.65 cells");
+  expect_one(validity_warnings(scene, run), "5.65 cells");
   run.end_time = 5e-3;
-  EXPECT_TRUE(doubts_of(scene, run).empty());
+  EXPECT_TRUE(validity_warnings(scene, run).empty());
   run.end_time = 18e-3;
   scene.frame = scene::Frame::co_moving;
-  EXPECT_TRUE(doubts_of(scene, run).empty());
+  EXPECT_TRUE(validity_warnings(scene, run).empty());
   scene.frame = scene::Frame::lab;
   scene.numerics.formulation = scene::Formulation::total_lagrangian;  // its grid moves with the particles
-  EXPECT_TRUE(doubts_of(scene, run).empty());
+  EXPECT_TRUE(validity_warnings(scene, run).empty());
 }
 
-TEST(Doubts, AMissingOrBrokenHistoryIsOne) {
+TEST(ValidityWarnings, AMissingOrBrokenHistoryIsOne) {
   MechanicsResult run = sound_run();
   run.monitor.clear();
-  expect_one(doubts_of(shipped_scene(), run), "no monitor history");
+  expect_one(validity_warnings(shipped_scene(), run), "no monitor history");
   run = sound_run();
   run.monitor[2].momentum = std::numeric_limits<double>::quiet_NaN();
-  expect_one(doubts_of(shipped_scene(), run), "not finite from sample 2");
+  expect_one(validity_warnings(shipped_scene(), run), "not finite from sample 2");
 }
 
 /// A launch that is covered, or the word for what is not.
@@ -128,7 +129,7 @@ void measured(scene::Load& load, std::vector<double> milliseconds, std::vector<d
   load.curve_pressure = std::move(megapascals);
 }
 
-TEST(Doubts, ALaunchThatIsNotSimulatedAsItIsStated) {
+TEST(ValidityWarnings, ALaunchThatIsNotSimulatedAsItIsStated) {
   const std::vector<LoadCase> cases{
       {"as shipped: ends at 18 % of its peak", [](auto&) {}, ""},
       {"a late peak, passed", [](auto& load) { load.peak_time = 15e-3; }, ""},
@@ -221,25 +222,25 @@ TEST(Doubts, ALaunchThatIsNotSimulatedAsItIsStated) {
   for (const LoadCase& each : cases) {
     scene::Scene scene = shipped_scene();
     each.change(scene.load);
-    const auto doubts = doubts_of(scene, sound_run());
+    const auto warnings = validity_warnings(scene, sound_run());
     if (*each.said == '\0') {
-      EXPECT_TRUE(doubts.empty()) << each.name << ": " << doubts.front();
+      EXPECT_TRUE(warnings.empty()) << each.name << ": " << warnings.front();
       continue;
     }
-    ASSERT_FALSE(doubts.empty()) << each.name;
-    EXPECT_NE(doubts.front().find(each.said), std::string::npos) << each.name << ": " << doubts.front();
+    ASSERT_FALSE(warnings.empty()) << each.name;
+    EXPECT_NE(warnings.front().find(each.said), std::string::npos) << each.name << ": " << warnings.front();
   }
 }
 
-TEST(Doubts, AFaceOfTheChargeThatNobodyLooksAt) {
+TEST(ValidityWarnings, AFaceOfTheChargeThatNobodyLooksAt) {
   scene::Scene scene = shipped_scene();
   scene::Body ring = scene.bodies[1];
   scene.bodies[1].r_end = ring.r_begin = 0.03;
   ring.name = "ring";
   scene.bodies.push_back(ring);
-  EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
+  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
   scene.bodies.back().x_end -= 1e-8;  // 10 nm
-  expect_one(doubts_of(scene, sound_run()), "\"ring\" ends 1e-05 mm before");
+  expect_one(validity_warnings(scene, sound_run()), "\"ring\" ends 1e-05 mm before");
   // More charge behind all of it is no face.
   scene.bodies.back().x_end = 0.6;
   scene::Body rear = scene.bodies.back();
@@ -247,20 +248,20 @@ TEST(Doubts, AFaceOfTheChargeThatNobodyLooksAt) {
   rear.x_begin = 0.6;
   rear.x_end = 0.678;
   scene.bodies.push_back(rear);
-  EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
+  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
 }
 
-TEST(Doubts, ATraceOfTooFewSamples) {
+TEST(ValidityWarnings, ATraceOfTooFewSamples) {
   MechanicsResult run = sound_run();
   run.trace.time = {0.0, 18e-3};
-  expect_one(doubts_of(shipped_scene(), run), "has 2 samples");
+  expect_one(validity_warnings(shipped_scene(), run), "has 2 samples");
   run.trace.time.resize(9);
-  EXPECT_TRUE(doubts_of(shipped_scene(), run).empty());
+  EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty());
 }
 
 /// Where the bound on the samples comes from: one interval finds no difference and errs by 19 K, and from two
 /// on the difference to half the samples is larger than the error.
-TEST(Doubts, FewerSamplesThanTheSamplingErrorNeedsCannotFindIt) {
+TEST(ValidityWarnings, FewerSamplesThanTheSamplingErrorNeedsCannotFindIt) {
   scene::Scene scene = shipped_scene();
   scene.numerics.cell_size = 10e-3;
   scene.numerics.inertial_scaling = 16.0;
@@ -284,124 +285,124 @@ TEST(Doubts, FewerSamplesThanTheSamplingErrorNeedsCannotFindIt) {
 }
 
 /// Sound takes 192 us through the 0.5 m of the shipped charge. The analytic load rises as sin^n to its peak.
-TEST(Doubts, ALoadThatRisesWhileSoundRunsThroughTheCharge) {
+TEST(ValidityWarnings, ALoadThatRisesWhileSoundRunsThroughTheCharge) {
   scene::Scene scene = shipped_scene();
   scene.load.peak_time = 0.5e-3;
-  expect_one(doubts_of(scene, sound_run()), "% of its peak within 192 us");
+  expect_one(validity_warnings(scene, sound_run()), "% of its peak within 192 us");
   scene.load.peak_time = 1.5e-3;
-  EXPECT_TRUE(doubts_of(scene, sound_run()).empty());
+  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
 
   // Measured curves of the same launch: a step of 60 % of the peak is one wherever it stands, one of 40 %
   // none.
-  const auto doubts_a_step = [&](double low, double high) {
+  const auto warns_of_a_step = [&](double low, double high) {
     scene.load.curve_time = {0.0, 4e-3, 8e-3, 8.05e-3, 10e-3, 14e-3, 18e-3};
     scene.load.curve_pressure = {0.0, 0.5 * low, low, high, 496e6, 200e6, 50e6};
-    const auto doubts = doubts_of(scene, sound_run());
-    return std::any_of(doubts.begin(), doubts.end(), [](const std::string& doubt) {
-      return doubt.find("that sound takes through the charge") != std::string::npos;
+    const auto warnings = validity_warnings(scene, sound_run());
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("that sound takes through the charge") != std::string::npos;
     });
   };
-  EXPECT_TRUE(doubts_a_step(150e6, 450e6));
-  EXPECT_FALSE(doubts_a_step(200e6, 400e6));
+  EXPECT_TRUE(warns_of_a_step(150e6, 450e6));
+  EXPECT_FALSE(warns_of_a_step(200e6, 400e6));
 }
 
-TEST(Doubts, CracksThatNoContinuumLawHolds) {
+TEST(ValidityWarnings, CracksThatNoContinuumLawHolds) {
   MechanicsResult run = sound_run();
   scene::Scene cracked = shipped_scene();
   cracked.numerics.cell_size = 2.5e-3;
   cracked.charge().strength.initial_crack_radius = run.monitor[1].largest_crack_radius = 10.5e-3;
-  expect_one(doubts_of(cracked, run), "10.5 flaw sizes");
+  expect_one(validity_warnings(cracked, run), "10.5 flaw sizes");
   scene::Scene fine = shipped_scene();
   fine.numerics.cell_size = 0.5e-3;
   fine.charge().strength.initial_crack_radius = run.monitor[1].largest_crack_radius = 3e-3;
-  expect_one(doubts_of(fine, run), "6 cells");
-  // Grown rather than given, it is doubted where it worked: a twentieth of what viscosity took.
+  expect_one(validity_warnings(fine, run), "6 cells");
+  // Grown rather than given, it gives a warning where it worked: a twentieth of what viscosity took.
   fine.charge().strength.initial_crack_radius = 30e-6;
   run.monitor[2].energy.viscous = 3.5;
   run.monitor[2].energy.crack = 0.05 * 3.5;
-  EXPECT_EQ(doubts_of(fine, run).size(), 0u);
+  EXPECT_EQ(validity_warnings(fine, run).size(), 0u);
   run.monitor[2].energy.crack = 0.051 * 3.5;
-  expect_one(doubts_of(fine, run), "6 cells");
+  expect_one(validity_warnings(fine, run), "6 cells");
   run.monitor[2].energy.crack = 0.0;
   scene::Scene thin = shipped_scene();
   thin.charge().strength.initial_crack_radius = 3e-3;
   thin.bodies[1].x_begin = thin.bodies[1].x_end - 2e-3;
-  expect_one(doubts_of(thin, run), "more than the charge measures");
+  expect_one(validity_warnings(thin, run), "more than the charge measures");
 }
 
-TEST(Doubts, ScaledInertiaOfAChargeThatSlidesBeyondWhatWasMeasured) {
+TEST(ValidityWarnings, ScaledInertiaOfAChargeThatSlidesBeyondWhatWasMeasured) {
   scene::Scene scene = shipped_scene();
   scene.interfaces.clear();
-  const auto doubts_with = [&scene](double all, double steel) {
+  const auto warnings_with = [&scene](double all, double steel) {
     scene.numerics.inertial_scaling = all;
     scene.numerics.steel_inertia = steel;
     MechanicsResult run = sound_run();
-    run.monitor[1].energy.kinetic = 1.0;  // far from what is doubted of any charge
-    return doubts_of(scene, run);
+    run.monitor[1].energy.kinetic = 1.0;  // far from what any charge is warned of
+    return validity_warnings(scene, run);
   };
-  EXPECT_TRUE(doubts_with(200.0, 8.0).empty());
+  EXPECT_TRUE(warnings_with(200.0, 8.0).empty());
   scene.interfaces = {{.body = "wall", .condition = scene::Condition::sliding, .friction = 0.1}};
-  EXPECT_TRUE(doubts_with(16.0, 1.0).empty());
-  EXPECT_TRUE(doubts_with(1.0, 4.0).empty());
-  expect_one(doubts_with(17.0, 1.0), "measured up to 16");
-  expect_one(doubts_with(1.0, 4.1), "measured up to 16");
-  expect_one(doubts_with(16.0, 2.0), "measured up to 16");
+  EXPECT_TRUE(warnings_with(16.0, 1.0).empty());
+  EXPECT_TRUE(warnings_with(1.0, 4.0).empty());
+  expect_one(warnings_with(17.0, 1.0), "measured up to 16");
+  expect_one(warnings_with(1.0, 4.1), "measured up to 16");
+  expect_one(warnings_with(16.0, 2.0), "measured up to 16");
 }
 
-TEST(Doubts, FacesThatPassIntoEachOther) {
+TEST(ValidityWarnings, FacesThatPassIntoEachOther) {
   const scene::Scene scene = shipped_scene();
   MechanicsResult run = sound_run();
   run.interfaces.resize(1);
   run.interfaces[0].body = "base";
   run.interfaces[0].overlap = {0.0, 0.9e-3 * scene.numerics.cell_size};
-  EXPECT_TRUE(doubts_of(scene, run).empty());
+  EXPECT_TRUE(validity_warnings(scene, run).empty());
   run.interfaces[0].overlap[0] = 26e-6;
-  expect_one(doubts_of(scene, run), "\"base\" pass into each other by 0.026 mm");
+  expect_one(validity_warnings(scene, run), "\"base\" pass into each other by 0.026 mm");
 }
 
-TEST(Doubts, ABondThatBrokeInPart) {
+TEST(ValidityWarnings, ABondThatBrokeInPart) {
   MechanicsResult run = sound_run();
   run.interfaces.resize(1);
   run.interfaces[0].body = "wall";
   for (const std::vector<double>& whole : {std::vector{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}}) {
     run.interfaces[0].bonded = whole;
-    EXPECT_TRUE(doubts_of(shipped_scene(), run).empty());
+    EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty());
   }
   run.interfaces[0].bonded = {1.0, 0.0, 0.0};
-  expect_one(doubts_of(shipped_scene(), run), "\"wall\" broke at 2 of 3 nodes");
+  expect_one(validity_warnings(shipped_scene(), run), "\"wall\" broke at 2 of 3 nodes");
 }
 
 /// As they do without friction between their faces: by 4.4 mm in 18 ms.
-TEST(Doubts, CracksThatRunAway) {
+TEST(ValidityWarnings, CracksThatRunAway) {
   MechanicsResult run = sound_run();
   run.monitor[2].largest_crack_radius = 4.43e-3;
   run.monitor[2].energy.viscous = 3.4;
   run.monitor[2].energy.crack = 2.5;
-  expect_one(doubts_of(shipped_scene(), run), "cracks run away, by 4.4 mm or 4.4 flaw sizes");
+  expect_one(validity_warnings(shipped_scene(), run), "cracks run away, by 4.4 mm or 4.4 flaw sizes");
   run.monitor[2].largest_crack_radius = 0.4e-3;
-  EXPECT_TRUE(doubts_of(shipped_scene(), run).empty());
+  EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty());
   // In the corner beside the wall, on cells of 0.3125 mm, with friction.
   run.monitor[2].largest_crack_radius = 0.769e-3;
   run.monitor[2].energy.crack = 0.02;
-  EXPECT_TRUE(doubts_of(shipped_scene(), run).empty());
+  EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty());
 }
 
-TEST(Doubts, ABulkAboveIgnitionWhoseReactionIsLeftOut) {
+TEST(ValidityWarnings, ABulkAboveIgnitionWhoseReactionIsLeftOut) {
   scene::Scene scene = shipped_scene();
   MechanicsResult run = sound_run();
   run.trace.friction[0].back() = 230.0 * 1717.0 * 1780.0;  // J/m3 that heat by 230 K
   scene.physics.bulk_reaction = scene::Switch::off;
-  expect_one(doubts_of(scene, run), "to 530 K, above ignition");
+  expect_one(validity_warnings(scene, run), "to 530 K, above ignition");
   scene.physics.bulk_reaction = scene::Switch::on;
-  EXPECT_TRUE(doubts_of(scene, run).empty());
+  EXPECT_TRUE(validity_warnings(scene, run).empty());
 }
 
-TEST(Doubts, SteelThatItsPlasticWorkMelts) {
+TEST(ValidityWarnings, SteelThatItsPlasticWorkMelts) {
   MechanicsResult run = sound_run();
   run.monitor[2].largest_plastic_strain = 0.5;
-  EXPECT_TRUE(doubts_of(shipped_scene(), run).empty());
+  EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty());
   run.monitor[2].largest_plastic_strain = 50.0;
-  expect_one(doubts_of(shipped_scene(), run), "melts at 1793 K");
+  expect_one(validity_warnings(shipped_scene(), run), "melts at 1793 K");
 }
 
 }  // namespace
