@@ -18,33 +18,33 @@ using namespace report;
 
 using verify::Outcome;
 
-bool HardRow::is_as_expected() const {
+bool StressCaseRow::is_as_expected() const {
   if (!computed() || is_wrong()) return false;
   return expected.empty() || std::find(expected.begin(), expected.end(), finding.outcome) != expected.end();
 }
 
 std::size_t StabilityResult::count(Outcome outcome) const {
-  return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [outcome](const HardRow& row) {
-    return row.computed() && row.finding.outcome == outcome;
-  }));
+  return static_cast<std::size_t>(std::count_if(
+      rows.begin(), rows.end(),
+      [outcome](const StressCaseRow& row) { return row.computed() && row.finding.outcome == outcome; }));
 }
 
 std::size_t StabilityResult::unexpected() const {
-  return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [](const HardRow& row) {
+  return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [](const StressCaseRow& row) {
     return row.computed() && !row.is_wrong() && !row.is_as_expected();
   }));
 }
 
 std::size_t StabilityResult::failed() const {
   return static_cast<std::size_t>(
-      std::count_if(rows.begin(), rows.end(), [](const HardRow& row) { return !row.computed(); }));
+      std::count_if(rows.begin(), rows.end(), [](const StressCaseRow& row) { return !row.computed(); }));
 }
 
 namespace {
 
 /// Gaps that are asked of a case of the study, by itself or as the safe computation of another.
 std::vector<double> gaps_of(const StudyFile& study, std::size_t index) {
-  for (const HardLaunch& launch : settings_of<StabilitySettings>(study.study).launches) {
+  for (const StressCase& launch : settings_of<StabilitySettings>(study.study).cases) {
     if (launch.run == index || launch.against == index) return launch.gaps;
   }
   return study.study.gaps;
@@ -89,13 +89,13 @@ std::vector<LaunchRecord> run_launches(const StudyFile& study, const StudyOption
   return records;
 }
 
-std::vector<HardRow> rows_of_laws(const StudyOptions& options) {
+std::vector<StressCaseRow> rows_of_laws(const StudyOptions& options) {
   const std::vector<verify::StressTest> laws = verify::law_stress_tests();
-  std::vector<HardRow> rows(laws.size());
+  std::vector<StressCaseRow> rows(laws.size());
   tbb::task_arena arena(jobs_of(options));
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, laws.size(), [&](std::size_t i) {
-      HardRow& row = rows[i];
+      StressCaseRow& row = rows[i];
       row.group = laws[i].group;
       row.name = laws[i].name;
       row.must_hold = laws[i].must_hold;
@@ -120,9 +120,9 @@ StabilityResult run_stability(const StudyFile& study, const StudyOptions& option
   result.interrupted = stop_requested(options);
   if (!result.interrupted && options.shard.whole() && settings_of<StabilitySettings>(study.study).laws)
     result.rows = rows_of_laws(options);
-  for (const HardLaunch& launch : settings_of<StabilitySettings>(study.study).launches)
-    result.rows.push_back(judge_launch(launch, launch.run ? &records[*launch.run] : nullptr,
-                                       launch.against ? &records[*launch.against] : nullptr));
+  for (const StressCase& launch : settings_of<StabilitySettings>(study.study).cases)
+    result.rows.push_back(judge_stress_case(launch, launch.run ? &records[*launch.run] : nullptr,
+                                            launch.against ? &records[*launch.against] : nullptr));
   result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -25,36 +25,36 @@ using verify::Outcome;
 constexpr std::array expectable{Outcome::held, Outcome::degraded, Outcome::caught};
 
 /// One [[case]] as read, without its tables of scene keys.
-struct HardLaunchText {
+struct StressCaseText {
   std::string group, name, must_hold, scene, refused;
   double numerical_uncertainty = not_a_number;  ///< K
   double caught_within = 0;                     ///< steps
 };
 
-const std::vector<Key<HardLaunchText>>& hard_launch_keys() {
-  static const std::vector<Key<HardLaunchText>> keys{
-      scene::required(scene::text_key<HardLaunchText>("group", Standing::input, "What cases it belongs to.",
-                                                      &HardLaunchText::group)),
-      scene::required(scene::text_key<HardLaunchText>(
-          "name", Standing::input, "What the case is, unique in its group.", &HardLaunchText::name)),
-      scene::required(scene::text_key<HardLaunchText>(
-          "must_hold", Standing::input, "What must hold, a sentence.", &HardLaunchText::must_hold)),
-      scene::text_key<HardLaunchText>("scene", Standing::input,
+const std::vector<Key<StressCaseText>>& stress_case_keys() {
+  static const std::vector<Key<StressCaseText>> keys{
+      scene::required(scene::text_key<StressCaseText>("group", Standing::input, "What cases it belongs to.",
+                                                      &StressCaseText::group)),
+      scene::required(scene::text_key<StressCaseText>(
+          "name", Standing::input, "What the case is, unique in its group.", &StressCaseText::name)),
+      scene::required(scene::text_key<StressCaseText>(
+          "must_hold", Standing::input, "What must hold, a sentence.", &StressCaseText::must_hold)),
+      scene::text_key<StressCaseText>("scene", Standing::input,
                                       "Path of a scene of its own, from the study file's folder.",
-                                      &HardLaunchText::scene),
-      scene::text_key<HardLaunchText>(
+                                      &StressCaseText::scene),
+      scene::text_key<StressCaseText>(
           "refused", Standing::input,
           "What the reader must say of the scene: then the case is one of the reader, and nothing runs.",
-          &HardLaunchText::refused),
-      scene::number_key<HardLaunchText>(
+          &StressCaseText::refused),
+      scene::number_key<StressCaseText>(
           "caught_within", Dimension::count, scene::between(0, 1e9), Standing::input,
           "Steps within which a broken computation must be caught; 0: any number.",
-          &HardLaunchText::caught_within),
-      scene::number_key<HardLaunchText>(
+          &StressCaseText::caught_within),
+      scene::number_key<StressCaseText>(
           "numerical_uncertainty", Dimension::temperature_difference, scene::between(0, 1000),
           Standing::input,
           "Uncertainty of the maximum temperature with these numerics; the study's if absent.",
-          &HardLaunchText::numerical_uncertainty),
+          &StressCaseText::numerical_uncertainty),
   };
   return keys;
 }
@@ -63,7 +63,7 @@ const std::vector<Key<HardLaunchText>>& hard_launch_keys() {
 struct CaseReader {
   StudyFile& study;
   const toml::table& table;
-  HardLaunchText text;
+  StressCaseText text;
   std::map<std::string, Place> places;
 
   Place place_of(const std::string& key) const {
@@ -164,7 +164,7 @@ scene::Expected<std::size_t> add_run(CaseReader& reader, const std::string& labe
 }
 
 /// A case of the reader has no run.
-Fault read_refusal(const CaseReader& reader, const Changed& changed, HardLaunch& launch) {
+Fault read_refusal(const CaseReader& reader, const Changed& changed, StressCase& launch) {
   for (const char* key : {"against", "expect", "caught_within"}) {
     if (!reader.table.contains(key)) continue;
     return scene::error_at(scene::place_of(*reader.table.get(key), reader.study.file),
@@ -180,7 +180,7 @@ Fault read_refusal(const CaseReader& reader, const Changed& changed, HardLaunch&
   return std::nullopt;
 }
 
-Fault read_runs(CaseReader& reader, Changed changed, HardLaunch& launch) {
+Fault read_runs(CaseReader& reader, Changed changed, StressCase& launch) {
   if (changed.refusal) return changed.refusal;
   const bool own_gaps = changed.scene.scene.surface.gaps != reader.study.scene.scene.surface.gaps;
   launch.gaps = own_gaps ? changed.scene.scene.surface.gaps : reader.study.study.gaps;
@@ -200,16 +200,16 @@ Fault read_runs(CaseReader& reader, Changed changed, HardLaunch& launch) {
 }
 
 Fault read_case(CaseReader& reader, const toml::table& root, const std::filesystem::path& folder) {
-  auto read = scene::read_table(reader.table, hard_launch_keys(), {"set", "against", "expect"},
+  auto read = scene::read_table(reader.table, stress_case_keys(), {"set", "against", "expect"},
                                 reader.study.file, reader.text);
   if (!read) return in_table(read.error(), "case");
   reader.places = std::move(*read);
-  HardLaunch launch;
+  StressCase launch;
   launch.group = reader.text.group;
   launch.name = reader.text.name;
   launch.must_hold = reader.text.must_hold;
   launch.caught_within = static_cast<std::uint64_t>(reader.text.caught_within);
-  for (const HardLaunch& other : settings_of<StabilitySettings>(reader.study.study).launches) {
+  for (const StressCase& other : settings_of<StabilitySettings>(reader.study.study).cases) {
     if (other.group != launch.group || other.name != launch.name) continue;
     return reader.fault("name", fmt::format("\"{}\" a second time in \"{}\"", launch.name, launch.group),
                         "a name that no other case of the group has");
@@ -225,7 +225,7 @@ Fault read_case(CaseReader& reader, const toml::table& root, const std::filesyst
   if (Fault fault =
           refused ? read_refusal(reader, *changed, launch) : read_runs(reader, std::move(*changed), launch))
     return fault;
-  settings_of<StabilitySettings>(reader.study.study).launches.push_back(std::move(launch));
+  settings_of<StabilitySettings>(reader.study.study).cases.push_back(std::move(launch));
   return std::nullopt;
 }
 
@@ -264,7 +264,7 @@ Fault read_stability(const StudySource&, StudyFile&) { return std::nullopt; }
 /// A case that is WRONG is the worst outcome of a study.
 std::vector<Failure> stability_failures(const StabilityResult& result) {
   std::vector<Failure> failures;
-  for (const HardRow& row : result.rows) {
+  for (const StressCaseRow& row : result.rows) {
     const std::string label = row.group + ": " + row.name;
     if (!row.computed()) add_failure(failures, label, row.outcome, row.failure);
     if (row.is_wrong()) add_failure(failures, label, row.outcome, "WRONG: " + row.finding.text);
@@ -288,7 +288,7 @@ Kind stability_kind() {
   return {
       .traits = {.name = "stability", .gaps_key = "gaps", .gives_verdicts = false, .own_scenes = true},
       .keys = joined({gaps_keys(), judging_keys(), own_keys(stability_keys())}),
-      .tables = {table_of("case", hard_launch_keys())},
+      .tables = {table_of("case", stress_case_keys())},
       .read = read_stability,
       .make_cases = make_stability_cases,
       .run = stability_outcome,

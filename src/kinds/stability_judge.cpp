@@ -17,7 +17,7 @@ std::string sentences(const std::vector<std::string>& parts) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-Finding judge_reader(const HardLaunch& launch) {
+Finding judge_reader(const StressCase& launch) {
   if (launch.refusal.empty())
     return {Outcome::wrong, "the reader took the scene, without \"" + launch.must_refuse + "\""};
   if (launch.refusal.find(launch.must_refuse) == std::string::npos)
@@ -26,7 +26,7 @@ Finding judge_reader(const HardLaunch& launch) {
   return {Outcome::caught, "refused before anything was computed: " + launch.refusal};
 }
 
-Finding judge_stopped(const HardLaunch& launch, const LaunchRecord& record) {
+Finding judge_stopped(const StressCase& launch, const LaunchRecord& record) {
   const std::string text =
       fmt::format("{} after {} steps{}", run::to_string(record.answer.run.status), record.answer.run.steps,
                   record.reason.empty() ? "" : ", " + record.reason);
@@ -36,9 +36,9 @@ Finding judge_stopped(const HardLaunch& launch, const LaunchRecord& record) {
           fmt::format("caught late, {} steps were allowed: {}", launch.caught_within, text)};
 }
 
-bool decides(const HardGap& gap) { return gap.judgement.verdict != Verdict::indeterminate; }
+bool decides(const StressCaseGap& gap) { return gap.judgement.verdict != Verdict::indeterminate; }
 
-std::string gap_text(const HardGap& gap) {
+std::string gap_text(const StressCaseGap& gap) {
   std::string text = fmt::format("{:.6g} cm: T max {:.1f} K, {}", 100.0 * gap.gap, gap.temperature,
                                  to_string(gap.judgement.verdict));
   if (std::isfinite(gap.deviation()))
@@ -47,27 +47,27 @@ std::string gap_text(const HardGap& gap) {
   return text;
 }
 
-std::string gaps_text(const std::vector<HardGap>& gaps) {
+std::string gaps_text(const std::vector<StressCaseGap>& gaps) {
   std::vector<std::string> texts;
-  for (const HardGap& gap : gaps) texts.push_back(gap_text(gap));
+  for (const StressCaseGap& gap : gaps) texts.push_back(gap_text(gap));
   return sentences(texts);
 }
 
 /// Why a completed run does not stand for itself; empty where it does.
-std::vector<std::string> reserves_of(const HardRow& row) {
+std::vector<std::string> reserves_of(const StressCaseRow& row) {
   std::vector<std::string> reserves = row.validity_warnings;
   if (const std::string limited = run::to_string(row.run.limiters); !limited.empty())
     reserves.push_back("limiters acted: " + limited);
-  for (const HardGap& gap : row.gaps) {
+  for (const StressCaseGap& gap : row.gaps) {
     if (!std::isfinite(gap.temperature)) reserves.emplace_back("a temperature is not a number");
   }
   return reserves;
 }
 
 /// What is wrong with a completed run, whether or not its verdicts say so.
-std::vector<std::string> faults_of(const HardRow& row) {
+std::vector<std::string> faults_of(const StressCaseRow& row) {
   std::vector<std::string> faults = row.violations;
-  for (const HardGap& gap : row.gaps) {
+  for (const StressCaseGap& gap : row.gaps) {
     if (gap.deviates())
       faults.push_back(fmt::format("off the safe computation by {:.3g} K, more than {:.3g} K",
                                    std::abs(gap.deviation()), gap.uncertainty));
@@ -77,13 +77,13 @@ std::vector<std::string> faults_of(const HardRow& row) {
 
 /// Verdicts that a fault makes WRONG: all of them for a broken invariant, else those of the gaps that
 /// deviate.
-bool decides_wrongly(const HardRow& row) {
-  return std::any_of(row.gaps.begin(), row.gaps.end(), [&](const HardGap& gap) {
+bool decides_wrongly(const StressCaseRow& row) {
+  return std::any_of(row.gaps.begin(), row.gaps.end(), [&](const StressCaseGap& gap) {
     return decides(gap) && (!row.violations.empty() || gap.deviates());
   });
 }
 
-Finding judge_completed(const HardRow& row, bool compared) {
+Finding judge_completed(const StressCaseRow& row, bool compared) {
   const std::vector<std::string> faults = faults_of(row), reserves = reserves_of(row);
   const std::string numbers = gaps_text(row.gaps);
   if (!faults.empty()) {
@@ -96,11 +96,11 @@ Finding judge_completed(const HardRow& row, bool compared) {
   return {Outcome::held, numbers};
 }
 
-std::vector<HardGap> hard_gaps(const LaunchRecord& record, const LaunchRecord* against) {
-  std::vector<HardGap> gaps;
+std::vector<StressCaseGap> stress_case_gaps(const LaunchRecord& record, const LaunchRecord* against) {
+  std::vector<StressCaseGap> gaps;
   for (std::size_t i = 0; i < record.answer.verdicts.size(); ++i) {
     const GapVerdict& verdict = record.answer.verdicts[i];
-    HardGap gap;
+    StressCaseGap gap;
     gap.gap = verdict.gap;
     gap.temperature = verdict.maximum.temperature;
     gap.uncertainty = verdict.uncertainty.total();
@@ -116,8 +116,9 @@ std::vector<HardGap> hard_gaps(const LaunchRecord& record, const LaunchRecord* a
 
 }  // namespace
 
-HardRow judge_launch(const HardLaunch& launch, const LaunchRecord* record, const LaunchRecord* against) {
-  HardRow row;
+StressCaseRow judge_stress_case(const StressCase& launch, const LaunchRecord* record,
+                                const LaunchRecord* against) {
+  StressCaseRow row;
   row.group = launch.group;
   row.name = launch.name;
   row.must_hold = launch.must_hold;
@@ -135,7 +136,7 @@ HardRow judge_launch(const HardLaunch& launch, const LaunchRecord* record, const
   row.end_time = record->end_time;
   row.violations = record->violations;
   row.validity_warnings = record->validity_warnings;
-  row.gaps = hard_gaps(*record, against);
+  row.gaps = stress_case_gaps(*record, against);
   const bool compared = against == nullptr || against->answer.completed();
   row.finding = record->answer.completed() ? judge_completed(row, compared) : judge_stopped(launch, *record);
   return row;

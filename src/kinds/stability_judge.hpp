@@ -1,4 +1,4 @@
-// Held, degraded, caught or WRONG: the rules for a hard launch.
+// Held, degraded, caught or WRONG: the rules for a stress case.
 #pragma once
 
 #include "launchsafe/kinds/stability.hpp"
@@ -24,6 +24,7 @@ struct LaunchRecord {
 /// further from the safe computation than its uncertainty, and a verdict says SAFE or UNSAFE. Degraded: the
 /// same with an indeterminate verdict; validity warnings, limiters, a temperature that is no number, a stop
 /// that came later than it must, or nothing left to compare with. Held: everything else.
-HardRow judge_launch(const HardLaunch& launch, const LaunchRecord* record, const LaunchRecord* against);
+StressCaseRow judge_stress_case(const StressCase& launch, const LaunchRecord* record,
+                                const LaunchRecord* against);
 
 }  // namespace launchsafe::kinds

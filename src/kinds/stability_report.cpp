@@ -20,7 +20,7 @@ using verify::Outcome;
 
 std::string counts_text(const StabilityResult& result) {
   return fmt::format("{}: {} held, {} degraded with a reason, {} caught, {} WRONG.",
-                     counted(result.rows.size(), "hard case"), result.count(Outcome::held),
+                     counted(result.rows.size(), "stress case"), result.count(Outcome::held),
                      result.count(Outcome::degraded), result.count(Outcome::caught), result.wrong());
 }
 
@@ -28,7 +28,7 @@ std::string counts_text(const StabilityResult& result) {
 template <class Belongs>
 std::string list_of(const StabilityResult& result, const std::string& heading, Belongs belongs) {
   std::string text;
-  for (const HardRow& row : result.rows) {
+  for (const StressCaseRow& row : result.rows) {
     if (!belongs(row)) continue;
     if (text.empty()) text = heading;
     text += fmt::format("\n- {}: {}: {}", row.group, row.name, finding_text(row));
@@ -41,17 +41,17 @@ std::string wrong_text(const StabilityResult& result) {
   return list_of(result,
                  fmt::format("WRONG: {} in which a broken computation gave a plausible verdict.",
                              counted(result.wrong(), "case")),
-                 [](const HardRow& row) { return row.is_wrong(); });
+                 [](const StressCaseRow& row) { return row.is_wrong(); });
 }
 
 std::string unexpected_text(const StabilityResult& result) {
-  return list_of(result, "Not as the study expects:", [](const HardRow& row) {
+  return list_of(result, "Not as the study expects:", [](const StressCaseRow& row) {
     return row.computed() && !row.is_wrong() && !row.is_as_expected();
   });
 }
 
 std::string failed_text(const StabilityResult& result) {
-  return list_of(result, "Not computed:", [](const HardRow& row) { return !row.computed(); });
+  return list_of(result, "Not computed:", [](const StressCaseRow& row) { return !row.computed(); });
 }
 
 std::string legend() {

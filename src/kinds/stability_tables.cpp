@@ -26,28 +26,28 @@ std::string shortened(const std::string& text) {
   return text.substr(0, end) + " ...";
 }
 
-std::string expected_text(const HardRow& row) {
+std::string expected_text(const StressCaseRow& row) {
   if (row.expected.empty()) return "not WRONG";
   std::vector<std::string> names;
   for (const verify::Outcome each : row.expected) names.push_back(to_string(each));
   return fmt::format("{}", fmt::join(names, " or "));
 }
 
-Cell count_cell(const HardRow& row, std::uint64_t count) {
+Cell count_cell(const StressCaseRow& row, std::uint64_t count) {
   return row.ran ? Cell(static_cast<std::int64_t>(count)) : Cell();
 }
 
 }  // namespace
 
-std::string outcome_text(const HardRow& row) {
+std::string outcome_text(const StressCaseRow& row) {
   return row.computed() ? to_string(row.finding.outcome) : "not computed";
 }
 
-std::string finding_text(const HardRow& row) { return row.computed() ? row.finding.text : row.failure; }
+std::string finding_text(const StressCaseRow& row) { return row.computed() ? row.finding.text : row.failure; }
 
 Table stability_table(const StabilityResult& result) {
   Table table;
-  table.title = "Hard cases";
+  table.title = "Stress cases";
   table.columns = {named_text("group", "group"),
                    quantity::case_name(),
                    named_text("must hold", "must_hold"),
@@ -56,8 +56,8 @@ Table stability_table(const StabilityResult& result) {
                    named_text("finding", "finding"),
                    for_programs(named_text("as expected", "as_expected")),
                    for_programs(named_text("violations", "violations")),
-                   for_programs(named_text("doubts", "doubts"))};
-  for (const HardRow& row : result.rows)
+                   for_programs(named_text("validity warnings", "validity_warnings"))};
+  for (const StressCaseRow& row : result.rows)
     table.rows.push_back({row.group, row.name, row.must_hold, outcome_text(row), expected_text(row),
                           finding_text(row), std::string(row.is_as_expected() ? "yes" : "no"),
                           fmt::format("{}", fmt::join(row.violations, "; ")),
@@ -67,10 +67,10 @@ Table stability_table(const StabilityResult& result) {
 
 Table stability_summary(const StabilityResult& result) {
   Table table;
-  table.title = "Hard cases";
+  table.title = "Stress cases";
   table.columns = {named_text("group", "group"), quantity::case_name(), named_text("outcome", "outcome"),
                    named_text("finding", "finding")};
-  for (const HardRow& row : result.rows)
+  for (const StressCaseRow& row : result.rows)
     table.rows.push_back({row.group, row.name, outcome_text(row), shortened(finding_text(row))});
   return table;
 }
@@ -95,8 +95,8 @@ Table launch_table(const StabilityResult& result) {
                    quantity::verdict(),
                    for_programs(quantity::reason()),
                    quantity::limiters()};
-  for (const HardRow& row : result.rows) {
-    for (const HardGap& gap : row.gaps)
+  for (const StressCaseRow& row : result.rows) {
+    for (const StressCaseGap& gap : row.gaps)
       table.rows.push_back(
           {row.group, row.name, outcome_text(row), run::to_string(row.run.status),
            optional_number(1e3 * row.end_time), count_cell(row, row.run.steps),

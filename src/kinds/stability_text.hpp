@@ -8,8 +8,8 @@
 namespace launchsafe::kinds {
 
 /// "held", "degraded", "caught", "WRONG", or "not computed".
-std::string outcome_text(const HardRow& row);
+std::string outcome_text(const StressCaseRow& row);
 /// The finding, or why there is none.
-std::string finding_text(const HardRow& row);
+std::string finding_text(const StressCaseRow& row);
 
 }  // namespace launchsafe::kinds

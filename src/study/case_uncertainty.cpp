@@ -42,8 +42,8 @@ double ratio_to_calibration(const Study& study, const StudyCase& input) {
          scene::PressureHistory(study.calibration.scene.load).stated_peak();
 }
 
-/// What is not plausible of a case and of what its study states, where that gives verdicts. No hard case of a
-/// stability study may pass because its input is called implausible.
+/// What is not plausible of a case and of what its study states, where that gives verdicts. No stress case of
+/// a stability study may pass because its input is called implausible.
 std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCase& input) {
   if (!gives_verdicts(study)) return {};
   std::vector<scene::Implausible> values = study.implausible;

@@ -108,7 +108,7 @@ TEST(StudyPlausibility, EveryCaseOfASweepIsJudgedOnItsOwnValues) {
       << result.answers[1].verdicts[0].judgement.reason;
 }
 
-// Its hard cases ask what the computation makes of them; none may pass because its input is called
+// Its stress cases ask what the computation makes of them; none may pass because its input is called
 // implausible.
 TEST(StudyPlausibility, AStabilityStudyJudgesWithoutIt) {
   StudyFile study = study_of(safe_study("", "gap.skin_thickness = \"5 mm\"\n"));

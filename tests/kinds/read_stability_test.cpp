@@ -27,9 +27,9 @@ TEST(ReadStability, ACaseIsTheSceneWithItsKeysAndASafeComputation) {
                                    "against = { numerics.time_step_factor = 0.1 }\n"
                                    "expect = [\"held\", \"caught\"]\ncaught_within = 500\n"
                                    "[set]\ngap.exchange_time = \"0.01 ms\"\n");
-  ASSERT_EQ(study::settings_of<kinds::StabilitySettings>(study.study).launches.size(), 1u);
+  ASSERT_EQ(study::settings_of<kinds::StabilitySettings>(study.study).cases.size(), 1u);
   ASSERT_EQ(study.cases.size(), 2u);
-  const HardLaunch& launch = study::settings_of<kinds::StabilitySettings>(study.study).launches.front();
+  const StressCase& launch = study::settings_of<kinds::StabilitySettings>(study.study).cases.front();
   EXPECT_EQ(launch.group, "load");
   EXPECT_EQ(launch.name, "high");
   EXPECT_EQ(launch.must_hold, "it ends");
@@ -66,7 +66,7 @@ TEST(ReadStability, ACaseMayHaveASceneOfItsOwnAndItsGaps) {
   ASSERT_EQ(study.cases.size(), 1u);
   EXPECT_EQ(study.cases[0].scene.scene.load.duration, 18e-3);
   EXPECT_EQ(study.cases[0].scene.scene.numerics.inertial_scaling, 16.0);
-  EXPECT_EQ(study::settings_of<kinds::StabilitySettings>(study.study).launches[0].gaps,
+  EXPECT_EQ(study::settings_of<kinds::StabilitySettings>(study.study).cases[0].gaps,
             (std::vector<double>{0.0, 1e-3}));
 }
 
@@ -77,15 +77,15 @@ TEST(ReadStability, WhatTheReaderRefusesIsACaseWithoutARun) {
       "[[case]]\ngroup = \"reader\"\nname = \"fine\"\nmust_hold = \"refused\"\nrefused = \"to 2\"\n"
       "set = { numerics.time_step_factor = 1 }\n";
   const StudyFile study = study_of(head + named + reader);
-  ASSERT_EQ(study::settings_of<kinds::StabilitySettings>(study.study).launches.size(), 3u);
+  ASSERT_EQ(study::settings_of<kinds::StabilitySettings>(study.study).cases.size(), 3u);
   EXPECT_EQ(study.cases.size(), 1u);
-  EXPECT_FALSE(study::settings_of<kinds::StabilitySettings>(study.study).launches[1].run);
+  EXPECT_FALSE(study::settings_of<kinds::StabilitySettings>(study.study).cases[1].run);
   EXPECT_NE(study::settings_of<kinds::StabilitySettings>(study.study)
-                .launches[1]
+                .cases[1]
                 .refusal.find("numerics.time_step_factor: found 3"),
             std::string::npos)
-      << study::settings_of<kinds::StabilitySettings>(study.study).launches[1].refusal;
-  EXPECT_TRUE(study::settings_of<kinds::StabilitySettings>(study.study).launches[2].refusal.empty());
+      << study::settings_of<kinds::StabilitySettings>(study.study).cases[1].refusal;
+  EXPECT_TRUE(study::settings_of<kinds::StabilitySettings>(study.study).cases[2].refusal.empty());
   // Alone they are no study: something has to run.
   expect_error_in(head + reader, {4, "case", "no case that runs", "[[case]]"});
 }
@@ -114,8 +114,8 @@ TEST(ReadStability, TheShippedMatricesAreValid) {
   for (const char* name : {"stability.toml", "stability/smoke.toml"}) {
     const auto study = read_study(studies_folder / name);
     ASSERT_TRUE(study) << study.error().message();
-    EXPECT_GT(settings_of<StabilitySettings>(study->study).launches.size(), 5u);
-    for (const HardLaunch& launch : settings_of<StabilitySettings>(study->study).launches) {
+    EXPECT_GT(settings_of<StabilitySettings>(study->study).cases.size(), 5u);
+    for (const StressCase& launch : settings_of<StabilitySettings>(study->study).cases) {
       EXPECT_NE(launch.refusal.find(launch.must_refuse), std::string::npos)
           << launch.name << ": " << launch.refusal;
     }

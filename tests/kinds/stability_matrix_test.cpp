@@ -19,7 +19,7 @@ StabilityResult all_rows_of(const StudyFile& study) {
   StudyOptions options;
   options.jobs = 2;
   StabilityResult result = run_stability(study, options);
-  EXPECT_EQ(result.rows.size(), study::settings_of<kinds::StabilitySettings>(study.study).launches.size());
+  EXPECT_EQ(result.rows.size(), study::settings_of<kinds::StabilitySettings>(study.study).cases.size());
   return result;
 }
 
@@ -27,7 +27,7 @@ TEST(StabilityMatrix, HasNoCaseThatIsWrongOrUnexpected) {
   const auto study = read_study(studies_folder / "stability" / "smoke.toml");
   ASSERT_TRUE(study) << study.error().message();
   const StabilityResult result = all_rows_of(*study);
-  for (const HardRow& row : result.rows)
+  for (const StressCaseRow& row : result.rows)
     EXPECT_TRUE(row.is_as_expected())
         << row.group << ", " << row.name << ": " << to_string(row.finding.outcome) << ", " << row.finding.text
         << row.failure;
@@ -49,11 +49,11 @@ TEST(StabilityMatrixSlow, HasNoCaseThatIsWrongInTheUpdatedLagrangianForm) {
   const auto study = parse_study(text, file);
   ASSERT_TRUE(study) << study.error().message();
   const StabilityResult result = all_rows_of(*study);
-  for (const HardRow& row : result.rows)
+  for (const StressCaseRow& row : result.rows)
     EXPECT_NE(row.finding.outcome, verify::Outcome::wrong)
         << row.group << ", " << row.name << ": " << row.finding.text;
   EXPECT_GT(result.count(verify::Outcome::held),
-            settings_of<StabilitySettings>(study->study).launches.size() / 3);
+            settings_of<StabilitySettings>(study->study).cases.size() / 3);
 }
 
 }  // namespace

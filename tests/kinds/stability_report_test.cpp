@@ -16,11 +16,11 @@ using namespace study;
 using namespace report;
 namespace {
 
-using kinds::HardRow, kinds::StabilityResult;
+using kinds::StressCaseRow, kinds::StabilityResult;
 using verify::Outcome;
 
-HardRow row(const std::string& name, Outcome outcome, const std::string& finding) {
-  HardRow made;
+StressCaseRow row(const std::string& name, Outcome outcome, const std::string& finding) {
+  StressCaseRow made;
   made.group = "load";
   made.name = name;
   made.must_hold = "it | holds";
@@ -28,12 +28,12 @@ HardRow row(const std::string& name, Outcome outcome, const std::string& finding
   return made;
 }
 
-HardRow launch(const std::string& name, Outcome outcome, double against) {
-  HardRow made = row(name, outcome, "0.02 cm: T max 471.0 K, SAFE");
+StressCaseRow launch(const std::string& name, Outcome outcome, double against) {
+  StressCaseRow made = row(name, outcome, "0.02 cm: T max 471.0 K, SAFE");
   made.ran = true;
   made.run = {run::RunStatus::completed, 21000, 9207, 4e-5, {}};
   made.end_time = 18e-3;
-  kinds::HardGap gap;
+  kinds::StressCaseGap gap;
   gap.gap = 2e-4;
   gap.temperature = gap.heated = 471.0;
   gap.heated_against = against;
@@ -47,10 +47,10 @@ HardRow launch(const std::string& name, Outcome outcome, double against) {
 StabilityResult made_stability() {
   StabilityResult result;
   result.study = bare_study(kinds::traits_of("stability"), {2e-4});
-  HardRow law = row("law", Outcome::held, "3e-9 of 1e-6");
-  HardRow late = row("late", Outcome::degraded, "caught late");
+  StressCaseRow law = row("law", Outcome::held, "3e-9 of 1e-6");
+  StressCaseRow late = row("late", Outcome::degraded, "caught late");
   late.expected = {Outcome::caught};
-  HardRow lost = row("lost", Outcome::wrong, "");
+  StressCaseRow lost = row("lost", Outcome::wrong, "");
   lost.failure = "the run failed: no more memory";
   result.rows = {law, launch("wrong", Outcome::wrong, 460.0),
                  launch("sound", Outcome::held, std::numeric_limits<double>::quiet_NaN()), late, lost};
@@ -59,7 +59,7 @@ StabilityResult made_stability() {
 
 TEST(StabilityReport, TheAnswerCountsAndNamesWhatIsWrongUnexpectedAndNotComputed) {
   const std::string text = answer(made_stability());
-  EXPECT_NE(text.find("5 hard cases: 2 held, 1 degraded with a reason, 0 caught, 1 WRONG."),
+  EXPECT_NE(text.find("5 stress cases: 2 held, 1 degraded with a reason, 0 caught, 1 WRONG."),
             std::string::npos)
       << text;
   EXPECT_NE(text.find("- load: wrong: 0.02 cm: T max 471.0 K, SAFE"), std::string::npos) << text;

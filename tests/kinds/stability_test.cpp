@@ -52,16 +52,16 @@ StudyOptions options_with(Mechanics mechanics) {
 }
 
 /// The one row of a study of one case.
-HardRow row_of(const std::string& keys, Mechanics mechanics) {
+StressCaseRow row_of(const std::string& keys, Mechanics mechanics) {
   const StabilityResult result = run_stability(
       study_of(stability_head + case_text(keys) + synthetic_constants), options_with(std::move(mechanics)));
   EXPECT_EQ(result.rows.size(), 1u);
-  return result.rows.empty() ? HardRow{} : result.rows.front();
+  return result.rows.empty() ? StressCaseRow{} : result.rows.front();
 }
 
 /// A sound run with something broken in it.
 template <class Break>
-HardRow row_of_broken(Break&& spoil, const std::string& keys = {}) {
+StressCaseRow row_of_broken(Break&& spoil, const std::string& keys = {}) {
   return row_of(keys, [&](const scene::Scene& scene) {
     run::MechanicsResult result = sound_mechanics(scene);
     spoil(result);
@@ -69,13 +69,13 @@ HardRow row_of_broken(Break&& spoil, const std::string& keys = {}) {
   });
 }
 
-void expect_outcome(const HardRow& row, Outcome outcome, const std::string& part) {
+void expect_outcome(const StressCaseRow& row, Outcome outcome, const std::string& part) {
   EXPECT_EQ(row.finding.outcome, outcome) << row.finding.text;
   EXPECT_NE(row.finding.text.find(part), std::string::npos) << row.finding.text;
 }
 
 TEST(Stability, ASoundRunIsHeld) {
-  const HardRow row = row_of("", [](const scene::Scene& scene) { return sound_mechanics(scene); });
+  const StressCaseRow row = row_of("", [](const scene::Scene& scene) { return sound_mechanics(scene); });
   expect_outcome(row, Outcome::held, "SAFE");
   EXPECT_TRUE(row.is_as_expected());
   EXPECT_TRUE(row.violations.empty());
@@ -98,7 +98,7 @@ TEST(Stability, EveryBrokenInvariantUnderASafeVerdictIsWrong) {
          for (auto& energy : r.trace.friction[0]) energy = -energy;
        }}};
   for (const auto& [part, spoil] : breaks) {
-    const HardRow row = row_of_broken(spoil);
+    const StressCaseRow row = row_of_broken(spoil);
     expect_outcome(row, Outcome::wrong, part);
     EXPECT_TRUE(row.is_wrong());
     EXPECT_FALSE(row.is_as_expected());
@@ -118,27 +118,30 @@ TEST(Stability, ATemperatureOffTheSafeComputationIsWrong) {
 
 TEST(Stability, OffButSayingSoIsDegraded) {
   // 5 K off, and without a history, which makes the verdict indeterminate.
-  const HardRow row = row_of("against = { numerics.time_step_factor = 0.1 }", [](const scene::Scene& scene) {
-    run::MechanicsResult result =
-        sound_mechanics(scene, scene.numerics.time_step_factor == 0.1 ? 85.0 : 80.0);
-    if (scene.numerics.time_step_factor != 0.1) result.monitor.clear();
-    return result;
-  });
+  const StressCaseRow row =
+      row_of("against = { numerics.time_step_factor = 0.1 }", [](const scene::Scene& scene) {
+        run::MechanicsResult result =
+            sound_mechanics(scene, scene.numerics.time_step_factor == 0.1 ? 85.0 : 80.0);
+        if (scene.numerics.time_step_factor != 0.1) result.monitor.clear();
+        return result;
+      });
   expect_outcome(row, Outcome::degraded, "no monitor history");
 }
 
 TEST(Stability, AnIgnitionThatTheSafeComputationDoesNotHaveIsWrong) {
-  const HardRow row = row_of("against = { numerics.time_step_factor = 0.1 }", [](const scene::Scene& scene) {
-    return sound_mechanics(scene, scene.numerics.time_step_factor == 0.1 ? 80.0 : 300.0);
-  });
+  const StressCaseRow row =
+      row_of("against = { numerics.time_step_factor = 0.1 }", [](const scene::Scene& scene) {
+        return sound_mechanics(scene, scene.numerics.time_step_factor == 0.1 ? 80.0 : 300.0);
+      });
   expect_outcome(row, Outcome::wrong, "UNSAFE");
 }
 
 // Beyond ignition two computations say the same, however hot the skin would get.
 TEST(Stability, TemperaturesAreComparedUpToIgnition) {
-  const HardRow row = row_of("against = { numerics.time_step_factor = 0.1 }", [](const scene::Scene& scene) {
-    return sound_mechanics(scene, scene.numerics.time_step_factor == 0.1 ? 900.0 : 700.0);
-  });
+  const StressCaseRow row =
+      row_of("against = { numerics.time_step_factor = 0.1 }", [](const scene::Scene& scene) {
+        return sound_mechanics(scene, scene.numerics.time_step_factor == 0.1 ? 900.0 : 700.0);
+      });
   expect_outcome(row, Outcome::held, "UNSAFE");
 }
 
@@ -161,7 +164,7 @@ TEST(Stability, AStoppedRunIsCaughtAndALateOneSaysSo) {
   };
   expect_outcome(row_of_broken(stopped), Outcome::caught, "energy drift after 640 steps, at t = 1 ms");
   expect_outcome(row_of_broken(stopped, "caught_within = 640"), Outcome::caught, "640");
-  const HardRow late = row_of_broken(stopped, "caught_within = 100\nexpect = \"caught\"");
+  const StressCaseRow late = row_of_broken(stopped, "caught_within = 100\nexpect = \"caught\"");
   expect_outcome(late, Outcome::degraded, "caught late, 100 steps");
   EXPECT_FALSE(late.is_as_expected());
 }

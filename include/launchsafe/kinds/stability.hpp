@@ -1,4 +1,4 @@
-// The study of kind stability: a matrix of hard cases, and what became of each.
+// The study of kind stability: a matrix of stress cases, and what became of each.
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
@@ -14,7 +14,7 @@
 namespace launchsafe::kinds {
 
 /// One [[case]] of a stability study: a launch that is extreme, or whose computation is, and what must hold.
-struct HardLaunch {
+struct StressCase {
   std::string group, name;
   std::string must_hold;                  ///< a sentence
   std::vector<verify::Outcome> expected;  ///< acceptable ones; empty: anything but WRONG
@@ -29,8 +29,8 @@ struct HardLaunch {
 
 /// What a study file of this kind says besides.
 struct StabilitySettings {
-  bool laws = true;                  ///< the laws by themselves too (verify::law_stress_tests)
-  std::vector<HardLaunch> launches;  ///< in the order written; their runs are among the cases
+  bool laws = true;               ///< the laws by themselves too (verify::law_stress_tests)
+  std::vector<StressCase> cases;  ///< in the order written; their runs are among the cases
 };
 
 /// What every computation that completed must fulfil, each as a sentence about how it does not; none for a
@@ -41,8 +41,8 @@ struct StabilitySettings {
 std::vector<std::string> violations_of(const scene::Scene& scene, const run::MechanicsResult& mechanics,
                                        const std::vector<double>& gaps);
 
-/// One gap of a hard launch beside the safe computation of the same launch.
-struct HardGap {
+/// One gap of a stress case beside the safe computation of the same launch.
+struct StressCaseGap {
   double gap = 0;                            ///< m
   double temperature = study::not_a_number;  ///< K, T max over the stations
   double heated = study::not_a_number;       ///< K, the same of a skin that neither reacts nor is triggered
@@ -59,7 +59,7 @@ struct HardGap {
 };
 
 /// A row of the matrix.
-struct HardRow {
+struct StressCaseRow {
   std::string group, name, must_hold;
   verify::Finding finding;
   std::vector<verify::Outcome> expected;               ///< empty: anything but WRONG
@@ -70,7 +70,7 @@ struct HardRow {
   double end_time = study::not_a_number;  ///< s, reached
   std::vector<std::string> violations;    ///< of invariants
   std::vector<std::string> validity_warnings;
-  std::vector<HardGap> gaps;
+  std::vector<StressCaseGap> gaps;
 
   bool computed() const { return failure.empty(); }
   bool is_wrong() const { return computed() && finding.outcome == verify::Outcome::wrong; }
@@ -80,7 +80,7 @@ struct HardRow {
 
 struct StabilityResult {
   study::StudyFile study;
-  std::vector<HardRow> rows;  ///< laws first, then the cases as written
+  std::vector<StressCaseRow> rows;  ///< laws first, then the cases as written
   study::Timing timing;
   bool interrupted = false;
   std::size_t count(verify::Outcome outcome) const;  ///< rows that were computed and came out so
