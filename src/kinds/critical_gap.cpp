@@ -31,7 +31,7 @@ bool CriticalGapResult::any_indeterminate() const {
   });
 }
 
-std::string label_of_coupled(const CaseOutcome& outcome, double gap) {
+std::string label_with_skin(const CaseOutcome& outcome, double gap) {
   return fmt::format("{}, coupled at {:.6g} cm", outcome.input.label, 100.0 * gap);
 }
 
@@ -93,7 +93,7 @@ void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confi
     confirmation.difference = confirmation.maximum_temperature - traced.at_points.temperature;
 }
 
-/// Complete coupled runs on both sides of every bracket.
+/// Runs with skin on both sides of every bracket.
 void run_confirmations(CriticalGapResult& result, const StudyOptions& options, ProgressTracker& tracker) {
   std::vector<CaseRuns> runs;
   std::vector<std::pair<CaseOutcome*, std::size_t>> places;
@@ -104,7 +104,7 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
     for (std::size_t side = 0; side < 2; ++side) {
       const double gap = outcome.confirmations[side].gap;
       runs.push_back({{},
-                      {coupled_run(outcome.input.scene.scene, gap, label_of_coupled(outcome, gap))},
+                      {skin_run(outcome.input.scene.scene, gap, label_with_skin(outcome, gap))},
                       options.shard.index});
       places.emplace_back(&outcome, side);
     }

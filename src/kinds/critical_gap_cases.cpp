@@ -33,9 +33,10 @@ std::vector<scene::Key<CriticalGapSettings>> critical_gap_keys() {
       critical_gap_list("flaw_sizes", Dimension::length, scene::between(0, 0.01),
                         "Flaw sizes a, each a mechanical run; the scene's if absent.",
                         &CriticalGapSettings::flaw_sizes),
-      scene::flag_key<CriticalGapSettings>("confirm", scene::Standing::assumed,
-                                           "Complete coupled runs on both sides of the bracket.",
-                                           &CriticalGapSettings::confirm),
+      scene::flag_key<CriticalGapSettings>(
+          "confirm", scene::Standing::assumed,
+          "Runs with skin, integrated together with the mechanics, on both sides of the bracket.",
+          &CriticalGapSettings::confirm),
   };
 }
 
@@ -67,7 +68,7 @@ std::vector<Failure> critical_gap_failures(const CriticalGapResult& result) {
   for (const CaseOutcome& each : result.cases) {
     add_failure(failures, each.input.label, each.outcome, each.failure);
     for (const Confirmation& confirmation : each.confirmations)
-      add_failure(failures, label_of_coupled(each, confirmation.gap), confirmation.outcome,
+      add_failure(failures, label_with_skin(each, confirmation.gap), confirmation.outcome,
                   confirmation.failure);
   }
   return failures;

@@ -30,8 +30,7 @@ std::string answer_of(const CaseOutcome& outcome) {
               ? fmt::format(", uncertain by {} cm", significant(100.0 * gap.uncertainty, 2))
               : std::string{},
           centimetres(gap.lower), centimetres(gap.upper),
-          confirmed ? "; complete coupled runs on both sides agree" : "; not confirmed by coupled runs",
-          remark);
+          confirmed ? "; runs with skin on both sides agree" : "; not confirmed by runs with skin", remark);
     }
     case CriticalGapKind::all_safe:
       return fmt::format("the critical gap is more than {}: {}.", centimetres(gap.lower), gap.reason);
@@ -48,7 +47,7 @@ std::string uncertainty_text(const CriticalGapResult& result) {
   for (const CaseOutcome& outcome : result.cases) {
     for (const study::Confirmation& each : outcome.confirmations) {
       if (!std::isfinite(each.difference)) continue;
-      text += fmt::format(" Coupled minus traced at {} ({}): {} K.", centimetres(each.gap),
+      text += fmt::format(" With skin minus traced at {} ({}): {} K.", centimetres(each.gap),
                           outcome.input.label, scientific(each.difference, 1));
     }
   }

@@ -301,7 +301,7 @@ CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions
     result.mechanics = runner.run();
     result.gaps.push_back(gap_result(surface::skin_model(scene), runner.take_skin(), result.mechanics.trace));
   }
-  result.gaps.back().coupled = true;
+  result.gaps.back().with_mechanics = true;
   return result;
 }
 

@@ -147,7 +147,7 @@ class CaseLoop {
   run::CaseResult compute(const CaseRun& run, const Allotment& allotment) const {
     const run::RunOptions run_options{options_.stop, options_.time_limit, allotment.report_share,
                                       allotment.threads};
-    if (run.coupled_gap) return options_.runners.coupled(run.scene, *run.coupled_gap, run_options);
+    if (run.skin_gap) return options_.runners.with_skin(run.scene, *run.skin_gap, run_options);
     run::CaseResult result;
     result.mechanics = options_.runners.mechanics(run.scene, run_options);
     return result;
@@ -234,7 +234,7 @@ CaseRun mechanics_run(const scene::Scene& scene, std::string label) {
   return planned(scene::mechanical_part(scene), std::nullopt, std::move(label));
 }
 
-CaseRun coupled_run(const scene::Scene& scene, double gap, std::string label) {
+CaseRun skin_run(const scene::Scene& scene, double gap, std::string label) {
   scene::Scene own = scene;
   own.title.clear();
   own.accepted.clear();
@@ -242,9 +242,10 @@ CaseRun coupled_run(const scene::Scene& scene, double gap, std::string label) {
   return planned(std::move(own), gap, std::move(label));
 }
 
+/// A run with skin is a "coupled run" in the identities of stored cases.
 store::CaseIdentity identity_of(const CaseRun& run) {
   return store::CaseIdentity(fmt::format("# model version {}, {}\n{}", run::model_version,
-                                         run.coupled_gap ? "coupled run" : "mechanics",
+                                         run.skin_gap ? "coupled run" : "mechanics",
                                          scene::to_toml(run.scene)));
 }
 

@@ -105,9 +105,9 @@ TEST(CriticalGapStudy, AFailingCaseIsIndeterminateAndTheOthersGoOn) {
   }
 }
 
-TEST(CriticalGapStudy, ACoupledRunThatDisagreesMakesItIndeterminate) {
+TEST(CriticalGapStudy, ARunWithSkinThatDisagreesMakesItIndeterminate) {
   StudyOptions options = synthetic_options();
-  options.runners.coupled = synthetic_runners(160.0).coupled;
+  options.runners.with_skin = synthetic_runners(160.0).with_skin;
   const CriticalGapResult result =
       run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
   const CaseOutcome& outcome = result.cases[0];
@@ -118,11 +118,11 @@ TEST(CriticalGapStudy, ACoupledRunThatDisagreesMakesItIndeterminate) {
   EXPECT_EQ(outcome.verdicts[4].judgement.verdict, Verdict::unsafe);
 }
 
-TEST(CriticalGapStudy, ACoupledRunThatFailsMakesItIndeterminate) {
+TEST(CriticalGapStudy, ARunWithSkinThatFailsMakesItIndeterminate) {
   for (const bool throws : {true, false}) {
     StudyOptions options = synthetic_options();
-    options.runners.coupled = [throws, agree = options.runners.coupled](const scene::Scene& scene, double gap,
-                                                                        const run::RunOptions& run) {
+    options.runners.with_skin = [throws, agree = options.runners.with_skin](
+                                    const scene::Scene& scene, double gap, const run::RunOptions& run) {
       if (throws) throw std::runtime_error("broken");
       run::CaseResult result = agree(scene, gap, run);
       result.mechanics.status = run::RunStatus::non_finite;

@@ -179,16 +179,16 @@ TEST(RunMechanics, ForcedConductionAndReactionChangeNoBulkTemperatureOfTheCharge
 TEST(RunWithSkin, AgreesWithTheTracedTemperaturesBelowIgnition) {
   const scene::Scene scene = coarse_scene();
   for (const double gap : {0.0, 2e-4}) {
-    const CaseResult coupled = run_with_skin(scene, gap);
-    const GapResult traced = evaluate_gap(scene, coupled.mechanics.trace, gap);
-    ASSERT_EQ(coupled.mechanics.status, RunStatus::completed);
-    ASSERT_EQ(coupled.gaps.front().skin.temperature.size(), traced.skin.temperature.size());
+    const CaseResult with_skin = run_with_skin(scene, gap);
+    const GapResult traced = evaluate_gap(scene, with_skin.mechanics.trace, gap);
+    ASSERT_EQ(with_skin.mechanics.status, RunStatus::completed);
+    ASSERT_EQ(with_skin.gaps.front().skin.temperature.size(), traced.skin.temperature.size());
     for (std::size_t i = 0; i < traced.skin.temperature.size(); ++i)
-      ASSERT_NEAR(coupled.gaps.front().skin.temperature[i], traced.skin.temperature[i], 2e-2);
-    EXPECT_NEAR(coupled.gaps.front().at_stations.temperature, traced.at_stations.temperature, 1e-3);
-    EXPECT_TRUE(coupled.gaps.front().coupled);
-    EXPECT_NEAR(coupled.gaps.front().air.taken, traced.air.taken, 1e-3 * traced.air.taken);
-    EXPECT_EQ(coupled.gaps.front().air.supplied, traced.air.supplied);
+      ASSERT_NEAR(with_skin.gaps.front().skin.temperature[i], traced.skin.temperature[i], 2e-2);
+    EXPECT_NEAR(with_skin.gaps.front().at_stations.temperature, traced.at_stations.temperature, 1e-3);
+    EXPECT_TRUE(with_skin.gaps.front().with_mechanics);
+    EXPECT_NEAR(with_skin.gaps.front().air.taken, traced.air.taken, 1e-3 * traced.air.taken);
+    EXPECT_EQ(with_skin.gaps.front().air.supplied, traced.air.supplied);
     EXPECT_EQ(traced.air.ratio() > 10.0, gap > 0.0);  // the reservoir gives what no compression can
   }
 }
@@ -197,24 +197,24 @@ TEST(RunWithSkin, AgreesWithTheTracedTemperaturesOfAFilm) {
   scene::Scene scene = coarse_scene();
   scene.surface.air_model = scene::AirModel::film;
   const double gap = 2e-4;
-  const CaseResult coupled = run_with_skin(scene, gap);
+  const CaseResult with_skin = run_with_skin(scene, gap);
   const GapResult traced = evaluate_gap(scene, run_mechanics(scene).trace, gap);
-  ASSERT_EQ(coupled.mechanics.status, RunStatus::completed);
-  EXPECT_TRUE(coupled.gaps.front().coupled);
-  EXPECT_NEAR(coupled.gaps.front().at_stations.temperature, traced.at_stations.temperature, 2e-2);
-  EXPECT_LE(coupled.gaps.front().skin.energy_residual, 1e-11);
+  ASSERT_EQ(with_skin.mechanics.status, RunStatus::completed);
+  EXPECT_TRUE(with_skin.gaps.front().with_mechanics);
+  EXPECT_NEAR(with_skin.gaps.front().at_stations.temperature, traced.at_stations.temperature, 2e-2);
+  EXPECT_LE(with_skin.gaps.front().skin.energy_residual, 1e-11);
 }
 
 TEST(RunWithSkin, IgnitesWhenAndWhereTheTraceDoes) {
   scene::Scene scene = coarse_scene();
   scene.surface.localisation = 800.0;
   scene.charge().kinetics.ignition_temperature = 420.0;  // well inside the heating
-  const CaseResult coupled = run_with_skin(scene, 4e-4);
-  const GapResult traced = evaluate_gap(scene, coupled.mechanics.trace, 4e-4);
-  ASSERT_TRUE(coupled.gaps.front().skin.ignition.has_value());
+  const CaseResult with_skin = run_with_skin(scene, 4e-4);
+  const GapResult traced = evaluate_gap(scene, with_skin.mechanics.trace, 4e-4);
+  ASSERT_TRUE(with_skin.gaps.front().skin.ignition.has_value());
   ASSERT_TRUE(traced.skin.ignition.has_value());
-  EXPECT_EQ(coupled.gaps.front().skin.ignition->station, traced.skin.ignition->station);
-  EXPECT_NEAR(coupled.gaps.front().skin.ignition->time, traced.skin.ignition->time, 1e-6);
+  EXPECT_EQ(with_skin.gaps.front().skin.ignition->station, traced.skin.ignition->station);
+  EXPECT_NEAR(with_skin.gaps.front().skin.ignition->time, traced.skin.ignition->time, 1e-6);
 }
 
 /// Opt-in (a minute): the bound on the mesh dependence of the charge-bottom pressure up to the peak.

@@ -127,7 +127,7 @@ inline void expect_same(const run::GapResult& a, const run::GapResult& b) {
             bits({b.at_points.temperature, b.at_points.time, b.at_stations.temperature, b.at_stations.time}));
   EXPECT_EQ(a.at_points.station, b.at_points.station);
   EXPECT_EQ(a.at_stations.station, b.at_stations.station);
-  EXPECT_EQ(a.coupled, b.coupled);
+  EXPECT_EQ(a.with_mechanics, b.with_mechanics);
   EXPECT_EQ(bits(a.skin.time), bits(b.skin.time));
   EXPECT_EQ(bits(a.skin.air_temperature), bits(b.skin.air_temperature));
   EXPECT_EQ(bits(a.skin.temperature), bits(b.skin.temperature));

@@ -103,7 +103,7 @@ inline run::CaseResult sample_case() {
   run::CaseResult result;
   result.mechanics = sample_mechanics();
   result.gaps = {sample_gap(0.00039), sample_gap(0.0004)};
-  result.gaps[1].coupled = true;
+  result.gaps[1].with_mechanics = true;
   result.gaps[1].skin.ignition = {0.0176, 1, surface::IgnitionCause::arrhenius, 0.75};
   return result;
 }

@@ -41,7 +41,7 @@ StudyOptions quadratic_options() {
   options.runners.mechanics = [](const scene::Scene& scene, const run::RunOptions&) {
     return quadratic_launch(scene);
   };
-  options.runners.coupled = [](const scene::Scene& scene, double gap, const run::RunOptions&) {
+  options.runners.with_skin = [](const scene::Scene& scene, double gap, const run::RunOptions&) {
     run::CaseResult result;
     result.mechanics = quadratic_launch(scene);
     result.gaps.push_back(run::evaluate_gap(scene, result.mechanics.trace, gap));

@@ -82,7 +82,7 @@ inline run::MechanicsResult synthetic_mechanics(const scene::Scene& scene, doubl
   return result;
 }
 
-/// Runners on the synthetic trace; the coupled one agrees with it.
+/// Runners on the synthetic trace; the one with skin agrees with it.
 inline Runners synthetic_runners(double kelvin = 116.1) {
   return {[kelvin](const scene::Scene& scene, const run::RunOptions&) {
             return synthetic_mechanics(scene, kelvin);

@@ -87,7 +87,7 @@ TEST(Verdict, NotANumberIsNeverSafe) {
 
 TEST(Verdict, AnIndeterminateCriticalGapLeavesNoSafeGap) {
   CriticalGap critical;
-  critical.reason = "the coupled run ignites";
+  critical.reason = "the run with skin ignites";
   EXPECT_EQ(judge(calm(), critical).verdict, Verdict::indeterminate);
 }
 

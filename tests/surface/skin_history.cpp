@@ -74,7 +74,8 @@ TEST(SkinHistory, SamplingErrorIsFourthOrder) {
 }
 
 TEST(SkinHistory, TracedTemperaturesAreThoseOfFineCalls) {
-  // What a coupled run does: many small calls with the air at the ends of each. Second order in their length.
+  // What a run with skin does: many small calls with the air at the ends of each. Second order in their
+  // length.
   const trace::BottomTrace trace = launch(900, 0, 0.0), fine = launch(90000, 0, 0.0);
   const SkinModel model = plain_model();
   SkinPoint point{300.0};

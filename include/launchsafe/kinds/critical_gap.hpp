@@ -13,7 +13,7 @@ struct CriticalGapSettings {
   std::vector<double> peak_pressures;  ///< Pa; empty: the scene's
   std::vector<double> crack_radii;     ///< m, c(0); empty: the scene's
   std::vector<double> flaw_sizes;      ///< m, a; empty: the scene's
-  bool confirm = true;                 ///< complete coupled runs on both sides of the bracket
+  bool confirm = true;                 ///< runs with skin on both sides of the bracket
 };
 
 struct CriticalGapResult {
@@ -29,8 +29,9 @@ struct CriticalGapResult {
 /// the reason, and the others go on. Apart from the timing the result depends on the study alone.
 CriticalGapResult run_critical_gap(const study::StudyFile& study, const study::StudyOptions& options = {});
 
-/// "496 MPa, 30 um, 1 mm, coupled at 0.04 cm": the run that confirms a gap (m) of a case.
-std::string label_of_coupled(const study::CaseOutcome& outcome, double gap);
+/// The run with skin that confirms a gap (m) of a case: "496 MPa, 30 um, 1 mm, coupled at 0.04 cm". Journals
+/// of stored studies name it so.
+std::string label_with_skin(const study::CaseOutcome& outcome, double gap);
 
 /// The row of the table of kinds.
 Kind critical_gap_kind();

@@ -133,7 +133,7 @@ struct GapResult {
   surface::Maximum at_points;    ///< over the observation points; NaN without any
   surface::AirEnergy air;        ///< what the skin took from the air; NaN in files that are older than this
   double sampling_error = 0;     ///< K, |T_max - T_max on the thinned trace|
-  bool coupled = false;          ///< integrated inside the mechanics rather than on its trace
+  bool with_mechanics = false;   ///< integrated inside the mechanics rather than on its trace
 };
 
 struct CaseResult {

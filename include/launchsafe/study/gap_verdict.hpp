@@ -48,7 +48,7 @@ struct GapVerdict {
   double early_misfit() const;
 };
 
-/// A complete coupled run on one side of the bracket.
+/// A run with skin on one side of the bracket.
 struct Confirmation {
   double gap = 0;  ///< m
   bool expected_ignition = false;
@@ -56,7 +56,7 @@ struct Confirmation {
   bool completed = false;
   bool ignited = false;
   double maximum_temperature = not_a_number;  ///< K, at the observation points
-  double difference = not_a_number;           ///< K, coupled minus traced; NaN where either ignited
+  double difference = not_a_number;           ///< K, with skin minus traced; NaN where either ignited
   double wall_time = 0;                       ///< s
   RunOutcome outcome = RunOutcome::ran;       ///< of its run
   std::string failure;                        ///< why it did not complete

@@ -17,7 +17,7 @@ namespace launchsafe::study {
 /// How mechanics are run. Tests put closed forms in their place.
 struct Runners {
   std::function<run::MechanicsResult(const scene::Scene&, const run::RunOptions&)> mechanics;
-  std::function<run::CaseResult(const scene::Scene&, double gap, const run::RunOptions&)> coupled;
+  std::function<run::CaseResult(const scene::Scene&, double gap, const run::RunOptions&)> with_skin;
 };
 /// run::run_mechanics and run::run_with_skin.
 Runners simulation_runners();

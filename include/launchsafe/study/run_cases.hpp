@@ -16,15 +16,15 @@ namespace launchsafe::study {
 /// One run: the mechanics of a scene, or, with a gap, a complete run that integrates the skin above that gap
 /// along with the mechanics.
 struct CaseRun {
-  std::string label;                  ///< for people
-  scene::Scene scene;                 ///< without all that does not influence the run
-  std::optional<double> coupled_gap;  ///< m
-  std::string hash;                   ///< of its identity: the name of its file in the store
-  double cost = 1;                    ///< predicted particle updates, > 0
+  std::string label;               ///< for people
+  scene::Scene scene;              ///< without all that does not influence the run
+  std::optional<double> skin_gap;  ///< m
+  std::string hash;                ///< of its identity: the name of its file in the store
+  double cost = 1;                 ///< predicted particle updates, > 0
 };
 
 CaseRun mechanics_run(const scene::Scene& scene, std::string label);
-CaseRun coupled_run(const scene::Scene& scene, double gap, std::string label);
+CaseRun skin_run(const scene::Scene& scene, double gap, std::string label);
 /// What determines the result of a run: model version, kind of run, and scene.
 store::CaseIdentity identity_of(const CaseRun& run);
 
