@@ -1,4 +1,4 @@
-// What `study` and `merge` share: the folder with its store, and the delivery of what came of the study.
+// What `study` and `merge` share: the folder with its store, and the delivery of its outcome.
 #pragma once
 
 #include "commands.hpp"
@@ -37,8 +37,8 @@ class StudySession {
   /// What the store has to say since the last call.
   void print_remarks();
 
-  /// Keeps what is to be kept and says what came of the study: what an interruption left, what a shard did,
-  /// or report, tables and answer of the whole.
+  /// Keeps what is to be kept and reports the outcome of the study: what an interruption left, what a shard
+  /// did, or report, tables and answer of the whole.
   ExitCode conclude(const kinds::StudyOutcome& result, const study::StudyFile& file,
                     const study::StudyOptions& options);
 

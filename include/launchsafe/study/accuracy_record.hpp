@@ -40,7 +40,7 @@ struct Exactness {
 /// where it moves along.
 Exactness exactness_of(const std::string& key);
 
-/// One setting that ran soundly: what came of it, how good it thus is, and what it costs.
+/// One setting that ran soundly: its outcome, how good it thus is, and what it costs.
 struct RecordedSetting {
   std::string label;
   Setting setting;
