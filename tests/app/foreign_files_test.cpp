@@ -1,6 +1,5 @@
 // Somebody else's files, under every name that the program gives a file of its own, and its own files after
 // somebody edited them: nothing is overwritten, emptied, appended to or deleted.
-#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "stored_study.hpp"
 
@@ -10,37 +9,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string mine = "mine: do not lose me\n";
-
-const std::string critical_gap_study = R"(kind = "critical-gap"
-scene = "shell.toml"
-early_time = "0.03 ms"
-input_uncertainty = "2 K"
-model_form_uncertainty = "1 K"
-confirm = false
-)";
-
-const std::string accuracy_study = R"(kind = "accuracy"
-scene = "shell.toml"
-early_time = "0.03 ms"
-gaps = "0, 0.01 cm"
-reference_cell_sizes = "1.25, 2.5, 5 mm"
-times = "0.03 ms"
-
-[[settings]]
-numerics.cell_size = "5 mm"
-)";
-
-const std::string stability_study = R"(kind = "stability"
-scene = "shell.toml"
-numerical_uncertainty = "4 K"
-
-[[case]]
-group = "load"
-name = "as it is"
-must_hold = "T max as with half the time step"
-set = { load.peak = "50 MPa" }
-against = { numerics.time_step_factor = 0.25 }
-)";
 
 struct Target {
   std::string name;                  ///< of the test
@@ -159,26 +127,6 @@ class OwnFolder : public StoredStudy {
  protected:
   Outcome study() { return run({"study", "study.toml", "-o", "out"}); }
 };
-
-// What a report writes has to be on the list by which a folder is refused before anything is computed.
-TEST_F(OwnFolder, HoldsOnlyNamesThatAreExpected) {
-  const std::map<std::string, std::string> studies{{"sweep", sweep_study},
-                                                   {"sensitivity", sensitivity_study},
-                                                   {"critical-gap", critical_gap_study},
-                                                   {"accuracy", accuracy_study},
-                                                   {"stability", stability_study}};
-  for (const auto& [kind, text] : studies) {
-    write("study.toml", text);
-    const std::string out = "out of " + kind;
-    const Outcome outcome = run({"study", "study.toml", "-o", out});
-    ASSERT_TRUE(outcome.code == 0 || outcome.code == 3 || outcome.code == 4) << outcome.err;
-    const auto files = nlohmann::json::parse(read(out + "/manifest.json"))["files"];
-    EXPECT_GT(files.size(), 3u);
-    for (const auto& file : files)
-      EXPECT_TRUE(kinds::may_write(kinds::kind_named(kind), file["name"].get<std::string>()))
-          << out << ": " << file["name"];
-  }
-}
 
 TEST_F(OwnFolder, EditedReportsAreKeptUnderAnotherName) {
   ASSERT_EQ(study().code, 0);

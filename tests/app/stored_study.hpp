@@ -47,6 +47,67 @@ distribution = "uniform"
 range = "20 to 40 um"
 )";
 
+/// One mechanical run, and two runs with skin that confirm the critical gap.
+inline const std::string critical_gap_study = R"(kind = "critical-gap"
+scene = "shell.toml"
+early_time = "0.03 ms"
+gaps = "0, 0.01 cm"
+tolerance = "0.01 cm"
+input_uncertainty = "2 K"
+model_form_uncertainty = "1 K"
+accept = [
+  { key = "kinetics.ignition_temperature", because = "the charge ignites in so brief a launch" },
+  { key = "gap.exchange_time", because = "the launch is as much faster" },
+]
+
+[set]
+kinetics.ignition_temperature = "350 K"
+gap.exchange_time = "1 us"
+)";
+
+/// Two meshes, each a mechanical run; the published temperatures are made up.
+inline const std::string calibration_study = R"(kind = "calibration"
+scene = "shell.toml"
+early_time = "0.03 ms"
+meshes = "1, 5 mm"
+reference = [
+  { gap = "0 cm", maximum_temperature = "350 K", calibrated = true },
+  { gap = "0.01 cm", maximum_temperature = "400 K", calibrated = true },
+  { gap = "0.02 cm", maximum_temperature = "800 K", ignition_time = "0.04 ms" },
+]
+)";
+
+/// Three reference meshes, each a mechanical run.
+inline const std::string accuracy_study = R"(kind = "accuracy"
+scene = "shell.toml"
+early_time = "0.03 ms"
+gaps = "0, 0.01 cm"
+reference_cell_sizes = "1.25, 2.5, 5 mm"
+times = "0.03 ms"
+
+[[settings]]
+numerics.cell_size = "5 mm"
+)";
+
+/// All laws, one launch and its safe computation.
+inline const std::string stability_study = R"(kind = "stability"
+scene = "shell.toml"
+numerical_uncertainty = "4 K"
+
+[[case]]
+group = "load"
+name = "as it is"
+must_hold = "T max as with half the time step"
+set = { load.peak = "50 MPa" }
+against = { numerics.time_step_factor = 0.25 }
+)";
+
+/// A small study of every kind, by the name of the kind.
+inline const std::map<std::string, std::string> study_of_kind{
+    {"critical-gap", critical_gap_study}, {"calibration", calibration_study}, {"sweep", sweep_study},
+    {"sensitivity", sensitivity_study},   {"accuracy", accuracy_study},       {"stability", stability_study},
+};
+
 /// Tests of studies that leave a store.
 class StoredStudy : public Program {
  protected:

@@ -77,10 +77,9 @@ TEST_F(ChangedStudy, ExplainsWhyARunRuns) {
   write("shell.toml", with(tiny_scene, "peak_time = \"0.035 ms\"", "peak_time = \"0.036 ms\""));
   const Outcome updated = run({"study", "study.toml", "-o", "out", "--update", "--explain"});
   EXPECT_EQ(updated.code, 0) << updated.err;
-  EXPECT_TRUE(
-      updated.says("peak_pressure 50 MPa, crack_radius 20 um, gap.exchange_time 1 us: to run: other "
-                   "input than the stored case"))
+  EXPECT_TRUE(updated.says("peak_pressure 50 MPa, crack_radius 20 um, gap.exchange_time 1 us: to run: "))
       << updated.err;
+  EXPECT_TRUE(updated.says("peak_time")) << updated.err;
   const Outcome again = run({"study", "study.toml", "-o", "out", "--explain"});
   EXPECT_TRUE(again.says("peak_pressure 80 MPa, crack_radius 40 um, gap.exchange_time 1 us: stored"))
       << again.err;
