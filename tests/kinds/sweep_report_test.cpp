@@ -1,6 +1,7 @@
 // The tables, page, JSON and pictures of sweeps made by hand.
 #include "launchsafe/kinds/sweep_report.hpp"
 
+#include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"
 #include "report/gnuplot.hpp"
 
@@ -20,6 +21,7 @@ using namespace report;
 namespace {
 
 using kinds::SweepResult;
+using testing::in_order;
 
 std::size_t column_of(const Table& table, const std::string& key) {
   const auto keys = keys_of(table);
@@ -137,17 +139,14 @@ TEST(SweepReport, TheLongTableHasARowForEveryGap) {
 
 TEST(SweepReport, TheAnswerCountsAndNames) {
   const std::string text = answer(made_sweep());
-  EXPECT_NE(text.find("36 cases over peak pressure (350, 400, 450, 496, 550, 600 MPa) and crack radius"),
-            std::string::npos)
-      << text;
-  EXPECT_NE(text.find("a value in 31 cases"), std::string::npos);
-  EXPECT_NE(text.find("more than 0.1 cm (the end of the search: a bound) in 3 cases"), std::string::npos);
-  EXPECT_NE(text.find("indeterminate in 1 case"), std::string::npos);
+  EXPECT_TRUE(
+      in_order(text, {"36 cases", "peak pressure (350, 400, 450, 496, 550, 600 MPa)", "crack radius"}));
+  EXPECT_TRUE(in_order(text, {"31 cases", "0.1 cm", "3 cases", "indeterminate in 1 case"}));
   EXPECT_NE(text.find("at 550 MPa, 200 um"), std::string::npos) << "the smallest value";
-  EXPECT_NE(text.find("No gap is safe at 600 MPa, 200 um"), std::string::npos);
+  EXPECT_NE(text.find("at 600 MPa, 200 um"), std::string::npos) << "no gap is safe";
   EXPECT_NE(text.find("130 SAFE, 45 UNSAFE, 5 INDETERMINATE"), std::string::npos);
   EXPECT_NE(text.find("450 MPa, 100 um (energy drift 0.2 at 3 ms)"), std::string::npos);
-  EXPECT_NE(text.find("Limiters acted in 5 cases (crack bound 60"), std::string::npos);
+  EXPECT_TRUE(in_order(text, {"5 cases", "crack bound 60"}));
   EXPECT_EQ(text.find("assumed"), std::string::npos);
   SweepResult assumed = made_sweep();
   assumed.study.study.numerical_uncertainty = 60;
@@ -353,8 +352,8 @@ SweepResult large_sweep(int pressures, int radii) {
 TEST(SweepReport, LongTablesAreCutOnThePage) {
   const SweepResult result = large_sweep(15, 14);
   const std::string page = to_markdown(report_of(result));
-  EXPECT_NE(page.find("The first 200 of 210 rows; all are in critical\\_gaps.csv."), std::string::npos);
-  EXPECT_NE(page.find("The verdicts at 100 gaps are too many"), std::string::npos);
+  EXPECT_TRUE(in_order(page, {"200 of 210 rows", "critical\\_gaps.csv"}));
+  EXPECT_TRUE(in_order(page, {"verdicts at 100 gaps"}));
   EXPECT_LT(page.size(), 200'000u);
 }
 

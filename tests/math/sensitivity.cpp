@@ -1,6 +1,7 @@
 #include "launchsafe/math/sensitivity.hpp"
 
 #include "estimates.hpp"
+#include "facts_in_text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -266,7 +267,7 @@ TEST(SobolIndices, TooFewRowsGiveAReasonInTheirPlace) {
   EXPECT_TRUE(math::sobol_indices(3, outputs).reason.empty());
   outputs[4] = std::nan("");
   const auto indices = math::sobol_indices(3, outputs);
-  EXPECT_EQ(indices.reason, "15 of 16 rows are complete, at least 16 are needed");
+  EXPECT_TRUE(launchsafe::testing::in_order(indices.reason, {"15 of 16", "16"}));
   EXPECT_TRUE(std::isfinite(indices.mean) && std::isfinite(indices.variance));
   ASSERT_EQ(indices.inputs.size(), 3u);
   for (const auto& estimate : estimates_of(indices)) {

@@ -1,6 +1,7 @@
 // The energy of the air and the cited limits, in tables and in words.
 #include "launchsafe/report/air_energy_table.hpp"
 
+#include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/critical_gap_report.hpp"
@@ -15,6 +16,8 @@ namespace {
 
 using namespace kinds;
 
+using testing::has_digits, testing::in_order;
+
 constexpr scene::AirModel reservoir = scene::AirModel::reservoir;
 constexpr scene::AirModel balance = scene::AirModel::balance;
 
@@ -28,36 +31,30 @@ bool says(const std::string& text, const std::string& part) { return text.find(p
 TEST(AirEnergyStatement, NamesTheGapWhereMostWasTakenAgainstItsSupply) {
   const std::string text = air_energy_statement(
       reservoir, {taken(0.0, 0.0, 0.0), taken(2e-4, 15000, 500), taken(4e-4, 32700, 925)});
-  EXPECT_TRUE(says(text, "published reservoir")) << text;
-  EXPECT_TRUE(says(text, "At a gap of 0.04 cm the skin took 35 times what compression can supply")) << text;
-  EXPECT_TRUE(says(text, "32.7 kJ/m2 against 0.925 kJ/m2")) << text;
-  EXPECT_TRUE(says(text, "conservative as to the heat of the air")) << text;
-  EXPECT_TRUE(says(text, "calibrated, and not derived")) << text;
-  EXPECT_TRUE(says(text, "closes by impact is not modelled")) << text;
+  // 32.7 over 0.925 is 35.4; at the other gap 15 over 0.5 is 30.
+  EXPECT_TRUE(in_order(text, {"0.04 cm", "35 times", "32.7 kJ/m2", "0.925 kJ/m2"}));
+  EXPECT_TRUE(in_order(text, {"conservative", "calibrated", "impact"}));
 }
 
 TEST(AirEnergyStatement, SaysOtherwiseWhereNoMoreWasTakenThanCanBe) {
   for (const scene::AirModel model : {reservoir, balance}) {
     const std::string text = air_energy_statement(model, {taken(4e-4, 290, 925)});
-    EXPECT_EQ(says(text, "published reservoir"), model == reservoir) << text;
-    EXPECT_TRUE(says(text, "At no gap did the skin take more")) << text;
-    EXPECT_TRUE(says(text, "0.31 times that, at a gap of 0.04 cm")) << text;
+    EXPECT_EQ(says(text, "reservoir"), model == reservoir) << text;
+    EXPECT_TRUE(in_order(text, {"0.31 times", "0.04 cm", "impact"}));
     EXPECT_FALSE(says(text, "calibrated")) << text;
-    EXPECT_TRUE(says(text, "closes by impact is not modelled")) << text;
   }
 }
 
 TEST(AirEnergyStatement, AnExcessOfConservingAirIsAnError) {
   const std::string text = air_energy_statement(balance, {taken(4e-4, 1000, 925)});
-  EXPECT_TRUE(says(text, "an error of the computation")) << text;
+  EXPECT_TRUE(says(text, "error")) << text;
   EXPECT_FALSE(says(text, "conservative")) << text;
 }
 
 TEST(AirEnergyStatement, WithoutAComputedGapClaimsNothing) {
   for (const auto& gaps : {std::vector<AuditedGap>{}, {AuditedGap{"", 4e-4, {}}}, {taken(0.0, 0.0, 0.0)}}) {
     const std::string text = air_energy_statement(reservoir, gaps);
-    EXPECT_TRUE(says(text, "No gap with air in it was computed")) << text;
-    EXPECT_FALSE(says(text, "times")) << text;
+    EXPECT_FALSE(has_digits(text)) << text;
   }
 }
 
@@ -85,7 +82,6 @@ TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
   const auto result = kinds::run_critical_gap(file, study::synthetic_options());
   const std::string page = to_markdown(report_of(result));
   EXPECT_TRUE(says(page, "The energy of the air")) << page;
-  EXPECT_TRUE(says(page, "calibrated, and not derived"));
   EXPECT_TRUE(says(page, "Cited limits of the gap"));
   EXPECT_TRUE(says(page, "underwater experiments"));
   const auto json = json_of(result);
@@ -98,11 +94,12 @@ TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
   EXPECT_TRUE(says(to_csv(verdict_table(result)), "skin_took_kJ_per_m2,compression_supplies_kJ_per_m2"));
 }
 
-TEST(CriticalGapReport, WithBalancedAirSaysThatEnergyIsConserved) {
+TEST(CriticalGapReport, WithBalancedAirTheSkinTakesNoMoreThanIsSupplied) {
   const study::StudyFile file = study::study_of(
       study::critical_text + "gaps = \"0, 0.03 cm\"\nconfirm = false\n[set]\ngap.air = \"balance\"\n");
-  const std::string page = to_markdown(report_of(kinds::run_critical_gap(file, study::synthetic_options())));
-  EXPECT_TRUE(says(page, "At no gap did the skin take more than compression can supply")) << page;
+  const auto json = to_json(kinds::run_critical_gap(file, study::synthetic_options()));
+  ASSERT_EQ(json["verdicts"].size(), 2u);
+  EXPECT_LE(json["verdicts"][1]["taken_over_supplied"].get<double>(), 1.0);
 }
 
 TEST(CriticalGapReport, WithoutCitedLimitsHasNoTableOfThem) {
@@ -114,12 +111,12 @@ TEST(CriticalGapReport, WithoutCitedLimitsHasNoTableOfThem) {
 
 TEST(SweepReport, SaysWhatTheSkinTookWhereItTookMost) {
   kinds::SweepResult result = made_sweep();
-  EXPECT_TRUE(says(critical_gap_table(result).notes.back(), "No gap with air in it was computed"));
+  EXPECT_FALSE(has_digits(critical_gap_table(result).notes.back()));
   result.answers[0].verdicts[1].air = {7000, 230, 160, 70};
   result.answers[3].verdicts[3].air = {32700, 925, 660, 286};
   const std::string note = critical_gap_table(result).notes.back();
-  EXPECT_TRUE(says(note, "At a gap of 0.039 cm (350 MPa, 50 um) the skin took 35 times")) << note;
-  EXPECT_TRUE(says(to_markdown(report_of(result)), "calibrated, and not derived"));
+  EXPECT_TRUE(in_order(note, {"0.039 cm", "350 MPa, 50 um", "35 times"}));
+  EXPECT_TRUE(says(to_markdown(report_of(result)), note));
 }
 
 // The made sweep has 496 MPa and 30 um, the scene's own, with 0.0395 cm, and no 506 MPa.
