@@ -217,9 +217,9 @@ void add_model_form(const ComparisonResult& result, Report& report) {
   }
   report.files.push_back({"model_form.json", to_json_text(made.form->record)});
   report.items.push_back(Statement{meaning});
-  report.items.push_back(ReportTable{model_form_table(*made.form), "model_form.csv"});
+  report.items.push_back(ReportTable{model_form_table(*made.form), "model_form.csv", "models"});
   report.items.push_back(Picture{"model_form.svg", model_form_plot(*made.form), "critical gap by model"});
-  report.items.push_back(ReportTable{.table = model_constants_table(*made.form), .shown = Shown::page});
+  report.items.push_back(ReportTable{model_constants_table(*made.form), "", "constants", Shown::page});
 }
 
 }  // namespace launchsafe::kinds

@@ -3,6 +3,7 @@
 #include "launchsafe/kinds/comparison.hpp"
 #include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
@@ -104,20 +105,18 @@ std::string answer(const ComparisonResult& result) {
 
 Table comparison_table(const ComparisonResult& result) {
   Table table = table_by_variant("Variants side by side", result);
+  append(table.columns, critical_gap_columns());
   append(table.columns,
-         {significant_column("critical gap", "cm", 6, "critical_gap_cm"), named_text("reads as", "reads_as"),
-          significant_column("less that of the scene", "cm", 3, "critical_gap_difference_cm"),
-          number_column("hottest, without reaction", "K", 1, "heated_temperature_max_K"),
-          number_column("less that of the scene", "K", 1, "heated_temperature_difference_K"),
-          significant_column("processor time", "s", 3, "processor_time_s"),
-          count_column("particles", "particles"), count_column("steps", "steps"),
-          scientific_column("energy drift", "", 1, "energy_drift"), named_text("remark", "reason")});
+         {significant_column("less that of the scene", "cm", 3, "critical_gap_difference_cm"),
+          quantity::temperature_max_inert(),
+          number_column("less that of the scene", "K", 1, "temperature_max_inert_difference_K"),
+          significant_column("processor time", "s", 3, "processor_time_s"), quantity::particles(),
+          quantity::steps(), quantity::energy_drift(), quantity::reason()});
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const ComparedCase& each = result.cases[i];
     const ComparedCase& own = result.cases[result.counterpart(i)];
     std::vector<Cell> cells = place_cells(result, i);
-    cells.push_back(optional_number(100.0 * value_of(each.answer.critical)));
-    cells.emplace_back(reads_as(each.answer.critical));
+    add_critical_gap_cells(each.answer.critical, cells);
     cells.push_back(each.variant == 0 ? Cell() : optional_number(100.0 * shift_of(result, i)));
     cells.push_back(optional_number(hottest(each)));
     cells.push_back(each.variant == 0 ? Cell() : optional_number(hottest(each) - hottest(own)));
@@ -129,8 +128,8 @@ Table comparison_table(const ComparisonResult& result) {
     table.rows.push_back(std::move(cells));
   }
   table.notes.emplace_back(
-      "Hottest: T max over stations and gaps of a skin that does not react. Only a critical gap that is a "
-      "value has a difference.");
+      "T max without reaction: over stations and gaps. Only a critical gap that is a value has a "
+      "difference.");
   return table;
 }
 
@@ -153,13 +152,15 @@ Table verdict_matrix(const ComparisonResult& result) {
 
 Table verdict_table(const ComparisonResult& result) {
   Table table = table_by_variant("Verdicts", result);
-  append(table.columns, {significant_column("gap", "cm", 6, "gap_cm")});
+  append(table.columns, {quantity::gap()});
   append(table.columns, verdict_columns(result.study.study));
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    for (const GapVerdict& row : result.cases[i].answer.verdicts) {
+    const CaseAnswer& answer = result.cases[i].answer;
+    for (std::size_t gap = 0; gap < answer.verdicts.size(); ++gap) {
       std::vector<Cell> cells = place_cells(result, i);
-      cells.emplace_back(in_centimetres(row.gap));
-      add_verdict_cells(row, cells);
+      cells.emplace_back(in_centimetres(answer.verdicts[gap].gap));
+      const bool heated = gap < answer.heated_temperature.size();
+      add_verdict_cells(answer.verdicts[gap], heated ? answer.heated_temperature[gap] : not_a_number, cells);
       table.rows.push_back(std::move(cells));
     }
   }
@@ -168,8 +169,8 @@ Table verdict_table(const ComparisonResult& result) {
 
 Table station_table(const ComparisonResult& result) {
   Table table = table_by_variant("T max of every station, without reaction", result);
-  append(table.columns, {significant_column("gap", "cm", 6, "gap_cm"), named_text("station", "station"),
-                         number_column("T max", "K", 1, "heated_temperature_K")});
+  append(table.columns,
+         {quantity::gap(), named_text("station", "station"), quantity::temperature_max_inert()});
   const std::vector<double>& gaps = result.study.study.gaps;
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const auto& stations = result.cases[i].stations;
@@ -223,24 +224,13 @@ Table stations_side_by_side(const ComparisonResult& result) {
   return table;
 }
 
-std::string json_of(const ComparisonResult& result) {
-  return json_file_text({{"kind", "comparison"},
-                         {"study", study_file_name(result.study)},
-                         {"title", result.study.study.title},
-                         {"answer", answer(result)},
-                         {"variants", to_json(comparison_table(result))["rows"]},
-                         {"verdicts", to_json(verdict_table(result))["rows"]},
-                         {"stations", to_json(station_table(result))["rows"]},
-                         {"timing", timing_json(result.timing)}});
-}
-
 }  // namespace
 
 Report report_of(const ComparisonResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
-  report.items = {ReportTable{comparison_table(result), "comparison.csv"},
-                  ReportTable{verdict_table(result), "verdicts.csv", Shown::file},
-                  ReportTable{station_table(result), "stations.csv", Shown::file}};
+  report.items = {ReportTable{comparison_table(result), "comparison.csv", "cases"},
+                  ReportTable{verdict_table(result), "verdicts.csv", "verdicts", Shown::file},
+                  ReportTable{station_table(result), "stations.csv", "stations", Shown::file}};
   if (result.study.study.gaps.size() <= most_gaps)
     report.items.push_back(ReportTable{.table = verdict_matrix(result), .rest = "verdicts.csv"});
   report.items.push_back(
@@ -252,7 +242,11 @@ Report report_of(const ComparisonResult& result) {
   report.items.push_back(Statement{station_note(result.study) + "\n"});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
   report.items.push_back(Statement{timing_text(result.timing) + "\n"});
-  report.json = json_of(result);
+  report.json = study_json(result.study, report,
+                           {{"axes", axes_json(result.study.study)},
+                            {"early_time_ms", 1e3 * result.study.study.early_time},
+                            {"notes", mesh_notes(result.study)},
+                            {"timing", timing_json(result.timing)}});
   return report;
 }
 

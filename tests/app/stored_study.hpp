@@ -103,9 +103,29 @@ against = { numerics.time_step_factor = 0.25 }
 )";
 
 /// A small study of every kind, by the name of the kind.
+/// Two variants beside the scene as it is, each a mechanical run.
+inline const std::string comparison_study = R"(kind = "comparison"
+scene = "shell.toml"
+name = "as it is"
+gaps = "0, 0.01 cm"
+early_time = "0.03 ms"
+input_uncertainty = "2 K"
+model_form_uncertainty = "1 K"
+
+[[variant]]
+name = "other cracks"
+set = { charge.crack_radius = "31 um" }
+
+[[variant]]
+name = "larger cracks"
+set = { charge.crack_radius = "40 um" }
+)";
+
 inline const std::map<std::string, std::string> study_of_kind{
-    {"critical-gap", critical_gap_study}, {"calibration", calibration_study}, {"sweep", sweep_study},
-    {"sensitivity", sensitivity_study},   {"accuracy", accuracy_study},       {"stability", stability_study},
+    {"comparison", comparison_study},   {"critical-gap", critical_gap_study},
+    {"calibration", calibration_study}, {"sweep", sweep_study},
+    {"sensitivity", sensitivity_study}, {"accuracy", accuracy_study},
+    {"stability", stability_study},
 };
 
 /// Tests of studies that leave a store.

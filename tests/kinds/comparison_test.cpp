@@ -92,10 +92,10 @@ TEST(Comparison, TheReportHoldsVariantsVerdictsAndStations) {
       comparison_of(variant("coarse", "numerics.cell_size = \"2.5 mm\"")), synthetic_options());
   const auto json = nlohmann::json::parse(report_of(result).json);
   EXPECT_EQ(json["kind"], "comparison");
-  EXPECT_EQ(json["variants"].size(), 2u);
+  EXPECT_EQ(json["cases"].size(), 2u);
   EXPECT_EQ(json["verdicts"].size(), 6u);
   EXPECT_EQ(json["stations"].size(), 2u * 3u * 3u);
-  EXPECT_EQ(json["variants"][1]["critical_gap_difference_cm"], 0.0);
+  EXPECT_EQ(json["cases"][1]["critical_gap_difference_cm"], 0.0);
 }
 
 // The table of other models that verdicts rest on is a comparison of calibrated models over the peak

@@ -2,6 +2,7 @@
 #include "kinds/made_studies.hpp"
 #include "launchsafe/kinds/accuracy_report.hpp"
 #include "launchsafe/kinds/calibration_report.hpp"
+#include "launchsafe/kinds/comparison.hpp"
 #include "launchsafe/kinds/critical_gap_report.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/kinds/sensitivity_report.hpp"
@@ -18,11 +19,11 @@
 namespace launchsafe::kinds {
 namespace {
 
-/// A hard launch with a gap, so that both tables of a stability study have rows.
+/// A stress case with a gap, so that both tables of a stability study have rows.
 StabilityResult stability_with_a_launch() {
   StabilityResult result;
   result.study = bare_study(traits_of("stability"), {2e-4});
-  HardRow row;
+  StressCaseRow row;
   row.ran = true;
   row.gaps.emplace_back();
   result.rows = {row};
@@ -48,7 +49,13 @@ std::vector<report::Report> reports_of_all_kinds() {
           report_of(critical),
           report_of(run_calibration(shipped, study::synthetic_options())),
           report_of(accuracy),
-          report_of(stability_with_a_launch())};
+          report_of(stability_with_a_launch()),
+          report_of(run_comparison(study::study_of("kind = \"comparison\"\nscene = \"scene_155mm.toml\"\n"
+                                                   "gaps = \"0, 0.02 cm\"\n" +
+                                                   study::synthetic_constants +
+                                                   "[[variant]]\nname = \"coarse\"\n"
+                                                   "set = { numerics.cell_size = \"2.5 mm\" }\n"),
+                                   study::synthetic_options()))};
 }
 
 std::vector<report::Table> tables_of_all_kinds() {

@@ -23,7 +23,7 @@ namespace {
 using namespace launchsafe;
 using namespace launchsafe::kinds;
 using namespace launchsafe::study;
-using nlohmann::json;
+using Json = nlohmann::json;
 
 const StudyFile& some_study() {
   static const StudyFile study =
@@ -55,53 +55,53 @@ TEST(StoredAnswer, HoldsNoVerdict) {
 
 // Each is one edit of a sound answer.
 TEST(StoredAnswer, ThatContradictsItselfIsNone) {
-  const std::map<std::string, std::function<void(json&)>> edits{
-      {"unknown status", [](json& a) { a["run"]["status"] = 7; }},
-      {"negative status", [](json& a) { a["run"]["status"] = -1; }},
-      {"status that is true", [](json& a) { a["run"]["status"] = false; }},
-      {"failed run without a failure", [](json& a) { a["run"]["status"] = 2; }},
-      {"unknown kind of critical gap", [](json& a) { a["critical"][0] = 4; }},
-      {"kind beyond 32 bits", [](json& a) { a["critical"][0] = 4294967296; }},
-      {"critical gap outside its bracket", [](json& a) { a["critical"][1] = 0.01; }},
-      {"bracket the wrong way round", [](json& a) { std::swap(a["critical"][2], a["critical"][3]); }},
-      {"critical gap surer than its bracket", [](json& a) { a["critical"][4] = 0; }},
-      {"critical gap with a part too few", [](json& a) { a["critical"].erase(5); }},
-      {"unknown cause of ignition", [](json& a) { a["verdicts"][3]["ignition"][0] = 2; }},
-      {"negative uncertainty", [](json& a) { a["verdicts"][0]["uncertainty"][3] = -50; }},
-      {"uncertainty that is a word", [](json& a) { a["verdicts"][0]["uncertainty"][3] = "1"; }},
-      {"uncertainty with a part too few", [](json& a) { a["verdicts"][0]["uncertainty"].erase(5); }},
-      {"uncertainty with a part too many", [](json& a) { a["verdicts"][0]["uncertainty"].push_back(0); }},
-      {"other margin", [](json& a) { a["verdicts"][1]["margin"] = 200; }},
-      {"cooler maximum", [](json& a) { a["verdicts"][1]["maximum"][0] = 400; }},
+  const std::map<std::string, std::function<void(Json&)>> edits{
+      {"unknown status", [](Json& a) { a["run"]["status"] = 7; }},
+      {"negative status", [](Json& a) { a["run"]["status"] = -1; }},
+      {"status that is true", [](Json& a) { a["run"]["status"] = false; }},
+      {"failed run without a failure", [](Json& a) { a["run"]["status"] = 2; }},
+      {"unknown kind of critical gap", [](Json& a) { a["critical"][0] = 4; }},
+      {"kind beyond 32 bits", [](Json& a) { a["critical"][0] = 4294967296; }},
+      {"critical gap outside its bracket", [](Json& a) { a["critical"][1] = 0.01; }},
+      {"bracket the wrong way round", [](Json& a) { std::swap(a["critical"][2], a["critical"][3]); }},
+      {"critical gap surer than its bracket", [](Json& a) { a["critical"][4] = 0; }},
+      {"critical gap with a part too few", [](Json& a) { a["critical"].erase(5); }},
+      {"unknown cause of ignition", [](Json& a) { a["verdicts"][3]["ignition"][0] = 2; }},
+      {"negative uncertainty", [](Json& a) { a["verdicts"][0]["uncertainty"][3] = -50; }},
+      {"uncertainty that is a word", [](Json& a) { a["verdicts"][0]["uncertainty"][3] = "1"; }},
+      {"uncertainty with a part too few", [](Json& a) { a["verdicts"][0]["uncertainty"].erase(5); }},
+      {"uncertainty with a part too many", [](Json& a) { a["verdicts"][0]["uncertainty"].push_back(0); }},
+      {"other margin", [](Json& a) { a["verdicts"][1]["margin"] = 200; }},
+      {"cooler maximum", [](Json& a) { a["verdicts"][1]["maximum"][0] = 400; }},
       {"maximum colder than the beginning",
-       [](json& a) {
+       [](Json& a) {
          a["verdicts"][1]["maximum"][0] = 100;
          a["verdicts"][1]["margin"] = 421;
        }},
-      {"maximum after the end", [](json& a) { a["verdicts"][1]["maximum"][1] = 1; }},
-      {"peak with a part too few", [](json& a) { a["verdicts"][1]["early"].erase(2); }},
-      {"another gap", [](json& a) { a["verdicts"][1]["gap"] = 1e-4; }},
-      {"gaps in another order", [](json& a) { std::swap(a["verdicts"][0], a["verdicts"][1]); }},
-      {"a gap less", [](json& a) { a["verdicts"].erase(3); }},
-      {"heated temperatures of another number", [](json& a) { a["heated"].erase(0); }},
-      {"no validity warnings", [](json& a) { a["verdicts"][0].erase("doubt"); }},
-      {"no energy of the air", [](json& a) { a["verdicts"][0].erase("air"); }},
-      {"energy of the air with a part too few", [](json& a) { a["verdicts"][1]["air"].erase(3); }},
-      {"negative heat from the air", [](json& a) { a["verdicts"][1]["air"][0] = -1; }},
-      {"heat from the air that is no number", [](json& a) { a["verdicts"][1]["air"][0] = nullptr; }},
-      {"compression that supplies less than the air stores", [](json& a) { a["verdicts"][1]["air"][1] = 1; }},
-      {"negative limiters", [](json& a) { a["run"]["limiters"][0] = -1; }},
+      {"maximum after the end", [](Json& a) { a["verdicts"][1]["maximum"][1] = 1; }},
+      {"peak with a part too few", [](Json& a) { a["verdicts"][1]["early"].erase(2); }},
+      {"another gap", [](Json& a) { a["verdicts"][1]["gap"] = 1e-4; }},
+      {"gaps in another order", [](Json& a) { std::swap(a["verdicts"][0], a["verdicts"][1]); }},
+      {"a gap less", [](Json& a) { a["verdicts"].erase(3); }},
+      {"heated temperatures of another number", [](Json& a) { a["heated"].erase(0); }},
+      {"no validity warnings", [](Json& a) { a["verdicts"][0].erase("doubt"); }},
+      {"no energy of the air", [](Json& a) { a["verdicts"][0].erase("air"); }},
+      {"energy of the air with a part too few", [](Json& a) { a["verdicts"][1]["air"].erase(3); }},
+      {"negative heat from the air", [](Json& a) { a["verdicts"][1]["air"][0] = -1; }},
+      {"heat from the air that is no number", [](Json& a) { a["verdicts"][1]["air"][0] = nullptr; }},
+      {"compression that supplies less than the air stores", [](Json& a) { a["verdicts"][1]["air"][1] = 1; }},
+      {"negative limiters", [](Json& a) { a["run"]["limiters"][0] = -1; }},
   };
   for (const auto& [name, edit] : edits) {
-    json answer = json::parse(some_line());
+    Json answer = Json::parse(some_line());
     edit(answer);
     EXPECT_FALSE(accepted(answer.dump())) << name;
   }
 }
 
 TEST(StoredAnswer, VerdictsThatSomebodyWritesInAreNotRead) {
-  json answer = json::parse(some_line());
-  for (json& row : answer["verdicts"]) {
+  Json answer = Json::parse(some_line());
+  for (Json& row : answer["verdicts"]) {
     row["verdict"] = 0;
     row["reason"] = "margin 300 K";
   }
@@ -127,7 +127,7 @@ TEST(StoredAnswer, AValidityWarningStaysOne) {
 
 #ifdef LAUNCHSAFE_HAVE_RAPIDCHECK
 
-const std::string key(32, 'a');
+const std::string stored_key(32, 'a');
 
 /// A folder with one stored answer.
 class AnswerFolder : public launchsafe::testing::TemporaryFolder {
@@ -139,7 +139,7 @@ class AnswerFolder : public launchsafe::testing::TemporaryFolder {
   void store_answer() const {
     auto store = store::CaseStore::open(folder(), {"", run::model_version, {}});
     RC_ASSERT(static_cast<bool>(store));
-    (*store)->save_answer(key, some_line());
+    (*store)->save_answer(stored_key, some_line());
   }
   void replace_answers(const std::string& text) const {
     std::ofstream(folder() / "answers.jsonl", std::ios::binary) << text;
@@ -147,26 +147,26 @@ class AnswerFolder : public launchsafe::testing::TemporaryFolder {
   std::optional<std::string> answer() const {
     auto store = store::CaseStore::open_to_read(folder(), run::model_version);
     RC_ASSERT(static_cast<bool>(store));
-    return (*store)->answer(key);
+    return (*store)->answer(stored_key);
   }
 };
 
 /// The line with the checksum that anybody can compute.
 std::string rehashed(const std::string& text) {
-  return key + " " + store::sha256(text).substr(0, 16) + " " + text + "\n";
+  return stored_key + " " + store::sha256(text).substr(0, 16) + " " + text + "\n";
 }
 
 /// Another value in the place of a number, a word or a list somewhere in an answer.
-json with_another_value(json answer) {
-  json* place = &answer;
+Json with_another_value(Json answer) {
+  Json* place = &answer;
   while (place->is_structured() && !place->empty()) {
     auto child = place->begin();
     std::advance(child, *rc::gen::inRange<std::size_t>(0, place->size()));
     place = &*child;
     if (*rc::gen::inRange(0, 12) == 0) break;
   }
-  *place = *rc::gen::element(json(0), json(1), json(7), json(-1), json(1e-9), json(300.5), json(1e300),
-                             json(nullptr), json(""), json(true), json::array(), json::object());
+  *place = *rc::gen::element(Json(0), Json(1), Json(7), Json(-1), Json(1e-9), Json(300.5), Json(1e300),
+                             Json(nullptr), Json(""), Json(true), Json::array(), Json::object());
   return answer;
 }
 
@@ -179,7 +179,7 @@ RC_GTEST_PROP(StoredAnswerProperty, NoEditOfTheFileOfAnswersIsTakenForAnAnswer, 
     for (int flips = *rc::gen::inRange(1, 4); flips > 0; --flips)
       file[*rc::gen::inRange<std::size_t>(0, file.size())] = static_cast<char>(*rc::gen::inRange(0, 256));
   } else {
-    file = rehashed(with_another_value(json::parse(some_line())).dump());
+    file = rehashed(with_another_value(Json::parse(some_line())).dump());
   }
   if (*rc::gen::inRange(0, 4) == 0) file = rehashed(some_line()) + file;
   folder.replace_answers(file);
@@ -189,7 +189,7 @@ RC_GTEST_PROP(StoredAnswerProperty, NoEditOfTheFileOfAnswersIsTakenForAnAnswer, 
 
 // Also without the journal no edit is read as a verdict that contradicts what it stands beside.
 RC_GTEST_PROP(StoredAnswerProperty, AnEditThatIsReadIsJudgedOnWhatItSays, ()) {
-  const auto read = accepted(with_another_value(json::parse(some_line())).dump());
+  const auto read = accepted(with_another_value(Json::parse(some_line())).dump());
   if (!read) return;
   for (const GapVerdict& row : read->verdicts) {
     if (row.judgement.verdict != Verdict::safe) continue;

@@ -18,14 +18,15 @@ using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 using report::content_of, report::Folder, report::json_of;
 
-const std::string text = critical_text +
-                         "title = \"A test\"\ngaps = \"0, 0.03, 0.06 cm\"\n"
-                         "reference_line = { slope = 2702.1, intercept = \"416.1 K\" }\n"
-                         "reference = [{ gap = \"0 cm\", maximum_temperature = \"416.1 K\", point = \"G2\", "
-                         "calibrated = true }, { gap = \"0.03 cm\", maximum_temperature = \"492.9 K\" }]\n";
+const std::string study_text =
+    critical_text +
+    "title = \"A test\"\ngaps = \"0, 0.03, 0.06 cm\"\n"
+    "reference_line = { slope = 2702.1, intercept = \"416.1 K\" }\n"
+    "reference = [{ gap = \"0 cm\", maximum_temperature = \"416.1 K\", point = \"G2\", "
+    "calibrated = true }, { gap = \"0.03 cm\", maximum_temperature = \"492.9 K\" }]\n";
 
 CriticalGapResult one_case() {
-  return run_critical_gap(study_of(text + synthetic_constants), synthetic_options());
+  return run_critical_gap(study_of(study_text + synthetic_constants), synthetic_options());
 }
 
 TEST(CriticalGapReport, JsonHasTheKeysThatOtherProgramsReadFrom) {
@@ -64,7 +65,7 @@ TEST(CriticalGapReport, NothingThatFailedIsANumber) {
   options.runners.mechanics = [](const scene::Scene&, const run::RunOptions&) -> run::MechanicsResult {
     throw std::runtime_error("broken");
   };
-  const auto json = json_of(run_critical_gap(study_of(text + synthetic_constants), options));
+  const auto json = json_of(run_critical_gap(study_of(study_text + synthetic_constants), options));
   for (const char* key : {"critical_gap_cm", "critical_gap_lower_cm", "critical_gap_upper_cm"})
     EXPECT_TRUE(json["critical_gap"][key].is_null()) << key;
   EXPECT_EQ(json["critical_gap"]["critical_gap_kind"], "indeterminate");
@@ -74,8 +75,9 @@ TEST(CriticalGapReport, NothingThatFailedIsANumber) {
 }
 
 TEST(CriticalGapReport, SeveralCasesHaveNoSingleCriticalGap) {
-  const CriticalGapResult result = run_critical_gap(
-      study_of(text + "peak_pressures = \"400, 496 MPa\"\n" + synthetic_constants), synthetic_options());
+  const CriticalGapResult result =
+      run_critical_gap(study_of(study_text + "peak_pressures = \"400, 496 MPa\"\n" + synthetic_constants),
+                       synthetic_options());
   const auto json = json_of(result);
   EXPECT_EQ(json["cases"].size(), 2u);
   EXPECT_EQ(json["verdicts"].size(), 6u);

@@ -97,7 +97,7 @@ TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
 TEST(CriticalGapReport, WithBalancedAirTheSkinTakesNoMoreThanIsSupplied) {
   const study::StudyFile file = study::study_of(
       study::critical_text + "gaps = \"0, 0.03 cm\"\nconfirm = false\n[set]\ngap.air = \"balance\"\n");
-  const auto json = to_json(kinds::run_critical_gap(file, study::synthetic_options()));
+  const auto json = json_of(kinds::run_critical_gap(file, study::synthetic_options()));
   ASSERT_EQ(json["verdicts"].size(), 2u);
   EXPECT_LE(json["verdicts"][1]["taken_over_supplied"].get<double>(), 1.0);
 }

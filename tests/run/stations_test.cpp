@@ -12,7 +12,7 @@
 namespace launchsafe::run {
 namespace {
 
-constexpr double pressure = 100e6;  // Pa
+constexpr double bottom_pressure = 100e6;  // Pa
 
 scene::Scene scene_with(double cell_size) {
   const auto file = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml");
@@ -32,7 +32,7 @@ std::vector<double> heat_of(const scene::Scene& scene, const std::function<doubl
   for (int j = 0; j < p.lattice.rows(); ++j)
     for (int i = 0; i < p.lattice.columns(); ++i) {
       const std::size_t slot = p.lattice.slot(i, j);
-      p.pressure[slot] = pressure;
+      p.pressure[slot] = bottom_pressure;
       p.strain_change[2][slot] = strain(p.lattice.x_of(i), p.lattice.r_of(j));
     }
   recorder.accumulate(simulation, 1e-7);
@@ -44,7 +44,7 @@ std::vector<double> heat_of(const scene::Scene& scene, const std::function<doubl
 
 /// mu_d p sqrt(2/3 e:e) of a shear e_rx.
 double heat_of_shear(const scene::Scene& scene, double shear) {
-  return scene.charge().sliding_friction * pressure * std::sqrt(4.0 / 3.0) * std::abs(shear);
+  return scene.charge().sliding_friction * bottom_pressure * std::sqrt(4.0 / 3.0) * std::abs(shear);
 }
 
 TEST(StationReadings, HaveTheAreaOfTheBottom) {
