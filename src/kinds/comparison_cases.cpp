@@ -103,6 +103,7 @@ class VariantMaker {
         return fault_at(study_, key + ".name", fmt::format("\"{}\" a second time", text.name),
                         "a name that no other variant has");
     }
+    if (Fault fault = check_gaps(table)) return fault;
     Variant variant{.name = text.name, .description = text.description};
     if (!text.calibration.empty()) {
       auto record = read_calibration_record(study_, source_, text.calibration, key + ".calibration");
@@ -116,6 +117,18 @@ class VariantMaker {
 
  private:
   std::vector<Variant>& variants() { return settings_of<ComparisonSettings>(study_.study).variants; }
+
+  /// Gaps of a variant would silently do nothing.
+  Fault check_gaps(const toml::table& table) const {
+    const toml::node* set = table.get("set");
+    if (!set || !set->is_table()) return std::nullopt;
+    for (const Leaf& leaf : leaves_as_written(*set->as_table())) {
+      if (leaf.name != "gap.thickness") continue;
+      return scene::error_at(scene::place_of(*leaf.node, study_.file), "variant.set.gap.thickness",
+                             "gaps of a variant", "the study's gaps, which all variants share");
+    }
+    return std::nullopt;
+  }
 
   /// `calibration`: the record with the constants of the variant; empty: the study's.
   Fault add(Variant variant, const std::string& calibration, const std::vector<OverrideTable>& overrides,
@@ -195,6 +208,9 @@ class VariantMaker {
       if (common == study_.overrides.end() || common->second != value)
         variant.changes.push_back(key + " = " + value);
     }
+    if (!variants().empty() && variant.changes.empty())
+      return fault_at(study_, "variant", fmt::format("\"{}\", which is the scene as it is", variant.name),
+                      "a variant with set or calibration");
     variant.first = study_.cases.size();
     variant.scene = own.scene.scene;
     for (StudyCase& each : own.cases) {

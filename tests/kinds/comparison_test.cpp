@@ -138,6 +138,10 @@ TEST(Comparison, FaultsNameTheVariant) {
   const std::string unknown = fault(variant("a", "numerics.cell_sise = \"5 mm\""));
   EXPECT_NE(unknown.find("variant.set.numerics.cell_sise"), std::string::npos) << unknown;
   EXPECT_NE(unknown.find("cell_size"), std::string::npos) << unknown;
+  const std::string gaps = fault(variant("a", "gap.thickness = \"1 mm\""));
+  EXPECT_NE(gaps.find("variant.set.gap.thickness: found gaps of a variant"), std::string::npos) << gaps;
+  const std::string same = fault("\n[[variant]]\nname = \"a\"\n");
+  EXPECT_NE(same.find("\"a\", which is the scene as it is"), std::string::npos) << same;
   const std::string twice = fault(variant("a", "gap.air = \"film\"") + variant("a", "gap.air = \"balance\""));
   EXPECT_NE(twice.find("variant.name: found \"a\" a second time"), std::string::npos) << twice;
   const std::string both =
