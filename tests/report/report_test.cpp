@@ -1,8 +1,8 @@
 // A report made by hand: its page, its text for a terminal, and its files.
 #include "launchsafe/report/report.hpp"
 
-#include "launchsafe/report/study_text.hpp"
 #include "facts_in_text.hpp"
+#include "launchsafe/report/study_text.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
