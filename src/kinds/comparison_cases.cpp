@@ -82,10 +82,7 @@ scene::Expected<CalibrationRecord> read_calibration_record(const StudyFile& stud
 class VariantMaker {
  public:
   VariantMaker(const StudySource& source, StudyFile& study)
-      : source_(source),
-        study_(study),
-        keys_(joined({common_keys(), comparison_kind().keys})),
-        table_(source.root) {}
+      : source_(source), study_(study), keys_(joined({common_keys(), comparison_kind().keys})) {}
 
   Fault add_scene_itself() {
     const auto& settings = settings_of<ComparisonSettings>(study_.study);
@@ -162,10 +159,10 @@ class VariantMaker {
     own.study = study_.study;
     own.study.settings.reset();
     own.study.implausible.clear();
-    own.study.numerical_uncertainty = stated_numerical_uncertainty();
+    own.study.numerical_uncertainty = stated("numerical_uncertainty");
     own.study.numerical_uncertainty_assumed = false;
     own.study.calibration = shipped_calibration();
-    own.study.fit_uncertainty = stated_fit_uncertainty();
+    own.study.fit_uncertainty = stated("fit_uncertainty");
     if (!calibration.empty()) own.study.calibration_record = calibration;
     own.file = study_.file;
     own.places = study_.places;
@@ -174,10 +171,8 @@ class VariantMaker {
   }
 
   /// What the file says, and not what was settled for the scene itself since.
-  double stated_numerical_uncertainty() const { return stated("numerical_uncertainty"); }
-  double stated_fit_uncertainty() const { return stated("fit_uncertainty"); }
   double stated(const char* key) const {
-    const toml::node* node = table_.get(key);
+    const toml::node* node = source_.root.get(key);
     if (!node) return not_a_number;
     // The reader of keys has let it pass.
     return std::get<double>(*scene::read_value(*node, *scene::find_key(keys_, key), study_.file));
@@ -245,7 +240,6 @@ class VariantMaker {
   StudyFile& study_;
   StudyKeys keys_;
   std::string first_source_;
-  const toml::table& table_;
 };
 
 Fault make_comparison_cases(const StudySource& source, StudyFile& study) {
