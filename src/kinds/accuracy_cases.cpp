@@ -22,7 +22,7 @@ namespace {
 using scene::KeyDescription, scene::KeyKind, scene::Place, scene::Value;
 
 constexpr std::size_t least_reference_meshes = 3;
-constexpr const char* cell_size = "numerics.cell_size";
+constexpr const char* cell_size_key = "numerics.cell_size";
 
 std::string key_in_block(std::size_t block, const std::string& key) {
   return fmt::format("settings.{}.{}", block, key);
@@ -171,7 +171,7 @@ Fault read_settings(const toml::table& root, StudyFile& study) {
 
 Fault make_accuracy_cases(const StudySource&, StudyFile& study) {
   AccuracyCaseMaker maker(study);
-  const KeyDescription description = *scene::find_key(scene::scene_keys(), cell_size);
+  const KeyDescription description = *scene::find_key(scene::scene_keys(), cell_size_key);
   for (const double size : settings_of<AccuracySettings>(study.study).reference_cell_sizes) {
     const Change change = change_of(study, description, size, "reference_cell_sizes");
     if (Fault fault = maker.add(label_of({change}), {change})) return fault;

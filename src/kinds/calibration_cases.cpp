@@ -144,7 +144,7 @@ StudyOutcome calibration_outcome(const StudyFile& study, const StudyOptions& opt
 
 Kind calibration_kind() {
   return {
-      .traits = {.name = "calibration", .gives_verdicts = false},
+      .traits = {.name = "calibration", .gaps_key = {}, .gives_verdicts = false},
       .keys = joined({reference_keys(), own_keys(calibration_keys())}),
       .tables = {reference_table()},
       .read = read_calibration,

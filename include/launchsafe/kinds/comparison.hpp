@@ -14,12 +14,13 @@ namespace launchsafe::kinds {
 /// The scene as it is, which comes first, or with the keys of one [[variant]].
 struct Variant {
   std::string name;
-  std::string description;           ///< what it is, for people; may be empty
-  std::vector<std::string> changes;  ///< "numerics.cell_size = 2.5 mm": what it has otherwise than the scene
-  scene::Scene scene;                ///< that its cases start from
-  study::Study judged;               ///< the study with the constants of this variant
-  std::size_t first = 0;             ///< of its cases, which follow each other in StudyFile::cases
-  std::optional<study::CalibrationRecord> calibration;  ///< of the record that it names, or the study
+  std::string description;  ///< what it is, for people; may be empty
+  std::vector<std::string> changes =
+      {};                    ///< "numerics.cell_size = 2.5 mm": what it has otherwise than the scene
+  scene::Scene scene = {};   ///< that its cases start from
+  study::Study judged = {};  ///< the study with the constants of this variant
+  std::size_t first = 0;     ///< of its cases, which follow each other in StudyFile::cases
+  std::optional<study::CalibrationRecord> calibration = {};  ///< of the record that it names, or the study
 };
 
 /// What a study file of this kind says besides.

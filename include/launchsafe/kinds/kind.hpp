@@ -56,7 +56,7 @@ struct Kind {
   std::vector<scene::Key<study::Study>> keys;  ///< of its study files, besides those of every kind
   std::vector<StudyTable> tables;
   /// What to write for a key of another kind, where this one has something like it.
-  std::vector<std::pair<std::string, std::string>> instead_of;
+  std::vector<std::pair<std::string, std::string>> instead_of = {};
   /// Reads its own tables and fills Study::axes. The study has its scene with the overrides.
   study::Fault (*read)(const StudySource& source, study::StudyFile& study);
   /// Fills StudyFile::cases. All else is known, the gaps to judge too.
