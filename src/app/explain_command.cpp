@@ -108,6 +108,7 @@ std::optional<std::string> obstacle_to_picture(const std::optional<std::filesyst
 ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
   const auto file = scene::read_scene(arguments.file);
   if (!file) return console.refuse(file.error());
+  for (const std::string& note : file->notes) console.remark(note);
   const std::string svg = arguments.picture ? report::section_svg(file->scene) : std::string{};
   if (const auto obstacle = obstacle_to_picture(arguments.picture, svg)) return console.refuse(*obstacle);
   const double update_rate = measured_update_rate(file->scene);
@@ -126,6 +127,7 @@ ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
 ExitCode explain_study(const std::filesystem::path& path, Console& console) {
   const auto file = kinds::read_study(path);
   if (!file) return console.refuse(file.error());
+  for (const std::string& note : file->scene.notes) console.remark(note);
   const double update_rate = measured_update_rate(file->cases.front().scene.scene);
   if (stop_requested()) return interrupted(console);
   const study::Forecast forecast = study::forecast_study(*file, {}, update_rate);

@@ -77,6 +77,7 @@ ExitCode report_interruption(const RunArguments& arguments, const run::Mechanics
 ExitCode perform(const RunArguments& arguments, Console& console) {
   const auto file = scene::read_scene(arguments.scene);
   if (!file) return console.refuse(file.error());
+  for (const std::string& note : file->notes) console.remark(note);
   const scene::Scene& scene = file->scene;
   run::Reach reach{.memory = study::available_memory(), .keeps_skins = true};
   if (arguments.longest_run) reach.longest_run = *arguments.longest_run;

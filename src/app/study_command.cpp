@@ -112,6 +112,7 @@ ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, 
 ExitCode perform(const StudyArguments& arguments, Console& console) {
   const auto file = kinds::read_study(arguments.study, {arguments.tolerance});
   if (!file) return console.refuse(file.error());
+  for (const std::string& note : file->scene.notes) console.remark(note);
   if (!file->chosen_setting.empty()) console.remark("setting: " + file->chosen_setting);
   if (arguments.dry_run) return dry_run(*file, arguments, console);
   const int jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();

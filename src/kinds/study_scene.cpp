@@ -52,6 +52,7 @@ Fault apply_override(const toml::node& node, const std::string& name, const std:
   if (!key) return in_table(key.error(), table_name);
   const auto value = scene::read_value(node, *key, study.file);
   if (!value) return in_table(value.error(), table_name);
+  if (auto note = scene::note_on_former_word(node, *key, place)) scene.note(std::move(*note));
   study.overrides[name] = scene::format_value(*key, *value);
   scene.apply({name, *value, study.overrides[name], table_name + "." + name, place});
   return std::nullopt;

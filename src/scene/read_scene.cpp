@@ -140,6 +140,7 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
   // Faults of the keys first, then of the tables; within each by line.
   auto read = read_described(*table, descriptions_of(scene_keys()), tables_read_apart, file.file);
   if (!read) return read.error();
+  file.notes = std::move(read->notes);
   for (auto& [index, value] : read->values) {
     const std::string& name = scene_keys()[index].name;
     file.given[name] = {read->places[name], std::move(value)};

@@ -307,6 +307,15 @@ InputError unknown_key(const Place& place, const std::string& name, const std::v
                   nearest_key(name, known));
 }
 
+std::optional<std::string> note_on_former_word(const toml::node& node, const KeyDescription& key,
+                                               const Place& place) {
+  for (const auto& [former, present] : key.former_words)
+    if (node.value<std::string>() == former)
+      return fmt::format(R"({}:{}: {}: "{}" is now called "{}"; the old word is read in this version only)",
+                         place.file, place.line, key.name, former, present);
+  return std::nullopt;
+}
+
 Expected<ReadValues> read_described(const toml::table& table, const std::vector<const KeyDescription*>& keys,
                                     const std::vector<std::string>& elsewhere, const std::string& file) {
   std::vector<Leaf> leaves;
@@ -328,6 +337,7 @@ Expected<ReadValues> read_described(const toml::table& table, const std::vector<
     }
     auto value = read_value(*leaf.node, **key, file);
     if (!value) return value.error();
+    if (auto note = note_on_former_word(*leaf.node, **key, place)) read.notes.push_back(std::move(*note));
     read.values.emplace_back(static_cast<std::size_t>(key - keys.begin()), std::move(*value));
     read.places.emplace(leaf.name, place);
   }

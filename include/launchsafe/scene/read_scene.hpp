@@ -27,6 +27,7 @@ struct SceneFile {
   std::filesystem::path folder;         ///< what relative paths in it start from
   std::map<std::string, Given> given;   ///< scene keys that the user set
   std::map<std::string, Place> places;  ///< of "body.<name>.x", "observation_point.<name>.r", ...
+  std::vector<std::string> notes;       ///< on words of earlier versions, a line each
 };
 
 /// Reads and validates a scene file; its curve file is read too. Nothing is computed. Never throws.

@@ -86,7 +86,12 @@ Expected<std::vector<Value>> read_values(const toml::node& node, const KeyDescri
 struct ReadValues {
   std::vector<std::pair<std::size_t, Value>> values;  ///< index of the key, value
   std::map<std::string, Place> places;                ///< of every key the user gave
+  std::vector<std::string> notes;                     ///< on words of earlier versions, a line each
 };
+
+/// The note on a value that has the name of an earlier version of the program; none of another value.
+std::optional<std::string> note_on_former_word(const toml::node& node, const KeyDescription& key,
+                                               const Place& place);
 
 /// Checks a table against keys; sub-tables are dotted names. Reports the first fault by line. `elsewhere`
 /// names keys and tables of the same file that others read.

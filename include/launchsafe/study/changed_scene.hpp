@@ -24,6 +24,8 @@ class ChangedScene {
  public:
   explicit ChangedScene(scene::SceneFile scene) : scene_(std::move(scene)) {}
   void apply(const Change& change);
+  /// Adds to the notes of the scene.
+  void note(std::string note) { scene_.notes.push_back(std::move(note)); }
   /// The scene has all changes and is valid.
   bool complete() const { return waiting_.empty(); }
   /// Why the first waiting change is none that the scene can have. Only where not complete().
