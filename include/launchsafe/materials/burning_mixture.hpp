@@ -1,0 +1,59 @@
+// A particle of the charge that burns: what is left of the explosive and the gas that the rest has become, at
+// one pressure.
+//
+// The flame is far thinner than a particle, so that a particle has both in parts of their own: the explosive
+// on its isentrope (jwl_isentrope.hpp), which a flame that passes in microseconds does not heat, and the gas
+// with its own temperature (product_gas.hpp). Sound crosses the particle within a step or two, so that the
+// pressures are equal; heat does not cross it, so that the temperatures are not.
+#pragma once
+
+#include "launchsafe/materials/jwl.hpp"
+#include "launchsafe/materials/product_gas.hpp"
+
+namespace launchsafe::materials {
+
+/// State of a burning particle. Volumes are over that at rest, energies per volume at rest.
+struct BurningState {
+  double burnt_share = 0;      ///< of the particle's mass, 0 to 1
+  double solid_volume = 1;     ///< V of the explosive that is left
+  double gas_temperature = 0;  ///< K
+  double energy = 0;           ///< J/m3, of both: the explosive's from rest, the gas's from 0 K
+  double pressure = 0;         ///< Pa
+  double bulk_modulus = 0;     ///< Pa, of both at constant entropy
+  bool valid = true;           ///< false: no such state in the range of the gas law
+
+  /// Share of the explosive in the particle's volume V.
+  double solid_share(double volume) const { return (1.0 - burnt_share) * solid_volume / volume; }
+};
+
+/// What a step does to a burning particle.
+struct BurningStep {
+  double volume_before = 1, volume_after = 1;  ///< V of the particle
+  double burnt = 0;                            ///< share of the particle's mass that burns
+  double fresh_energy = 0;                     ///< J/kg of the gas that it becomes, thermal, from 0 K
+};
+
+class BurningMixture {
+ public:
+  BurningMixture(const JwlParameters& solid, const ProductGas& gas);
+
+  /// A particle at V, at the pressure of its isentrope, of which nothing has burnt.
+  BurningState unburnt(double volume) const;
+  /// The state after a step: energy changes by what burns and by the work of the mean of both pressures,
+  /// d(energy) = rho0 burnt fresh_energy - (p0 + p1)/2 dV, and explosive and gas have one pressure.
+  BurningState advance(const BurningState& before, const BurningStep& step) const;
+
+  /// Pressure (Pa), bulk modulus (Pa) and mechanical energy (J/m3, from rest) of the explosive at V.
+  double solid_pressure(double volume) const { return jwl_isentropic_pressure(solid_, volume); }
+  double solid_modulus(double volume) const { return jwl_isentropic_bulk_modulus(solid_, volume); }
+  double solid_energy(double volume) const;
+  /// The gas in a state, at the particle's volume V.
+  GasState gas_of(const BurningState& state, double volume) const;
+  const ProductGas& gas() const { return gas_; }
+
+ private:
+  JwlParameters solid_;
+  ProductGas gas_;
+};
+
+}  // namespace launchsafe::materials

@@ -1,0 +1,224 @@
+// What a burnt charge becomes: the energy of the gas, the speed of the flame, and the mixture in a particle.
+#include "launchsafe/materials/burning_mixture.hpp"
+#include "launchsafe/materials/charge.hpp"
+#include "launchsafe/materials/deflagration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using namespace launchsafe::materials;
+
+constexpr double specific_heat = 1780.0;
+const ProductGas& products() {
+  static const ProductGas gas(composition_b_gas(), specific_heat);
+  return gas;
+}
+/// Molecules without size and attraction: the ideal gas.
+ProductGas ideal_gas() { return ProductGas({{{"point", 100.0, 0.0}, 30.0}}, 1200.0); }
+BurningMixture mixture() { return BurningMixture(unreacted_composition_b(), products()); }
+
+TEST(ProductGas, PressureIsThatOfTheVirialSeries) {
+  for (const double temperature : {250.0, 784.0, 2000.0, 6000.0})
+    for (const double density : {1.0, 100.0, 600.0, 1700.0}) {
+      const VirialState series = virial_state(composition_b_gas(), temperature, density);
+      const GasState gas = products().at(temperature, 1.0 / density);
+      EXPECT_NEAR(gas.compressibility, series.compressibility,
+                  1e-11 * (1.0 + std::abs(series.compressibility)))
+          << temperature << " " << density;
+      if (series.valid) {
+        EXPECT_NEAR(gas.pressure / series.pressure, 1.0, 1e-10);
+      } else {
+        EXPECT_FALSE(gas.valid);
+      }
+    }
+}
+
+TEST(ProductGas, DerivativesAreThoseOfPressureAndEnergy) {
+  for (const double temperature : {784.0, 1500.0, 3000.0})
+    for (const double volume : {1.0 / 1700.0, 1.0 / 500.0, 1.0 / 20.0}) {
+      const GasState gas = products().at(temperature, volume);
+      const double d = 1e-4 * temperature, dv = 1e-5 * volume;
+      const GasState hot = products().at(temperature + d, volume),
+                     cold = products().at(temperature - d, volume);
+      const GasState wide = products().at(temperature, volume + dv),
+                     tight = products().at(temperature, volume - dv);
+      EXPECT_NEAR((hot.pressure - cold.pressure) / (2 * d) / gas.pressure_by_temperature, 1.0, 1e-6);
+      EXPECT_NEAR((hot.energy - cold.energy) / (2 * d) / gas.energy_by_temperature, 1.0, 1e-6);
+      EXPECT_NEAR((wide.pressure - tight.pressure) / (2 * dv) / gas.pressure_by_volume, 1.0, 1e-6);
+      // Maxwell's relation: de/dv = T dp/dT - p.
+      EXPECT_NEAR((wide.energy - tight.energy) / (2 * dv), gas.energy_by_volume, 1e-5 * gas.pressure);
+    }
+}
+
+TEST(ProductGas, AnIdealGasFollowsItsAdiabat) {
+  const ProductGas gas = ideal_gas();
+  const double gas_r = 30.0 * gas_constant, gamma = 1.0 + gas_r / gas.specific_heat();
+  const GasState state = gas.at(700.0, 0.01);
+  EXPECT_NEAR(state.pressure, gas_r * 700.0 / 0.01, 1e-6);
+  EXPECT_NEAR(state.energy, 1200.0 * 700.0, 1e-6);
+  EXPECT_NEAR(state.isentropic_modulus(700.0, 0.01), gamma * state.pressure, 1e-3);
+}
+
+TEST(ProductGas, StatesOutsideOfTheLawAreMarked) {
+  EXPECT_FALSE(products().at(100.0, 0.01).valid);
+  EXPECT_FALSE(products().at(20000.0, 0.01).valid);
+  EXPECT_FALSE(products().at(784.0, -1.0).valid);
+  // Steam alone at the density of the explosive: Z = -0.44 (model section 4).
+  const ProductGas steam({{water(), 55.5}}, specific_heat);
+  EXPECT_LT(steam.at(784.0, 1.0 / 1717.0).compressibility, 0.0);
+  EXPECT_FALSE(steam.at(784.0, 1.0 / 1717.0).valid);
+  EXPECT_TRUE(std::isnan(steam.temperature_at(1e6, -1.0, 500.0)));
+}
+
+TEST(ProductGas, TemperatureBelongsToItsEnergy) {
+  for (const double temperature : {600.0, 784.0, 4000.0}) {
+    const double energy = products().at(temperature, 2e-3).energy;
+    EXPECT_NEAR(products().temperature_at(energy, 2e-3, 1000.0), temperature, 1e-9 * temperature);
+  }
+}
+
+TEST(Deflagration, WavesOfKnownSpeedHaveIt) {
+  // Exact waves of T_t = alpha T_xx + k T^2 (1 - T), the slowest of which goes with sqrt(alpha k/2), and of
+  // the Nagumo equation k T (1 - T)(T - a), sqrt(alpha k/2)(1 - 2 a).
+  const double alpha = 2.0, k = 3.0;
+  const auto speed = [&](auto rate) { return travelling_wave_speed(rate, alpha, 0.0, 1.0); };
+  EXPECT_NEAR(speed([&](double t) { return k * t * t * (1 - t); }), std::sqrt(alpha * k / 2), 2e-3);
+  EXPECT_NEAR(speed([&](double t) { return k * t * (1 - t) * (t - 0.2); }), std::sqrt(alpha * k / 2) * 0.6,
+              2e-4);
+}
+
+TEST(Deflagration, IsThatOfTheResolvedHeatEquation) {
+  // Explicit finite differences on a grid that resolves the wave, the flame's place from the heat released.
+  const KineticsParameters kinetics;
+  const Charge charge;
+  const double unburnt = 500.0, burnt = kinetics.burnt_temperature;
+  const double alpha = charge.conductivity / (charge.eos.initial_density * specific_heat);
+  const double u =
+      deflagration_speed(kinetics, charge.conductivity, charge.eos.initial_density, specific_heat, unburnt);
+  const double h = alpha / u / 30.0, dt = 0.2 * h * h / alpha;
+  const double ahead = arrhenius_heating(kinetics, specific_heat, unburnt);
+  std::vector<double> temperature(2000, unburnt), next;
+  for (std::size_t i = 0; i < 200; ++i) temperature[i] = burnt;
+  const auto burnt_length = [&] {
+    double sum = 0;
+    for (const double t : temperature) sum += (t - unburnt) / (burnt - unburnt) * h;
+    return sum;
+  };
+  const auto advance = [&](int steps) {
+    for (int step = 0; step < steps; ++step) {
+      next = temperature;
+      for (std::size_t i = 1; i + 1 < temperature.size(); ++i) {
+        const double t = temperature[i];
+        const double rate =
+            (1 - reaction_degree(kinetics, t)) * (arrhenius_heating(kinetics, specific_heat, t) - ahead);
+        next[i] = t + dt * (alpha * (temperature[i + 1] - 2 * t + temperature[i - 1]) / (h * h) +
+                            (rate > 0 ? rate : 0.0));
+      }
+      temperature.swap(next);
+    }
+  };
+  advance(60000);
+  const double begin = burnt_length();
+  advance(60000);
+  EXPECT_LT(burnt_length(), 1900 * h);
+  EXPECT_NEAR((burnt_length() - begin) / (60000 * dt) / u, 1.0, 0.02);
+}
+
+TEST(BurningMixture, IsTheUnreactedLawWhereNothingHasBurnt) {
+  const BurningMixture law = mixture();
+  BurningState state = law.unburnt(1.0);
+  for (const double volume : {0.999, 0.98, 0.95, 0.99}) {
+    const double before = state.solid_volume;
+    state = law.advance(state, {before, volume, 0.0, 0.0});
+    EXPECT_EQ(state.pressure, jwl_isentropic_pressure(unreacted_composition_b(), volume));
+  }
+}
+
+TEST(BurningMixture, BurntAtConstantVolumeEndsInTheClosedFormState) {
+  // No work is done, so that the energy of the gas is that of what burnt and the elastic energy before.
+  const BurningMixture law = mixture();
+  const double volume = 0.98, fresh = specific_heat * 784.0;
+  const double density = 1717.0 / volume;
+  const double energy = fresh + law.solid_energy(volume) / 1717.0;
+  const double temperature = products().temperature_at(energy, 1.0 / density, 800.0);
+  const double pressure = products().at(temperature, 1.0 / density).pressure;
+  for (const int steps : {1, 10, 1000}) {
+    BurningState state = law.unburnt(volume);
+    for (int i = 0; i < steps; ++i) state = law.advance(state, {volume, volume, 1.0 / steps, fresh});
+    ASSERT_TRUE(state.valid) << steps;
+    EXPECT_NEAR(state.burnt_share, 1.0, 1e-12);
+    EXPECT_NEAR(state.gas_temperature / temperature, 1.0, 1e-9) << steps;
+    EXPECT_NEAR(state.pressure / pressure, 1.0, 1e-8) << steps;
+  }
+}
+
+TEST(BurningMixture, PressureIsContinuousAndEnergyConservedInBetween) {
+  // While it burns under a volume that goes up and down: energy less released heat plus work stays, and no
+  // step jumps.
+  const BurningMixture law = mixture();
+  BurningState state = law.unburnt(0.985);
+  const double start = state.energy, fresh = specific_heat * 784.0;
+  double volume = 0.985, work = 0;
+  constexpr int steps = 4000;
+  for (int i = 0; i < steps; ++i) {
+    const double next = 0.985 + 0.8 * (i + 1) / steps + 0.01 * std::sin(40.0 * (i + 1) / steps);
+    const BurningState after = law.advance(state, {volume, next, 1.0 / steps, fresh});
+    ASSERT_TRUE(after.valid) << i;
+    EXPECT_LT(std::abs(after.pressure - state.pressure), 0.05 * state.pressure) << i;
+    work += 0.5 * (state.pressure + after.pressure) * (next - volume);
+    volume = next;
+    state = after;
+    const GasState gas = law.gas_of(state, volume);
+    EXPECT_NEAR(gas.pressure / state.pressure, 1.0, 1e-6) << i;
+    const double stored = (1 - state.burnt_share) * law.solid_energy(state.solid_volume) +
+                          1717.0 * state.burnt_share * gas.energy;
+    EXPECT_NEAR(stored, start + 1717.0 * state.burnt_share * fresh - work, 1e-7 * 1717.0 * fresh) << i;
+  }
+}
+
+TEST(BurningMixture, GasAloneIsCompressedAlongItsAdiabat) {
+  // The ideal gas against p v^gamma, in steps of falling length: second order.
+  const ProductGas gas = ideal_gas();
+  const BurningMixture law(unreacted_composition_b(), gas);
+  const double gamma = 1.0 + 30.0 * gas_constant / 1200.0;
+  const auto end = [&](int steps) {
+    BurningState state = law.advance(law.unburnt(0.99), {0.99, 2.0, 1.0, 1200.0 * 1000.0});
+    const double begin = state.pressure;
+    for (int i = 0; i < steps; ++i)
+      state = law.advance(state, {2.0 - 1.0 * i / steps, 2.0 - 1.0 * (i + 1) / steps, 0.0, 0.0});
+    return state.valid ? state.pressure / (begin * std::pow(2.0, gamma)) - 1.0 : 1.0;
+  };
+  const double coarse = end(20), fine = end(40);
+  EXPECT_LT(std::abs(fine), 1e-3);
+  EXPECT_NEAR(coarse / fine, 4.0, 0.2);
+}
+
+TEST(BurningMixture, ModulusIsTheSlopeOfThePressure) {
+  const BurningMixture law = mixture();
+  const double volume = 1.1;
+  BurningState state = law.unburnt(0.985);
+  state = law.advance(state, {0.985, volume, 0.3, specific_heat * 784.0});
+  const double d = 1e-4;
+  const double up = law.advance(state, {volume, volume + d, 0, 0}).pressure,
+               down = law.advance(state, {volume, volume - d, 0, 0}).pressure;
+  EXPECT_NEAR(-volume * (up - down) / (2 * d) / state.bulk_modulus, 1.0, 1e-4);
+}
+
+TEST(BurningMixture, BurningInAHotGasToTheFullHeatStaysInTheLaw) {
+  const BurningMixture law = mixture();
+  BurningState state = law.unburnt(0.985);
+  double volume = 0.985;
+  for (int i = 0; i < 200; ++i) {
+    state = law.advance(state, {volume, volume + 0.02, 0.005, specific_heat * 519.0 + 5.82e6});
+    volume += 0.02;
+    ASSERT_TRUE(state.valid) << i;
+  }
+  EXPECT_GT(state.pressure, 0.0);
+  EXPECT_LT(state.gas_temperature, 4500.0);
+}
+
+}  // namespace
