@@ -1,7 +1,6 @@
 // A study of kind accuracy as a file: its reference meshes, its settings, and the cases that follow from
 // both.
 #include "launchsafe/kinds/accuracy.hpp"
-#include "launchsafe/kinds/accuracy_report.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"

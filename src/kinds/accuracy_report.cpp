@@ -1,6 +1,5 @@
 // The answer, the pages and the files of an accuracy study.
-#include "launchsafe/kinds/accuracy_report.hpp"
-
+#include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"

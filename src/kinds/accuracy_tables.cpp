@@ -1,5 +1,5 @@
 // The tables and the picture of an accuracy study.
-#include "launchsafe/kinds/accuracy_report.hpp"
+#include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"

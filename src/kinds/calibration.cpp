@@ -1,6 +1,5 @@
 #include "launchsafe/kinds/calibration.hpp"
 
-#include "calibration_hold_outs.hpp"
 #include "calibration_load.hpp"
 #include "launchsafe/store/manifest.hpp"
 
@@ -14,11 +13,6 @@ namespace launchsafe::kinds {
 
 using namespace study;
 using namespace report;
-
-bool CalibrationResult::any_failed() const {
-  if (load && !load->failure.empty()) return true;
-  return std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.failure.empty(); });
-}
 
 namespace {
 

@@ -1,6 +1,5 @@
 // A study of kind calibration as a file: its keys, its cases, and which published rows it fits to.
 #include "launchsafe/kinds/calibration.hpp"
-#include "launchsafe/kinds/calibration_report.hpp"
 #include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"

@@ -1,6 +1,5 @@
 // Tables, page and files of a calibration.
-#include "launchsafe/kinds/calibration_report.hpp"
-
+#include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/run_table.hpp"
@@ -36,8 +35,7 @@ std::string bracket_check(const study::Study& study, const CalibrationRow& row) 
   return inside ? "inside" : "outside";
 }
 
-}  // namespace
-
+/// Constants and what they miss, of every mesh, closure and kinetics: what is printed on stdout.
 Table calibration_table(const CalibrationResult& result) {
   Table table;
   table.title = "Calibrated constants, and how far they miss what they were not fitted to";
@@ -75,6 +73,7 @@ Table calibration_table(const CalibrationResult& result) {
   return table;
 }
 
+/// Every hold-out of one row: predicted, published, and their difference.
 Table hold_out_table(const CalibrationResult& result, const CalibrationRow& row) {
   Table table;
   table.title = fmt::format("Against the published results: {} mm, {}, {}",
@@ -100,6 +99,8 @@ Table hold_out_table(const CalibrationResult& result, const CalibrationRow& row)
   return table;
 }
 
+/// The differences of the recommended row from published results by which a model is chosen among others; no
+/// rows without any.
 Table selection_table(const CalibrationResult& result) {
   Table table;
   if (!result.recommendation.row) return table;
@@ -117,6 +118,7 @@ Table selection_table(const CalibrationResult& result) {
   return table;
 }
 
+/// What the constants do from mesh to mesh.
 Table convergence_table(const CalibrationResult& result) {
   Table table;
   table.title = "From the coarsest to the finest mesh";
@@ -130,50 +132,6 @@ Table convergence_table(const CalibrationResult& result) {
   }
   return table;
 }
-
-Table constants_table(const CalibrationResult& result) {
-  Table table;
-  if (!result.recommendation.row) return table;
-  const CalibrationRow& row = result.rows[*result.recommendation.row];
-  const Constants &fitted = row.calibrated.constants, &now = result.in_scene;
-  const std::string closure_now = study::to_string(result.study.scene.scene.surface.friction);
-  table.title = "Constants the scene should hold";
-  table.columns = {text_column("key"), text_column("calibrated"), text_column("in the scene now"),
-                   number_column("difference", "%", 2, "difference_percent")};
-  const auto add = [&table](std::string key, double value, double held, double scale, const char* unit) {
-    table.rows.push_back({std::move(key), significant(scale * value, 6) + unit,
-                          significant(scale * held, 6) + unit, 100.0 * (held - value) / value});
-  };
-  table.rows.push_back({"friction.closure", study::to_string(row.closure), closure_now, Cell()});
-  add("friction.localisation", fitted.localisation, now.localisation, 1.0, "");
-  add("gap.exchange_time", fitted.exchange_time, now.exchange_time, 1e3, " ms");
-  if (result.load) {
-    const scene::Load& held = result.study.scene.scene.load;
-    add("load.peak_time", result.load->peak_time, held.peak_time, 1e3, " ms");
-    add("load.exponent", result.load->exponent, held.exponent, 1.0, "");
-  }
-  add("kinetics.ignition_temperature", fitted.ignition_temperature, now.ignition_temperature, 1.0, " K");
-  table.notes.push_back(fmt::format("They belong to cells of {} mm and the scene's other settings.",
-                                    significant(1e3 * row.cell_size, 6)));
-  return table;
-}
-
-std::string answer(const CalibrationResult& result) {
-  std::string text = result.recommendation.reason;
-  if (result.recommendation.row) {
-    const CalibrationRow& row = result.rows[*result.recommendation.row];
-    const Constants& fitted = row.calibrated.constants;
-    text += fmt::format(
-        " The scene should hold \"{}\": at {} mm, localisation {}, exchange time {} ms, ignition "
-        "temperature {} K.",
-        study::to_string(row.closure), significant(1e3 * row.cell_size, 6),
-        significant(fitted.localisation, 6), significant(1e3 * fitted.exchange_time, 6),
-        significant(fitted.ignition_temperature, 6));
-  }
-  return text.empty() ? "No calibration: no run was made." : text;
-}
-
-namespace {
 
 /// What was fitted of the load, and how far the stations move from mesh to mesh. Empty without either.
 std::string load_and_stations_text(const CalibrationResult& result) {
@@ -281,6 +239,48 @@ Table all_hold_outs(const CalibrationResult& result) {
 }
 
 }  // namespace
+
+Table constants_table(const CalibrationResult& result) {
+  Table table;
+  if (!result.recommendation.row) return table;
+  const CalibrationRow& row = result.rows[*result.recommendation.row];
+  const Constants &fitted = row.calibrated.constants, &now = result.in_scene;
+  const std::string closure_now = study::to_string(result.study.scene.scene.surface.friction);
+  table.title = "Constants the scene should hold";
+  table.columns = {text_column("key"), text_column("calibrated"), text_column("in the scene now"),
+                   number_column("difference", "%", 2, "difference_percent")};
+  const auto add = [&table](std::string key, double value, double held, double scale, const char* unit) {
+    table.rows.push_back({std::move(key), significant(scale * value, 6) + unit,
+                          significant(scale * held, 6) + unit, 100.0 * (held - value) / value});
+  };
+  table.rows.push_back({"friction.closure", study::to_string(row.closure), closure_now, Cell()});
+  add("friction.localisation", fitted.localisation, now.localisation, 1.0, "");
+  add("gap.exchange_time", fitted.exchange_time, now.exchange_time, 1e3, " ms");
+  if (result.load) {
+    const scene::Load& held = result.study.scene.scene.load;
+    add("load.peak_time", result.load->peak_time, held.peak_time, 1e3, " ms");
+    add("load.exponent", result.load->exponent, held.exponent, 1.0, "");
+  }
+  add("kinetics.ignition_temperature", fitted.ignition_temperature, now.ignition_temperature, 1.0, " K");
+  table.notes.push_back(fmt::format("They belong to cells of {} mm and the scene's other settings.",
+                                    significant(1e3 * row.cell_size, 6)));
+  return table;
+}
+
+std::string answer(const CalibrationResult& result) {
+  std::string text = result.recommendation.reason;
+  if (result.recommendation.row) {
+    const CalibrationRow& row = result.rows[*result.recommendation.row];
+    const Constants& fitted = row.calibrated.constants;
+    text += fmt::format(
+        " The scene should hold \"{}\": at {} mm, localisation {}, exchange time {} ms, ignition "
+        "temperature {} K.",
+        study::to_string(row.closure), significant(1e3 * row.cell_size, 6),
+        significant(fitted.localisation, 6), significant(1e3 * fitted.exchange_time, 6),
+        significant(fitted.ignition_temperature, 6));
+  }
+  return text.empty() ? "No calibration: no run was made." : text;
+}
 
 Report report_of(const CalibrationResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};

@@ -5,12 +5,15 @@
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/run/model_version.hpp"
+#include "launchsafe/study/model_form.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <list>
 #include <numeric>
+#include <optional>
 
 namespace launchsafe::kinds {
 
@@ -19,7 +22,12 @@ using namespace report;
 
 namespace {
 
-using study::ModelFormEntry, study::ModelFormRecord;
+/// The models with their critical gaps, and the record made of them.
+struct ModelForm {
+  std::list<CriticalGapCurve> curves;   ///< the entries point to them
+  std::vector<ModelFormEntry> entries;  ///< the default first
+  ModelFormRecord record;
+};
 
 std::string megapascals(double pressure) { return significant(1e-6 * pressure, 6); }
 
@@ -194,32 +202,36 @@ constexpr const char* meaning =
     "enters no "
     "share, and is named beside every verdict that it could change.\n";
 
-}  // namespace
-
-ModelFormOrReason model_form_of(const ComparisonResult& result) {
+/// Of a comparison over peak pressures whose variants all name the record of a calibration; or why there is
+/// none, a clause. The comparison has to live as long as what is made of it.
+std::optional<ModelForm> model_form_of(const ComparisonResult& result, std::string& reason) {
   ModelForm form;
   for (const Variant& each : result.variants()) {
     form.curves.push_back(curve_of(result, each));
     form.entries.push_back({each.name, &*each.calibration, &form.curves.back()});
   }
   ModelFormOrError made = make_model_form(form.entries);
-  if (!made.record) return {std::nullopt, std::move(made.error)};
+  reason = std::move(made.error);
+  if (!made.record) return std::nullopt;
   form.record = std::move(*made.record);
-  return {std::move(form), {}};
+  return form;
 }
+
+}  // namespace
 
 void add_model_form(const ComparisonResult& result, Report& report) {
   if (!is_of_models(result)) return;
-  const ModelFormOrReason made = model_form_of(result);
-  if (!made.form) {
-    report.items.push_back(Statement{"There is no record of other models: " + made.reason + ".\n"});
+  std::string reason;
+  const std::optional<ModelForm> form = model_form_of(result, reason);
+  if (!form) {
+    report.items.push_back(Statement{"There is no record of other models: " + reason + ".\n"});
     return;
   }
-  report.files.push_back({"model_form.json", to_json_text(made.form->record)});
+  report.files.push_back({"model_form.json", to_json_text(form->record)});
   report.items.push_back(Statement{meaning});
-  report.items.push_back(ReportTable{model_form_table(*made.form), "model_form.csv", "models"});
-  report.items.push_back(Picture{"model_form.svg", model_form_plot(*made.form), "critical gap by model"});
-  report.items.push_back(ReportTable{model_constants_table(*made.form), "", "constants", Shown::page});
+  report.items.push_back(ReportTable{model_form_table(*form), "model_form.csv", "models"});
+  report.items.push_back(Picture{"model_form.svg", model_form_plot(*form), "critical gap by model"});
+  report.items.push_back(ReportTable{model_constants_table(*form), "", "constants", Shown::page});
 }
 
 }  // namespace launchsafe::kinds

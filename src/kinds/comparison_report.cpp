@@ -87,22 +87,7 @@ std::string largest_shift_text(const ComparisonResult& result) {
   return text;
 }
 
-}  // namespace
-
-std::string answer(const ComparisonResult& result) {
-  std::vector<std::string> lines{fmt::format("{} variants of a scene, {} cases, each judged at {} gaps.",
-                                             result.variants().size() - 1, result.cases.size(),
-                                             result.study.study.gaps.size())};
-  for (std::size_t i = 0; i < result.cases.size() && result.cases[i].variant == 0; ++i)
-    lines.push_back(fmt::format("{}: critical gap {}.", result.study.cases[i].label,
-                                reads_as(result.cases[i].answer.critical)));
-  lines.push_back(largest_shift_text(result));
-  for (std::string& note : mesh_notes(result.study)) lines.push_back(std::move(note));
-  if (result.interrupted)
-    lines.emplace_back("The study was interrupted: cases without a run are indeterminate.");
-  return fmt::format("{}", fmt::join(lines, "\n"));
-}
-
+/// A row for every case: critical gap, hottest temperature, both less those of the scene as it is, and cost.
 Table comparison_table(const ComparisonResult& result) {
   Table table = table_by_variant("Variants side by side", result);
   append(table.columns, critical_gap_columns());
@@ -133,6 +118,7 @@ Table comparison_table(const ComparisonResult& result) {
   return table;
 }
 
+/// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
 Table verdict_matrix(const ComparisonResult& result) {
   Table table = table_by_variant("Verdicts by gap", result);
   const std::vector<double>& gaps = result.study.study.gaps;
@@ -150,6 +136,7 @@ Table verdict_matrix(const ComparisonResult& result) {
   return table;
 }
 
+/// A row for every gap of every case, for other programs.
 Table verdict_table(const ComparisonResult& result) {
   Table table = table_by_variant("Verdicts", result);
   append(table.columns, {quantity::gap()});
@@ -167,6 +154,7 @@ Table verdict_table(const ComparisonResult& result) {
   return table;
 }
 
+/// A row for every station of every gap and case.
 Table station_table(const ComparisonResult& result) {
   Table table = table_by_variant("T max of every station, without reaction", result);
   append(table.columns,
@@ -186,8 +174,6 @@ Table station_table(const ComparisonResult& result) {
   }
   return table;
 }
-
-namespace {
 
 /// Stations side by side at the largest gap: a column for each variant and peak pressure.
 Table stations_side_by_side(const ComparisonResult& result) {
@@ -225,6 +211,20 @@ Table stations_side_by_side(const ComparisonResult& result) {
 }
 
 }  // namespace
+
+std::string answer(const ComparisonResult& result) {
+  std::vector<std::string> lines{fmt::format("{} variants of a scene, {} cases, each judged at {} gaps.",
+                                             result.variants().size() - 1, result.cases.size(),
+                                             result.study.study.gaps.size())};
+  for (std::size_t i = 0; i < result.cases.size() && result.cases[i].variant == 0; ++i)
+    lines.push_back(fmt::format("{}: critical gap {}.", result.study.cases[i].label,
+                                reads_as(result.cases[i].answer.critical)));
+  lines.push_back(largest_shift_text(result));
+  for (std::string& note : mesh_notes(result.study)) lines.push_back(std::move(note));
+  if (result.interrupted)
+    lines.emplace_back("The study was interrupted: cases without a run are indeterminate.");
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
 
 Report report_of(const ComparisonResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};

@@ -15,14 +15,6 @@ namespace launchsafe::kinds {
 using namespace study;
 using namespace report;
 
-bool CriticalGapResult::any_failed() const {
-  return std::any_of(cases.begin(), cases.end(), [](const CaseOutcome& each) {
-    return !each.completed() ||
-           std::any_of(each.confirmations.begin(), each.confirmations.end(),
-                       [](const Confirmation& confirmation) { return !confirmation.completed; });
-  });
-}
-
 bool CriticalGapResult::any_indeterminate() const {
   return std::any_of(cases.begin(), cases.end(), [](const CaseOutcome& each) {
     return each.critical.kind == CriticalGapKind::indeterminate ||

@@ -1,6 +1,5 @@
 // A study of kind critical-gap as a file: its keys, and the cases that follow.
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/kinds/critical_gap_report.hpp"
 #include "launchsafe/study/cited_limits.hpp"
 #include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"

@@ -1,6 +1,6 @@
 // The tables of a critical-gap study.
 #include "launchsafe/kinds/calibration.hpp"
-#include "launchsafe/kinds/critical_gap_report.hpp"
+#include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/report/air_energy_table.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/run_table.hpp"

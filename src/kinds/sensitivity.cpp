@@ -25,8 +25,6 @@ std::string to_string(SensitivityOutput output) {
   return "";
 }
 
-bool SensitivityResult::any_failed() const { return study::any_failed(answers); }
-
 bool SensitivityResult::any_indeterminate() const {
   return std::any_of(outputs.begin(), outputs.end(), [](const auto& each) { return !each.reason.empty(); });
 }

@@ -1,6 +1,5 @@
 // A study of kind sensitivity as a file: its keys, and the evaluations of its design.
 #include "launchsafe/kinds/sensitivity.hpp"
-#include "launchsafe/kinds/sensitivity_report.hpp"
 #include "launchsafe/math/sensitivity.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "sensitivity_inputs.hpp"

@@ -9,8 +9,6 @@ namespace launchsafe::kinds {
 using namespace study;
 using namespace report;
 
-bool SweepResult::any_failed() const { return study::any_failed(answers); }
-
 bool SweepResult::any_indeterminate() const {
   return std::any_of(answers.begin(), answers.end(), [](const CaseAnswer& answer) {
     return answer.critical.kind == CriticalGapKind::indeterminate ||

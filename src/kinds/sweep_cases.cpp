@@ -1,6 +1,5 @@
 // A study of kind sweep as a file: its axes, and the cases that follow.
 #include "launchsafe/kinds/sweep.hpp"
-#include "launchsafe/kinds/sweep_report.hpp"
 #include "launchsafe/study/cited_limits.hpp"
 #include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"

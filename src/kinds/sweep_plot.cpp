@@ -1,5 +1,5 @@
 // The pictures of a sweep: the critical gap over one or two axes.
-#include "launchsafe/kinds/sweep_report.hpp"
+#include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"

@@ -1,6 +1,5 @@
 // The answer, the page and the files of a sweep.
-#include "launchsafe/kinds/sweep_report.hpp"
-
+#include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"

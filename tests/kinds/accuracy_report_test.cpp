@@ -1,4 +1,4 @@
-#include "launchsafe/kinds/accuracy_report.hpp"
+#include "launchsafe/kinds/accuracy.hpp"
 
 #include "launchsafe/scene/mesh.hpp"
 #include "report/report_folder.hpp"

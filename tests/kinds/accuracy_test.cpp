@@ -1,3 +1,4 @@
+#include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
 
 #include "launchsafe/scene/mesh.hpp"
@@ -58,7 +59,7 @@ const AccuracyRow& row_of(const AccuracyResult& result, const std::string& label
 TEST(Accuracy, FindsTheOrderAndTheLimitOfAManufacturedError) {
   const AccuracyResult result = result_of();
   ASSERT_TRUE(result.reference) << result.no_reference;
-  EXPECT_FALSE(result.any_failed());
+  EXPECT_FALSE(any_failed(result.answers));
   // Without a gap T max is the initial temperature and the friction heat: 300 + 116.1 K in the limit.
   const ReferenceValue& zero_gap = result.reference->temperature[0];
   EXPECT_TRUE(zero_gap.limit.justified) << zero_gap.limit.reason;

@@ -1,13 +1,13 @@
 // The keys of the tables of all kinds: one for a quantity, with its unit.
 #include "kinds/made_studies.hpp"
-#include "launchsafe/kinds/accuracy_report.hpp"
-#include "launchsafe/kinds/calibration_report.hpp"
+#include "launchsafe/kinds/accuracy.hpp"
+#include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/kinds/comparison.hpp"
-#include "launchsafe/kinds/critical_gap_report.hpp"
+#include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/kinds/sensitivity_report.hpp"
-#include "launchsafe/kinds/stability_report.hpp"
-#include "launchsafe/kinds/sweep_report.hpp"
+#include "launchsafe/kinds/sensitivity.hpp"
+#include "launchsafe/kinds/stability.hpp"
+#include "launchsafe/kinds/sweep.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The tables, page, JSON and pictures of sensitivity studies made by hand.
-#include "launchsafe/kinds/sensitivity_report.hpp"
+#include "launchsafe/kinds/sensitivity.hpp"
 
 #include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"

@@ -1,3 +1,4 @@
+#include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
 
 #include "study/synthetic_launch.hpp"
@@ -131,7 +132,7 @@ TEST(Sensitivity, AFailedEvaluationTakesAwayItsRowAlone) {
     return result;
   };
   const SensitivityResult result = run_sensitivity(study, counted.options);
-  EXPECT_TRUE(result.any_failed());
+  EXPECT_TRUE(any_failed(result.answers));
   const OutputSensitivity& margin = output_of(result, SensitivityOutput::margin);
   EXPECT_EQ(margin.missing, 3u);  // A, and the two that share its mechanical run
   EXPECT_EQ(margin.sobol.rows_used, 63u);

@@ -1,5 +1,5 @@
 // The tables, page and JSON of a stability study made by hand.
-#include "launchsafe/kinds/stability_report.hpp"
+#include "launchsafe/kinds/stability.hpp"
 
 #include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"

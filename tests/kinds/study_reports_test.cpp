@@ -1,6 +1,6 @@
 // The pages, tables and JSON of studies on a launch in closed form.
-#include "launchsafe/kinds/calibration_report.hpp"
-#include "launchsafe/kinds/critical_gap_report.hpp"
+#include "launchsafe/kinds/calibration.hpp"
+#include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "report/report_folder.hpp"
 #include "study/synthetic_launch.hpp"

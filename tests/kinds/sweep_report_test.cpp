@@ -1,5 +1,5 @@
 // The tables, page, JSON and pictures of sweeps made by hand.
-#include "launchsafe/kinds/sweep_report.hpp"
+#include "launchsafe/kinds/sweep.hpp"
 
 #include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"

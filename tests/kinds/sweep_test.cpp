@@ -1,3 +1,4 @@
+#include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/kinds/sweep.hpp"
 
 #include "launchsafe/run/model_version.hpp"
@@ -92,7 +93,7 @@ TEST(Sweep, CasesThatDifferInThermalKeysShareOneMechanicalRun) {
   const SweepResult result = run_sweep(study, counting.options());
   EXPECT_EQ(counting.runs(), 4);
   EXPECT_EQ(result.timing.runs, 4u);
-  EXPECT_FALSE(result.any_failed());
+  EXPECT_FALSE(any_failed(result.answers));
   // The last axis is the fastest: neighbours differ in the exchange time alone.
   for (std::size_t i = 0; i < 8; i += 2) {
     const double quick = result.answers[i].critical.value, slow = result.answers[i + 1].critical.value;
@@ -121,7 +122,7 @@ TEST(Sweep, AFailingCaseIsItsRowAndNoOther) {
     return result;
   };
   const SweepResult result = run_sweep(study, counting.options());
-  EXPECT_TRUE(result.any_failed());
+  EXPECT_TRUE(any_failed(result.answers));
   EXPECT_TRUE(result.answers[0].completed());
   EXPECT_EQ(result.answers[1].failure, "the run failed: std::bad_alloc");
   EXPECT_EQ(result.answers[2].failure, run::to_string(run::RunStatus::energy_drift) + ": at t = 1 ms");
@@ -305,7 +306,7 @@ TEST_F(StoredSweep, ShardsTogetherAreTheWhole) {
   for (int index = 1; index <= 3; ++index) {
     Counting counting;
     const SweepResult part = run(study, counting, {index, 3});
-    EXPECT_TRUE(part.any_failed());  // the rows of the other shards
+    EXPECT_TRUE(any_failed(part.answers));  // the rows of the other shards
     runs += counting.runs();
   }
   EXPECT_EQ(runs, 4);

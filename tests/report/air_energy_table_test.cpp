@@ -4,8 +4,7 @@
 #include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/kinds/critical_gap_report.hpp"
-#include "launchsafe/kinds/sweep_report.hpp"
+#include "launchsafe/kinds/sweep.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <gtest/gtest.h>

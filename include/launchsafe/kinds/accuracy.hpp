@@ -2,6 +2,7 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/options.hpp"
@@ -106,20 +107,9 @@ struct AccuracyResult {
   study::AccuracyRecord record;                ///< for the studies that use these settings
   study::Timing timing;
   bool interrupted = false;
-  bool any_failed() const;
   bool any_indeterminate()
       const;  ///< there is no reference, or no extrapolation of a temperature is justified
 };
-
-/// T max (K) as settings are compared at a gap: of a skin that does not react where `inert`.
-double compared_temperature(const AccuracyMeasurement& measured, std::size_t gap, bool inert);
-
-/// What the reference meshes, finest first, tend to. All of them must be sound.
-AccuracyReference reference_of(const std::vector<AccuracyMeasurement>& meshes, std::size_t gaps,
-                               const std::vector<bool>& inert);
-
-/// Errors of one measurement.
-AccuracyRow row_against(const AccuracyReference& reference, const AccuracyMeasurement& measured);
 
 /// Marks the rows that are no worse than all cheaper ones; of sound rows of the same model alone.
 void mark_front(std::vector<AccuracyRow>& rows);
@@ -133,5 +123,26 @@ AccuracyResult run_accuracy(const study::StudyFile& study, const study::StudyOpt
 
 /// The row of the table of kinds.
 Kind accuracy_kind();
+
+/// The answer in a few lines: how wrong the scene's own setting is, what the cheapest good settings are.
+std::string answer(const AccuracyResult& result);
+
+/// A row for every compared quantity: its values on the reference meshes, order, limit and uncertainty.
+report::Table reference_table(const AccuracyResult& result);
+/// A row for every setting: cost and errors.
+report::Table setting_table(const AccuracyResult& result);
+/// A row for every setting: error of the temperature at Study::times; without rows where there are none.
+report::Table time_table(const AccuracyResult& result);
+
+/// A row for every station: T max on the reference meshes, order, limit, uncertainty.
+report::Table point_table(const AccuracyResult& result);
+
+/// Error of T max against processor time, with the front of the settings that no other one beats.
+report::Plot error_plot(const AccuracyResult& result);
+/// One screen: how wrong is the critical gap, why believe it, what would it cost to halve the error.
+std::string summary(const AccuracyResult& result);
+
+/// The whole report, with what is printed on a terminal and every file.
+report::Report report_of(const AccuracyResult& result);
 
 }  // namespace launchsafe::kinds

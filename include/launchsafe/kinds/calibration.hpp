@@ -2,7 +2,9 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/scene/load_shape.hpp"
+#include "launchsafe/store/result.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
@@ -107,6 +109,11 @@ struct CalibrationRow {
   std::string failure;  ///< of the run or of the fit; empty when all went well
 };
 
+/// Fills the hold-outs, the placements and the root mean squares of a row: what its constants predict for the
+/// rows that nothing was fitted to.
+void predict(const study::Study& study, const surface::SkinModel& model, const trace::BottomTrace& trace,
+             CalibrationRow& row);
+
 /// How much a constant moves from the coarsest to the finest mesh.
 struct Convergence {
   scene::FrictionClosure closure = scene::FrictionClosure::total_strain_rate;
@@ -140,7 +147,6 @@ struct CalibrationResult {
   Constants in_scene;  ///< what the scene file holds now
   study::Timing timing;
   bool interrupted = false;
-  bool any_failed() const;
 };
 
 /// Runs a study of kind calibration: one mechanical run a mesh, some more to fit the load, everything else on
@@ -152,5 +158,14 @@ std::optional<study::CalibrationRecord> record_of(const CalibrationResult& resul
 
 /// The row of the table of kinds.
 Kind calibration_kind();
+
+/// What the evidence supports, and which constants the scene should hold.
+std::string answer(const CalibrationResult& result);
+
+/// The recommended constants beside those of the scene file.
+report::Table constants_table(const CalibrationResult& result);
+
+/// The whole report, with what is printed on a terminal and every file.
+report::Report report_of(const CalibrationResult& result);
 
 }  // namespace launchsafe::kinds

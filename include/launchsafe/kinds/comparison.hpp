@@ -65,15 +65,6 @@ ComparisonResult run_comparison(const study::StudyFile& study, const study::Stud
 
 /// The answer in a few lines: the scene's critical gap, and how far the variants move it.
 std::string answer(const ComparisonResult& result);
-/// A row for every case: critical gap, hottest temperature, both less those of the scene as it is, and cost.
-report::Table comparison_table(const ComparisonResult& result);
-/// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
-report::Table verdict_matrix(const ComparisonResult& result);
-/// A row for every gap of every case, for other programs.
-report::Table verdict_table(const ComparisonResult& result);
-/// A row for every station of every gap and case.
-report::Table station_table(const ComparisonResult& result);
-
 /// The whole report, with what is printed on a terminal and every file.
 report::Report report_of(const ComparisonResult& result);
 

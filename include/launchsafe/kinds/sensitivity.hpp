@@ -3,6 +3,7 @@
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/math/sensitivity.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
@@ -65,7 +66,6 @@ struct SensitivityResult {
   std::vector<OutputSensitivity> outputs;
   study::Timing timing;
   bool interrupted = false;
-  bool any_failed() const;
   bool any_indeterminate() const;
 };
 
@@ -73,5 +73,24 @@ SensitivityResult run_sensitivity(const study::StudyFile& study, const study::St
 
 /// The row of the table of kinds.
 Kind sensitivity_kind();
+
+/// Which inputs matter, as far as the intervals tell them apart; what cannot be told; what failed.
+std::string answer(const SensitivityResult& result);
+
+/// A row for every input: its distribution, and indices (or elementary effects) with their intervals. Method,
+/// N, design, seed and confidence are in the notes; so is the reason where an output has no indices.
+report::Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity& output);
+/// All outputs below each other, for other programs.
+report::Table sensitivity_table(const SensitivityResult& result);
+/// A row for every output: its mean and standard deviation, and why it has no indices where it has none.
+report::Table output_table(const SensitivityResult& result);
+/// A row for every evaluation: its inputs, outputs and failure.
+report::Table evaluation_table(const SensitivityResult& result);
+
+/// First and total order of every input with their intervals, or mu* against sigma.
+report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output);
+
+/// The whole report, with what is printed on a terminal and every file.
+report::Report report_of(const SensitivityResult& result);
 
 }  // namespace launchsafe::kinds

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
 
+#include <string>
 #include <vector>
 
 namespace launchsafe::kinds {
@@ -15,7 +17,6 @@ struct SweepResult {
   std::vector<study::CaseAnswer> answers;  ///< one for each of StudyFile::cases
   study::Timing timing;
   bool interrupted = false;
-  bool any_failed() const;         ///< a run failed
   bool any_indeterminate() const;  ///< a verdict or a critical gap is indeterminate
 };
 
@@ -25,5 +26,38 @@ SweepResult run_sweep(const study::StudyFile& study, const study::StudyOptions& 
 
 /// The row of the table of kinds.
 Kind sweep_kind();
+
+/// The answer in a few lines: values and bounds, the smallest critical gap and where it is, verdicts,
+/// failures.
+std::string answer(const SweepResult& result);
+
+/// A row for every case: its coordinates, critical gap and run. A bound is text, never a number among values.
+report::Table critical_gap_table(const SweepResult& result);
+/// The study's cited limits beside the critical gaps of its cases; without rows where it cites none.
+report::Table cited_limit_table(const SweepResult& result);
+/// By how much each axis with several values changes T max and critical gap at most, and of the crack radius
+/// also below the flaw size; without rows where there is no such axis.
+report::Table axis_effect_table(const SweepResult& result);
+/// A row for every gap of every case, for other programs.
+report::Table verdict_table(const SweepResult& result);
+/// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
+report::Table verdict_matrix(const SweepResult& result);
+
+/// A picture and the name of its file.
+struct SweepPicture {
+  std::string file;
+  report::Plot plot;
+};
+
+/// Critical gap over the axes that have several values: a curve over one, or maps over the first two, one for
+/// each combination of the others, and then the same less its uncertainty.
+struct SweepPictures {
+  std::vector<SweepPicture> pictures;
+  std::vector<std::string> remarks;  ///< combinations that have no picture
+};
+SweepPictures pictures(const SweepResult& result);
+
+/// The whole report, with what is printed on a terminal and every file.
+report::Report report_of(const SweepResult& result);
 
 }  // namespace launchsafe::kinds
