@@ -1,18 +1,89 @@
 #include "command_line.hpp"
 
-#include "amounts.hpp"
 #include "command_help.hpp"
 #include "shell_words.hpp"
-#include "version_text.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
 #include <sstream>
 #include <string_view>
 
 namespace launchsafe::app {
+
 namespace {
+
+struct UnitFactor {
+  std::string_view name;  ///< lower case
+  double factor;
+};
+
+constexpr std::array<UnitFactor, 14> size_units{{{"", 1},
+                                                 {"b", 1},
+                                                 {"kb", 1e3},
+                                                 {"mb", 1e6},
+                                                 {"gb", 1e9},
+                                                 {"tb", 1e12},
+                                                 {"k", 1e3},
+                                                 {"m", 1e6},
+                                                 {"g", 1e9},
+                                                 {"t", 1e12},
+                                                 {"kib", 1024.0},
+                                                 {"mib", 1024.0 * 1024},
+                                                 {"gib", 1024.0 * 1024 * 1024},
+                                                 {"tib", 1024.0 * 1024 * 1024 * 1024}}};
+
+constexpr std::array<UnitFactor, 6> duration_units{
+    {{"", 1}, {"ms", 1e-3}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}};
+
+constexpr std::array<UnitFactor, 2> temperature_units{{{"", 1}, {"k", 1}}};
+
+/// The unit's own letters, without the blanks around them.
+std::string unit_in(std::string_view text) {
+  std::string unit;
+  for (const char letter : text) unit += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  const auto first = unit.find_first_not_of(' ');
+  if (first == std::string::npos) return {};
+  return unit.substr(first, unit.find_last_not_of(' ') - first + 1);
+}
+
+template <std::size_t count>
+std::optional<double> parse_amount(std::string_view text, const std::array<UnitFactor, count>& units) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{}) return std::nullopt;
+  const std::string unit = unit_in(text.substr(static_cast<std::size_t>(end - text.data())));
+  const auto found =
+      std::find_if(units.begin(), units.end(), [&](const UnitFactor& each) { return each.name == unit; });
+  if (found == units.end()) return std::nullopt;
+  const double amount = number * found->factor;
+  return std::isfinite(amount) && amount > 0 ? std::optional(amount) : std::nullopt;
+}
+
+/// Bytes: "8GB", "500 MB", "1.5GiB", "8e9". kB, MB, GB and TB are powers of 1000; KiB, MiB, GiB and TiB of
+/// 1024. Nothing for any other text, and for less than a byte or more than 1e18.
+std::optional<double> parse_size(std::string_view text) {
+  const auto size = parse_amount(text, size_units);
+  constexpr double largest = 1e18;  // what whole numbers of bytes are counted with
+  return size && *size >= 1 && *size <= largest ? size : std::nullopt;
+}
+constexpr const char* allowed_sizes = "a size such as 500MB, 8GB, 1.5GiB or 8e9, up to 1e18";
+
+/// Seconds: "90s", "10min", "2h", "1.5 d", "90". Nothing for any other text, and for what is not more than
+/// zero.
+std::optional<double> parse_duration(std::string_view text) { return parse_amount(text, duration_units); }
+constexpr const char* allowed_durations = "a duration such as 90s, 10min, 2h or 1d";
+
+/// K: "2K", "0.5 K", "2". Nothing for any other text, and for what is not more than zero.
+std::optional<double> parse_temperature(std::string_view text) {
+  return parse_amount(text, temperature_units);
+}
+constexpr const char* allowed_temperatures = "a temperature difference such as 2K or 0.5K";
 
 constexpr int most_jobs = 4096;
 
@@ -247,7 +318,7 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
   Parsed parsed;
   app.require_subcommand(1);
   app.footer(footer);
-  app.set_version_flag("--version", version_text, "Version, commit, compiler, flags and libraries");
+  app.set_version_flag("--version", "", "Version, commit, compiler, flags and libraries");
   parsed.study.command = parsed.merge.command = shell_command({arguments, arguments + argument_count});
   add_run(app, parsed);
   add_study(app, parsed);
@@ -261,7 +332,7 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     app.parse(argument_count, arguments);
   } catch (const CLI::Success& success) {
     const bool version = dynamic_cast<const CLI::CallForVersion*>(&success) != nullptr;
-    line.request = Information{text_of_success(app, success), version};
+    line.request = Information{version ? std::string{} : text_of_success(app, success), version};
     line.json = asks_for_json(argument_count, arguments);
     return line;
   } catch (const CLI::ParseError& error) {

@@ -8,10 +8,10 @@
 
 namespace launchsafe::app {
 
-/// The text that `--help` or `--version` asks for.
+/// What `--help` or `--version` asks for.
 struct Information {
-  std::string text;
-  bool version = false;  ///< it is the version
+  std::string help;
+  bool version = false;  ///< it is the version that is asked for
 };
 /// Why the command line makes no sense.
 struct UsageError {

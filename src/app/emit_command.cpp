@@ -6,7 +6,6 @@
 #include "shell_words.hpp"
 #include "slurm_script.hpp"
 #include "study_folder.hpp"
-#include "study_manifest.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

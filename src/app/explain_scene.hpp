@@ -18,8 +18,4 @@ nlohmann::ordered_json load_json(const scene::Load& load);
 /// Key, value, plausible range and acceptance (or null) of every value that is not plausible.
 nlohmann::ordered_json plausibility_json(const scene::Scene& scene);
 
-/// Every key of a scene file.
-std::string keys_text();
-nlohmann::ordered_json keys_json();
-
 }  // namespace launchsafe::app

@@ -1,7 +1,8 @@
 #include "command_line.hpp"
 #include "descriptors.hpp"
+#include "launchsafe/store/manifest.hpp"
+#include "launchsafe/version.hpp"
 #include "signals.hpp"
-#include "version_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -12,16 +13,37 @@
 
 namespace {
 
+using namespace launchsafe;
 using namespace launchsafe::app;
 
 constexpr const char* out_of_memory =
     "out of memory; a coarser numerics.cell_size, fewer --jobs or a smaller --memory need less";
 constexpr const char* unknown_error = "internal error: an exception of an unknown kind";
 
+/// Version, commit, compiler, flags and libraries.
+std::string version_text() {
+  std::string libraries;
+  for (const store::LibraryVersion& library : store::library_versions()) {
+    libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", library.name, library.version);
+  }
+  return fmt::format("launchsafe {}\ncommit    {}\ncompiler  {}\nflags     {} ({})\nlibraries {}\n",
+                     version::number, version::commit, version::compiler, version::flags, version::build_type,
+                     libraries);
+}
+
+/// The same for --json.
+nlohmann::ordered_json version_json() {
+  nlohmann::ordered_json libraries = nlohmann::ordered_json::object();
+  for (const store::LibraryVersion& library : store::library_versions())
+    libraries[library.name] = library.version;
+  return {{"version", version::number}, {"commit", version::commit},         {"compiler", version::compiler},
+          {"flags", version::flags},    {"build_type", version::build_type}, {"libraries", libraries}};
+}
+
 ExitCode perform(const Information& information, Console& console) {
-  console.print_text(information.text);
+  console.print_text(information.version ? version_text() : information.help);
   console.print_json(information.version ? version_json()
-                                         : nlohmann::ordered_json{{"help", information.text}});
+                                         : nlohmann::ordered_json{{"help", information.help}});
   return ExitCode::done;
 }
 

@@ -3,7 +3,7 @@
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "signals.hpp"
-#include "study_manifest.hpp"
+#include "study_folder.hpp"
 #include "study_session.hpp"
 
 #include <fmt/format.h>

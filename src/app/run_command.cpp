@@ -1,13 +1,19 @@
 // launchsafe run: one case.
-#include "case_summary.hpp"
 #include "commands.hpp"
 #include "explain_scene.hpp"
+#include "launchsafe/report/air_energy_table.hpp"
+#include "launchsafe/report/interface_table.hpp"
+#include "launchsafe/report/number.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/load_roughness.hpp"
+#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plausibility.hpp"
+#include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/own_files.hpp"
+#include "launchsafe/study/gap_verdict.hpp"
 #include "launchsafe/study/scheduler.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
@@ -19,9 +25,212 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <string_view>
 
 namespace launchsafe::app {
+
 namespace {
+
+using scene::Dimension;
+
+bool has_observation_points(const trace::BottomTrace& trace) {
+  return std::any_of(trace.stations.begin(), trace.stations.end(),
+                     [](const trace::Station& station) { return station.observation; });
+}
+
+std::string place_of(const trace::BottomTrace& trace, std::size_t index) {
+  if (index >= trace.stations.size()) return "";
+  return trace.stations[index].name;
+}
+
+std::string_view cause_of(const surface::Ignition& ignition) {
+  return ignition.cause == surface::IgnitionCause::trigger ? "T1 reached" : "Arrhenius runaway";
+}
+
+std::string ignition_text(const std::optional<surface::Ignition>& ignition, const trace::BottomTrace& trace) {
+  if (!ignition) return "none";
+  return fmt::format("{} at {:.3f} ms, {}", cause_of(*ignition), 1e3 * ignition->time,
+                     place_of(trace, ignition->station));
+}
+
+/// Three cells: temperature, place, time in ms; empty where there is no such place.
+void add_maximum(std::vector<report::Cell>& row, const surface::Maximum& maximum,
+                 const trace::BottomTrace& trace, bool exists) {
+  if (!exists) {
+    row.insert(row.end(), 3, report::Cell{});
+    return;
+  }
+  row.emplace_back(maximum.temperature);
+  row.emplace_back(place_of(trace, maximum.station));
+  row.emplace_back(1e3 * maximum.time);
+}
+
+std::vector<report::Column> gap_columns(bool points) {
+  std::vector<report::Column> columns{
+      {.name = "gap", .unit = "cm", .decimals = 5, .notation = report::Notation::significant},
+      {.name = "T max", .unit = "K"},
+      report::text_column("at"),
+      {.name = "time", .unit = "ms", .decimals = 2}};
+  if (points) {
+    columns.push_back({.name = "T max at points", .unit = "K"});
+    columns.push_back(report::text_column("where"));
+    columns.push_back({.name = "when", .unit = "ms", .decimals = 2});
+  }
+  columns.push_back(report::text_column("ignition"));
+  return columns;
+}
+
+std::string line(std::string_view label, const std::string& value) {
+  return fmt::format("  {:<22}{}\n", label, value);
+}
+
+std::string kilojoules(double joules) { return fmt::format("{:.6g} kJ", joules / 1e3); }
+
+std::string energy_text(const run::EnergyBalance& energy) {
+  std::string text = "Energy balance at the end\n";
+  text += line("kinetic", kilojoules(energy.kinetic));
+  text += line("internal", kilojoules(energy.internal));
+  text += line("  plastic", kilojoules(energy.plastic));
+  text += line("  viscous", kilojoules(energy.viscous));
+  text += line("  crack", kilojoules(energy.crack));
+  text += line("damping", kilojoules(energy.damping));
+  if (energy.contact != 0.0) text += line("friction and contact", kilojoules(energy.contact));
+  text += line("external work", kilojoules(energy.external));
+  text += line("frame's body force", kilojoules(energy.body_force));
+  text += line("drift", fmt::format("{:.3g} % of {}", 100.0 * energy.drift(), kilojoules(energy.scale())));
+  return text;
+}
+
+std::string limiter_text(const run::LimiterCounts& limiters) {
+  std::string text;
+  const auto add = [&text](std::string_view what, std::uint64_t count) {
+    if (count > 0) text += line(what, fmt::format("{} particle-steps", count));
+  };
+  add("crack at its bound", limiters.crack_at_bound);
+  add("tension cut-off", limiters.tension_cutoff);
+  add("Hugoniot guard", limiters.hugoniot_guard);
+  return text.empty() ? text : "Limiters that acted\n" + text;
+}
+
+std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mechanics) {
+  const char* unit = scene.symmetry == scene::Symmetry::axisymmetric ? "kg" : "kg per metre, half model";
+  std::string text = "Run\n";
+  text += line("status", mechanics.status == run::RunStatus::completed
+                             ? run::to_string(mechanics.status)
+                             : fmt::format("{}: {}", run::to_string(mechanics.status), mechanics.reason));
+  if (const std::string measured = scene::measured_load_text(scene.load); !measured.empty())
+    text += line("load", measured);
+  text += line("simulated", scene::format_quantity(mechanics.end_time, Dimension::time));
+  std::string masses;
+  for (const run::MaterialMass& each : mechanics.masses)
+    masses += fmt::format("{}{} {:.6g}", masses.empty() ? "" : ", ", each.material, each.mass);
+  text += line("mass", fmt::format("{} {}", masses, unit));
+  text += line("particles", fmt::format("{}", mechanics.particles));
+  text += line("steps", fmt::format("{}", mechanics.steps));
+  text += line("wall time", report::duration(mechanics.wall_time));
+  text += line("update rate",
+               fmt::format("{:.2f} million particle updates per second", mechanics.update_rate() / 1e6));
+  return text;
+}
+
+report::Table air_table(const scene::Scene& scene, const run::CaseResult& result) {
+  std::vector<report::AuditedGap> gaps;
+  for (const run::GapResult& gap : result.gaps) gaps.push_back({"", gap.gap, gap.air});
+  return report::air_energy_table(scene.surface.air_model, gaps);
+}
+
+nlohmann::ordered_json maximum_json(const surface::Maximum& maximum, const trace::BottomTrace& trace) {
+  return {{"temperature_max_K", maximum.temperature},
+          {"temperature_max_place", place_of(trace, maximum.station)},
+          {"temperature_max_time_ms", 1e3 * maximum.time}};
+}
+
+nlohmann::ordered_json ignition_json(const std::optional<surface::Ignition>& ignition,
+                                     const trace::BottomTrace& trace) {
+  if (!ignition) return nullptr;
+  return {{"ignition_cause", study::to_string(ignition->cause)},
+          {"ignition_time_ms", 1e3 * ignition->time},
+          {"ignition_place", place_of(trace, ignition->station)},
+          {"ignition_chemical_share", ignition->chemical_share}};
+}
+
+nlohmann::ordered_json gap_json(const run::GapResult& gap, const run::MechanicsResult& mechanics) {
+  const trace::BottomTrace& trace = mechanics.trace;
+  const bool observed = has_observation_points(trace);
+  nlohmann::ordered_json object{{"gap_cm", scene::in_unit(gap.gap, Dimension::length, "cm")}};
+  object["maximum"] = maximum_json(gap.at_stations, trace);
+  object["at_observation_points"] =
+      observed ? maximum_json(gap.at_points, trace) : nlohmann::ordered_json(nullptr);
+  object["ignition"] = ignition_json(gap.skin.ignition, trace);
+  object["sampling_error_K"] = gap.sampling_error;
+  return object;
+}
+
+nlohmann::ordered_json energy_json(const run::EnergyBalance& energy) {
+  return {{"kinetic_J", energy.kinetic},   {"internal_J", energy.internal},
+          {"external_J", energy.external}, {"body_force_J", energy.body_force},
+          {"damping_J", energy.damping},   {"contact_J", energy.contact},
+          {"plastic_J", energy.plastic},   {"viscous_J", energy.viscous},
+          {"crack_J", energy.crack},       {"drift", energy.drift()}};
+}
+
+/// A row a gap: highest temperatures, where and when, ignition.
+report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result) {
+  const trace::BottomTrace& trace = result.mechanics.trace;
+  const bool points = has_observation_points(trace);
+  report::Table table{scene.title, gap_columns(points), {}};
+  for (const run::GapResult& gap : result.gaps) {
+    std::vector<report::Cell> row{scene::in_unit(gap.gap, Dimension::length, "cm")};
+    add_maximum(row, gap.at_stations, trace, !trace.stations.empty());
+    if (points) add_maximum(row, gap.at_points, trace, true);
+    row.emplace_back(ignition_text(gap.skin.ignition, trace));
+    table.rows.push_back(std::move(row));
+  }
+  if (const std::string edges = scene::charge_edges_off_grid(scene); !edges.empty())
+    table.notes.push_back("The charge lies off the grid lines (" + edges +
+                          "): calibrated constants do not carry over from a grid that fits.");
+  table.notes.push_back(
+      "T max is that of the hottest station; stations tile the charge's bottom, S1 at the wall, and verdicts "
+      "use them. At a point beside the wall the stress is singular, and does not settle as cells shrink.");
+  return table;
+}
+
+/// A table of the gaps, then the energy balance, the limiters that acted, and what the run cost.
+std::string case_text(const scene::Scene& scene, const run::CaseResult& result) {
+  std::string text;
+  if (!result.gaps.empty()) {
+    text += report::to_text(gap_table(scene, result)) + "\n";
+    text += report::to_text(air_table(scene, result)) + "\n";
+  }
+  if (const report::Table faces = report::interface_table(result.mechanics); !faces.rows.empty())
+    text += report::to_text(faces) + "\n";
+  const auto& monitor = result.mechanics.monitor;
+  if (!monitor.empty()) text += energy_text(monitor.back().energy) + "\n";
+  const std::string limiters = limiter_text(result.mechanics.limiters);
+  if (!limiters.empty()) text += limiters + "\n";
+  return text + cost_text(scene, result.mechanics);
+}
+
+/// The same for programs, in SI units but for the gaps (see the keys).
+nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResult& result) {
+  const run::MechanicsResult& mechanics = result.mechanics;
+  nlohmann::ordered_json object{{"title", scene.title},          {"status", run::to_string(mechanics.status)},
+                                {"reason", mechanics.reason},    {"end_time_ms", 1e3 * mechanics.end_time},
+                                {"load", load_json(scene.load)}, {"gaps", nlohmann::ordered_json::array()}};
+  for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
+  object["air_energy"] = report::to_json(air_table(scene, result))["rows"];
+  if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
+  object["interfaces"] = report::to_json(report::interface_table(mechanics))["rows"];
+  object["limiters"] = {{"crack_at_bound", mechanics.limiters.crack_at_bound},
+                        {"tension_cutoff", mechanics.limiters.tension_cutoff},
+                        {"hugoniot_guard", mechanics.limiters.hugoniot_guard}};
+  for (const run::MaterialMass& each : mechanics.masses) object["mass"][each.material + "_kg"] = each.mass;
+  object["timing"] = {{"particles", mechanics.particles},
+                      {"steps", mechanics.steps},
+                      {"wall_time_s", mechanics.wall_time},
+                      {"updates_per_second", mechanics.update_rate()}};
+  return object;
+}
 
 std::string milliseconds(double seconds) { return scene::format_quantity(seconds, scene::Dimension::time); }
 

@@ -9,7 +9,6 @@
 #include "progress.hpp"
 #include "signals.hpp"
 #include "study_folder.hpp"
-#include "study_manifest.hpp"
 #include "study_session.hpp"
 #include "update_rate.hpp"
 

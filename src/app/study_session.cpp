@@ -8,7 +8,6 @@
 #include "shell_words.hpp"
 #include "signals.hpp"
 #include "study_folder.hpp"
-#include "study_manifest.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
