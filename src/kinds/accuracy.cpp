@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -108,14 +107,7 @@ void add_first_gap(const Study& study, const StudyCase& input, const trace::Bott
                                             study.gaps.front());
   for (const double time : settings_of<AccuracySettings>(study).times)
     measured.at_times.push_back(surface::maximum_at_time(skin, trace, time).temperature);
-  const std::size_t stations = trace.stations.size();
-  for (std::size_t station = 0; station < stations; ++station) {
-    if (trace.stations[station].observation) continue;
-    PointTemperature point{trace.stations[station].name, 0.0};
-    for (std::size_t i = station; i < skin.temperature.size(); i += stations)
-      point.temperature = std::max(point.temperature, skin.temperature[i]);
-    measured.points.push_back(std::move(point));
-  }
+  measured.points = station_temperatures(skin, trace);
 }
 
 AccuracyMeasurement measure(const Study& study, const StudyCase& input, const CaseAnswer& answer,
@@ -150,22 +142,18 @@ void run_settings(AccuracyResult& result, const StudyOptions& options) {
   const StudyFile& study = result.study;
   result.answers.resize(study.cases.size());
   result.measured.resize(study.cases.size());
-  ProgressTracker tracker(options.progress);
-  const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
-  run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
-    const FinishedRun& run = finished.front();
-    for (const std::size_t member : runs[i].members) {
-      const StudyCase& input = study.cases[member];
-      CaseAnswer& answer = result.answers[member];
-      if (run.has_result()) {
-        answer = answer_of(study.study, input, run.result.mechanics);
-        answer.outcome = run.outcome;
-        result.measured[member] = measure(study.study, input, answer, run.result.mechanics);
-      } else {
-        answer = failed_answer(study.study, input, run.outcome, run.failure);
-        result.measured[member].failure = run.failure;
-      }
+  run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
+    const FinishedRun& run = runs.front();
+    const StudyCase& input = study.cases[i];
+    CaseAnswer& answer = result.answers[i];
+    if (!run.has_result()) {
+      answer = failed_answer(study.study, input, run.outcome, run.failure);
+      result.measured[i].failure = run.failure;
+      return;
     }
+    answer = answer_of(study.study, input, run.result.mechanics);
+    answer.outcome = run.outcome;
+    result.measured[i] = measure(study.study, input, answer, run.result.mechanics);
   });
 }
 
@@ -303,15 +291,11 @@ bool AccuracyResult::any_indeterminate() const {
 }
 
 AccuracyResult run_accuracy(const StudyFile& study, const StudyOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  AccuracyResult result;
-  result.study = study;
-  result.timing.jobs = jobs_of(options);
-  run_settings(result, options);
-  result.interrupted = stop_requested(options);
-  if (!result.interrupted && options.shard.whole()) compare(result);
-  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
+  return run_timed<AccuracyResult>(
+      study, options, [&](AccuracyResult& result) { run_settings(result, options); },
+      [&](AccuracyResult& result) {
+        if (options.shard.whole()) compare(result);
+      });
 }
 
 }  // namespace launchsafe::kinds

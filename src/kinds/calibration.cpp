@@ -48,15 +48,11 @@ std::vector<NamedKinetics> kinetics_of(const StudyFile& study) {
 void run_meshes(CalibrationResult& result, const StudyOptions& options) {
   StudyFile study = result.study;
   for (std::size_t i = 0; i < result.runs.size(); ++i) study.cases[i] = result.runs[i].input;
-  ProgressTracker tracker(options.progress);
-  const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
-  run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
-    for (const std::size_t member : runs[i].members) {
-      CalibrationRun& run = result.runs[member];
-      run.outcome = finished.front().outcome;
-      run.failure = finished.front().failure;
-      run.mechanics = finished.front().result.mechanics;
-    }
+  run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+    CalibrationRun& run = result.runs[i];
+    run.outcome = finished.front().outcome;
+    run.failure = finished.front().failure;
+    run.mechanics = finished.front().result.mechanics;
   });
 }
 

@@ -197,17 +197,12 @@ LaunchRecord record_of(const StudyFile& study, std::size_t index, const run::Mec
 /// The records of all cases.
 std::vector<LaunchRecord> run_launches(const StudyFile& study, const StudyOptions& options, Timing& timing) {
   std::vector<LaunchRecord> records(study.cases.size());
-  ProgressTracker tracker(options.progress);
-  const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
-  run_cases(runs, options, tracker, timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
-    const FinishedRun& run = finished.front();
-    for (const std::size_t member : runs[i].members) {
-      if (run.has_result())
-        records[member] = record_of(study, member, run.result.mechanics);
-      else
-        records[member].failure = run.failure;
-      records[member].outcome = run.outcome;
-    }
+  run_every_case(study, options, timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
+    if (runs.front().has_result())
+      records[i] = record_of(study, i, runs.front().result.mechanics);
+    else
+      records[i].failure = runs.front().failure;
+    records[i].outcome = runs.front().outcome;
   });
   return records;
 }

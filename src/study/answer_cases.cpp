@@ -57,11 +57,6 @@ std::optional<CaseAnswer> stored_answer(const StudyFile& study, std::size_t inde
   return answer;
 }
 
-/// How far a run came that was cut off depends on the machine, and is no part of the result.
-bool was_cut_off(const FinishedRun& run) {
-  return run.outcome == RunOutcome::timed_out || run.outcome == RunOutcome::interrupted;
-}
-
 /// Takes from the store the answers that are there, and draws the others from runs.
 class AnswerRunner {
  public:
@@ -126,21 +121,12 @@ class AnswerRunner {
 
   CaseAnswer answer(std::size_t index, const std::vector<FinishedRun>& runs) {
     const StudyCase& input = study_.cases[index];
-    if (const FinishedRun* run = run_without_result(runs))
-      return failed_answer(study_.study, input, run->outcome, run->failure);
-    if (stop_requested(options_))
+    const bool judged = run_without_result(runs) == nullptr;
+    if (judged && stop_requested(options_))
       return failed_answer(study_.study, input, RunOutcome::interrupted,
                            "interrupted before its gaps were judged");
-    const FinishedRun& own = runs.front();
-    if (was_cut_off(own)) {
-      CaseAnswer answer = failed_answer(study_.study, input, own.outcome, own.failure);
-      answer.run.status = own.result.mechanics.status;
-      return answer;
-    }
-    std::optional<run::MechanicsResult> raised;
-    if (runs.size() > 1 && own.failure.empty()) raised = runs[1].result.mechanics;
-    CaseAnswer answer = answer_of(study_.study, input, own.result.mechanics, raised);
-    answer.outcome = own.outcome;
+    CaseAnswer answer = answer_from(study_.study, input, runs);
+    if (!judged || was_cut_off(runs.front())) return answer;
     if (options_.store != nullptr && std::none_of(runs.begin(), runs.end(), was_cut_off))
       options_.store->save_answer(keys_[index], to_json_line(answer));
     attach_references(study_, input, answer);
@@ -175,6 +161,26 @@ std::vector<std::string> answer_keys(const StudyFile& study, const std::vector<C
     }
   });
   return keys;
+}
+
+bool was_cut_off(const FinishedRun& run) {
+  return run.outcome == RunOutcome::timed_out || run.outcome == RunOutcome::interrupted;
+}
+
+CaseAnswer answer_from(const Study& study, const StudyCase& input, const std::vector<FinishedRun>& runs) {
+  if (const FinishedRun* run = run_without_result(runs))
+    return failed_answer(study, input, run->outcome, run->failure);
+  const FinishedRun& own = runs.front();
+  if (was_cut_off(own)) {
+    CaseAnswer answer = failed_answer(study, input, own.outcome, own.failure);
+    answer.run.status = own.result.mechanics.status;
+    return answer;
+  }
+  std::optional<run::MechanicsResult> raised;
+  if (runs.size() > 1 && own.failure.empty()) raised = runs[1].result.mechanics;
+  CaseAnswer answer = answer_of(study, input, own.result.mechanics, raised);
+  answer.outcome = own.outcome;
+  return answer;
 }
 
 std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing) {

@@ -236,6 +236,20 @@ surface::SkinModel without_reaction(surface::SkinModel model) {
   return model;
 }
 
+std::vector<StationTemperature> station_temperatures(const surface::SkinHistory& skin,
+                                                     const trace::BottomTrace& trace) {
+  const std::size_t count = trace.stations.size();
+  std::vector<StationTemperature> stations;
+  for (std::size_t station = 0; station < count; ++station) {
+    if (trace.stations[station].observation) continue;
+    StationTemperature each{trace.stations[station].name, 0.0};
+    for (std::size_t i = station; i < skin.temperature.size(); i += count)
+      each.temperature = std::max(each.temperature, skin.temperature[i]);
+    stations.push_back(std::move(each));
+  }
+  return stations;
+}
+
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
   const std::string warnings = validity_warnings_of(study, outcome);
   if (!outcome.completed() || !warnings.empty()) {

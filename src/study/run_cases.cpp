@@ -312,4 +312,13 @@ int jobs_of(const StudyOptions& options) { return options.jobs > 0 ? options.job
 
 bool stop_requested(const StudyOptions& options) { return options.stop != nullptr && options.stop->load(); }
 
+void run_every_case(const StudyFile& study, const StudyOptions& options, Timing& timing,
+                    const std::function<void(std::size_t, std::vector<FinishedRun>&)>& on_done) {
+  ProgressTracker tracker(options.progress);
+  const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
+  run_cases(runs, options, tracker, timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+    for (const std::size_t member : runs[i].members) on_done(member, finished);
+  });
+}
+
 }  // namespace launchsafe::study

@@ -5,6 +5,7 @@
 #include "launchsafe/report/report.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/reference_value.hpp"
 #include "launchsafe/study/study_file.hpp"
@@ -34,12 +35,6 @@ struct PressureTrace {
   std::vector<double> pressure;  ///< Pa
 };
 
-/// T max of one observation point, first gap, of a skin that does not react.
-struct PointTemperature {
-  std::string name;
-  double temperature = 0;  ///< K
-};
-
 /// What one case came to, without judging it.
 struct AccuracyMeasurement {
   std::string failure;  ///< why there are no numbers; empty for a completed run
@@ -57,9 +52,9 @@ struct AccuracyMeasurement {
   std::vector<double> ignition_time;  ///< s, for every gap; NaN where it does not ignite
   std::vector<double>
       at_times;  ///< K, highest observation point at Study::times, first gap, without reaction
-  std::vector<PointTemperature> points;  ///< all observation points
-  study::CriticalGap critical;           ///< at the observation points
-  double peak_pressure = 0;              ///< Pa, largest of the bottom pressure
+  std::vector<study::StationTemperature> points;  ///< first gap, of a skin that does not react
+  study::CriticalGap critical;                    ///< at the observation points
+  double peak_pressure = 0;                       ///< Pa, largest of the bottom pressure
   PressureTrace bottom;
 };
 

@@ -4,6 +4,7 @@
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/gap_analysis.hpp"
 
 #include <optional>
 #include <string>
@@ -31,19 +32,14 @@ struct ComparisonSettings {
   std::vector<Variant> variants;         ///< the scene as it is, then those of the file
 };
 
-/// T max of one station over the launch, K, of a skin that air and friction heat and that does not react:
-/// after ignition all stations are as hot as the flame.
-struct StationTemperature {
-  std::string name;
-  double temperature = study::not_a_number;
-};
-
 /// One case of one variant.
 struct ComparedCase {
   std::size_t variant = 0;  ///< of ComparisonSettings::variants
   study::CaseAnswer answer;
-  std::vector<std::vector<StationTemperature>> stations;  ///< for every gap; none for a run without a result
-  double processor_time = study::not_a_number;            ///< s, of its run
+  /// T max of every station for every gap, of a skin that air and friction heat and that does not react:
+  /// after ignition all stations are as hot as the flame.
+  std::vector<std::vector<study::StationTemperature>> stations;  ///< none for a run without a result
+  double processor_time = study::not_a_number;                   ///< s, of its run
 };
 
 struct ComparisonResult {

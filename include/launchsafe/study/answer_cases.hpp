@@ -6,7 +6,6 @@
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -18,19 +17,18 @@ std::vector<std::string> answer_keys(const StudyFile& study, const std::vector<C
 /// An answer for every case; one that was not run, failed or belongs to another shard says so.
 std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing);
 
+/// How far a run came that was cut off depends on the machine, and is no part of the result.
+bool was_cut_off(const FinishedRun& run);
+/// The answer to a case from its finished runs; a failed one where they have no result or were cut off.
+CaseAnswer answer_from(const Study& study, const StudyCase& input, const std::vector<FinishedRun>& runs);
+
 /// The result of a study that answers all its cases: `conclude` draws from the answers what the kind is
 /// after, unless the study was interrupted.
 template <class Result, class Conclude>
 Result run_answering(const StudyFile& study, const StudyOptions& options, Conclude conclude) {
-  const auto start = std::chrono::steady_clock::now();
-  Result result;
-  result.study = study;
-  result.timing.jobs = jobs_of(options);
-  result.answers = answer_cases(study, options, result.timing);
-  result.interrupted = stop_requested(options);
-  if (!result.interrupted) conclude(result);
-  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
+  return run_timed<Result>(
+      study, options, [&](Result& result) { result.answers = answer_cases(study, options, result.timing); },
+      conclude);
 }
 
 /// Whether the run behind any answer failed.

@@ -8,6 +8,15 @@ namespace launchsafe::study {
 /// A skin that air and friction heat, and nothing else.
 surface::SkinModel without_reaction(surface::SkinModel model);
 
+/// The highest temperature of one station over the launch.
+struct StationTemperature {
+  std::string name;
+  double temperature = not_a_number;  ///< K
+};
+/// Of the stations that tile the bottom; observation points lie in them.
+std::vector<StationTemperature> station_temperatures(const surface::SkinHistory& skin,
+                                                     const trace::BottomTrace& trace);
+
 /// The critical gap, by the hottest station; indeterminate for a failed run.
 void find_critical_gaps(const Study& study, CaseOutcome& outcome);
 

@@ -5,6 +5,7 @@
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -64,6 +65,11 @@ using OnCaseDone = std::function<void(std::size_t index, std::vector<FinishedRun
 void run_cases(const std::vector<CaseRuns>& cases, const StudyOptions& options, ProgressTracker& tracker,
                Timing& timing, const OnCaseDone& on_done);
 
+/// `run_cases` with the runs that all cases of a study need; called for every case rather than once for those
+/// that share a run.
+void run_every_case(const StudyFile& study, const StudyOptions& options, Timing& timing,
+                    const std::function<void(std::size_t member, std::vector<FinishedRun>& runs)>& on_done);
+
 /// Why a run that is not stored must not be begun; empty for one that may.
 std::string refusal_of(const scene::Scene& scene, const StudyOptions& options);
 /// Relative cost of a run: predicted particle updates, > 0.
@@ -73,5 +79,20 @@ std::string failure_of(const run::MechanicsResult& mechanics);
 /// Cases at a time: what the caller asks for, or all cores.
 int jobs_of(const StudyOptions& options);
 bool stop_requested(const StudyOptions& options);
+
+/// The result of a study and what it cost: `compute` runs its cases; `conclude` draws from them what the kind
+/// is after, unless the study was interrupted.
+template <class Result, class Compute, class Conclude>
+Result run_timed(const StudyFile& study, const StudyOptions& options, Compute compute, Conclude conclude) {
+  const auto start = std::chrono::steady_clock::now();
+  Result result;
+  result.study = study;
+  result.timing.jobs = jobs_of(options);
+  compute(result);
+  result.interrupted = stop_requested(options);
+  if (!result.interrupted) conclude(result);
+  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
 
 }  // namespace launchsafe::study
