@@ -1,5 +1,6 @@
 #include "launchsafe/kinds/accuracy.hpp"
 
+#include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/mesh.hpp"
@@ -48,9 +49,8 @@ AccuracyReference reference_of(const std::vector<AccuracyMeasurement>& meshes, s
     reference.ignition_time.push_back(
         over_meshes(meshes, [&](const AccuracyMeasurement& mesh) { return mesh.ignition_time[gap]; }));
   }
-  reference.critical_gap = over_meshes(meshes, [](const AccuracyMeasurement& mesh) {
-    return mesh.critical.kind == CriticalGapKind::value ? mesh.critical.value : not_a_number;
-  });
+  reference.critical_gap =
+      over_meshes(meshes, [](const AccuracyMeasurement& mesh) { return value_of(mesh.critical); });
   reference.peak_pressure =
       over_meshes(meshes, [](const AccuracyMeasurement& mesh) { return mesh.peak_pressure; });
   for (std::size_t i = 0; i < meshes.front().at_times.size(); ++i) {
@@ -105,7 +105,7 @@ void add_first_gap(const Study& study, const StudyCase& input, const trace::Bott
                    AccuracyMeasurement& measured) {
   const auto skin = surface::integrate_skin(without_reaction(surface::skin_model(input.scene.scene)), trace,
                                             study.gaps.front());
-  for (const double time : settings_of<AccuracySettings>(study).times)
+  for (const double time : accuracy_settings(study).times)
     measured.at_times.push_back(surface::maximum_at_time(skin, trace, time).temperature);
   measured.points = station_temperatures(skin, trace);
 }
@@ -209,7 +209,7 @@ AccuracyRecord record_of(const AccuracyResult& result, const std::vector<bool>& 
     auto setting = recorded(result.study.cases[i], result.measured[i], inert);
     // 0.25 cm is not always 2.5 mm to the last digit.
     if (!setting || recorded_setting(record, result.study.cases[i].scene.scene) != nullptr) continue;
-    setting->reference = i < settings_of<AccuracySettings>(result.study.study).reference_cell_sizes.size();
+    setting->reference = i < accuracy_settings(result.study.study).reference_cell_sizes.size();
     record.settings.push_back(std::move(*setting));
   }
   find_bounds(record);
@@ -226,7 +226,7 @@ void add_inexactness(const AccuracyRecord& record, AccuracyReference& reference)
 
 void compare(AccuracyResult& result) {
   const StudyFile& study = result.study;
-  const std::size_t meshes = settings_of<AccuracySettings>(study.study).reference_cell_sizes.size();
+  const std::size_t meshes = accuracy_settings(study.study).reference_cell_sizes.size();
   for (std::size_t i = 0; i < meshes; ++i) {
     const AccuracyMeasurement& mesh = result.measured[i];
     if (mesh.failure.empty() && mesh.validity_warnings.empty()) continue;

@@ -39,12 +39,12 @@ Fault read_axis(const Leaf& leaf, std::size_t block, StudyFile& study) {
   if (!description) return in_table(description.error(), "settings");
   const auto values = scene::read_values(*leaf.node, *description, study.file);
   if (!values) return in_table(values.error(), "settings");
-  settings_of<AccuracySettings>(study.study).settings[block].push_back({*description, *values});
+  accuracy_settings(study.study).settings[block].push_back({*description, *values});
   return std::nullopt;
 }
 
 Fault check_reference_meshes(StudyFile& study) {
-  std::vector<double>& sizes = settings_of<AccuracySettings>(study.study).reference_cell_sizes;
+  std::vector<double>& sizes = accuracy_settings(study.study).reference_cell_sizes;
   std::sort(sizes.begin(), sizes.end());
   const std::string key = "reference_cell_sizes";
   if (Fault fault = check_twice(study, key, scene::Dimension::length, sizes)) return fault;
@@ -60,10 +60,10 @@ constexpr double least_refinement = 1.2;
 
 /// Grids beside the charge's edge converge to something else, and two nominal sizes may be one grid.
 Fault check_reference_grids(const StudyFile& study) {
-  const std::size_t count = settings_of<AccuracySettings>(study.study).reference_cell_sizes.size();
+  const std::size_t count = accuracy_settings(study.study).reference_cell_sizes.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const std::string size = scene::format_quantity(
-        settings_of<AccuracySettings>(study.study).reference_cell_sizes[i], scene::Dimension::length);
+    const std::string size = scene::format_quantity(accuracy_settings(study.study).reference_cell_sizes[i],
+                                                    scene::Dimension::length);
     const scene::Scene& scene = study.cases[i].scene.scene;
     if (const std::string edges = scene::charge_edges_off_grid(scene); !edges.empty()) {
       return fault_at(study, "reference_cell_sizes",
@@ -127,7 +127,7 @@ Change change_of(const StudyFile& study, const KeyDescription& key, const Value&
 /// Every combination of the values of a block, the last key fastest.
 Fault add_block(const StudyFile& study, std::size_t block, std::vector<Change> changes,
                 AccuracyCaseMaker& maker) {
-  const std::vector<SettingsAxis>& axes = settings_of<AccuracySettings>(study.study).settings[block];
+  const std::vector<SettingsAxis>& axes = accuracy_settings(study.study).settings[block];
   if (changes.size() == axes.size()) return maker.add(label_of(changes), changes);
   const SettingsAxis& axis = axes[changes.size()];
   for (const Value& value : axis.values) {
@@ -140,7 +140,7 @@ Fault add_block(const StudyFile& study, std::size_t block, std::vector<Change> c
 
 Fault check_setting_count(const StudyFile& study) {
   double count = 1.0;
-  for (const auto& block : settings_of<AccuracySettings>(study.study).settings) {
+  for (const auto& block : accuracy_settings(study.study).settings) {
     double product = 1.0;
     for (const SettingsAxis& axis : block) product *= static_cast<double>(axis.values.size());
     count += product;
@@ -159,8 +159,8 @@ Fault read_settings(const toml::table& root, StudyFile& study) {
                            "tables, each written [[settings]], of scene keys with several values");
   }
   for (const toml::node& element : *node->as_array()) {
-    const std::size_t block = settings_of<AccuracySettings>(study.study).settings.size();
-    settings_of<AccuracySettings>(study.study).settings.emplace_back();
+    const std::size_t block = accuracy_settings(study.study).settings.size();
+    accuracy_settings(study.study).settings.emplace_back();
     for (const Leaf& leaf : leaves_as_written(*element.as_table())) {
       if (Fault fault = read_axis(leaf, block, study)) return fault;
     }
@@ -171,13 +171,13 @@ Fault read_settings(const toml::table& root, StudyFile& study) {
 Fault make_accuracy_cases(const StudySource&, StudyFile& study) {
   AccuracyCaseMaker maker(study);
   const KeyDescription description = *scene::find_key(scene::scene_keys(), cell_size_key);
-  for (const double size : settings_of<AccuracySettings>(study.study).reference_cell_sizes) {
+  for (const double size : accuracy_settings(study.study).reference_cell_sizes) {
     const Change change = change_of(study, description, size, "reference_cell_sizes");
     if (Fault fault = maker.add(label_of({change}), {change})) return fault;
   }
   if (Fault fault = check_reference_grids(study)) return fault;
   if (Fault fault = maker.add("as in the scene", {})) return fault;
-  for (std::size_t block = 0; block < settings_of<AccuracySettings>(study.study).settings.size(); ++block) {
+  for (std::size_t block = 0; block < accuracy_settings(study.study).settings.size(); ++block) {
     if (Fault fault = add_block(study, block, {}, maker)) return fault;
   }
   return std::nullopt;
@@ -185,23 +185,16 @@ Fault make_accuracy_cases(const StudySource&, StudyFile& study) {
 
 std::vector<scene::Key<AccuracySettings>> accuracy_keys() {
   return {
-      scene::list_key<AccuracySettings>(
-          "reference_cell_sizes", scene::Dimension::length, scene::between(1e-5, 1), scene::Standing::assumed,
-          "Cell sizes of at least three grids, each fitting the charge, that the reference is "
-          "extrapolated from.",
-          &AccuracySettings::reference_cell_sizes),
-      scene::list_key<AccuracySettings>(
-          "times", scene::Dimension::time, scene::between(0, 1), scene::Standing::assumed,
-          "Instants at which temperatures are compared too.", &AccuracySettings::times),
+      assumed_list("reference_cell_sizes", scene::Dimension::length, scene::between(1e-5, 1),
+                   "Cell sizes of at least three grids, each fitting the charge, that the reference is "
+                   "extrapolated from.",
+                   &AccuracySettings::reference_cell_sizes),
+      assumed_list("times", scene::Dimension::time, scene::between(0, 1),
+                   "Instants at which temperatures are compared too.", &AccuracySettings::times),
   };
 }
 
 Fault read_accuracy(const StudySource& source, StudyFile& study) { return read_settings(source.root, study); }
-
-StudyOutcome accuracy_outcome(const StudyFile& study, const StudyOptions& options) {
-  const AccuracyResult result = run_accuracy(study, options);
-  return outcome_of(result, options, result.any_indeterminate(), failures_of(study, result.answers));
-}
 
 }  // namespace
 
@@ -212,7 +205,7 @@ Kind accuracy_kind() {
       .tables = {{"settings", {}}},
       .read = read_accuracy,
       .make_cases = make_accuracy_cases,
-      .run = accuracy_outcome,
+      .run = outcome_of<run_accuracy, failures_of<AccuracyResult>>,
       .files = {{"accuracy.json"},
                 {"accuracy.csv"},
                 {"reference.csv"},

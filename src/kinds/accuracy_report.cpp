@@ -112,7 +112,7 @@ std::string belief(const AccuracyResult& result) {
   const study::Study& study = result.study.study;
   const AccuracyReference& reference = *result.reference;
   std::string sizes;
-  for (const double size : settings_of<AccuracySettings>(study).reference_cell_sizes)
+  for (const double size : accuracy_settings(study).reference_cell_sizes)
     sizes += fmt::format("{}{:.6g}", sizes.empty() ? "" : ", ", 1e3 * size);
   std::string text = fmt::format(
       "- The reference is what grids with cells of {} mm tend to, all of which run along the charge.\n",

@@ -55,7 +55,7 @@ Table quantity_table(const AccuracyResult& result, std::string title) {
   Table table;
   table.title = std::move(title);
   table.columns = {text_column("quantity"), text_column("unit")};
-  for (const double size : settings_of<AccuracySettings>(result.study.study).reference_cell_sizes) {
+  for (const double size : accuracy_settings(result.study.study).reference_cell_sizes) {
     const std::string name = fmt::format("{:.6g} mm", 1e3 * size);
     table.columns.push_back(
         significant_column(name, "", 7, "cells_" + fmt::format("{:.6g}", 1e3 * size) + "_mm"));
@@ -83,11 +83,10 @@ Table reference_table(const AccuracyResult& result) {
   add_quantity(table, "critical gap", "cm", 100.0, reference.critical_gap);
   add_quantity(table, "peak pressure of the charge bottom", "MPa", 1e-6, reference.peak_pressure);
   for (std::size_t i = 0; i < reference.at_times.size(); ++i) {
-    add_quantity(
-        table,
-        fmt::format("T without reaction at {:.6g} ms, gap {} cm",
-                    1e3 * settings_of<AccuracySettings>(study).times[i], gap_text(study.gaps.front())),
-        "K", 1.0, reference.at_times[i]);
+    add_quantity(table,
+                 fmt::format("T without reaction at {:.6g} ms, gap {} cm",
+                             1e3 * accuracy_settings(study).times[i], gap_text(study.gaps.front())),
+                 "K", 1.0, reference.at_times[i]);
   }
   table.notes.push_back(
       "The uncertainty is the half width about the value of the finest mesh, a grid convergence index: of "
@@ -171,15 +170,15 @@ Table time_table(const AccuracyResult& result) {
   table.title = fmt::format("Error of the highest temperature against time, without reaction, gap {} cm",
                             study.gaps.empty() ? "" : gap_text(study.gaps.front()));
   table.columns = {named_text("setting", "setting")};
-  for (const double time : settings_of<AccuracySettings>(study).times) {
+  for (const double time : accuracy_settings(study).times) {
     table.columns.push_back(number_column(fmt::format("{:.6g} ms", 1e3 * time), "K", 2,
                                           fmt::format("temperature_error_{:.6g}_ms_K", 1e3 * time)));
   }
   table.columns.push_back(named_text("remark", "remark"));
-  if (settings_of<AccuracySettings>(study).times.empty()) return table;
+  if (accuracy_settings(study).times.empty()) return table;
   for (const AccuracyRow& row : result.rows) {
     std::vector<Cell> cells{result.study.cases[row.index].label};
-    for (std::size_t i = 0; i < settings_of<AccuracySettings>(study).times.size(); ++i)
+    for (std::size_t i = 0; i < accuracy_settings(study).times.size(); ++i)
       cells.push_back(row.computed() ? optional_number(row.error_at_times[i]) : Cell());
     cells.emplace_back(remark_of(row));
     table.rows.push_back(std::move(cells));

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace launchsafe::kinds {
@@ -259,13 +258,9 @@ void compare_stations(CalibrationResult& result) {
   result.stations = {change_to(true), change_to(false)};
 }
 
-}  // namespace
-
-CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  CalibrationResult result;
-  result.study = study;
-  result.timing.jobs = jobs_of(options);
+/// Runs, fits, predicts and recommends; all but what an interruption is told by.
+void calibrate_study(CalibrationResult& result, const StudyOptions& options) {
+  const StudyFile& study = result.study;
   const scene::Scene& scene = study.scene.scene;
   result.in_scene = {scene.surface.localisation, scene.surface.exchange_time,
                      scene.charge().kinetics.ignition_temperature};
@@ -293,9 +288,14 @@ CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& op
   if (result.load && !result.load->failure.empty())
     result.recommendation.reason = "no load is recommended: " + result.load->failure;
   compare_stations(result);
-  result.interrupted = stop_requested(options);
-  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
+}
+
+}  // namespace
+
+CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& options) {
+  return run_timed<CalibrationResult>(
+      study, options, [&](CalibrationResult& result) { calibrate_study(result, options); },
+      [](CalibrationResult&) {});
 }
 
 }  // namespace launchsafe::kinds

@@ -78,18 +78,10 @@ namespace {
 
 using scene::Dimension;
 
-scene::Key<CalibrationSettings> calibration_list(std::string name, Dimension dimension, scene::Limits limits,
-                                                 std::string sentence,
-                                                 std::vector<double> CalibrationSettings::*member) {
-  return scene::list_key<CalibrationSettings>(std::move(name), dimension, limits, scene::Standing::assumed,
-                                              std::move(sentence), member);
-}
-
 std::vector<scene::Key<CalibrationSettings>> calibration_keys() {
   return {
-      calibration_list("meshes", Dimension::length, scene::between(1e-5, 1),
-                       "Cell sizes, each a mechanical run; the scene's if absent.",
-                       &CalibrationSettings::meshes),
+      assumed_list("meshes", Dimension::length, scene::between(1e-5, 1),
+                   "Cell sizes, each a mechanical run; the scene's if absent.", &CalibrationSettings::meshes),
       scene::flag_key<CalibrationSettings>(
           "compare_kinetics", scene::Standing::assumed,
           "Calibrate with every named kinetics rather than with the scene's alone.",
@@ -98,7 +90,7 @@ std::vector<scene::Key<CalibrationSettings>> calibration_keys() {
           "ignition_bracket", Dimension::temperature, scene::between(0, 5000), scene::Standing::paper,
           "Published bracket of the ignition temperature, a check on the calibrated one.",
           &CalibrationSettings::ignition_lowest, &CalibrationSettings::ignition_highest),
-      calibration_list(
+      assumed_list(
           "fast_rise", Dimension::time, scene::above_to(0, 1),
           "Two instants between which the published temperature without a gap rises fast. Where given, "
           "load.exponent is fitted to the time between them and load.peak_time to the row without a "
@@ -134,11 +126,6 @@ std::vector<Failure> calibration_failures(const CalibrationResult& result) {
   return failures;
 }
 
-StudyOutcome calibration_outcome(const StudyFile& study, const StudyOptions& options) {
-  const CalibrationResult result = run_calibration(study, options);
-  return outcome_of(result, options, false, calibration_failures(result));
-}
-
 }  // namespace
 
 Kind calibration_kind() {
@@ -148,7 +135,7 @@ Kind calibration_kind() {
       .tables = {reference_table()},
       .read = read_calibration,
       .make_cases = make_calibration_cases,
-      .run = calibration_outcome,
+      .run = outcome_of<run_calibration, calibration_failures>,
       // Reports of older programs had files of cases too.
       .files = {{"calibration.json"},
                 {"calibration.csv"},

@@ -1,6 +1,7 @@
 #include "launchsafe/kinds/comparison.hpp"
 
 #include "launchsafe/study/answer_cases.hpp"
+#include "study_outcome.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -14,12 +15,8 @@ std::size_t ComparisonResult::counterpart(std::size_t index) const {
 }
 
 bool ComparisonResult::any_indeterminate() const {
-  return std::any_of(cases.begin(), cases.end(), [](const ComparedCase& each) {
-    const auto& rows = each.answer.verdicts;
-    return each.answer.critical.kind == CriticalGapKind::indeterminate ||
-           std::any_of(rows.begin(), rows.end(),
-                       [](const GapVerdict& row) { return row.judgement.verdict == Verdict::indeterminate; });
-  });
+  return std::any_of(cases.begin(), cases.end(),
+                     [](const ComparedCase& each) { return is_indeterminate(each.answer); });
 }
 
 namespace {

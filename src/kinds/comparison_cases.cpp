@@ -267,11 +267,6 @@ std::vector<Failure> comparison_failures(const ComparisonResult& result) {
   return failures;
 }
 
-StudyOutcome comparison_outcome(const StudyFile& study, const StudyOptions& options) {
-  const ComparisonResult result = run_comparison(study, options);
-  return outcome_of(result, options, result.any_indeterminate(), comparison_failures(result));
-}
-
 }  // namespace
 
 Kind comparison_kind() {
@@ -283,7 +278,7 @@ Kind comparison_kind() {
       .instead_of = {{"gap", "gaps"}},
       .read = read_comparison,
       .make_cases = make_comparison_cases,
-      .run = comparison_outcome,
+      .run = outcome_of<run_comparison, comparison_failures>,
       .files = {{"comparison.csv"},
                 {"verdicts.csv"},
                 {"stations.csv"},

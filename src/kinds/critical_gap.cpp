@@ -3,11 +3,11 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"
+#include "study_outcome.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace launchsafe::kinds {
@@ -15,16 +15,12 @@ namespace launchsafe::kinds {
 using namespace study;
 using namespace report;
 
-bool CriticalGapResult::any_indeterminate() const {
-  return std::any_of(cases.begin(), cases.end(), [](const CaseOutcome& each) {
-    return each.critical.kind == CriticalGapKind::indeterminate ||
-           std::any_of(each.verdicts.begin(), each.verdicts.end(),
-                       [](const GapVerdict& row) { return row.judgement.verdict == Verdict::indeterminate; });
-  });
-}
-
 std::string label_with_skin(const CaseOutcome& outcome, double gap) {
   return fmt::format("{}, coupled at {:.6g} cm", outcome.input.label, 100.0 * gap);
+}
+
+bool CriticalGapResult::any_indeterminate() const {
+  return std::any_of(cases.begin(), cases.end(), is_indeterminate<CaseOutcome>);
 }
 
 namespace {
@@ -110,27 +106,27 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
 }  // namespace
 
 CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  CriticalGapResult result;
-  result.study = study;
-  result.timing.jobs = jobs_of(options);
-  ProgressTracker tracker(options.progress);
-  for (const StudyCase& input : study.cases) result.cases.emplace_back().input = input;
-  const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
-  run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
-    for (const std::size_t member : runs[i].members) {
-      result.cases[member].hash = runs[i].runs.front().hash;
-      judge(study.study, result.cases[member], finished);
-    }
-  });
-  if (settings_of<CriticalGapSettings>(study.study).confirm) run_confirmations(result, options, tracker);
-  for (CaseOutcome& outcome : result.cases) {
-    apply_confirmations(study.study, outcome);
-    conclude(study.study, outcome);
-  }
-  result.interrupted = stop_requested(options);
-  result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
+  return run_timed<CriticalGapResult>(
+      study, options,
+      [&](CriticalGapResult& result) {
+        ProgressTracker tracker(options.progress);
+        for (const StudyCase& input : study.cases) result.cases.emplace_back().input = input;
+        const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
+        run_cases(runs, options, tracker, result.timing,
+                  [&](std::size_t i, std::vector<FinishedRun>& finished) {
+                    for (const std::size_t member : runs[i].members) {
+                      result.cases[member].hash = runs[i].runs.front().hash;
+                      judge(study.study, result.cases[member], finished);
+                    }
+                  });
+        if (settings_of<CriticalGapSettings>(study.study).confirm)
+          run_confirmations(result, options, tracker);
+        for (CaseOutcome& outcome : result.cases) {
+          apply_confirmations(study.study, outcome);
+          conclude(study.study, outcome);
+        }
+      },
+      [](CriticalGapResult&) {});
 }
 
 }  // namespace launchsafe::kinds

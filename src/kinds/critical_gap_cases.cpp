@@ -14,24 +14,17 @@ namespace {
 
 using scene::Dimension;
 
-scene::Key<CriticalGapSettings> critical_gap_list(std::string name, Dimension dimension, scene::Limits limits,
-                                                  std::string sentence,
-                                                  std::vector<double> CriticalGapSettings::*member) {
-  return scene::list_key<CriticalGapSettings>(std::move(name), dimension, limits, scene::Standing::assumed,
-                                              std::move(sentence), member);
-}
-
 std::vector<scene::Key<CriticalGapSettings>> critical_gap_keys() {
   return {
-      critical_gap_list("peak_pressures", Dimension::pressure, scene::above_to(0, 10e9),
-                        "Peak chamber pressures, each a mechanical run; the scene's if absent.",
-                        &CriticalGapSettings::peak_pressures),
-      critical_gap_list("crack_radii", Dimension::length, scene::between(0, 0.01),
-                        "Initial crack radii c(0), each a mechanical run; the scene's if absent.",
-                        &CriticalGapSettings::crack_radii),
-      critical_gap_list("flaw_sizes", Dimension::length, scene::between(0, 0.01),
-                        "Flaw sizes a, each a mechanical run; the scene's if absent.",
-                        &CriticalGapSettings::flaw_sizes),
+      assumed_list("peak_pressures", Dimension::pressure, scene::above_to(0, 10e9),
+                   "Peak chamber pressures, each a mechanical run; the scene's if absent.",
+                   &CriticalGapSettings::peak_pressures),
+      assumed_list("crack_radii", Dimension::length, scene::between(0, 0.01),
+                   "Initial crack radii c(0), each a mechanical run; the scene's if absent.",
+                   &CriticalGapSettings::crack_radii),
+      assumed_list("flaw_sizes", Dimension::length, scene::between(0, 0.01),
+                   "Flaw sizes a, each a mechanical run; the scene's if absent.",
+                   &CriticalGapSettings::flaw_sizes),
       scene::flag_key<CriticalGapSettings>(
           "confirm", scene::Standing::assumed,
           "Runs with skin, integrated together with the mechanics, on both sides of the bracket.",
@@ -73,11 +66,6 @@ std::vector<Failure> critical_gap_failures(const CriticalGapResult& result) {
   return failures;
 }
 
-StudyOutcome critical_gap_outcome(const StudyFile& study, const StudyOptions& options) {
-  const CriticalGapResult result = run_critical_gap(study, options);
-  return outcome_of(result, options, result.any_indeterminate(), critical_gap_failures(result));
-}
-
 }  // namespace
 
 Kind critical_gap_kind() {
@@ -89,7 +77,7 @@ Kind critical_gap_kind() {
       .instead_of = {{"gap", "gaps"}},
       .read = read_critical_gap,
       .make_cases = make_critical_gap_cases,
-      .run = critical_gap_outcome,
+      .run = outcome_of<run_critical_gap, critical_gap_failures>,
       // Reports of older programs had files of cases too.
       .files = {{"verdicts.csv"}, {"verdicts.md"}, {"temperature.svg"}, {"case_", ".h5"}, {"case_", ".xdmf"}},
   };

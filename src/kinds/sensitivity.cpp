@@ -55,8 +55,7 @@ bool is_bound(const CaseAnswer& answer) {
 /// Whether an evaluation is a random sample of the inputs, rather than one made for differences: the blocks A
 /// and B of a Saltelli design, and every point of a Morris design.
 bool samples_inputs(const Study& study, std::size_t evaluation) {
-  return settings_of<SensitivitySettings>(study).method == SensitivityMethod::morris ||
-         evaluation % (study.axes.size() + 2) < 2;
+  return !is_sobol(study) || evaluation % (study.axes.size() + 2) < 2;
 }
 
 void summarise(const Study& study, OutputSensitivity& output) {
@@ -73,21 +72,19 @@ void summarise(const Study& study, OutputSensitivity& output) {
 }
 
 void estimate(const Study& study, OutputSensitivity& output) {
-  const auto resamples = static_cast<std::size_t>(settings_of<SensitivitySettings>(study).resamples);
-  if (settings_of<SensitivitySettings>(study).method == SensitivityMethod::morris) {
+  const SensitivitySettings& own = sensitivity_settings(study);
+  const auto resamples = static_cast<std::size_t>(own.resamples);
+  if (!is_sobol(study)) {
     const auto design =
-        math::morris_design(static_cast<std::size_t>(settings_of<SensitivitySettings>(study).trajectories),
-                            static_cast<std::size_t>(settings_of<SensitivitySettings>(study).levels),
-                            study.axes.size(), settings_of<SensitivitySettings>(study).seed);
-    output.morris = math::morris_effects(design, output.values,
-                                         {settings_of<SensitivitySettings>(study).confidence, resamples,
-                                          settings_of<SensitivitySettings>(study).seed});
+        math::morris_design(static_cast<std::size_t>(own.trajectories), static_cast<std::size_t>(own.levels),
+                            study.axes.size(), own.seed);
+    output.morris = math::morris_effects(design, output.values, {own.confidence, resamples, own.seed});
     return;
   }
   math::SobolOptions options;
-  options.level = settings_of<SensitivitySettings>(study).confidence;
+  options.level = own.confidence;
   options.resamples = resamples;
-  options.seed = settings_of<SensitivitySettings>(study).seed;
+  options.seed = own.seed;
   output.sobol = math::sobol_indices(study.axes.size(), output.values, options);
   output.reason = output.sobol.reason;
 }

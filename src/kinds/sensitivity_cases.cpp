@@ -91,7 +91,7 @@ std::vector<scene::Key<SensitivitySettings>> morris_keys() {
 
 /// Keys of the other method, which would silently do nothing, and what the limits of single keys do not say.
 Fault check_method(const StudyFile& study) {
-  const SensitivitySettings& own = settings_of<SensitivitySettings>(study.study);
+  const SensitivitySettings& own = sensitivity_settings(study.study);
   const bool sobol = own.method == SensitivityMethod::sobol;
   for (const auto& other : sobol ? morris_keys() : sobol_keys()) {
     if (!study.places.contains(other.name)) continue;
@@ -160,7 +160,7 @@ class DesignBuilder {
 
 Fault make_saltelli(StudyFile& study) {
   const Study& s = study.study;
-  const SensitivitySettings& own = settings_of<SensitivitySettings>(s);
+  const SensitivitySettings& own = sensitivity_settings(s);
   const std::size_t rows = static_cast<std::size_t>(own.samples), inputs = s.axes.size();
   const double count = static_cast<double>(rows) * static_cast<double>(inputs + 2);
   if (Fault fault =
@@ -185,7 +185,7 @@ Fault make_saltelli(StudyFile& study) {
 
 Fault make_morris(StudyFile& study) {
   const Study& s = study.study;
-  const SensitivitySettings& own = settings_of<SensitivitySettings>(s);
+  const SensitivitySettings& own = sensitivity_settings(s);
   const std::size_t trajectories = static_cast<std::size_t>(own.trajectories), inputs = s.axes.size();
   const double count = static_cast<double>(trajectories) * static_cast<double>(inputs + 1);
   if (Fault fault = check_count(study, "trajectories", count,
@@ -220,13 +220,8 @@ Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
     return fault_at(study, "gap", fmt::format("no gap, and {} gaps in the scene", gaps.size()), "one gap",
                     fmt::format("gap = \"{}\"", scene::format_quantity(gaps.back(), Dimension::length)));
   }
-  const bool sobol = settings_of<SensitivitySettings>(study.study).method == SensitivityMethod::sobol;
+  const bool sobol = is_sobol(study.study);
   return sobol ? make_saltelli(study) : make_morris(study);
-}
-
-StudyOutcome sensitivity_outcome(const StudyFile& study, const StudyOptions& options) {
-  const SensitivityResult result = run_sensitivity(study, options);
-  return outcome_of(result, options, result.any_indeterminate(), failures_of(study, result.answers));
 }
 
 }  // namespace
@@ -245,7 +240,7 @@ Kind sensitivity_kind() {
       .instead_of = {{"gaps", "gap"}},
       .read = read_sensitivity,
       .make_cases = make_sensitivity_cases,
-      .run = sensitivity_outcome,
+      .run = outcome_of<run_sensitivity, failures_of<SensitivityResult>>,
       .files = {{"sensitivity.csv"}, {"evaluations.csv"}, {"sensitivity_", ".svg"}},
   };
 }

@@ -187,8 +187,7 @@ Fault check_reach(const InputReader& reader) {
                     range_text(lower, upper, text.key.dimension), deviations_within_limits, text.key.name),
         "a range that cuts the normal off: " + scene::allowed_text(text.key), suggested_range(text));
   }
-  if (settings_of<SensitivitySettings>(reader.study.study).method != SensitivityMethod::morris)
-    return std::nullopt;
+  if (is_sobol(reader.study.study)) return std::nullopt;
   return reader.fault("distribution", "a normal without ends, while Morris' method steps from end to end",
                       "a normal with a range", suggested_range(text));
 }

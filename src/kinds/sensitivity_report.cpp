@@ -36,10 +36,9 @@ std::string name_of(math::Design design) {
 }
 
 std::string interval_text(const study::Study& study) {
+  const SensitivitySettings& own = sensitivity_settings(study);
   return fmt::format("{}% intervals from a bootstrap of {} resamples, seed {}",
-                     significant(100.0 * settings_of<SensitivitySettings>(study).confidence, 6),
-                     settings_of<SensitivitySettings>(study).resamples,
-                     settings_of<SensitivitySettings>(study).seed);
+                     significant(100.0 * own.confidence, 6), own.resamples, own.seed);
 }
 
 }  // namespace
@@ -75,26 +74,22 @@ bool has_indices(const SensitivityResult& result, const OutputSensitivity& outpu
 }
 
 std::size_t size_of(const study::Study& study) {
-  return static_cast<std::size_t>(settings_of<SensitivitySettings>(study).method == SensitivityMethod::sobol
-                                      ? settings_of<SensitivitySettings>(study).samples
-                                      : settings_of<SensitivitySettings>(study).trajectories);
+  const SensitivitySettings& own = sensitivity_settings(study);
+  return static_cast<std::size_t>(is_sobol(study) ? own.samples : own.trajectories);
 }
 
-std::string size_noun(const study::Study& study) {
-  return settings_of<SensitivitySettings>(study).method == SensitivityMethod::sobol ? "rows" : "trajectories";
-}
+std::string size_noun(const study::Study& study) { return is_sobol(study) ? "rows" : "trajectories"; }
 
 std::string method_text(const SensitivityResult& result) {
   const study::Study& study = result.study.study;
+  const SensitivitySettings& own = sensitivity_settings(study);
   const std::size_t evaluations = result.answers.size();
-  if (settings_of<SensitivitySettings>(study).method == SensitivityMethod::sobol) {
+  if (is_sobol(study)) {
     std::string text = fmt::format(
         "Sobol indices (first order: Saltelli 2010, total order: Jansen 1999) from N = {} rows, {} "
         "evaluations, on {}; {}.",
-        settings_of<SensitivitySettings>(study).samples, evaluations,
-        name_of(settings_of<SensitivitySettings>(study).design), interval_text(study));
-    if (settings_of<SensitivitySettings>(study).design == math::Design::scrambled_sobol &&
-        settings_of<SensitivitySettings>(study).samples < 256)
+        own.samples, evaluations, name_of(own.design), interval_text(study));
+    if (own.design == math::Design::scrambled_sobol && own.samples < 256)
       text += " Of a Sobol sequence with fewer than 256 rows the intervals often miss weak inputs.";
     return text;
   }
@@ -102,13 +97,12 @@ std::string method_text(const SensitivityResult& result) {
       "Elementary effects (Morris 1991) of N = {} trajectories on {} levels, {} evaluations; {}. An effect "
       "is "
       "the change of the output over the whole range of the input (between the ends of its distribution).",
-      settings_of<SensitivitySettings>(study).trajectories, settings_of<SensitivitySettings>(study).levels,
-      evaluations, interval_text(study));
+      own.trajectories, own.levels, evaluations, interval_text(study));
 }
 
 std::vector<math::Estimate> importance_of(const SensitivityResult& result, const OutputSensitivity& output) {
   std::vector<math::Estimate> importance;
-  if (settings_of<SensitivitySettings>(result.study.study).method == SensitivityMethod::sobol) {
+  if (is_sobol(result.study.study)) {
     for (const math::InputIndices& each : output.sobol.inputs) importance.push_back(each.total);
   } else {
     for (const math::MorrisEffects& each : output.morris) importance.push_back(each.mu_star);
@@ -169,7 +163,7 @@ class OutputAnswer {
   OutputAnswer(const SensitivityResult& result, const OutputSensitivity& output)
       : result_(result),
         output_(output),
-        sobol_(settings_of<SensitivitySettings>(result.study.study).method == SensitivityMethod::sobol),
+        sobol_(is_sobol(result.study.study)),
         shown_(shown_output(output.output)),
         keys_(shown_axes(result.study.study)),
         importance_(importance_of(result, output)) {
@@ -262,7 +256,7 @@ std::string picture_name(const OutputSensitivity& output) {
 }
 
 nlohmann::ordered_json method_json(const SensitivityResult& result) {
-  const auto& settings = settings_of<SensitivitySettings>(result.study.study);
+  const auto& settings = sensitivity_settings(result.study.study);
   return {{"name", to_string(settings.method)},
           {"text", method_text(result)},
           {"N", size_of(result.study.study)},

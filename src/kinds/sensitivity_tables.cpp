@@ -66,8 +66,7 @@ void add_effect_cells(const SensitivityResult& result, const OutputSensitivity& 
   add_estimate(effects.mu_star, scale, cells);
   cells.push_back(optional_number(scale * effects.sigma));
   cells.emplace_back(static_cast<std::int64_t>(effects.effects));
-  cells.emplace_back(
-      static_cast<std::int64_t>(settings_of<SensitivitySettings>(result.study.study).trajectories));
+  cells.emplace_back(static_cast<std::int64_t>(sensitivity_settings(result.study.study).trajectories));
 }
 
 /// Input and distribution, and the numbers where there are any.
@@ -77,7 +76,7 @@ std::vector<Cell> cells_of(const SensitivityResult& result, const OutputSensitiv
   const ShownKey key = shown(each);
   std::vector<Cell> cells{key.name, distribution_text(key, *each.distribution)};
   if (!has_indices(result, output)) return cells;
-  const bool sobol = settings_of<SensitivitySettings>(result.study.study).method == SensitivityMethod::sobol;
+  const bool sobol = is_sobol(result.study.study);
   if (input >= (sobol ? output.sobol.inputs.size() : output.morris.size())) return cells;
   if (sobol) {
     add_index_cells(output, input, cells);
@@ -121,7 +120,7 @@ std::vector<std::string> notes_of(const SensitivityResult& result, const OutputS
 }  // namespace
 
 Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity& output) {
-  const bool sobol = settings_of<SensitivitySettings>(result.study.study).method == SensitivityMethod::sobol;
+  const bool sobol = is_sobol(result.study.study);
   const ShownOutput shown = shown_output(output.output);
   Table table;
   table.title = "Sensitivity of " + shown.phrase + at_gap(result.study.study, output.output);
@@ -134,7 +133,7 @@ Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity
 }
 
 Table sensitivity_table(const SensitivityResult& result) {
-  const bool sobol = settings_of<SensitivitySettings>(result.study.study).method == SensitivityMethod::sobol;
+  const bool sobol = is_sobol(result.study.study);
   Table table;
   table.title = "Sensitivity";
   table.columns = {named_text("output", "output"), named_text("unit", "unit"), quantity::reason(),
@@ -272,7 +271,7 @@ Plot effect_plot(const SensitivityResult& result, const OutputSensitivity& outpu
 
 Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output) {
   const study::Study& study = result.study.study;
-  const bool sobol = settings_of<SensitivitySettings>(study).method == SensitivityMethod::sobol;
+  const bool sobol = is_sobol(study);
   Plot plot = sobol ? index_plot(result, output) : effect_plot(result, output);
   plot.title = fmt::format("Sensitivity of {}{}, N = {}", shown_output(output.output).phrase,
                            at_gap(study, output.output), size_of(study));

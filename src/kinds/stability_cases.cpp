@@ -260,7 +260,7 @@ std::vector<scene::Key<StabilitySettings>> stability_keys() {
 /// It varies nothing but what its cases say.
 Fault read_stability(const StudySource&, StudyFile&) { return std::nullopt; }
 
-/// A case that is WRONG is the worst outcome of a study.
+/// A case that is WRONG is the worst outcome of a study. No case makes it indeterminate.
 std::vector<Failure> stability_failures(const StabilityResult& result) {
   std::vector<Failure> failures;
   for (const StressCaseRow& row : result.rows) {
@@ -275,12 +275,6 @@ std::vector<Failure> stability_failures(const StabilityResult& result) {
   return failures;
 }
 
-StudyOutcome stability_outcome(const StudyFile& study, const StudyOptions& options) {
-  const StabilityResult result = run_stability(study, options);
-  // The outcome of its cases is not what they are for.
-  return outcome_of(result, options, false, stability_failures(result));
-}
-
 }  // namespace
 
 Kind stability_kind() {
@@ -290,7 +284,7 @@ Kind stability_kind() {
       .tables = {table_of("case", stress_case_keys())},
       .read = read_stability,
       .make_cases = make_stability_cases,
-      .run = stability_outcome,
+      .run = outcome_of<run_stability, stability_failures>,
       .files = {{"stability.csv"}, {"launches.csv"}},
   };
 }

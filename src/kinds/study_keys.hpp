@@ -25,6 +25,14 @@ StudyKeys uncertainty_keys();
 /// A file of published rows, and a published line.
 StudyKeys reference_keys();
 
+/// The key of a list that a study may state.
+template <class Settings>
+scene::Key<Settings> assumed_list(std::string name, scene::Dimension dimension, scene::Limits limits,
+                                  std::string sentence, std::vector<double> Settings::*member) {
+  return scene::list_key<Settings>(std::move(name), dimension, limits, scene::Standing::assumed,
+                                   std::move(sentence), member);
+}
+
 /// Lists one behind the other.
 StudyKeys joined(std::vector<StudyKeys> lists);
 

@@ -4,6 +4,7 @@
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/study/case_answer.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,19 +19,30 @@ inline void add_failure(std::vector<Failure>& failures, const std::string& label
 }
 
 /// Of a kind that has an answer for every case.
-inline std::vector<Failure> failures_of(const study::StudyFile& study,
-                                        const std::vector<study::CaseAnswer>& answers) {
+template <class Result>
+std::vector<Failure> failures_of(const Result& result) {
   std::vector<Failure> failures;
-  for (std::size_t i = 0; i < answers.size(); ++i)
-    add_failure(failures, study.cases[i].label, answers[i].outcome, answers[i].failure);
+  for (std::size_t i = 0; i < result.answers.size(); ++i)
+    add_failure(failures, result.study.cases[i].label, result.answers[i].outcome, result.answers[i].failure);
   return failures;
 }
 
-/// The report is that of the whole study: a shard and an interrupted study have none.
-template <class Result>
-StudyOutcome outcome_of(const Result& result, const study::StudyOptions& options, bool indeterminate,
-                        std::vector<Failure> failures) {
-  StudyOutcome outcome{result.interrupted, indeterminate, std::move(failures), result.timing, {}};
+/// Whether a verdict or the critical gap of a case is indeterminate.
+template <class Answer>
+bool is_indeterminate(const Answer& answer) {
+  return answer.critical.kind == study::CriticalGapKind::indeterminate ||
+         std::any_of(answer.verdicts.begin(), answer.verdicts.end(), [](const study::GapVerdict& row) {
+           return row.judgement.verdict == study::Verdict::indeterminate;
+         });
+}
+
+/// Kind::run from the function that runs a study of the kind, and the one that says what failed of its
+/// result. The report is that of the whole study: a shard and an interrupted study have none.
+template <auto run, auto failures>
+StudyOutcome outcome_of(const study::StudyFile& study, const study::StudyOptions& options) {
+  const auto result = run(study, options);
+  StudyOutcome outcome{result.interrupted, false, failures(result), result.timing, {}};
+  if constexpr (requires { result.any_indeterminate(); }) outcome.indeterminate = result.any_indeterminate();
   if (!result.interrupted && options.shard.whole()) outcome.report = report_of(result);
   return outcome;
 }

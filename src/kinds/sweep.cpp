@@ -1,6 +1,7 @@
 #include "launchsafe/kinds/sweep.hpp"
 
 #include "launchsafe/study/answer_cases.hpp"
+#include "study_outcome.hpp"
 
 #include <algorithm>
 
@@ -10,11 +11,7 @@ using namespace study;
 using namespace report;
 
 bool SweepResult::any_indeterminate() const {
-  return std::any_of(answers.begin(), answers.end(), [](const CaseAnswer& answer) {
-    return answer.critical.kind == CriticalGapKind::indeterminate ||
-           std::any_of(answer.verdicts.begin(), answer.verdicts.end(),
-                       [](const GapVerdict& row) { return row.judgement.verdict == Verdict::indeterminate; });
-  });
+  return std::any_of(answers.begin(), answers.end(), is_indeterminate<CaseAnswer>);
 }
 
 SweepResult run_sweep(const StudyFile& study, const StudyOptions& options) {

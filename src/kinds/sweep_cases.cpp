@@ -118,11 +118,6 @@ Fault make_sweep_cases(const StudySource&, StudyFile& study) {
   return make_factorial(study, label_of_changes);
 }
 
-StudyOutcome sweep_outcome(const StudyFile& study, const StudyOptions& options) {
-  const SweepResult result = run_sweep(study, options);
-  return outcome_of(result, options, result.any_indeterminate(), failures_of(study, result.answers));
-}
-
 }  // namespace
 
 Kind sweep_kind() {
@@ -137,7 +132,7 @@ Kind sweep_kind() {
                      {"flaw_sizes", "flaw_size in [axes]"}},
       .read = read_sweep,
       .make_cases = make_sweep_cases,
-      .run = sweep_outcome,
+      .run = outcome_of<run_sweep, failures_of<SweepResult>>,
       .files = {{"verdicts.csv"},
                 {"critical_gaps.json"},
                 {"critical_gaps.csv"},

@@ -29,6 +29,13 @@ struct AccuracySettings {
   std::vector<double> times;                        ///< s, at which temperatures are compared too
 };
 
+inline AccuracySettings& accuracy_settings(study::Study& study) {
+  return study::settings_of<AccuracySettings>(study);
+}
+inline const AccuracySettings& accuracy_settings(const study::Study& study) {
+  return study::settings_of<AccuracySettings>(study);
+}
+
 /// Pressure of the charge bottom over the launch.
 struct PressureTrace {
   std::vector<double> time;      ///< s

@@ -33,6 +33,13 @@ struct SensitivitySettings {
   double confidence = 0.95;
 };
 
+inline const SensitivitySettings& sensitivity_settings(const study::Study& study) {
+  return study::settings_of<SensitivitySettings>(study);
+}
+inline bool is_sobol(const study::Study& study) {
+  return sensitivity_settings(study).method == SensitivityMethod::sobol;
+}
+
 /// One output of a case as a number.
 enum class SensitivityOutput {
   maximum_temperature,  ///< K, T max of the verdict at the study's gap; see OutputSensitivity::inert
@@ -90,7 +97,7 @@ report::Table evaluation_table(const SensitivityResult& result);
 /// First and total order of every input with their intervals, or mu* against sigma.
 report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output);
 
-/// The whole report, with what is printed on a terminal and every file.
+/// The whole report. Nothing in it differs between two runs of a study: no times, rates, dates or hosts.
 report::Report report_of(const SensitivityResult& result);
 
 }  // namespace launchsafe::kinds

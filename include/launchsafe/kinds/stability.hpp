@@ -107,7 +107,7 @@ report::Table stability_summary(const StabilityResult& result);
 /// A row for every gap of every launch that ran, with the numbers behind its outcome.
 report::Table launch_table(const StabilityResult& result);
 
-/// The whole report, with what is printed on a terminal and every file.
+/// The whole report. Nothing in it differs between two runs of a study: no times, rates, dates or hosts.
 report::Report report_of(const StabilityResult& result);
 
 }  // namespace launchsafe::kinds

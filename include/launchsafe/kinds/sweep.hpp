@@ -57,7 +57,7 @@ struct SweepPictures {
 };
 SweepPictures pictures(const SweepResult& result);
 
-/// The whole report, with what is printed on a terminal and every file.
+/// The whole report. Nothing in it differs between two runs of a study: no times, rates, dates or hosts.
 report::Report report_of(const SweepResult& result);
 
 }  // namespace launchsafe::kinds
