@@ -16,18 +16,14 @@ namespace launchsafe::study {
 namespace {
 
 using nlohmann::ordered_json;
-using scene::Limits;
 
-constexpr const char* format_name = "launchsafe accuracy record 2";
+constexpr RecordFormat accuracy_format{
+    "launchsafe accuracy record 2", "accuracy.json", "a study of kind accuracy", {"format", "digest"}};
 constexpr std::size_t fewest_reference_meshes = 3;
-/// More would take long to compare with each other.
-constexpr std::size_t most_settings = 3000;
 /// K. Skins are integrated to about this; no mesh study says less of a temperature.
 constexpr double smallest_bound = 1e-4;
 constexpr double longest_processor_time = 1e9;  ///< s, some thirty years
 constexpr double widest_gap = 0.01;             ///< m, as in studies
-
-// --- writing ---
 
 ordered_json json_of(const Setting& setting) {
   ordered_json object = ordered_json::object();
@@ -39,47 +35,6 @@ ordered_json json_of(const Setting& setting) {
   }
   return object;
 }
-
-ordered_json json_of(const RecordedLaunch& launch) {
-  return {{"peak_pressure_Pa", launch.peak_pressure},
-          {"duration_s", launch.duration},
-          {"rise_time_s", launch.rise_time},
-          {"roughness", launch.roughness},
-          {"crack_radius_m", launch.crack_radius},
-          {"flaw_size_m", launch.flaw_size},
-          {"gaps_m", launch.gaps},
-          {"localisation", launch.localisation},
-          {"air_heating_K_per_s_m", launch.air_heating},
-          {"shape", launch.shape}};
-}
-
-/// JSON writes what is not finite as null.
-ordered_json json_of(const RecordedSetting& each) {
-  return {{"label", each.label},
-          {"temperature_bound_K", each.temperature_bound},
-          {"critical_gap_bound_m", each.critical_gap_bound},
-          {"processor_time_s", each.processor_time},
-          {"reference", each.reference},
-          {"cell_m", each.cell},
-          {"temperature_K", each.temperature},
-          {"critical_gap_m", each.critical_gap},
-          {"setting", json_of(each.setting)}};
-}
-
-/// All but the digest.
-ordered_json content_of(const AccuracyRecord& record) {
-  ordered_json settings = ordered_json::array();
-  for (const RecordedSetting& each : record.settings) settings.push_back(json_of(each));
-  return {{"format", format_name},
-          {"title", record.title},
-          {"model_version", record.model_version},
-          {"shell", record.shell},
-          {"initial_temperature_K", record.initial_temperature},
-          {"launch", json_of(record.launch)},
-          {"settings", std::move(settings)}};
-}
-
-// --- reading ---
 
 /// Whether a key may have a value that no reader of scenes has checked.
 bool may_take(const scene::KeyDescription& key, const scene::Value& value) {
@@ -110,7 +65,8 @@ Setting setting_from(const ordered_json& object, const std::string& path, Record
     const auto& description = *scene::find_key(scene::scene_keys(), key);
     if (given.is_array()) {
       constexpr std::size_t most_places = 1000;
-      value = reader.numbers(given, path + "." + key, description.limits, 0, most_places);
+      reader.read(given, path + "." + key, value.emplace<std::vector<double>>(), description.limits, 0,
+                  most_places);
     }
     if (!may_take(description, value))
       reader.refuse(path + "." + key, found_in(given), scene::allowed_text(description));
@@ -119,59 +75,42 @@ Setting setting_from(const ordered_json& object, const std::string& path, Record
   return setting;
 }
 
-RecordedLaunch launch_from(const ordered_json& object, RecordReader& reader) {
+void describe_launch(RecordObject& object, RecordedLaunch& launch) {
   using scene::above_to, scene::between;
-  RecordedLaunch launch;
-  const std::vector<std::string> keys{"peak_pressure_Pa",      "duration_s",  "rise_time_s", "roughness",
-                                      "crack_radius_m",        "flaw_size_m", "gaps_m",      "localisation",
-                                      "air_heating_K_per_s_m", "shape"};
-  if (!reader.has_keys(object, "launch", keys)) return launch;
-  const auto number = [&](const char* key, const Limits& limits) {
-    return reader.number(object[key], fmt::format("launch.{}", key), limits);
-  };
-  launch.peak_pressure = number("peak_pressure_Pa", above_to(0, 10e9));
-  launch.duration = number("duration_s", above_to(0, 1));
-  launch.rise_time = number("rise_time_s", above_to(0, 1e6));
-  launch.roughness = number("roughness", between(0, 1e3));
-  launch.crack_radius = number("crack_radius_m", between(0, 1));
-  launch.flaw_size = number("flaw_size_m", between(0, 1));
-  launch.localisation = number("localisation", between(0, 1e6));
-  launch.air_heating = number("air_heating_K_per_s_m", between(0, 1e15));
   constexpr std::size_t most_gaps = 100'000;
-  launch.gaps = reader.numbers(object["gaps_m"], "launch.gaps_m", between(0, widest_gap), 1, most_gaps);
+  object.value("peak_pressure_Pa", launch.peak_pressure, above_to(0, 10e9));
+  object.value("duration_s", launch.duration, above_to(0, 1));
+  object.value("rise_time_s", launch.rise_time, above_to(0, 1e6));
+  object.value("roughness", launch.roughness, between(0, 1e3));
+  object.value("crack_radius_m", launch.crack_radius, between(0, 1));
+  object.value("flaw_size_m", launch.flaw_size, between(0, 1));
+  object.value("gaps_m", launch.gaps, between(0, widest_gap), 1, most_gaps);
+  object.value("localisation", launch.localisation, between(0, 1e6));
+  object.value("air_heating_K_per_s_m", launch.air_heating, between(0, 1e15));
+  object.value("shape", launch.shape, between(0, 1), shape_instants, shape_instants);
   const std::set<double> different(launch.gaps.begin(), launch.gaps.end());
-  if (different.size() != launch.gaps.size()) reader.refuse("launch.gaps_m", "a gap twice", "each gap once");
-  launch.shape =
-      reader.numbers(object["shape"], "launch.shape", between(0, 1), shape_instants, shape_instants);
-  return launch;
+  if (object.reading() && different.size() != launch.gaps.size())
+    object.reader().refuse("launch.gaps_m", "a gap twice", "each gap once");
 }
 
-RecordedSetting recorded_from(const ordered_json& object, const std::string& path,
-                              const AccuracyRecord& record, RecordReader& reader) {
+/// JSON writes what is not finite as null.
+void describe_setting(RecordObject& object, RecordedSetting& each, const AccuracyRecord& record) {
   using scene::above_to, scene::between;
-  RecordedSetting each;
-  if (!reader.has_keys(object, path,
-                       {"label", "temperature_bound_K", "critical_gap_bound_m", "processor_time_s",
-                        "reference", "cell_m", "temperature_K", "critical_gap_m", "setting"}))
-    return each;
-  const auto inside = [&](const char* key) { return path + "." + key; };
-  each.label = reader.text(object["label"], inside("label"));
-  each.temperature_bound = reader.number_or_none(object["temperature_bound_K"], inside("temperature_bound_K"),
-                                                 between(smallest_bound, 10 * highest_recorded_temperature));
-  each.critical_gap_bound = reader.number_or_none(
-      object["critical_gap_bound_m"], inside("critical_gap_bound_m"), between(0, 10 * widest_gap));
-  each.processor_time = reader.number(object["processor_time_s"], inside("processor_time_s"),
-                                      above_to(0, longest_processor_time));
-  each.reference = reader.flag(object["reference"], inside("reference"));
-  each.cell = reader.number(object["cell_m"], inside("cell_m"), above_to(0, 1));
   const std::size_t gaps = record.launch.gaps.size();
-  each.temperature =
-      reader.numbers(object["temperature_K"], inside("temperature_K"),
-                     between(record.initial_temperature - 1.0, highest_recorded_temperature), gaps, gaps);
-  each.critical_gap =
-      reader.number_or_none(object["critical_gap_m"], inside("critical_gap_m"), between(0, widest_gap));
-  each.setting = setting_from(object["setting"], inside("setting"), reader);
-  return each;
+  object.value("label", each.label);
+  object.value("temperature_bound_K", each.temperature_bound,
+               OrNone{between(smallest_bound, 10 * highest_recorded_temperature)});
+  object.value("critical_gap_bound_m", each.critical_gap_bound, OrNone{between(0, 10 * widest_gap)});
+  object.value("processor_time_s", each.processor_time, above_to(0, longest_processor_time));
+  object.value("reference", each.reference);
+  object.value("cell_m", each.cell, above_to(0, 1));
+  object.value("temperature_K", each.temperature,
+               between(record.initial_temperature - 1.0, highest_recorded_temperature), gaps, gaps);
+  object.value("critical_gap_m", each.critical_gap, OrNone{between(0, widest_gap)});
+  if (object.reading())
+    each.setting = setting_from(object["setting"], object.path_of("setting"), object.reader());
+  else
+    object["setting"] = json_of(each.setting);
 }
 
 /// What single values do not show.
@@ -232,48 +171,29 @@ void check_bounds(const AccuracyRecord& record, RecordReader& reader) {
   }
 }
 
-AccuracyRecord record_from(const ordered_json& object, RecordReader& reader) {
-  AccuracyRecord record;
-  if (!reader.has_keys(object, "",
-                       {"format", "digest", "title", "model_version", "shell", "initial_temperature_K",
-                        "launch", "settings"}))
-    return record;
-  record.title = reader.text(object["title"], "title");
-  record.model_version =
-      reader.whole(object["model_version"], "model_version", 1, std::numeric_limits<int>::max());
-  record.shell = reader.text(object["shell"], "shell");
-  record.initial_temperature =
-      reader.number(object["initial_temperature_K"], "initial_temperature_K", scene::between(200, 500));
-  record.launch = launch_from(object["launch"], reader);
-  if (!object["settings"].is_array() || object["settings"].size() > most_settings)
-    reader.refuse("settings", found_in(object["settings"]),
-                  fmt::format("an array of at most {} settings", most_settings));
-  if (reader.fault()) return record;
-  for (const ordered_json& each : object["settings"]) {
-    record.settings.push_back(
-        recorded_from(each, fmt::format("settings.{}", record.settings.size()), record, reader));
-    if (reader.fault()) return record;
-  }
-  check_settings(record, reader);
-  return record;
+void describe_accuracy(RecordObject& object, AccuracyRecord& record) {
+  object.value("title", record.title);
+  object.value("model_version", record.model_version, 1, std::numeric_limits<int>::max());
+  object.value("shell", record.shell);
+  object.value("initial_temperature_K", record.initial_temperature, scene::between(200, 500));
+  object.part("launch", record.launch, describe_launch);
+  // More settings would take long to compare with each other.
+  object.list("settings", record.settings, 0, 3000, "an array of at most 3000 settings",
+              [&](RecordObject& own, RecordedSetting& each) { describe_setting(own, each, record); });
+  if (!object.reading() || object.reader().fault()) return;
+  check_settings(record, object.reader());
+  if (!object.reader().fault()) check_bounds(record, object.reader());
 }
 
 }  // namespace
 
 std::string to_json_text(const AccuracyRecord& record) {
-  ordered_json object = content_of(record);
-  return record_text(std::move(object));
+  return record_text(content_by(accuracy_format, describe_accuracy, record));
 }
 
 scene::Expected<AccuracyRecord> parse_accuracy_record(const std::string& text, const std::string& file) {
-  RecordReader reader(file);
-  const auto object = reader.parse(text, format_name, "accuracy.json", "a study of kind accuracy");
-  if (!object) return *reader.fault();
-  AccuracyRecord record = record_from(*object, reader);
-  if (!reader.fault()) check_bounds(record, reader);
-  if (!reader.fault()) reader.check_digest(*object, content_of(record));
-  if (reader.fault()) return *reader.fault();
-  find_bounds(record);
+  auto record = parse_record<AccuracyRecord>(text, file, accuracy_format, describe_accuracy);
+  if (record) find_bounds(*record);
   return record;
 }
 

@@ -1,5 +1,6 @@
 #include "launchsafe/study/record_reader.hpp"
 
+#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/sha256.hpp"
 
 #include <fmt/format.h>
@@ -103,45 +104,63 @@ bool RecordReader::has_keys(const ordered_json& object, const std::string& path,
   return !fault_;
 }
 
-double RecordReader::number(const ordered_json& value, const std::string& path, const Limits& limits) {
-  const double found = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-  if (!std::isfinite(found) || !limits.contain(found)) refuse(path, found_in(value), allowed_by(limits));
-  return found;
+void RecordReader::read(const ordered_json& value, const std::string& path, double& number,
+                        const Limits& limits) {
+  number = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(number) || !limits.contain(number)) refuse(path, found_in(value), allowed_by(limits));
 }
 
-double RecordReader::number_or_none(const ordered_json& value, const std::string& path,
-                                    const Limits& limits) {
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : number(value, path, limits);
+void RecordReader::read(const ordered_json& value, const std::string& path, double& number,
+                        const OrNone& allowed) {
+  number = std::numeric_limits<double>::quiet_NaN();
+  if (!value.is_null()) read(value, path, number, allowed.limits);
 }
 
-std::vector<double> RecordReader::numbers(const ordered_json& values, const std::string& path,
-                                          const Limits& limits, std::size_t fewest, std::size_t most) {
-  std::vector<double> result;
+void RecordReader::read(const ordered_json& values, const std::string& path, std::vector<double>& numbers,
+                        const Limits& limits, std::size_t fewest, std::size_t most) {
   if (!values.is_array() || values.size() < fewest || values.size() > most) {
-    refuse(path, found_in(values),
-           fewest == most ? fmt::format("{} numbers", most) : fmt::format("{} to {} numbers", fewest, most));
-    return result;
+    return refuse(
+        path, found_in(values),
+        fewest == most ? fmt::format("{} numbers", most) : fmt::format("{} to {} numbers", fewest, most));
   }
-  for (const ordered_json& value : values)
-    result.push_back(number(value, fmt::format("{}.{}", path, result.size()), limits));
-  return result;
+  numbers.resize(values.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    read(values[i], fmt::format("{}.{}", path, i), numbers[i], limits);
 }
 
-int RecordReader::whole(const ordered_json& value, const std::string& path, int lowest, int highest) {
+void RecordReader::read(const ordered_json& value, const std::string& path, int& whole, int lowest,
+                        int highest) {
   // A larger number would be cut to another one by get<int>.
   const bool fits = value.is_number_integer() && value >= lowest && value <= highest;
   if (!fits) refuse(path, found_in(value), fmt::format("a whole number from {} to {}", lowest, highest));
-  return fits ? value.get<int>() : lowest;
+  whole = fits ? value.get<int>() : lowest;
 }
 
-bool RecordReader::flag(const ordered_json& value, const std::string& path) {
-  if (!value.is_boolean()) refuse(path, found_in(value), "true or false");
-  return value.is_boolean() && value.get<bool>();
+void RecordReader::read(const ordered_json& value, const std::string& path, bool& flag) {
+  if (!value.is_boolean()) return refuse(path, found_in(value), "true or false");
+  flag = value.get<bool>();
 }
 
-std::string RecordReader::text(const ordered_json& value, const std::string& path) {
-  if (!value.is_string()) refuse(path, found_in(value), "a text");
-  return value.is_string() ? value.get<std::string>() : std::string{};
+void RecordReader::read(const ordered_json& value, const std::string& path, std::string& text) {
+  if (!value.is_string()) return refuse(path, found_in(value), "a text");
+  text = value.get<std::string>();
+}
+
+void RecordObject::model_version(int& version, const char* anew) {
+  value("model_version", version, 1, 1'000'000);
+  if (reading() && version != run::model_version) {
+    reader_->refuse("model_version", fmt::format("{}", version),
+                    fmt::format("{}, the version of this program; {}", run::model_version, anew));
+  }
+}
+
+void RecordObject::scene(scene::Scene& scene, const char* what) {
+  std::string text = reading() ? std::string{} : scene::to_toml(scene);
+  value("scene", text);
+  if (!reading() || reader_->fault()) return;
+  auto read = scene::parse_scene(text, "scene of the record");
+  if (!read) return reader_->refuse("scene", "a scene that cannot be read: " + read.error().message(), what);
+  scene = std::move(read->scene);
 }
 
 }  // namespace launchsafe::study

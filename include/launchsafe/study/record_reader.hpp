@@ -1,23 +1,28 @@
 // Records that studies write for other studies, as JSON with a digest, read with distrust.
 #pragma once
 
+#include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace launchsafe::study {
-
-/// The record as a file: `content` and the SHA-256 of it.
-std::string record_text(nlohmann::ordered_json content);
 
 /// A text for a message, shortened.
 std::string quoted(const std::string& text);
 /// A value for a message.
 std::string found_in(const nlohmann::ordered_json& value);
+
+/// A number within these limits, or null.
+struct OrNone {
+  scene::Limits limits;
+};
 
 /// Takes the values of a record one by one. The first fault stays; what is read after it means nothing.
 class RecordReader {
@@ -37,19 +42,135 @@ class RecordReader {
   /// Whether it is an object with these keys and no others.
   bool has_keys(const nlohmann::ordered_json& object, const std::string& path,
                 const std::vector<std::string>& keys);
-  double number(const nlohmann::ordered_json& value, const std::string& path, const scene::Limits& limits);
+
+  // Values at a path, with what is allowed of them.
+  void read(const nlohmann::ordered_json& value, const std::string& path, double& number,
+            const scene::Limits& limits);
   /// NaN for null.
-  double number_or_none(const nlohmann::ordered_json& value, const std::string& path,
-                        const scene::Limits& limits);
-  std::vector<double> numbers(const nlohmann::ordered_json& values, const std::string& path,
-                              const scene::Limits& limits, std::size_t fewest, std::size_t most);
-  int whole(const nlohmann::ordered_json& value, const std::string& path, int lowest, int highest);
-  bool flag(const nlohmann::ordered_json& value, const std::string& path);
-  std::string text(const nlohmann::ordered_json& value, const std::string& path);
+  void read(const nlohmann::ordered_json& value, const std::string& path, double& number,
+            const OrNone& allowed);
+  void read(const nlohmann::ordered_json& values, const std::string& path, std::vector<double>& numbers,
+            const scene::Limits& limits, std::size_t fewest, std::size_t most);
+  void read(const nlohmann::ordered_json& value, const std::string& path, int& whole, int lowest,
+            int highest);
+  void read(const nlohmann::ordered_json& value, const std::string& path, bool& flag);
+  void read(const nlohmann::ordered_json& value, const std::string& path, std::string& text);
 
  private:
   std::string file_;
   std::optional<scene::InputError> fault_;
 };
+
+/// An object of a record. One description of its keys, in their order, serves writing and reading.
+class RecordObject {
+ public:
+  /// To be written.
+  RecordObject() = default;
+  /// To be read.
+  RecordObject(const nlohmann::ordered_json& given, std::string path, RecordReader& reader)
+      : json_(given), path_(std::move(path)), reader_(&reader) {}
+
+  bool reading() const { return reader_ != nullptr; }
+  RecordReader& reader() const { return *reader_; }
+  nlohmann::ordered_json& operator[](const std::string& key) { return json_[key]; }
+  std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+
+  /// A value, with what `RecordReader::read` has to know to take it.
+  template <class Value, class... Allowed>
+  void value(const std::string& key, Value& value, const Allowed&... allowed) {
+    if (reading())
+      reader_->read(json_[key], path_of(key), value, allowed...);
+    else
+      json_[key] = value;
+  }
+  /// Parts by their own descriptions; of a list `allowed` says how many there may be.
+  template <class Part, class Describe>
+  void part(const std::string& key, Part& part, const Describe& describe);
+  template <class Part, class Describe>
+  void list(const std::string& key, std::vector<Part>& parts, std::size_t fewest, std::size_t most,
+            const char* allowed, const Describe& describe);
+
+  /// "model_version", which must be this program's. `anew`: how to get a record of it.
+  void model_version(int& version, const char* anew);
+  /// "scene", as text; `what` says which it should be.
+  void scene(scene::Scene& scene, const char* what);
+  const nlohmann::ordered_json& json() const { return json_; }
+
+ private:
+  nlohmann::ordered_json json_ = nlohmann::ordered_json::object();
+  std::string path_;
+  RecordReader* reader_ = nullptr;
+};
+
+template <class Value, class Describe>
+nlohmann::ordered_json json_by(const Describe& describe, Value value) {
+  RecordObject object;
+  describe(object, value);
+  return object.json();
+}
+
+/// Takes an object with the keys of its description, those of `head` before them, and no others.
+template <class Value, class Describe>
+void read_object(const nlohmann::ordered_json& given, const std::string& path, RecordReader& reader,
+                 Value& value, const Describe& describe, std::vector<std::string> head = {}) {
+  const nlohmann::ordered_json known = json_by(describe, Value{});
+  for (const auto& [key, unused] : known.items()) head.push_back(key);
+  if (!reader.has_keys(given, path, head)) return;
+  RecordObject object(given, path, reader);
+  describe(object, value);
+}
+
+template <class Part, class Describe>
+void RecordObject::part(const std::string& key, Part& part, const Describe& describe) {
+  if (reading())
+    read_object(json_[key], path_of(key), *reader_, part, describe);
+  else
+    json_[key] = json_by(describe, part);
+}
+
+template <class Part, class Describe>
+void RecordObject::list(const std::string& key, std::vector<Part>& parts, std::size_t fewest,
+                        std::size_t most, const char* allowed, const Describe& describe) {
+  nlohmann::ordered_json& list = json_[key];
+  if (!reading()) {
+    list = nlohmann::ordered_json::array();
+    for (const Part& part : parts) list.push_back(json_by(describe, part));
+    return;
+  }
+  if (!list.is_array() || list.size() < fewest || list.size() > most)
+    reader_->refuse(path_of(key), found_in(list), allowed);
+  for (std::size_t i = 0; !reader_->fault() && i < list.size(); ++i)
+    read_object(list[i], path_of(key) + "." + std::to_string(i), *reader_, parts.emplace_back(), describe);
+}
+
+/// A kind of record.
+struct RecordFormat {
+  const char *name, *file, *study;  ///< format and version; what its file is called; which study writes it
+  std::array<const char*, 2> head;  ///< "format" and "digest", as messages list them
+};
+
+template <class Record, class Describe>
+nlohmann::ordered_json content_by(const RecordFormat& format, const Describe& describe,
+                                  const Record& record) {
+  nlohmann::ordered_json content{{"format", format.name}};
+  content.update(json_by(describe, record));
+  return content;
+}
+
+/// The record as a file: its content and the SHA-256 of it.
+std::string record_text(nlohmann::ordered_json content);
+
+/// The record of a file. Refused are a text that is not its description's, and one that was edited.
+template <class Record, class Describe>
+scene::Expected<Record> parse_record(const std::string& text, const std::string& file,
+                                     const RecordFormat& format, const Describe& describe) {
+  RecordReader reader(file);
+  const auto object = reader.parse(text, format.name, format.file, format.study);
+  Record record;
+  if (object) read_object(*object, "", reader, record, describe, {format.head[0], format.head[1]});
+  if (!reader.fault()) reader.check_digest(*object, content_by(format, describe, record));
+  if (reader.fault()) return *reader.fault();
+  return record;
+}
 
 }  // namespace launchsafe::study
