@@ -96,9 +96,8 @@ bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input) 
   const double end = scene.load.duration * (1.0 + 1e-6);
   const auto is_late = [end](const Peak& peak) { return peak.time > end; };
   if (answer.verdicts.size() != study.gaps.size()) return false;
-  double largest_gap = study.largest_gap;
-  for (const double gap : study.gaps) largest_gap = std::max(largest_gap, gap);
-  if (answer.critical.kind == CriticalGapKind::value && answer.critical.upper > largest_gap * (1.0 + 1e-9))
+  if (answer.critical.kind == CriticalGapKind::value &&
+      answer.critical.upper > largest_gap(study) * (1.0 + 1e-9))
     return false;
   const InputStatements statements = statements_of(study, input);
   for (std::size_t i = 0; i < study.gaps.size(); ++i) {

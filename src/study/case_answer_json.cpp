@@ -1,6 +1,5 @@
 // Answers as JSON, to be stored and read back exactly. Verdicts are not stored: they follow from what is.
 #include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/row_judgement.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -165,19 +164,6 @@ RunSummary run_of(const json& value) {
   return run;
 }
 
-/// The verdicts, as they follow from what was read.
-void judge_rows(CaseAnswer& answer) {
-  for (GapVerdict& row : answer.verdicts) {
-    Evidence evidence = evidence_of(row, answer.failure, answer.run.limiters);
-    evidence.validity_warnings = row.evidence.validity_warnings;
-    evidence.accepted = row.evidence.accepted;
-    evidence.optimistic = row.evidence.optimistic;
-    evidence.model_form = row.evidence.model_form;
-    evidence.extrapolated = row.evidence.extrapolated;
-    judge_row(std::move(evidence), answer.critical, row);
-  }
-}
-
 /// Throws Damage, or what the JSON library throws where a value is missing or of another type.
 CaseAnswer answer_of(const json& value) {
   CaseAnswer answer;
@@ -189,7 +175,8 @@ CaseAnswer answer_of(const json& value) {
     answer.heated_temperature.push_back(amount_of(heated));
   require(answer.run.status == run::RunStatus::completed || !answer.completed(),
           "a run that did not complete has no failure");
-  judge_rows(answer);
+  for (GapVerdict& row : answer.verdicts)
+    judge_row(answer.failure, answer.run.limiters, answer.critical, row);
   return answer;
 }
 

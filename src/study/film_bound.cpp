@@ -6,17 +6,9 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace launchsafe::study {
 namespace {
-
-GapState film_state(const surface::SkinHistory& history) {
-  const bool finite = std::all_of(history.temperature.begin(), history.temperature.end(),
-                                  [](double temperature) { return std::isfinite(temperature); });
-  if (history.temperature.empty() || !finite) return GapState::undefined;
-  return history.ignition ? GapState::ignites : GapState::safe;
-}
 
 /// None of some gaps up to the last one ignites.
 CriticalGap none_up_to(double largest, std::size_t gaps) {
@@ -37,26 +29,25 @@ void evaluate_film(const Study& study, CaseOutcome& outcome) {
   surface::SkinModel model = surface::skin_model(scene);
   model.surface.air_model = scene::AirModel::film;
   std::vector<double> gaps = study.gaps;
-  gaps.push_back(*std::max_element(gaps.begin(), gaps.end()));
-  gaps.back() = std::max(gaps.back(), study.largest_gap);
+  gaps.push_back(largest_gap(study));
   std::vector<double> temperatures(gaps.size());
   std::vector<GapState> states(gaps.size());
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t i) {
       const auto history = surface::integrate_skin(model, trace, gaps[i]);
       temperatures[i] = surface::maximum_at_stations(history, trace).temperature;
-      states[i] = film_state(history);
+      states[i] = state_of(history);
     });
   });
   FilmBound film;
   film.maximum_temperature.assign(temperatures.begin(), temperatures.end() - 1);
   const bool all_safe =
       std::all_of(states.begin(), states.end(), [](GapState state) { return state == GapState::safe; });
-  film.critical =
-      all_safe ? none_up_to(gaps.back(), gaps.size())
-               : find_critical_gap(
-                     [&](double gap) { return film_state(surface::integrate_skin(model, trace, gap)); },
-                     gaps.back(), study.tolerance);
+  film.critical = all_safe
+                      ? none_up_to(gaps.back(), gaps.size())
+                      : find_critical_gap(
+                            [&](double gap) { return state_of(surface::integrate_skin(model, trace, gap)); },
+                            gaps.back(), study.tolerance);
   outcome.film = std::move(film);
 }
 

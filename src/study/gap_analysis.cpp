@@ -2,7 +2,6 @@
 
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/row_judgement.hpp"
 
 #include <fmt/format.h>
 
@@ -29,23 +28,6 @@ std::optional<NamedIgnition> named(const std::optional<surface::Ignition>& ignit
   if (!ignition) return std::nullopt;
   return NamedIgnition{ignition->cause, ignition->time, name_of(trace, ignition->station),
                        ignition->chemical_share};
-}
-
-bool all_finite(const surface::SkinHistory& history) {
-  return !history.temperature.empty() &&
-         std::all_of(history.temperature.begin(), history.temperature.end(),
-                     [](double temperature) { return std::isfinite(temperature); });
-}
-
-GapState state_of(const surface::SkinHistory& history) {
-  if (!all_finite(history)) return GapState::undefined;
-  return history.ignition ? GapState::ignites : GapState::safe;
-}
-
-double largest_gap(const Study& study) {
-  double largest = study.largest_gap;
-  for (const double gap : study.gaps) largest = std::max(largest, gap);
-  return largest;
 }
 
 /// What a tolerance ten times wider changes, K.
@@ -84,16 +66,21 @@ CaseGround ground_of(const Study& study, const CaseOutcome& outcome) {
           heated_temperature(scene, outcome.result.mechanics.trace, 0.0)};
 }
 
+/// K by which T max of a row changes in another scene, on another trace or under another gap (m). A row that
+/// ignites there has no margin left.
+double changed_share(const scene::Scene& scene, const BottomTrace& trace, double gap, const GapVerdict& row) {
+  const double rise = std::abs(heated_temperature(scene, trace, gap) - row.heated);
+  const auto reacting = surface::integrate_skin(surface::skin_model(scene), trace, gap);
+  return !row.ignition && reacting.ignition ? std::max(rise, row.margin) : rise;
+}
+
 /// K by which T max of a gap changes where load and initial temperature are at the hot ends of their assumed
-/// spread together. One that ignites there has no margin left.
+/// spread together.
 double propagated_share(const CaseOutcome& outcome, const GapVerdict& row) {
   scene::Scene hot = with_raised_load(outcome.input.scene.scene);
   hot.initial_temperature += assumed_temperature_spread;
   hot.surface.air.initial_temperature += assumed_temperature_spread;
-  const BottomTrace& trace = outcome.raised->trace;
-  const double rise = std::abs(heated_temperature(hot, trace, row.gap) - row.heated);
-  const auto reacting = surface::integrate_skin(surface::skin_model(hot), trace, row.gap);
-  return !row.ignition && reacting.ignition ? std::max(rise, row.margin) : rise;
+  return changed_share(hot, outcome.raised->trace, row.gap, row);
 }
 
 /// K by which all heat of friction between charge and base could heat the charge's surface: in the skin, or,
@@ -110,15 +97,11 @@ double friction_share(const CaseOutcome& outcome) {
   return heat / (capacity * std::min(scene.surface.skin_thickness, diffused));
 }
 
-/// K by which T max of a gap changes where it is thicker (m). One that ignites there has no margin left.
+/// K by which T max of a gap changes where it is thicker (m).
 double thicker_gap_share(const CaseOutcome& outcome, const GapVerdict& row, double thicker) {
   constexpr double least = 1e-9;  // m
   if (thicker < least) return 0.0;
-  const scene::Scene& scene = outcome.input.scene.scene;
-  const BottomTrace& trace = outcome.result.mechanics.trace;
-  const double rise = std::abs(heated_temperature(scene, trace, row.gap + thicker) - row.heated);
-  const auto reacting = surface::integrate_skin(surface::skin_model(scene), trace, row.gap + thicker);
-  return !row.ignition && reacting.ignition ? std::max(rise, row.margin) : rise;
+  return changed_share(outcome.input.scene.scene, outcome.result.mechanics.trace, row.gap + thicker, row);
 }
 
 /// K by which T max of a gap changes where charge and base part.
@@ -228,6 +211,19 @@ std::string validity_warnings_of(const Study& study, const CaseOutcome& outcome)
 
 }  // namespace
 
+GapState state_of(const surface::SkinHistory& history) {
+  const bool finite = std::all_of(history.temperature.begin(), history.temperature.end(),
+                                  [](double temperature) { return std::isfinite(temperature); });
+  if (history.temperature.empty() || !finite) return GapState::undefined;
+  return history.ignition ? GapState::ignites : GapState::safe;
+}
+
+double largest_gap(const Study& study) {
+  double largest = study.largest_gap;
+  for (const double gap : study.gaps) largest = std::max(largest, gap);
+  return largest;
+}
+
 surface::SkinModel without_reaction(surface::SkinModel model) {
   constexpr double never = std::numeric_limits<double>::max();
   model.kinetics.frequency = 0.0;
@@ -314,13 +310,13 @@ void conclude(const Study& study, CaseOutcome& outcome) {
     row.uncertainty.coupling = coupling;
     if (foreign)
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
-    Evidence evidence = evidence_of(row, outcome.failure, outcome.result.mechanics.limiters);
+    Evidence& evidence = row.evidence;
     evidence.validity_warnings = warnings;
     evidence.accepted = accepted;
     evidence.optimistic = optimistic_text(outcome.input.scene.scene);
     evidence.model_form = model_form_text(study, outcome.input, row.gap, row.ignition.has_value());
     evidence.extrapolated = extrapolation_text(study, outcome.input, row.gap);
-    judge_row(std::move(evidence), outcome.critical, row);
+    judge_row(outcome.failure, outcome.result.mechanics.limiters, outcome.critical, row);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);
     temperatures.push_back(row.maximum.temperature);

@@ -17,6 +17,12 @@ struct StationTemperature {
 std::vector<StationTemperature> station_temperatures(const surface::SkinHistory& skin,
                                                      const trace::BottomTrace& trace);
 
+/// Undefined where a temperature is not a number.
+GapState state_of(const surface::SkinHistory& history);
+
+/// m, where the search for the critical gap ends: beyond all gaps of the study.
+double largest_gap(const Study& study);
+
 /// The critical gap, by the hottest station; indeterminate for a failed run.
 void find_critical_gaps(const Study& study, CaseOutcome& outcome);
 

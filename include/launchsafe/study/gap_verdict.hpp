@@ -48,6 +48,11 @@ struct GapVerdict {
   double early_misfit() const;
 };
 
+/// Judges a row on its numbers and on the clauses about its validity that its evidence holds already: the
+/// same whether they were computed or read. `failure` is empty for a completed run.
+void judge_row(const std::string& failure, const run::LimiterCounts& limiters, const CriticalGap& critical,
+               GapVerdict& row);
+
 /// A run with skin on one side of the bracket.
 struct Confirmation {
   double gap = 0;  ///< m

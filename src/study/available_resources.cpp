@@ -1,0 +1,123 @@
+#include "launchsafe/study/scheduler.hpp"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace launchsafe::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* control_root = "/sys/fs/cgroup";
+
+/// The root of the control groups and, below it, the process's own ones (version 2) from the top down.
+std::vector<fs::path> control_groups() {
+  std::vector<fs::path> groups{control_root};
+  std::ifstream stream("/proc/self/cgroup");
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.starts_with("0::/")) continue;
+    for (const fs::path& part : fs::path(line.substr(4))) groups.push_back(groups.back() / part);
+    break;
+  }
+  return groups;
+}
+
+int cores_by_affinity() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) != 0)
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return std::max(1, CPU_COUNT(&set));
+}
+
+/// Cores that a quota per period allows, rounded up; `cores` where there is no quota.
+int limited(int cores, double quota, double period) {
+  if (!(quota > 0) || !(period > 0)) return cores;
+  return std::min(cores, std::max(1, static_cast<int>(std::ceil(quota / period - 1e-9))));
+}
+
+/// cpu.max of one control group (version 2): "max 100000" or "200000 100000".
+int limited_by_file(int cores, const fs::path& file) {
+  std::ifstream stream(file);
+  std::string quota;
+  double period = 0;
+  if (!(stream >> quota >> period) || quota == "max") return cores;
+  try {
+    return limited(cores, std::stod(quota), period);
+  } catch (const std::exception&) {
+    return cores;
+  }
+}
+
+int limited_by_version_1(int cores, const fs::path& folder) {
+  double quota = 0, period = 0;
+  std::ifstream(folder / "cpu.cfs_quota_us") >> quota;
+  std::ifstream(folder / "cpu.cfs_period_us") >> period;
+  return limited(cores, quota, period);
+}
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// The number in a file; infinity where there is none ("max", no such file).
+double number_in(const fs::path& file) {
+  std::ifstream stream(file);
+  double number = 0;
+  return stream >> number ? number : unlimited;
+}
+
+/// MemAvailable of the machine, bytes.
+double machine_memory() {
+  std::ifstream stream("/proc/meminfo");
+  for (std::string line; std::getline(stream, line);) {
+    constexpr std::string_view name = "MemAvailable:";
+    if (line.starts_with(name)) return 1024.0 * std::strtod(line.c_str() + name.size(), nullptr);
+  }
+  return unlimited;
+}
+
+/// What the limit of one control group (version 2) leaves. Its file cache is given up under pressure.
+double left_in_group(const fs::path& group) {
+  const double limit = number_in(group / "memory.max");
+  if (limit == unlimited) return unlimited;
+  double cache = 0;
+  std::ifstream stream(group / "memory.stat");
+  std::string name;
+  for (double value = 0; stream >> name >> value;) {
+    if (name == "inactive_file" || name == "active_file") cache += value;
+  }
+  const double used = number_in(group / "memory.current");
+  return std::max(0.0, limit - (used == unlimited ? 0.0 : used) + cache);
+}
+
+/// The same for version 1, whose limit is a huge number where there is none.
+double left_in_version_1(const fs::path& group) {
+  const double limit = number_in(group / "memory.limit_in_bytes");
+  if (!(limit < 1e15)) return unlimited;
+  const double used = number_in(group / "memory.usage_in_bytes");
+  return std::max(0.0, limit - (used == unlimited ? 0.0 : used));
+}
+
+}  // namespace
+
+int available_cores() {
+  int cores = cores_by_affinity();
+  for (const fs::path& group : control_groups()) cores = limited_by_file(cores, group / "cpu.max");
+  return limited_by_version_1(cores, fs::path(control_root) / "cpu");
+}
+
+double available_memory() {
+  double memory = std::min(machine_memory(), left_in_version_1(fs::path(control_root) / "memory"));
+  for (const fs::path& group : control_groups()) memory = std::min(memory, left_in_group(group));
+  return memory;
+}
+
+}  // namespace launchsafe::study
