@@ -63,10 +63,19 @@ Fault settle_fit_uncertainty(StudyFile& study, const CalibrationRecord& record) 
                   "no less than the record shows, or no fit_uncertainty, which takes it");
 }
 
-Fault unreadable(const StudyFile& study, const char* key, const std::string& name, const std::string& wanted,
-                 const scene::InputError& error) {
-  return fault_at(study, key, fmt::format("\"{}\", which cannot be read", name),
-                  wanted + ", by its path from the study file's folder", error.suggestion);
+/// The record that a key names, noted as one that the study rests on.
+template <class Record>
+scene::Expected<Record> read_named(StudyFile& study, const std::filesystem::path& folder, const char* key,
+                                   const std::string& name, const std::string& wanted,
+                                   scene::Expected<Record> (*parse)(const std::string&, const std::string&)) {
+  const std::string file = (folder / name).string();
+  const auto text = scene::read_text_file(file);
+  if (!text) {
+    return fault_at(study, key, fmt::format("\"{}\", which cannot be read", name),
+                    wanted + ", by its path from the study file's folder", text.error().suggestion);
+  }
+  study.records.push_back(store::sha256(*text));
+  return parse(*text, file);
 }
 
 }  // namespace
@@ -74,12 +83,8 @@ Fault unreadable(const StudyFile& study, const char* key, const std::string& nam
 Fault use_calibration(StudyFile& study, const std::filesystem::path& folder) {
   const std::string& name = study.study.calibration_record;
   if (name.empty()) return std::nullopt;
-  const std::string file = (folder / name).string();
-  const auto text = scene::read_text_file(file);
-  if (!text)
-    return unreadable(study, "calibration", name, "the calibration.json of a calibration", text.error());
-  study.records.push_back(store::sha256(*text));
-  const auto record = parse_calibration_record(*text, file);
+  const auto record = read_named(study, folder, "calibration", name, "the calibration.json of a calibration",
+                                 parse_calibration_record);
   if (!record) return record.error();
   if (!record->failure.empty()) {
     return fault_at(study, "calibration", "a record without constants: " + record->failure,
@@ -108,13 +113,8 @@ Fault read_model_form(StudyFile& study, const std::filesystem::path& folder) {
     return fault_at(study, "model_form_uncertainty", "a stated uncertainty beside a record of other models",
                     "either model_form_uncertainty or model_form");
   }
-  const std::string file = (folder / name).string();
-  const auto text = scene::read_text_file(file);
-  if (!text)
-    return unreadable(study, "model_form", name, "the model_form.json of a comparison of calibrated models",
-                      text.error());
-  study.records.push_back(store::sha256(*text));
-  auto record = parse_model_form(*text, file);
+  auto record = read_named(study, folder, "model_form", name,
+                           "the model_form.json of a comparison of calibrated models", parse_model_form);
   if (!record) return record.error();
   study.study.model_form = std::move(*record);
   return std::nullopt;
