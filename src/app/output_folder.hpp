@@ -2,7 +2,7 @@
 #pragma once
 
 #include "console.hpp"
-#include "launchsafe/report/written_files.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/store/result.hpp"
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 #include "launchsafe/report/report.hpp"
 
 #include "launchsafe/report/study_text.hpp"
+#include "launchsafe/store/own_files.hpp"
 
 #include <fmt/format.h>
 
@@ -55,22 +56,44 @@ std::string printed(const ReportTable& item, const std::filesystem::path& folder
                                           rows, (folder / rest_of(item)).string());
 }
 
-/// Draws the pictures, until gnuplot fails at one. The names of those that are not there.
+/// Draws the pictures, until gnuplot is missing, fails or takes too long at one, which is a remark. The names
+/// of those that are not there. Errors: write_failed.
 store::Result<std::vector<std::string>> draw(const Report& report, const std::filesystem::path& folder,
                                              const DrawingLimits& limits, WrittenFiles& written) {
   std::vector<std::string> missing;
   for (const auto& item : report.items) {
     const auto* picture = std::get_if<Picture>(&item);
     if (picture == nullptr) continue;
-    std::string name;
     if (missing.empty()) {
-      auto drawn = write_picture(picture->plot, folder, picture->file, written, limits);
-      if (!drawn) return drawn.error();
-      name = *drawn;
+      const auto error = write_svg(picture->plot, folder / picture->file, limits);
+      if (!error) {
+        written.files.push_back(picture->file);
+        continue;
+      }
+      if (!is_of_drawing(*error)) return *error;
+      written.remarks.push_back("no picture: " + error->message);
+      ++written.pictures_missing;
     }
-    if (name.empty()) missing.push_back(picture->file);
+    missing.push_back(picture->file);
   }
   return missing;
+}
+
+/// Makes a folder and writes texts into it, one file each.
+store::MaybeError write_texts(const std::filesystem::path& folder,
+                              const std::vector<std::pair<std::string, std::string>>& texts,
+                              WrittenFiles& written) {
+  std::error_code status;
+  std::filesystem::create_directories(folder, status);
+  if (status) {
+    return store::Error{store::Error::Kind::write_failed,
+                        fmt::format("cannot make the folder {}: {}", folder.string(), status.message())};
+  }
+  for (const auto& [name, text] : texts) {
+    if (auto error = store::write_own_file(folder / name, {text})) return error;
+    written.files.push_back(name);
+  }
+  return {};
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/store/own_files.hpp"
 
 #include <fmt/format.h>
 
@@ -120,34 +119,5 @@ std::string json_file_text(const nlohmann::ordered_json& object) {
 }
 
 std::string centimetres(double length) { return fmt::format("{:.6g} cm", 100.0 * length); }
-
-store::Result<std::string> write_picture(const Plot& plot, const std::filesystem::path& folder,
-                                         const std::string& name, WrittenFiles& written,
-                                         const DrawingLimits& limits) {
-  if (auto error = write_svg(plot, folder / name, limits)) {
-    if (!is_of_drawing(*error)) return *error;
-    written.remarks.push_back("no picture: " + error->message);
-    ++written.pictures_missing;
-    return std::string{};
-  }
-  written.files.push_back(name);
-  return name;
-}
-
-store::MaybeError write_texts(const std::filesystem::path& folder,
-                              const std::vector<std::pair<std::string, std::string>>& texts,
-                              WrittenFiles& written) {
-  std::error_code status;
-  std::filesystem::create_directories(folder, status);
-  if (status) {
-    return store::Error{store::Error::Kind::write_failed,
-                        fmt::format("cannot make the folder {}: {}", folder.string(), status.message())};
-  }
-  for (const auto& [name, text] : texts) {
-    if (auto error = store::write_own_file(folder / name, {text})) return error;
-    written.files.push_back(name);
-  }
-  return {};
-}
 
 }  // namespace launchsafe::report

@@ -5,7 +5,7 @@
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/stations.hpp"
-#include "launchsafe/study/uncertainty_text.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,5 @@
-#include "launchsafe/run/load_coverage.hpp"
+// Whether a simulation covers the launch that its load states.
+#include "launchsafe/run/validity_warnings.hpp"
 
 #include <fmt/format.h>
 

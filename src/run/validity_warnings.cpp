@@ -1,6 +1,5 @@
 #include "launchsafe/run/validity_warnings.hpp"
 
-#include "launchsafe/run/load_coverage.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/stations.hpp"
 

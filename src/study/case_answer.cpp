@@ -1,6 +1,6 @@
 #include "launchsafe/study/case_answer.hpp"
 
-#include "launchsafe/run/load_coverage.hpp"
+#include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"

@@ -3,7 +3,6 @@
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/study/uncertainty_text.hpp"
 
 #include <fmt/format.h>
 
@@ -50,6 +49,15 @@ std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCa
   for (scene::Implausible& each : scene::implausible_values(input.scene.scene))
     values.push_back(std::move(each));
   return values;
+}
+
+/// The alternatives of a record that count, or those that do not.
+std::string names_of(const ModelFormRecord& record, bool counted) {
+  std::vector<std::string> names;
+  for (const ModelAlternative& each : record.alternatives) {
+    if (each.not_counted.empty() == counted) names.push_back(each.name);
+  }
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -156,10 +164,6 @@ std::string extrapolation_text(const Study& study, const StudyCase& input, doubl
   return beyond.empty() ? std::string{} : fmt::format("extrapolated: {}", fmt::join(beyond, ", "));
 }
 
-}  // namespace launchsafe::study
-
-namespace launchsafe::study {
-
 std::string fit_uncertainty_text(const Study& study) {
   const CalibrationEvidence& evidence = study.calibration.evidence;
   const std::string base = std::isfinite(study.fit_uncertainty)
@@ -181,19 +185,6 @@ std::string fit_uncertainty_text(const Study& study) {
       "come in.",
       base, rows, evidence.largest_misfit, assumed_numerical_uncertainty);
 }
-
-namespace {
-
-/// The alternatives of a record that count, or those that do not.
-std::string names_of(const ModelFormRecord& record, bool counted) {
-  std::vector<std::string> names;
-  for (const ModelAlternative& each : record.alternatives) {
-    if (each.not_counted.empty() == counted) names.push_back(each.name);
-  }
-  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
-}
-
-}  // namespace
 
 std::string model_form_uncertainty_text(const StudyFile& study) {
   const Study& s = study.study;

@@ -1,8 +1,7 @@
 // Plots as values, drawn by gnuplot as SVG.
 #pragma once
 
-#include "launchsafe/report/drawing_limits.hpp"
-#include "launchsafe/store/result.hpp"
+#include "launchsafe/store/program.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -11,6 +10,9 @@
 #include <vector>
 
 namespace launchsafe::report {
+
+/// What ends gnuplot. A report is whole without its pictures: one that is not drawn is a remark.
+using DrawingLimits = store::ProgramLimits;
 
 enum class Scale { linear, logarithmic };
 

@@ -2,10 +2,8 @@
 // a terminal, and one JSON object.
 #pragma once
 
-#include "launchsafe/report/drawing_limits.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
-#include "launchsafe/report/written_files.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -52,6 +50,13 @@ struct Report {
   std::vector<TextFile> files = {};
   std::string json = {};                  ///< study.json; none where empty
   std::vector<std::string> remarks = {};  ///< what pictures leave out, for the end of the page and for people
+};
+
+/// What a report left in its folder.
+struct WrittenFiles {
+  std::vector<std::string> files;    ///< names in the folder, in the order written
+  std::vector<std::string> remarks;  ///< what could not be made and why, such as a missing gnuplot
+  int pictures_missing = 0;          ///< because they could not be drawn: another time they may be
 };
 
 /// The page. `missing`: names of pictures that were not drawn.

@@ -43,14 +43,4 @@ std::string study_json(const study::StudyFile& study, const Report& report,
 /// A length in cm as people read it, six digits.
 std::string centimetres(double length);
 
-/// Draws a picture into a folder, which is there. Its name, or nothing where gnuplot is missing, fails or
-/// takes too long, which is a remark. Errors: write_failed.
-store::Result<std::string> write_picture(const Plot& plot, const std::filesystem::path& folder,
-                                         const std::string& name, WrittenFiles& written,
-                                         const DrawingLimits& limits);
-/// Makes a folder and writes texts into it, one file each.
-store::MaybeError write_texts(const std::filesystem::path& folder,
-                              const std::vector<std::pair<std::string, std::string>>& texts,
-                              WrittenFiles& written);
-
 }  // namespace launchsafe::report

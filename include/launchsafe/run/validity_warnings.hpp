@@ -13,4 +13,9 @@ namespace launchsafe::run {
 /// They rest on the scene and on what the run recorded, so that stored runs can be judged too.
 std::vector<std::string> validity_warnings(const scene::Scene& scene, const MechanicsResult& mechanics);
 
+/// What of the stated load lies outside the simulated time, a clause each for people; nothing for a launch
+/// that begins at rest, reaches its stated peak, and ends after it with all that was measured. A launch may
+/// end at the stated duration while pressure is left, as the shell leaves the barrel.
+std::vector<std::string> uncovered_load(const scene::Load& load);
+
 }  // namespace launchsafe::run

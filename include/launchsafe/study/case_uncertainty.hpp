@@ -78,4 +78,11 @@ std::string optimistic_text(const scene::Scene& scene);
 /// What is extrapolated for a gap (m), for its verdict; empty for nothing.
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap);
 
+/// Where the share of the calibrated constants comes from and how it grows; a sentence without its subject.
+std::string fit_uncertainty_text(const Study& study);
+/// Likewise for other models of the launch.
+std::string model_form_uncertainty_text(const StudyFile& study);
+/// Likewise for what is not known of the launch.
+std::string input_uncertainty_text(const Study& study);
+
 }  // namespace launchsafe::study
