@@ -39,6 +39,25 @@ void Simulation::reset_grid() {
   with(form_, [](auto& form) { form.reset_grid(); });
 }
 
+void Simulation::burn(int body, std::size_t slot, double share, double fresh_energy) {
+  auto& charge = std::get<Body<materials::Charge>>(bodies_[static_cast<std::size_t>(body)]);
+  ParticleFields& p = charge.particles;
+  if (!p.burning) {
+    const materials::ProductGas gas(materials::composition_b_gas(), charge.law.specific_heat);
+    p.burning.emplace(materials::BurningMixture(charge.law.eos, gas), p.mass.size());
+  }
+  BurningParticle& particle =
+      p.burning->start(slot, p.mass[slot] / charge.law.initial_density(), p.volume_ratio[slot]);
+  particle.to_burn += share;
+  particle.to_add += share * fresh_energy;
+}
+
+bool Simulation::within_gas_law() const {
+  bool within = true;
+  for_each_body([&](const ParticleFields& p) { within = within && (!p.burning || p.burning->valid()); });
+  return within;
+}
+
 void Simulation::apply_bore_pressure(int body, double pressure) {
   with(form_, [&](auto& form) { form.apply_bore_pressure({body, pressure}); });
 }

@@ -26,6 +26,8 @@ std::string to_string(RunStatus status) {
       return "timed out";
     case RunStatus::cells_distorted:
       return "cells distorted";
+    case RunStatus::outside_gas_law:
+      return "outside of the gas law";
   }
   return "unknown";
 }

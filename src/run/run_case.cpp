@@ -1,11 +1,13 @@
 #include "launchsafe/run/run_case.hpp"
 
 #include "bulk_heat.hpp"
+#include "burning_bottom.hpp"
 #include "flush_denormals.hpp"
 #include "launchsafe/run/judged_energy.hpp"
 #include "launchsafe/run/processor_time.hpp"
 #include "launchsafe/run/stable_factor.hpp"
 #include "monitor.hpp"
+#include "stepped_skin.hpp"
 #include "trace_recorder.hpp"
 
 #include <fmt/format.h>
@@ -34,68 +36,8 @@ std::vector<double> sorted(std::vector<double> values) {
   return values;
 }
 
-/// Skin temperatures of one gap, advanced with every step of the mechanics.
-class SteppedSkin {
- public:
-  SteppedSkin(const scene::Scene& scene, double gap, const TraceRecorder& recorder)
-      : model_(surface::skin_model(scene)), closure_(static_cast<std::size_t>(scene.surface.friction)) {
-    history_.gap = gap;
-    const auto& stations = recorder.trace().stations;
-    points_.assign(stations.size(), surface::SkinPoint{model_.initial_temperature});
-    friction_.assign(stations.size(), 0.0);
-    air_pressure_ = pressure_of(recorder, scene::PressureHistory(scene.load).at(0.0));
-    record(recorder);
-  }
-
-  void advance(const mpm::Simulation& simulation, const TraceRecorder& recorder, double dt) {
-    const double begin = materials::adiabatic_temperature(model_.surface.air, air_pressure_);
-    air_pressure_ = pressure_of(recorder, simulation.chamber_pressure());
-    const double end = materials::adiabatic_temperature(model_.surface.air, air_pressure_);
-    const auto& stations = recorder.trace().stations;
-    for (std::size_t s = 0; s < points_.size(); ++s) {
-      const bool was_ignited = points_[s].ignited;
-      points_[s] =
-          surface::advance_skin(model_, history_.gap, points_[s], dt, begin, end, heating(recorder, s, dt));
-      if (points_[s].ignited && !was_ignited)
-        note_ignition(stations[s].observation, s, simulation.time() - dt + points_[s].ignition_time);
-    }
-  }
-
-  void record(const TraceRecorder& recorder) {
-    history_.time.push_back(recorder.trace().time.back());
-    history_.air_temperature.push_back(materials::adiabatic_temperature(model_.surface.air, air_pressure_));
-    for (const surface::SkinPoint& point : points_) history_.temperature.push_back(point.temperature);
-  }
-
-  surface::SkinHistory take() { return std::move(history_); }
-
- private:
-  double pressure_of(const TraceRecorder& recorder, double chamber) const {
-    return model_.surface.air_pressure == scene::AirPressure::chamber ? chamber : recorder.bottom_pressure();
-  }
-  double heating(const TraceRecorder& recorder, std::size_t s, double dt) {
-    if (closure_ >= trace::traced_closures) return 0.0;
-    const double before = friction_[s];
-    friction_[s] = recorder.friction(closure_, s);
-    return (friction_[s] - before) * model_.surface.localisation /
-           (model_.charge_density * model_.specific_heat * dt);
-  }
-  void note_ignition(bool observation, std::size_t station, double time) {
-    const double share = points_[station].chemical_share;
-    const auto cause = share > 0.5 ? surface::IgnitionCause::arrhenius : surface::IgnitionCause::trigger;
-    const surface::Ignition ignition{time, station, cause, share};
-    if (!observation && !history_.ignition) history_.ignition = ignition;
-  }
-
-  surface::SkinModel model_;
-  std::size_t closure_;
-  surface::SkinHistory history_;
-  std::vector<surface::SkinPoint> points_;
-  std::vector<double> friction_;
-  double air_pressure_ = 0;
-};
-
-/// One mechanical run; with a gap (m), the skin is integrated at every step.
+/// One mechanical run; with a gap (m), the skin is integrated at every step, and with two-way coupling it
+/// goes on through combustion.
 class Runner {
  public:
   Runner(const scene::Scene& scene, const RunOptions& options, std::optional<double> skin_gap)
@@ -104,6 +46,7 @@ class Runner {
         recorder_(simulation_, simulation_.scene()),
         heat_(simulation_) {
     if (skin_gap) surface_.emplace(simulation_.scene(), *skin_gap, recorder_);
+    couples_back_ = skin_gap && scene.coupling == scene::Coupling::two_way;
     result_.particles = simulation_.particles();
     simulation_.for_each_body([&](const mpm::ParticleFields& p) {
       add_mass(result_.masses, scene.bodies[static_cast<std::size_t>(p.body)].material,
@@ -114,20 +57,20 @@ class Runner {
   MechanicsResult run() {
     const FlushDenormals flush;
     const double processor_start = thread_processor_time();
-    const double duration = simulation_.scene().load.duration;
     const double first_step = simulation_.stable_time_step();
     double time_step = first_step;
     take_monitor_sample(time_step);
     take_due_snapshots();
     while (!finished() && result_.status == RunStatus::completed) {
-      if (result_.steps % steps_per_check == 0) {
+      if (burning_ || result_.steps % steps_per_check == 0) {
         time_step = simulation_.stable_time_step();
         check(time_step, first_step);
         if (result_.status != RunStatus::completed) break;
       }
       // The last step ends on the duration; the one before shares what is left, so that neither is tiny.
-      const double remaining = duration - simulation_.time();
-      const double dt = remaining <= time_step ? remaining : std::min(time_step, 0.5 * remaining);
+      const double longest = burning_ ? std::min(time_step, burning_->longest_step()) : time_step;
+      const double remaining = end_ - simulation_.time();
+      const double dt = remaining <= longest ? remaining : std::min(longest, 0.5 * remaining);
       check_step(dt);
       if (result_.status == RunStatus::completed) advance(dt);
     }
@@ -145,6 +88,16 @@ class Runner {
   }
 
   surface::SkinHistory take_skin() { return surface_->take(); }
+  /// Of a run with two-way coupling that ignited, and ended as `mechanics` says.
+  std::optional<CombustionHistory> take_combustion(const MechanicsResult& mechanics) {
+    if (!burning_) return std::nullopt;
+    CombustionHistory history = burning_->take();
+    history.end = mechanics.status == RunStatus::completed ? combustion_end_ : CombustionEnd::broke_off;
+    history.reason = mechanics.reason;
+    history.energy_drift = largest_energy_drift(mechanics);
+    history.wall_time = mechanics.wall_time;
+    return history;
+  }
 
  private:
   void advance(double dt) {
@@ -154,16 +107,33 @@ class Runner {
     recorder_.accumulate(simulation_, dt);
     heat_.accumulate(simulation_);
     if (surface_) surface_->advance(simulation_, recorder_, dt);
+    if (couples_back_) burn(dt);
     const double time = simulation_.time();
     const bool last = finished();
     if (time >= next_sample_ || last) {
       recorder_.sample(simulation_);
       if (surface_) surface_->record(recorder_);
+      if (burning_) burning_->record(simulation_, recorder_, *surface_);
       heat_.advance_to(simulation_, time);
       next_sample_ = next_time(next_sample_, scene.output.trace_interval, time);
     }
     take_due_snapshots();
     if (time >= next_monitor_ && !last) take_monitor_sample(dt);
+  }
+
+  /// Lets the charge burn where the skin has ignited. The run ends a stated time after the first ignition,
+  /// whether that is before or after the end of the launch, or at a stated pressure.
+  void burn(double dt) {
+    if (!surface_->ignited()) return;
+    const scene::Combustion& combustion = simulation_.scene().combustion;
+    if (!burning_) {
+      burning_.emplace(simulation_, recorder_);
+      end_ = surface_->ignition_time() + combustion.duration;
+    }
+    burning_->advance(simulation_, *surface_, dt);
+    if (recorder_.bottom_pressure() < combustion.stop_pressure) return;
+    end_ = simulation_.time();
+    combustion_end_ = CombustionEnd::pressure;
   }
 
   /// The first of the times `next`, `next` + `interval`, ... after `time`. Intervals much shorter than a step
@@ -178,10 +148,7 @@ class Runner {
     return next;
   }
 
-  bool finished() const {
-    const double duration = simulation_.scene().load.duration;
-    return duration - simulation_.time() <= 1e-12 * duration;
-  }
+  bool finished() const { return end_ - simulation_.time() <= 1e-12 * simulation_.scene().load.duration; }
 
   void check(double time_step, double first_step) {
     if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed))
@@ -195,9 +162,15 @@ class Runner {
            fmt::format("at t = {:.6g} ms: the stable time step fell from {:.3g} s to {:.3g} s{}",
                        1e3 * simulation_.time(), first_step, time_step, step_remark(simulation_.scene()))});
     check_energy(energy_of(simulation_));
+    if (!simulation_.within_gas_law())
+      stop({RunStatus::outside_gas_law,
+            fmt::format(
+                "at t = {:.6g} ms: a burning particle is in a state that the virial law of the gas does "
+                "not cover",
+                1e3 * simulation_.time())});
     if (options_.progress && seconds_since(last_report_) > 0.25) {
       last_report_ = Clock::now();
-      options_.progress(simulation_.time() / simulation_.scene().load.duration);
+      options_.progress(simulation_.time() / end_);
     }
   }
 
@@ -242,6 +215,10 @@ class Runner {
   TraceRecorder recorder_;
   BulkHeat heat_;
   std::optional<SteppedSkin> surface_;
+  std::optional<BurningBottom> burning_;  ///< from ignition on
+  bool couples_back_ = false;
+  CombustionEnd combustion_end_ = CombustionEnd::time;
+  double end_ = simulation_.scene().load.duration;  ///< s
   MechanicsResult result_;
   Clock::time_point start_ = Clock::now(), last_report_ = start_;
   double next_sample_ = simulation_.scene().output.trace_interval;
@@ -284,6 +261,9 @@ CaseResult run_case(const scene::Scene& scene, const RunOptions& options) {
   if (scene::has_charge(scene))
     for (const double gap : scene.surface.gaps)
       result.gaps.push_back(evaluate_gap(scene, result.mechanics.trace, gap));
+  if (scene.coupling == scene::Coupling::two_way && result.mechanics.status == RunStatus::completed)
+    for (GapResult& gap : result.gaps)
+      if (gap.skin.ignition) gap.combustion = run_with_skin(scene, gap.gap, options).gaps.front().combustion;
   return result;
 }
 
@@ -300,6 +280,7 @@ CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions
     Runner runner(scene, options, gap);
     result.mechanics = runner.run();
     result.gaps.push_back(gap_result(surface::skin_model(scene), runner.take_skin(), result.mechanics.trace));
+    result.gaps.back().combustion = runner.take_combustion(result.mechanics);
   }
   result.gaps.back().with_mechanics = true;
   return result;

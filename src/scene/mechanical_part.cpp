@@ -111,6 +111,8 @@ Scene mechanical_part(const Scene& scene) {
   Scene part = scene;
   part.title.clear();
   part.accepted.clear();
+  part.coupling = Coupling::one_way;  // until ignition nothing acts back
+  part.combustion = {};
   part.interfaces = sliding_interfaces(scene);
   part.load = without_unused(std::move(part.load));
   part.surface = surface_part(scene.surface, temperatures_matter);

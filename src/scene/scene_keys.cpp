@@ -49,6 +49,8 @@ Key<Body> material_key() {
   return key;
 }
 
+bool couples_back(const Scene& scene) { return scene.coupling == Coupling::two_way; }
+
 Keys general_keys() {
   return {
       always_plausible(
@@ -76,6 +78,32 @@ Keys general_keys() {
                           &Scene::initial_temperature),
                [](Scene& s) { s.surface.air.initial_temperature = s.initial_temperature; }),
           between(219, 345), "shells are stored and fired from -54 to 71 degC"),
+      always_plausible(
+          written_where(
+              word_key("coupling", Standing::assumed,
+                       "Whether the run of a gap that ignites goes on through combustion, with burning "
+                       "explosive turned to gas that acts on charge and shell, or ends with the launch.",
+                       {{"one-way", Coupling::one_way}, {"two-way", Coupling::two_way}}, &Scene::coupling),
+              couples_back),
+          "until ignition both are the same"),
+  };
+}
+
+std::vector<Key<Combustion>> combustion_keys() {
+  return {
+      always_plausible(
+          word_key("release", Standing::paper,
+                   "Heat of burning explosive: as much as brings it to T2, or all of its heat of reaction.",
+                   {{"to-burnt-temperature", HeatRelease::to_burnt_temperature}, {"full", HeatRelease::full}},
+                   &Combustion::release),
+          "the published model stops at T2, and explosives release all of it"),
+      plausibly(number_key("duration", Dimension::time, above_to(0, 1), Standing::assumed,
+                           "Time after the first ignition at which the run ends.", &Combustion::duration),
+                between(1e-5, 5e-3), "a skin of 0.1 mm burns through in half a millisecond"),
+      plausibly(number_key("stop_pressure", Dimension::pressure, above_to(0, 1e11), Standing::assumed,
+                           "Pressure at the charge's bottom at which the run ends before.",
+                           &Combustion::stop_pressure),
+                between(5e8, 1e10), "launches press with some hundred MPa, and detonations with 30 GPa"),
   };
 }
 
@@ -348,6 +376,13 @@ std::vector<Key<Physics>> physics_keys() {
   };
 }
 
+/// They do nothing, and are no part of what identifies a run, without two-way coupling.
+Keys written_combustion_keys() {
+  Keys keys = keys::keys_of_part("combustion.", &Scene::combustion, combustion_keys());
+  for (Key<Scene>& key : keys) key = written_where(std::move(key), couples_back);
+  return keys;
+}
+
 Keys all_scene_keys() {
   using keys::keys_of_part;
   return keys::joined({general_keys(), keys_of_part("load.", &Scene::load, load_keys()), material_keys(),
@@ -358,7 +393,7 @@ Keys all_scene_keys() {
                        keys_of_part("station.", &Scene::surface, station_keys()),
                        keys_of_part("numerics.", &Scene::numerics, numerics_keys()),
                        keys_of_part("output.", &Scene::output, output_keys()),
-                       keys_of_part("physics.", &Scene::physics, physics_keys())});
+                       keys_of_part("physics.", &Scene::physics, physics_keys()), written_combustion_keys()});
 }
 
 template <class Owner>

@@ -378,6 +378,17 @@ Fault check_inertia(const SceneFile& file) {
   return std::nullopt;
 }
 
+Fault check_coupling(const SceneFile& file) {
+  const Scene& scene = file.scene;
+  if (scene.coupling == Coupling::one_way) return std::nullopt;
+  if (!has_charge(scene))
+    return fault_at(file, "coupling", "two-way in a scene without a charge", "one-way, or a charge");
+  if (scene.surface.air_model != AirModel::reservoir)
+    return fault_at(file, "coupling", "two-way with an air that is no reservoir",
+                    "one-way, or gap.air = \"reservoir\": the others are integrated after the mechanics");
+  return std::nullopt;
+}
+
 Fault check_output(const SceneFile& file) {
   const double duration = file.scene.load.duration;
   const std::string until = time_text(duration);
@@ -400,10 +411,10 @@ Fault check_output(const SceneFile& file) {
 }  // namespace
 
 std::optional<InputError> validate(const SceneFile& file) {
-  for (const auto check :
-       {check_names, check_charge_fits, check_overlaps, check_interfaces, check_cell_size, check_load,
-        check_kinetics, check_jwl, check_steel, check_crack_friction, check_gaps, check_stations,
-        check_observation_points, check_formulation, check_inertia, check_refinement, check_output}) {
+  for (const auto check : {check_names, check_charge_fits, check_overlaps, check_interfaces, check_cell_size,
+                           check_load, check_kinetics, check_jwl, check_steel, check_crack_friction,
+                           check_gaps, check_stations, check_observation_points, check_formulation,
+                           check_inertia, check_refinement, check_coupling, check_output}) {
     if (Fault fault = check(file)) return fault;
   }
   return std::nullopt;

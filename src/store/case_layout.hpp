@@ -31,10 +31,16 @@ inline constexpr std::array run_status_names{
     Named{run::RunStatus::interrupted, "interrupted"},
     Named{run::RunStatus::timed_out, "timed_out"},
     Named{run::RunStatus::cells_distorted, "cells_distorted"},
+    Named{run::RunStatus::outside_gas_law, "outside_gas_law"},
 };
 inline constexpr std::array ignition_cause_names{
     Named{surface::IgnitionCause::trigger, "trigger"},
     Named{surface::IgnitionCause::arrhenius, "arrhenius"},
+};
+inline constexpr std::array combustion_end_names{
+    Named{run::CombustionEnd::time, "time"},
+    Named{run::CombustionEnd::pressure, "pressure"},
+    Named{run::CombustionEnd::broke_off, "broke_off"},
 };
 /// By closure of the friction; "literal" is the total strain rate, under the name that stored cases have.
 inline constexpr std::array<const char*, trace::traced_closures> closure_names{"literal", "inelastic"};
@@ -344,6 +350,41 @@ void lay_out_ignition(Archive& archive, const std::string& name, auto& ignition,
 }
 
 template <class Archive>
+void lay_out_combustion(Archive& archive, auto& combustion, const trace::BottomTrace& trace) {
+  if constexpr (Archive::reading) {
+    if (!archive.has("combustion")) return;
+    combustion.emplace();
+  } else {
+    if (!combustion) return;
+  }
+  archive.group("combustion", "What followed ignition; absent without two-way coupling", [&] {
+    auto& c = *combustion;
+    choice(archive, "end", c.end, combustion_end_names, {"none", "why the run ended"});
+    archive.value("reason", c.reason, {"none", "why it broke off"});
+    archive.value("energy_drift", c.energy_drift, {"1", "largest energy drift of the run"});
+    archive.value("wall_time", c.wall_time, {"s", "wall time of the run"});
+    archive.value("skin_flame_speed", c.skin_flame_speed, {"m/s", "at the first station, through its skin"});
+    archive.value("bulk_flame_speed", c.bulk_flame_speed, {"m/s", "the same, behind the skin"});
+    archive.value("complete_time", c.complete_time, {"s", "when the skin of some station had burnt"});
+    archive.value("energy_residual", c.energy_residual,
+                  {"1", "largest energy made or lost over the heat of reaction of what had burnt"});
+    archive.array("time", c.time, {"s", "time"});
+    const std::size_t count = c.time.size();
+    history(archive, "burnt_mass", c.burnt_mass, count, {"kg", "mass of the gas"});
+    history(archive, "burnt_depth", c.burnt_depth, count, {"m", "largest depth of a flame"});
+    history(archive, "gas_volume", c.gas_volume, count, {"m3", "volume of the gas"});
+    history(archive, "gas_temperature", c.gas_temperature, count, {"K", "mean over the gas's mass"});
+    history(archive, "pressure", c.pressure, count, {"Pa", "mean over the bottom"});
+    history(archive, "released", c.released, count, {"J", "heat of reaction released"});
+    history(archive, "kept_back", c.kept_back, count, {"J", "heat of reaction that was not released"});
+    history(archive, "brought", c.brought, count,
+            {"J", "heat above the initial temperature that the burnt part had before"});
+    archive.table("reaction_degree", c.reaction_degree, {count, trace.stations.size()},
+                  {"1", "of the skin; rows are times, columns stations"});
+  });
+}
+
+template <class Archive>
 void lay_out_maximum(Archive& archive, const std::string& name, const std::string& description, auto& maximum,
                      const trace::BottomTrace& trace) {
   archive.group(name, description, [&] {
@@ -374,6 +415,7 @@ void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) 
                   gap.at_stations, trace);
   lay_out_maximum(archive, "maximum_at_points", "T_max over the observation points", gap.at_points, trace);
   lay_out_ignition(archive, "ignition", skin.ignition, trace);
+  lay_out_combustion(archive, gap.combustion, trace);
   if (is_stored(archive, "air_energy")) lay_out_air_energy(archive, gap.air);
   archive.group("skin", "Skin temperatures", [&] {
     archive.value("gap", skin.gap, {"m", "gap of this history"});

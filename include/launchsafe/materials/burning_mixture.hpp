@@ -50,6 +50,7 @@ class BurningMixture {
   /// The gas in a state, at the particle's volume V.
   GasState gas_of(const BurningState& state, double volume) const;
   const ProductGas& gas() const { return gas_; }
+  double solid_density() const { return solid_.initial_density; }  ///< kg/m3, at rest
 
  private:
   JwlParameters solid_;

@@ -7,11 +7,13 @@
 
 #include "launchsafe/materials/laws.hpp"
 #include "launchsafe/math/aligned_array.hpp"
+#include "launchsafe/mpm/burning.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace launchsafe::mpm {
@@ -65,6 +67,8 @@ struct ParticleFields {
   std::array<math::AlignedArray, 3> strain_change;  ///< deviatoric strain increment rr, xx, rx
   /// Pa: stress deviator rr, xx, rx less the one before, turned with the step's rotation.
   std::array<math::AlignedArray, 3> stress_change;
+
+  std::optional<Burning> burning;  ///< of a charge from its ignition on
 };
 
 /// Makes every step store the increments of strain and stress of the particle in a slot, and of the others of

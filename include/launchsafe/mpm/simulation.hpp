@@ -97,6 +97,12 @@ class Simulation {
   const TotalLagrangian* total_lagrangian() const { return std::get_if<TotalLagrangian>(&form_); }
   const UpdatedLagrangian* updated_lagrangian() const { return std::get_if<UpdatedLagrangian>(&form_); }
 
+  /// Lets a share of the mass of a charge's particle burn in the next step, into gas of `fresh_energy` (J/kg,
+  /// thermal, from 0 K); beyond what is left of it nothing more does. `body`: index into Scene::bodies.
+  void burn(int body, std::size_t slot, double share, double fresh_energy);
+  /// False once a burning particle was in a state that the gas law does not cover.
+  bool within_gas_law() const;
+
   /// Recomputes the nodal momenta and velocities from the particles, after a test has set their velocities.
   void reset_grid();
   /// Puts a steady pressure (Pa) on the inner radial face of a body (index into Scene::bodies) from now on.

@@ -22,7 +22,8 @@ enum class RunStatus {
   particles_left_grid,
   interrupted,
   timed_out,
-  cells_distorted
+  cells_distorted,
+  outside_gas_law
 };
 std::string to_string(RunStatus status);
 
@@ -125,6 +126,34 @@ double opening_at_bottom(const MechanicsResult& mechanics, double bottom);
 /// first moments all energies are next to nothing); NaN without one.
 double largest_energy_drift(const MechanicsResult& mechanics);
 
+/// Why a run that burns ended.
+enum class CombustionEnd { time, pressure, broke_off };
+
+/// What followed the ignition of a gap in a run with two-way coupling; samples are those of the trace from
+/// the one before ignition on. Of the whole shell (plane strain: per metre).
+struct CombustionHistory {
+  std::vector<double> time;             ///< s
+  std::vector<double> burnt_mass;       ///< kg
+  std::vector<double> burnt_depth;      ///< m, the largest
+  std::vector<double> gas_volume;       ///< m3
+  std::vector<double> gas_temperature;  ///< K, mean over the gas's mass
+  std::vector<double> pressure;         ///< Pa, mean over the bottom
+  /// J, of what has burnt: released by the reaction, kept back of the heat of reaction, and brought along as
+  /// heat above the initial temperature, from air, friction and slow reaction.
+  std::vector<double> released, kept_back, brought;
+  std::vector<double> reaction_degree;  ///< of the skin, [sample * stations + station]
+  double skin_flame_speed = 0;          ///< m/s, at the first station that ignited
+  double bulk_flame_speed = 0;          ///< m/s, behind the skin there
+  double complete_time = 0;             ///< s, when the skin of some station had burnt; NaN if none had
+  /// Largest energy made or lost in burning particles, as a share of the heat of reaction of what had burnt.
+  double energy_residual = 0;
+  CombustionEnd end = CombustionEnd::time;
+  std::string reason;       ///< why it broke off
+  double energy_drift = 0;  ///< largest of the whole run, see `largest_energy_drift`
+  double wall_time = 0;     ///< s, of the whole run
+  std::size_t samples() const { return time.size(); }
+};
+
 /// One gap of a case.
 struct GapResult {
   double gap = 0;  ///< m
@@ -134,6 +163,7 @@ struct GapResult {
   surface::AirEnergy air;        ///< what the skin took from the air; NaN in files that are older than this
   double sampling_error = 0;     ///< K, |T_max - T_max on the thinned trace|
   bool with_mechanics = false;   ///< integrated inside the mechanics rather than on its trace
+  std::optional<CombustionHistory> combustion;  ///< of one that ignited, where the coupling is two-way
 };
 
 struct CaseResult {

@@ -32,12 +32,16 @@ MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& optio
 /// and kinetics parameters apply; its own list of gaps does not.
 GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trace, double gap);
 
-/// `run_mechanics` and `evaluate_gap` for each of the scene's gaps.
+/// `run_mechanics` and `evaluate_gap` for each of the scene's gaps; with two-way coupling `run_with_skin` for
+/// those that ignite, of which the combustion is kept.
 CaseResult run_case(const scene::Scene& scene, const RunOptions& options = {});
 
 /// A run of the mechanics in which the skin of one gap (m) is integrated at every time step instead of on the
-/// bottom trace; the skin has no effect on the mechanics. It confirms a traced gap independently: below
-/// ignition both must agree to integration tolerance. Where the air model couples the stations or is a film,
+/// bottom trace. It confirms a traced gap independently: below ignition both must agree to integration
+/// tolerance. With one-way coupling the skin has no effect on the mechanics. With two-way coupling what burns
+/// after ignition turns to gas and acts on all bodies (burning_bottom.hpp), and the run ends a stated time
+/// after ignition or at a stated pressure instead of at the end of the load, which goes on as it is stated
+/// beyond its duration. Where the air model couples the stations or is a film,
 /// the skin is integrated on a trace with a sample every eight steps.
 CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions& options = {});
 

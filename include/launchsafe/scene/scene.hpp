@@ -144,6 +144,19 @@ struct Acceptance {
   std::string because;
 };
 
+/// Whether what the skin does after its ignition acts on the mechanics.
+enum class Coupling { one_way, two_way };
+/// Heat that burning explosive gives off: as much as brings its products to T2, where the published model
+/// stops heating, or all of its heat of reaction.
+enum class HeatRelease { to_burnt_temperature, full };
+
+/// What follows ignition in a run with two-way coupling.
+struct Combustion {
+  HeatRelease release = HeatRelease::to_burnt_temperature;
+  double duration = 1e-3;      ///< s after the first ignition, at which the run ends
+  double stop_pressure = 2e9;  ///< Pa on the charge's bottom, at which it ends before
+};
+
 struct Scene {
   std::string title;
   Symmetry symmetry = Symmetry::axisymmetric;
@@ -158,6 +171,8 @@ struct Scene {
   Numerics numerics;
   Output output;
   Physics physics;
+  Coupling coupling = Coupling::one_way;
+  Combustion combustion;
   std::vector<Acceptance> accepted;
 
   /// Parameters of the first material of a law, which the law's keys speak of. The defaults where there is

@@ -1,0 +1,190 @@
+// Runs with two-way coupling: until ignition those of the launch, after it with gas that acts on all bodies.
+#include "launchsafe/materials/deflagration.hpp"
+#include "launchsafe/run/run_case.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace launchsafe::run {
+namespace {
+
+constexpr double burning_gap = 4e-4, column_radius = 2.5e-3;  // m
+
+/// A column of charge on a base in a rigid barrel, in uniaxial strain; its skin ignites after some 0.5 ms.
+scene::Scene column(double cell = 1.25e-3) {
+  scene::Scene scene;
+  scene.bodies = {{"charge", "charge", 0.0, 0.04, 0.0, column_radius},
+                  {"base", "steel", 0.04, 0.06, 0.0, column_radius}};
+  scene.load.duration = 1e-3;
+  scene.load.peak = 200e6;
+  scene.load.peak_time = 5e-3;
+  scene.load.exponent = 1.0;
+  scene.surface.gaps = {burning_gap};
+  scene.surface.exchange_time = 5e-5;
+  scene.surface.friction = scene::FrictionClosure::none;
+  scene.charge().kinetics.ignition_temperature = 320.0;
+  scene.numerics.cell_size = cell;
+  scene.output.trace_interval = 1e-5;
+  scene.coupling = scene::Coupling::two_way;
+  scene.combustion.duration = 0.6e-3;
+  return scene;
+}
+
+double area() { return std::numbers::pi * column_radius * column_radius; }  // m2, of its bottom
+
+TEST(TwoWayCoupling, IsTheRunWithSkinWhereNothingIgnites) {
+  scene::Scene scene = column();
+  scene.charge().kinetics.ignition_temperature = 500.0;
+  const CaseResult two_way = run_with_skin(scene, burning_gap);
+  scene.coupling = scene::Coupling::one_way;
+  const CaseResult one_way = run_with_skin(scene, burning_gap);
+  EXPECT_FALSE(two_way.gaps.front().combustion.has_value());
+  EXPECT_EQ(two_way.gaps.front().skin.temperature, one_way.gaps.front().skin.temperature);
+  EXPECT_EQ(two_way.mechanics.trace.bottom_pressure, one_way.mechanics.trace.bottom_pressure);
+  // And the traced one, to the tolerance of the integrations.
+  const GapResult traced = evaluate_gap(scene, one_way.mechanics.trace, burning_gap);
+  EXPECT_NEAR(two_way.gaps.front().at_stations.temperature, traced.at_stations.temperature, 1e-2);
+}
+
+TEST(TwoWayCoupling, GoesThroughIgnitionWithItsEnergyBalanced) {
+  scene::Scene scene = column();
+  scene.combustion.duration = 1.5e-3;
+  const CaseResult result = run_with_skin(scene, burning_gap);
+  ASSERT_EQ(result.mechanics.status, RunStatus::completed) << result.mechanics.reason;
+  ASSERT_TRUE(result.gaps.front().skin.ignition.has_value());
+  ASSERT_TRUE(result.gaps.front().combustion.has_value());
+  const CombustionHistory& c = *result.gaps.front().combustion;
+  const double ignition = result.gaps.front().skin.ignition->time;
+  EXPECT_EQ(c.end, CombustionEnd::time);
+  EXPECT_NEAR(result.mechanics.end_time, ignition + scene.combustion.duration, 1e-9);
+  // The whole bottom burns as deep as the flame has come, also beyond the skin.
+  const double mass = c.burnt_mass.back();
+  EXPECT_NEAR(mass / (1717.0 * area() * c.burnt_depth.back()), 1.0, 1e-6);
+  EXPECT_GT(c.burnt_depth.back(), scene.surface.skin_thickness);
+  EXPECT_GT(c.complete_time, ignition);
+  EXPECT_TRUE(std::is_sorted(c.burnt_mass.begin(), c.burnt_mass.end()));
+  // Heat that it had and heat that it got bring it from 300 K to T2; of its heat of reaction the rest is
+  // kept.
+  EXPECT_NEAR((c.brought.back() + c.released.back()) / (mass * 1780.0 * (784.0 - 300.0)), 1.0, 1e-9);
+  EXPECT_NEAR((c.kept_back.back() + c.released.back()) / (mass * 5.82e6), 1.0, 1e-9);
+  EXPECT_LT(c.energy_residual, 1e-9);
+  EXPECT_LT(c.energy_drift, 0.01);
+  // The gas takes more room than what it was made of, and so does the pressure on the bottom grow.
+  EXPECT_GT(c.gas_volume.back(), 1.5 * mass / 1717.0);
+  const double before = result.mechanics.trace.bottom_pressure.front();
+  EXPECT_GT(*std::max_element(c.pressure.begin(), c.pressure.end()), before);
+  EXPECT_GT(c.reaction_degree.back(), 0.999);
+}
+
+TEST(TwoWayCoupling, IsTheLaunchUntilIgnition) {
+  const scene::Scene scene = column();
+  const CaseResult coupled = run_with_skin(scene, burning_gap);
+  const MechanicsResult launch = run_mechanics(scene);
+  const double ignition = coupled.gaps.front().skin.ignition->time;
+  ASSERT_GT(ignition, 1e-4);
+  for (std::size_t i = 0; launch.trace.time[i] < ignition; ++i)
+    ASSERT_EQ(coupled.mechanics.trace.bottom_pressure[i], launch.trace.bottom_pressure[i]) << i;
+}
+
+TEST(TwoWayCoupling, FullReleaseKeepsNothingBackAndPressesHarder) {
+  scene::Scene scene = column();
+  const CaseResult published = run_with_skin(scene, burning_gap);
+  scene.combustion.release = scene::HeatRelease::full;
+  const CaseResult full = run_with_skin(scene, burning_gap);
+  ASSERT_EQ(full.mechanics.status, RunStatus::completed) << full.mechanics.reason;
+  const CombustionHistory& c = *full.gaps.front().combustion;
+  EXPECT_NEAR(c.released.back() / (c.burnt_mass.back() * 5.82e6), 1.0, 1e-9);
+  EXPECT_EQ(c.kept_back.back(), 0.0);
+  EXPECT_LT(c.energy_residual, 1e-9);
+  const CombustionHistory& cool = *published.gaps.front().combustion;
+  EXPECT_GT(c.pressure[1], 1.2 * cool.pressure[1]);  // one sample after ignition
+  EXPECT_GT(c.gas_volume.back(), 3.0 * cool.gas_volume.back());
+  EXPECT_GT(c.gas_temperature.back(), 2000.0);
+}
+
+TEST(TwoWayCoupling, EndsAtTheStopPressure) {
+  scene::Scene scene = column();
+  scene.combustion.release = scene::HeatRelease::full;
+  scene.combustion.stop_pressure = 35e6;
+  const CaseResult result = run_with_skin(scene, burning_gap);
+  const CombustionHistory& c = *result.gaps.front().combustion;
+  EXPECT_EQ(result.mechanics.status, RunStatus::completed);
+  EXPECT_EQ(c.end, CombustionEnd::pressure);
+  EXPECT_GE(c.pressure.back(), 35e6);
+  EXPECT_LT(result.mechanics.end_time,
+            result.gaps.front().skin.ignition->time + scene.combustion.duration - 1e-5);
+}
+
+TEST(TwoWayCoupling, BreaksOffWhereTheGasLawEnds) {
+  // Gas of 380 K at the density of the explosive: the virial series condenses there (Z < 0).
+  scene::Scene scene = column();
+  scene.charge().kinetics.burnt_temperature = 380.0;
+  scene.charge().kinetics.activation_temperature = 1.2e4;
+  const CaseResult result = run_with_skin(scene, burning_gap);
+  EXPECT_EQ(result.mechanics.status, RunStatus::outside_gas_law) << to_string(result.mechanics.status);
+  EXPECT_EQ(result.gaps.front().combustion->end, CombustionEnd::broke_off);
+  EXPECT_FALSE(result.mechanics.reason.empty());
+}
+
+TEST(TwoWayCoupling, BurntMassDoesNotDependOnTheMesh) {
+  // The flame is no part of the mesh: what burns by a time is that of its speed on any mesh. It passes from
+  // cell to cell without a stop: here through the first cell of the finest one and into the second.
+  std::vector<double> mass, pressure;
+  for (const double cell : {1.25e-3, 0.625e-3, 0.3125e-3}) {
+    scene::Scene scene = column(cell);
+    scene.surface.skin_thickness = 4e-4;
+    scene.surface.exchange_time = 1.25e-5;
+    scene.charge().conductivity = 9.0 * scene.charge().conductivity;  // three times the speed
+    scene.combustion.duration = 1.4e-3;
+    const CaseResult result = run_with_skin(scene, burning_gap);
+    ASSERT_EQ(result.mechanics.status, RunStatus::completed) << result.mechanics.reason;
+    const CombustionHistory& c = *result.gaps.front().combustion;
+    mass.push_back(c.burnt_mass.back());
+    pressure.push_back(c.pressure.back());
+    EXPECT_LT(c.energy_drift, 0.01);
+    EXPECT_NEAR(c.burnt_mass.back() / (1717.0 * area() * c.burnt_depth.back()), 1.0, 1e-6);
+  }
+  EXPECT_GT(mass.back(), 1717.0 * area() * 0.3125e-3);
+  EXPECT_NEAR(mass[0] / mass[2], 1.0, 2e-3);
+  EXPECT_NEAR(mass[1] / mass[2], 1.0, 2e-3);
+  EXPECT_NEAR(pressure[1] / pressure[2], 1.0, 0.1);
+}
+
+TEST(TwoWayCoupling, InductionTimesAreThoseOfTheClosedForm) {
+  // Adiabatic, zero order, printed kinetics, to 2000 K (model section 10). A gap of nothing exchanges
+  // nothing.
+  const std::pair<double, double> cases[] = {{650.0, 2.746044e-3}, {700.0, 1.645534e-4}};
+  for (const auto& [temperature, induction] : cases) {
+    scene::Scene scene = column(5e-3);
+    scene.initial_temperature = temperature;
+    scene.surface.air.initial_temperature = temperature;
+    scene.load.peak = 1e6;
+    scene.load.duration = 1.2 * induction;
+    scene.output.trace_interval = 0.01 * induction;
+    scene.charge().kinetics = materials::named_kinetics("printed");
+    scene.charge().kinetics.ignition_temperature = scene.charge().kinetics.burnt_temperature = 2000.0;
+    scene.combustion.duration = 1e-6;
+    const CaseResult result = run_with_skin(scene, 0.0);
+    ASSERT_TRUE(result.gaps.front().skin.ignition.has_value()) << temperature;
+    EXPECT_NEAR(result.gaps.front().skin.ignition->time / induction, 1.0, 1e-5) << temperature;
+    EXPECT_EQ(result.gaps.front().skin.ignition->cause, surface::IgnitionCause::arrhenius);
+    EXPECT_TRUE(result.gaps.front().combustion.has_value());
+  }
+}
+
+TEST(TwoWayCoupling, ACaseKeepsTheCombustionOfTheGapsThatIgnite) {
+  scene::Scene scene = column();
+  scene.surface.gaps = {0.0, burning_gap};
+  const CaseResult result = run_case(scene);
+  EXPECT_FALSE(result.gaps[0].combustion.has_value());
+  ASSERT_TRUE(result.gaps[1].combustion.has_value());
+  EXPECT_EQ(result.mechanics.end_time, scene.load.duration);
+  scene.coupling = scene::Coupling::one_way;
+  EXPECT_FALSE(run_case(scene).gaps[1].combustion.has_value());
+}
+
+}  // namespace
+}  // namespace launchsafe::run
