@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "explain_scene.hpp"
 #include "launchsafe/report/air_energy_table.hpp"
+#include "launchsafe/report/combustion_table.hpp"
 #include "launchsafe/report/interface_table.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/run/cost.hpp"
@@ -196,11 +197,24 @@ report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result
 }
 
 /// A table of the gaps, then the energy balance, the limiters that acted, and what the run cost.
+std::string combustion_text(const run::CaseResult& result) {
+  constexpr std::size_t history_rows = 12;
+  const report::Table table = report::combustion_table(result);
+  if (table.rows.empty()) return {};
+  std::string text = report::to_text(table) + "\n";
+  for (const run::GapResult& gap : result.gaps)
+    if (gap.combustion)
+      text +=
+          report::to_text(report::combustion_history_table(*gap.combustion, gap.gap, history_rows)) + "\n";
+  return text;
+}
+
 std::string case_text(const scene::Scene& scene, const run::CaseResult& result) {
   std::string text;
   if (!result.gaps.empty()) {
     text += report::to_text(gap_table(scene, result)) + "\n";
     text += report::to_text(air_table(scene, result)) + "\n";
+    text += combustion_text(result);
   }
   if (const report::Table faces = report::interface_table(result.mechanics); !faces.rows.empty())
     text += report::to_text(faces) + "\n";
@@ -218,6 +232,7 @@ nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResul
                                 {"reason", mechanics.reason},    {"end_time_ms", 1e3 * mechanics.end_time},
                                 {"load", load_json(scene.load)}, {"gaps", nlohmann::ordered_json::array()}};
   for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
+  object["combustion"] = report::to_json(report::combustion_table(result))["rows"];
   object["air_energy"] = report::to_json(air_table(scene, result))["rows"];
   if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
   object["interfaces"] = report::to_json(report::interface_table(mechanics))["rows"];

@@ -6,28 +6,14 @@
 namespace launchsafe::materials {
 namespace {
 
-/// The two unknowns of a step.
-struct Unknowns {
-  double solid_volume;     ///< V of the explosive
-  double gas_temperature;  ///< K
+/// Explosive and gas at the end of a step: V of the explosive, specific volume (m3/kg) and temperature (K) of
+/// the gas.
+struct Parts {
+  double solid_volume, gas_volume, gas_temperature;
 };
 
-/// Two equations in them: gas pressure less explosive pressure (Pa), and energy less what it has to be
-/// (J/m3).
-struct Residual {
-  double pressure, energy;
-  double pressure_by_volume, pressure_by_temperature, energy_by_volume, energy_by_temperature;
-  bool valid;
-
-  Unknowns newton_change() const {
-    const double determinant =
-        pressure_by_volume * energy_by_temperature - pressure_by_temperature * energy_by_volume;
-    return {(pressure_by_temperature * energy - energy_by_temperature * pressure) / determinant,
-            (energy_by_volume * pressure - pressure_by_volume * energy) / determinant};
-  }
-};
-
-/// What of a step does not depend on the unknowns.
+/// What of a step does not depend on its unknowns. These are the temperature of the gas and the volume of
+/// what there is less of, which follows from the other one without loss of digits.
 struct Balance {
   double burnt_share;      ///< at the end
   double volume;           ///< V of the particle at the end
@@ -35,76 +21,107 @@ struct Balance {
   double fixed_energy;     ///< J/m3: before, with what burns, less the work of the pressure before
   double half_growth;      ///< half the change of V
 
+  double burnt_density() const { return burnt_share * initial_density; }
+  bool by_gas() const { return burnt_share < 0.5; }
   double gas_volume(double solid_volume) const {
-    return (volume - (1.0 - burnt_share) * solid_volume) / (burnt_share * initial_density);
+    return (volume - (1.0 - burnt_share) * solid_volume) / burnt_density();
+  }
+  /// The parts moved by a change of the unknown volume and of the temperature.
+  Parts moved(const Parts& from, double volume_change, double temperature_change) const {
+    const double temperature = from.gas_temperature + temperature_change;
+    if (by_gas()) {
+      const double gas = from.gas_volume + volume_change;
+      return {(volume - burnt_density() * gas) / (1.0 - burnt_share), gas, temperature};
+    }
+    const double solid = from.solid_volume + volume_change;
+    return {solid, gas_volume(solid), temperature};
   }
 };
 
-Residual residual_of(const BurningMixture& mixture, const Balance& balance, const Unknowns& at) {
-  const double unburnt = 1.0 - balance.burnt_share;
-  const double burnt_density = balance.burnt_share * balance.initial_density;
-  const GasState gas = mixture.gas().at(at.gas_temperature, balance.gas_volume(at.solid_volume));
+/// Two equations: gas pressure less explosive pressure (Pa), and energy less what it has to be (J/m3).
+struct Residual {
+  double pressure, energy;
+  double pressure_by_volume, pressure_by_temperature, energy_by_volume, energy_by_temperature;
+  bool valid;
+
+  double determinant() const {
+    return pressure_by_volume * energy_by_temperature - pressure_by_temperature * energy_by_volume;
+  }
+  /// Newton's changes of volume and of temperature.
+  double volume_change() const {
+    return (pressure_by_temperature * energy - energy_by_temperature * pressure) / determinant();
+  }
+  double temperature_change() const {
+    return (energy_by_volume * pressure - pressure_by_volume * energy) / determinant();
+  }
+};
+
+Residual residual_of(const BurningMixture& mixture, const Balance& balance, const Parts& at) {
+  const double unburnt = 1.0 - balance.burnt_share, burnt = balance.burnt_density();
+  const double solid_by_unknown = balance.by_gas() ? -burnt / unburnt : 1.0;
+  const double gas_by_unknown = balance.by_gas() ? 1.0 : -unburnt / burnt;
+  const GasState gas = mixture.gas().at(at.gas_temperature, at.gas_volume);
   const double solid_pressure = mixture.solid_pressure(at.solid_volume);
-  const double solid_slope = -mixture.solid_modulus(at.solid_volume) / at.solid_volume;
+  const double solid_slope = -mixture.solid_modulus(at.solid_volume) / at.solid_volume * solid_by_unknown;
   Residual r{};
-  r.valid = gas.valid && std::isfinite(solid_pressure);
+  r.valid = gas.valid && std::isfinite(solid_pressure) && at.solid_volume > 0.0;
   r.pressure = gas.pressure - solid_pressure;
-  r.pressure_by_volume = -unburnt / burnt_density * gas.pressure_by_volume - solid_slope;
+  r.pressure_by_volume = gas.pressure_by_volume * gas_by_unknown - solid_slope;
   r.pressure_by_temperature = gas.pressure_by_temperature;
-  r.energy = unburnt * mixture.solid_energy(at.solid_volume) + burnt_density * gas.energy -
+  r.energy = unburnt * mixture.solid_energy(at.solid_volume) + burnt * gas.energy -
              (balance.fixed_energy - solid_pressure * balance.half_growth);
-  r.energy_by_volume = -unburnt * (solid_pressure + gas.energy_by_volume) + solid_slope * balance.half_growth;
-  r.energy_by_temperature = burnt_density * gas.energy_by_temperature;
+  r.energy_by_volume = -unburnt * solid_pressure * solid_by_unknown +
+                       burnt * gas.energy_by_volume * gas_by_unknown + solid_slope * balance.half_growth;
+  r.energy_by_temperature = burnt * gas.energy_by_temperature;
   return r;
 }
 
 /// Newton's method; steps that leave the range of the laws are halved. False where it does not arrive.
-bool solve(const BurningMixture& mixture, const Balance& balance, Unknowns& unknowns) {
+bool solve(const BurningMixture& mixture, const Balance& balance, Parts& parts) {
   constexpr int most_iterations = 100, most_halvings = 40;
-  constexpr double enough = 1e-14;
-  Residual here = residual_of(mixture, balance, unknowns);
+  // The energy of the explosive is a difference of terms that are far larger than what little gas has; their
+  // round-off is what its temperature can be known to.
+  const double enough = 1e-11 + 1e-14 / balance.burnt_share;
+  Residual here = residual_of(mixture, balance, parts);
   for (int i = 0; here.valid && i < most_iterations; ++i) {
-    Unknowns change = here.newton_change();
-    if (std::abs(change.solid_volume) <= enough * unknowns.solid_volume &&
-        std::abs(change.gas_temperature) <= 100.0 * enough * unknowns.gas_temperature)
-      return true;
-    Unknowns next{};
+    double volume_change = here.volume_change(), temperature_change = here.temperature_change();
+    const double unknown = balance.by_gas() ? parts.gas_volume : parts.solid_volume;
+    const bool arrives = std::abs(volume_change) <= enough * unknown &&
+                         std::abs(temperature_change) <= enough * parts.gas_temperature;
+    const Parts before = parts;
     for (int halving = 0; halving < most_halvings; ++halving) {
-      next = {unknowns.solid_volume + change.solid_volume, unknowns.gas_temperature + change.gas_temperature};
-      here = residual_of(mixture, balance, next);
+      parts = balance.moved(before, volume_change, temperature_change);
+      here = residual_of(mixture, balance, parts);
       if (here.valid) break;
-      change = {0.5 * change.solid_volume, 0.5 * change.gas_temperature};
+      volume_change *= 0.5;
+      temperature_change *= 0.5;
     }
-    // Round-off of the residual ends the descent before the change does.
-    const bool stands = std::abs(change.solid_volume) <= 1e-12 * unknowns.solid_volume &&
-                        std::abs(change.gas_temperature) <= 1e-10 * unknowns.gas_temperature;
-    unknowns = next;
-    if (stands && here.valid) return true;
+    if (arrives) return here.valid;
   }
   return false;
 }
 
 }  // namespace
 
-BurningMixture::BurningMixture(const JwlParameters& solid, const ProductGas& gas)
-    : solid_(solid), gas_(gas) {}
+BurningMixture::BurningMixture(const JwlParameters& solid, const ProductGas& gas, double tension_cutoff)
+    : solid_(solid), gas_(gas) {
+  constexpr int most_iterations = 50;
+  for (int i = 0; i < most_iterations; ++i)
+    torn_volume_ +=
+        (solid_pressure(torn_volume_) + tension_cutoff) * torn_volume_ / solid_modulus(torn_volume_);
+}
 
 double BurningMixture::solid_energy(double volume) const {
   const double thermal = solid_.initial_energy - jwl_cold_energy(solid_, 1.0);
   return jwl_cold_energy(solid_, volume) + thermal * std::pow(volume, -solid_.omega) - solid_.initial_energy;
 }
 
-GasState BurningMixture::gas_of(const BurningState& state, double volume) const {
-  return gas_.at(state.gas_temperature, (volume - (1.0 - state.burnt_share) * state.solid_volume) /
-                                            (state.burnt_share * solid_.initial_density));
-}
-
 BurningState BurningMixture::unburnt(double volume) const {
   BurningState state;
-  state.solid_volume = volume;
-  state.energy = solid_energy(volume);
-  state.pressure = solid_pressure(volume);
-  state.bulk_modulus = solid_modulus(volume);
+  state.solid_volume = std::min(volume, torn_volume_);
+  state.energy = solid_energy(state.solid_volume);
+  state.pressure = solid_pressure(state.solid_volume);
+  state.bulk_modulus = solid_modulus(state.solid_volume);
   return state;
 }
 
@@ -122,22 +139,30 @@ BurningState BurningMixture::advance(const BurningState& before, const BurningSt
       after.burnt_share, step.volume_after, solid_.initial_density,
       before.energy + solid_.initial_density * burnt * step.fresh_energy - before.pressure * half_growth,
       half_growth};
-  // The first gas starts from the density of the explosive: from the dense side pressure falls to that of the
+  // What burns starts from the density of the explosive: from the dense side pressure falls to that of the
   // explosive without overshooting.
-  Unknowns unknowns{
-      before.burnt_share > 0.0 ? before.solid_volume : step.volume_after,
-      before.burnt_share > 0.0 ? before.gas_temperature : step.fresh_energy / gas_.specific_heat()};
-  after.valid = before.valid && solve(*this, balance, unknowns);
+  const double old_part = before.burnt_share / after.burnt_share, new_part = 1.0 - old_part;
+  Parts parts{before.solid_volume,
+              old_part * before.gas_volume + new_part * before.solid_volume / solid_.initial_density,
+              old_part * before.gas_temperature + new_part * step.fresh_energy / gas_.specific_heat()};
+  // The first gas in torn explosive has the void to itself.
+  if (!(before.burnt_share > 0.0))
+    parts.gas_volume =
+        std::max(parts.gas_volume, balance.gas_volume(std::min(before.solid_volume, torn_volume_)));
+  parts = balance.by_gas()
+              ? balance.moved(parts, 0.0, 0.0)
+              : Parts{parts.solid_volume, balance.gas_volume(parts.solid_volume), parts.gas_temperature};
+  after.valid = before.valid && solve(*this, balance, parts);
   if (!after.valid) return after;
-  after.solid_volume = unknowns.solid_volume;
-  after.gas_temperature = unknowns.gas_temperature;
-  after.pressure = solid_pressure(unknowns.solid_volume);
+  after.solid_volume = parts.solid_volume;
+  after.gas_volume = parts.gas_volume;
+  after.gas_temperature = parts.gas_temperature;
+  after.pressure = solid_pressure(parts.solid_volume);
   after.energy = balance.fixed_energy - after.pressure * half_growth;
   const double share = after.solid_share(step.volume_after);
-  const double gas_volume = balance.gas_volume(unknowns.solid_volume);
-  const double gas_modulus =
-      gas_.at(unknowns.gas_temperature, gas_volume).isentropic_modulus(unknowns.gas_temperature, gas_volume);
-  after.bulk_modulus = 1.0 / (share / solid_modulus(unknowns.solid_volume) + (1.0 - share) / gas_modulus);
+  const double gas_modulus = gas_.at(parts.gas_temperature, parts.gas_volume)
+                                 .isentropic_modulus(parts.gas_temperature, parts.gas_volume);
+  after.bulk_modulus = 1.0 / (share / solid_modulus(parts.solid_volume) + (1.0 - share) / gas_modulus);
   return after;
 }
 

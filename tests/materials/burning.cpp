@@ -12,14 +12,14 @@ namespace {
 
 using namespace launchsafe::materials;
 
-constexpr double specific_heat = 1780.0;
+constexpr double specific_heat = 1780.0, tension_cutoff = 5e6;
 const ProductGas& products() {
   static const ProductGas gas(composition_b_gas(), specific_heat);
   return gas;
 }
 /// Molecules without size and attraction: the ideal gas.
 ProductGas ideal_gas() { return ProductGas({{{"point", 100.0, 0.0}, 30.0}}, 1200.0); }
-BurningMixture mixture() { return BurningMixture(unreacted_composition_b(), products()); }
+BurningMixture mixture() { return BurningMixture(unreacted_composition_b(), products(), tension_cutoff); }
 
 TEST(ProductGas, PressureIsThatOfTheVirialSeries) {
   for (const double temperature : {250.0, 784.0, 2000.0, 6000.0})
@@ -172,7 +172,7 @@ TEST(BurningMixture, PressureIsContinuousAndEnergyConservedInBetween) {
     work += 0.5 * (state.pressure + after.pressure) * (next - volume);
     volume = next;
     state = after;
-    const GasState gas = law.gas_of(state, volume);
+    const GasState gas = law.gas_of(state);
     EXPECT_NEAR(gas.pressure / state.pressure, 1.0, 1e-6) << i;
     const double stored = (1 - state.burnt_share) * law.solid_energy(state.solid_volume) +
                           1717.0 * state.burnt_share * gas.energy;
@@ -183,7 +183,7 @@ TEST(BurningMixture, PressureIsContinuousAndEnergyConservedInBetween) {
 TEST(BurningMixture, GasAloneIsCompressedAlongItsAdiabat) {
   // The ideal gas against p v^gamma, in steps of falling length: second order.
   const ProductGas gas = ideal_gas();
-  const BurningMixture law(unreacted_composition_b(), gas);
+  const BurningMixture law(unreacted_composition_b(), gas, tension_cutoff);
   const double gamma = 1.0 + 30.0 * gas_constant / 1200.0;
   const auto end = [&](int steps) {
     BurningState state = law.advance(law.unburnt(0.99), {0.99, 2.0, 1.0, 1200.0 * 1000.0});
@@ -195,6 +195,34 @@ TEST(BurningMixture, GasAloneIsCompressedAlongItsAdiabat) {
   const double coarse = end(20), fine = end(40);
   EXPECT_LT(std::abs(fine), 1e-3);
   EXPECT_NEAR(coarse / fine, 4.0, 0.2);
+}
+
+TEST(BurningMixture, TheFirstTraceOfGasAndTheLastOfExplosiveAreAtOnePressure) {
+  const BurningMixture law = mixture();
+  for (const double volume : {0.985, 0.9999, 1.0, 1.0003})
+    for (const double share : {1e-7, 1e-6, 1e-4, 0.49, 0.51, 1.0 - 1e-6, 1.0 - 1e-12}) {
+      BurningState state = law.unburnt(volume);
+      for (int i = 0; i < 3; ++i)
+        state =
+            law.advance(state, {volume, volume, i == 0 ? share : 0.3 * (1.0 - share), specific_heat * 784.0});
+      ASSERT_TRUE(state.valid) << volume << " " << share;
+      EXPECT_NEAR(law.gas_of(state).pressure / state.pressure, 1.0, 1e-6) << volume << " " << share;
+    }
+}
+
+TEST(BurningMixture, GasFillsTheVoidOfTornExplosive) {
+  // Far beyond the tension cut-off: the explosive bears 5 MPa, the rest is void. Free expansion of little
+  // gas.
+  const BurningMixture law = mixture();
+  const BurningState torn = law.unburnt(1.02);
+  EXPECT_NEAR(torn.pressure, -tension_cutoff, 1.0);
+  const double burnt = 1e-4;
+  const BurningState state = law.advance(torn, {1.02, 1.02, burnt, specific_heat * 784.0});
+  ASSERT_TRUE(state.valid);
+  const double thin = 1717.0 * burnt / (1.02 - (1.0 - burnt) * state.solid_volume);
+  EXPECT_NEAR(1.0 / state.gas_volume / thin, 1.0, 1e-6);
+  EXPECT_NEAR(state.pressure, thin * 30.447 * gas_constant * state.gas_temperature, 0.02 * state.pressure);
+  EXPECT_NEAR(state.gas_temperature, 784.0, 10.0);
 }
 
 TEST(BurningMixture, ModulusIsTheSlopeOfThePressure) {

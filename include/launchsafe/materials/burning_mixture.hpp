@@ -14,8 +14,10 @@ namespace launchsafe::materials {
 
 /// State of a burning particle. Volumes are over that at rest, energies per volume at rest.
 struct BurningState {
-  double burnt_share = 0;      ///< of the particle's mass, 0 to 1
+  /// Of the particle's mass: 0, or 1e-7 to 1. Less gas has no energy within the digits of that of the whole.
+  double burnt_share = 0;
   double solid_volume = 1;     ///< V of the explosive that is left
+  double gas_volume = 0;       ///< m3/kg
   double gas_temperature = 0;  ///< K
   double energy = 0;           ///< J/m3, of both: the explosive's from rest, the gas's from 0 K
   double pressure = 0;         ///< Pa
@@ -35,9 +37,11 @@ struct BurningStep {
 
 class BurningMixture {
  public:
-  BurningMixture(const JwlParameters& solid, const ProductGas& gas);
+  /// `tension_cutoff` (Pa): the explosive tears where its pressure falls below minus this.
+  BurningMixture(const JwlParameters& solid, const ProductGas& gas, double tension_cutoff);
 
-  /// A particle at V, at the pressure of its isentrope, of which nothing has burnt.
+  /// A particle at V of which nothing has burnt, at the pressure of the isentrope. Where it is torn, the
+  /// explosive is at minus the cut-off and the rest of V is void, which the first gas fills.
   BurningState unburnt(double volume) const;
   /// The state after a step: energy changes by what burns and by the work of the mean of both pressures,
   /// d(energy) = rho0 burnt fresh_energy - (p0 + p1)/2 dV, and explosive and gas have one pressure.
@@ -47,14 +51,17 @@ class BurningMixture {
   double solid_pressure(double volume) const { return jwl_isentropic_pressure(solid_, volume); }
   double solid_modulus(double volume) const { return jwl_isentropic_bulk_modulus(solid_, volume); }
   double solid_energy(double volume) const;
-  /// The gas in a state, at the particle's volume V.
-  GasState gas_of(const BurningState& state, double volume) const;
+  /// The gas in a state of which something has burnt.
+  GasState gas_of(const BurningState& state) const {
+    return gas_.at(state.gas_temperature, state.gas_volume);
+  }
   const ProductGas& gas() const { return gas_; }
   double solid_density() const { return solid_.initial_density; }  ///< kg/m3, at rest
 
  private:
   JwlParameters solid_;
   ProductGas gas_;
+  double torn_volume_ = 1;  ///< V of the explosive at the tension cut-off
 };
 
 }  // namespace launchsafe::materials
