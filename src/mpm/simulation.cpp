@@ -35,6 +35,23 @@ Simulation::Simulation(scene::Scene scene, int threads) : scene_(std::move(scene
     form_.emplace<UpdatedLagrangian>(scene_, bodies_);
 }
 
+void Simulation::continue_from(const Simulation& other) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    std::visit(
+        [&]<class Law>(Body<Law>& body) {
+          const auto& from = std::get<Body<Law>>(other.bodies_[i]);
+          body.particles = from.particles;
+          body.state = from.state;
+        },
+        bodies_[i]);
+  std::get<TotalLagrangian>(form_).continue_from(std::get<TotalLagrangian>(other.form_));
+  body_force_on_bodies_ = other.body_force_on_bodies_;
+  time_ = other.time_;
+  energy_ = other.energy_;
+  balance_ = other.balance_;
+  events_ = other.events_;
+}
+
 void Simulation::reset_grid() {
   with(form_, [](auto& form) { form.reset_grid(); });
 }

@@ -185,6 +185,15 @@ void TotalLagrangian::find_base() {
   }
 }
 
+void TotalLagrangian::continue_from(const TotalLagrangian& other) {
+  nodes_ = other.nodes_;
+  *contact_ = *other.contact_;
+  contact_totals_ = other.contact_totals_;
+  bores_ = other.bores_;
+  body_forces_ = other.body_forces_;
+  damped_before_ = other.damped_before_;
+}
+
 void TotalLagrangian::reset_grid() {
   StepInput still;
   damped_before_ = 0.0;

@@ -17,6 +17,11 @@ namespace launchsafe::run {
 class BulkHeat {
  public:
   explicit BulkHeat(mpm::Simulation& simulation);
+  /// Takes over what another one of the same mechanics has seen so far.
+  void continue_from(const BulkHeat& other) {
+    friction_ = other.friction_;
+    time_ = other.time_;
+  }
   /// Takes in the friction of the step that has just been done.
   void accumulate(const mpm::Simulation& simulation);
   void advance_to(mpm::Simulation& simulation, double time);

@@ -36,9 +36,8 @@ BurningTotals totals_of(const mpm::Simulation& simulation) {
       totals.gas_volume += each.rest_volume * (volume - (1.0 - state.burnt_share) * state.solid_volume);
       totals.mass_temperature += mass * state.gas_temperature;
       const double solid = (1.0 - state.burnt_share) * law.solid_energy(state.solid_volume);
-      const double gas = state.burnt_share > 0.0
-                             ? law.solid_density() * state.burnt_share * law.gas_of(state).energy
-                             : 0.0;
+      const double gas =
+          state.burnt_share > 0.0 ? law.solid_density() * state.burnt_share * law.gas_of(state).energy : 0.0;
       totals.residual += each.rest_volume * (solid + gas - each.start_energy - each.added + each.work);
     }
   });

@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace launchsafe::run {
 namespace {
@@ -36,6 +37,19 @@ std::vector<double> sorted(std::vector<double> values) {
   return values;
 }
 
+}  // namespace
+
+namespace detail {
+class Runner;
+}
+
+class Checkpoints {
+ public:
+  std::vector<std::unique_ptr<detail::Runner>> runs;  ///< in order of time
+};
+
+namespace detail {
+
 /// One mechanical run; with a gap (m), the skin is integrated at every step, and with two-way coupling it
 /// goes on through combustion.
 class Runner {
@@ -44,7 +58,8 @@ class Runner {
       : options_(options),
         simulation_(scene, options.threads),
         recorder_(simulation_, simulation_.scene()),
-        heat_(simulation_) {
+        heat_(simulation_),
+        skin_gap_(skin_gap) {
     if (skin_gap) surface_.emplace(simulation_.scene(), *skin_gap, recorder_);
     couples_back_ = skin_gap && scene.coupling == scene::Coupling::two_way;
     result_.particles = simulation_.particles();
@@ -54,27 +69,52 @@ class Runner {
     });
   }
 
+  /// Takes over the state of a run without skin, which stands at a sample of its trace.
+  void continue_from(const Runner& other) {
+    simulation_.continue_from(other.simulation_);
+    recorder_.continue_from(other.recorder_);
+    heat_.continue_from(other.heat_);
+    result_ = other.result_;
+    first_step_ = other.first_step_;
+    time_step_ = other.time_step_;
+    next_sample_ = other.next_sample_;
+    next_monitor_ = other.next_monitor_;
+    next_snapshot_ = other.next_snapshot_;
+    largest_energy_ = other.largest_energy_;
+    if (!surface_) return;
+    const scene::Scene& scene = simulation_.scene();
+    surface_->continue_from(
+        surface::integrate_skin(surface::skin_model(scene), recorder_.trace(), *skin_gap_), recorder_,
+        simulation_.chamber_pressure());
+  }
+
+  /// Keeps copies of this run, at samples of its trace, so many evenly over the launch.
+  void keep_checkpoints(std::size_t count) {
+    checkpoints_ = std::make_shared<Checkpoints>();
+    checkpoint_interval_ = simulation_.scene().load.duration / static_cast<double>(count + 1);
+  }
+  std::shared_ptr<const Checkpoints> take_checkpoints() { return std::move(checkpoints_); }
+
+  double time() const { return simulation_.time(); }
+
   MechanicsResult run() {
     const FlushDenormals flush;
     const double processor_start = thread_processor_time();
-    const double first_step = simulation_.stable_time_step();
-    double time_step = first_step;
-    take_monitor_sample(time_step);
-    take_due_snapshots();
+    if (result_.steps == 0) begin();
     while (!finished() && result_.status == RunStatus::completed) {
       if (burning_ || result_.steps % steps_per_check == 0) {
-        time_step = simulation_.stable_time_step();
-        check(time_step, first_step);
+        time_step_ = simulation_.stable_time_step();
+        check(time_step_, first_step_);
         if (result_.status != RunStatus::completed) break;
       }
       // The last step ends on the duration; the one before shares what is left, so that neither is tiny.
-      const double longest = burning_ ? std::min(time_step, burning_->longest_step()) : time_step;
+      const double longest = burning_ ? std::min(time_step_, burning_->longest_step()) : time_step_;
       const double remaining = end_ - simulation_.time();
       const double dt = remaining <= longest ? remaining : std::min(longest, 0.5 * remaining);
       check_step(dt);
       if (result_.status == RunStatus::completed) advance(dt);
     }
-    take_monitor_sample(time_step);
+    take_monitor_sample(time_step_);
     if (result_.status == RunStatus::completed) check_energy(energy_of(simulation_));
     result_.end_time = simulation_.time();
     result_.limiters = count_limited(simulation_);
@@ -100,6 +140,12 @@ class Runner {
   }
 
  private:
+  void begin() {
+    first_step_ = time_step_ = simulation_.stable_time_step();
+    take_monitor_sample(time_step_);
+    take_due_snapshots();
+  }
+
   void advance(double dt) {
     const scene::Scene& scene = simulation_.scene();
     simulation_.step(dt);
@@ -110,7 +156,8 @@ class Runner {
     if (couples_back_) burn(dt);
     const double time = simulation_.time();
     const bool last = finished();
-    if (time >= next_sample_ || last) {
+    const bool samples = time >= next_sample_ || last;
+    if (samples) {
       recorder_.sample(simulation_);
       if (surface_) surface_->record(recorder_);
       if (burning_) burning_->record(simulation_, recorder_, *surface_);
@@ -119,6 +166,15 @@ class Runner {
     }
     take_due_snapshots();
     if (time >= next_monitor_ && !last) take_monitor_sample(dt);
+    if (samples && !last && checkpoints_) take_due_checkpoint();
+  }
+
+  void take_due_checkpoint() {
+    const double next = checkpoint_interval_ * static_cast<double>(checkpoints_->runs.size() + 1);
+    if (simulation_.time() < next) return;
+    auto copy = std::make_unique<Runner>(simulation_.scene(), RunOptions{}, std::nullopt);
+    copy->continue_from(*this);
+    checkpoints_->runs.push_back(std::move(copy));
   }
 
   /// Lets the charge burn where the skin has ignited. The run ends a stated time after the first ignition,
@@ -214,6 +270,7 @@ class Runner {
   mpm::Simulation simulation_;
   TraceRecorder recorder_;
   BulkHeat heat_;
+  std::optional<double> skin_gap_;  ///< m
   std::optional<SteppedSkin> surface_;
   std::optional<BurningBottom> burning_;  ///< from ignition on
   bool couples_back_ = false;
@@ -221,12 +278,21 @@ class Runner {
   double end_ = simulation_.scene().load.duration;  ///< s
   MechanicsResult result_;
   Clock::time_point start_ = Clock::now(), last_report_ = start_;
+  double first_step_ = 0, time_step_ = 0;  ///< s
+  std::shared_ptr<Checkpoints> checkpoints_;
+  double checkpoint_interval_ = 0;  ///< s
   double next_sample_ = simulation_.scene().output.trace_interval;
   double next_monitor_ = 0;
   std::vector<double> snapshot_times_ = sorted(simulation_.scene().output.snapshot_times);
   std::size_t next_snapshot_ = 0;
   double largest_energy_ = least_judged_energy(simulation_.scene());
 };
+
+}  // namespace detail
+
+namespace {
+
+using detail::Runner;
 
 GapResult gap_result(const surface::SkinModel& model, surface::SkinHistory skin,
                      const trace::BottomTrace& trace) {
@@ -239,10 +305,56 @@ GapResult gap_result(const surface::SkinModel& model, surface::SkinHistory skin,
   return result;
 }
 
+/// Before this share of the launch the skin of a gap that is near to ignition is integrated on the trace.
+constexpr double stepped_share = 0.01;
+/// Checkpoints of a launch.
+constexpr std::size_t checkpoint_count = 15;
+
+/// The last checkpoint before a gap ignites, or is hottest; null without any. A skin that is no number has
+/// none.
+const Runner* checkpoint_before(const Checkpoints& checkpoints, const GapResult& traced, double duration) {
+  const double critical = traced.skin.ignition ? traced.skin.ignition->time : traced.at_stations.time;
+  const Runner* last = nullptr;
+  for (const auto& each : checkpoints.runs)
+    if (each->time() <= critical - stepped_share * duration) last = each.get();
+  return last;
+}
+
 }  // namespace
 
 MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& options) {
   return Runner(scene, options, std::nullopt).run();
+}
+
+CaseResult run_with_checkpoints(const scene::Scene& scene, const RunOptions& options) {
+  Runner runner(scene, options, std::nullopt);
+  if (scene.numerics.formulation == scene::Formulation::total_lagrangian)
+    runner.keep_checkpoints(checkpoint_count);
+  CaseResult result;
+  result.mechanics = runner.run();
+  result.checkpoints = runner.take_checkpoints();
+  return result;
+}
+
+CaseResult continue_with_skin(const scene::Scene& scene, double gap, const CaseResult& launch,
+                              const RunOptions& options) {
+  CaseResult result;
+  if (launch.mechanics.status != RunStatus::completed) {
+    result.mechanics = launch.mechanics;
+    result.gaps.push_back(evaluate_gap(scene, launch.mechanics.trace, gap));
+    return result;
+  }
+  Runner runner(scene, options, gap);
+  const GapResult traced = evaluate_gap(scene, launch.mechanics.trace, gap);
+  if (launch.checkpoints) {
+    if (const Runner* start = checkpoint_before(*launch.checkpoints, traced, scene.load.duration))
+      runner.continue_from(*start);
+  }
+  result.mechanics = runner.run();
+  result.gaps.push_back(gap_result(surface::skin_model(scene), runner.take_skin(), result.mechanics.trace));
+  result.gaps.back().combustion = runner.take_combustion(result.mechanics);
+  result.gaps.back().with_mechanics = true;
+  return result;
 }
 
 GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trace, double gap) {
@@ -256,18 +368,25 @@ GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trac
 }
 
 CaseResult run_case(const scene::Scene& scene, const RunOptions& options) {
+  const bool two_way = scene.coupling == scene::Coupling::two_way;
   CaseResult result;
-  result.mechanics = run_mechanics(scene, options);
+  if (two_way)
+    result = run_with_checkpoints(scene, options);
+  else
+    result.mechanics = run_mechanics(scene, options);
   if (scene::has_charge(scene))
     for (const double gap : scene.surface.gaps)
       result.gaps.push_back(evaluate_gap(scene, result.mechanics.trace, gap));
-  if (scene.coupling == scene::Coupling::two_way && result.mechanics.status == RunStatus::completed)
+  if (two_way && result.mechanics.status == RunStatus::completed)
     for (GapResult& gap : result.gaps)
-      if (gap.skin.ignition) gap.combustion = run_with_skin(scene, gap.gap, options).gaps.front().combustion;
+      if (gap.skin.ignition)
+        gap.combustion = continue_with_skin(scene, gap.gap, result, options).gaps.front().combustion;
   return result;
 }
 
 CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions& options) {
+  if (scene.coupling == scene::Coupling::two_way)
+    return continue_with_skin(scene, gap, run_with_checkpoints(scene, options), options);
   CaseResult result;
   if (scene.surface.air_model != scene::AirModel::reservoir) {
     // The air's balance couples all stations, and a film has a profile of its own at each: they are
@@ -280,7 +399,6 @@ CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions
     Runner runner(scene, options, gap);
     result.mechanics = runner.run();
     result.gaps.push_back(gap_result(surface::skin_model(scene), runner.take_skin(), result.mechanics.trace));
-    result.gaps.back().combustion = runner.take_combustion(result.mechanics);
   }
   result.gaps.back().with_mechanics = true;
   return result;

@@ -18,6 +18,17 @@ SteppedSkin::SteppedSkin(const scene::Scene& scene, double gap, const TraceRecor
   record(recorder);
 }
 
+void SteppedSkin::continue_from(const surface::SkinHistory& traced, const TraceRecorder& recorder,
+                                double chamber_pressure) {
+  history_ = traced;
+  const std::size_t last = (traced.time.size() - 1) * points_.size();
+  for (std::size_t s = 0; s < points_.size(); ++s) {
+    points_[s] = unburnt_[s] = surface::SkinPoint{traced.temperature[last + s]};
+    if (closure_ < trace::traced_closures) friction_[s] = recorder.friction(closure_, s);
+  }
+  air_pressure_ = pressure_of(recorder, chamber_pressure);
+}
+
 void SteppedSkin::advance(const mpm::Simulation& simulation, const TraceRecorder& recorder, double dt) {
   const double begin = materials::adiabatic_temperature(model_.surface.air, air_pressure_);
   air_pressure_ = pressure_of(recorder, simulation.chamber_pressure());

@@ -16,6 +16,10 @@ class SteppedSkin {
   /// `gap` in m.
   SteppedSkin(const scene::Scene& scene, double gap, const TraceRecorder& recorder);
 
+  /// Goes on from a skin that was integrated on the recorder's trace, whose last sample is the present state.
+  void continue_from(const surface::SkinHistory& traced, const TraceRecorder& recorder,
+                     double chamber_pressure);
+
   /// Takes in the step of dt (s) that has just been done.
   void advance(const mpm::Simulation& simulation, const TraceRecorder& recorder, double dt);
   /// Appends the present temperatures to the history.

@@ -141,6 +141,17 @@ double TraceRecorder::measure_bottom_pressure(const mpm::Simulation& simulation)
   return mean < floor_ ? floor_ : mean;
 }
 
+void TraceRecorder::continue_from(const TraceRecorder& other) {
+  trace_ = other.trace_;
+  heat_ = other.heat_;
+  bottom_pressure_ = other.bottom_pressure_;
+  chamber_pressure_ = other.chamber_pressure_;
+  bottom_integral_ = other.bottom_integral_;
+  chamber_integral_ = other.chamber_integral_;
+  interval_begin_ = other.interval_begin_;
+  steps_ = other.steps_;
+}
+
 void TraceRecorder::accumulate(const mpm::Simulation& simulation, double dt) {
   const double bottom = measure_bottom_pressure(simulation), chamber = simulation.chamber_pressure();
   bottom_integral_ += 0.5 * dt * (bottom_pressure_ + bottom);

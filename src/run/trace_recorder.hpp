@@ -16,6 +16,8 @@ class TraceRecorder {
  public:
   TraceRecorder(mpm::Simulation& simulation, const scene::Scene& scene);
 
+  /// Takes over what another recorder of the same mechanics has seen so far.
+  void continue_from(const TraceRecorder& other);
   /// Takes in the step that has just been done (its end state; dt in s).
   void accumulate(const mpm::Simulation& simulation, double dt);
   /// Appends a sample of the present state and starts the next interval.

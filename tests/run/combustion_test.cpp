@@ -1,6 +1,7 @@
 // Runs with two-way coupling: until ignition those of the launch, after it with gas that acts on all bodies.
 #include "launchsafe/materials/deflagration.hpp"
 #include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,18 +36,60 @@ scene::Scene column(double cell = 1.25e-3) {
 
 double area() { return std::numbers::pi * column_radius * column_radius; }  // m2, of its bottom
 
-TEST(TwoWayCoupling, IsTheRunWithSkinWhereNothingIgnites) {
+TEST(TwoWayCoupling, IsTheTracedSkinWhereNothingIgnites) {
   scene::Scene scene = column();
   scene.charge().kinetics.ignition_temperature = 500.0;
   const CaseResult two_way = run_with_skin(scene, burning_gap);
+  EXPECT_FALSE(two_way.gaps.front().combustion.has_value());
+  const GapResult traced = evaluate_gap(scene, two_way.mechanics.trace, burning_gap);
+  EXPECT_NEAR(two_way.gaps.front().at_stations.temperature, traced.at_stations.temperature, 1e-2);
+  // And the skin that is stepped from the start.
   scene.coupling = scene::Coupling::one_way;
   const CaseResult one_way = run_with_skin(scene, burning_gap);
-  EXPECT_FALSE(two_way.gaps.front().combustion.has_value());
-  EXPECT_EQ(two_way.gaps.front().skin.temperature, one_way.gaps.front().skin.temperature);
-  EXPECT_EQ(two_way.mechanics.trace.bottom_pressure, one_way.mechanics.trace.bottom_pressure);
-  // And the traced one, to the tolerance of the integrations.
-  const GapResult traced = evaluate_gap(scene, one_way.mechanics.trace, burning_gap);
-  EXPECT_NEAR(two_way.gaps.front().at_stations.temperature, traced.at_stations.temperature, 1e-2);
+  EXPECT_NEAR(two_way.gaps.front().at_stations.temperature, one_way.gaps.front().at_stations.temperature,
+              1e-2);
+}
+
+TEST(Checkpoints, LeadToTheSameLaunchBitwise) {
+  // The shipped shell, coarse, with faces that slide: particles, nodes, contact, trace and monitor go on.
+  scene::Scene shell = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
+  shell.numerics.cell_size = 10e-3;
+  shell.numerics.inertial_scaling = 16.0;
+  for (const scene::Scene& scene : {column(), shell}) {
+    const CaseResult launch = run_with_checkpoints(scene);
+    ASSERT_EQ(launch.mechanics.status, RunStatus::completed);
+    const CaseResult continued = continue_with_skin(scene, 0.0, launch);  // a gap of 0 does not ignite
+    ASSERT_FALSE(continued.gaps.front().skin.ignition.has_value());
+    const MechanicsResult& from_start = launch.mechanics;
+    EXPECT_EQ(continued.mechanics.steps, from_start.steps);
+    EXPECT_EQ(continued.mechanics.trace.time, from_start.trace.time);
+    EXPECT_EQ(continued.mechanics.trace.bottom_pressure, from_start.trace.bottom_pressure);
+    EXPECT_EQ(continued.mechanics.trace.friction, from_start.trace.friction);
+    ASSERT_EQ(continued.mechanics.monitor.size(), from_start.monitor.size());
+    for (std::size_t i = 0; i < from_start.monitor.size(); ++i) {
+      EXPECT_EQ(continued.mechanics.monitor[i].energy.internal, from_start.monitor[i].energy.internal);
+      EXPECT_EQ(continued.mechanics.monitor[i].energy.contact, from_start.monitor[i].energy.contact);
+      EXPECT_EQ(continued.mechanics.monitor[i].momentum, from_start.monitor[i].momentum);
+    }
+    EXPECT_EQ(continued.mechanics.interfaces.size(), from_start.interfaces.size());
+    // Without checkpoints the mechanics is the same, and with them it is no other launch.
+    EXPECT_EQ(run_mechanics(scene).trace.bottom_pressure, from_start.trace.bottom_pressure);
+  }
+}
+
+TEST(Checkpoints, SaveMostOfARunThatIgnitesLate) {
+  // Steps are counted from the launch's begin: those after the last checkpoint are all that is computed.
+  scene::Scene scene = column();
+  scene.charge().kinetics.ignition_temperature = 324.0;  // just before the end of the launch
+  const CaseResult launch = run_with_checkpoints(scene);
+  scene.combustion.duration = 1e-5;
+  const CaseResult continued = continue_with_skin(scene, burning_gap, launch);
+  ASSERT_TRUE(continued.gaps.front().skin.ignition.has_value());
+  ASSERT_GT(continued.gaps.front().skin.ignition->time, 0.8 * scene.load.duration);
+  EXPECT_LT(continued.mechanics.processor_time, 0.5 * launch.mechanics.processor_time);
+  // It ignites when the run without checkpoints does.
+  const CaseResult from_start = continue_with_skin(scene, burning_gap, {launch.mechanics, {}, nullptr});
+  EXPECT_NEAR(continued.gaps.front().skin.ignition->time, from_start.gaps.front().skin.ignition->time, 1e-6);
 }
 
 TEST(TwoWayCoupling, GoesThroughIgnitionWithItsEnergyBalanced) {

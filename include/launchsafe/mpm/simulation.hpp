@@ -43,6 +43,11 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
+  /// Takes over the state of another simulation of the same mechanics, total-Lagrangian: the same bodies,
+  /// mesh, interfaces and laws but for what acts through heat alone. What follows is bitwise what would have
+  /// followed there.
+  void continue_from(const Simulation& other);
+
   /// Stable time step (s) for the present state.
   double stable_time_step() const;
   /// Advances by dt > 0 (s).

@@ -35,6 +35,9 @@ class TotalLagrangian {
   /// Holds references to scene and bodies, which must outlive it at the same address.
   TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>& bodies, int threads);
 
+  /// Takes over the state of another computation of the same bodies on the same lattice. The particles are
+  /// the caller's to copy.
+  void continue_from(const TotalLagrangian& other);
   /// Recomputes the nodal momenta and velocities from the particles, after velocities were set.
   void reset_grid();
   void apply_bore_pressure(const BorePressure& bore) { bores_.push_back(bore); }

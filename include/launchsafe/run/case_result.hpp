@@ -6,6 +6,7 @@
 #include "launchsafe/trace/bottom_trace.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -166,9 +167,13 @@ struct GapResult {
   std::optional<CombustionHistory> combustion;  ///< of one that ignited, where the coupling is two-way
 };
 
+/// States of a launch from which runs of single gaps go on; in memory only.
+class Checkpoints;
+
 struct CaseResult {
   MechanicsResult mechanics;
   std::vector<GapResult> gaps;
+  std::shared_ptr<const Checkpoints> checkpoints;  ///< where they were asked for
 };
 
 }  // namespace launchsafe::run

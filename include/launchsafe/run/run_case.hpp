@@ -28,6 +28,17 @@ struct RunOptions {
 /// then is kept. The result depends on the scene alone, bitwise, not on threads or on what else runs.
 MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& options = {});
 
+/// The same, with checkpoints of the state at fifteen times of the launch (total-Lagrangian; none otherwise).
+CaseResult run_with_checkpoints(const scene::Scene& scene, const RunOptions& options = {});
+
+/// A run of one gap (m) with its skin in the mechanics, from the last checkpoint of the launch before the gap
+/// ignites, or is hottest: bitwise the mechanics from the start, until something burns. Up to the checkpoint
+/// the skin is integrated on the trace, from there on at every step. `launch` is of the same scene, but for
+/// what does not influence its mechanics. Where that did not complete, neither does this. For
+/// AirModel::reservoir.
+CaseResult continue_with_skin(const scene::Scene& scene, double gap, const CaseResult& launch,
+                              const RunOptions& options = {});
+
 /// Skin temperatures of one gap (m) on a finished trace, with the trace's sampling error. The scene's surface
 /// and kinetics parameters apply; its own list of gaps does not.
 GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trace, double gap);
@@ -41,8 +52,8 @@ CaseResult run_case(const scene::Scene& scene, const RunOptions& options = {});
 /// tolerance. With one-way coupling the skin has no effect on the mechanics. With two-way coupling what burns
 /// after ignition turns to gas and acts on all bodies (burning_bottom.hpp), and the run ends a stated time
 /// after ignition or at a stated pressure instead of at the end of the load, which goes on as it is stated
-/// beyond its duration. Where the air model couples the stations or is a film,
-/// the skin is integrated on a trace with a sample every eight steps.
+/// beyond its duration; it is `continue_with_skin` after `run_with_checkpoints`. Where the air model couples
+/// the stations or is a film, the skin is integrated on a trace with a sample every eight steps.
 CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions& options = {});
 
 }  // namespace launchsafe::run
