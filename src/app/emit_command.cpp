@@ -42,7 +42,7 @@ double sum_of_largest(std::vector<double> values, int count) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Of the whole study, with nothing stored. A run takes as long again for every run with skin that may
+/// Of the whole study, with nothing stored. A run takes as long again for every coupled run that may
 /// confirm it.
 ShardNeeds needs_of(const study::Forecast& whole, int shards, int jobs) {
   const double runs = static_cast<double>(std::max<std::size_t>(1, whole.runs.size()));

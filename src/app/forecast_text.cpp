@@ -86,7 +86,7 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
   for (const auto& [key, value] : file.overrides) text += forecast_line("  " + key, value);
   text += forecast_line("mechanical runs", runs_text(forecast));
   if (forecast.confirmations > 0)
-    text += forecast_line("runs with skin",
+    text += forecast_line("coupled runs",
                           fmt::format("at most {} more, to confirm the critical gap; their time comes on top",
                                       forecast.confirmations));
   if (!file.study.kind.gaps_key.empty())
@@ -107,7 +107,7 @@ nlohmann::ordered_json forecast_json(const study::StudyFile& file, const Forecas
           {"stored", totals.stored},
           {"to_run", totals.to_run},
           {"refused", totals.refused},
-          {"runs_with_skin_at_most", forecast.confirmations},
+          {"coupled_runs_at_most", forecast.confirmations},
           {"gaps", file.study.gaps.size()},
           {"jobs", forecast.jobs},
           {"particle_updates", totals.updates},

@@ -47,7 +47,7 @@ std::size_t list_missing(const study::Forecast& forecast, Console& console) {
   return missing.size();
 }
 
-/// Names the runs that only turned out to be missing when they were asked for: runs with skin, whose gaps
+/// Names the runs that only turned out to be missing when they were asked for: coupled runs, whose gaps
 /// follow from the mechanics, and files that were damaged after they had been looked at.
 std::size_t list_not_stored(const kinds::StudyOutcome& result, Console& console) {
   nlohmann::ordered_json missing = nlohmann::ordered_json::array();

@@ -66,23 +66,26 @@ void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confi
   confirmation.outcome = run.outcome;
   confirmation.failure = run.failure;
   confirmation.wall_time = run.result.mechanics.wall_time;
-  if (!confirmation.failure.empty()) return;
   const std::vector<run::GapResult>& gaps = run.result.gaps;
-  if (gaps.empty() || !std::isfinite(gaps.front().at_points.temperature)) {
+  if (!gaps.empty()) confirmation.combustion = gaps.front().combustion;
+  // What breaks off after it has ignited has ignited.
+  if (!confirmation.failure.empty() && !confirmation.combustion) return;
+  if (gaps.empty() || !std::isfinite(gaps.front().at_stations.temperature)) {
     confirmation.failure = "its temperature is not a number";
     return;
   }
   confirmation.completed = true;
   confirmation.ignited = gaps.front().skin.ignition.has_value();
-  confirmation.maximum_temperature = gaps.front().at_points.temperature;
+  confirmation.maximum_temperature = gaps.front().at_stations.temperature;
   const run::GapResult traced =
       run::evaluate_gap(outcome.input.scene.scene, outcome.result.mechanics.trace, confirmation.gap);
   if (!confirmation.ignited && !traced.skin.ignition)
-    confirmation.difference = confirmation.maximum_temperature - traced.at_points.temperature;
+    confirmation.difference = confirmation.maximum_temperature - traced.at_stations.temperature;
 }
 
-/// Runs with skin on both sides of every bracket.
+/// Coupled runs on both sides of every bracket, from checkpoints of the mechanics where those were computed.
 void run_confirmations(CriticalGapResult& result, const StudyOptions& options, ProgressTracker& tracker) {
+  constexpr double continued_share = 0.15;  // of the steps of a launch, with combustion
   std::vector<CaseRuns> runs;
   std::vector<std::pair<CaseOutcome*, std::size_t>> places;
   for (CaseOutcome& outcome : result.cases) {
@@ -91,9 +94,10 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
                              expectation(outcome.critical.upper, true)};
     for (std::size_t side = 0; side < 2; ++side) {
       const double gap = outcome.confirmations[side].gap;
-      runs.push_back({{},
-                      {skin_run(outcome.input.scene.scene, gap, label_with_skin(outcome, gap))},
-                      options.shard.index});
+      CaseRun run = skin_run(outcome.input.scene.scene, gap, label_with_skin(outcome, gap));
+      run.launch = &outcome.result.mechanics;
+      if (run.launch->checkpoints) run.cost *= continued_share;
+      runs.push_back({{}, {std::move(run)}, options.shard.index});
       places.emplace_back(&outcome, side);
     }
   }
@@ -101,6 +105,7 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
     const auto [outcome, side] = places[i];
     take_confirmation(*outcome, finished.front(), outcome->confirmations[side]);
   });
+  for (CaseOutcome& outcome : result.cases) outcome.result.mechanics.checkpoints.reset();
 }
 
 }  // namespace
@@ -111,7 +116,9 @@ CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& o
       [&](CriticalGapResult& result) {
         ProgressTracker tracker(options.progress);
         for (const StudyCase& input : study.cases) result.cases.emplace_back().input = input;
-        const std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
+        std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
+        if (settings_of<CriticalGapSettings>(study.study).confirm)
+          for (CaseRuns& each : runs) each.runs.front().checkpoints = true;
         run_cases(runs, options, tracker, result.timing,
                   [&](std::size_t i, std::vector<FinishedRun>& finished) {
                     for (const std::size_t member : runs[i].members) {

@@ -27,7 +27,7 @@ std::vector<scene::Key<CriticalGapSettings>> critical_gap_keys() {
                    &CriticalGapSettings::flaw_sizes),
       scene::flag_key<CriticalGapSettings>(
           "confirm", scene::Standing::assumed,
-          "Runs with skin, integrated together with the mechanics, on both sides of the bracket.",
+          "Coupled runs on both sides of the bracket: the skin in the mechanics, and on through combustion.",
           &CriticalGapSettings::confirm),
   };
 }

@@ -23,13 +23,13 @@ std::string answer_of(const CaseOutcome& outcome) {
   switch (gap.kind) {
     case CriticalGapKind::value: {
       const bool confirmed = !outcome.confirmations.empty();
-      return fmt::format(
-          "the critical gap is {}{}: {} does not ignite, {} does{}{}.", centimetres(gap.value),
-          std::isfinite(gap.uncertainty)
-              ? fmt::format(", uncertain by {} cm", significant(100.0 * gap.uncertainty, 2))
-              : std::string{},
-          centimetres(gap.lower), centimetres(gap.upper),
-          confirmed ? "; runs with skin on both sides agree" : "; not confirmed by runs with skin", remark);
+      return fmt::format("the critical gap is {}{}: {} does not ignite, {} does{}{}.", centimetres(gap.value),
+                         std::isfinite(gap.uncertainty)
+                             ? fmt::format(", uncertain by {} cm", significant(100.0 * gap.uncertainty, 2))
+                             : std::string{},
+                         centimetres(gap.lower), centimetres(gap.upper),
+                         confirmed ? "; coupled runs on both sides agree" : "; not confirmed by coupled runs",
+                         remark);
     }
     case CriticalGapKind::all_safe:
       return fmt::format("the critical gap is more than {}: {}.", centimetres(gap.lower), gap.reason);
@@ -46,7 +46,7 @@ std::string uncertainty_text(const CriticalGapResult& result) {
   for (const CaseOutcome& outcome : result.cases) {
     for (const study::Confirmation& each : outcome.confirmations) {
       if (!std::isfinite(each.difference)) continue;
-      text += fmt::format(" With skin minus traced at {} ({}): {} K.", centimetres(each.gap),
+      text += fmt::format(" Coupled minus traced at {} ({}): {} K.", centimetres(each.gap),
                           outcome.input.label, scientific(each.difference, 1));
     }
   }

@@ -157,6 +157,20 @@ Table critical_gap_table(const CriticalGapResult& result) {
   return table;
 }
 
+namespace {
+
+/// What burnt in a coupled run; empty where nothing did.
+struct BurningCells {
+  Cell skin_burnt, mass, residual;
+};
+BurningCells burning_cells(const std::optional<run::CombustionHistory>& combustion) {
+  if (!combustion || combustion->burnt_mass.empty()) return {};
+  return {optional_number(1e3 * combustion->complete_time), 1e3 * combustion->burnt_mass.back(),
+          combustion->energy_residual};
+}
+
+}  // namespace
+
 Table coupled_run_table(const CriticalGapResult& result) {
   Table table;
   table.title = "Coupled runs";
@@ -166,12 +180,18 @@ Table coupled_run_table(const CriticalGapResult& result) {
                    named_text("outcome", "outcome"),
                    quantity::temperature_max(),
                    scientific_column("coupled - traced", "K", 1, "coupled_minus_traced_K"),
+                   number_column("skin burnt", "ms", 3, "skin_burnt_time_ms"),
+                   significant_column("burnt", "g", 3, "burnt_mass_g"),
+                   scientific_column("energy residual", "", 1, "combustion_energy_residual"),
                    quantity::reason()};
   for (const CaseOutcome& outcome : result.cases) {
-    for (const Confirmation& each : outcome.confirmations)
+    for (const Confirmation& each : outcome.confirmations) {
+      const BurningCells burning = burning_cells(each.combustion);
       table.rows.push_back({outcome.input.label, 100.0 * each.gap, ignition_word(each.expected_ignition),
                             outcome_word(each), optional_number(each.maximum_temperature),
-                            optional_number(each.difference), each.failure});
+                            optional_number(each.difference), burning.skin_burnt, burning.mass,
+                            burning.residual, each.failure});
+    }
   }
   return table;
 }

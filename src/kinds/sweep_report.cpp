@@ -119,7 +119,7 @@ std::string failures_text(const SweepResult& result, const std::vector<ShownKey>
 
 std::string uncertainty_text(const study::StudyFile& study) {
   return uncertainty_remark(study) +
-         " Verdicts and critical gaps rest on the traces of the mechanical runs; no runs with skin confirm "
+         " Verdicts and critical gaps rest on the traces of the mechanical runs; no coupled runs confirm "
          "them "
          "(those of a study of kind critical-gap do).\n";
 }

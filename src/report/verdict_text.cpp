@@ -173,7 +173,7 @@ std::string uncertainty_remark(const study::StudyFile& study) {
       "a fourth, of the model form. Of the "
       "computation: the sum of the trace's sampling error, the integration error, where confirmed the "
       "largest "
-      "difference between traced temperatures and runs with skin, where the charge slides on the base what "
+      "difference between traced temperatures and coupled runs, where the charge slides on the base what "
       "the "
       "temperatures leave out of that (the heat of friction, and the gap's growth where the base opens), and "
       "{} K for mesh, step and scaling, {}. Of the fit: {} "

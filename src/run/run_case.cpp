@@ -75,6 +75,7 @@ class Runner {
     recorder_.continue_from(other.recorder_);
     heat_.continue_from(other.heat_);
     result_ = other.result_;
+    result_.steps_before = result_.steps;
     first_step_ = other.first_step_;
     time_step_ = other.time_step_;
     next_sample_ = other.next_sample_;
@@ -88,20 +89,24 @@ class Runner {
         simulation_.chamber_pressure());
   }
 
-  /// Keeps copies of this run, at samples of its trace, so many evenly over the launch.
-  void keep_checkpoints(std::size_t count) {
+  /// Keeps copies of this run at the first samples of its trace from `time_of_checkpoint` on; ends with the
+  /// last of `enough` of them.
+  void keep_checkpoints(std::size_t enough = std::numeric_limits<std::size_t>::max()) {
     checkpoints_ = std::make_shared<Checkpoints>();
-    checkpoint_interval_ = simulation_.scene().load.duration / static_cast<double>(count + 1);
+    enough_checkpoints_ = enough;
+  }
+  /// Of the checkpoint with that index, s: they divide the launch evenly.
+  static double time_of_checkpoint(std::size_t index, double duration) {
+    constexpr double parts = 16.0;
+    return duration * static_cast<double>(index + 1) / parts;
   }
   std::shared_ptr<const Checkpoints> take_checkpoints() { return std::move(checkpoints_); }
-
-  double time() const { return simulation_.time(); }
 
   MechanicsResult run() {
     const FlushDenormals flush;
     const double processor_start = thread_processor_time();
     if (result_.steps == 0) begin();
-    while (!finished() && result_.status == RunStatus::completed) {
+    while (!finished() && !has_enough_checkpoints() && result_.status == RunStatus::completed) {
       if (burning_ || result_.steps % steps_per_check == 0) {
         time_step_ = simulation_.stable_time_step();
         check(time_step_, first_step_);
@@ -169,9 +174,13 @@ class Runner {
     if (samples && !last && checkpoints_) take_due_checkpoint();
   }
 
+  bool has_enough_checkpoints() const {
+    return checkpoints_ && checkpoints_->runs.size() >= enough_checkpoints_;
+  }
+
   void take_due_checkpoint() {
-    const double next = checkpoint_interval_ * static_cast<double>(checkpoints_->runs.size() + 1);
-    if (simulation_.time() < next) return;
+    const double duration = simulation_.scene().load.duration;
+    if (simulation_.time() < time_of_checkpoint(checkpoints_->runs.size(), duration)) return;
     auto copy = std::make_unique<Runner>(simulation_.scene(), RunOptions{}, std::nullopt);
     copy->continue_from(*this);
     checkpoints_->runs.push_back(std::move(copy));
@@ -280,7 +289,7 @@ class Runner {
   Clock::time_point start_ = Clock::now(), last_report_ = start_;
   double first_step_ = 0, time_step_ = 0;  ///< s
   std::shared_ptr<Checkpoints> checkpoints_;
-  double checkpoint_interval_ = 0;  ///< s
+  std::size_t enough_checkpoints_ = 0;
   double next_sample_ = simulation_.scene().output.trace_interval;
   double next_monitor_ = 0;
   std::vector<double> snapshot_times_ = sorted(simulation_.scene().output.snapshot_times);
@@ -307,53 +316,60 @@ GapResult gap_result(const surface::SkinModel& model, surface::SkinHistory skin,
 
 /// Before this share of the launch the skin of a gap that is near to ignition is integrated on the trace.
 constexpr double stepped_share = 0.01;
-/// Checkpoints of a launch.
-constexpr std::size_t checkpoint_count = 15;
 
-/// The last checkpoint before a gap ignites, or is hottest; null without any. A skin that is no number has
-/// none.
-const Runner* checkpoint_before(const Checkpoints& checkpoints, const GapResult& traced, double duration) {
+/// How many checkpoints of a launch lie before a gap ignites, or is hottest.
+std::size_t checkpoints_before(const trace::BottomTrace& launch, const GapResult& traced, double duration) {
   const double critical = traced.skin.ignition ? traced.skin.ignition->time : traced.at_stations.time;
-  const Runner* last = nullptr;
-  for (const auto& each : checkpoints.runs)
-    if (each->time() <= critical - stepped_share * duration) last = each.get();
-  return last;
+  std::size_t count = 0;
+  for (const double time : launch.time)
+    if (time <= critical - stepped_share * duration && time >= Runner::time_of_checkpoint(count, duration))
+      ++count;
+  return count;
 }
 
-}  // namespace
-
-MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& options) {
-  return Runner(scene, options, std::nullopt).run();
-}
-
-CaseResult run_with_checkpoints(const scene::Scene& scene, const RunOptions& options) {
-  Runner runner(scene, options, std::nullopt);
-  if (scene.numerics.formulation == scene::Formulation::total_lagrangian)
-    runner.keep_checkpoints(checkpoint_count);
-  CaseResult result;
-  result.mechanics = runner.run();
-  result.checkpoints = runner.take_checkpoints();
-  return result;
-}
-
-CaseResult continue_with_skin(const scene::Scene& scene, double gap, const CaseResult& launch,
+/// A complete run of a gap (m) with two-way coupling, from a checkpoint of its launch where there is one.
+CaseResult continue_with_skin(const scene::Scene& scene, double gap, const MechanicsResult& launch,
                               const RunOptions& options) {
   CaseResult result;
-  if (launch.mechanics.status != RunStatus::completed) {
-    result.mechanics = launch.mechanics;
-    result.gaps.push_back(evaluate_gap(scene, launch.mechanics.trace, gap));
+  const GapResult traced = evaluate_gap(scene, launch.trace, gap);
+  if (launch.status != RunStatus::completed) {
+    result.mechanics = launch;
+    result.gaps.push_back(traced);
     return result;
   }
+  const bool total = scene.numerics.formulation == scene::Formulation::total_lagrangian;
+  const std::size_t needed = total ? checkpoints_before(launch.trace, traced, scene.load.duration) : 0;
   Runner runner(scene, options, gap);
-  const GapResult traced = evaluate_gap(scene, launch.mechanics.trace, gap);
-  if (launch.checkpoints) {
-    if (const Runner* start = checkpoint_before(*launch.checkpoints, traced, scene.load.duration))
-      runner.continue_from(*start);
+  if (needed > 0) {
+    // What was stored has none: the launch is computed again as far as needed.
+    std::shared_ptr<const Checkpoints> checkpoints = launch.checkpoints;
+    if (!checkpoints) {
+      Runner again(scene, options, std::nullopt);
+      again.keep_checkpoints(needed);
+      result.mechanics = again.run();
+      checkpoints = again.take_checkpoints();
+    }
+    if (checkpoints->runs.size() < needed) {  // broken off
+      result.gaps.push_back(traced);
+      return result;
+    }
+    runner.continue_from(*checkpoints->runs[needed - 1]);
   }
   result.mechanics = runner.run();
   result.gaps.push_back(gap_result(surface::skin_model(scene), runner.take_skin(), result.mechanics.trace));
   result.gaps.back().combustion = runner.take_combustion(result.mechanics);
   result.gaps.back().with_mechanics = true;
+  return result;
+}
+
+}  // namespace
+
+MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& options) {
+  Runner runner(scene, options, std::nullopt);
+  if (options.checkpoints && scene.numerics.formulation == scene::Formulation::total_lagrangian)
+    runner.keep_checkpoints();
+  MechanicsResult result = runner.run();
+  result.checkpoints = runner.take_checkpoints();
   return result;
 }
 
@@ -368,25 +384,28 @@ GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trac
 }
 
 CaseResult run_case(const scene::Scene& scene, const RunOptions& options) {
-  const bool two_way = scene.coupling == scene::Coupling::two_way;
+  RunOptions own = options;
+  own.checkpoints = scene.coupling == scene::Coupling::two_way;
   CaseResult result;
-  if (two_way)
-    result = run_with_checkpoints(scene, options);
-  else
-    result.mechanics = run_mechanics(scene, options);
-  if (scene::has_charge(scene))
-    for (const double gap : scene.surface.gaps)
-      result.gaps.push_back(evaluate_gap(scene, result.mechanics.trace, gap));
-  if (two_way && result.mechanics.status == RunStatus::completed)
-    for (GapResult& gap : result.gaps)
-      if (gap.skin.ignition)
-        gap.combustion = continue_with_skin(scene, gap.gap, result, options).gaps.front().combustion;
+  result.mechanics = run_mechanics(scene, own);
+  own.launch = &result.mechanics;
+  if (!scene::has_charge(scene)) return result;
+  for (const double gap : scene.surface.gaps) {
+    result.gaps.push_back(evaluate_gap(scene, result.mechanics.trace, gap));
+    if (own.checkpoints && result.gaps.back().skin.ignition &&
+        result.mechanics.status == RunStatus::completed)
+      result.gaps.back().combustion = run_with_skin(scene, gap, own).gaps.front().combustion;
+  }
   return result;
 }
 
 CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions& options) {
-  if (scene.coupling == scene::Coupling::two_way)
-    return continue_with_skin(scene, gap, run_with_checkpoints(scene, options), options);
+  if (scene.coupling == scene::Coupling::two_way) {
+    if (options.launch != nullptr) return continue_with_skin(scene, gap, *options.launch, options);
+    RunOptions own = options;
+    own.checkpoints = true;
+    return continue_with_skin(scene, gap, run_mechanics(scene, own), options);
+  }
   CaseResult result;
   if (scene.surface.air_model != scene::AirModel::reservoir) {
     // The air's balance couples all stations, and a film has a profile of its own at each: they are

@@ -292,6 +292,9 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
     archive.value("reason", mechanics.reason, {"none", "when and where, if not completed"});
     archive.value("end_time", mechanics.end_time, {"s", "time reached"});
     archive.value("steps", mechanics.steps, {"1", "time steps"});
+    if (is_stored(archive, "steps_before"))
+      archive.value("steps_before", mechanics.steps_before,
+                    {"1", "of them, up to the checkpoint from which the run went on"});
     archive.value("particles", mechanics.particles, {"1", "particles"});
     archive.value("wall_time", mechanics.wall_time, {"s", "wall time of the mechanics"});
     if constexpr (!Archive::reading) {

@@ -152,7 +152,7 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGrou
   return row;
 }
 
-/// K, the largest difference between traced temperatures and runs with skin.
+/// K, the largest difference between traced temperatures and coupled runs.
 double coupling_share(const CaseOutcome& outcome) {
   double coupling = 0;
   for (const Confirmation& confirmation : outcome.confirmations) {
@@ -188,7 +188,7 @@ CriticalGap indeterminate(std::string reason) {
 
 std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
   if (!confirmation.ran || confirmation.agrees()) return std::nullopt;
-  const std::string gap = fmt::format("the run with skin at {:.6g} cm ", 100.0 * confirmation.gap);
+  const std::string gap = fmt::format("the coupled run at {:.6g} cm ", 100.0 * confirmation.gap);
   if (!confirmation.completed) return gap + "did not complete: " + confirmation.failure;
   return gap + (confirmation.ignited ? "ignites" : "does not ignite") + ", the traced temperatures " +
          (confirmation.expected_ignition ? "do" : "do not");

@@ -145,8 +145,8 @@ class CaseLoop {
   }
 
   run::CaseResult compute(const CaseRun& run, const Allotment& allotment) const {
-    const run::RunOptions run_options{options_.stop, options_.time_limit, allotment.report_share,
-                                      allotment.threads};
+    const run::RunOptions run_options{options_.stop,     options_.time_limit, allotment.report_share,
+                                      allotment.threads, run.checkpoints,     run.launch};
     if (run.skin_gap) return options_.runners.with_skin(run.scene, *run.skin_gap, run_options);
     run::CaseResult result;
     result.mechanics = options_.runners.mechanics(run.scene, run_options);
@@ -184,8 +184,7 @@ class CaseLoop {
       ++timing_.reused;
     } else if (run.has_result() && computed) {
       ++timing_.runs;
-      timing_.particle_updates +=
-          static_cast<double>(mechanics.steps) * static_cast<double>(mechanics.particles);
+      timing_.particle_updates += mechanics.particle_updates();
       timing_.run_time += mechanics.wall_time;
     }
   }
@@ -239,10 +238,10 @@ CaseRun skin_run(const scene::Scene& scene, double gap, std::string label) {
   own.title.clear();
   own.accepted.clear();
   own.surface.gaps = {gap};
+  if (own.surface.air_model == scene::AirModel::reservoir) own.coupling = scene::Coupling::two_way;
   return planned(std::move(own), gap, std::move(label));
 }
 
-/// A run with skin is a "coupled run" in the identities of stored cases.
 store::CaseIdentity identity_of(const CaseRun& run) {
   return store::CaseIdentity(fmt::format("# model version {}, {}\n{}", run::model_version,
                                          run.skin_gap ? "coupled run" : "mechanics",

@@ -47,7 +47,7 @@ distribution = "uniform"
 range = "20 to 40 um"
 )";
 
-/// One mechanical run, and two runs with skin that confirm the critical gap.
+/// One mechanical run, and two coupled runs that confirm the critical gap.
 inline const std::string critical_gap_study = R"(kind = "critical-gap"
 scene = "shell.toml"
 early_time = "0.03 ms"

@@ -94,7 +94,7 @@ TEST_F(StudyProgram, ExplainCountsItsRuns) {
   const auto plan = nlohmann::json::parse(run({"explain", "study.toml", "--json"}).out);
   EXPECT_EQ(plan["kind"], "critical-gap");
   EXPECT_EQ(plan["mechanical_runs"], 1);
-  EXPECT_EQ(plan["runs_with_skin_at_most"], 2);
+  EXPECT_EQ(plan["coupled_runs_at_most"], 2);
   EXPECT_EQ(plan["gaps"], 3);
   EXPECT_NE(run({"explain", "study.toml"}).out.find("mechanical runs       1"), std::string::npos);
 }

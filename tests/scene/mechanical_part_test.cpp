@@ -31,6 +31,7 @@ KeyNames without(KeyNames names, const KeyNames& kept) {
 
 /// What a launch without snapshots, conduction and bulk reaction leaves out.
 const KeyNames most_dropped{"title",
+                            "coupling",
                             "steel.conductivity",
                             "charge.specific_heat",
                             "charge.conductivity",
@@ -58,7 +59,10 @@ const KeyNames most_dropped{"title",
                             "friction.closure",
                             "friction.localisation",
                             "physics.conduction_bound",
-                            "physics.reaction_bound"};
+                            "physics.reaction_bound",
+                            "combustion.release",
+                            "combustion.duration",
+                            "combustion.stop_pressure"};
 const KeyNames conductivities{"steel.conductivity", "charge.conductivity"};
 const KeyNames of_temperatures{"charge.specific_heat", "friction.closure"};
 const KeyNames of_reaction{"kinetics.set",
@@ -72,9 +76,9 @@ const KeyNames of_reaction{"kinetics.set",
 TEST(MechanicalPart, LeavesOutTheseKeys) {
   KeyNames under_curve = most_dropped;
   const KeyNames of_shape{"load.base", "load.peak_time", "load.exponent"};
-  under_curve.insert(under_curve.begin() + 1, of_shape.begin(), of_shape.end());
+  under_curve.insert(under_curve.begin() + 2, of_shape.begin(), of_shape.end());
   KeyNames under_own_curve = under_curve;
-  under_own_curve.insert(under_own_curve.begin() + 1, "load.peak");
+  under_own_curve.insert(under_own_curve.begin() + 2, "load.peak");
   const std::map<std::string, KeyNames> expected{
       {"plain", most_dropped},
       {"snapshots", without(most_dropped, of_temperatures)},

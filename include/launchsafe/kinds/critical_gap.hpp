@@ -15,7 +15,7 @@ struct CriticalGapSettings {
   std::vector<double> peak_pressures;  ///< Pa; empty: the scene's
   std::vector<double> crack_radii;     ///< m, c(0); empty: the scene's
   std::vector<double> flaw_sizes;      ///< m, a; empty: the scene's
-  bool confirm = true;                 ///< runs with skin on both sides of the bracket
+  bool confirm = true;                 ///< coupled runs on both sides of the bracket
 };
 
 struct CriticalGapResult {
@@ -30,7 +30,7 @@ struct CriticalGapResult {
 /// the reason, and the others go on. Apart from the timing the result depends on the study alone.
 CriticalGapResult run_critical_gap(const study::StudyFile& study, const study::StudyOptions& options = {});
 
-/// The run with skin that confirms a gap (m) of a case: "496 MPa, 30 um, 1 mm, coupled at 0.04 cm". Journals
+/// The coupled run that confirms a gap (m) of a case: "496 MPa, 30 um, 1 mm, coupled at 0.04 cm". Journals
 /// of stored studies name it so.
 std::string label_with_skin(const study::CaseOutcome& outcome, double gap);
 

@@ -97,21 +97,28 @@ struct InterfaceResult {
   std::vector<double> bonded;         ///< 1 where the bond still holds
 };
 
+/// States of a launch from which runs of single gaps go on.
+class Checkpoints;
+
 struct MechanicsResult {
   RunStatus status = RunStatus::completed;
   std::string reason;   ///< when and where, if not completed
   double end_time = 0;  ///< s, reached
   std::uint64_t steps = 0;
+  std::uint64_t steps_before = 0;  ///< of them, up to the checkpoint from which this run went on
   std::uint64_t particles = 0;
   double wall_time = 0;       ///< s
   double processor_time = 0;  ///< s, of the run's threads: what other work on the machine disturbs least
-  double update_rate() const { return wall_time > 0 ? double(steps) * double(particles) / wall_time : 0; }
+  /// Particles times the steps that this run computed.
+  double particle_updates() const { return double(steps - steps_before) * double(particles); }
+  double update_rate() const { return wall_time > 0 ? particle_updates() / wall_time : 0; }
   std::vector<MaterialMass> masses;  ///< by material, in the order of the first body of each
   trace::BottomTrace trace;
   std::vector<MonitorSample> monitor;
   std::vector<Snapshot> snapshots;
   LimiterCounts limiters;
-  std::vector<InterfaceResult> interfaces;  ///< none for bodies that are bonded for good
+  std::vector<InterfaceResult> interfaces;         ///< none for bodies that are bonded for good
+  std::shared_ptr<const Checkpoints> checkpoints;  ///< in memory only, where they were asked for
 };
 
 /// 0 for a material without particles.
@@ -167,13 +174,9 @@ struct GapResult {
   std::optional<CombustionHistory> combustion;  ///< of one that ignited, where the coupling is two-way
 };
 
-/// States of a launch from which runs of single gaps go on; in memory only.
-class Checkpoints;
-
 struct CaseResult {
   MechanicsResult mechanics;
   std::vector<GapResult> gaps;
-  std::shared_ptr<const Checkpoints> checkpoints;  ///< where they were asked for
 };
 
 }  // namespace launchsafe::run

@@ -21,23 +21,17 @@ struct RunOptions {
   std::function<void(double)> progress;
   /// Threads that work on the steps of this one run; the result does not depend on their number.
   int threads = 1;
+  /// Keeps checkpoints of the launch with the result of its mechanics (total-Lagrangian; none otherwise).
+  bool checkpoints = false;
+  /// For `run_with_skin` with two-way coupling: the finished mechanics of the same launch, from whose
+  /// checkpoints it goes on. The scenes may differ in what does not influence the mechanics.
+  const MechanicsResult* launch = nullptr;
 };
 
 /// Runs the mechanics of a scene over its load's duration and records the bottom trace, the monitors and the
 /// snapshots. Never throws on numerical failure: the status says what happened, and what was recorded until
 /// then is kept. The result depends on the scene alone, bitwise, not on threads or on what else runs.
 MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& options = {});
-
-/// The same, with checkpoints of the state at fifteen times of the launch (total-Lagrangian; none otherwise).
-CaseResult run_with_checkpoints(const scene::Scene& scene, const RunOptions& options = {});
-
-/// A run of one gap (m) with its skin in the mechanics, from the last checkpoint of the launch before the gap
-/// ignites, or is hottest: bitwise the mechanics from the start, until something burns. Up to the checkpoint
-/// the skin is integrated on the trace, from there on at every step. `launch` is of the same scene, but for
-/// what does not influence its mechanics. Where that did not complete, neither does this. For
-/// AirModel::reservoir.
-CaseResult continue_with_skin(const scene::Scene& scene, double gap, const CaseResult& launch,
-                              const RunOptions& options = {});
 
 /// Skin temperatures of one gap (m) on a finished trace, with the trace's sampling error. The scene's surface
 /// and kinetics parameters apply; its own list of gaps does not.
@@ -47,13 +41,19 @@ GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trac
 /// those that ignite, of which the combustion is kept.
 CaseResult run_case(const scene::Scene& scene, const RunOptions& options = {});
 
-/// A run of the mechanics in which the skin of one gap (m) is integrated at every time step instead of on the
-/// bottom trace. It confirms a traced gap independently: below ignition both must agree to integration
-/// tolerance. With one-way coupling the skin has no effect on the mechanics. With two-way coupling what burns
-/// after ignition turns to gas and acts on all bodies (burning_bottom.hpp), and the run ends a stated time
-/// after ignition or at a stated pressure instead of at the end of the load, which goes on as it is stated
-/// beyond its duration; it is `continue_with_skin` after `run_with_checkpoints`. Where the air model couples
-/// the stations or is a film, the skin is integrated on a trace with a sample every eight steps.
+/// A complete run of one gap (m): the mechanics with its skin. It confirms a traced gap independently: below
+/// ignition both must agree to integration tolerance.
+///
+/// With one-way coupling the skin is integrated at every time step instead of on the bottom trace, and has no
+/// effect on the mechanics. Where the air model couples the stations or is a film, it is integrated on a
+/// trace with a sample every eight steps.
+///
+/// With two-way coupling (AirModel::reservoir) what burns after ignition turns to gas and acts on all bodies
+/// (burning_bottom.hpp), and the run ends a stated time after ignition or at a stated pressure instead of at
+/// the end of the load, which goes on as it is stated beyond its duration. It goes on from the last
+/// checkpoint of the launch before the gap ignites, or is hottest: bitwise the mechanics from the start,
+/// until something burns. Up to there the skin is integrated on the trace, then at every step. Where the
+/// launch did not complete, neither does this.
 CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions& options = {});
 
 }  // namespace launchsafe::run

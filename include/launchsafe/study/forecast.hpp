@@ -30,7 +30,7 @@ struct ForecastRun {
 
 struct Forecast {
   std::vector<ForecastRun> runs;  ///< those of the shard asked for
-  std::size_t confirmations = 0;  ///< runs with skin that may follow, at most
+  std::size_t confirmations = 0;  ///< coupled runs that may follow, at most
   double update_rate = 0;         ///< particle updates per second on a core that the prediction rests on
   std::size_t learned_from = 0;   ///< runs in the journal that the rate was learned from; 0: measured now
   double time = 0;                ///< s of wall time, of all that is to run

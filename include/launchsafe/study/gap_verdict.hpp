@@ -31,9 +31,9 @@ std::string to_string(surface::IgnitionCause cause);
 /// A row of the verdict table.
 struct GapVerdict {
   double gap = 0;                      ///< m
-  Peak maximum;                        ///< over the observation points: what the verdict uses
+  Peak maximum;                        ///< over the stations: what the verdict uses
   Peak early;                          ///< the same at Study::early_time
-  double spread = not_a_number;        ///< K, over the observation points at the end
+  double spread = not_a_number;        ///< K, over the stations at the end
   double early_spread = not_a_number;  ///< K, at Study::early_time
   double margin = not_a_number;        ///< K, to the ignition temperature
   double heated = not_a_number;  ///< K, T max of a skin that air and friction heat and that never reacts
@@ -53,18 +53,19 @@ struct GapVerdict {
 void judge_row(const std::string& failure, const run::LimiterCounts& limiters, const CriticalGap& critical,
                GapVerdict& row);
 
-/// A run with skin on one side of the bracket.
+/// A coupled run on one side of the bracket.
 struct Confirmation {
   double gap = 0;  ///< m
   bool expected_ignition = false;
   bool ran = false;
   bool completed = false;
   bool ignited = false;
-  double maximum_temperature = not_a_number;  ///< K, at the observation points
-  double difference = not_a_number;           ///< K, with skin minus traced; NaN where either ignited
-  double wall_time = 0;                       ///< s
-  RunOutcome outcome = RunOutcome::ran;       ///< of its run
-  std::string failure;                        ///< why it did not complete
+  double maximum_temperature = not_a_number;         ///< K, of the hottest station
+  double difference = not_a_number;                  ///< K, coupled minus traced; NaN where either ignited
+  double wall_time = 0;                              ///< s
+  RunOutcome outcome = RunOutcome::ran;              ///< of its run
+  std::string failure;                               ///< why it did not complete
+  std::optional<run::CombustionHistory> combustion;  ///< of one that ignited, with two-way coupling
   bool agrees() const { return completed && ignited == expected_ignition; }
 };
 
@@ -85,7 +86,7 @@ struct CaseOutcome {
   /// The mechanics under the raised load that shows what the inputs do, where the study states no uncertainty
   /// of them; empty for the others.
   std::optional<run::MechanicsResult> raised;
-  CriticalGap critical;  ///< at the observation points
+  CriticalGap critical;  ///< by the hottest station
   std::vector<Confirmation> confirmations;
   std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps
   std::optional<GapFit> fit;         ///< over the rows that do not ignite

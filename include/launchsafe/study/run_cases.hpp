@@ -14,14 +14,16 @@
 
 namespace launchsafe::study {
 
-/// One run: the mechanics of a scene, or, with a gap, a complete run that integrates the skin above that gap
-/// along with the mechanics.
+/// One run: the mechanics of a scene, or, with a gap, a coupled run of that gap (run::run_with_skin).
 struct CaseRun {
   std::string label;               ///< for people
   scene::Scene scene;              ///< without all that does not influence the run
   std::optional<double> skin_gap;  ///< m
   std::string hash;                ///< of its identity: the name of its file in the store
   double cost = 1;                 ///< predicted particle updates, > 0
+  bool checkpoints = false;        ///< the result of the mechanics keeps them, where it is computed
+  /// Of a complete run: the mechanics of its launch, from whose checkpoints it goes on; it outlives the run.
+  const run::MechanicsResult* launch = nullptr;
 };
 
 CaseRun mechanics_run(const scene::Scene& scene, std::string label);

@@ -172,7 +172,7 @@ struct StudyFile {
   std::string chosen_setting;    ///< what a tolerance picked from an accuracy record, for people; else empty
   std::vector<StudyCase> cases;  ///< in the order that the kind says
   std::size_t most_cases = largest_case_count;  ///< a study with more is refused
-  std::size_t confirmations_per_case = 0;       ///< runs with skin that may follow once its gaps are judged
+  std::size_t confirmations_per_case = 0;       ///< coupled runs that may follow once its gaps are judged
 };
 
 /// What a published number is used for.

@@ -15,7 +15,7 @@ std::string to_string(Verdict verdict);
 struct Uncertainty {
   double sampling = 0;     ///< against a trace with half the samples
   double integration = 0;  ///< against a tolerance ten times wider
-  double coupling = 0;     ///< largest difference between trace and runs with skin, where confirmed
+  double coupling = 0;     ///< largest difference between trace and coupled runs, where confirmed
   double numerical = 0;    ///< of mesh, step and scaling: from an accuracy study, stated, or assumed
   double fit = 0;          ///< of the calibrated constants, carried to this case
   double input = 0;        ///< of what is not known of the launch
