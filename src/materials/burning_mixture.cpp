@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace launchsafe::materials {
 namespace {
+
+/// V of the explosive below any that pressures of a gas within its law reach.
+constexpr double smallest_solid = 0.2;
 
 /// Explosive and gas at the end of a step: V of the explosive, specific volume (m3/kg) and temperature (K) of
 /// the gas.
@@ -76,18 +80,25 @@ Residual residual_of(const BurningMixture& mixture, const Balance& balance, cons
   return r;
 }
 
+/// The energy of the explosive is a difference of terms that are far larger than what little gas has; their
+/// round-off is what its temperature can be known to, as a share of it.
+double resolution(const Balance& balance) { return 1e-11 + 1e-14 / balance.burnt_share; }
+
+/// Whether Newton's changes are at most such a share of the unknowns.
+bool is_within(const Balance& balance, const Parts& parts, const Residual& residual, double share) {
+  const double unknown = balance.by_gas() ? parts.gas_volume : parts.solid_volume;
+  return std::abs(residual.volume_change()) <= share * unknown &&
+         std::abs(residual.temperature_change()) <= share * parts.gas_temperature;
+}
+
 /// Newton's method; steps that leave the range of the laws are halved. False where it does not arrive.
-bool solve(const BurningMixture& mixture, const Balance& balance, Parts& parts) {
+bool solve_by_newton(const BurningMixture& mixture, const Balance& balance, Parts& parts) {
   constexpr int most_iterations = 100, most_halvings = 40;
-  // The energy of the explosive is a difference of terms that are far larger than what little gas has; their
-  // round-off is what its temperature can be known to.
-  const double enough = 1e-11 + 1e-14 / balance.burnt_share;
+  const double enough = resolution(balance);
   Residual here = residual_of(mixture, balance, parts);
   for (int i = 0; here.valid && i < most_iterations; ++i) {
     double volume_change = here.volume_change(), temperature_change = here.temperature_change();
-    const double unknown = balance.by_gas() ? parts.gas_volume : parts.solid_volume;
-    const bool arrives = std::abs(volume_change) <= enough * unknown &&
-                         std::abs(temperature_change) <= enough * parts.gas_temperature;
+    const bool arrives = is_within(balance, parts, here, enough);
     const Parts before = parts;
     for (int halving = 0; halving < most_halvings; ++halving) {
       parts = balance.moved(before, volume_change, temperature_change);
@@ -99,6 +110,69 @@ bool solve(const BurningMixture& mixture, const Balance& balance, Parts& parts) 
     if (arrives) return here.valid;
   }
   return false;
+}
+
+/// An interval that is halved until its ends are neighbouring numbers, or as good as.
+struct Interval {
+  static constexpr int halvings = 120;
+  double low, high;
+  double middle() const { return 0.5 * (low + high); }
+  bool is_closed() const { return !(low < middle() && middle() < high); }
+};
+
+/// Explosive and gas at one pressure, with the gas at a temperature (K): the pressures' difference goes one
+/// way with the volume that either has. Gas outside of its law is taken as too dense, for where it is thin
+/// the law holds. Nothing where no volume gives equal pressures. `torn`: largest V of the explosive.
+std::optional<Parts> at_equal_pressure(const BurningMixture& mixture, const Balance& balance, double torn,
+                                       double temperature) {
+  constexpr double densest_gas = 0.05;  // its volume over that of the explosive at rest, likewise
+  const double unburnt = 1.0 - balance.burnt_share, burnt = balance.burnt_density();
+  const auto parts_of = [&](double unknown) {
+    if (!balance.by_gas()) return Parts{unknown, balance.gas_volume(unknown), temperature};
+    const double gas = std::exp(unknown);
+    return Parts{(balance.volume - burnt * gas) / unburnt, gas, temperature};
+  };
+  Interval interval = balance.by_gas()
+                          ? Interval{std::log(std::max(densest_gas / balance.initial_density,
+                                                       (balance.volume - unburnt * torn) / burnt)),
+                                     std::log((balance.volume - unburnt * smallest_solid) / burnt)}
+                          : Interval{smallest_solid, std::min(torn, balance.volume / unburnt)};
+  for (int i = 0; i < Interval::halvings && !interval.is_closed(); ++i) {
+    const Residual residual = residual_of(mixture, balance, parts_of(interval.middle()));
+    const bool gas_must_grow = !residual.valid || residual.pressure > 0.0;
+    (gas_must_grow == balance.by_gas() ? interval.low : interval.high) = interval.middle();
+  }
+  constexpr double enough = 1e-6;  // of the unknown: what is further away has no such volume near it
+  const Parts parts = parts_of(interval.middle());
+  const Residual residual = residual_of(mixture, balance, parts);
+  const double volume = balance.by_gas() ? parts.gas_volume : parts.solid_volume;
+  if (!residual.valid ||
+      !(std::abs(residual.pressure) <= enough * volume * std::abs(residual.pressure_by_volume)))
+    return std::nullopt;
+  return parts;
+}
+
+/// The slow way, which arrives wherever there is a state: the energy at equal pressures rises with the
+/// temperature. Nothing where the law has no such state.
+std::optional<Parts> solve_by_bisection(const BurningMixture& mixture, const Balance& balance, double torn) {
+  Interval temperature{ProductGas::lowest_temperature, ProductGas::highest_temperature};
+  std::optional<Parts> found;
+  for (int i = 0; i < Interval::halvings && !temperature.is_closed(); ++i) {
+    const double middle = temperature.middle();
+    const auto parts = at_equal_pressure(mixture, balance, torn, middle);
+    // Gas that is too cold for its density condenses, and has no volume.
+    const bool too_cold = !parts || residual_of(mixture, balance, *parts).energy < 0.0;
+    (too_cold ? temperature.low : temperature.high) = middle;
+    if (parts) found = parts;
+  }
+  if (!found) return std::nullopt;
+  Parts parts = *found;
+  if (solve_by_newton(mixture, balance, parts)) return parts;
+  // Volumes and temperature by intervals of their own are less sharp than by Newton's method.
+  constexpr double blunter = 1e3;
+  const Residual residual = residual_of(mixture, balance, *found);
+  if (residual.valid && is_within(balance, *found, residual, blunter * resolution(balance))) return found;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -125,16 +199,50 @@ BurningState BurningMixture::unburnt(double volume) const {
   return state;
 }
 
+int BurningMixture::parts_of_step(const BurningState& before, const BurningStep& step) const {
+  constexpr double enough = 1e-3, most = 1000.0;  // of the gas's energy; parts
+  const double growth = step.volume_after - step.volume_before;
+  const double unburnt = std::max(0.0, 1.0 - before.burnt_share - step.burnt);
+  const double begin = before.solid_volume,
+               end = std::min(std::max(begin + growth, smallest_solid), torn_volume_);
+  const double missed = solid_energy(end) - solid_energy(begin) +
+                        0.5 * (solid_pressure(begin) + solid_pressure(end)) * (end - begin);
+  const double gas =
+      solid_.initial_density *
+      (before.burnt_share * gas_.specific_heat() * before.gas_temperature + step.burnt * step.fresh_energy);
+  const double parts = std::ceil(std::sqrt(unburnt * std::abs(missed) / (enough * gas)));
+  return parts > 1.0 ? static_cast<int>(std::min(parts, most)) : 1;
+}
+
 BurningState BurningMixture::advance(const BurningState& before, const BurningStep& step) const {
+  if (!before.valid) return before;
+  if (!(before.burnt_share + step.burnt > 0.0)) {
+    BurningState after = unburnt(step.volume_after);
+    after.work = before.work + before.energy - after.energy;
+    return after;
+  }
+  // The first gas ends the tension of torn explosive at once, before that could work on it.
+  if (before.burnt_share == 0.0 && before.pressure < 0.0 && step.volume_after != step.volume_before)
+    return advance(
+        advance_part(before, {step.volume_before, step.volume_before, step.burnt, step.fresh_energy}),
+        {step.volume_before, step.volume_after, 0.0, 0.0});
+  const int parts = parts_of_step(before, step);
+  const double growth = (step.volume_after - step.volume_before) / parts;
+  BurningState state = before;
+  for (int part = 1; part <= parts && state.valid; ++part) {
+    const double begin = step.volume_before + (part - 1) * growth;
+    const double end = part == parts ? step.volume_after : step.volume_before + part * growth;
+    // All of it burns in the first part, so that no part has less gas than it may have.
+    state = advance_part(state, {begin, end, part == 1 ? step.burnt : 0.0, step.fresh_energy});
+  }
+  return state;
+}
+
+BurningState BurningMixture::advance_part(const BurningState& before, const BurningStep& step) const {
   BurningState after = before;
   after.burnt_share = std::min(1.0, before.burnt_share + step.burnt);
   const double burnt = after.burnt_share - before.burnt_share;
   const double half_growth = 0.5 * (step.volume_after - step.volume_before);
-  if (!(after.burnt_share > 0.0)) {
-    after = unburnt(step.volume_after);
-    after.energy = before.energy - (before.pressure + after.pressure) * half_growth;
-    return after;
-  }
   const Balance balance{
       after.burnt_share, step.volume_after, solid_.initial_density,
       before.energy + solid_.initial_density * burnt * step.fresh_energy - before.pressure * half_growth,
@@ -152,13 +260,18 @@ BurningState BurningMixture::advance(const BurningState& before, const BurningSt
   parts = balance.by_gas()
               ? balance.moved(parts, 0.0, 0.0)
               : Parts{parts.solid_volume, balance.gas_volume(parts.solid_volume), parts.gas_temperature};
-  after.valid = before.valid && solve(*this, balance, parts);
+  if (!solve_by_newton(*this, balance, parts)) {
+    const auto found = solve_by_bisection(*this, balance, torn_volume_);
+    after.valid = found.has_value();
+    if (found) parts = *found;
+  }
   if (!after.valid) return after;
   after.solid_volume = parts.solid_volume;
   after.gas_volume = parts.gas_volume;
   after.gas_temperature = parts.gas_temperature;
   after.pressure = solid_pressure(parts.solid_volume);
   after.energy = balance.fixed_energy - after.pressure * half_growth;
+  after.work += (before.pressure + after.pressure) * half_growth;
   const double share = after.solid_share(step.volume_after);
   const double gas_modulus = gas_.at(parts.gas_temperature, parts.gas_volume)
                                  .isentropic_modulus(parts.gas_temperature, parts.gas_volume);

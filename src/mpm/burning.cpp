@@ -37,7 +37,6 @@ SolidParts advance_burning(Burning& burning, std::size_t slot, Pack volume_befor
     particle->state = burning.law().advance(before, step);
     const materials::BurningState& after = particle->state;
     particle->to_burn = particle->to_add = 0.0;
-    particle->work += 0.5 * (before.pressure + after.pressure) * (step.volume_after - step.volume_before);
     particle->added +=
         burning.law().solid_density() * (after.burnt_share - before.burnt_share) * step.fresh_energy;
     parts.share_before.set(lane, before.solid_share(step.volume_before));

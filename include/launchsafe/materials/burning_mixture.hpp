@@ -20,6 +20,7 @@ struct BurningState {
   double gas_volume = 0;       ///< m3/kg
   double gas_temperature = 0;  ///< K
   double energy = 0;           ///< J/m3, of both: the explosive's from rest, the gas's from 0 K
+  double work = 0;             ///< J/m3, that both have done by their pressure
   double pressure = 0;         ///< Pa
   double bulk_modulus = 0;     ///< Pa, of both at constant entropy
   bool valid = true;           ///< false: no such state in the range of the gas law
@@ -44,7 +45,10 @@ class BurningMixture {
   /// explosive is at minus the cut-off and the rest of V is void, which the first gas fills.
   BurningState unburnt(double volume) const;
   /// The state after a step: energy changes by what burns and by the work of the mean of both pressures,
-  /// d(energy) = rho0 burnt fresh_energy - (p0 + p1)/2 dV, and explosive and gas have one pressure.
+  /// d(energy) = rho0 burnt fresh_energy - (p0 + p1)/2 dV, and explosive and gas have one pressure. Where that
+  /// mean misses the work of the explosive by more than little gas has energy, the step is done in parts, with
+  /// the mean in each. Newton's method, and bisection where it does not arrive: the state is invalid only
+  /// where the law has none.
   BurningState advance(const BurningState& before, const BurningStep& step) const;
 
   /// Pressure (Pa), bulk modulus (Pa) and mechanical energy (J/m3, from rest) of the explosive at V.
@@ -59,6 +63,9 @@ class BurningMixture {
   double solid_density() const { return solid_.initial_density; }  ///< kg/m3, at rest
 
  private:
+  int parts_of_step(const BurningState& before, const BurningStep& step) const;
+  BurningState advance_part(const BurningState& before, const BurningStep& step) const;
+
   JwlParameters solid_;
   ProductGas gas_;
   double torn_volume_ = 1;  ///< V of the explosive at the tension cut-off

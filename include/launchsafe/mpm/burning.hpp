@@ -19,7 +19,6 @@ struct BurningParticle {
   double to_burn = 0;       ///< share of its mass that burns in the next step
   double to_add = 0;        ///< J/kg of the particle, thermal, from 0 K, that the gas from that gets
   double start_energy = 0;  ///< J/m3, when it began to burn
-  double work = 0;          ///< J/m3, that it has done by its pressure since
   double added = 0;         ///< J/m3, with what has burnt
 };
 
