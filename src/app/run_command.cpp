@@ -7,6 +7,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/run/run_case.hpp"
+#include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plausibility.hpp"
@@ -320,6 +321,10 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
     if (!each.accepted()) console.remark("validity warning: " + scene::validity_warning(each));
   }
   const run::CaseResult result = run_with_progress(scene, console);
+  for (const run::GapResult& gap : result.gaps)
+    if (gap.combustion)
+      for (const std::string& each : run::combustion_validity_warnings(scene, *gap.combustion))
+        console.remark(fmt::format("validity warning: gap {:.6g} cm: {}", 100.0 * gap.gap, each));
   manifest.wall_time = result.mechanics.wall_time;
   if (result.mechanics.status == run::RunStatus::interrupted) {
     return report_interruption(arguments, result.mechanics, scene, console);

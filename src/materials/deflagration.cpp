@@ -54,6 +54,7 @@ double travelling_wave_speed(const std::function<double(double)>& rate, double d
 double deflagration_speed(const KineticsParameters& k, double conductivity, double density,
                           double specific_heat, double unburnt) {
   if (!(unburnt < k.burnt_temperature)) return 0.0;
+  if (k.heat_of_reaction < specific_heat * (k.burnt_temperature - unburnt)) return 0.0;
   const double ahead = arrhenius_heating(k, specific_heat, unburnt);
   const auto rate = [&](double temperature) {
     const double left = 1.0 - reaction_degree(k, temperature);

@@ -15,6 +15,8 @@ std::string end_of(const run::CombustionHistory& combustion) {
       return "stop pressure";
     case run::CombustionEnd::broke_off:
       return "broke off: " + combustion.reason;
+    case run::CombustionEnd::burnt_through:
+      return "charge burnt through";
   }
   return "";
 }

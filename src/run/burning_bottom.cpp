@@ -16,9 +16,16 @@ constexpr double skin_share_per_step = 0.05;
 /// Share of a particle with which it begins to burn; less gas would be round-off of the explosive's volume.
 constexpr double least_start = 1e-6;
 
-/// Energies and volume of what burns, J and m3 per radian or metre.
+/// A step is no shorter than one in which a flame passes this share of the thinnest cell at the bottom: a
+/// thinner skin is no matter of the mechanics.
+constexpr double least_cell_share = 0.05;
+
+/// Masses, volume and energies of what burns, kg, m3 and J per radian or metre.
 struct BurningTotals {
-  double burnt_mass = 0, gas_volume = 0, mass_temperature = 0, residual = 0;
+  double burnt_mass = 0;                      ///< with what burns in the next step
+  double gas_mass = 0, mass_temperature = 0;  ///< of the gas that is there, and times its temperature
+  double gas_volume = 0;
+  double residual = 0;  ///< sum of what every particle has made or lost
 };
 
 BurningTotals totals_of(const mpm::Simulation& simulation) {
@@ -28,17 +35,17 @@ BurningTotals totals_of(const mpm::Simulation& simulation) {
     const materials::BurningMixture& law = p.burning->law();
     for (const mpm::BurningParticle& each : p.burning->particles()) {
       const materials::BurningState& state = each.state;
+      const double mass = each.rest_volume * law.solid_density();
+      totals.burnt_mass += mass * std::min(1.0, state.burnt_share + each.to_burn);
+      if (!(state.burnt_share > 0.0)) continue;
       const double volume = p.volume_ratio[each.slot];
-      // With what burns in the next step, as far as the flames have come.
-      const double burnt = std::min(1.0, state.burnt_share + each.to_burn);
-      const double mass = each.rest_volume * law.solid_density() * burnt;
-      totals.burnt_mass += mass;
+      totals.gas_mass += mass * state.burnt_share;
+      totals.mass_temperature += mass * state.burnt_share * state.gas_temperature;
       totals.gas_volume += each.rest_volume * (volume - (1.0 - state.burnt_share) * state.solid_volume);
-      totals.mass_temperature += mass * state.gas_temperature;
       const double solid = (1.0 - state.burnt_share) * law.solid_energy(state.solid_volume);
-      const double gas =
-          state.burnt_share > 0.0 ? law.solid_density() * state.burnt_share * law.gas_of(state).energy : 0.0;
-      totals.residual += each.rest_volume * (solid + gas - each.start_energy - each.added + each.work);
+      const double gas = law.solid_density() * state.burnt_share * law.gas_of(state).energy;
+      totals.residual +=
+          each.rest_volume * std::abs(solid + gas - each.start_energy - each.added + state.work);
     }
   });
   return totals;
@@ -57,12 +64,16 @@ BurningBottom::BurningBottom(const mpm::Simulation& simulation, const TraceRecor
   for (const trace::Station& station : stations) tiles_.push_back(!station.observation);
   history_.complete_time = std::numeric_limits<double>::quiet_NaN();
   const double bottom = scene::charge_extent(simulation.scene()).x_end;
+  rooms_.resize(stations.size(), 0.0);
   const auto measure = [&](double begin, double end) {
     return simulation.axisymmetric() ? 0.5 * (end * end - begin * begin) : end - begin;
   };
   for (const auto& charge : simulation.bodies_of<materials::Charge>()) {
     const mpm::ParticleFields& p = charge.get().particles;
     if (simulation.scene().bodies[static_cast<std::size_t>(p.body)].x_end < bottom) continue;
+    double length = 0;
+    for (int i = 0; i < p.lattice.columns(); ++i) length += p.lattice.length_x(i);
+    thinnest_cell_ = std::min(thinnest_cell_, p.lattice.length_x(p.lattice.columns() - 1));
     for (int j = 0; j < p.lattice.rows(); ++j) {
       const auto row = static_cast<std::size_t>(j);
       const double low = p.lattice.r_edges[row], high = p.lattice.r_edges[row + 1];
@@ -72,9 +83,10 @@ BurningBottom::BurningBottom(const mpm::Simulation& simulation, const TraceRecor
         const auto station = std::find_if(stations.begin(), stations.end(), [&](const trace::Station& each) {
           return !each.observation && each.name == extent.name;
         });
-        if (end > begin && station != stations.end())
-          column.stations.emplace_back(static_cast<std::size_t>(station - stations.begin()),
-                                       measure(begin, end) / measure(low, high));
+        if (!(end > begin) || station == stations.end()) continue;
+        const auto index = static_cast<std::size_t>(station - stations.begin());
+        column.stations.emplace_back(index, measure(begin, end) / measure(low, high));
+        rooms_[index] = std::max(rooms_[index], length);
       }
       columns_.push_back(std::move(column));
     }
@@ -92,7 +104,9 @@ void BurningBottom::ignite(const mpm::Simulation& simulation, const SteppedSkin&
       share += part;
     }
   Flame& flame = flames_[station];
-  flame.bulk_temperature = temperature / share;
+  flame.room = rooms_[station];
+  // A station over no body that reaches the bottom has nothing that burns.
+  flame.bulk_temperature = share > 0.0 ? temperature / share : initial_temperature_;
   const auto speed = [&](double unburnt) {
     return materials::deflagration_speed(charge_.kinetics, charge_.conductivity, charge_.initial_density(),
                                          charge_.specific_heat, unburnt);
@@ -100,6 +114,8 @@ void BurningBottom::ignite(const mpm::Simulation& simulation, const SteppedSkin&
   flame.burns = true;
   flame.skin_speed = speed(skin.unburnt_temperature(station));
   flame.bulk_speed = speed(flame.bulk_temperature);
+  for (const double each : {flame.skin_speed, flame.bulk_speed})
+    fastest_ = std::isfinite(each) ? std::max(fastest_, each) : std::numeric_limits<double>::infinity();
   if (history_.skin_flame_speed > 0.0) return;
   history_.skin_flame_speed = flame.skin_speed;
   history_.bulk_flame_speed = flame.bulk_speed;
@@ -108,16 +124,19 @@ void BurningBottom::ignite(const mpm::Simulation& simulation, const SteppedSkin&
 BurningBottom::Burnt BurningBottom::burn(Flame& flame, double unburnt, double dt) const {
   const double burnt_temperature = charge_.kinetics.burnt_temperature;
   Burnt burnt;
+  // No flame goes beyond the body that it is in.
   const auto take = [&](double length, double temperature) {
     const double before = std::min(temperature, burnt_temperature);
+    const double all = charge_.kinetics.heat_of_reaction;
     const double heat = release_ == scene::HeatRelease::full
-                            ? charge_.kinetics.heat_of_reaction
-                            : charge_.specific_heat * (burnt_temperature - before);
+                            ? all
+                            : std::min(all, charge_.specific_heat * (burnt_temperature - before));
+    length = std::min(length, flame.room - flame.depth);
     flame.depth += length;
     burnt.depth += length;
     burnt.fresh += length * (charge_.specific_heat * before + heat);
     burnt.released += length * heat;
-    burnt.kept_back += length * (charge_.kinetics.heat_of_reaction - heat);
+    burnt.kept_back += length * (all - heat);
     burnt.brought += length * charge_.specific_heat * (before - initial_temperature_);
   };
   double left = dt;
@@ -175,6 +194,8 @@ void BurningBottom::advance(mpm::Simulation& simulation, const SteppedSkin& skin
     if (!flames_[s].burns) ignite(simulation, skin, s);
     const bool had_skin = flames_[s].depth < skin_thickness_;
     burnt[s] = burn(flames_[s], skin.unburnt_temperature(s), dt);
+    constexpr double all = 1.0 - 1e-12;  // but for round-off of many steps
+    burnt_through_ = burnt_through_ || (flames_[s].room > 0.0 && flames_[s].depth >= all * flames_[s].room);
     if (had_skin && flames_[s].depth >= skin_thickness_ && std::isnan(history_.complete_time))
       history_.complete_time = simulation.time();
   }
@@ -182,9 +203,7 @@ void BurningBottom::advance(mpm::Simulation& simulation, const SteppedSkin& skin
 }
 
 double BurningBottom::longest_step() const {
-  double fastest = 0;
-  for (const Flame& flame : flames_) fastest = std::max({fastest, flame.skin_speed, flame.bulk_speed});
-  return skin_share_per_step * skin_thickness_ / fastest;
+  return skin_share_per_step * std::max(skin_thickness_, least_cell_share * thinnest_cell_) / fastest_;
 }
 
 double BurningBottom::reaction_degree(const SteppedSkin& skin, std::size_t station) const {
@@ -206,16 +225,15 @@ void BurningBottom::record(const mpm::Simulation& simulation, const TraceRecorde
   history_.burnt_mass.push_back(whole_ * totals.burnt_mass);
   history_.burnt_depth.push_back(depth);
   history_.gas_volume.push_back(whole_ * totals.gas_volume);
-  history_.gas_temperature.push_back(totals.burnt_mass > 0.0 ? totals.mass_temperature / totals.burnt_mass
-                                                             : charge_.kinetics.burnt_temperature);
+  history_.gas_temperature.push_back(totals.gas_mass > 0.0 ? totals.mass_temperature / totals.gas_mass
+                                                           : charge_.kinetics.burnt_temperature);
   history_.pressure.push_back(recorder.bottom_pressure());
   history_.released.push_back(released_);
   history_.kept_back.push_back(kept_back_);
   history_.brought.push_back(brought_);
-  if (totals.burnt_mass > 0.0)
-    history_.energy_residual =
-        std::max(history_.energy_residual,
-                 std::abs(totals.residual) / (charge_.kinetics.heat_of_reaction * totals.burnt_mass));
+  if (!(totals.gas_mass > 0.0)) return;
+  const double share = totals.residual / (charge_.kinetics.heat_of_reaction * totals.gas_mass);
+  if (!(share <= history_.energy_residual)) history_.energy_residual = share;  // also one that is no number
 }
 
 }  // namespace launchsafe::run

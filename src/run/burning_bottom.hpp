@@ -12,6 +12,7 @@
 #include "launchsafe/run/case_result.hpp"
 #include "stepped_skin.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace launchsafe::run {
@@ -23,8 +24,13 @@ class BurningBottom {
   /// Advances the flames over the step of dt (s) that has just been done, and lets the particles burn in the
   /// next one.
   void advance(mpm::Simulation& simulation, const SteppedSkin& skin, double dt);
-  /// Longest step (s) in which no flame passes more than a twentieth of the skin.
+  /// Longest step (s) in which no flame passes more than a twentieth of the skin, or of a twentieth of the
+  /// thinnest cell at the bottom where that is more.
   double longest_step() const;
+  /// Largest speed (m/s) of a flame.
+  double fastest_flame() const { return fastest_; }
+  /// A flame has come to the end of the body that it began in: what lies beyond, it does not enter.
+  bool burnt_through() const { return burnt_through_; }
   /// Appends the present state to the history.
   void record(const mpm::Simulation& simulation, const TraceRecorder& recorder, const SteppedSkin& skin);
   CombustionHistory take() { return std::move(history_); }
@@ -40,6 +46,7 @@ class BurningBottom {
   /// A station's flame.
   struct Flame {
     bool burns = false;
+    double room = 0;              ///< m, of charge over the station in bodies that reach the bottom
     double depth = 0;             ///< m
     double skin_speed = 0;        ///< m/s
     double bulk_speed = 0;        ///< m/s
@@ -63,6 +70,10 @@ class BurningBottom {
   std::vector<Column> columns_;
   std::vector<Flame> flames_;  ///< by station
   std::vector<bool> tiles_;    ///< by station: it tiles the bottom and is no observation point
+  std::vector<double> rooms_;  ///< by station, m: see Flame::room
+  double thinnest_cell_ = std::numeric_limits<double>::infinity();  ///< m, of bodies at the bottom
+  double fastest_ = 0;                                              ///< m/s
+  bool burnt_through_ = false;
   double released_ = 0, kept_back_ = 0, brought_ = 0;  ///< J
   CombustionHistory history_;
 };

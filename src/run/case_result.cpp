@@ -28,6 +28,8 @@ std::string to_string(RunStatus status) {
       return "cells distorted";
     case RunStatus::outside_gas_law:
       return "outside of the gas law";
+    case RunStatus::flame_beyond_sound:
+      return "flame beyond sound";
   }
   return "unknown";
 }

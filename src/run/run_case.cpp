@@ -155,6 +155,7 @@ class Runner {
     const scene::Scene& scene = simulation_.scene();
     simulation_.step(dt);
     ++result_.steps;
+    if (burning_ && !simulation_.within_gas_law()) return stop_outside_gas_law();
     recorder_.accumulate(simulation_, dt);
     heat_.accumulate(simulation_);
     if (surface_) surface_->advance(simulation_, recorder_, dt);
@@ -186,8 +187,17 @@ class Runner {
     checkpoints_->runs.push_back(std::move(copy));
   }
 
+  void stop_outside_gas_law() {
+    stop(
+        {RunStatus::outside_gas_law,
+         fmt::format("at t = {:.6g} ms: a burning particle is in a state that the virial law of the gas does "
+                     "not cover",
+                     1e3 * simulation_.time())});
+  }
+
   /// Lets the charge burn where the skin has ignited. The run ends a stated time after the first ignition,
-  /// whether that is before or after the end of the launch, or at a stated pressure.
+  /// whether that is before or after the end of the launch, at a stated pressure, or where a flame has no
+  /// more charge before it. A flame that outruns sound is none that conduction drives, and ends the run too.
   void burn(double dt) {
     if (!surface_->ignited()) return;
     const scene::Combustion& combustion = simulation_.scene().combustion;
@@ -196,9 +206,19 @@ class Runner {
       end_ = surface_->ignition_time() + combustion.duration;
     }
     burning_->advance(simulation_, *surface_, dt);
-    if (recorder_.bottom_pressure() < combustion.stop_pressure) return;
+    const double sound = scene::longitudinal_speed(materials::Law(simulation_.scene().charge()));
+    if (!(burning_->fastest_flame() < sound))
+      stop({RunStatus::flame_beyond_sound,
+            fmt::format("at t = {:.6g} ms: the kinetics give a flame of {:.3g} m/s; sound in the charge has "
+                        "{:.3g} m/s",
+                        1e3 * simulation_.time(), burning_->fastest_flame(), sound)});
+    if (burning_->burnt_through()) end_now(CombustionEnd::burnt_through);
+    if (recorder_.bottom_pressure() >= combustion.stop_pressure) end_now(CombustionEnd::pressure);
+  }
+
+  void end_now(CombustionEnd end) {
     end_ = simulation_.time();
-    combustion_end_ = CombustionEnd::pressure;
+    combustion_end_ = end;
   }
 
   /// The first of the times `next`, `next` + `interval`, ... after `time`. Intervals much shorter than a step
@@ -227,12 +247,6 @@ class Runner {
            fmt::format("at t = {:.6g} ms: the stable time step fell from {:.3g} s to {:.3g} s{}",
                        1e3 * simulation_.time(), first_step, time_step, step_remark(simulation_.scene()))});
     check_energy(energy_of(simulation_));
-    if (!simulation_.within_gas_law())
-      stop({RunStatus::outside_gas_law,
-            fmt::format(
-                "at t = {:.6g} ms: a burning particle is in a state that the virial law of the gas does "
-                "not cover",
-                1e3 * simulation_.time())});
     if (options_.progress && seconds_since(last_report_) > 0.25) {
       last_report_ = Clock::now();
       options_.progress(simulation_.time() / end_);
@@ -302,6 +316,11 @@ class Runner {
 namespace {
 
 using detail::Runner;
+
+/// By its user or its time limit.
+bool was_cut_short(RunStatus status) {
+  return status == RunStatus::interrupted || status == RunStatus::timed_out;
+}
 
 GapResult gap_result(const surface::SkinModel& model, surface::SkinHistory skin,
                      const trace::BottomTrace& trace) {
@@ -392,9 +411,16 @@ CaseResult run_case(const scene::Scene& scene, const RunOptions& options) {
   if (!scene::has_charge(scene)) return result;
   for (const double gap : scene.surface.gaps) {
     result.gaps.push_back(evaluate_gap(scene, result.mechanics.trace, gap));
-    if (own.checkpoints && result.gaps.back().skin.ignition &&
-        result.mechanics.status == RunStatus::completed)
-      result.gaps.back().combustion = run_with_skin(scene, gap, own).gaps.front().combustion;
+    GapResult& traced = result.gaps.back();
+    if (!own.checkpoints || !traced.skin.ignition || result.mechanics.status != RunStatus::completed)
+      continue;
+    const CaseResult burnt = run_with_skin(scene, gap, own);
+    traced.combustion = burnt.gaps.front().combustion;
+    if (!was_cut_short(burnt.mechanics.status)) continue;
+    // What is missing of the case says nothing of the launch.
+    result.mechanics.status = burnt.mechanics.status;
+    result.mechanics.reason =
+        fmt::format("after ignition at {:.6g} cm: {}", 100.0 * gap, burnt.mechanics.reason);
   }
   return result;
 }

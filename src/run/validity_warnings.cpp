@@ -330,6 +330,26 @@ void check_flight(const Scene& scene, const MechanicsResult& mechanics, Warnings
 
 }  // namespace
 
+std::vector<std::string> combustion_validity_warnings(const Scene& scene,
+                                                      const CombustionHistory& combustion) {
+  Warnings warnings;
+  const scene::Numerics& numerics = scene.numerics;
+  if (numerics.inertial_scaling > 1.0 || numerics.steel_inertia > 1.0)
+    warnings.push_back(fmt::format(
+        "inertia is scaled by {:.6g} and that of steel by {:.6g}: what burning gas sets in motion, and its "
+        "pressure, are those of heavier bodies",
+        numerics.inertial_scaling, numerics.steel_inertia));
+  const std::vector<double>& measured = scene.load.curve_time;
+  const double end = combustion.time.empty() ? 0.0 : combustion.time.back();
+  if (!measured.empty() && end > measured.back())
+    warnings.push_back(
+        fmt::format("the measured load ends {:.3g} ms before the run, and its last pressure is held",
+                    1e3 * (end - measured.back())));
+  if (combustion.end == CombustionEnd::broke_off)
+    warnings.push_back("the run broke off after ignition: " + combustion.reason);
+  return warnings;
+}
+
 std::vector<std::string> validity_warnings(const Scene& scene, const MechanicsResult& mechanics) {
   Warnings warnings;
   check_history(mechanics, warnings);

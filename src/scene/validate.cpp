@@ -386,6 +386,12 @@ Fault check_coupling(const SceneFile& file) {
   if (scene.surface.air_model != AirModel::reservoir)
     return fault_at(file, "coupling", "two-way with an air that is no reservoir",
                     "one-way, or gap.air = \"reservoir\": the others are integrated after the mechanics");
+  // Particles of an even grid do not grow with their gas: the energy of a column of charge drifted by 2 % in
+  // the published release of heat, where the lattice at rest has 1e-7, and by more than 5 % in the full one.
+  if (scene.numerics.formulation == Formulation::updated_lagrangian)
+    return fault_at(
+        file, "coupling", "two-way with numerics.formulation = \"updated-lagrangian\"",
+        "one-way, or the formulation \"total-lagrangian\", whose energy balances while gas expands");
   return std::nullopt;
 }
 

@@ -32,6 +32,7 @@ inline constexpr std::array run_status_names{
     Named{run::RunStatus::timed_out, "timed_out"},
     Named{run::RunStatus::cells_distorted, "cells_distorted"},
     Named{run::RunStatus::outside_gas_law, "outside_gas_law"},
+    Named{run::RunStatus::flame_beyond_sound, "flame_beyond_sound"},
 };
 inline constexpr std::array ignition_cause_names{
     Named{surface::IgnitionCause::trigger, "trigger"},
@@ -41,6 +42,7 @@ inline constexpr std::array combustion_end_names{
     Named{run::CombustionEnd::time, "time"},
     Named{run::CombustionEnd::pressure, "pressure"},
     Named{run::CombustionEnd::broke_off, "broke_off"},
+    Named{run::CombustionEnd::burnt_through, "burnt_through"},
 };
 /// By closure of the friction; "literal" is the total strain rate, under the name that stored cases have.
 inline constexpr std::array<const char*, trace::traced_closures> closure_names{"literal", "inelastic"};

@@ -96,6 +96,17 @@ TEST(Deflagration, WavesOfKnownSpeedHaveIt) {
               2e-4);
 }
 
+TEST(Deflagration, AHeatThatDoesNotReachTheBurntTemperatureDrivesNone) {
+  KineticsParameters kinetics;
+  const auto speed = [&](double heat) {
+    kinetics.heat_of_reaction = heat;
+    return deflagration_speed(kinetics, 0.246, 1717.0, specific_heat, 500.0);
+  };
+  const double needed = specific_heat * (kinetics.burnt_temperature - 500.0);
+  EXPECT_EQ(speed(0.999 * needed), 0.0);
+  EXPECT_GT(speed(1.001 * needed), 0.0);
+}
+
 TEST(Deflagration, IsThatOfTheResolvedHeatEquation) {
   // Explicit finite differences on a grid that resolves the wave, the flame's place from the heat released.
   const KineticsParameters kinetics;

@@ -55,6 +55,26 @@ TEST(ValidityWarnings, ASoundRunHasNone) {
   EXPECT_TRUE(validity_warnings(scene, cracked).empty());
 }
 
+TEST(ValidityWarnings, CombustionNeedsTrueInertiaAndAKnownLoad) {
+  scene::Scene scene = shipped_scene();
+  CombustionHistory combustion;
+  combustion.time = {17.7e-3, 18.7e-3};
+  EXPECT_TRUE(combustion_validity_warnings(scene, combustion).empty());
+  scene.numerics.inertial_scaling = 1.5;
+  expect_one(combustion_validity_warnings(scene, combustion), "inertia is scaled by 1.5");
+  scene.numerics.inertial_scaling = 1.0;
+  scene.numerics.steel_inertia = 4.0;
+  expect_one(combustion_validity_warnings(scene, combustion), "that of steel by 4");
+  scene.numerics.steel_inertia = 1.0;
+  scene.load.curve_time = {0.0, 18e-3};
+  expect_one(combustion_validity_warnings(scene, combustion), "0.7 ms before the run");
+  scene.load.curve_time = {0.0, 19e-3};
+  EXPECT_TRUE(combustion_validity_warnings(scene, combustion).empty());
+  combustion.end = CombustionEnd::broke_off;
+  combustion.reason = "cells distorted";
+  expect_one(combustion_validity_warnings(scene, combustion), "broke off after ignition: cells distorted");
+}
+
 /// Kinetic and internal energy as measured at these factors: see validity_warnings.cpp for what they do to T
 /// max.
 TEST(ValidityWarnings, InertiaScaledUntilItMatters) {

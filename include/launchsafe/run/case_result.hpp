@@ -24,7 +24,8 @@ enum class RunStatus {
   interrupted,
   timed_out,
   cells_distorted,
-  outside_gas_law
+  outside_gas_law,
+  flame_beyond_sound
 };
 std::string to_string(RunStatus status);
 
@@ -135,7 +136,7 @@ double opening_at_bottom(const MechanicsResult& mechanics, double bottom);
 double largest_energy_drift(const MechanicsResult& mechanics);
 
 /// Why a run that burns ended.
-enum class CombustionEnd { time, pressure, broke_off };
+enum class CombustionEnd { time, pressure, broke_off, burnt_through };
 
 /// What followed the ignition of a gap in a run with two-way coupling; samples are those of the trace from
 /// the one before ignition on. Of the whole shell (plane strain: per metre).
