@@ -29,6 +29,7 @@ struct LaunchRecord {
   CaseAnswer answer;
   std::vector<std::string> violations;  ///< of invariants
   std::vector<std::string> validity_warnings;
+  std::vector<Burn> burns;  ///< through ignition, by gap
 };
 
 std::string sentences(const std::vector<std::string>& parts) {
@@ -162,6 +163,7 @@ StressCaseRow judge_stress_case(const StressCase& launch, const LaunchRecord* re
   row.gaps = stress_case_gaps(*record, against);
   const bool compared = against == nullptr || against->answer.completed();
   row.finding = record->answer.completed() ? judge_completed(row, compared) : judge_stopped(launch, *record);
+  row.finding = joined_finding(std::move(row.finding), record->burns);
   return row;
 }
 
@@ -194,6 +196,22 @@ LaunchRecord record_of(const StudyFile& study, std::size_t index, const run::Mec
   return record;
 }
 
+/// A run through ignition that did not come to its end by itself leaves the case without a record.
+void add_burns(const StudyFile& study, std::size_t index, const std::vector<FinishedRun>& runs,
+               LaunchRecord& record) {
+  const scene::Scene& scene = study.cases[index].scene.scene;
+  if (!record.failure.empty() || !record.answer.completed()) return;
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    if (!runs[i].has_result() || was_cut_off(runs[i])) {
+      record.failure = "through ignition: " + runs[i].failure;
+      record.outcome = runs[i].outcome;
+      return;
+    }
+    const double gap = scene.surface.gaps[i - 1];
+    record.burns.push_back({gap, judge_burn(scene, gap, runs[i].result)});
+  }
+}
+
 /// The records of all cases.
 std::vector<LaunchRecord> run_launches(const StudyFile& study, const StudyOptions& options, Timing& timing) {
   std::vector<LaunchRecord> records(study.cases.size());
@@ -203,6 +221,7 @@ std::vector<LaunchRecord> run_launches(const StudyFile& study, const StudyOption
     else
       records[i].failure = runs.front().failure;
     records[i].outcome = runs.front().outcome;
+    add_burns(study, i, runs, records[i]);
   });
   return records;
 }

@@ -185,6 +185,8 @@ Fault read_runs(CaseReader& reader, Changed changed, StressCase& launch) {
   launch.gaps = own_gaps ? changed.scene.scene.surface.gaps : reader.study.study.gaps;
   const std::string label = launch.group + ": " + launch.name;
   const SceneFile scene = changed.scene;
+  launch.burns = changed.scene.scene.coupling == scene::Coupling::two_way;
+  if (launch.burns) changed.scene.scene.surface.gaps = launch.gaps;
   const auto run = add_run(reader, label, std::move(changed.scene));
   if (!run) return run.error();
   launch.run = *run;
@@ -192,6 +194,7 @@ Fault read_runs(CaseReader& reader, Changed changed, StressCase& launch) {
   auto other = with_keys(reader, "against", scene);
   if (!other) return other.error();
   if (other->refusal) return other->refusal;
+  other->scene.scene.coupling = scene::Coupling::one_way;  // a safe computation of the launch alone
   const auto against = add_run(reader, label + ", against", std::move(other->scene));
   if (!against) return against.error();
   launch.against = *against;
@@ -279,7 +282,11 @@ std::vector<Failure> stability_failures(const StabilityResult& result) {
 
 Kind stability_kind() {
   return {
-      .traits = {.name = "stability", .gaps_key = "gaps", .gives_verdicts = false, .own_scenes = true},
+      .traits = {.name = "stability",
+                 .gaps_key = "gaps",
+                 .gives_verdicts = false,
+                 .own_scenes = true,
+                 .goes_through_ignition = true},
       .keys = joined({gaps_keys(), judging_keys(), own_keys(stability_keys())}),
       .tables = {table_of("case", stress_case_keys())},
       .read = read_stability,

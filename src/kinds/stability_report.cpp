@@ -172,7 +172,11 @@ std::string legend() {
          "frame; "
          "energy drift within the scene's limit; plastic, viscous and crack dissipation and friction heat "
          "that "
-         "never fall; no skin colder than at first.\n";
+         "never fall; no skin colder than at first. Of a run through ignition that completed: finite "
+         "numbers; "
+         "energy made or lost in burning particles below 1 % of the heat of reaction of what burnt; energy "
+         "drift within the limit; no more burnt than the charge has, and no more heat than that of reaction; "
+         "gas within the temperatures of its law.\n";
 }
 
 std::string uncertainty_text(const study::Study& study) {

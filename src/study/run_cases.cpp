@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 #include <unordered_map>
 
@@ -261,6 +262,22 @@ const FinishedRun* run_without_result(const std::vector<FinishedRun>& runs) {
   return nullptr;
 }
 
+namespace {
+
+/// The runs of a case through ignition, one a gap of its scene; none with one-way coupling, or where the kind
+/// does not ask for them.
+std::vector<CaseRun> burning_runs(const StudyFile& study, const StudyCase& input) {
+  std::vector<CaseRun> runs;
+  const scene::Scene& scene = input.scene.scene;
+  if (!study.study.kind.goes_through_ignition || scene.coupling == scene::Coupling::one_way) return runs;
+  for (const double gap : scene.surface.gaps)
+    runs.push_back(
+        skin_run(scene, gap, fmt::format("{}, through ignition at {:.6g} cm", input.label, 100.0 * gap)));
+  return runs;
+}
+
+}  // namespace
+
 std::vector<CaseRuns> case_runs(const StudyFile& study, int shards) {
   std::vector<CaseRun> own(study.cases.size());
   tbb::parallel_for(std::size_t{0}, own.size(), [&](std::size_t i) {
@@ -269,8 +286,15 @@ std::vector<CaseRuns> case_runs(const StudyFile& study, int shards) {
   std::vector<CaseRuns> cases;
   std::unordered_map<std::string, std::size_t> known;
   for (std::size_t i = 0; i < own.size(); ++i) {
-    const auto [found, is_new] = known.try_emplace(own[i].hash, cases.size());
-    if (is_new) cases.push_back({{}, {std::move(own[i])}, 1});
+    std::vector<CaseRun> burning = burning_runs(study, study.cases[i]);
+    // A case that burns shares its launch alone with no other.
+    std::string key = own[i].hash;
+    for (const CaseRun& each : burning) key += each.hash;
+    const auto [found, is_new] = known.try_emplace(key, cases.size());
+    if (is_new) {
+      cases.push_back({{}, {std::move(own[i])}, 1});
+      std::move(burning.begin(), burning.end(), std::back_inserter(cases.back().runs));
+    }
     cases[found->second].members.push_back(i);
   }
   if (propagates_spread(study.study)) {

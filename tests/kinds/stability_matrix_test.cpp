@@ -46,6 +46,10 @@ TEST(StabilityMatrixSlow, HasNoCaseThatIsWrongInTheUpdatedLagrangianForm) {
   text.replace(at, laws.size(),
                "laws = false\n"
                "set = { numerics.formulation = \"updated-lagrangian\", numerics.growth_x = 1 }\n#");
+  // That form does not go through ignition; the cases that are refused for it stay.
+  const std::string burns = "coupling = \"two-way\", kinetics";
+  for (auto found = text.find(burns); found != std::string::npos; found = text.find(burns))
+    text.replace(found, burns.size(), "kinetics");
   const auto study = parse_study(text, file);
   ASSERT_TRUE(study) << study.error().message();
   const StabilityResult result = all_rows_of(*study);

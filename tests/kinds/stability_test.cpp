@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -236,6 +237,111 @@ TEST(Stability, LawsComeFirst) {
   // A shard has no use for them.
   options.shard = {1, 2};
   EXPECT_EQ(run_stability(study_of(text), options).rows.size(), 1u);
+}
+
+/// A closed-form run through ignition that keeps all invariants: 1 g of the charge, to T2.
+run::CaseResult sound_burn(const scene::Scene& scene) {
+  run::CaseResult result;
+  result.mechanics = sound_mechanics(scene);
+  result.gaps.resize(1);
+  run::CombustionHistory c;
+  c.time = {17.7e-3, 18.7e-3};
+  c.burnt_mass = {0.0, 1e-3};
+  c.burnt_depth = {0.0, 1e-4};
+  c.gas_volume = {0.0, 1e-6};
+  c.gas_temperature = {784.0, 784.0};
+  c.pressure = {4e8, 5e8};
+  c.released = {0.0, 500.0};
+  c.kept_back = {0.0, 5320.0};
+  c.brought = {0.0, 300.0};
+  result.gaps[0].combustion = c;
+  return result;
+}
+
+scene::Scene burning_scene() {
+  return study_of(stability_head + case_text("set = { coupling = \"two-way\" }") + synthetic_constants)
+      .cases[0]
+      .scene.scene;
+}
+
+TEST(StabilityBurns, ASoundOneIsHeld) {
+  const scene::Scene scene = burning_scene();
+  const verify::Finding finding = judge_burn(scene, 4e-4, sound_burn(scene));
+  EXPECT_EQ(finding.outcome, Outcome::held) << finding.text;
+  EXPECT_NE(finding.text.find("burnt 1 g"), std::string::npos) << finding.text;
+}
+
+TEST(StabilityBurns, EveryBrokenInvariantIsWrong) {
+  using run::CombustionHistory;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::pair<std::string, std::function<void(CombustionHistory&)>>> breaks{
+      {"not finite", [&](CombustionHistory& c) { c.pressure[1] = none; }},
+      {"not finite", [&](CombustionHistory& c) { c.skin_flame_speed = none; }},
+      {"no history", [](CombustionHistory& c) { c = {}; }},
+      {"made or lost 1.1 %", [](CombustionHistory& c) { c.energy_residual = 0.011; }},
+      {"made or lost", [&](CombustionHistory& c) { c.energy_residual = none; }},
+      {"energy drifts", [](CombustionHistory& c) { c.energy_drift = 0.5; }},
+      {"of a charge of", [](CombustionHistory& c) { c.burnt_mass[1] = 1e3; }},
+      {"the burnt mass falls", [](CombustionHistory& c) { c.burnt_mass[0] = 2e-3; }},
+      {"J released of", [](CombustionHistory& c) { c.released[1] = 5830.0; }},
+      {"the gas is between", [](CombustionHistory& c) { c.gas_temperature[0] = 0.0; }},
+      {"the gas is between", [](CombustionHistory& c) { c.gas_temperature[1] = 9001.0; }}};
+  const scene::Scene scene = burning_scene();
+  for (const auto& [part, spoil] : breaks) {
+    run::CaseResult result = sound_burn(scene);
+    spoil(*result.gaps[0].combustion);
+    const verify::Finding finding = judge_burn(scene, 4e-4, result);
+    EXPECT_EQ(finding.outcome, Outcome::wrong) << part << ": " << finding.text;
+    EXPECT_NE(finding.text.find(part), std::string::npos) << finding.text;
+  }
+}
+
+TEST(StabilityBurns, WhatBreaksOffIsCaughtAndWhatDoesNotIgniteOrHasScaledInertiaIsDegraded) {
+  scene::Scene scene = burning_scene();
+  run::CaseResult result = sound_burn(scene);
+  result.mechanics.status = run::RunStatus::outside_gas_law;
+  EXPECT_EQ(judge_burn(scene, 4e-4, result).outcome, Outcome::wrong);  // without a reason
+  result.mechanics.reason = "at 18 ms";
+  EXPECT_EQ(judge_burn(scene, 4e-4, result).outcome, Outcome::caught);
+  result = sound_burn(scene);
+  result.gaps[0].combustion.reset();
+  EXPECT_EQ(judge_burn(scene, 4e-4, result).outcome, Outcome::degraded);
+  scene.numerics.inertial_scaling = 4.0;
+  EXPECT_EQ(judge_burn(scene, 4e-4, sound_burn(scene)).outcome, Outcome::degraded);
+}
+
+TEST(StabilityBurns, TheWorstFindingCounts) {
+  const verify::Finding held{Outcome::held, "fine"};
+  EXPECT_EQ(joined_finding(held, {}).outcome, Outcome::held);
+  EXPECT_EQ(joined_finding(held, {{1e-4, {Outcome::caught, "a"}}, {2e-4, {Outcome::degraded, "b"}}}).outcome,
+            Outcome::caught);
+  EXPECT_EQ(joined_finding({Outcome::degraded, "c"}, {{1e-4, held}}).outcome, Outcome::degraded);
+  const verify::Finding wrong = joined_finding(held, {{1e-4, {Outcome::wrong, "w"}}, {2e-4, held}});
+  EXPECT_EQ(wrong.outcome, Outcome::wrong);
+  EXPECT_EQ(wrong.text, "fine; w; fine");
+}
+
+TEST(Stability, ACaseWithTwoWayCouplingRunsEveryGapThroughIgnition) {
+  StudyOptions options = options_with([](const scene::Scene& scene) { return sound_mechanics(scene); });
+  std::atomic<int> burns{0};
+  options.runners.with_skin = [&burns](const scene::Scene& scene, double, const run::RunOptions&) {
+    ++burns;
+    run::CaseResult result = sound_burn(scene);
+    result.gaps[0].combustion->energy_residual = 0.5;
+    return result;
+  };
+  const std::string burning = "set = { coupling = \"two-way\", gap.thickness = \"0.01, 0.02 cm\" }";
+  const StudyFile study =
+      study_of(stability_head + case_text("", "one-way") +
+               case_text(burning + "\nagainst = { numerics.time_step_factor = 0.1 }", "two-way") +
+               synthetic_constants);
+  EXPECT_EQ(forecast_study(study, options, 1e6).runs.size(), 5u);
+  const StabilityResult result = run_stability(study, options);
+  EXPECT_EQ(burns, 2);
+  ASSERT_EQ(result.rows.size(), 2u);
+  EXPECT_EQ(result.rows[0].finding.outcome, Outcome::held) << result.rows[0].finding.text;
+  expect_outcome(result.rows[1], Outcome::wrong,
+                 "through ignition at 0.02 cm: burning particles made or lost");
 }
 
 class StoredStability : public launchsafe::testing::TemporaryFolder {

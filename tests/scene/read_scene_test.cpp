@@ -168,6 +168,15 @@ TEST(ReadScene, InertialScalingNeedsTheCoMovingFrame) {
   expect_error(error_of(text), 2, "numerics.inertial_scaling", "4 in the lab frame", "co-moving");
 }
 
+TEST(ReadScene, TwoWayCouplingNeedsAReservoirAndTheTotalLagrangianForm) {
+  const std::string two_way = "coupling = \"two-way\"\n";
+  EXPECT_TRUE(parse_scene(two_way + small_scene, "shell.toml"));
+  expect_error(error_of(two_way + "numerics.formulation = \"updated-lagrangian\"\n" + small_scene), 1,
+               "coupling", "updated-lagrangian", "total-lagrangian");
+  expect_error(error_of(two_way + "gap.air = \"film\"\n" + small_scene), 1, "coupling", "no reservoir",
+               "reservoir");
+}
+
 TEST(ReadScene, WhatTheUpdatedLagrangianFormLacksIsRefusedWithIt) {
   const std::string form = "numerics.formulation = \"updated-lagrangian\"\n";
   EXPECT_TRUE(parse_scene(form + small_scene, "shell.toml"));

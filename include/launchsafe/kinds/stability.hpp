@@ -22,6 +22,7 @@ struct StressCase {
   /// Steps within which a broken computation must be caught; 0: any number.
   std::uint64_t caught_within = 0;
   std::vector<double> gaps;            ///< m, to judge; all on one run
+  bool burns = false;                  ///< its coupling is two-way: every gap has a run through ignition too
   std::optional<std::size_t> run;      ///< of StudyFile::cases; none for a case of the reader
   std::optional<std::size_t> against;  ///< of StudyFile::cases: a safe computation of the same launch
   std::string must_refuse;             ///< a case of the reader: what its message must say; else empty
@@ -41,6 +42,21 @@ struct StabilitySettings {
 /// the initial one.
 std::vector<std::string> violations_of(const scene::Scene& scene, const run::MechanicsResult& mechanics,
                                        const std::vector<double>& gaps);
+
+/// What a run through ignition of one gap (m) came to.
+struct Burn {
+  double gap = 0;
+  verify::Finding finding;
+};
+
+/// Caught: it broke off, and says why. WRONG: it completed with numbers that are not finite, an energy
+/// residual above 1 % of the heat of reaction of what burnt, an energy drift past the scene's limit, more
+/// burnt than the charge has, heat released beyond that of reaction, or gas outside of the temperatures of
+/// its law. Degraded: nothing ignited, or a validity warning holds.
+verify::Finding judge_burn(const scene::Scene& scene, double gap, const run::CaseResult& result);
+
+/// Of a launch and what its runs through ignition came to: WRONG before caught before degraded before held.
+verify::Finding joined_finding(verify::Finding launch, const std::vector<Burn>& burns);
 
 /// One gap of a stress case beside the safe computation of the same launch.
 struct StressCaseGap {

@@ -34,7 +34,8 @@ store::CaseIdentity identity_of(const CaseRun& run);
 /// Runs that are judged together, and the cases of the study that are judged on them.
 struct CaseRuns {
   std::vector<std::size_t> members;  ///< of StudyFile::cases; those that differ in thermal keys alone share
-  std::vector<CaseRun> runs;  ///< the mechanics; then, where the study asks for it, under a raised load
+  /// The mechanics; then, where the study asks for it, under a raised load, or through the ignition of gaps.
+  std::vector<CaseRun> runs;
   int shard = 1;
 };
 

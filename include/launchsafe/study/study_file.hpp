@@ -29,6 +29,7 @@ struct KindTraits {
   bool gives_verdicts = true;  ///< SAFE or UNSAFE, for which the uncertainty of fit, inputs and model counts
   bool keeps_answers = false;  ///< what is concluded of a case is stored beside its runs
   bool own_scenes = false;     ///< cases may bring scenes and uncertainties of their own
+  bool goes_through_ignition = false;  ///< gaps of cases with two-way coupling are run through ignition too
 };
 
 /// A scene key that the cases of a study vary.
