@@ -173,8 +173,8 @@ TEST(ReadScene, TwoWayCouplingNeedsAReservoirAndTheTotalLagrangianForm) {
   EXPECT_TRUE(parse_scene(two_way + small_scene, "shell.toml"));
   expect_error(error_of(two_way + "numerics.formulation = \"updated-lagrangian\"\n" + small_scene), 1,
                "coupling", "updated-lagrangian", "total-lagrangian");
-  expect_error(error_of(two_way + "gap.air = \"film\"\n" + small_scene), 1, "coupling", "no reservoir",
-               "reservoir");
+  const auto film = two_way + with(small_scene, "[gap]\n", "[gap]\nair = \"film\"\n");
+  expect_error(error_of(film), 1, "coupling", "no reservoir", "reservoir");
 }
 
 TEST(ReadScene, WhatTheUpdatedLagrangianFormLacksIsRefusedWithIt) {
