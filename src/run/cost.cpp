@@ -41,7 +41,7 @@ double skin_memory(const scene::Scene& scene, const TraceSize& size) {
 }
 
 double snapshot_memory(const scene::Scene& scene, const scene::Plan& plan) {
-  constexpr double numbers_per_particle = 14.0;
+  constexpr double numbers_per_particle = 25.0;
   return copies * bytes_per_number * numbers_per_particle *
          static_cast<double>(scene.output.snapshot_times.size()) * static_cast<double>(plan.particles());
 }

@@ -45,6 +45,46 @@ const math::AlignedArray* field_of(const mpm::AnyBody& any, std::string_view nam
       any);
 }
 
+/// Present over initial distance between the neighbours of place `i` on a line of `count` particles, at an
+/// end between the particle and its one neighbour; 1 for a particle without any. `now` and `at_rest` give
+/// places.
+template <class Now, class AtRest>
+double stretch_at(int i, int count, Now now, AtRest at_rest) {
+  const int before = std::max(i - 1, 0), behind = std::min(i + 1, count - 1);
+  return before == behind ? 1.0 : (now(behind) - now(before)) / (at_rest(behind) - at_rest(before));
+}
+
+/// The half lengths of the cells of a body's particles, in the order of a snapshot.
+void add_half_lengths(const mpm::ParticleFields& p, Snapshot& shot) {
+  const mpm::Lattice& lattice = p.lattice;
+  for (int j = 0; j < lattice.rows(); ++j)
+    for (int i = 0; i < lattice.columns(); ++i) {
+      const double stretch_x = stretch_at(
+          i, lattice.columns(), [&](int k) { return p.x[lattice.slot(k, j)]; },
+          [&](int k) { return lattice.x_of(k); });
+      const double stretch_r = stretch_at(
+          j, lattice.rows(), [&](int k) { return p.r[lattice.slot(i, k)]; },
+          [&](int k) { return lattice.r_of(k); });
+      shot.half_length_x.push_back(0.5 * lattice.length_x(i) * stretch_x);
+      shot.half_length_r.push_back(0.5 * lattice.length_r(j) * stretch_r);
+    }
+}
+
+/// The burnt shares of all particles, in the order of a snapshot; none where nothing burns.
+std::vector<double> burnt_shares(const mpm::Simulation& simulation) {
+  std::vector<double> shares;
+  bool burns = false;
+  simulation.for_each_body([&](const mpm::ParticleFields& p) {
+    for (int j = 0; j < p.lattice.rows(); ++j)
+      for (int i = 0; i < p.lattice.columns(); ++i) {
+        const mpm::BurningParticle* burning = p.burning ? p.burning->find(p.lattice.slot(i, j)) : nullptr;
+        shares.push_back(burning != nullptr ? burning->state.burnt_share : 0.0);
+        burns = burns || burning != nullptr;
+      }
+  });
+  return burns ? shares : std::vector<double>{};
+}
+
 double largest_of(const math::AlignedArray* values) {
   return values == nullptr || values->empty() ? 0.0 : *std::max_element(values->begin(), values->end());
 }
@@ -137,7 +177,9 @@ Snapshot take_snapshot(const mpm::Simulation& simulation) {
         shot.plastic_strain.push_back(value(plastic, slot));
         shot.body.push_back(p.body);
       }
+    add_half_lengths(p, shot);
   }
+  shot.burnt_share = burnt_shares(simulation);
   return shot;
 }
 

@@ -1,6 +1,7 @@
 #include "launchsafe/store/case_file.hpp"
 
 #include "case_layout.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/sha256.hpp"
@@ -255,6 +256,16 @@ std::filesystem::path sidecar_of(const std::filesystem::path& path) {
 }
 
 Result<StoredCase> read_case_file(const std::filesystem::path& path) { return read_with(path, case_of); }
+
+Result<CaseWithScene> read_case_with_scene(const std::filesystem::path& path) {
+  Result<StoredCase> stored = read_case_file(path);
+  if (!stored) return stored.error();
+  auto file = scene::parse_scene(stored->manifest.input_text, path);
+  if (!file)
+    return Error{Error::Kind::corrupt, fmt::format("{}: its input is no scene to this program: {}",
+                                                   path.string(), file.error().message())};
+  return CaseWithScene{std::move(*stored), std::move(file->scene)};
+}
 
 Result<Manifest> read_manifest(const std::filesystem::path& path) { return read_with(path, manifest_of); }
 

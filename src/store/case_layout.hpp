@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -238,25 +239,58 @@ void lay_out_monitor(Archive& archive, Rows& rows) {
          {"kg m/s", "axial momentum relative to the frame"});
 }
 
+/// Whether files hold a quantity of snapshots always, or where it was recorded: older ones do without.
+enum class Kept { always, where_recorded };
+
 /// A quantity that snapshots may hold of every particle.
 struct ParticleField {
   const char* name;
   std::vector<double> run::Snapshot::*values;
   const char* units;
   const char* description;
+  Kept kept = Kept::always;
 };
 inline constexpr std::array particle_fields{
     ParticleField{"density", &run::Snapshot::density, "kg/m3", "density"},
     ParticleField{"pressure", &run::Snapshot::pressure, "Pa", "pressure, compression positive"},
     ParticleField{"von_mises", &run::Snapshot::von_mises, "Pa", "von Mises stress"},
-    ParticleField{"deviator_rr", &run::Snapshot::deviator_rr, "Pa",
-                  "radial stress deviator; hoop is -(rr + xx)"},
-    ParticleField{"deviator_xx", &run::Snapshot::deviator_xx, "Pa", "axial stress deviator"},
+    ParticleField{
+        "deviator_rr", &run::Snapshot::deviator_rr, "Pa",
+        "radial stress deviator; the stress, positive in tension, is deviator_rr - pressure; of the "
+        "hoop -(deviator_rr + deviator_xx) - pressure"},
+    ParticleField{"deviator_xx", &run::Snapshot::deviator_xx, "Pa",
+                  "axial stress deviator; the stress, positive in tension, is deviator_xx - pressure"},
     ParticleField{"deviator_rx", &run::Snapshot::deviator_rx, "Pa", "shear stress"},
     ParticleField{"temperature", &run::Snapshot::temperature, "K", "temperature"},
     ParticleField{"crack_radius", &run::Snapshot::crack_radius, "m", "crack radius"},
     ParticleField{"plastic_strain", &run::Snapshot::plastic_strain, "1", "equivalent plastic strain"},
+    ParticleField{"half_length_x", &run::Snapshot::half_length_x, "m",
+                  "of the particle's cell at present, axial", Kept::where_recorded},
+    ParticleField{"half_length_r", &run::Snapshot::half_length_r, "m",
+                  "of the particle's cell at present, radial", Kept::where_recorded},
+    ParticleField{"burnt_share", &run::Snapshot::burnt_share, "1", "burnt share of the particle's mass",
+                  Kept::where_recorded},
 };
+
+/// Whether snapshots hold the cells of their particles.
+inline bool has_cells(const run::Snapshot& snapshot) {
+  return !snapshot.x.empty() && snapshot.half_length_x.size() == snapshot.x.size() &&
+         snapshot.half_length_r.size() == snapshot.x.size();
+}
+
+/// The corners of the particles' cells, once around each, as rows of x and r.
+inline std::vector<double> corners_of(const run::Snapshot& snapshot) {
+  std::vector<double> corners;
+  corners.reserve(8 * snapshot.x.size());
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
+    const double left = snapshot.x[i] - snapshot.half_length_x[i],
+                 right = snapshot.x[i] + snapshot.half_length_x[i],
+                 inside = snapshot.r[i] - snapshot.half_length_r[i],
+                 outside = snapshot.r[i] + snapshot.half_length_r[i];
+    corners.insert(corners.end(), {left, inside, right, inside, right, outside, left, outside});
+  }
+  return corners;
+}
 
 template <class Archive, class Value>
 void lay_out_snapshot(Archive& archive, Value& snapshot) {
@@ -268,8 +302,24 @@ void lay_out_snapshot(Archive& archive, Value& snapshot) {
   plane_vectors(archive, "position", snapshot.x, snapshot.r, count, {"m", "axial, radial, 0"});
   plane_vectors(archive, "velocity", snapshot.velocity_x, snapshot.velocity_r, count,
                 {"m/s", "axial, radial, 0; relative to the frame"});
-  for (const ParticleField& field : particle_fields)
-    history(archive, field.name, snapshot.*field.values, count, {field.units, field.description});
+  for (const ParticleField& field : particle_fields) {
+    auto& values = snapshot.*field.values;
+    bool there = field.kept == Kept::always;
+    if constexpr (Archive::reading) {
+      there = there || archive.has(field.name);
+    } else {
+      there = there || !values.empty();
+    }
+    if (there) history(archive, field.name, values, count, {field.units, field.description});
+  }
+  if constexpr (!Archive::reading) {
+    if (!has_cells(snapshot)) return;
+    archive.table("corners", corners_of(snapshot), {4 * count, 2},
+                  {"m", "axial, radial; the four corners of every particle's cell, once around"});
+    std::vector<std::int64_t> order(4 * count);
+    std::iota(order.begin(), order.end(), 0);
+    archive.array("cells", order, {"1", "rows of corners, four a cell, as visualisation programs want them"});
+  }
 }
 
 template <class Archive, class Value>

@@ -20,33 +20,50 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-std::string vector_item(const std::string& address, std::size_t count) {
+/// A dataset of the case file.
+std::string item(std::string_view type, const std::string& dimensions, const std::string& address) {
   return fmt::format(
-      "<DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"{} 3\">{}</DataItem>",
-      count, address);
+      "<DataItem Format=\"HDF\" NumberType=\"{}\" Precision=\"8\" Dimensions=\"{}\">{}</DataItem>", type,
+      dimensions, address);
+}
+
+/// `centre`: Cell or Node.
+std::string attribute(std::string_view name, std::string_view kind, std::string_view centre,
+                      const std::string& data) {
+  return fmt::format("        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n",
+                     name, kind, centre, data);
+}
+
+/// Each particle a quadrilateral with corners of its own; a point where the cells are not known.
+std::string mesh_of(const run::Snapshot& snapshot, const std::string& group) {
+  const std::size_t count = snapshot.body.size();
+  if (!has_cells(snapshot))
+    return fmt::format(
+        "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{0}\" NodesPerElement=\"1\"/>\n"
+        "        <Geometry GeometryType=\"XYZ\">{1}</Geometry>\n",
+        count, item("Float", fmt::format("{} 3", count), group + "/position"));
+  return fmt::format(
+      "        <Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"{}\">{}</Topology>\n"
+      "        <Geometry GeometryType=\"XY\">{}</Geometry>\n",
+      count, item("Int", fmt::format("{}", 4 * count), group + "/cells"),
+      item("Float", fmt::format("{} 2", 4 * count), group + "/corners"));
 }
 
 std::string grid_of(const run::Snapshot& snapshot, const std::string& group) {
   const std::size_t count = snapshot.body.size();
+  const std::string one = fmt::format("{}", count), three = fmt::format("{} 3", count);
+  const std::string_view centre = has_cells(snapshot) ? "Cell" : "Node";
   std::string grid = fmt::format(
-      "      <Grid Name=\"particles\" GridType=\"Uniform\">\n"
-      "        <Time Value=\"{}\"/>\n"
-      "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n"
-      "        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n"
-      "        <Attribute Name=\"body\" AttributeType=\"Scalar\" Center=\"Node\"><DataItem Format=\"HDF\" "
-      "NumberType=\"Int\" Precision=\"8\" Dimensions=\"{}\">{}/body</DataItem></Attribute>\n",
-      snapshot.time, count, vector_item(group + "/position", count), count, group);
-  if (!snapshot.velocity_x.empty()) {
-    grid += fmt::format(
-        "        <Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Node\">{}</Attribute>\n",
-        vector_item(group + "/velocity", count));
-  }
+                         "      <Grid Name=\"particles\" GridType=\"Uniform\">\n"
+                         "        <Time Value=\"{}\"/>\n",
+                         snapshot.time) +
+                     mesh_of(snapshot, group) +
+                     attribute("body", "Scalar", centre, item("Int", one, group + "/body"));
+  if (!snapshot.velocity_x.empty())
+    grid += attribute("velocity", "Vector", centre, item("Float", three, group + "/velocity"));
   for (const ParticleField& field : particle_fields) {
     if ((snapshot.*field.values).empty()) continue;
-    grid += fmt::format(
-        "        <Attribute Name=\"{0}\" AttributeType=\"Scalar\" Center=\"Node\"><DataItem Format=\"HDF\" "
-        "NumberType=\"Float\" Precision=\"8\" Dimensions=\"{1}\">{2}/{0}</DataItem></Attribute>\n",
-        field.name, count, group);
+    grid += attribute(field.name, "Scalar", centre, item("Float", one, group + "/" + field.name));
   }
   return grid + "      </Grid>\n";
 }

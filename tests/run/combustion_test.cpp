@@ -115,6 +115,29 @@ TEST(Checkpoints, AreMadeAgainWhereTheLaunchWasStored) {
   EXPECT_EQ(expected.pressure, found.pressure);
 }
 
+// Shares by particle and the mass of the gas are counted apart.
+TEST(TwoWayCoupling, SnapshotsTellWhatHasBurntOfEveryParticle) {
+  scene::Scene scene = column();
+  scene.output.snapshot_times = {0.0, 1e-3};
+  const CaseResult result = run_with_skin(scene, burning_gap);
+  ASSERT_EQ(result.mechanics.snapshots.size(), 2u);
+  const Snapshot &rest = result.mechanics.snapshots[0], &burning = result.mechanics.snapshots[1];
+  EXPECT_TRUE(rest.burnt_share.empty());
+  ASSERT_EQ(burning.burnt_share.size(), burning.x.size());
+  double mass = 0.0;
+  for (std::size_t i = 0; i < rest.x.size(); ++i) {
+    const double volume =
+        2.0 * std::numbers::pi * rest.r[i] * 4.0 * rest.half_length_x[i] * rest.half_length_r[i];
+    mass += burning.burnt_share[i] * rest.density[i] * volume;
+    if (scene.bodies[static_cast<std::size_t>(burning.body[i])].material != "charge") {
+      EXPECT_EQ(burning.burnt_share[i], 0.0);
+    }
+  }
+  const CombustionHistory& c = *result.gaps.front().combustion;
+  ASSERT_GT(mass, 0.0);
+  EXPECT_NEAR(mass / trace::interpolate(c.time, c.burnt_mass, burning.time), 1.0, 0.01);
+}
+
 TEST(TwoWayCoupling, GoesThroughIgnitionWithItsEnergyBalanced) {
   scene::Scene scene = column();
   scene.combustion.duration = 1.5e-3;

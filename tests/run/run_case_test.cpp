@@ -118,6 +118,38 @@ TEST(RunMechanics, TakesSnapshotsFromTheInitialStateToTheFinalOne) {
   }
 }
 
+/// Of the cell of a particle in a snapshot, per radian.
+double volume_of_cell(const Snapshot& shot, std::size_t i) {
+  return 4.0 * shot.half_length_x[i] * shot.half_length_r[i] * shot.r[i];
+}
+
+// The density is integrated from the velocities, the cells come from the places of the particles alone.
+TEST(RunMechanics, CellsOfSnapshotsTileTheBodiesAndHoldTheParticlesMass) {
+  scene::Scene scene = coarse_scene();
+  scene.load.duration = 12e-3;
+  scene.output.snapshot_times = {0.0, 12e-3};
+  const MechanicsResult result = run_mechanics(scene);
+  ASSERT_EQ(result.snapshots.size(), 2u);
+  const Snapshot &rest = result.snapshots[0], &loaded = result.snapshots[1];
+  ASSERT_EQ(rest.half_length_x.size(), result.particles);
+  ASSERT_EQ(loaded.half_length_r.size(), result.particles);
+  EXPECT_TRUE(loaded.burnt_share.empty());
+  double area = 0.0, largest_change = 0.0;
+  for (std::size_t i = 0; i < rest.x.size(); ++i) {
+    area += 4.0 * rest.half_length_x[i] * rest.half_length_r[i];
+    const double change = rest.density[i] / loaded.density[i] - 1.0;
+    largest_change = std::max(largest_change, std::abs(change));
+    EXPECT_NEAR(volume_of_cell(loaded, i) / volume_of_cell(rest, i) - 1.0, change, 1e-3) << i;
+    const bool neighbours = i > 0 && loaded.body[i] == loaded.body[i - 1] && loaded.x[i] > loaded.x[i - 1];
+    if (!neighbours) continue;
+    const double overlap =
+        loaded.x[i - 1] + loaded.half_length_x[i - 1] - loaded.x[i] + loaded.half_length_x[i];
+    EXPECT_LT(std::abs(overlap), 2e-3 * loaded.half_length_x[i]) << i;
+  }
+  EXPECT_NEAR(area, 0.74 * 0.0775, 1e-12) << "of the half section of the shell";
+  EXPECT_GT(largest_change, 5e-3) << "the load has compressed the charge";
+}
+
 TEST(RunCase, HotterForWiderGapsAndTheSamplingErrorIsSmall) {
   const CaseResult result = run_case(coarse_scene());
   ASSERT_EQ(result.gaps.size(), 6u);

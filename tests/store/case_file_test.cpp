@@ -1,6 +1,7 @@
 #include "launchsafe/store/case_file.hpp"
 
 #include "child_process.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "same_case.hpp"
@@ -11,6 +12,8 @@
 
 #include <cmath>
 #include <fstream>
+#include <regex>
+#include <sstream>
 
 namespace launchsafe::store {
 namespace {
@@ -233,6 +236,107 @@ TEST_F(CaseFile, SnapshotsComeWithADescriptionForParaview) {
   EXPECT_NE(description->find(">case.h5:/snapshots/0001/position<"), std::string::npos);
   EXPECT_EQ(description->find("crack_radius"), std::string::npos) << "the sample has none";
   EXPECT_EQ(description->find(folder().string()), std::string::npos) << "the folder can be moved";
+}
+
+run::CaseResult sample_with_cells() {
+  run::CaseResult result = sample_case();
+  result.mechanics.snapshots = {sample_snapshot_of_cells(0.001), sample_snapshot_of_cells(0.002)};
+  return result;
+}
+
+TEST_F(CaseFile, KeepsTheCellsOfTheParticlesAndWhatHasBurnt) {
+  ASSERT_FALSE(write_case_file(path(), sample_scene(), sample_with_cells(), sample_manifest()));
+  const Result<StoredCase> stored = read_case_file(path());
+  ASSERT_TRUE(stored) << stored.error().message;
+  expect_same(sample_with_cells(), stored->result);
+}
+
+TEST_F(CaseFile, OfWhatSnapshotsDoNotKnowNothingIsStored) {
+  write_sample();
+  const hid_t file = H5Fopen(path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  for (const char* name : {"half_length_x", "half_length_r", "burnt_share", "corners", "cells"})
+    EXPECT_FALSE(H5Lexists(file, (std::string("/snapshots/0000/") + name).c_str(), H5P_DEFAULT) > 0) << name;
+  H5Fclose(file);
+  const std::string description = *read_file(folder() / "case.xdmf");
+  EXPECT_NE(description.find("Polyvertex"), std::string::npos) << "particles without cells are points";
+}
+
+/// A dataset that a description for ParaView names.
+struct NamedData {
+  std::string address;          ///< in the case file
+  std::vector<hsize_t> extent;  ///< as the description says
+};
+
+std::vector<NamedData> data_named_in(const std::string& description) {
+  const std::regex pattern(R"re(<DataItem [^>]*Dimensions="([\d ]+)">case\.h5:([^<]+)</DataItem>)re");
+  std::vector<NamedData> all;
+  for (auto match = std::sregex_iterator(description.begin(), description.end(), pattern);
+       match != std::sregex_iterator(); ++match) {
+    NamedData data{(*match)[2], {}};
+    std::istringstream numbers((*match)[1]);
+    for (hsize_t number = 0; numbers >> number;) data.extent.push_back(number);
+    all.push_back(data);
+  }
+  return all;
+}
+
+std::vector<hsize_t> extent_in(hid_t file, const std::string& address) {
+  const hid_t set = H5Dopen2(file, address.c_str(), H5P_DEFAULT);
+  if (set < 0) return {};
+  const hid_t space = H5Dget_space(set);
+  std::vector<hsize_t> extent(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  H5Sclose(space);
+  H5Dclose(set);
+  return extent;
+}
+
+TEST_F(CaseFile, ParaviewFindsEveryDatasetThatTheDescriptionNamesInTheShapeThatItSays) {
+  ASSERT_FALSE(write_case_file(path(), sample_scene(), sample_with_cells(), sample_manifest()));
+  const std::vector<NamedData> named = data_named_in(*read_file(folder() / "case.xdmf"));
+  // In both snapshots cells, corners, body, velocity and 11 fields: the sample has no crack radius.
+  EXPECT_EQ(named.size(), 2U * 15U);
+  const hid_t file = H5Fopen(path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  for (const NamedData& data : named) EXPECT_EQ(extent_in(file, data.address), data.extent) << data.address;
+  H5Fclose(file);
+}
+
+TEST_F(CaseFile, ParaviewSeesEveryParticleAsACellWithValuesOnIt) {
+  ASSERT_FALSE(write_case_file(path(), sample_scene(), sample_with_cells(), sample_manifest()));
+  const std::string description = *read_file(folder() / "case.xdmf");
+  for (const char* part :
+       {"CollectionType=\"Temporal\"", "TopologyType=\"Quadrilateral\" NumberOfElements=\"3\"",
+        "<Attribute Name=\"body\" AttributeType=\"Scalar\" Center=\"Cell\">",
+        "<Attribute Name=\"burnt_share\" AttributeType=\"Scalar\" Center=\"Cell\">"})
+    EXPECT_NE(description.find(part), std::string::npos) << part;
+  EXPECT_EQ(description.find("Center=\"Node\""), std::string::npos);
+  const hid_t file = H5Fopen(path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t set = H5Dopen2(file, "/snapshots/0001/corners", H5P_DEFAULT);
+  std::vector<double> corners(24);
+  EXPECT_GE(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, corners.data()), 0);
+  H5Dclose(set);
+  H5Fclose(file);
+  // Of the second particle, at (0.2, 0.02) with half lengths of 0.025 and 0.0025, against the clock's hands.
+  const std::vector<double> expected{0.175, 0.0175, 0.225, 0.0175, 0.225, 0.0225, 0.175, 0.0225};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_DOUBLE_EQ(corners[8 + i], expected[i]) << i;
+}
+
+TEST_F(CaseFile, ComesWithItsSceneWhereTheInputIsOne) {
+  const scene::Scene scene =
+      scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
+  ASSERT_FALSE(write_case_file(path(), scene, sample_case(), sample_manifest(scene::to_toml(scene))));
+  const Result<CaseWithScene> read = read_case_with_scene(path());
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(scene::to_toml(read->scene), scene::to_toml(scene));
+  expect_same(sample_case(), read->stored.result);
+}
+
+TEST_F(CaseFile, WithoutASceneForAnInputItIsAnErrorToAskForOne) {
+  write_sample();
+  const Result<CaseWithScene> read = read_case_with_scene(path());
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().kind, Error::Kind::corrupt);
+  EXPECT_NE(read.error().message.find("no scene to this program"), std::string::npos) << read.error().message;
 }
 
 TEST_F(CaseFile, WithoutSnapshotsThereIsNoDescription) {

@@ -70,6 +70,9 @@ inline void expect_same(const run::Snapshot& a, const run::Snapshot& b) {
   EXPECT_EQ(bits(a.temperature), bits(b.temperature));
   EXPECT_EQ(bits(a.crack_radius), bits(b.crack_radius));
   EXPECT_EQ(bits(a.plastic_strain), bits(b.plastic_strain));
+  EXPECT_EQ(bits(a.half_length_x), bits(b.half_length_x));
+  EXPECT_EQ(bits(a.half_length_r), bits(b.half_length_r));
+  EXPECT_EQ(bits(a.burnt_share), bits(b.burnt_share));
 }
 
 inline void expect_same(const run::InterfaceResult& a, const run::InterfaceResult& b) {

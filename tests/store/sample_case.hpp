@@ -44,6 +44,15 @@ inline run::Snapshot sample_snapshot(double time) {
   return snapshot;  // no crack radius
 }
 
+/// The same of a program that knows the cells, while something burns.
+inline run::Snapshot sample_snapshot_of_cells(double time) {
+  run::Snapshot snapshot = sample_snapshot(time);
+  snapshot.half_length_x = {0.05, 0.025, 0.125};
+  snapshot.half_length_r = {0.005, 0.0025, 0.0125};
+  snapshot.burnt_share = {0, 0, 0.75};
+  return snapshot;
+}
+
 inline run::MechanicsResult sample_mechanics() {
   run::MechanicsResult mechanics;
   mechanics.status = run::RunStatus::energy_drift;

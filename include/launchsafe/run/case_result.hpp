@@ -56,13 +56,20 @@ struct MonitorSample {
   double momentum = 0;  ///< kg m/s, axial, relative to the frame, of steel with its own inertial factor
 };
 
-/// Particle fields at one instant, in particle order.
+/// Particle fields at one instant: body after body, in each row after row from the axis outward, in each row
+/// from the nose to the base (scene::particles_of counts both).
 struct Snapshot {
   double time = 0;
   std::vector<double> x, r, velocity_x, velocity_r, density, pressure, von_mises, temperature, crack_radius,
       plastic_strain;
-  std::vector<double> deviator_rr, deviator_xx, deviator_rx;  ///< stress deviator, Pa; tt = -(rr + xx)
-  std::vector<int> body;                                      ///< index into Scene::bodies
+  /// Stress deviator, Pa; tt = -(rr + xx). Stresses, positive in tension, are sigma_ii = deviator_ii -
+  /// pressure and sigma_rx = deviator_rx.
+  std::vector<double> deviator_rr, deviator_xx, deviator_rx;
+  /// m, of the particle's cell at present: its half lengths at rest, stretched as the distances between the
+  /// particle's neighbours are; empty in files that are older than this.
+  std::vector<double> half_length_x, half_length_r;
+  std::vector<double> burnt_share;  ///< of the particle's mass; empty where nothing burns
+  std::vector<int> body;            ///< index into Scene::bodies
 };
 
 /// On how many particle-steps limiters acted; a verdict that depended on one says so.

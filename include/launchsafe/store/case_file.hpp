@@ -16,10 +16,10 @@
 namespace launchsafe::store {
 
 /// Writes a case file at `path` and, when there are snapshots, `path` with the extension .xdmf beside it, by
-/// which ParaView opens the particles as a time series. Never overwrites a different result: a file with
-/// another input hash at `path` is a conflict, and so is an .xdmf that this program did not write there.
-/// Errors: failed (a result whose arrays do not fit together), conflict, corrupt (something at `path` that is
-/// no case file), write_failed.
+/// which ParaView opens the particles, each as a cell, as a time series. Never overwrites a different result:
+/// a file with another input hash at `path` is a conflict, and so is an .xdmf that this program did not write
+/// there. Errors: failed (a result whose arrays do not fit together), conflict, corrupt (something at `path`
+/// that is no case file), write_failed.
 MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene& scene,
                            const run::CaseResult& result, const Manifest& manifest);
 
@@ -44,6 +44,17 @@ Result<Manifest> manifest_of(std::string_view bytes);
 
 /// All that `write_case_file` was given but the scene, bit by bit. Errors: missing, unreadable, corrupt.
 Result<StoredCase> read_case_file(const std::filesystem::path& path);
+
+/// A stored case and what was simulated.
+struct CaseWithScene {
+  StoredCase stored;
+  /// Of a study's case without all that cannot influence its mechanical run.
+  scene::Scene scene;
+};
+
+/// The same with the scene, from the input in the manifest. Errors: those of `read_case_file`; corrupt also
+/// where the input is no scene to this program.
+Result<CaseWithScene> read_case_with_scene(const std::filesystem::path& path);
 
 /// The manifest alone; the whole file is checked all the same. Errors: missing, unreadable, corrupt.
 Result<Manifest> read_manifest(const std::filesystem::path& path);
