@@ -15,9 +15,10 @@ Examples:
   launchsafe emit slurm sweep.toml -o results --shards 20
   launchsafe verify
   launchsafe explain studies/scene_155mm.toml
+  launchsafe plot results/scene_155mm.h5
 
-Results go to stdout, progress and messages to stderr. Nothing is written but under the folder of --output, and
-the picture of explain --grid.
+Results go to stdout, progress and messages to stderr. Nothing is written but under the folder of --output, the
+picture of explain --grid, and the pictures of plot.
 Exit codes: 0 done, 2 bad usage or input, 3 some cases or checks failed, 4 a verdict is indeterminate,
 70 the machine or the program failed (memory, disk, internal error), 75 interrupted.)";
 
@@ -77,5 +78,25 @@ Examples:
   launchsafe explain --keys                              every key of a scene file
 
 Nothing is overwritten: a FILE.svg that holds something else is refused.)";
+
+inline constexpr const char* plot_footer = R"(
+Examples:
+  launchsafe plot results/scene_155mm.h5                 all pictures, to results/scene_155mm_pictures
+  launchsafe plot results/scene_155mm.h5 -o pictures --what pressure,histories
+  launchsafe plot results/scene_155mm.h5 --what fields --times "10, 18 ms"
+
+Pictures, each an SVG file drawn by gnuplot:
+  pressure     pressure.svg: chamber and bottom pressure
+  fields       field_temperature_10ms.svg, field_pressure_, field_von_mises_, field_crack_radius_ and, where
+               something burns, field_burnt_share_: cells of the charge and the shell at each snapshot, to
+               scale, with the same colours for the same values in all pictures of a field
+  histories    histories_0.04cm.svg: skin temperatures of a gap against time
+  profile      profile_0.04cm.svg: skin temperatures along the bottom; profile_spread.svg: highest less lowest
+  air          air.svg: temperature of the gap's air against its compression, and the states reached
+  energy       energy.svg: terms of the energy balance; energy_dissipated.svg
+  combustion   combustion_mass_0.04cm.svg, combustion_pressure_, combustion_reaction_: after ignition
+
+Snapshots are what output.snapshots of the scene asks for. Nothing is overwritten: a picture whose place holds
+something else is refused, and then none is written.)";
 
 }  // namespace launchsafe::app

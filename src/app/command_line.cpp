@@ -96,6 +96,7 @@ struct Parsed {
   EmitArguments emit;
   VerifyArguments verify;
   ExplainArguments explain;
+  PlotArguments plot;
 };
 
 /// A subcommand whose arguments become the request.
@@ -274,6 +275,25 @@ void add_explain(CLI::App& app, Parsed& parsed) {
   add_output_options(command, parsed);
 }
 
+void add_plot(CLI::App& app, Parsed& parsed) {
+  CLI::App& command =
+      add_command(app, parsed, parsed.plot, "plot",
+                  "Draw a case: histories, profiles, and fields over the section", plot_footer);
+  command.add_option("case", parsed.plot.file, "Case file")->required()->type_name("CASE.h5");
+  add_folder(command, parsed.plot.output,
+             "Folder for the pictures; CASE_pictures beside the file unless given");
+  command
+      .add_option("--what", parsed.plot.what,
+                  "pressure, fields, histories, profile, air, energy, combustion; all that the case has data "
+                  "for unless given")
+      ->type_name("LIST");
+  command
+      .add_option("--times", parsed.plot.times,
+                  "Times of fields, which must be snapshots, and of profiles, such as \"8, 10 ms\"")
+      ->type_name("LIST");
+  add_output_options(command, parsed);
+}
+
 std::string text_of_success(const CLI::App& app, const CLI::Success& success) {
   std::ostringstream text;
   app.exit(success, text, text);
@@ -326,6 +346,7 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
   add_emit(app, parsed);
   add_verify(app, parsed);
   add_explain(app, parsed);
+  add_plot(app, parsed);
 
   CommandLine& line = parsed.line;
   try {

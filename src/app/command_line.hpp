@@ -19,7 +19,7 @@ struct UsageError {
 };
 
 using Request = std::variant<Information, UsageError, RunArguments, StudyArguments, MergeArguments,
-                             EmitArguments, VerifyArguments, ExplainArguments>;
+                             EmitArguments, VerifyArguments, ExplainArguments, PlotArguments>;
 
 struct CommandLine {
   Request request;

@@ -71,4 +71,12 @@ struct ExplainArguments {
 };
 ExitCode perform(const ExplainArguments& arguments, Console& console);
 
+struct PlotArguments {
+  std::filesystem::path file;                   ///< of a case
+  std::optional<std::filesystem::path> output;  ///< folder; none: CASE_pictures beside the file
+  std::optional<std::string> what;              ///< words of kinds of pictures; none: all with data
+  std::optional<std::string> times;             ///< with units, of fields and profiles
+};
+ExitCode perform(const PlotArguments& arguments, Console& console);
+
 }  // namespace launchsafe::app

@@ -37,4 +37,21 @@ std::string data_block(const std::string& name, const std::string& lines) {
   return fmt::format("${} << END_OF_DATA\n{}END_OF_DATA\n", name, lines);
 }
 
+std::string palette_command() {
+  return "set palette defined (0 '#485c9e', 1 '#317ea1', 2 '#2aa094', 3 '#5cc06e', 4 '#a8db44', 5 "
+         "'#f6e63c')\n";
+}
+
+store::Result<std::string> drawn(const std::string& program, const std::string& commands,
+                                 const std::string& title, const DrawingLimits& limits) {
+  // --default-settings: the user's own start-up file must not change a report.
+  auto run = store::run_program(program, {"--default-settings", "-"}, commands, limits);
+  if (!run) return run.error();
+  if (!run->succeeded || run->output.find("</svg>") == std::string::npos) {
+    return store::Error{store::Error::Kind::failed,
+                        fmt::format("{} could not draw '{}': {}", program, title, run->errors)};
+  }
+  return run->output;
+}
+
 }  // namespace launchsafe::report

@@ -21,6 +21,14 @@ std::string coordinate(double value, Scale scale);
 /// Lines of data under the name "$name".
 std::string data_block(const std::string& name, const std::string& lines);
 
+/// The colours of values: viridis without its darkest part, so that black lines show everywhere. Its
+/// lightness rises evenly, so that it also reads in grey.
+std::string palette_command();
+
+/// The picture that gnuplot makes of commands. Errors: missing, failed; `title` is named in both.
+store::Result<std::string> drawn(const std::string& program, const std::string& commands,
+                                 const std::string& title, const DrawingLimits& limits);
+
 /// What draws a map: data and settings, and the parts of the plot command.
 struct MapCommands {
   std::string settings;

@@ -130,6 +130,14 @@ std::string legend_command(const Plot& plot) {
                      two_columns ? "bottom center horizontal height 1.5" : "right top vertical");
 }
 
+std::string subtitle_command(const Plot& plot) {
+  if (plot.subtitle.empty()) return {};
+  return fmt::format(
+      "set tmargin 4.6\nset label 1 {} at graph 0.5, graph 1 center offset 0, 0.9 font ',12' textcolor rgb "
+      "'#444444'\n",
+      quoted(plot.subtitle));
+}
+
 std::string page_commands(const Plot& plot) {
   return fmt::format(
              "set encoding utf8\n"
@@ -139,9 +147,9 @@ std::string page_commands(const Plot& plot) {
              "set grid linewidth 0.7 dashtype 1 linecolor rgb '#dddddd'\n"
              "set autoscale fix\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
              "set x2range [0:1]\nset y2range [0:1]\n"
-             "set title {} font ',16'\n",
-             plot.width, plot.height, quoted(plot.title)) +
-         legend_command(plot);
+             "set title {} font ',16'{}\n",
+             plot.width, plot.height, quoted(plot.title), plot.subtitle.empty() ? "" : " offset 0, 0.4") +
+         subtitle_command(plot) + legend_command(plot);
 }
 
 /// Label, limits, scale and tics of the axis "x" or "y".
@@ -175,19 +183,6 @@ std::string unfit(const Plot& plot) {
   const bool has_points = std::any_of(plot.series.begin(), plot.series.end(),
                                       [](const Series& series) { return !series.x.empty(); });
   return has_points ? "" : "it has no points";
-}
-
-/// Runs gnuplot on commands. Errors: missing, failed; `title` is named in both.
-store::Result<std::string> drawn(const std::string& program, const std::string& commands,
-                                 const std::string& title, const DrawingLimits& limits) {
-  // --default-settings: the user's own start-up file must not change a report.
-  auto run = store::run_program(program, {"--default-settings", "-"}, commands, limits);
-  if (!run) return run.error();
-  if (!run->succeeded || run->output.find("</svg>") == std::string::npos) {
-    return store::Error{store::Error::Kind::failed,
-                        fmt::format("{} could not draw '{}': {}", program, title, run->errors)};
-  }
-  return run->output;
 }
 
 }  // namespace

@@ -12,10 +12,6 @@
 namespace launchsafe::report {
 namespace {
 
-/// Viridis without its darkest part, so that black lines show everywhere; its lightness rises evenly.
-constexpr const char* colours =
-    "0 '#485c9e', 1 '#317ea1', 2 '#2aa094', 3 '#5cc06e', 4 '#a8db44', 5 '#f6e63c'";
-
 /// Coordinates in which an axis is linear, and back.
 double to_linear(double value, Scale scale) { return scale == Scale::linear ? value : std::log10(value); }
 double from_linear(double value, Scale scale) {
@@ -89,9 +85,8 @@ void add_values(const Map& map, const Cells& cells, MapCommands& commands) {
   for (std::size_t index = 0; index < map.values.size(); ++index) {
     if (std::isfinite(map.values[index])) lines += cells.line(index) + " " + exact(map.values[index]) + "\n";
   }
-  commands.settings += data_block("cells", lines) +
-                       fmt::format("set palette defined ({})\nset cblabel {}\nset rmargin at screen 0.82\n",
-                                   colours, quoted(map.label));
+  commands.settings += data_block("cells", lines) + palette_command() +
+                       fmt::format("set cblabel {}\nset rmargin at screen 0.82\n", quoted(map.label));
   if (map.minimum && map.maximum && *map.minimum < *map.maximum)
     commands.settings += fmt::format("set cbrange [{}:{}]\n", exact(*map.minimum), exact(*map.maximum));
   commands.plots.emplace_back(

@@ -93,6 +93,7 @@ struct Plot {
   std::vector<Line> vertical_lines = {}, horizontal_lines = {};
   std::optional<Map> map = {};    ///< below the series; the limits of both axes are those of its cells
   int width = 800, height = 560;  ///< pixels
+  std::string subtitle = {};      ///< small, below the title
 };
 
 /// The commands and data that `to_svg` gives to gnuplot.

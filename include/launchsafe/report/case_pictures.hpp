@@ -1,0 +1,59 @@
+// The pictures of one case: histories, profiles along the charge's bottom, and fields over the section.
+#pragma once
+
+#include "launchsafe/report/cell_plot.hpp"
+#include "launchsafe/report/plot.hpp"
+#include "launchsafe/run/case_result.hpp"
+#include "launchsafe/scene/scene.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace launchsafe::report {
+
+/// A case and what of it is to be drawn.
+struct DrawnCase {
+  const scene::Scene& scene;
+  const run::CaseResult& result;
+  /// s, of fields and profiles. Without any: every snapshot, and profiles at six times that divide the run
+  /// evenly.
+  std::vector<double> times = {};
+};
+
+/// A picture and the name of its file, which follows from what it shows.
+struct CasePicture {
+  std::string what;  ///< the word of its kind
+  std::string file;  ///< "field_temperature_10ms.svg"
+  std::variant<Plot, CellPlot> plot;
+  std::optional<double> time = {};  ///< s, of a field
+  std::optional<double> gap = {};   ///< m, of what belongs to one gap
+};
+
+/// A kind of pictures.
+struct PictureKind {
+  const char* word;   ///< by which it is asked for
+  const char* shows;  ///< for people
+  /// What a case has not that this kind needs; empty where it can be drawn.
+  std::string (*lacks)(const DrawnCase&);
+  /// Only where nothing is lacking.
+  std::vector<CasePicture> (*pictures)(const DrawnCase&);
+};
+
+/// All of them, in the order in which they are drawn.
+const std::vector<PictureKind>& picture_kinds();
+
+/// A snapshot of a case; several of one instant count once.
+struct ShownSnapshot {
+  std::size_t index = 0;  ///< in MechanicsResult::snapshots
+  double asked_for = 0;   ///< s, the scene's time; that of the snapshot where the run ended before
+};
+std::vector<ShownSnapshot> shown_snapshots(const DrawnCase& drawn);
+/// Whether it is the one of a time (s) that a user names.
+bool is_of_time(const ShownSnapshot& snapshot, double time);
+
+store::Result<std::string> to_svg(const CasePicture& picture, const DrawingLimits& limits = {});
+
+}  // namespace launchsafe::report

@@ -1,0 +1,235 @@
+// launchsafe plot: pictures of one case.
+#include "commands.hpp"
+#include "launchsafe/report/case_pictures.hpp"
+#include "launchsafe/scene/quantity.hpp"
+#include "launchsafe/store/case_file.hpp"
+#include "output_folder.hpp"
+#include "progress.hpp"
+#include "signals.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace launchsafe::app {
+namespace {
+
+using report::CasePicture;
+using report::PictureKind;
+
+scene::InputError option_fault(std::string key, std::string found, std::string allowed,
+                               std::string suggestion = {}) {
+  scene::InputError fault;
+  fault.key = std::move(key);
+  fault.found = std::move(found);
+  fault.allowed = std::move(allowed);
+  fault.suggestion = std::move(suggestion);
+  return fault;
+}
+
+/// A command's own value, or what is wrong with the option it came from.
+template <class Value>
+using Wanted = scene::Expected<Value>;
+
+/// The words of a list between commas or blanks.
+std::vector<std::string> words_of(const std::string& list) {
+  std::vector<std::string> words;
+  std::string word;
+  for (const char letter : list + ",") {
+    if (letter != ',' && letter != ' ') {
+      word += letter;
+    } else if (!word.empty()) {
+      words.push_back(std::exchange(word, {}));
+    }
+  }
+  return words;
+}
+
+std::vector<std::string> kind_words() {
+  std::vector<std::string> words;
+  for (const PictureKind& kind : report::picture_kinds()) words.emplace_back(kind.word);
+  return words;
+}
+
+/// What a command draws, and why it leaves out the rest.
+struct Selection {
+  std::vector<const PictureKind*> kinds;
+  std::vector<std::pair<const PictureKind*, std::string>> left_out;
+
+  bool has(std::string_view word) const {
+    return std::any_of(kinds.begin(), kinds.end(),
+                       [&](const PictureKind* kind) { return kind->word == word; });
+  }
+};
+
+/// All that the case has data for.
+Selection all_kinds(const report::DrawnCase& drawn) {
+  Selection selection;
+  for (const PictureKind& kind : report::picture_kinds()) {
+    if (std::string why = kind.lacks(drawn); why.empty()) {
+      selection.kinds.push_back(&kind);
+    } else {
+      selection.left_out.emplace_back(&kind, std::move(why));
+    }
+  }
+  return selection;
+}
+
+/// The kinds that a user named; each must be one, and the case must have what it needs.
+Wanted<Selection> named_kinds(const report::DrawnCase& drawn, const std::string& list) {
+  const std::vector<std::string> words = words_of(list), known = kind_words();
+  if (words.empty()) return option_fault("--what", fmt::format("\"{}\"", list), scene::quoted_list(known));
+  for (const std::string& word : words) {
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      return option_fault("--what", fmt::format("\"{}\"", word), scene::quoted_list(known),
+                          scene::nearest_of(word, known));
+  }
+  Selection selection;
+  for (const PictureKind& kind : report::picture_kinds()) {
+    if (std::find(words.begin(), words.end(), kind.word) == words.end()) continue;
+    if (const std::string why = kind.lacks(drawn); !why.empty())
+      return option_fault("--what",
+                          fmt::format("\"{}\", which this case has no data for: {}", kind.word, why),
+                          "what the case has data for; all of that without --what");
+    selection.kinds.push_back(&kind);
+  }
+  return selection;
+}
+
+std::optional<scene::InputError> fault_in_time(const report::DrawnCase& drawn, const Selection& selection,
+                                               double time) {
+  const std::string found = scene::time_text(time);
+  if (selection.has("fields")) {
+    const auto snapshots = report::shown_snapshots(drawn);
+    const bool known = std::any_of(snapshots.begin(), snapshots.end(),
+                                   [&](const auto& each) { return report::is_of_time(each, time); });
+    if (known) return std::nullopt;
+    std::vector<std::string> times;
+    for (const auto& each : snapshots) times.push_back(scene::time_text(each.asked_for));
+    return option_fault("--times", found + ", of which the case has no snapshot",
+                        fmt::format("{}; any time with --what profile", fmt::join(times, ", ")));
+  }
+  const double end = drawn.result.mechanics.end_time;
+  if (time >= 0.0 && time <= end * (1.0 + 1e-9)) return std::nullopt;
+  return option_fault("--times", found, "times until the end of the run at " + scene::time_text(end));
+}
+
+/// The times that a user named, each of which must be one that can be drawn.
+Wanted<std::vector<double>> wanted_times(const report::DrawnCase& drawn, const Selection& selection,
+                                         const std::string& text) {
+  const auto times = scene::parse_list(text, scene::Dimension::time);
+  if (!times)
+    return option_fault("--times", times.error().found, times.error().allowed, times.error().suggestion);
+  if (!selection.has("fields") && !selection.has("profile"))
+    return option_fault("--times", text, "times where fields or profile are drawn");
+  for (const double time : *times)
+    if (auto fault = fault_in_time(drawn, selection, time)) return *fault;
+  return *times;
+}
+
+/// A picture as it will be written.
+struct DrawnPicture {
+  CasePicture picture;
+  std::string svg;
+};
+
+store::Result<std::vector<DrawnPicture>> draw(const report::DrawnCase& drawn, const Selection& selection,
+                                              const Console& console) {
+  Progress progress(progress_style(console.quiet()));
+  std::vector<DrawnPicture> pictures;
+  for (const PictureKind* kind : selection.kinds) {
+    for (CasePicture& picture : kind->pictures(drawn)) {
+      progress.show("drawing " + picture.file);
+      auto svg = report::to_svg(picture, {.stop = &stop_requested()});
+      if (!svg) return svg.error();
+      pictures.push_back({std::move(picture), std::move(*svg)});
+    }
+  }
+  return pictures;
+}
+
+/// Beside the case, unless the user names a folder.
+std::filesystem::path folder_of(const PlotArguments& arguments) {
+  if (arguments.output) return *arguments.output;
+  return arguments.file.parent_path() / (arguments.file.stem().string() + "_pictures");
+}
+
+/// Writes all pictures, or none where one may not be written.
+ExitCode write_pictures(const std::vector<DrawnPicture>& pictures, const std::filesystem::path& folder,
+                        Console& console) {
+  for (const DrawnPicture& each : pictures)
+    if (const auto obstacle = obstacle_to_file(folder / each.picture.file, each.svg))
+      return console.refuse(*obstacle);
+  if (const auto obstacle = prepare_output_folder(folder)) return console.refuse(*obstacle);
+  for (const DrawnPicture& each : pictures)
+    if (const auto error = write_where_absent(folder / each.picture.file, each.svg))
+      return console.end_with(*error);
+  return ExitCode::done;
+}
+
+std::string written_text(const std::vector<DrawnPicture>& pictures, const std::filesystem::path& folder) {
+  std::string text;
+  for (const DrawnPicture& each : pictures) text += (folder / each.picture.file).string() + "\n";
+  return text;
+}
+
+nlohmann::ordered_json written_json(const std::vector<DrawnPicture>& pictures,
+                                    const std::filesystem::path& folder, const Selection& selection) {
+  nlohmann::ordered_json object{{"folder", folder.string()},
+                                {"pictures", nlohmann::ordered_json::array()},
+                                {"left_out", nlohmann::ordered_json::array()}};
+  for (const DrawnPicture& each : pictures) {
+    const CasePicture& picture = each.picture;
+    nlohmann::ordered_json entry{{"what", picture.what}, {"file", (folder / picture.file).string()}};
+    if (picture.time) entry["time_ms"] = 1e3 * *picture.time;
+    if (picture.gap) entry["gap_cm"] = scene::in_unit(*picture.gap, scene::Dimension::length, "cm");
+    object["pictures"].push_back(std::move(entry));
+  }
+  for (const auto& [kind, why] : selection.left_out)
+    object["left_out"].push_back({{"what", kind->word}, {"because", why}});
+  return object;
+}
+
+/// What kept a picture from being drawn.
+ExitCode end_of_drawing(const store::Error& error, Console& console) {
+  if (stop_requested()) {
+    console.error("interrupted while drawing; nothing was written");
+    return ExitCode::interrupted;
+  }
+  if (error.kind != store::Error::Kind::missing) return console.fail(error.message);
+  return console.refuse(
+      "plot: found no program gnuplot (Debian: gnuplot-nox), which draws the pictures; allowed: with it "
+      "installed");
+}
+
+}  // namespace
+
+ExitCode perform(const PlotArguments& arguments, Console& console) {
+  const auto file = store::read_case_with_scene(arguments.file);
+  if (!file)
+    return console.refuse(file.error().message +
+                          "; allowed: a case file, such as launchsafe run SCENE.toml -o DIR writes");
+  report::DrawnCase drawn{file->scene, file->stored.result};
+  const auto selection = arguments.what ? named_kinds(drawn, *arguments.what) : all_kinds(drawn);
+  if (!selection) return console.refuse(selection.error());
+  if (arguments.times) {
+    auto times = wanted_times(drawn, *selection, *arguments.times);
+    if (!times) return console.refuse(times.error());
+    drawn.times = std::move(*times);
+  }
+  const auto pictures = draw(drawn, *selection, console);
+  if (!pictures) return end_of_drawing(pictures.error(), console);
+  const std::filesystem::path folder = folder_of(arguments);
+  if (const ExitCode code = write_pictures(*pictures, folder, console); code != ExitCode::done) return code;
+  for (const auto& [kind, why] : selection->left_out)
+    console.remark(fmt::format("no picture of {}: {}", kind->word, why));
+  console.print_text(written_text(*pictures, folder));
+  console.print_json(written_json(*pictures, folder, *selection));
+  return ExitCode::done;
+}
+
+}  // namespace launchsafe::app

@@ -1,0 +1,179 @@
+#include "launchsafe/report/case_pictures.hpp"
+
+#include "case_pictures_parts.hpp"
+#include "launchsafe/report/number.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::report {
+namespace detail {
+namespace {
+
+struct EnergyTerm {
+  const char* name;
+  double run::EnergyBalance::*value;
+};
+
+/// Their magnitudes, in J against time.
+std::vector<Series> energy_series(const run::MechanicsResult& mechanics,
+                                  const std::vector<EnergyTerm>& terms) {
+  std::vector<Series> all;
+  for (const EnergyTerm& term : terms) {
+    Series series{.label = term.name, .x = {}, .y = {}, .style = Style::line};
+    for (const run::MonitorSample& sample : mechanics.monitor) {
+      series.x.push_back(1e3 * sample.time);
+      series.y.push_back(std::abs(sample.energy.*term.value));
+    }
+    all.push_back(std::move(series));
+  }
+  return all;
+}
+
+Plot energy_plot(const DrawnCase& drawn, const char* what, const std::vector<EnergyTerm>& terms) {
+  Plot plot = titled_plot(drawn, what);
+  plot.x = time_axis();
+  const bool whole = drawn.scene.symmetry == scene::Symmetry::axisymmetric;
+  plot.y.label = whole ? "energy, magnitude [J]" : "energy per metre of the half model, magnitude [J]";
+  plot.y.scale = Scale::logarithmic;
+  plot.series = energy_series(drawn.result.mechanics, terms);
+  // What is smaller is round-off beside the largest term.
+  constexpr double smallest = 1e-8;
+  const auto highest = [](const Series& series) {
+    return series.y.empty() ? 0.0 : *std::max_element(series.y.begin(), series.y.end());
+  };
+  double largest = 0.0;
+  for (const Series& series : plot.series) largest = std::max(largest, highest(series));
+  std::erase_if(plot.series, [&](const Series& series) { return !(highest(series) > smallest * largest); });
+  // Every other one is dashed, so that terms which balance each other are both seen.
+  for (std::size_t i = 0; i < plot.series.size(); ++i)
+    plot.series[i].style = i % 2 == 0 ? Style::line : Style::dashed_line;
+  if (largest > 0.0) plot.y.minimum = smallest * largest;
+  return plot;
+}
+
+}  // namespace
+
+std::string shortened(const std::string& text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  std::size_t end = longest;
+  // Not within a character of several bytes.
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
+  return text.substr(0, end) + "...";
+}
+
+Plot titled_plot(const DrawnCase& drawn, std::string title) {
+  Plot plot;
+  plot.title = std::move(title);
+  plot.subtitle = shortened(drawn.scene.title, 100);
+  return plot;
+}
+
+std::vector<double> milliseconds_of(const std::vector<double>& seconds) {
+  std::vector<double> values;
+  values.reserve(seconds.size());
+  for (const double time : seconds) values.push_back(1e3 * time);
+  return values;
+}
+
+PlotAxis time_axis() { return {.label = "time [ms]"}; }
+
+std::string lacks_pressure(const DrawnCase& drawn) {
+  return drawn.result.mechanics.trace.samples() > 1 ? "" : "its trace has no samples";
+}
+
+std::vector<CasePicture> pressure_pictures(const DrawnCase& drawn) {
+  const trace::BottomTrace& trace = drawn.result.mechanics.trace;
+  const auto megapascals = [](std::vector<double> values) {
+    for (double& value : values) value *= 1e-6;
+    return values;
+  };
+  const std::vector<double> time = milliseconds_of(trace.time);
+  Plot plot = titled_plot(drawn, "Pressures");
+  plot.x = time_axis();
+  plot.y.label = "pressure [MPa]";
+  plot.series = {{.label = "chamber, on the base",
+                  .x = time,
+                  .y = megapascals(trace.chamber_pressure),
+                  .style = Style::line},
+                 {.label = "charge's bottom, area mean",
+                  .x = time,
+                  .y = megapascals(trace.bottom_pressure),
+                  .style = Style::line}};
+  return {{"pressure", "pressure.svg", std::move(plot)}};
+}
+
+std::string lacks_energy(const DrawnCase& drawn) {
+  const auto& monitor = drawn.result.mechanics.monitor;
+  const bool moves = std::any_of(monitor.begin(), monitor.end(), [](const run::MonitorSample& sample) {
+    return sample.energy.external != 0.0 || sample.energy.kinetic != 0.0;
+  });
+  return moves ? "" : "its monitor recorded no energies";
+}
+
+std::vector<CasePicture> energy_pictures(const DrawnCase& drawn) {
+  using run::EnergyBalance;
+  std::vector<CasePicture> pictures;
+  pictures.push_back({"energy", "energy.svg",
+                      energy_plot(drawn, "Terms of the energy balance",
+                                  {{"work of the chamber pressure", &EnergyBalance::external},
+                                   {"internal", &EnergyBalance::internal},
+                                   {"work of the frame's body force", &EnergyBalance::body_force},
+                                   {"kinetic, relative to the frame", &EnergyBalance::kinetic},
+                                   {"taken out by damping", &EnergyBalance::damping},
+                                   {"taken out by contact", &EnergyBalance::contact}})});
+  Plot losses = energy_plot(drawn, "Dissipated and stored parts of the internal energy",
+                            {{"plastic, in steel", &EnergyBalance::plastic},
+                             {"viscous, in the charge", &EnergyBalance::viscous},
+                             {"crack growth, in the charge", &EnergyBalance::crack},
+                             {"stored against hourglassing", &EnergyBalance::hourglass}});
+  if (!losses.series.empty()) pictures.push_back({"energy", "energy_dissipated.svg", std::move(losses)});
+  return pictures;
+}
+
+}  // namespace detail
+
+const std::vector<PictureKind>& picture_kinds() {
+  static const std::vector<PictureKind> kinds{
+      {"pressure", "chamber and bottom pressure against time", detail::lacks_pressure,
+       detail::pressure_pictures},
+      {"fields", "temperature, pressure, von Mises stress, crack radius and burnt share at every snapshot",
+       detail::lacks_fields, detail::field_pictures},
+      {"histories", "skin temperature of the stations against time, for each gap", detail::lacks_skins,
+       detail::history_pictures},
+      {"profile", "skin temperature along the bottom at several times, and its spread over time",
+       detail::lacks_skins, detail::profile_pictures},
+      {"air", "air temperature against compression, with the states reached", detail::lacks_air,
+       detail::air_pictures},
+      {"energy", "terms of the energy balance against time", detail::lacks_energy, detail::energy_pictures},
+      {"combustion", "burnt mass, pressure and reaction degree after ignition", detail::lacks_combustion,
+       detail::combustion_pictures},
+  };
+  return kinds;
+}
+
+std::vector<ShownSnapshot> shown_snapshots(const DrawnCase& drawn) {
+  const auto& snapshots = drawn.result.mechanics.snapshots;
+  std::vector<double> asked = drawn.scene.output.snapshot_times;
+  std::sort(asked.begin(), asked.end());
+  std::vector<ShownSnapshot> shown;
+  for (std::size_t i = 0; i < snapshots.size(); ++i) {
+    const double time = snapshots[i].time;
+    if (i > 0 && snapshots[i - 1].time == time) continue;
+    const bool reached = asked.size() == snapshots.size() && time >= asked[i];
+    shown.push_back({i, reached ? asked[i] : time});
+  }
+  return shown;
+}
+
+bool is_of_time(const ShownSnapshot& snapshot, double time) {
+  return std::abs(snapshot.asked_for - time) <= 1e-6 * std::abs(time);
+}
+
+store::Result<std::string> to_svg(const CasePicture& picture, const DrawingLimits& limits) {
+  return std::visit([&](const auto& plot) { return to_svg(plot, "gnuplot", limits); }, picture.plot);
+}
+
+}  // namespace launchsafe::report

@@ -1,0 +1,352 @@
+// Skin temperatures along the charge's bottom, the gap's air, and what burns.
+#include "case_pictures_parts.hpp"
+#include "launchsafe/report/number.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::report::detail {
+namespace {
+
+const trace::BottomTrace& trace_of(const DrawnCase& drawn) { return drawn.result.mechanics.trace; }
+
+bool has_skin(const DrawnCase& drawn, const run::GapResult& gap) {
+  return gap.skin.time.size() > 1 && !rings_of(trace_of(drawn)).empty() &&
+         gap.skin.temperature.size() == gap.skin.time.size() * trace_of(drawn).stations.size();
+}
+
+std::vector<const run::GapResult*> gaps_with_skin(const DrawnCase& drawn) {
+  std::vector<const run::GapResult*> gaps;
+  for (const run::GapResult& gap : drawn.result.gaps)
+    if (has_skin(drawn, gap)) gaps.push_back(&gap);
+  return gaps;
+}
+
+/// Samples before the ignition, all without one.
+std::size_t samples_before_ignition(const surface::SkinHistory& skin) {
+  if (!skin.ignition) return skin.time.size();
+  return static_cast<std::size_t>(std::lower_bound(skin.time.begin(), skin.time.end(), skin.ignition->time) -
+                                  skin.time.begin());
+}
+
+std::vector<Line> ignition_line(const DrawnCase& drawn, const run::GapResult& gap) {
+  if (!gap.skin.ignition) return {};
+  const surface::Ignition& ignition = *gap.skin.ignition;
+  return {{1e3 * ignition.time,
+           fmt::format("ignition at {}, {} ms", trace_of(drawn).stations[ignition.station].name,
+                       fixed(1e3 * ignition.time, 2))}};
+}
+
+Plot gap_plot(const DrawnCase& drawn, const run::GapResult& gap, const char* what) {
+  return titled_plot(drawn, fmt::format("{}, gap {}", what, gap_text(gap.gap)));
+}
+
+// --- profiles ---
+
+std::vector<double> profile_times(const DrawnCase& drawn) {
+  if (!drawn.times.empty()) return drawn.times;
+  constexpr int parts = 6;
+  std::vector<double> times;
+  for (int i = 1; i <= parts; ++i) times.push_back(trace_of(drawn).time.back() * i / parts);
+  return times;
+}
+
+std::vector<double> temperatures_of(const surface::SkinHistory& skin, std::size_t station,
+                                    std::size_t stations) {
+  std::vector<double> values;
+  for (std::size_t sample = 0; sample < skin.time.size(); ++sample)
+    values.push_back(skin.temperature[sample * stations + station]);
+  return values;
+}
+
+Plot profile_plot(const DrawnCase& drawn, const run::GapResult& gap) {
+  const trace::BottomTrace& trace = trace_of(drawn);
+  Plot plot = gap_plot(drawn, gap, "Skin temperature along the bottom");
+  plot.x = {.label = "distance from the axis, r [mm]", .minimum = 0.0};
+  plot.y.label = "skin temperature [K]";
+  for (const double time : profile_times(drawn))
+    plot.series.push_back({.label = significant(1e3 * time, 4) + " ms", .x = {}, .y = {}});
+  const std::vector<double> times = profile_times(drawn);
+  for (const std::size_t ring : rings_of(trace)) {
+    const std::vector<double> history = temperatures_of(gap.skin, ring, trace.stations.size());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      plot.series[i].x.push_back(1e3 * trace.stations[ring].r);
+      plot.series[i].y.push_back(trace::interpolate(gap.skin.time, history, times[i]));
+    }
+  }
+  return plot;
+}
+
+/// Highest less lowest temperature of the stations, until ignition.
+Series spread_series(const DrawnCase& drawn, const run::GapResult& gap) {
+  const trace::BottomTrace& trace = trace_of(drawn);
+  const std::size_t samples = samples_before_ignition(gap.skin);
+  Series series{.label = gap_text(gap.gap) + (gap.skin.ignition ? ", until ignition" : ""),
+                .x = {},
+                .y = {},
+                .style = Style::line};
+  for (std::size_t sample = 0; sample < samples; ++sample) {
+    double lowest = HUGE_VAL, highest = -HUGE_VAL;
+    for (const std::size_t ring : rings_of(trace)) {
+      const double temperature = gap.skin.temperature[sample * trace.stations.size() + ring];
+      lowest = std::min(lowest, temperature);
+      highest = std::max(highest, temperature);
+    }
+    series.x.push_back(1e3 * gap.skin.time[sample]);
+    series.y.push_back(highest - lowest);
+  }
+  return series;
+}
+
+Plot spread_plot(const DrawnCase& drawn) {
+  Plot plot = titled_plot(drawn, "Temperature difference along the bottom");
+  plot.x = time_axis();
+  plot.y.label = "highest less lowest skin temperature [K]";
+  for (const run::GapResult* gap : gaps_with_skin(drawn)) plot.series.push_back(spread_series(drawn, *gap));
+  return plot;
+}
+
+// --- air ---
+
+/// The air of a gap at the highest pressure before ignition.
+struct AirState {
+  double compression = 1;  ///< density over that at first
+  double temperature = 0;  ///< K
+  double pressure = 0;     ///< Pa
+};
+
+AirState reached_state(const DrawnCase& drawn, const run::GapResult& gap) {
+  const scene::Surface& surface = drawn.scene.surface;
+  const bool chamber = surface.air_pressure == scene::AirPressure::chamber;
+  const auto& pressure = chamber ? trace_of(drawn).chamber_pressure : trace_of(drawn).bottom_pressure;
+  const auto end = pressure.begin() +
+                   static_cast<std::ptrdiff_t>(std::max<std::size_t>(samples_before_ignition(gap.skin), 1));
+  const auto highest = std::max_element(pressure.begin(), end);
+  const double temperature = gap.skin.air_temperature[static_cast<std::size_t>(highest - pressure.begin())];
+  const double ratio =
+      *highest / surface.air.initial_pressure * surface.air.initial_temperature / temperature;
+  return {std::max(ratio, 1.0), temperature, *highest};
+}
+
+bool has_air(const DrawnCase& drawn, const run::GapResult& gap) {
+  return gap.gap > 0.0 && has_skin(drawn, gap) && gap.skin.air_temperature.size() == gap.skin.time.size() &&
+         trace_of(drawn).bottom_pressure.size() == gap.skin.time.size() &&
+         trace_of(drawn).chamber_pressure.size() == gap.skin.time.size();
+}
+
+/// "gap 0.02 cm", "gaps 0.01 to 0.04 cm" or "every gap".
+std::string gaps_text(const std::vector<std::string>& gaps, bool all) {
+  if (gaps.size() == 1) return fmt::format("gap {} cm", gaps.front());
+  return all ? "every gap" : fmt::format("gaps {} to {} cm", gaps.front(), gaps.back());
+}
+
+/// One mark for all gaps whose air reached the same state.
+std::vector<Series> reached_series(const DrawnCase& drawn) {
+  struct Reached {
+    AirState state;
+    std::vector<std::string> gaps;
+  };
+  std::vector<Reached> all;
+  for (const run::GapResult& gap : drawn.result.gaps) {
+    if (!has_air(drawn, gap)) continue;
+    const AirState state = reached_state(drawn, gap);
+    const auto same = std::find_if(all.begin(), all.end(), [&](const Reached& each) {
+      return std::abs(each.state.temperature - state.temperature) < 0.05 &&
+             std::abs(each.state.pressure - state.pressure) < 1e-3 * state.pressure;
+    });
+    if (same != all.end()) {
+      same->gaps.push_back(significant(100.0 * gap.gap, 6));
+    } else {
+      all.push_back({state, {significant(100.0 * gap.gap, 6)}});
+    }
+  }
+  std::vector<Series> series;
+  for (const Reached& each : all)
+    series.push_back(
+        {.label = fmt::format("{}: {} K at {} MPa", gaps_text(each.gaps, all.size() == 1),
+                              fixed(each.state.temperature, 0), significant(1e-6 * each.state.pressure, 4)),
+         .x = {each.state.compression},
+         .y = {each.state.temperature},
+         .style = Style::points});
+  return series;
+}
+
+Series adiabat(const materials::AirParameters& air, double highest_ratio) {
+  constexpr int points = 200;
+  Series series{.label = fmt::format("adiabat, heat ratio {}", significant(air.heat_ratio, 4)),
+                .x = {},
+                .y = {},
+                .style = Style::line,
+                .colour = 7};
+  for (int i = 0; i <= points; ++i) {
+    const double ratio = 1.0 + (highest_ratio - 1.0) * i / points;
+    series.x.push_back(ratio);
+    series.y.push_back(air.initial_temperature * std::pow(ratio, air.heat_ratio - 1.0));
+  }
+  return series;
+}
+
+// --- combustion ---
+
+Plot combustion_plot(const DrawnCase& drawn, const run::GapResult& gap, const char* what, const char* label) {
+  Plot plot = gap_plot(drawn, gap, what);
+  plot.x = time_axis();
+  plot.y.label = label;
+  plot.vertical_lines = ignition_line(drawn, gap);
+  return plot;
+}
+
+Series scaled_series(const char* label, const run::CombustionHistory& history,
+                     const std::vector<double>& values, double factor) {
+  Series series{.label = label, .x = milliseconds_of(history.time), .y = values, .style = Style::line};
+  for (double& value : series.y) value *= factor;
+  return series;
+}
+
+std::vector<CasePicture> combustion_of(const DrawnCase& drawn, const run::GapResult& gap) {
+  const run::CombustionHistory& history = *gap.combustion;
+  const bool whole = drawn.scene.symmetry == scene::Symmetry::axisymmetric;
+  Plot mass =
+      combustion_plot(drawn, gap, "Burnt mass", whole ? "burnt mass [g]" : "burnt mass per metre [g]");
+  mass.series = {scaled_series("burnt mass", history, history.burnt_mass, 1e3)};
+  Plot pressure = combustion_plot(drawn, gap, "Pressure while it burns", "pressure [MPa]");
+  pressure.series = {scaled_series("mean over the charge's bottom", history, history.pressure, 1e-6)};
+  Plot degree = combustion_plot(drawn, gap, "Reaction of the skin", "reaction degree of the skin [1]");
+  const std::size_t stations = trace_of(drawn).stations.size();
+  const auto value = [&](std::size_t sample, std::size_t station) {
+    return history.reaction_degree[sample * stations + station];
+  };
+  degree.series = station_series(trace_of(drawn), milliseconds_of(history.time), value,
+                                 gap.skin.ignition ? gap.skin.ignition->station : stations);
+  const std::string end = gap_in_name(gap.gap) + ".svg";
+  std::vector<CasePicture> pictures;
+  pictures.push_back({"combustion", "combustion_mass_" + end, std::move(mass), {}, gap.gap});
+  pictures.push_back({"combustion", "combustion_pressure_" + end, std::move(pressure), {}, gap.gap});
+  pictures.push_back({"combustion", "combustion_reaction_" + end, std::move(degree), {}, gap.gap});
+  return pictures;
+}
+
+bool has_combustion(const DrawnCase& drawn, const run::GapResult& gap) {
+  return gap.combustion && gap.combustion->samples() > 1 && !rings_of(trace_of(drawn)).empty() &&
+         gap.combustion->reaction_degree.size() ==
+             gap.combustion->samples() * trace_of(drawn).stations.size();
+}
+
+}  // namespace
+
+std::string gap_text(double gap) { return significant(100.0 * gap, 6) + " cm"; }
+std::string gap_in_name(double gap) { return significant(100.0 * gap, 6) + "cm"; }
+
+std::vector<std::size_t> rings_of(const trace::BottomTrace& trace) {
+  std::vector<std::size_t> rings;
+  for (std::size_t i = 0; i < trace.stations.size(); ++i)
+    if (!trace.stations[i].observation) rings.push_back(i);
+  std::stable_sort(rings.begin(), rings.end(),
+                   [&](std::size_t a, std::size_t b) { return trace.stations[a].r < trace.stations[b].r; });
+  return rings;
+}
+
+std::vector<Series> station_series(const trace::BottomTrace& trace, const std::vector<double>& x,
+                                   const std::function<double(std::size_t, std::size_t)>& value,
+                                   std::size_t marked) {
+  constexpr int grey = 7;
+  const std::vector<std::size_t> rings = rings_of(trace);
+  std::vector<Series> background, named;
+  for (const std::size_t ring : rings) {
+    const trace::Station& station = trace.stations[ring];
+    Series series{.label = {}, .x = x, .y = {}, .style = Style::line, .colour = grey};
+    for (std::size_t sample = 0; sample < x.size(); ++sample) series.y.push_back(value(sample, ring));
+    const bool is_named =
+        ring == rings.front() || ring == rings.back() || ring == rings[rings.size() / 2] || ring == marked;
+    if (!is_named) {
+      background.push_back(std::move(series));
+      continue;
+    }
+    series.label = fmt::format("{}, r {} mm", station.name, significant(1e3 * station.r, 4));
+    series.colour = static_cast<int>(named.size());
+    named.push_back(std::move(series));
+  }
+  if (!background.empty()) background.front().label = "stations between";
+  background.insert(background.end(), named.begin(), named.end());
+  return background;
+}
+
+std::string lacks_skins(const DrawnCase& drawn) {
+  return gaps_with_skin(drawn).empty() ? "it holds no skin temperatures of any gap" : "";
+}
+
+std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
+  std::vector<CasePicture> pictures;
+  const std::size_t stations = trace_of(drawn).stations.size();
+  for (const run::GapResult* gap : gaps_with_skin(drawn)) {
+    const surface::SkinHistory& skin = gap->skin;
+    Plot plot = gap_plot(drawn, *gap, "Skin temperatures");
+    plot.x = time_axis();
+    plot.y.label = "skin temperature [K]";
+    plot.vertical_lines = ignition_line(drawn, *gap);
+    plot.series = station_series(
+        trace_of(drawn), milliseconds_of(skin.time),
+        [&](std::size_t sample, std::size_t station) {
+          return skin.temperature[sample * stations + station];
+        },
+        gap->at_stations.station);
+    pictures.push_back(
+        {"histories", fmt::format("histories_{}.svg", gap_in_name(gap->gap)), std::move(plot), {}, gap->gap});
+  }
+  return pictures;
+}
+
+std::vector<CasePicture> profile_pictures(const DrawnCase& drawn) {
+  std::vector<CasePicture> pictures;
+  for (const run::GapResult* gap : gaps_with_skin(drawn))
+    pictures.push_back({"profile",
+                        fmt::format("profile_{}.svg", gap_in_name(gap->gap)),
+                        profile_plot(drawn, *gap),
+                        {},
+                        gap->gap});
+  pictures.push_back({"profile", "profile_spread.svg", spread_plot(drawn)});
+  return pictures;
+}
+
+std::string lacks_air(const DrawnCase& drawn) {
+  const auto& gaps = drawn.result.gaps;
+  const bool any =
+      std::any_of(gaps.begin(), gaps.end(), [&](const run::GapResult& gap) { return has_air(drawn, gap); });
+  return any ? "" : "it holds no gap with air";
+}
+
+std::vector<CasePicture> air_pictures(const DrawnCase& drawn) {
+  const scene::Surface& surface = drawn.scene.surface;
+  const std::vector<Series> reached = reached_series(drawn);
+  double highest = 1.0;
+  for (const Series& series : reached) highest = std::max(highest, series.x.front());
+  // The reservoir's state follows from the pressure alone: one mark stands for every gap.
+  Plot plot = titled_plot(drawn, surface.air_model == scene::AirModel::reservoir
+                                     ? "Air at the highest pressure, on its adiabat whatever the gap"
+                                     : "Air at the highest pressure");
+  plot.x.label = "compression, density over initial density [1]";
+  plot.y.label = "air temperature [K]";
+  plot.series = {adiabat(surface.air, 1.05 * highest)};
+  plot.series.insert(plot.series.end(), reached.begin(), reached.end());
+  return {{"air", "air.svg", std::move(plot)}};
+}
+
+std::string lacks_combustion(const DrawnCase& drawn) {
+  const auto& gaps = drawn.result.gaps;
+  const bool any = std::any_of(gaps.begin(), gaps.end(),
+                               [&](const run::GapResult& gap) { return has_combustion(drawn, gap); });
+  return any ? "" : "no gap of it ignited in a run with two-way coupling";
+}
+
+std::vector<CasePicture> combustion_pictures(const DrawnCase& drawn) {
+  std::vector<CasePicture> pictures;
+  for (const run::GapResult& gap : drawn.result.gaps) {
+    if (!has_combustion(drawn, gap)) continue;
+    for (CasePicture& picture : combustion_of(drawn, gap)) pictures.push_back(std::move(picture));
+  }
+  return pictures;
+}
+
+}  // namespace launchsafe::report::detail

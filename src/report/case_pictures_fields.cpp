@@ -1,0 +1,232 @@
+// Fields over the section of a shell, from the snapshots of a case.
+#include "case_pictures_parts.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::report::detail {
+namespace {
+
+constexpr double millimetres = 1e3;  // per m
+
+/// A quantity of snapshots as it is drawn.
+struct DrawnField {
+  const char* file;   ///< part of the name
+  const char* name;   ///< in the title
+  const char* label;  ///< of the colour bar, with its unit
+  std::vector<double> run::Snapshot::*values;
+  double factor;      ///< from SI
+  bool charges_only;  ///< what other bodies do not have
+};
+constexpr std::array drawn_fields{
+    DrawnField{"temperature", "bulk temperature", "temperature [K]", &run::Snapshot::temperature, 1.0, false},
+    DrawnField{"pressure", "pressure", "pressure [MPa]", &run::Snapshot::pressure, 1e-6, false},
+    DrawnField{"von_mises", "von Mises stress", "von Mises stress [MPa]", &run::Snapshot::von_mises, 1e-6,
+               false},
+    DrawnField{"crack_radius", "crack radius", "crack radius [um]", &run::Snapshot::crack_radius, 1e6, true},
+    DrawnField{"burnt_share", "burnt share", "burnt share [1]", &run::Snapshot::burnt_share, 1.0, true},
+};
+
+bool is_charge(const DrawnCase& drawn, int body) {
+  return scene::is_charge(drawn.scene, drawn.scene.bodies[static_cast<std::size_t>(body)]);
+}
+
+double value_of(const DrawnCase& drawn, const DrawnField& field, const run::Snapshot& shot, std::size_t i) {
+  if (field.charges_only && !is_charge(drawn, shot.body[i])) return std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double>& values = shot.*field.values;
+  return values.empty() ? 0.0 : field.factor * values[i];
+}
+
+/// The bodies whose values share colours: stresses of a shell are many times those of its charge.
+struct ScaleGroup {
+  const char* name;
+  bool charges;
+};
+std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const DrawnField& field) {
+  std::vector<ScaleGroup> groups;
+  const bool others =
+      std::any_of(drawn.scene.bodies.begin(), drawn.scene.bodies.end(),
+                  [&](const scene::Body& body) { return !scene::is_charge(drawn.scene, body); });
+  if (scene::has_charge(drawn.scene)) groups.push_back({"charge", true});
+  if (others && !field.charges_only) groups.push_back({"shell", false});
+  return groups;
+}
+
+/// Over all snapshots of the case, drawn or not, so that all pictures of a field compare.
+ColourScale scale_of(const DrawnCase& drawn, const DrawnField& field, const ScaleGroup& group) {
+  ColourScale scale{fmt::format("{}: {}", group.name, field.label), HUGE_VAL, -HUGE_VAL};
+  for (const run::Snapshot& shot : drawn.result.mechanics.snapshots)
+    for (std::size_t i = 0; i < shot.x.size(); ++i) {
+      const double value = value_of(drawn, field, shot, i);
+      if (!std::isfinite(value) || is_charge(drawn, shot.body[i]) != group.charges) continue;
+      scale.minimum = std::min(scale.minimum, value);
+      scale.maximum = std::max(scale.maximum, value);
+    }
+  return scale;
+}
+
+std::vector<ColourScale> scales_of(const DrawnCase& drawn, const DrawnField& field) {
+  std::vector<ColourScale> scales;
+  for (const ScaleGroup& group : scale_groups(drawn, field)) scales.push_back(scale_of(drawn, field, group));
+  return scales;
+}
+
+// --- outlines ---
+
+/// The particles of one body in a snapshot: rows along x, from the axis outward.
+struct BodyCells {
+  const run::Snapshot& shot;
+  std::size_t first;
+  std::size_t columns, rows;
+
+  Place corner(std::size_t i, std::size_t j, double towards_base, double outward) const {
+    const std::size_t k = first + j * columns + i;
+    return {millimetres * (shot.x[k] + towards_base * shot.half_length_x[k]),
+            millimetres * (shot.r[k] + outward * shot.half_length_r[k])};
+  }
+};
+
+/// Along the row next to the axis, the end at the base, the outermost row, and the end at the nose.
+std::vector<Place> edge_of(const BodyCells& cells, bool open_at_axis) {
+  std::vector<Place> path;
+  const std::size_t last = cells.columns - 1, top = cells.rows - 1;
+  if (!open_at_axis)
+    for (std::size_t i = 0; i <= last; ++i)
+      for (const double side : {-1.0, 1.0}) path.push_back(cells.corner(i, 0, side, -1.0));
+  for (std::size_t j = 0; j <= top; ++j)
+    for (const double side : {-1.0, 1.0}) path.push_back(cells.corner(last, j, 1.0, side));
+  for (std::size_t i = last + 1; i-- > 0;)
+    for (const double side : {1.0, -1.0}) path.push_back(cells.corner(i, top, side, 1.0));
+  for (std::size_t j = top + 1; j-- > 0;)
+    for (const double side : {1.0, -1.0}) path.push_back(cells.corner(0, j, -1.0, side));
+  return path;
+}
+
+std::vector<Outline> outlines_of(const DrawnCase& drawn, const run::Snapshot& shot) {
+  std::vector<Outline> outlines;
+  std::size_t first = 0;
+  for (const scene::Body& body : drawn.scene.bodies) {
+    const scene::ParticleCount count = scene::particles_of(drawn.scene, body);
+    const BodyCells cells{shot, first, static_cast<std::size_t>(count.nx),
+                          static_cast<std::size_t>(count.nr)};
+    const bool open_at_axis = body.r_begin <= scene::length_tolerance(drawn.scene);
+    outlines.push_back({body.name, edge_of(cells, open_at_axis), open_at_axis});
+    first += cells.columns * cells.rows;
+  }
+  return outlines;
+}
+
+// --- pictures ---
+
+/// Around the charge's bottom, of a shell so slender that its cells there are hard to see.
+std::optional<Enlargement> enlargement_of(const DrawnCase& drawn, const run::Snapshot& shot) {
+  constexpr double slender = 1.5, length_over_radius = 2.4, share_before_bottom = 0.62;
+  double begin = HUGE_VAL, end = -HUGE_VAL, radius = 0, bottom = -HUGE_VAL;
+  for (std::size_t i = 0; i < shot.x.size(); ++i) {
+    const double right = shot.x[i] + shot.half_length_x[i];
+    begin = std::min(begin, shot.x[i] - shot.half_length_x[i]);
+    end = std::max(end, right);
+    radius = std::max(radius, shot.r[i] + shot.half_length_r[i]);
+    if (is_charge(drawn, shot.body[i])) bottom = std::max(bottom, right);
+  }
+  const double length = length_over_radius * radius;
+  if (!std::isfinite(bottom) || end - begin < slender * length) return {};
+  const double from = std::clamp(bottom - share_before_bottom * length, begin, end - length);
+  return Enlargement{"At the bottom of the charge", millimetres * from, millimetres * (from + length)};
+}
+
+std::vector<FieldCell> cells_of(const DrawnCase& drawn, const DrawnField& field, const run::Snapshot& shot) {
+  std::vector<FieldCell> cells;
+  cells.reserve(shot.x.size());
+  const bool charges_first = scene::has_charge(drawn.scene);
+  for (std::size_t i = 0; i < shot.x.size(); ++i)
+    cells.push_back({millimetres * shot.x[i], millimetres * shot.r[i], millimetres * shot.half_length_x[i],
+                     millimetres * shot.half_length_r[i], value_of(drawn, field, shot, i),
+                     charges_first && !is_charge(drawn, shot.body[i]) ? std::size_t{1} : 0});
+  return cells;
+}
+
+CellPlot field_plot(const DrawnCase& drawn, const DrawnField& field, const run::Snapshot& shot,
+                    const std::vector<ColourScale>& scales) {
+  CellPlot plot;
+  plot.title = fmt::format("{} at {} ms", field.name, significant(1e3 * shot.time, 4));
+  plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
+  plot.subtitle = shortened(drawn.scene.title, 150);
+  plot.scales = scales;
+  plot.cells = cells_of(drawn, field, shot);
+  plot.outlines = outlines_of(drawn, shot);
+  plot.enlargement = enlargement_of(drawn, shot);
+  if (field.charges_only) plot.without_value = "not a charge";
+  return plot;
+}
+
+/// The snapshots that were asked for, all without times.
+std::vector<ShownSnapshot> chosen_snapshots(const DrawnCase& drawn) {
+  std::vector<ShownSnapshot> chosen;
+  for (const ShownSnapshot& each : shown_snapshots(drawn)) {
+    const bool wanted = std::any_of(drawn.times.begin(), drawn.times.end(),
+                                    [&](double time) { return is_of_time(each, time); });
+    if (drawn.times.empty() || wanted) chosen.push_back(each);
+  }
+  return chosen;
+}
+
+/// Whether the particles of a snapshot are those that the scene's grid makes, body after body.
+bool fits(const scene::Scene& scene, const run::Snapshot& shot) {
+  std::size_t first = 0;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto count = static_cast<std::size_t>(scene::particles_of(scene, scene.bodies[b]).total());
+    if (first + count > shot.body.size()) return false;
+    for (std::size_t i = first; i < first + count; ++i)
+      if (shot.body[i] != static_cast<int>(b)) return false;
+    first += count;
+  }
+  return first == shot.body.size();
+}
+
+bool has_field(const DrawnCase& drawn, const DrawnField& field) {
+  if (field.charges_only && !scene::has_charge(drawn.scene)) return false;
+  const auto& snapshots = drawn.result.mechanics.snapshots;
+  return std::any_of(snapshots.begin(), snapshots.end(),
+                     [&](const run::Snapshot& shot) { return !(shot.*field.values).empty(); });
+}
+
+}  // namespace
+
+std::string lacks_fields(const DrawnCase& drawn) {
+  const auto& snapshots = drawn.result.mechanics.snapshots;
+  if (snapshots.empty()) return "it has no snapshots; output.snapshots of the scene asks for them";
+  for (const run::Snapshot& shot : snapshots) {
+    if (shot.half_length_x.size() != shot.x.size() || shot.half_length_r.size() != shot.x.size())
+      return "its snapshots are those of an older program, without the cells of the particles";
+    if (!fits(drawn.scene, shot)) return "its snapshots do not fit the grid of its scene";
+    for (const double length : shot.half_length_x)
+      if (!(length > 0.0)) return "a cell in its snapshots is inverted";
+    for (const double length : shot.half_length_r)
+      if (!(length > 0.0)) return "a cell in its snapshots is inverted";
+  }
+  return {};
+}
+
+std::vector<CasePicture> field_pictures(const DrawnCase& drawn) {
+  std::vector<CasePicture> pictures;
+  for (const DrawnField& field : drawn_fields) {
+    if (!has_field(drawn, field)) continue;
+    const std::vector<ColourScale> scales = scales_of(drawn, field);
+    for (const ShownSnapshot& each : chosen_snapshots(drawn)) {
+      const run::Snapshot& shot = drawn.result.mechanics.snapshots[each.index];
+      pictures.push_back({"fields",
+                          fmt::format("field_{}_{}ms.svg", field.file, significant(1e3 * each.asked_for, 6)),
+                          field_plot(drawn, field, shot, scales), shot.time});
+    }
+  }
+  return pictures;
+}
+
+}  // namespace launchsafe::report::detail

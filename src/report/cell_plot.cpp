@@ -1,0 +1,265 @@
+#include "launchsafe/report/cell_plot.hpp"
+
+#include "gnuplot_text.hpp"
+#include "launchsafe/report/number.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::report {
+namespace {
+
+// --- the page: pixels, y downward ---
+
+constexpr double cell_page_width = 1400, page_left = 86, page_top = 92;
+constexpr double bar_width = 18, bar_distance = 140, before_bars = 30;
+constexpr double most_whole_height = 620, enlarged_height = 460;
+constexpr double below_axis = 66, above_enlarged = 58;
+
+/// A window of the section and where it is on the page.
+struct CellPanel {
+  double x_begin = 0, x_end = 0, r_begin = 0, r_end = 0;  ///< mm
+  double scale = 0;                                       ///< pixels per mm
+  double top = 0;                                         ///< pixels
+
+  double width() const { return scale * (x_end - x_begin); }
+  double height() const { return scale * (r_end - r_begin); }
+  double bottom() const { return top + height(); }
+};
+
+/// Pixels that the section has along x, beside the colour bars.
+double drawing_width(const CellPlot& plot) {
+  return cell_page_width - page_left - before_bars - bar_distance * static_cast<double>(plot.scales.size());
+}
+
+CellPanel whole_section(const CellPlot& plot) {
+  CellPanel panel{HUGE_VAL, -HUGE_VAL, 0, 0, 0, page_top};
+  for (const FieldCell& cell : plot.cells) {
+    panel.x_begin = std::min(panel.x_begin, cell.x - cell.half_x);
+    panel.x_end = std::max(panel.x_end, cell.x + cell.half_x);
+    panel.r_end = std::max(panel.r_end, cell.r + cell.half_r);
+  }
+  panel.r_begin = -panel.r_end;
+  panel.scale =
+      std::min(drawing_width(plot) / (panel.x_end - panel.x_begin), most_whole_height / (2.0 * panel.r_end));
+  return panel;
+}
+
+CellPanel enlarged_section(const CellPlot& plot, const CellPanel& whole) {
+  const Enlargement& part = *plot.enlargement;
+  CellPanel panel{part.x_begin, part.x_end, 0, whole.r_end, 0, whole.bottom() + below_axis + above_enlarged};
+  panel.scale = std::min(drawing_width(plot) / (part.x_end - part.x_begin), enlarged_height / whole.r_end);
+  return panel;
+}
+
+// --- data ---
+
+/// Bounds of a cell in a panel and its value; empty where it lies outside.
+std::string cell_line(const FieldCell& cell, double side, const CellPanel& panel) {
+  const double left = std::max(cell.x - cell.half_x, panel.x_begin),
+               right = std::min(cell.x + cell.half_x, panel.x_end);
+  const double low = std::max(side * cell.r - cell.half_r, panel.r_begin),
+               high = std::min(side * cell.r + cell.half_r, panel.r_end);
+  if (!(left < right) || !(low < high)) return {};
+  const std::string value = std::isfinite(cell.value) ? " " + exact(cell.value) : "";
+  return fmt::format("{} {} {} {} {} {}{}\n", exact(0.5 * (left + right)), exact(0.5 * (low + high)),
+                     exact(left), exact(right), exact(low), exact(high), value);
+}
+
+/// Of the cells that `is_wanted`, mirrored where the panel shows both sides of the axis.
+template <class IsWanted>
+std::string cell_lines(const CellPlot& plot, const CellPanel& panel, IsWanted is_wanted) {
+  std::string lines;
+  for (const FieldCell& cell : plot.cells) {
+    if (!is_wanted(cell)) continue;
+    lines += cell_line(cell, 1.0, panel);
+    if (panel.r_begin < 0.0) lines += cell_line(cell, -1.0, panel);
+  }
+  return lines;
+}
+
+std::string path_lines(const std::vector<Place>& path, double side) {
+  std::string lines;
+  for (const Place& place : path) lines += fmt::format("{} {}\n", exact(place.x), exact(side * place.r));
+  return lines;
+}
+
+/// One line around a body that lies on the axis, else one on each side of it.
+std::string outline_lines(const Outline& outline, bool mirrored) {
+  if (outline.path.empty()) return {};
+  std::string lines = path_lines(outline.path, 1.0);
+  const std::string start = path_lines({outline.path.front()}, 1.0);
+  if (!outline.open_at_axis) {
+    lines += start;
+    return mirrored ? lines + "\n" + path_lines(outline.path, -1.0) + path_lines({outline.path.front()}, -1.0)
+                    : lines;
+  }
+  if (!mirrored) return lines;
+  std::vector<Place> back(outline.path.rbegin(), outline.path.rend());
+  return lines + path_lines(back, -1.0) + start;
+}
+
+// --- commands ---
+
+/// A distance of marks: 1, 2 or 5 times a power of ten, at least so many pixels.
+double mark_distance(double scale, double pixels) {
+  const double least = pixels / scale, decade = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * decade >= least * (1.0 - 1e-9)) return factor * decade;
+  return 10.0 * decade;
+}
+
+/// Distances from the axis, on both sides of it.
+std::string radius_marks(const CellPanel& panel) {
+  const double distance = mark_distance(panel.scale, 34);
+  std::string marks = "\"0\" 0";
+  for (double r = distance; r <= panel.r_end * (1.0 + 1e-9); r += distance)
+    for (const double place : {r, -r})
+      if (place >= panel.r_begin) marks += fmt::format(", \"{}\" {}", significant(r, 6), exact(place));
+  return marks;
+}
+
+/// Where the panel is on the page, and what it shows.
+std::string panel_range(const CellPanel& panel, double page_height) {
+  return fmt::format(
+      "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset bmargin at screen "
+      "{}\nset xrange [{}:{}]\nset yrange [{}:{}]\n",
+      exact(page_left / cell_page_width), exact((page_left + panel.width()) / cell_page_width),
+      exact(1.0 - panel.top / page_height), exact(1.0 - panel.bottom() / page_height), exact(panel.x_begin),
+      exact(panel.x_end), exact(panel.r_begin), exact(panel.r_end));
+}
+
+std::string panel_marks(const CellPanel& panel) {
+  return fmt::format("set xtics nomirror out scale 0.6 {}\nset ytics nomirror out scale 0.6 ({})\n",
+                     exact(mark_distance(panel.scale, 70)), radius_marks(panel));
+}
+
+constexpr std::string_view filled_boxes = "with boxxyerror fillstyle solid 1.0 noborder linecolor";
+
+/// Range and look of a scale; its bar stands beside the whole section.
+std::string scale_commands(const ColourScale& scale, std::size_t index, const CellPanel& whole,
+                           double page_height) {
+  const double widened = scale.minimum < scale.maximum ? 0.0 : std::max(1.0, 1e-3 * std::abs(scale.maximum));
+  const double left = page_left + whole.width() + before_bars + bar_distance * static_cast<double>(index);
+  return fmt::format(
+      "{}set cbrange [{}:{}]\nset cblabel {}\n"
+      "set colorbox vertical user origin screen {}, screen {} size screen {}, screen {}\n",
+      index == 0 ? palette_command() : "set palette defined (0 '#f4f4f4', 1 '#4a4a4a')\n",
+      exact(scale.minimum - widened), exact(scale.maximum + widened), quoted(scale.label),
+      exact(left / cell_page_width), exact(1.0 - whole.bottom() / page_height),
+      exact(bar_width / cell_page_width), exact(whole.height() / page_height));
+}
+
+/// The cells of one scale, without axes.
+std::string scale_cells(const CellPlot& plot, std::size_t scale, const CellPanel& panel,
+                        const std::string& name) {
+  const std::string lines = cell_lines(plot, panel, [scale](const FieldCell& cell) {
+    return cell.scale == scale && std::isfinite(cell.value);
+  });
+  if (lines.empty()) return {};
+  const std::string block = fmt::format("{}_cells{}", name, scale);
+  return data_block(block, lines) +
+         fmt::format("plot ${} using 1:2:3:4:5:6:7 {} palette notitle\n", block, filled_boxes);
+}
+
+/// Cells without a value, and the edges of bodies over all cells.
+std::string outline_commands(const CellPlot& plot, const CellPanel& panel, const std::string& name) {
+  std::string data;
+  std::vector<std::string> parts;
+  const std::string grey =
+      cell_lines(plot, panel, [](const FieldCell& cell) { return !std::isfinite(cell.value); });
+  if (!grey.empty()) {
+    data += data_block(name + "_grey", grey);
+    parts.push_back(fmt::format("${}_grey using 1:2:3:4:5:6 {} rgb '#d0d0d0' notitle", name, filled_boxes));
+  }
+  for (std::size_t i = 0; i < plot.outlines.size(); ++i) {
+    const std::string outline = fmt::format("{}_outline{}", name, i);
+    data += data_block(outline, outline_lines(plot.outlines[i], panel.r_begin < 0.0));
+    parts.push_back(
+        fmt::format("${} using 1:2 with lines linewidth 1.2 linecolor rgb '#111111' notitle", outline));
+  }
+  return data + fmt::format("plot {}\n", fmt::join(parts, ", \\\n     "));
+}
+
+/// The axis of symmetry, to beyond the base.
+std::string axis_line(const CellPanel& panel) {
+  const double beyond = 14.0 / panel.scale;
+  return fmt::format(
+      "set arrow 1 from first {}, first 0 to first {}, first 0 nohead front linewidth 1.2 dashtype '-  .' "
+      "linecolor rgb '#b23a48'\n",
+      exact(panel.x_begin), exact(panel.x_end + beyond));
+}
+
+std::string page_text(const CellPlot& plot) {
+  const std::string small = plot.without_value.empty()
+                                ? plot.subtitle
+                                : fmt::format("{}; grey: {}", plot.subtitle, plot.without_value);
+  return fmt::format(
+      "set label 1 {} at screen {}, graph 1 offset 0, character 3.2 font ',17'\n"
+      "set label 2 {} at screen {}, graph 1 offset 0, character 1.4 font ',13' textcolor rgb '#444444'\n",
+      quoted(plot.title), exact(page_left / cell_page_width), quoted(small),
+      exact(page_left / cell_page_width));
+}
+
+/// Axes, their marks and labels, which belong to the last plot of a panel.
+constexpr std::string_view without_axes =
+    "unset border\nunset xtics\nunset ytics\nunset xlabel\nunset ylabel\n";
+constexpr std::string_view with_axes =
+    "set border 3 linewidth 1 linecolor rgb '#444444'\nset xlabel \"x [mm]\"\nset ylabel \"r [mm]\"\n";
+
+std::string unfit(const CellPlot& plot) {
+  if (plot.cells.empty()) return "it has no cells";
+  const bool are_cells = std::all_of(plot.cells.begin(), plot.cells.end(), [](const FieldCell& cell) {
+    return std::isfinite(cell.x) && std::isfinite(cell.r) && cell.half_x > 0.0 && cell.half_r > 0.0;
+  });
+  if (!are_cells) return "a cell has no place or no extent";
+  if (plot.outlines.empty()) return "it has no body";
+  const bool have_ranges = std::all_of(plot.scales.begin(), plot.scales.end(), [](const ColourScale& scale) {
+    return std::isfinite(scale.minimum) && std::isfinite(scale.maximum);
+  });
+  return have_ranges && !plot.scales.empty() ? "" : "its colours have no range";
+}
+
+}  // namespace
+
+std::string to_gnuplot(const CellPlot& plot) {
+  const CellPanel whole = whole_section(plot);
+  std::optional<CellPanel> enlarged;
+  if (plot.enlargement) enlarged = enlarged_section(plot, whole);
+  const double height = std::ceil((enlarged ? enlarged->bottom() : whole.bottom()) + below_axis);
+  const auto cells_in = [&](const CellPanel& panel, const std::string& name) {
+    std::string text = panel_range(panel, height) + std::string(without_axes);
+    for (std::size_t i = 0; i < plot.scales.size(); ++i) {
+      text += scale_commands(plot.scales[i], i, whole, height);
+      if (name != "whole") text += "unset colorbox\n";
+      text += scale_cells(plot, i, panel, name);
+    }
+    return text + "unset colorbox\n" + std::string(with_axes) + panel_marks(panel);
+  };
+  std::string text = fmt::format(
+      "set encoding utf8\n"
+      "set terminal svg size {},{} noenhanced font 'sans-serif,14' background rgb '#ffffff' rounded\n"
+      "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nunset key\nset multiplot\n",
+      cell_page_width, height);
+  text +=
+      cells_in(whole, "whole") + page_text(plot) + axis_line(whole) + outline_commands(plot, whole, "whole");
+  if (enlarged) {
+    text += "unset label 1\nunset label 2\nunset arrow 1\n" + cells_in(*enlarged, "part");
+    text += fmt::format("set label 1 {} at graph 0, graph 1 offset 0, character 1.2 font ',15'\n",
+                        quoted(fmt::format("{}, enlarged {} times", plot.enlargement->label,
+                                           significant(enlarged->scale / whole.scale, 2))));
+    text += axis_line(*enlarged) + outline_commands(plot, *enlarged, "part");
+  }
+  return text + "unset multiplot\n";
+}
+
+store::Result<std::string> to_svg(const CellPlot& plot, const std::string& program,
+                                  const DrawingLimits& limits) {
+  if (const std::string why = unfit(plot); !why.empty())
+    return store::Error{store::Error::Kind::failed, fmt::format("cannot draw '{}': {}", plot.title, why)};
+  return drawn(program, to_gnuplot(plot), plot.title, limits);
+}
+
+}  // namespace launchsafe::report
