@@ -116,7 +116,7 @@ std::vector<Outline> outlines_of(const DrawnCase& drawn, const run::Snapshot& sh
     const BodyCells cells{shot, first, static_cast<std::size_t>(count.nx),
                           static_cast<std::size_t>(count.nr)};
     const bool open_at_axis = body.r_begin <= scene::length_tolerance(drawn.scene);
-    outlines.push_back({body.name, edge_of(cells, open_at_axis), open_at_axis});
+    outlines.push_back({edge_of(cells, open_at_axis), open_at_axis});
     first += cells.columns * cells.rows;
   }
   return outlines;

@@ -30,7 +30,6 @@ struct Place {
 
 /// The edge of a body, once around; where it lies on the axis it begins and ends there, and is left open.
 struct Outline {
-  std::string name;  ///< of the body
   std::vector<Place> path;
   bool open_at_axis = false;
 };
