@@ -16,6 +16,7 @@ namespace {
 constexpr double cell_page_width = 1400, page_left = 86, page_top = 92;
 constexpr double bar_width = 18, bar_distance = 140, before_bars = 30;
 constexpr double most_whole_height = 620, enlarged_height = 460;
+constexpr double edge_margin = 0.002;  // share of the length
 constexpr double below_axis = 66, above_enlarged = 58;
 
 /// A window of the section and where it is on the page.
@@ -41,6 +42,11 @@ CellPanel whole_section(const CellPlot& plot) {
     panel.x_end = std::max(panel.x_end, cell.x + cell.half_x);
     panel.r_end = std::max(panel.r_end, cell.r + cell.half_r);
   }
+  // So that an outline along the edge of the panel is not cut off.
+  const double margin = edge_margin * (panel.x_end - panel.x_begin);
+  panel.x_begin -= margin;
+  panel.x_end += margin;
+  panel.r_end += margin;
   panel.r_begin = -panel.r_end;
   panel.scale =
       std::min(drawing_width(plot) / (panel.x_end - panel.x_begin), most_whole_height / (2.0 * panel.r_end));
@@ -49,8 +55,10 @@ CellPanel whole_section(const CellPlot& plot) {
 
 CellPanel enlarged_section(const CellPlot& plot, const CellPanel& whole) {
   const Enlargement& part = *plot.enlargement;
-  CellPanel panel{part.x_begin, part.x_end, 0, whole.r_end, 0, whole.bottom() + below_axis + above_enlarged};
-  panel.scale = std::min(drawing_width(plot) / (part.x_end - part.x_begin), enlarged_height / whole.r_end);
+  const double margin = edge_margin * (part.x_end - part.x_begin);
+  CellPanel panel{
+      part.x_begin, part.x_end + margin, 0, whole.r_end, 0, whole.bottom() + below_axis + above_enlarged};
+  panel.scale = std::min(drawing_width(plot) / (panel.x_end - panel.x_begin), enlarged_height / whole.r_end);
   return panel;
 }
 
@@ -144,7 +152,7 @@ std::string scale_commands(const ColourScale& scale, std::size_t index, const Ce
   const double widened = scale.minimum < scale.maximum ? 0.0 : std::max(1.0, 1e-3 * std::abs(scale.maximum));
   const double left = page_left + whole.width() + before_bars + bar_distance * static_cast<double>(index);
   return fmt::format(
-      "{}set cbrange [{}:{}]\nset cblabel {}\n"
+      "{}set cbrange [{}:{}]\nset cblabel {} offset 1.5, 0\n"
       "set colorbox vertical user origin screen {}, screen {} size screen {}, screen {}\n",
       index == 0 ? palette_command() : "set palette defined (0 '#f4f4f4', 1 '#4a4a4a')\n",
       exact(scale.minimum - widened), exact(scale.maximum + widened), quoted(scale.label),
@@ -241,7 +249,7 @@ std::string to_gnuplot(const CellPlot& plot) {
   std::string text = fmt::format(
       "set encoding utf8\n"
       "set terminal svg size {},{} noenhanced font 'sans-serif,14' background rgb '#ffffff' rounded\n"
-      "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nunset key\nset multiplot\n",
+      "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nset format '%g'\nunset key\nset multiplot\n",
       cell_page_width, height);
   text +=
       cells_in(whole, "whole") + page_text(plot) + axis_line(whole) + outline_commands(plot, whole, "whole");

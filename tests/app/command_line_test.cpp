@@ -33,7 +33,8 @@ TEST_F(CommandLineProgram, EveryHelpHasExamples) {
                                              {"merge", "--help"},
                                              {"emit", "--help"},
                                              {"verify", "--help"},
-                                             {"explain", "--help"}}) {
+                                             {"explain", "--help"},
+                                             {"plot", "--help"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.code, 0);
     EXPECT_TRUE(outcome.err.empty()) << outcome.err;
@@ -43,8 +44,8 @@ TEST_F(CommandLineProgram, EveryHelpHasExamples) {
 
 TEST_F(CommandLineProgram, TheFirstHelpNamesEverySubcommandAndExitCode) {
   const std::string help = run({"--help"}).out;
-  for (const char* part : {"run ", "study ", "merge ", "emit ", "verify ", "explain ", "0 done", "2 bad",
-                           "3 some", "4 a verdict", "70 ", "75 interrupted"}) {
+  for (const char* part : {"run ", "study ", "merge ", "emit ", "verify ", "explain ", "plot ", "0 done",
+                           "2 bad", "3 some", "4 a verdict", "70 ", "75 interrupted"}) {
     EXPECT_NE(help.find(part), std::string::npos) << part;
   }
 }
@@ -66,6 +67,7 @@ TEST_F(CommandLineProgram, SenselessCommandLinesAreBadUsage) {
                                              {"emit", "cluster", "study.toml", "-o", "out", "--shards", "3"},
                                              {"emit", "slurm", "study.toml", "-o", "out"},
                                              {"explain"},
+                                             {"plot"},
                                              {"explain", "scene.toml", "--keys"},
                                              {"verify", "--quiet", "--filter", "no check has this name"}}) {
     const Outcome outcome = run(arguments);
