@@ -1,5 +1,4 @@
 #include "launchsafe/kinds/accuracy.hpp"
-
 #include "launchsafe/scene/mesh.hpp"
 #include "report/report_folder.hpp"
 #include "study/synthetic_launch.hpp"

@@ -1,7 +1,7 @@
-#include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
 
 #include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/study/answer_cases.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <gtest/gtest.h>

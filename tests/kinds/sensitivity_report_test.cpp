@@ -1,8 +1,7 @@
 // The tables, page, JSON and pictures of sensitivity studies made by hand.
-#include "launchsafe/kinds/sensitivity.hpp"
-
 #include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"
+#include "launchsafe/kinds/sensitivity.hpp"
 #include "report/gnuplot.hpp"
 
 #include <gtest/gtest.h>

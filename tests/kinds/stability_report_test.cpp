@@ -1,8 +1,7 @@
 // The tables, page and JSON of a stability study made by hand.
-#include "launchsafe/kinds/stability.hpp"
-
 #include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"
+#include "launchsafe/kinds/stability.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

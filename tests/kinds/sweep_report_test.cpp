@@ -1,8 +1,7 @@
 // The tables, page, JSON and pictures of sweeps made by hand.
-#include "launchsafe/kinds/sweep.hpp"
-
 #include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"
+#include "launchsafe/kinds/sweep.hpp"
 #include "report/gnuplot.hpp"
 
 #include <gtest/gtest.h>

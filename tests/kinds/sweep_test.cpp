@@ -1,7 +1,7 @@
-#include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/kinds/sweep.hpp"
 
 #include "launchsafe/run/model_version.hpp"
+#include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"

@@ -45,10 +45,10 @@ class BurningMixture {
   /// explosive is at minus the cut-off and the rest of V is void, which the first gas fills.
   BurningState unburnt(double volume) const;
   /// The state after a step: energy changes by what burns and by the work of the mean of both pressures,
-  /// d(energy) = rho0 burnt fresh_energy - (p0 + p1)/2 dV, and explosive and gas have one pressure. Where that
-  /// mean misses the work of the explosive by more than little gas has energy, the step is done in parts, with
-  /// the mean in each. Newton's method, and bisection where it does not arrive: the state is invalid only
-  /// where the law has none.
+  /// d(energy) = rho0 burnt fresh_energy - (p0 + p1)/2 dV, and explosive and gas have one pressure. Where
+  /// that mean misses the work of the explosive by more than little gas has energy, the step is done in
+  /// parts, with the mean in each. Newton's method, and bisection where it does not arrive: the state is
+  /// invalid only where the law has none.
   BurningState advance(const BurningState& before, const BurningStep& step) const;
 
   /// Pressure (Pa), bulk modulus (Pa) and mechanical energy (J/m3, from rest) of the explosive at V.

@@ -21,7 +21,8 @@ double travelling_wave_speed(const std::function<double(double)>& rate, double d
 /// That speed for the published reaction rate (Q Z/c)(1 - lambda) exp(-(E/R)/T) between `unburnt` (K) and the
 /// temperature T2 at which lambda = 1. The rate at `unburnt` itself, which acts everywhere ahead of the wave
 /// and is no part of it, is taken off. No mesh of a launch resolves the wave: it is some alpha/u thick, which
-/// is below a micrometre. 0 where the heat of reaction does not bring `unburnt` to T2. `conductivity` in W/(m K), `density` in kg/m3, `specific_heat` in J/(kg K).
+/// is below a micrometre. 0 where the heat of reaction does not bring `unburnt` to T2. `conductivity` in W/(m
+/// K), `density` in kg/m3, `specific_heat` in J/(kg K).
 double deflagration_speed(const KineticsParameters& kinetics, double conductivity, double density,
                           double specific_heat, double unburnt);
 

@@ -13,9 +13,9 @@ namespace launchsafe::run {
 /// They rest on the scene and on what the run recorded, so that stored runs can be judged too.
 std::vector<std::string> validity_warnings(const scene::Scene& scene, const MechanicsResult& mechanics);
 
-/// The same of what followed ignition in a run with two-way coupling. Until ignition inertia may be scaled; gas
-/// that expands sets masses in motion, which must be the true ones. A measured load that ends before the run is
-/// held at its last pressure.
+/// The same of what followed ignition in a run with two-way coupling. Until ignition inertia may be scaled;
+/// gas that expands sets masses in motion, which must be the true ones. A measured load that ends before the
+/// run is held at its last pressure.
 std::vector<std::string> combustion_validity_warnings(const scene::Scene& scene,
                                                       const CombustionHistory& combustion);
 
