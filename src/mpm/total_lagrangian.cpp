@@ -1,5 +1,6 @@
 #include "launchsafe/mpm/total_lagrangian.hpp"
 
+#include "burning_row.hpp"
 #include "launchsafe/mpm/material_step.hpp"
 #include "total_lagrangian_row.hpp"
 
@@ -339,7 +340,13 @@ void TotalLagrangian::advance_rows(const Rows& rows, const StepInput& input) {
                              input.dt,
                              input.pic_fraction,
                              j == rows.begin};
-          advance_row(body, nodes_[rows.body], step, totals);
+          if constexpr (std::decay_t<decltype(body.law)>::is_explosive) {
+            if (body.particles.burning) {
+              advance_burning_row(body, nodes_[rows.body], step, totals);
+              continue;
+            }
+          }
+          advance_row<false>(body, nodes_[rows.body], step, totals);
         }
       },
       bodies_[rows.body]);

@@ -131,8 +131,8 @@ struct CornerForces {
   }
 };
 
-/// Advances one row of particles by a step and gives it to the nodes.
-template <class Law>
+/// Advances one row of particles by a step and gives it to the nodes. `burns`: see update_material.
+template <bool burns, class Law>
 [[gnu::flatten]] void advance_row(Body<Law>& body, Nodes& nodes, const RowStep& step,
                                   ParticleTotals& totals) {
   ParticleFields& p = body.particles;
@@ -197,7 +197,7 @@ template <class Law>
                          (area * f.tt < Pack(1.0 / smallest_stretch));
       totals.distorted += select(sound, Pack(0.0), Pack(1.0));
       const Deformation deformation = deformation_of(f, d, volume, load(p.volume_ratio, slot), area);
-      const StressUpdate stress = update_material(body, slot, deformation, totals);
+      const StressUpdate stress = update_material<burns>(body, slot, deformation, totals);
 
       // P = J sigma F^-T, in the plane J F^-T = tt [[xx, -xr], [-rx, rr]].
       const Pack rr = stress.deviator.rr - stress.pressure, xx = stress.deviator.xx - stress.pressure,

@@ -73,7 +73,7 @@ template <class Law>
     store(p.r, slot, r1);
     const Pack rest_volume = mass * (1.0 / body.law.initial_density());
     const Deformation deformation = deformation_of(g, transfer.dt, rest_volume, load(p.volume_ratio, slot));
-    const StressUpdate s = update_material(body, slot, deformation, totals);
+    const StressUpdate s = update_material<false>(body, slot, deformation, totals);
 
     const Stencil stencil = stencil_of(writing, x1, r1);
     totals.off_grid += select(real & !stencil.inside, Pack(1.0), Pack(0.0));

@@ -37,56 +37,24 @@ inline void store_increments(ParticleFields& p, std::size_t slot, const math::De
   store(p.stress_change[2], slot, stress.rx);
 }
 
-/// What a law makes of a Pack of particles some of which burn: it sees the explosive that is left, whose
-/// stress counts with its part of the volume. The flame is parallel to the charge's bottom, so that the gas
-/// is a layer across x: `increment` becomes that of the explosive, from which what the layer grows is taken
-/// off along x.
+/// Stores what a law made of a step at a Pack of particles, and adds the energies and limiter events of the
+/// step to `totals`. `d` is that of the particles, `strain` the deviatoric increment of what friction heats.
 template <class Law>
-[[gnu::noinline, gnu::cold]] materials::Response<Pack> burning_response(Body<Law>& body, std::size_t slot,
-                                                                        materials::Increment<Pack>& increment,
-                                                                        materials::State<Law, Pack>& state,
-                                                                        Pack pressure_before,
-                                                                        Pack& temperature) {
-  const SolidParts solid =
-      advance_burning(*body.particles.burning, slot, increment.volume_before, increment.volume_after);
-  const auto growth = [](Pack before, Pack after) { return 2.0 * (after - before) / (after + before); };
-  const Pack layer = growth(increment.volume_before, increment.volume_after) -
-                     growth(solid.volume_before, solid.volume_after);
-  increment.deviator.rr += (1.0 / 3.0) * layer;
-  increment.deviator.xx -= (2.0 / 3.0) * layer;
-  increment.volume_before = solid.volume_before;
-  increment.volume_after = solid.volume_after;
-  auto response = body.integrator.update(increment, state, pressure_before, temperature);
-  response.pressure = select(solid.burns, solid.pressure, response.pressure);
-  response.deviator_before = solid.share_before * response.deviator_before;
-  response.deviator = solid.share_after * response.deviator;
-  for (Pack* energy : {&response.plastic, &response.viscous, &response.crack}) *energy *= solid.share_before;
-  return response;
-}
-
-/// Advances the constitutive law of a Pack of particles, stores their state and adds the energies and limiter
-/// events of the step to `totals`.
-template <class Law>
-[[gnu::always_inline]] inline StressUpdate update_material(Body<Law>& body, std::size_t slot,
-                                                           const Deformation& d, ParticleTotals& totals) {
+[[gnu::always_inline]] inline StressUpdate keep_response(Body<Law>& body, std::size_t slot,
+                                                         const Deformation& d,
+                                                         const materials::State<Law, Pack>& state,
+                                                         const materials::Response<Pack>& response,
+                                                         const math::Deviator<Pack>& strain, Pack temperature,
+                                                         ParticleTotals& totals) {
   ParticleFields& p = body.particles;
-  auto state = materials::load_state<Law>([&](std::size_t field) { return load(body.state[field], slot); });
   const Pack pressure_before = load(p.pressure, slot);
-  Pack temperature = load(p.temperature, slot);
-  materials::Increment<Pack> increment = d.increment;  // of what is explosive still
-  const auto response = [&] {
-    if constexpr (Law::is_explosive)
-      if (p.burning && p.burning->any_in_pack(slot)) [[unlikely]]
-        return burning_response(body, slot, increment, state, pressure_before, temperature);
-    return body.integrator.update(increment, state, pressure_before, temperature);
-  }();
   materials::store_state<Law>(state,
                               [&](std::size_t field, Pack value) { store(body.state[field], slot, value); });
   store(p.pressure, slot, response.pressure);
   store(p.volume_ratio, slot, d.increment.volume_after);
   if constexpr (Law::heats_itself) store(p.temperature, slot, temperature);
   if (!p.recorded.empty() && p.recorded[slot / math::pack_width] != 0)
-    store_increments(p, slot, increment.deviator, response.deviator - response.deviator_before);
+    store_increments(p, slot, strain, response.deviator - response.deviator_before);
 
   const Pack volume0 = d.increment.volume_before, volume1 = d.increment.volume_after;
   const Pack work = contract(response.deviator_before + response.deviator, d.increment.deviator);
@@ -100,6 +68,48 @@ template <class Law>
   totals.pressure_guard += response.pressure_guard;
   totals.crack_at_bound += response.crack_at_bound;
   return {response.deviator, response.pressure};
+}
+
+/// `update_material` of a Pack of particles some of which burn: the law sees the explosive that is left,
+/// whose stress counts with its part of the volume. The flame is parallel to the charge's bottom, so that the
+/// gas is a layer across x: the strain of the explosive is that of the particle less what the layer grows
+/// along x. Arguments by value, so that the step of others need not keep them in memory.
+template <class Law>
+[[gnu::noinline, gnu::cold]] StressUpdate update_burning(Body<Law>& body, std::size_t slot, Deformation d,
+                                                         ParticleTotals& totals) {
+  ParticleFields& p = body.particles;
+  materials::Increment<Pack> increment = d.increment;
+  const SolidParts solid = advance_burning(*p.burning, slot, increment.volume_before, increment.volume_after);
+  const auto growth = [](Pack before, Pack after) { return 2.0 * (after - before) / (after + before); };
+  const Pack layer = growth(increment.volume_before, increment.volume_after) -
+                     growth(solid.volume_before, solid.volume_after);
+  increment.deviator.rr += (1.0 / 3.0) * layer;
+  increment.deviator.xx -= (2.0 / 3.0) * layer;
+  increment.volume_before = solid.volume_before;
+  increment.volume_after = solid.volume_after;
+  auto state = materials::load_state<Law>([&](std::size_t field) { return load(body.state[field], slot); });
+  Pack temperature = load(p.temperature, slot);
+  auto response = body.integrator.update(increment, state, load(p.pressure, slot), temperature);
+  response.pressure = select(solid.burns, solid.pressure, response.pressure);
+  response.deviator_before = solid.share_before * response.deviator_before;
+  response.deviator = solid.share_after * response.deviator;
+  for (Pack* energy : {&response.plastic, &response.viscous, &response.crack}) *energy *= solid.share_before;
+  return keep_response(body, slot, d, state, response, increment.deviator, temperature, totals);
+}
+
+/// Advances the constitutive law of a Pack of particles, stores their state and adds the energies and limiter
+/// events of the step to `totals`. `burns`: some particles of the body may burn; the mere question costs
+/// those that cannot a tenth of their time, as the call behind it takes the registers of the loop around it.
+template <bool burns, class Law>
+[[gnu::always_inline]] inline StressUpdate update_material(Body<Law>& body, std::size_t slot,
+                                                           const Deformation& d, ParticleTotals& totals) {
+  ParticleFields& p = body.particles;
+  if constexpr (burns)
+    if (p.burning->any_in_pack(slot)) return update_burning(body, slot, Deformation(d), totals);
+  auto state = materials::load_state<Law>([&](std::size_t field) { return load(body.state[field], slot); });
+  Pack temperature = load(p.temperature, slot);
+  const auto response = body.integrator.update(d.increment, state, load(p.pressure, slot), temperature);
+  return keep_response(body, slot, d, state, response, d.increment.deviator, temperature, totals);
 }
 
 /// FLIP velocity update with an optional share of PIC. Adds the kinetic energy that the PIC share dissipates
@@ -120,6 +130,15 @@ template <class Law>
   totals.centred_kinetic += half * (old_x * flip_x + old_r * flip_r);
 }
 
+/// Bulk moduli (Pa) of a Pack of particles, with those of the particles that burn in place of the law's.
+[[gnu::noinline, gnu::cold]] inline Pack with_burning(const Burning& burning, std::size_t slot,
+                                                      Pack modulus) {
+  for (std::size_t lane = 0; lane < math::pack_width; ++lane)
+    if (const BurningParticle* particle = burning.find(slot + lane))
+      modulus.set(lane, particle->state.bulk_modulus);
+  return modulus;
+}
+
 /// Largest squared longitudinal sound speed (m2/s2) of a Pack of particles.
 template <class Law>
 Pack sound_speed_squared(const Body<Law>& body, std::size_t slot) {
@@ -129,9 +148,7 @@ Pack sound_speed_squared(const Body<Law>& body, std::size_t slot) {
   Pack bulk_modulus = body.integrator.bulk_modulus(state, volume, load(p.pressure, slot));
   if constexpr (Law::is_explosive)
     if (p.burning && p.burning->any_in_pack(slot)) [[unlikely]]
-      for (std::size_t lane = 0; lane < math::pack_width; ++lane)
-        if (const BurningParticle* burning = p.burning->find(slot + lane))
-          bulk_modulus.set(lane, burning->state.bulk_modulus);
+      bulk_modulus = with_burning(*p.burning, slot, bulk_modulus);
   const Pack modulus = bulk_modulus + (4.0 / 3.0) * body.law.shear_modulus();
   return modulus * volume * (1.0 / body.law.initial_density());
 }
