@@ -68,8 +68,10 @@ void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confi
   confirmation.wall_time = run.result.mechanics.wall_time;
   const std::vector<run::GapResult>& gaps = run.result.gaps;
   if (!gaps.empty()) confirmation.combustion = gaps.front().combustion;
-  // What breaks off after it has ignited has ignited.
-  if (!confirmation.failure.empty() && !confirmation.combustion) return;
+  // What breaks off by itself after it has ignited has ignited. How far a run that was cut off came depends
+  // on the machine.
+  const bool cut_off = run.outcome != RunOutcome::ran && run.outcome != RunOutcome::reused;
+  if (!confirmation.failure.empty() && (cut_off || !confirmation.combustion)) return;
   if (gaps.empty() || !std::isfinite(gaps.front().at_stations.temperature)) {
     confirmation.failure = "its temperature is not a number";
     return;

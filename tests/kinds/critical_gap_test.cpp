@@ -137,6 +137,26 @@ TEST(CriticalGapStudy, ARunWithSkinThatFailsMakesItIndeterminate) {
   }
 }
 
+TEST(CriticalGapStudy, ACoupledRunThatBurntConfirmsAnIgnitionUnlessItWasCutOff) {
+  for (const run::RunStatus status : {run::RunStatus::outside_gas_law, run::RunStatus::timed_out}) {
+    StudyOptions options = synthetic_options();
+    options.runners.with_skin = [status, agree = options.runners.with_skin](
+                                    const scene::Scene& scene, double gap, const run::RunOptions& run) {
+      run::CaseResult result = agree(scene, gap, run);
+      if (!result.gaps.front().skin.ignition) return result;
+      result.mechanics.status = status;
+      result.gaps.front().combustion.emplace();
+      return result;
+    };
+    const CriticalGapResult result =
+        run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
+    const bool by_itself = status == run::RunStatus::outside_gas_law;
+    EXPECT_EQ(result.cases[0].confirmations[1].completed, by_itself);
+    EXPECT_EQ(result.cases[0].critical.kind,
+              by_itself ? CriticalGapKind::value : CriticalGapKind::indeterminate);
+  }
+}
+
 TEST(CriticalGapStudy, BoundsAreNotConfirmedAndNotNumbers) {
   StudyOptions options = synthetic_options();
   options.runners = synthetic_runners(1.0);
