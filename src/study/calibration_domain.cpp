@@ -37,6 +37,7 @@ struct NamedRole {
 // clang-format off
 constexpr std::array special_keys{
     NamedRole{"title", Role::none},
+    NamedRole{"coupling", Role::none},                 // acts after ignition, as do the keys of combustion
     NamedRole{"frame", Role::numerics},
     NamedRole{"initial_temperature", Role::condition},
     NamedRole{"load.peak", Role::condition},
@@ -63,7 +64,8 @@ Role role_of(std::string_view key) {
   }
   if (key.starts_with("load.")) return Role::load_shape;
   if (key.starts_with("numerics.")) return Role::numerics;
-  if (key.starts_with("output.") || key.starts_with("physics.")) return Role::none;
+  for (const std::string_view table : {"output.", "physics.", "combustion."})
+    if (key.starts_with(table)) return Role::none;
   return Role::model;
 }
 

@@ -57,6 +57,13 @@ scene::Interface& interface_of(scene::Scene& scene, const std::string& body) {
 }
 
 /// Names are the user's: a nose that is called base slides as the nose does.
+TEST(CalibrationDomain, WhatFollowsIgnitionIsNoPartOfIt) {
+  scene::Scene scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
+  scene.coupling = scene::Coupling::two_way;
+  scene.combustion = {scene::HeatRelease::full, 2e-3, 1e9};
+  EXPECT_TRUE(distance_to_calibration(scene, shipped_calibration()).inside());
+}
+
 TEST(CalibrationDomain, ComparesInterfacesByTheBodiesThatTheyName) {
   scene::Scene renamed = shipped_scene();
   const auto rename = [&renamed](const std::string& from, const std::string& to) {
