@@ -250,6 +250,7 @@ void Contact::advance_rows(double dt) {
     row.largest_gap = std::max(row.largest_gap, row.gap);
     row.overlap = std::max(row.overlap, -row.gap);
     row.slid += dt * std::abs(row.sliding);
+    row.slip += dt * row.sliding;
     fastest = std::max(fastest, std::abs(row.sliding));
   }
   slid_ += dt * fastest;
@@ -279,6 +280,7 @@ std::vector<FaceState> Contact::state_of(std::size_t face) const {
     state.sliding_speed = direction * row.sliding;
     state.friction_heat = row.friction_heat;
     state.slid = row.slid;
+    state.slip = direction * row.slip;
     state.largest_gap = row.largest_gap;
     state.overlap = row.overlap;
     state.bonded = row.bonded;

@@ -47,8 +47,9 @@ struct FaceState {
   double sliding_speed = 0;  ///< m/s, of the other body against the charge, in the same direction
   double friction_heat = 0;  ///< J/m2, since the start
   double slid = 0;           ///< m, path of sliding since the start, in both directions
-  double largest_gap = 0;    ///< m, the largest since the start
-  double overlap = 0;        ///< m, the largest since the start
+  double slip = 0;  ///< m, by which the other body has slid since the start, in the direction of `shear`
+  double largest_gap = 0;  ///< m, the largest since the start
+  double overlap = 0;      ///< m, the largest since the start
   bool bonded = false;
 };
 
@@ -77,6 +78,12 @@ class Contact {
   /// Work of friction on a face since the start, J per radian or metre, turned into heat.
   double friction_work(std::size_t face) const;
   std::vector<FaceState> state_of(std::size_t face) const;
+  /// The nodes that the states of a face are of: an index into the bodies' nodes, and those of each in there.
+  struct FaceNodes {
+    std::size_t nodes;
+    const std::vector<std::size_t>& indices;
+  };
+  FaceNodes nodes_of(std::size_t face) const { return {faces_[face].own.nodes, faces_[face].own.indices}; }
 
  private:
   struct Velocity {
@@ -142,7 +149,8 @@ class Contact {
     double opening = 0, sliding = 0;                  ///< m/s, at the end of the last step
     double friction_work = 0;                         ///< J
     double friction_heat = 0;                         ///< J/m2
-    double slid = 0, largest_gap = 0, overlap = 0;    ///< m, see FaceState
+    double slid = 0, slip = 0;                        ///< m, see FaceState; the slip of the row's direction
+    double largest_gap = 0, overlap = 0;              ///< m, see FaceState
     bool bonded = false;
   };
 
