@@ -21,6 +21,7 @@ scene::Scene measurable(scene::Scene scene) {
   while (scene::particle_count(scene) > most_particles && scene.numerics.cell_size < largest_cell)
     scene.numerics.cell_size *= std::sqrt(2.0);
   scene.output.snapshot_times.clear();
+  scene.output.snapshot_events.clear();
   scene.output.trace_interval = scene.load.duration;
   return scene;
 }

@@ -12,6 +12,7 @@
 #include "launchsafe/run/case_result.hpp"
 #include "stepped_skin.hpp"
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -31,6 +32,10 @@ class BurningBottom {
   double fastest_flame() const { return fastest_; }
   /// A flame has come to the end of the body that it began in: what lies beyond, it does not enter.
   bool burnt_through() const { return burnt_through_; }
+  /// The skin of some station has burnt.
+  bool skin_has_burnt() const { return !std::isnan(history_.complete_time); }
+  /// Of a station's skin.
+  double reaction_degree(const SteppedSkin& skin, std::size_t station) const;
   /// Appends the present state to the history.
   void record(const mpm::Simulation& simulation, const TraceRecorder& recorder, const SteppedSkin& skin);
   CombustionHistory take() { return std::move(history_); }
@@ -60,7 +65,6 @@ class BurningBottom {
   void ignite(const mpm::Simulation& simulation, const SteppedSkin& skin, std::size_t station);
   Burnt burn(Flame& flame, double unburnt_temperature, double dt) const;
   void burn_column(mpm::Simulation& simulation, Column& column, const std::vector<Burnt>& burnt);
-  double reaction_degree(const SteppedSkin& skin, std::size_t station) const;
 
   scene::Charge charge_;
   scene::HeatRelease release_;

@@ -2,12 +2,14 @@
 
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
+#include "launchsafe/scene/stations.hpp"
 #include "launchsafe/trace/bottom_trace.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace launchsafe::run {
 namespace {
@@ -40,10 +42,13 @@ double skin_memory(const scene::Scene& scene, const TraceSize& size) {
          (2.0 + size.stations);
 }
 
-double snapshot_memory(const scene::Scene& scene, const scene::Plan& plan) {
-  constexpr double numbers_per_particle = 25.0;
-  return copies * bytes_per_number * numbers_per_particle *
-         static_cast<double>(scene.output.snapshot_times.size()) * static_cast<double>(plan.particles());
+/// Whether a body's law has a state field of that name.
+bool has_field(const scene::Scene& scene, std::string_view name) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const scene::Body& body) {
+    return std::visit(
+        [&]<class Law>(const Law&) { return materials::field_index<Law>(name) < Law::state.size(); },
+        scene::law_of(scene, body));
+  });
 }
 
 std::string days(double seconds) { return fmt::format("{:.3g} days", seconds / 86400.0); }
@@ -68,7 +73,39 @@ const char* key_of_memory(const Cost& cost, double skins) {
 Cost cost_of(const scene::Scene& scene) {
   const scene::Plan plan = scene::make_plan(scene);
   const TraceSize size = trace_size(scene, plan);
-  return {plan.work, plan.memory, trace_memory(size), snapshot_memory(scene, plan), skin_memory(scene, size)};
+  const double snapshots = scene.output.asks_for_snapshots() ? copies * snapshot_size(scene).bytes() : 0.0;
+  return {plan.work, plan.memory, trace_memory(size), snapshots, skin_memory(scene, size)};
+}
+
+SnapshotSize snapshot_size(const scene::Scene& scene) {
+  // Of a particle: its body, place and velocity as rows of three, half lengths, density, pressure,
+  // temperature, von Mises stress, deviator, stress tensor, and its cell with four corners.
+  constexpr double of_particle = 1 + 3 + 3 + 2 + 1 + 1 + 1 + 1 + 3 + 6 + 4 + 8;
+  // Of a station: its radius, two ends as rows of three, their numbers.
+  constexpr double of_station = 1 + 6 + 2;
+  const auto& output = scene.output;
+  const auto gaps = static_cast<double>(scene.surface.gaps.size());
+  const bool burns = scene.coupling == scene::Coupling::two_way;
+  double numbers = of_particle;
+  for (const char* field : {"crack_radius", "plastic_strain"}) numbers += has_field(scene, field) ? 1.0 : 0.0;
+  SnapshotSize size;
+  size.of_launch = output.snapshot_times.size() + output.snapshot_events.size();
+  if (burns) {
+    size.of_combustion = scene.surface.gaps.size() * size.of_launch;
+    for (const scene::Event event : {scene::Event::ignition, scene::Event::burnt})
+      size.of_launch -= output.asks_for(event) ? 1 : 0;
+  }
+  size.bytes_each =
+      bytes_per_number * (numbers * static_cast<double>(scene::particle_count(scene)) +
+                          (of_station + gaps) * static_cast<double>(scene::stations_of(scene).size()));
+  return size;
+}
+
+std::string to_text(const SnapshotSize& size) {
+  const auto megabytes = [](double bytes) { return fmt::format("{:.3g} MB", 1e-6 * bytes); };
+  return fmt::format("at most {} of the launch{}, {} each, {} in all before compression", size.of_launch,
+                     size.of_combustion > 0 ? fmt::format(" and {} of what burns", size.of_combustion) : "",
+                     megabytes(size.bytes_each), megabytes(size.bytes()));
 }
 
 std::optional<scene::InputError> out_of_reach(const scene::Scene& scene, const Reach& reach) {

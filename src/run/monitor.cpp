@@ -35,7 +35,12 @@ std::string first_broken_particle(const mpm::Simulation& simulation) {
   return place;
 }
 
-/// A state field of a body by name; null where its law has none of that name.
+double largest_of(const math::AlignedArray* values) {
+  return values == nullptr || values->empty() ? 0.0 : *std::max_element(values->begin(), values->end());
+}
+
+}  // namespace
+
 const math::AlignedArray* field_of(const mpm::AnyBody& any, std::string_view name) {
   return std::visit(
       [&]<class Law>(const mpm::Body<Law>& body) -> const math::AlignedArray* {
@@ -44,52 +49,6 @@ const math::AlignedArray* field_of(const mpm::AnyBody& any, std::string_view nam
       },
       any);
 }
-
-/// Present over initial distance between the neighbours of place `i` on a line of `count` particles, at an
-/// end between the particle and its one neighbour; 1 for a particle without any. `now` and `at_rest` give
-/// places.
-template <class Now, class AtRest>
-double stretch_at(int i, int count, Now now, AtRest at_rest) {
-  const int before = std::max(i - 1, 0), behind = std::min(i + 1, count - 1);
-  return before == behind ? 1.0 : (now(behind) - now(before)) / (at_rest(behind) - at_rest(before));
-}
-
-/// The half lengths of the cells of a body's particles, in the order of a snapshot.
-void add_half_lengths(const mpm::ParticleFields& p, Snapshot& shot) {
-  const mpm::Lattice& lattice = p.lattice;
-  for (int j = 0; j < lattice.rows(); ++j)
-    for (int i = 0; i < lattice.columns(); ++i) {
-      const double stretch_x = stretch_at(
-          i, lattice.columns(), [&](int k) { return p.x[lattice.slot(k, j)]; },
-          [&](int k) { return lattice.x_of(k); });
-      const double stretch_r = stretch_at(
-          j, lattice.rows(), [&](int k) { return p.r[lattice.slot(i, k)]; },
-          [&](int k) { return lattice.r_of(k); });
-      shot.half_length_x.push_back(0.5 * lattice.length_x(i) * stretch_x);
-      shot.half_length_r.push_back(0.5 * lattice.length_r(j) * stretch_r);
-    }
-}
-
-/// The burnt shares of all particles, in the order of a snapshot; none where nothing burns.
-std::vector<double> burnt_shares(const mpm::Simulation& simulation) {
-  std::vector<double> shares;
-  bool burns = false;
-  simulation.for_each_body([&](const mpm::ParticleFields& p) {
-    for (int j = 0; j < p.lattice.rows(); ++j)
-      for (int i = 0; i < p.lattice.columns(); ++i) {
-        const mpm::BurningParticle* burning = p.burning ? p.burning->find(p.lattice.slot(i, j)) : nullptr;
-        shares.push_back(burning != nullptr ? burning->state.burnt_share : 0.0);
-        burns = burns || burning != nullptr;
-      }
-  });
-  return burns ? shares : std::vector<double>{};
-}
-
-double largest_of(const math::AlignedArray* values) {
-  return values == nullptr || values->empty() ? 0.0 : *std::max_element(values->begin(), values->end());
-}
-
-}  // namespace
 
 EnergyBalance energy_of(const mpm::Simulation& simulation) {
   const double whole = whole_shell(simulation);
@@ -145,42 +104,6 @@ std::vector<InterfaceResult> interfaces_of(const mpm::Simulation& simulation) {
     results.push_back(std::move(result));
   }
   return results;
-}
-
-Snapshot take_snapshot(const mpm::Simulation& simulation) {
-  Snapshot shot;
-  shot.time = simulation.time();
-  const auto value = [](const math::AlignedArray* field, std::size_t slot) {
-    return field == nullptr ? 0.0 : (*field)[slot];
-  };
-  for (const mpm::AnyBody& any : simulation.bodies()) {
-    const mpm::ParticleFields& p = mpm::particle_fields_of(any);
-    const math::AlignedArray *crack = field_of(any, "crack_radius"),
-                             *plastic = field_of(any, "plastic_strain");
-    const double density = std::visit([](const auto& body) { return body.law.initial_density(); }, any);
-    for (int j = 0; j < p.lattice.rows(); ++j)
-      for (int i = 0; i < p.lattice.columns(); ++i) {
-        const std::size_t slot = p.lattice.slot(i, j);
-        shot.x.push_back(p.x[slot]);
-        shot.r.push_back(p.r[slot]);
-        shot.velocity_x.push_back(p.velocity_x[slot]);
-        shot.velocity_r.push_back(p.velocity_r[slot]);
-        shot.density.push_back(density / p.volume_ratio[slot]);
-        shot.pressure.push_back(p.pressure[slot]);
-        shot.temperature.push_back(p.temperature[slot]);
-        const auto deviator = std::visit([&](const auto& body) { return body.deviator(slot); }, any);
-        shot.von_mises.push_back(math::von_mises(deviator));
-        shot.deviator_rr.push_back(deviator.rr);
-        shot.deviator_xx.push_back(deviator.xx);
-        shot.deviator_rx.push_back(deviator.rx);
-        shot.crack_radius.push_back(value(crack, slot));
-        shot.plastic_strain.push_back(value(plastic, slot));
-        shot.body.push_back(p.body);
-      }
-    add_half_lengths(p, shot);
-  }
-  shot.burnt_share = burnt_shares(simulation);
-  return shot;
 }
 
 LimiterCounts count_limited(const mpm::Simulation& simulation) {

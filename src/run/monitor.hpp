@@ -6,13 +6,16 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace launchsafe::run {
+
+/// A state field of a body by name; null where its law has none of that name.
+const math::AlignedArray* field_of(const mpm::AnyBody& any, std::string_view name);
 
 /// The energy balance at the begin of the last step, in J of the whole shell (plane strain: per metre).
 EnergyBalance energy_of(const mpm::Simulation& simulation);
 MonitorSample monitor_sample(const mpm::Simulation& simulation, double time_step);
-Snapshot take_snapshot(const mpm::Simulation& simulation);
 /// What became of the faces that can slide.
 std::vector<InterfaceResult> interfaces_of(const mpm::Simulation& simulation);
 

@@ -31,6 +31,9 @@ class SteppedSkin {
   bool ignited(std::size_t station) const { return points_[station].ignited; }
   /// Temperature (K) of what has not burnt of a station's skin: T2 where all of it has.
   double unburnt_temperature(std::size_t station) const { return unburnt_[station].temperature; }
+  double temperature(std::size_t station) const {
+    return points_[station].temperature;
+  }  ///< K, with the burnt part
   const surface::SkinModel& model() const { return model_; }
 
   surface::SkinHistory take() { return std::move(history_); }

@@ -71,6 +71,8 @@ std::string allowed_text(const KeyDescription& key) {
       return "true or false";
     case KeyKind::word:
       return quoted_list(key.words);
+    case KeyKind::words:
+      return "any of " + quoted_list(key.words) + ", with commas between";
     case KeyKind::text:
       return "a text in quotation marks";
     case KeyKind::number: {

@@ -78,8 +78,8 @@ void clear_sign(double& number) {
 template <class Owner>
 void clear_signs_of_zeros(const std::vector<Key<Owner>>& keys, Owner& owner) {
   for (const Key<Owner>& key : keys) {
-    if (key.kind == KeyKind::text || key.kind == KeyKind::word || key.kind == KeyKind::flag) continue;
     Value value = key.get(owner);
+    if (std::holds_alternative<std::string>(value) || std::holds_alternative<bool>(value)) continue;
     if (auto* number = std::get_if<double>(&value)) {
       if (is_negative_zero(*number)) key.set(owner, Value(0.0));
     } else {
@@ -104,11 +104,17 @@ void clear_signs_of_zeros(Scene& scene) {
 
 Scene mechanical_part(const Scene& scene) {
   const Plan plan = make_plan(scene);
+  Scene part = scene;
+  // Of a gap, and of what follows its ignition, the mechanics knows nothing.
+  std::erase_if(part.output.snapshot_times, [&](double time) {
+    return scene.coupling == Coupling::two_way && time > scene.load.duration * (1.0 + 1e-12);
+  });
+  std::erase_if(part.output.snapshot_events,
+                [](Event event) { return event == Event::ignition || event == Event::burnt; });
   // Temperatures of the charge act on the mechanics only through conduction into the steel, and are stored in
   // snapshots.
   const bool temperatures_matter =
-      plan.conduction.in || plan.bulk_reaction.in || !scene.output.snapshot_times.empty();
-  Scene part = scene;
+      plan.conduction.in || plan.bulk_reaction.in || part.output.asks_for_snapshots();
   part.title.clear();
   part.accepted.clear();
   part.coupling = Coupling::one_way;  // until ignition nothing acts back

@@ -135,9 +135,10 @@ Term plan_inertial_scaling(const Scene& scene) {
 }
 
 Term plan_snapshots(const Scene& scene) {
-  const auto count = static_cast<double>(scene.output.snapshot_times.size());
-  if (scene.output.snapshot_times.empty()) return {false, false, "none asked for", count, 0.0};
-  return {true, false, fmt::format("{:.0f} times", count), count, 0.0};
+  const std::size_t times = scene.output.snapshot_times.size(), events = scene.output.snapshot_events.size();
+  const auto count = static_cast<double>(times + events);
+  if (!scene.output.asks_for_snapshots()) return {false, false, "none asked for", count, 0.0};
+  return {true, false, fmt::format("{} times, {} events", times, events), count, 0.0};
 }
 
 /// Sub-steps into which the crack law divides a step because cracks and Maxwell elements relax together; 0

@@ -94,20 +94,22 @@ std::vector<double> marks_between(const Load& load, double begin, double end) {
   return marks;
 }
 
-/// Largest value at the marks and, where an average may be larger between them, beside the largest mark.
-double largest_at(const std::vector<double>& marks, const std::function<double(double)>& pressure,
-                  bool smoothed) {
+/// Largest value at the marks and, where an average may be larger between them, beside the largest mark,
+/// after the time at which it is.
+std::pair<double, double> largest_at(const std::vector<double>& marks,
+                                     const std::function<double(double)>& pressure, bool smoothed) {
   std::size_t best = 0;
   std::vector<double> values;
   for (const double mark : marks) values.push_back(pressure(mark));
   for (std::size_t i = 1; i < values.size(); ++i)
     if (values[i] > values[best]) best = i;
-  if (!smoothed || marks.size() < 2) return values[best];
+  const std::pair<double, double> at_mark{marks[best], values[best]};
+  if (!smoothed || marks.size() < 2) return at_mark;
   const double begin = marks[best > 0 ? best - 1 : 0], end = marks[std::min(best + 1, marks.size() - 1)];
   constexpr int digits = std::numeric_limits<double>::digits / 2;
   const auto below =
       boost::math::tools::brent_find_minima([&](double t) { return -pressure(t); }, begin, end, digits);
-  return std::max(values[best], -below.second);
+  return -below.second > values[best] ? std::pair{below.first, -below.second} : at_mark;
 }
 
 }  // namespace
@@ -119,7 +121,7 @@ PressureHistory::PressureHistory(const Load& load) : load_(load) {
   if (smoothed) curve_ = MovingAverage(load_.curve_time, std::move(curve_), load_.smoothing);
   if (!load_.rescale_to_peak) return;
   const auto marks = marks_between(load_, load_.curve_time.front(), load_.curve_time.back());
-  const double largest = largest_at(marks, curve_, smoothed);
+  const double largest = largest_at(marks, curve_, smoothed).second;
   if (largest > 0.0) scale_ = load_.peak / largest;
 }
 
@@ -141,10 +143,14 @@ double PressureHistory::at(double time) const {
 
 std::vector<double> PressureHistory::marks() const { return marks_between(load_, 0.0, load_.duration); }
 
-double PressureHistory::peak() const {
-  if (load_.curve_time.empty()) return at(std::min(load_.peak_time, load_.duration));
-  return largest_at(
-      marks(), [this](double time) { return at(time); }, load_.smoothing > 0.0);
+PressureHistory::State PressureHistory::largest() const {
+  if (load_.curve_time.empty()) {
+    const double time = std::min(load_.peak_time, load_.duration);
+    return {time, at(time)};
+  }
+  const auto [time, pressure] = largest_at(
+      marks(), [this](double t) { return at(t); }, load_.smoothing > 0.0);
+  return {time, pressure};
 }
 
 double PressureHistory::stated_peak() const {

@@ -349,6 +349,11 @@ std::vector<Key<Output>> output_keys() {
                                              "Times at which the fields of all particles are stored.",
                                              &Output::snapshot_times)),
                        "they change nothing"),
+      always_plausible(written_where(words_key("snapshot_events", Standing::assumed,
+                                               "Events at which they are stored too; empty for none.",
+                                               event_words(), &Output::snapshot_events),
+                                     [](const Output& output) { return !output.snapshot_events.empty(); }),
+                       "they change nothing"),
   };
 }
 
@@ -414,6 +419,12 @@ std::string_view word_of(FrictionClosure closure) {
   const auto& words = closure_words();
   return std::find_if(words.begin(), words.end(), [=](const auto& each) { return each.second == closure; })
       ->first;
+}
+
+const std::vector<std::string>& event_words() {
+  static const std::vector<std::string> words{"first-crack-growth", "first-yield", "peak-pressure",
+                                              "largest-slip",       "ignition",    "burnt"};
+  return words;
 }
 
 const std::vector<Key<Scene>>& scene_keys() {

@@ -23,6 +23,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -136,6 +137,25 @@ Expected<Value> checked_word(const std::string& word, const KeyDescription& key,
   return error_for(place, key, '"' + word + '"', near.empty() ? near : '"' + near + '"');
 }
 
+/// Words between commas, each once; nothing for none. They come back in the order of the key's.
+Expected<Value> checked_words(const std::string& list, const KeyDescription& key, const Place& place) {
+  std::vector<std::string> found;
+  std::istringstream parts(list);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const std::size_t begin = part.find_first_not_of(' '), end = part.find_last_not_of(' ');
+    const std::string word = begin == std::string::npos ? "" : part.substr(begin, end - begin + 1);
+    if (const auto known = checked_word(word, key, place); !known) return known.error();
+    if (std::find(found.begin(), found.end(), word) != found.end())
+      return error_for(place, key, '"' + word + "\" twice");
+    found.push_back(word);
+  }
+  std::string ordered;
+  for (const std::string& word : key.words)
+    if (std::find(found.begin(), found.end(), word) != found.end())
+      ordered += (ordered.empty() ? "" : ", ") + word;
+  return Value(ordered);
+}
+
 /// Names of files end at a NUL, wherever it stands.
 Expected<Value> checked_text(const std::string& text, const KeyDescription& key, const Place& place) {
   if (text.find('\0') == std::string::npos) return Value(text);
@@ -165,6 +185,7 @@ Expected<Value> value_at(const toml::node& node, const KeyDescription& key, cons
   const auto* text = node.as_string();
   if (key.kind == KeyKind::flag && node.is_boolean()) return Value(node.as_boolean()->get());
   if (key.kind == KeyKind::word && text) return checked_word(text->get(), key, place);
+  if (key.kind == KeyKind::words && text) return checked_words(text->get(), key, place);
   if (key.kind == KeyKind::text && text) return checked_text(text->get(), key, place);
   if (key.kind == KeyKind::number) {
     const auto number = read_number(node, key, place);

@@ -406,11 +406,17 @@ Fault check_output(const SceneFile& file) {
   std::sort(times.begin(), times.end());
   if (const auto twice = std::adjacent_find(times.begin(), times.end()); twice != times.end())
     return fault_at(file, "output.snapshots", time_text(*twice) + " twice", "each time once");
+  const bool burns = file.scene.coupling == Coupling::two_way;
+  const double last = burns ? duration + file.scene.combustion.duration : duration;
   for (const double time : times) {
-    if (time <= duration * (1.0 + 1e-12)) continue;
+    if (time <= last * (1.0 + 1e-12)) continue;
     return fault_at(file, "output.snapshots", time_text(time),
-                    "times from 0 ms to the load's duration, " + until);
+                    burns ? "times from 0 ms to combustion.duration after the load's end, " + time_text(last)
+                          : "times from 0 ms to the load's duration, " + until);
   }
+  if (!burns && file.scene.output.asks_for(Event::burnt))
+    return fault_at(file, "output.snapshot_events", "\"burnt\" with coupling = \"one-way\"",
+                    "the other events, or coupling = \"two-way\"");
   return std::nullopt;
 }
 

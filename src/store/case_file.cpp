@@ -245,10 +245,12 @@ MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene
                  fmt::format("cannot write {}: {}", path.string(), bytes.error().message)};
   }
   if (MaybeError error = publish(path, *bytes, manifest)) return error;
-  const auto& snapshots = result.mechanics.snapshots;
-  if (snapshots.empty()) return {};
+  const bool burns = std::any_of(result.gaps.begin(), result.gaps.end(), [](const run::GapResult& gap) {
+    return gap.combustion && !gap.combustion->snapshots.empty();
+  });
+  if (result.mechanics.snapshots.empty() && !burns) return {};
   const std::filesystem::path sidecar = sidecar_of(path);
-  return write_own_file(sidecar, {xdmf_of(snapshots, path.filename().string())});
+  return write_own_file(sidecar, {xdmf_of(result, path.filename().string())});
 }
 
 std::filesystem::path sidecar_of(const std::filesystem::path& path) {

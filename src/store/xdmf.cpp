@@ -20,6 +20,12 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
+/// A snapshot in the case file.
+struct Stored {
+  const run::Snapshot& snapshot;
+  std::string group;  ///< "case.h5:/snapshots/0000"
+};
+
 /// A dataset of the case file.
 std::string item(std::string_view type, const std::string& dimensions, const std::string& address) {
   return fmt::format(
@@ -35,53 +41,128 @@ std::string attribute(std::string_view name, std::string_view kind, std::string_
 }
 
 /// Each particle a quadrilateral with corners of its own; a point where the cells are not known.
-std::string mesh_of(const run::Snapshot& snapshot, const std::string& group) {
-  const std::size_t count = snapshot.body.size();
-  if (!has_cells(snapshot))
+std::string mesh_of(const Stored& stored) {
+  const std::size_t count = stored.snapshot.body.size();
+  if (!has_cells(stored.snapshot))
     return fmt::format(
         "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{0}\" NodesPerElement=\"1\"/>\n"
         "        <Geometry GeometryType=\"XYZ\">{1}</Geometry>\n",
-        count, item("Float", fmt::format("{} 3", count), group + "/position"));
+        count, item("Float", fmt::format("{} 3", count), stored.group + "/position"));
   return fmt::format(
       "        <Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"{}\">{}</Topology>\n"
       "        <Geometry GeometryType=\"XY\">{}</Geometry>\n",
-      count, item("Int", fmt::format("{}", 4 * count), group + "/cells"),
-      item("Float", fmt::format("{} 2", 4 * count), group + "/corners"));
+      count, item("Int", fmt::format("{}", 4 * count), stored.group + "/cells"),
+      item("Float", fmt::format("{} 2", 4 * count), stored.group + "/corners"));
 }
 
-std::string grid_of(const run::Snapshot& snapshot, const std::string& group) {
+/// Lines between pairs of points.
+std::string lines_between(std::size_t points, std::size_t lines, const std::string& links,
+                          const std::string& places) {
+  return fmt::format(
+      "        <Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" "
+      "NumberOfElements=\"{}\">{}</Topology>\n"
+      "        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
+      lines, item("Int", fmt::format("{}", 2 * lines), links),
+      item("Float", fmt::format("{} 3", points), places));
+}
+
+/// A grid at the time of a snapshot, named after what it is and the snapshot's events.
+std::string grid(const std::string& name, const run::Snapshot& snapshot, const std::string& content) {
+  std::string events;
+  for (const scene::Event event : snapshot.events) events += (events.empty() ? "" : ", ") + word_of(event);
+  std::string text = fmt::format("      <Grid Name=\"{}{}\" GridType=\"Uniform\">\n", name,
+                                 events.empty() ? "" : ": " + events);
+  if (!events.empty()) text += fmt::format("        <Information Name=\"events\" Value=\"{}\"/>\n", events);
+  return text + fmt::format("        <Time Value=\"{}\"/>\n", snapshot.time) + content + "      </Grid>\n";
+}
+
+std::string particles_of(const Stored& stored) {
+  const auto& [snapshot, group] = stored;
   const std::size_t count = snapshot.body.size();
-  const std::string one = fmt::format("{}", count), three = fmt::format("{} 3", count);
+  const std::string one = fmt::format("{}", count);
   const std::string_view centre = has_cells(snapshot) ? "Cell" : "Node";
-  std::string grid = fmt::format(
-                         "      <Grid Name=\"particles\" GridType=\"Uniform\">\n"
-                         "        <Time Value=\"{}\"/>\n",
-                         snapshot.time) +
-                     mesh_of(snapshot, group) +
-                     attribute("body", "Scalar", centre, item("Int", one, group + "/body"));
+  std::string text = mesh_of(stored) + attribute("body", "Scalar", centre, item("Int", one, group + "/body"));
   if (!snapshot.velocity_x.empty())
-    grid += attribute("velocity", "Vector", centre, item("Float", three, group + "/velocity"));
+    text += attribute("velocity", "Vector", centre, item("Float", one + " 3", group + "/velocity"));
+  if (has_stresses(snapshot))
+    text += attribute("stress", "Tensor6", centre, item("Float", one + " 6", group + "/stress"));
   for (const ParticleField& field : particle_fields) {
     if ((snapshot.*field.values).empty()) continue;
-    grid += attribute(field.name, "Scalar", centre, item("Float", one, group + "/" + field.name));
+    text += attribute(field.name, "Scalar", centre, item("Float", one, group + "/" + field.name));
   }
-  return grid + "      </Grid>\n";
+  return text;
+}
+
+std::string bottom_of(const Stored& stored) {
+  const std::string group = stored.group + "/bottom";
+  const std::size_t stations = stored.snapshot.bottom_x.size() / 2;
+  const std::string one = fmt::format("{}", stations);
+  std::string text = lines_between(2 * stations, stations, group + "/lines", group + "/points");
+  for (std::size_t i = 0; i < stored.snapshot.skins.size(); ++i) {
+    const run::BottomSkin& skin = stored.snapshot.skins[i];
+    const std::string gap = fmt::format("{:.6g} cm", 100.0 * skin.gap),
+                      place = fmt::format("{}/gaps/{:04}/", group, i);
+    text += attribute("skin temperature, gap " + gap, "Scalar", "Cell",
+                      item("Float", one, place + "temperature"));
+    if (!skin.reaction_degree.empty())
+      text += attribute("reaction degree, gap " + gap, "Scalar", "Cell",
+                        item("Float", one, place + "reaction_degree"));
+  }
+  return text;
+}
+
+std::string face_of(const Stored& stored, std::size_t index) {
+  const std::string group = fmt::format("{}/faces/{:04}", stored.group, index);
+  const std::size_t nodes = stored.snapshot.faces[index].slip.size();
+  std::string text = lines_between(nodes, nodes - 1, group + "/lines", group + "/position");
+  for (const char* name : {"slip", "contact_pressure", "shear", "opening"})
+    text += attribute(name, "Scalar", "Node", item("Float", fmt::format("{}", nodes), group + "/" + name));
+  return text;
+}
+
+/// A time series; nothing without grids.
+std::string series(const std::string& name, const std::string& grids) {
+  if (grids.empty()) return {};
+  return fmt::format(
+      "    <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n{}    </Grid>\n", name,
+      grids);
+}
+
+/// The particles of a list of snapshots, the bottom of the charge, and each face that can slide, as time
+/// series of their own. `end` of their names.
+std::string all_series(const std::vector<run::Snapshot>& snapshots, const std::string& list,
+                       const std::string& end) {
+  std::string particles, bottom;
+  std::vector<std::string> faces;
+  for (std::size_t i = 0; i < snapshots.size(); ++i) {
+    const Stored stored{snapshots[i], fmt::format("{}/{:04}", list, i)};
+    particles += grid("particles", snapshots[i], particles_of(stored));
+    if (!snapshots[i].bottom_x.empty()) bottom += grid("bottom", snapshots[i], bottom_of(stored));
+    faces.resize(std::max(faces.size(), snapshots[i].faces.size()));
+    for (std::size_t f = 0; f < snapshots[i].faces.size(); ++f)
+      faces[f] += grid("face", snapshots[i], face_of(stored, f));
+  }
+  std::string text = series("launch" + end, particles) + series("bottom of the charge" + end, bottom);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    text += series(fmt::format("face {} towards {}{}", f + 1, escaped(snapshots.back().faces[f].body), end),
+                   faces[f]);
+  return text;
 }
 
 }  // namespace
 
-std::string xdmf_of(const std::vector<run::Snapshot>& snapshots, const std::string& case_file) {
-  std::string grids;
-  for (std::size_t i = 0; i < snapshots.size(); ++i) {
-    grids += grid_of(snapshots[i], fmt::format("{}:/snapshots/{:04}", escaped(case_file), i));
-  }
+std::string xdmf_of(const run::CaseResult& result, const std::string& case_file) {
+  const std::string file = escaped(case_file) + ":";
+  std::string grids = all_series(result.mechanics.snapshots, file + "/snapshots", "");
+  for (std::size_t i = 0; i < result.gaps.size(); ++i)
+    if (const auto& combustion = result.gaps[i].combustion)
+      grids += all_series(combustion->snapshots, fmt::format("{}/gaps/{:04}/combustion/snapshots", file, i),
+                          fmt::format(", burning, gap {:.6g} cm", 100.0 * result.gaps[i].gap));
   return fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<Xdmf Version=\"2.0\">\n"
       "  <Domain>\n"
-      "    <Grid Name=\"launch\" GridType=\"Collection\" CollectionType=\"Temporal\">\n"
       "{}"
-      "    </Grid>\n"
       "  </Domain>\n"
       "</Xdmf>\n",
       grids);

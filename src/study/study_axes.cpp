@@ -21,6 +21,8 @@ std::string_view kind_text(KeyKind kind) {
       return "true or false";
     case KeyKind::word:
       return "a word";
+    case KeyKind::words:
+      return "words";
     case KeyKind::text:
       return "a text";
     case KeyKind::list:

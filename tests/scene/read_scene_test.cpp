@@ -203,6 +203,22 @@ TEST(ReadScene, TimeStepsBeyondTheStableOnesAreAllowedUpToTwice) {
                "2.1", "to 2");
 }
 
+TEST(ReadScene, EventsOfSnapshotsAreWordsInAnyOrder) {
+  const auto file =
+      parse_scene("output.snapshot_events = \"peak-pressure,first-yield\"\n" + small_scene, "small.toml");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->scene.output.snapshot_events, (std::vector{Event::first_yield, Event::peak_pressure}));
+  EXPECT_NE(to_toml(file->scene).find("snapshot_events = 'first-yield, peak-pressure'"), std::string::npos);
+  EXPECT_EQ(to_toml(parse_scene(small_scene, "small.toml")->scene).find("snapshot_events"), std::string::npos)
+      << "what has no events stays what it was";
+  const auto faulty = [](const std::string& words) {
+    return error_of("output.snapshot_events = \"" + words + "\"\n" + small_scene);
+  };
+  expect_error(faulty("peak-presure"), 1, "output.snapshot_events", "peak-presure", "\"peak-pressure\"");
+  expect_error(faulty("ignition, ignition"), 1, "output.snapshot_events", "twice", "any of");
+  expect_error(faulty("burnt"), 1, "output.snapshot_events", "one-way", "two-way");
+}
+
 TEST(ReadScene, SnapshotsMustLieWithinTheLaunch) {
   const auto text = "output.snapshots = \"0, 2 ms\"\n" + small_scene;
   expect_error(error_of(text), 1, "output.snapshots", "2 ms", "1 ms");

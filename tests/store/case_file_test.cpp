@@ -1,6 +1,8 @@
 #include "launchsafe/store/case_file.hpp"
 
 #include "child_process.hpp"
+#include "launchsafe/run/cost.hpp"
+#include "launchsafe/run/run_case.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/sha256.hpp"
@@ -251,10 +253,63 @@ TEST_F(CaseFile, KeepsTheCellsOfTheParticlesAndWhatHasBurnt) {
   expect_same(sample_with_cells(), stored->result);
 }
 
+/// With a gap that burns.
+run::CaseResult sample_with_events() {
+  run::CaseResult result = sample_case();
+  result.mechanics.snapshots = {sample_snapshot_of_events(0.001), sample_snapshot_of_events(0.002)};
+  result.gaps[1].combustion.emplace().snapshots = {sample_snapshot_of_events(0.0177)};
+  return result;
+}
+
+TEST_F(CaseFile, KeepsEventsBottomsFacesAndWhatBurns) {
+  ASSERT_FALSE(write_case_file(path(), sample_scene(), sample_with_events(), sample_manifest()));
+  const Result<StoredCase> stored = read_case_file(path());
+  ASSERT_TRUE(stored) << stored.error().message;
+  expect_same(sample_with_events(), stored->result);
+}
+
+/// Bytes of all datasets below a group, before compression.
+double bytes_below(hid_t file, const std::string& group) {
+  double bytes = 0;
+  const auto add = [](hid_t at, const char* name, const H5O_info_t* info, void* sum) -> herr_t {
+    if (info->type != H5O_TYPE_DATASET) return 0;
+    const hid_t set = H5Dopen2(at, name, H5P_DEFAULT), space = H5Dget_space(set), type = H5Dget_type(set);
+    *static_cast<double*>(sum) +=
+        static_cast<double>(H5Tget_size(type)) * static_cast<double>(H5Sget_simple_extent_npoints(space));
+    H5Tclose(type);
+    H5Sclose(space);
+    H5Dclose(set);
+    return 0;
+  };
+  const hid_t at = H5Gopen2(file, group.c_str(), H5P_DEFAULT);
+  H5Ovisit2(at, H5_INDEX_NAME, H5_ITER_NATIVE, add, &bytes, H5O_INFO_BASIC);
+  H5Gclose(at);
+  return bytes;
+}
+
+// What is foreseen of a snapshot is what its file holds; the time and the like are some bytes more.
+TEST_F(CaseFile, SnapshotsTakeAsManyBytesAsForeseen) {
+  scene::Scene scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
+  scene.numerics.cell_size = 10e-3;
+  scene.load.duration = 1e-4;
+  scene.interfaces.clear();
+  scene.output.snapshot_times = {0.0, 1e-4};
+  ASSERT_FALSE(write_case_file(path(), scene, run::run_case(scene), sample_manifest()));
+  const run::SnapshotSize size = run::snapshot_size(scene);
+  EXPECT_EQ(size.of_launch, 2U);
+  EXPECT_EQ(size.of_combustion, 0U);
+  const hid_t file = H5Fopen(path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const double bytes = bytes_below(file, "/snapshots/0001");
+  H5Fclose(file);
+  EXPECT_GE(bytes, size.bytes_each);
+  EXPECT_LT(bytes - size.bytes_each, 100.0);
+}
+
 TEST_F(CaseFile, OfWhatSnapshotsDoNotKnowNothingIsStored) {
   write_sample();
   const hid_t file = H5Fopen(path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  for (const char* name : {"half_length_x", "half_length_r", "burnt_share", "corners", "cells"})
+  for (const char* name :
+       {"half_length_x", "half_length_r", "burnt_share", "corners", "cells", "bottom", "faces"})
     EXPECT_FALSE(H5Lexists(file, (std::string("/snapshots/0000/") + name).c_str(), H5P_DEFAULT) > 0) << name;
   H5Fclose(file);
   const std::string description = *read_file(folder() / "case.xdmf");
@@ -294,8 +349,26 @@ std::vector<hsize_t> extent_in(hid_t file, const std::string& address) {
 TEST_F(CaseFile, ParaviewFindsEveryDatasetThatTheDescriptionNamesInTheShapeThatItSays) {
   ASSERT_FALSE(write_case_file(path(), sample_scene(), sample_with_cells(), sample_manifest()));
   const std::vector<NamedData> named = data_named_in(*read_file(folder() / "case.xdmf"));
-  // In both snapshots cells, corners, body, velocity and 11 fields: the sample has no crack radius.
-  EXPECT_EQ(named.size(), 2U * 15U);
+  // In both snapshots cells, corners, body, velocity, stress and 11 fields: the sample has no crack radius.
+  EXPECT_EQ(named.size(), 2U * 16U);
+  const hid_t file = H5Fopen(path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  for (const NamedData& data : named) EXPECT_EQ(extent_in(file, data.address), data.extent) << data.address;
+  H5Fclose(file);
+}
+
+TEST_F(CaseFile, ParaviewSeesEventsBottomsFacesAndWhatBurns) {
+  ASSERT_FALSE(write_case_file(path(), sample_scene(), sample_with_events(), sample_manifest()));
+  const std::string description = *read_file(folder() / "case.xdmf");
+  for (const char* part :
+       {"<Grid Name=\"particles: first-yield, ignition\"", "Value=\"first-yield, ignition\"",
+        "<Grid Name=\"bottom of the charge\"", "<Grid Name=\"face 1 towards wall\"",
+        "<Grid Name=\"launch, burning, gap 0.04 cm\"", "Name=\"skin temperature, gap 0.04 cm\"",
+        "Name=\"contact_pressure\" AttributeType=\"Scalar\" Center=\"Node\"",
+        "NodesPerElement=\"2\" NumberOfElements=\"2\""})
+    EXPECT_NE(description.find(part), std::string::npos) << part;
+  const std::vector<NamedData> named = data_named_in(description);
+  // In three snapshots those of the particles, four of the bottom, and six of the face.
+  EXPECT_EQ(named.size(), 3U * (16U + 4U + 6U));
   const hid_t file = H5Fopen(path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   for (const NamedData& data : named) EXPECT_EQ(extent_in(file, data.address), data.extent) << data.address;
   H5Fclose(file);

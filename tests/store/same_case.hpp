@@ -73,6 +73,23 @@ inline void expect_same(const run::Snapshot& a, const run::Snapshot& b) {
   EXPECT_EQ(bits(a.half_length_x), bits(b.half_length_x));
   EXPECT_EQ(bits(a.half_length_r), bits(b.half_length_r));
   EXPECT_EQ(bits(a.burnt_share), bits(b.burnt_share));
+  EXPECT_EQ(a.events, b.events);
+  EXPECT_EQ(bits(a.bottom_x), bits(b.bottom_x));
+  EXPECT_EQ(bits(a.bottom_r), bits(b.bottom_r));
+  ASSERT_EQ(a.skins.size(), b.skins.size());
+  for (std::size_t i = 0; i < a.skins.size(); ++i) {
+    EXPECT_EQ(bits({a.skins[i].gap}), bits({b.skins[i].gap}));
+    EXPECT_EQ(bits(a.skins[i].temperature), bits(b.skins[i].temperature));
+    EXPECT_EQ(bits(a.skins[i].reaction_degree), bits(b.skins[i].reaction_degree));
+  }
+  ASSERT_EQ(a.faces.size(), b.faces.size());
+  for (std::size_t i = 0; i < a.faces.size(); ++i) {
+    EXPECT_EQ(a.faces[i].body, b.faces[i].body);
+    for (const auto values :
+         {&run::FaceSnapshot::x, &run::FaceSnapshot::r, &run::FaceSnapshot::slip,
+          &run::FaceSnapshot::pressure, &run::FaceSnapshot::shear, &run::FaceSnapshot::opening})
+      EXPECT_EQ(bits(a.faces[i].*values), bits(b.faces[i].*values));
+  }
 }
 
 inline void expect_same(const run::InterfaceResult& a, const run::InterfaceResult& b) {
@@ -135,6 +152,11 @@ inline void expect_same(const run::GapResult& a, const run::GapResult& b) {
   EXPECT_EQ(bits(a.skin.air_temperature), bits(b.skin.air_temperature));
   EXPECT_EQ(bits(a.skin.temperature), bits(b.skin.temperature));
   expect_same(a.skin.ignition, b.skin.ignition);
+  ASSERT_EQ(a.combustion.has_value(), b.combustion.has_value());
+  if (!a.combustion) return;
+  ASSERT_EQ(a.combustion->snapshots.size(), b.combustion->snapshots.size());
+  for (std::size_t i = 0; i < a.combustion->snapshots.size(); ++i)
+    expect_same(a.combustion->snapshots[i], b.combustion->snapshots[i]);
 }
 
 inline void expect_same(const run::CaseResult& a, const run::CaseResult& b) {

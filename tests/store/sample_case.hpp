@@ -53,6 +53,23 @@ inline run::Snapshot sample_snapshot_of_cells(double time) {
   return snapshot;
 }
 
+/// Of two events, with two stations, the skin of a gap that burns, and a face of three nodes.
+inline run::Snapshot sample_snapshot_of_events(double time) {
+  run::Snapshot snapshot = sample_snapshot_of_cells(time);
+  snapshot.events = {scene::Event::first_yield, scene::Event::ignition};
+  snapshot.bottom_x = {0.6, 0.61, 0.61, 0.62};
+  snapshot.bottom_r = {0.02, 0.04, 0, 0.02};
+  snapshot.skins = {{.gap = 0.0004, .temperature = {784, not_a_number}, .reaction_degree = {0.5, 0}}};
+  snapshot.faces = {{.body = "wall",
+                     .x = {0.1, 0.2, 0.3},
+                     .r = {0.06, 0.06, 0.07},
+                     .slip = {0, -1e-4, 2e-4},
+                     .pressure = {1e8, 2e8, 0},
+                     .shear = {0, -1e7, 0},
+                     .opening = {0, -1e-12, 1e-6}}};
+  return snapshot;
+}
+
 inline run::MechanicsResult sample_mechanics() {
   run::MechanicsResult mechanics;
   mechanics.status = run::RunStatus::energy_drift;

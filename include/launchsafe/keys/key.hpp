@@ -41,11 +41,11 @@ enum class Dimension {
 /// wrote.
 enum class Standing { input, paper, literature, derived, assumed, calibrated };
 
-/// number: one quantity; flag: true or false; word: one of a few; text: any string; list: quantities; range:
-/// "a to b".
-enum class KeyKind { number, flag, word, text, list, range };
+/// number: one quantity; flag: true or false; word: one of a few; words: some of a few, each once; text: any
+/// string; list: quantities; range: "a to b".
+enum class KeyKind { number, flag, word, words, text, list, range };
 
-/// The value of any key: number; flag; word or text; list or range.
+/// The value of any key: number; flag; word, words ("a, b") or text; list or range.
 using Value = std::variant<double, bool, std::string, std::vector<double>>;
 
 /// Allowed numbers in SI; for lists and ranges, those of every number.
@@ -88,7 +88,7 @@ struct KeyDescription {
   KeyKind kind = KeyKind::number;
   Dimension dimension = Dimension::number;
   Limits limits = {};
-  std::vector<std::string> words = {};  ///< of a word
+  std::vector<std::string> words = {};  ///< of a word or of words: those that there are
   /// Of a word: those of earlier versions. They are still read, and still written where a text is the
   /// identity of what is stored (scene::exact_toml).
   std::vector<FormerWord> former_words = {};
@@ -209,6 +209,32 @@ auto word_key(std::string name, Standing standing, std::string sentence,
         for (const auto& [word, meaning] : words)
           if (meaning == source) return word;
         return std::string{};
+      });
+}
+
+/// Some of a few words, none of them too, in the order in which these are given: each stands for the value of
+/// the member's enumeration with its index.
+template <class Named = void, class Member>
+auto words_key(std::string name, Standing standing, std::string sentence, std::vector<std::string> words,
+               Member member) {
+  using Enumeration = typename PartOf<Named, Member>::value_type;
+  KeyDescription described = description(std::move(name), KeyKind::words, standing, std::move(sentence));
+  described.words = words;
+  return bound_key<OwnerOf<Named, Member>>(
+      std::move(described), member,
+      [words](auto& target, const Value& value) {
+        target.clear();
+        const std::string list = ", " + std::get<std::string>(value) + ",";
+        for (std::size_t i = 0; i < words.size(); ++i)
+          if (list.find(" " + words[i] + ",") != std::string::npos)
+            target.push_back(static_cast<Enumeration>(i));
+      },
+      [words](const auto& source) {
+        std::string list;
+        for (std::size_t i = 0; i < words.size(); ++i)
+          if (std::find(source.begin(), source.end(), static_cast<Enumeration>(i)) != source.end())
+            list += (list.empty() ? "" : ", ") + words[i];
+        return list;
       });
 }
 

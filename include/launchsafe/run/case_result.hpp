@@ -1,6 +1,7 @@
 // What one case came to: the mechanics once, and a skin history for every gap.
 #pragma once
 
+#include "launchsafe/scene/scene.hpp"
 #include "launchsafe/surface/air_energy.hpp"
 #include "launchsafe/surface/skin.hpp"
 #include "launchsafe/trace/bottom_trace.hpp"
@@ -56,12 +57,30 @@ struct MonitorSample {
   double momentum = 0;  ///< kg m/s, axial, relative to the frame, of steel with its own inertial factor
 };
 
+/// The skin of a gap along the charge's bottom at one instant, by the stations that tile it.
+struct BottomSkin {
+  double gap = 0;                       ///< m
+  std::vector<double> temperature;      ///< K, of the skin, which holds the heat of its sliding layers
+  std::vector<double> reaction_degree;  ///< of the skin; empty but in a run that goes on through combustion
+};
+
+/// A face of the charge on which a body can slide, at one instant, by the nodes of the charge's face.
+struct FaceSnapshot {
+  std::string body;
+  std::vector<double> x, r;      ///< m, at present
+  std::vector<double> slip;      ///< m, of the body against the charge since the start: along x or along r
+  std::vector<double> pressure;  ///< Pa, of contact, compression positive
+  std::vector<double> shear;     ///< Pa, on the body, in the direction of the slip
+  std::vector<double> opening;   ///< m, by which the faces have parted
+};
+
 /// Particle fields at one instant: body after body, in each row after row from the axis outward, in each row
 /// from the nose to the base (scene::particles_of counts both).
 struct Snapshot {
   double time = 0;
+  std::vector<scene::Event> events;  ///< that it is of; none where it is of a time alone
   std::vector<double> x, r, velocity_x, velocity_r, density, pressure, von_mises, temperature, crack_radius,
-      plastic_strain;
+      plastic_strain;  ///< crack radius and plastic strain are empty where no body's law has them
   /// Stress deviator, Pa; tt = -(rr + xx). Stresses, positive in tension, are sigma_ii = deviator_ii -
   /// pressure and sigma_rx = deviator_rx.
   std::vector<double> deviator_rr, deviator_xx, deviator_rx;
@@ -70,6 +89,11 @@ struct Snapshot {
   std::vector<double> half_length_x, half_length_r;
   std::vector<double> burnt_share;  ///< of the particle's mass; empty where nothing burns
   std::vector<int> body;            ///< index into Scene::bodies
+  /// m, both ends of every station that tiles the charge's bottom, at present, in the order of the trace;
+  /// empty in files that are older than this.
+  std::vector<double> bottom_x, bottom_r;
+  std::vector<BottomSkin> skins;    ///< of the case's gaps; none where the mechanics ran alone
+  std::vector<FaceSnapshot> faces;  ///< of those that can slide, in the order of MechanicsResult::interfaces
 };
 
 /// On how many particle-steps limiters acted; a verdict that depended on one says so.
@@ -164,9 +188,10 @@ struct CombustionHistory {
   /// Largest energy made or lost in burning particles, as a share of the heat of reaction of what had burnt.
   double energy_residual = 0;
   CombustionEnd end = CombustionEnd::time;
-  std::string reason;       ///< why it broke off
-  double energy_drift = 0;  ///< largest of the whole run, see `largest_energy_drift`
-  double wall_time = 0;     ///< s, of the whole run
+  std::string reason;               ///< why it broke off
+  double energy_drift = 0;          ///< largest of the whole run, see `largest_energy_drift`
+  double wall_time = 0;             ///< s, of the whole run
+  std::vector<Snapshot> snapshots;  ///< from ignition on; of `run_case` only
   std::size_t samples() const { return time.size(); }
 };
 

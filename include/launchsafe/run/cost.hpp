@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <optional>
+#include <string>
 
 namespace launchsafe::run {
 
@@ -23,6 +24,17 @@ struct Cost {
   double time() const { return work / cautious_update_rate; }      ///< s on a core
 };
 Cost cost_of(const scene::Scene& scene);
+
+/// What the snapshots of a case take in its file, before compression.
+struct SnapshotSize {
+  std::size_t of_launch = 0;      ///< at most: an event may never happen
+  std::size_t of_combustion = 0;  ///< at most, of all gaps, should each ignite; 0 without two-way coupling
+  double bytes_each = 0;  ///< but for faces that can slide and, of what burns, two more numbers a particle
+  double bytes() const { return bytes_each * static_cast<double>(of_launch + of_combustion); }
+};
+SnapshotSize snapshot_size(const scene::Scene& scene);
+/// "at most 6 of the launch and 12 of what burns, 2.6 MB each, 47 MB in all before compression".
+std::string to_text(const SnapshotSize& size);
 
 /// How much a run may take.
 struct Reach {

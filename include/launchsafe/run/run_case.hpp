@@ -38,8 +38,13 @@ MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& optio
 GapResult evaluate_gap(const scene::Scene& scene, const trace::BottomTrace& trace, double gap);
 
 /// `run_mechanics` and `evaluate_gap` for each of the scene's gaps; with two-way coupling `run_with_skin` for
-/// those that ignite, of which the combustion is kept.
+/// those that ignite, of which the combustion is kept with the snapshots from ignition on. Where a snapshot
+/// of ignition is asked for, it is with one-way coupling of the launch at the earliest ignition of its gaps:
+/// the launch is computed once more from its last checkpoint before, bitwise the same.
 CaseResult run_case(const scene::Scene& scene, const RunOptions& options = {});
+
+/// Events of which the scene asks for a snapshot and no run of the case has one: they did not happen.
+std::vector<scene::Event> events_without_snapshot(const scene::Scene& scene, const CaseResult& result);
 
 /// A complete run of one gap (m): the mechanics with its skin. It confirms a traced gap independently: below
 /// ignition both must agree to integration tolerance.

@@ -124,10 +124,21 @@ struct ObservationPoint {
   double x = 0, r = 0;  ///< m
 };
 
+/// Instants that a snapshot may be of, in the order in which a launch has them as a rule.
+enum class Event { first_crack_growth, first_yield, peak_pressure, largest_slip, ignition, burnt };
+/// The words of all of them in files, by the event's number: "first-crack-growth", ...
+const std::vector<std::string>& event_words();
+inline const std::string& word_of(Event event) { return event_words()[static_cast<std::size_t>(event)]; }
+
 struct Output {
   double trace_interval = 2e-5;  ///< s
   std::vector<ObservationPoint> observation_points;
   std::vector<double> snapshot_times;  ///< s; full particle fields written at these times
+  std::vector<Event> snapshot_events;  ///< and at these
+  bool asks_for_snapshots() const { return !snapshot_times.empty() || !snapshot_events.empty(); }
+  bool asks_for(Event event) const {
+    return std::find(snapshot_events.begin(), snapshot_events.end(), event) != snapshot_events.end();
+  }
 };
 
 struct Physics {
@@ -248,8 +259,9 @@ class PressureHistory {
  public:
   explicit PressureHistory(const Load& load);
   double at(double time) const;
-  /// Largest pressure over the load's duration, Pa.
-  double peak() const;
+  /// Largest pressure over the load's duration, Pa, and when it is, s.
+  double peak() const { return largest().pressure; }
+  double peak_time() const { return largest().time; }
   /// Largest pressure of the whole load as stated, Pa, whatever the duration: `load.peak` of the analytic
   /// shape, the largest point of a measured curve before smoothing, in the scale of `at`.
   double stated_peak() const;
@@ -258,6 +270,11 @@ class PressureHistory {
   std::vector<double> marks() const;
 
  private:
+  struct State {
+    double time, pressure;
+  };
+  State largest() const;
+
   Load load_;
   std::function<double(double)>
       curve_;  ///< between the first and the last point; empty for the analytic shape

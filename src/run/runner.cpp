@@ -1,0 +1,287 @@
+#include "runner.hpp"
+
+#include "flush_denormals.hpp"
+#include "launchsafe/run/processor_time.hpp"
+#include "launchsafe/run/stable_factor.hpp"
+#include "snapshot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::run {
+namespace {
+
+/// Steps between two checks of the stable time step, the stop flag and the energy balance.
+constexpr std::uint64_t steps_per_check = 16;
+/// A step shorter than this share of the first one means that the state has blown up.
+constexpr double collapse_share = 1e-3;
+constexpr std::uint64_t monitor_samples = 500;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The first of the times `next`, `next` + `interval`, ... after `time`. Intervals much shorter than a step
+/// are as good as none: then it is `time`, which every later step reaches.
+double next_time(double next, double interval, double time) {
+  constexpr double most_in_a_step = 1000.0;
+  if (time - next > most_in_a_step * interval) return time;
+  while (next <= time) {
+    if (!(next + interval > next)) return time;
+    next += interval;
+  }
+  return next;
+}
+
+}  // namespace
+
+Runner::Runner(const scene::Scene& scene, const RunOptions& options, std::optional<double> skin_gap)
+    : options_(options),
+      simulation_(scene, options.threads),
+      recorder_(simulation_, simulation_.scene()),
+      heat_(simulation_),
+      skin_gap_(skin_gap) {
+  if (skin_gap) surface_.emplace(simulation_.scene(), *skin_gap, recorder_);
+  couples_back_ = skin_gap && scene.coupling == scene::Coupling::two_way;
+  result_.particles = simulation_.particles();
+  simulation_.for_each_body([&](const mpm::ParticleFields& p) {
+    add_mass(result_.masses, scene.bodies[static_cast<std::size_t>(p.body)].material,
+             mpm::mass_of(p, scene.symmetry));
+  });
+}
+
+void Runner::continue_from(const Runner& other) {
+  simulation_.continue_from(other.simulation_);
+  recorder_.continue_from(other.recorder_);
+  heat_.continue_from(other.heat_);
+  result_ = other.result_;
+  result_.steps_before = result_.steps;
+  first_step_ = other.first_step_;
+  time_step_ = other.time_step_;
+  next_sample_ = other.next_sample_;
+  next_monitor_ = other.next_monitor_;
+  snapshots_ = other.snapshots_;
+  largest_energy_ = other.largest_energy_;
+  if (!surface_) return;
+  const scene::Scene& scene = simulation_.scene();
+  surface_->continue_from(surface::integrate_skin(surface::skin_model(scene), recorder_.trace(), *skin_gap_),
+                          recorder_, simulation_.chamber_pressure());
+}
+
+void Runner::keep_checkpoints(std::size_t enough) {
+  checkpoints_ = std::make_shared<Checkpoints>();
+  enough_checkpoints_ = enough;
+}
+
+double Runner::time_of_checkpoint(std::size_t index, double duration) {
+  constexpr double parts = 16.0;
+  return duration * static_cast<double>(index + 1) / parts;
+}
+
+void Runner::end_with_snapshot(double time) {
+  scene::Scene one = simulation_.scene();
+  one.output.snapshot_times = {time};
+  one.output.snapshot_events.clear();
+  snapshots_ = SnapshotTaker(one);
+  ends_with_snapshots_ = true;
+}
+
+MechanicsResult Runner::run() {
+  const FlushDenormals flush;
+  const double processor_start = thread_processor_time();
+  if (result_.steps == 0) begin();
+  while (!is_done() && result_.status == RunStatus::completed) {
+    if (burning_ || result_.steps % steps_per_check == 0) {
+      time_step_ = simulation_.stable_time_step();
+      check(time_step_, first_step_);
+      if (result_.status != RunStatus::completed) break;
+    }
+    // The last step ends on the duration; the one before shares what is left, so that neither is tiny.
+    const double longest = burning_ ? std::min(time_step_, burning_->longest_step()) : time_step_;
+    const double remaining = end_ - simulation_.time();
+    const double dt = remaining <= longest ? remaining : std::min(longest, 0.5 * remaining);
+    check_step(dt);
+    if (result_.status == RunStatus::completed) advance(dt);
+  }
+  take_monitor_sample(time_step_);
+  if (result_.status == RunStatus::completed) check_energy(energy_of(simulation_));
+  result_.end_time = simulation_.time();
+  result_.limiters = count_limited(simulation_);
+  result_.interfaces = interfaces_of(simulation_);
+  result_.wall_time = seconds_since(start_);
+  result_.processor_time = thread_processor_time() - processor_start;
+  if (const mpm::TotalLagrangian* form = simulation_.total_lagrangian())
+    result_.processor_time += form->helpers_processor_time();
+  result_.trace = recorder_.take();
+  result_.snapshots = snapshots_.finish();
+  return std::move(result_);
+}
+
+std::optional<CombustionHistory> Runner::take_combustion(const MechanicsResult& mechanics) {
+  if (!burning_) return std::nullopt;
+  CombustionHistory history = burning_->take();
+  history.end = mechanics.status == RunStatus::completed ? combustion_end_ : CombustionEnd::broke_off;
+  history.reason = mechanics.reason;
+  history.energy_drift = largest_energy_drift(mechanics);
+  history.wall_time = mechanics.wall_time;
+  return history;
+}
+
+void Runner::begin() {
+  first_step_ = time_step_ = simulation_.stable_time_step();
+  take_monitor_sample(time_step_);
+  take_due_snapshots();
+}
+
+void Runner::take_due_snapshots() {
+  if (snapshots_.is_due(simulation_.time()))
+    snapshots_.take_due(simulation_.time(), [this] { return snapshot(); });
+}
+
+Snapshot Runner::snapshot() const {
+  const std::vector<trace::Station>& stations = recorder_.trace().stations;
+  Snapshot shot = take_snapshot(simulation_, stations);
+  if (!surface_) return shot;
+  BottomSkin& skin = shot.skins.emplace_back();
+  skin.gap = *skin_gap_;
+  for (std::size_t s = 0; s < stations.size(); ++s) {
+    if (stations[s].observation) continue;
+    skin.temperature.push_back(surface_->temperature(s));
+    if (burning_) skin.reaction_degree.push_back(burning_->reaction_degree(*surface_, s));
+  }
+  return shot;
+}
+
+/// Ignition and the end of burning at the end of the step that has them.
+void Runner::take_snapshots_of_events(bool samples) {
+  const auto take = [this] { return snapshot(); };
+  if (surface_ && surface_->ignited()) snapshots_.take_event(scene::Event::ignition, take);
+  if (burning_ && burning_->skin_has_burnt()) snapshots_.take_event(scene::Event::burnt, take);
+  if (samples) snapshots_.look_for_events(simulation_, take);
+}
+
+void Runner::advance(double dt) {
+  const scene::Scene& scene = simulation_.scene();
+  simulation_.step(dt);
+  ++result_.steps;
+  if (burning_ && !simulation_.within_gas_law()) return stop_outside_gas_law();
+  recorder_.accumulate(simulation_, dt);
+  heat_.accumulate(simulation_);
+  if (surface_) surface_->advance(simulation_, recorder_, dt);
+  if (couples_back_) burn(dt);
+  const double time = simulation_.time();
+  const bool last = finished();
+  const bool samples = time >= next_sample_ || last;
+  if (samples) {
+    recorder_.sample(simulation_);
+    if (surface_) surface_->record(recorder_);
+    if (burning_) burning_->record(simulation_, recorder_, *surface_);
+    heat_.advance_to(simulation_, time);
+    next_sample_ = next_time(next_sample_, scene.output.trace_interval, time);
+  }
+  take_due_snapshots();
+  if (simulation_.scene().output.asks_for_snapshots()) take_snapshots_of_events(samples);
+  if (time >= next_monitor_ && !last) take_monitor_sample(dt);
+  if (samples && !last && checkpoints_) take_due_checkpoint();
+}
+
+bool Runner::is_done() const {
+  return finished() || has_enough_checkpoints() || (ends_with_snapshots_ && snapshots_.done());
+}
+
+bool Runner::has_enough_checkpoints() const {
+  return checkpoints_ && checkpoints_->runs.size() >= enough_checkpoints_;
+}
+
+void Runner::take_due_checkpoint() {
+  const double duration = simulation_.scene().load.duration;
+  if (simulation_.time() < time_of_checkpoint(checkpoints_->runs.size(), duration)) return;
+  auto copy = std::make_unique<Runner>(simulation_.scene(), RunOptions{}, std::nullopt);
+  copy->continue_from(*this);
+  checkpoints_->runs.push_back(std::move(copy));
+}
+
+void Runner::stop_outside_gas_law() {
+  stop({RunStatus::outside_gas_law,
+        fmt::format("at t = {:.6g} ms: a burning particle is in a state that the virial law of the gas does "
+                    "not cover",
+                    1e3 * simulation_.time())});
+}
+
+/// Lets the charge burn where the skin has ignited. The run ends a stated time after the first ignition,
+/// whether that is before or after the end of the launch, at a stated pressure, or where a flame has no
+/// more charge before it. A flame that outruns sound is none that conduction drives, and ends the run too.
+void Runner::burn(double dt) {
+  if (!surface_->ignited()) return;
+  const scene::Combustion& combustion = simulation_.scene().combustion;
+  if (!burning_) {
+    burning_.emplace(simulation_, recorder_);
+    end_ = surface_->ignition_time() + combustion.duration;
+  }
+  burning_->advance(simulation_, *surface_, dt);
+  const double sound = scene::longitudinal_speed(materials::Law(simulation_.scene().charge()));
+  if (!(burning_->fastest_flame() < sound))
+    stop({RunStatus::flame_beyond_sound,
+          fmt::format("at t = {:.6g} ms: the kinetics give a flame of {:.3g} m/s; sound in the charge has "
+                      "{:.3g} m/s",
+                      1e3 * simulation_.time(), burning_->fastest_flame(), sound)});
+  if (burning_->burnt_through()) end_now(CombustionEnd::burnt_through);
+  if (recorder_.bottom_pressure() >= combustion.stop_pressure) end_now(CombustionEnd::pressure);
+}
+
+void Runner::end_now(CombustionEnd end) {
+  end_ = simulation_.time();
+  combustion_end_ = end;
+}
+
+bool Runner::finished() const {
+  return end_ - simulation_.time() <= 1e-12 * simulation_.scene().load.duration;
+}
+
+void Runner::check(double time_step, double first_step) {
+  if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed))
+    return stop({RunStatus::interrupted, fmt::format("stopped at t = {:.6g} ms", 1e3 * simulation_.time())});
+  if (seconds_since(start_) > options_.time_limit)
+    return stop({RunStatus::timed_out, fmt::format("not done after {:.3g} s", options_.time_limit)});
+  if (std::isfinite(time_step) && time_step < collapse_share * first_step)
+    return stop(
+        {RunStatus::time_step_collapse,
+         fmt::format("at t = {:.6g} ms: the stable time step fell from {:.3g} s to {:.3g} s{}",
+                     1e3 * simulation_.time(), first_step, time_step, step_remark(simulation_.scene()))});
+  check_energy(energy_of(simulation_));
+  if (options_.progress && seconds_since(last_report_) > 0.25) {
+    last_report_ = Clock::now();
+    options_.progress(simulation_.time() / end_);
+  }
+}
+
+/// Steps so short would not end the launch, or no longer move the time at all.
+void Runner::check_step(double dt) {
+  constexpr double shortest_share = 1e-15;
+  if (dt >= shortest_share * simulation_.scene().load.duration) return;
+  stop({std::isnan(dt) ? RunStatus::non_finite : RunStatus::time_step_collapse,
+        fmt::format("at t = {:.6g} ms: with steps of {:.3g} s the launch would not end{}",
+                    1e3 * simulation_.time(), dt, step_remark(simulation_.scene()))});
+}
+
+void Runner::check_energy(const EnergyBalance& energy) {
+  largest_energy_ = std::max(largest_energy_, energy.scale());
+  if (const auto reason = reason_to_stop(simulation_, energy, largest_energy_,
+                                         simulation_.scene().numerics.energy_drift_limit))
+    stop(*reason);
+}
+
+void Runner::stop(const Stop& why) {
+  result_.status = why.status;
+  result_.reason = why.reason;
+}
+
+void Runner::take_monitor_sample(double time_step) {
+  result_.monitor.push_back(monitor_sample(simulation_, time_step));
+  next_monitor_ =
+      simulation_.time() + simulation_.scene().load.duration / static_cast<double>(monitor_samples);
+}
+
+}  // namespace launchsafe::run

@@ -1,0 +1,225 @@
+#include "snapshot.hpp"
+
+#include "bracket.hpp"
+#include "launchsafe/scene/stations.hpp"
+#include "monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::run {
+namespace {
+
+/// Present over initial distance between the neighbours of place `i` on a line of `count` particles, at an
+/// end between the particle and its one neighbour; 1 for a particle without any. `now` and `at_rest` give
+/// places.
+template <class Now, class AtRest>
+double stretch_at(int i, int count, Now now, AtRest at_rest) {
+  const int before = std::max(i - 1, 0), behind = std::min(i + 1, count - 1);
+  return before == behind ? 1.0 : (now(behind) - now(before)) / (at_rest(behind) - at_rest(before));
+}
+
+/// Of the cell of the particle in column i and row j, m.
+double half_length_x(const mpm::ParticleFields& p, int i, int j) {
+  const mpm::Lattice& lattice = p.lattice;
+  const double stretch = stretch_at(
+      i, lattice.columns(), [&](int k) { return p.x[lattice.slot(k, j)]; },
+      [&](int k) { return lattice.x_of(k); });
+  return 0.5 * lattice.length_x(i) * stretch;
+}
+double half_length_r(const mpm::ParticleFields& p, int i, int j) {
+  const mpm::Lattice& lattice = p.lattice;
+  const double stretch = stretch_at(
+      j, lattice.rows(), [&](int k) { return p.r[lattice.slot(i, k)]; },
+      [&](int k) { return lattice.r_of(k); });
+  return 0.5 * lattice.length_r(j) * stretch;
+}
+
+/// The burnt shares of all particles, in the order of a snapshot; none where nothing burns.
+std::vector<double> burnt_shares(const mpm::Simulation& simulation) {
+  std::vector<double> shares;
+  bool burns = false;
+  simulation.for_each_body([&](const mpm::ParticleFields& p) {
+    for (int j = 0; j < p.lattice.rows(); ++j)
+      for (int i = 0; i < p.lattice.columns(); ++i) {
+        const mpm::BurningParticle* burning = p.burning ? p.burning->find(p.lattice.slot(i, j)) : nullptr;
+        shares.push_back(burning != nullptr ? burning->state.burnt_share : 0.0);
+        burns = burns || burning != nullptr;
+      }
+  });
+  return burns ? shares : std::vector<double>{};
+}
+
+/// A state field of all particles, in the order of a snapshot, 0 of bodies without it; none where no body has
+/// it.
+std::vector<double> values_of(const mpm::Simulation& simulation, std::string_view name) {
+  std::vector<double> values;
+  bool known = false;
+  for (const mpm::AnyBody& any : simulation.bodies()) {
+    const mpm::Lattice& lattice = mpm::particle_fields_of(any).lattice;
+    const math::AlignedArray* field = field_of(any, name);
+    known = known || field != nullptr;
+    for (int j = 0; j < lattice.rows(); ++j)
+      for (int i = 0; i < lattice.columns(); ++i)
+        values.push_back(field == nullptr ? 0.0 : (*field)[lattice.slot(i, j)]);
+  }
+  return known ? values : std::vector<double>{};
+}
+
+void add_body(const mpm::AnyBody& any, Snapshot& shot) {
+  const mpm::ParticleFields& p = mpm::particle_fields_of(any);
+  const double density = std::visit([](const auto& body) { return body.law.initial_density(); }, any);
+  for (int j = 0; j < p.lattice.rows(); ++j)
+    for (int i = 0; i < p.lattice.columns(); ++i) {
+      const std::size_t slot = p.lattice.slot(i, j);
+      shot.x.push_back(p.x[slot]);
+      shot.r.push_back(p.r[slot]);
+      shot.velocity_x.push_back(p.velocity_x[slot]);
+      shot.velocity_r.push_back(p.velocity_r[slot]);
+      shot.density.push_back(density / p.volume_ratio[slot]);
+      shot.pressure.push_back(p.pressure[slot]);
+      shot.temperature.push_back(p.temperature[slot]);
+      const auto deviator = std::visit([&](const auto& body) { return body.deviator(slot); }, any);
+      shot.von_mises.push_back(math::von_mises(deviator));
+      shot.deviator_rr.push_back(deviator.rr);
+      shot.deviator_xx.push_back(deviator.xx);
+      shot.deviator_rx.push_back(deviator.rx);
+      shot.half_length_x.push_back(half_length_x(p, i, j));
+      shot.half_length_r.push_back(half_length_r(p, i, j));
+      shot.body.push_back(p.body);
+    }
+}
+
+/// The charge that reaches the bottom over a radius (m); null where none does.
+const mpm::ParticleFields* charge_at_bottom(const mpm::Simulation& simulation, double bottom, double r) {
+  for (const auto& charge : simulation.bodies_of<materials::Charge>()) {
+    const mpm::ParticleFields& p = charge.get().particles;
+    if (p.lattice.x_end() >= bottom && p.lattice.r_begin() <= r && r <= p.lattice.r_end()) return &p;
+  }
+  return nullptr;
+}
+
+/// Where the bottom of the charge is now that was at radius r (m) at rest.
+void add_place_of_bottom(const mpm::ParticleFields& p, double r, Snapshot& shot) {
+  const mpm::Lattice& lattice = p.lattice;
+  const int last = lattice.columns() - 1;
+  const Bracket between = bracket_of(r, lattice.rows(), [&](int j) { return lattice.r_of(j); });
+  const int upper = std::min(between.lower + 1, lattice.rows() - 1);
+  const auto value = [&](auto at) {
+    return (1.0 - between.share) * at(between.lower) + between.share * at(upper);
+  };
+  shot.bottom_x.push_back(
+      value([&](int j) { return p.x[lattice.slot(last, j)] + half_length_x(p, last, j); }));
+  shot.bottom_r.push_back(r + value([&](int j) { return p.r[lattice.slot(last, j)] - lattice.r_of(j); }));
+}
+
+void add_bottom(const mpm::Simulation& simulation, const std::vector<trace::Station>& stations,
+                Snapshot& shot) {
+  for (const scene::StationExtent& extent : scene::stations_of(simulation.scene())) {
+    const bool recorded = std::any_of(stations.begin(), stations.end(), [&](const trace::Station& station) {
+      return !station.observation && station.name == extent.name;
+    });
+    if (!recorded) continue;
+    const mpm::ParticleFields* charge =
+        charge_at_bottom(simulation, extent.x_end, 0.5 * (extent.r_begin + extent.r_end));
+    for (const double r : {extent.r_begin, extent.r_end}) {
+      if (charge != nullptr) {
+        add_place_of_bottom(*charge, r, shot);
+      } else {
+        shot.bottom_x.push_back(extent.x_end);
+        shot.bottom_r.push_back(r);
+      }
+    }
+  }
+}
+
+FaceSnapshot face_snapshot(const mpm::Simulation& simulation, const mpm::TotalLagrangian& form,
+                           std::size_t index) {
+  const mpm::Contact& contact = form.contact();
+  const mpm::Nodes& nodes = form.nodes()[contact.nodes_of(index).nodes];
+  const std::vector<std::size_t>& indices = contact.nodes_of(index).indices;
+  const std::vector<mpm::FaceState> states = contact.state_of(index);
+  const bool along_x = contact.is_along_x(index);
+  FaceSnapshot face;
+  face.body = simulation.scene().interfaces[contact.interface_of(index)].body;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const mpm::FaceState& state = states[k];
+    const double across = contact.face_at(index);
+    face.x.push_back((along_x ? state.place : across) + nodes.displacement_x[indices[k]]);
+    face.r.push_back((along_x ? across : state.place) + nodes.displacement_r[indices[k]]);
+    face.slip.push_back(state.slip);
+    face.pressure.push_back(state.pressure);
+    face.shear.push_back(state.shear);
+    face.opening.push_back(state.gap);
+  }
+  return face;
+}
+
+}  // namespace
+
+Snapshot take_snapshot(const mpm::Simulation& simulation, const std::vector<trace::Station>& stations) {
+  Snapshot shot;
+  shot.time = simulation.time();
+  for (const mpm::AnyBody& any : simulation.bodies()) add_body(any, shot);
+  shot.crack_radius = values_of(simulation, "crack_radius");
+  shot.plastic_strain = values_of(simulation, "plastic_strain");
+  shot.burnt_share = burnt_shares(simulation);
+  add_bottom(simulation, stations, shot);
+  if (const mpm::TotalLagrangian* form = simulation.total_lagrangian())
+    for (std::size_t face = 0; face < form->contact().faces(); ++face)
+      shot.faces.push_back(face_snapshot(simulation, *form, face));
+  return shot;
+}
+
+void add_skin(Snapshot& shot, const GapResult& gap, const trace::BottomTrace& trace,
+              double ignition_temperature) {
+  const surface::SkinHistory& skin = gap.skin;
+  if (skin.time.empty()) return;
+  const auto next = std::lower_bound(skin.time.begin(), skin.time.end(), shot.time);
+  const auto after = static_cast<std::size_t>(std::min(next, skin.time.end() - 1) - skin.time.begin());
+  const std::size_t before = after == 0 ? 0 : after - 1;
+  BottomSkin& bottom = shot.skins.emplace_back();
+  bottom.gap = gap.gap;
+  for (std::size_t s = 0; s < trace.stations.size(); ++s) {
+    if (trace.stations[s].observation) continue;
+    const double from = skin.temperature[before * trace.stations.size() + s],
+                 to = skin.temperature[after * trace.stations.size() + s];
+    const bool ignites = from < ignition_temperature && to >= ignition_temperature;
+    const bool has_ignited = shot.time >= skin.time[after] || (skin.ignition && skin.ignition->station == s &&
+                                                               skin.ignition->time <= shot.time);
+    bottom.temperature.push_back(!ignites      ? surface::temperature_at_time(skin, trace, s, shot.time)
+                                 : has_ignited ? to
+                                               : from);
+  }
+}
+
+bool has_yielded(const mpm::Simulation& simulation) {
+  return std::any_of(simulation.bodies().begin(), simulation.bodies().end(), [](const mpm::AnyBody& any) {
+    const math::AlignedArray* strain = field_of(any, "plastic_strain");
+    return strain != nullptr &&
+           std::any_of(strain->begin(), strain->end(), [](double each) { return each > 0.0; });
+  });
+}
+
+bool has_grown_crack(const mpm::Simulation& simulation) {
+  constexpr double grown = 1.001;
+  const auto charges = simulation.bodies_of<materials::Charge>();
+  return std::any_of(charges.begin(), charges.end(), [](const mpm::Body<materials::Charge>& charge) {
+    const double longest = grown * charge.law.strength.initial_crack_radius;
+    const math::AlignedArray& radius =
+        charge.state[materials::field_index<materials::Charge>("crack_radius")];
+    return std::any_of(radius.begin(), radius.end(), [&](double each) { return each > longest; });
+  });
+}
+
+double largest_slip(const mpm::Simulation& simulation) {
+  double largest = 0;
+  const mpm::TotalLagrangian* form = simulation.total_lagrangian();
+  if (form == nullptr) return largest;
+  for (std::size_t face = 0; face < form->contact().faces(); ++face)
+    for (const mpm::FaceState& node : form->contact().state_of(face))
+      if (!node.bonded) largest = std::max(largest, std::abs(node.slip));
+  return largest;
+}
+
+}  // namespace launchsafe::run

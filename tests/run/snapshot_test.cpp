@@ -1,0 +1,276 @@
+// Snapshots: which instants they are of, and what they hold beside the fields of the particles.
+#include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/read_scene.hpp"
+#include "launchsafe/scene/stations.hpp"
+#include "small_shell.hpp"
+#include "store/same_case.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::run {
+namespace {
+
+using scene::Event;
+
+/// A shell with smooth or rough faces, or bonded ones, whose skin ignites after some 0.2 ms.
+scene::Scene shell(const std::string& more = "") {
+  auto file =
+      scene::parse_scene(testing::small_shell + testing::small_shell_base + more +
+                             "[load]\nduration = \"0.3 ms\"\npeak = \"200 MPa\"\n"
+                             "peak_time = \"0.2 ms\"\nexponent = 4\n[numerics]\ncell_size = \"2.5 mm\"\n"
+                             "[output]\ntrace_interval = \"5 us\"\n[gap]\nthickness = \"0, 0.04 cm\"\n"
+                             "exchange_time = \"0.02 ms\"\n",
+                         "small.toml");
+  EXPECT_TRUE(file) << file.error().message();
+  scene::Scene scene = file->scene;
+  scene.charge().kinetics.ignition_temperature = 320.0;
+  return scene;
+}
+
+const std::string sliding_faces =
+    "[interface.wall]\ncondition = \"sliding\"\nfriction = 0.05\n"
+    "[interface.base]\ncondition = \"sliding\"\nfriction = 0.05\n";
+
+/// The snapshot of an event; one of no time where there is none.
+Snapshot of(const std::vector<Snapshot>& snapshots, Event event) {
+  for (const Snapshot& shot : snapshots)
+    if (std::find(shot.events.begin(), shot.events.end(), event) != shot.events.end()) return shot;
+  ADD_FAILURE() << "no snapshot of " << scene::word_of(event);
+  return {};
+}
+
+MechanicsResult run_at(scene::Scene scene, std::vector<double> times) {
+  scene.output.snapshot_events.clear();
+  scene.output.snapshot_times = std::move(times);
+  return run_mechanics(scene);
+}
+
+bool is_sample(const MechanicsResult& run, double time) {
+  return std::find(run.trace.time.begin(), run.trace.time.end(), time) != run.trace.time.end();
+}
+
+/// Of the trace, before a time.
+double sample_before(const MechanicsResult& run, double time) {
+  return *(std::lower_bound(run.trace.time.begin(), run.trace.time.end(), time) - 1);
+}
+
+double largest(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
+TEST(SnapshotsOfEvents, OfThePeakIsTheEndOfTheStepThatReachesIt) {
+  scene::Scene scene = shell();
+  scene.output.snapshot_events = {Event::peak_pressure};
+  const MechanicsResult run = run_mechanics(scene);
+  ASSERT_EQ(run.snapshots.size(), 1U);
+  EXPECT_EQ(run.snapshots.front().events, std::vector{Event::peak_pressure});
+  EXPECT_GE(run.snapshots.front().time, 2e-4);
+  EXPECT_LT(run.snapshots.front().time, 2e-4 + 1.1 * scene::make_plan(scene).time_step);
+}
+
+// Against runs that take the state at the sample before.
+TEST(SnapshotsOfEvents, OfFirstYieldAndCrackGrowthAreTheFirstSamplesWithThem) {
+  scene::Scene scene = shell();
+  scene.steel().strength.a = 60e6;
+  scene.charge().strength.face_friction = 0.0;
+  scene.charge().strength.toughness *= 0.05;
+  scene.output.snapshot_events = {Event::first_yield, Event::first_crack_growth};
+  const MechanicsResult run = run_mechanics(scene);
+  const Snapshot yield = of(run.snapshots, Event::first_yield),
+                 growth = of(run.snapshots, Event::first_crack_growth);
+  const double grown = 1.001 * scene.charge().strength.initial_crack_radius;
+  EXPECT_TRUE(is_sample(run, yield.time));
+  EXPECT_TRUE(is_sample(run, growth.time));
+  EXPECT_GT(largest(yield.plastic_strain), 0.0);
+  EXPECT_GT(largest(growth.crack_radius), grown);
+  const MechanicsResult before =
+      run_at(scene, {sample_before(run, yield.time), sample_before(run, growth.time)});
+  for (const Snapshot& shot : before.snapshots) {
+    if (shot.time < yield.time) EXPECT_EQ(largest(shot.plastic_strain), 0.0);
+    if (shot.time < growth.time) EXPECT_LE(largest(shot.crack_radius), grown);
+  }
+}
+
+double largest_slip(const Snapshot& shot) {
+  double most = 0.0;
+  for (const FaceSnapshot& face : shot.faces)
+    for (const double slip : face.slip) most = std::max(most, std::abs(slip));
+  return most;
+}
+
+TEST(SnapshotsOfEvents, OfTheLargestSlipIsTheSampleWithIt) {
+  scene::Scene scene = shell(sliding_faces);
+  scene.output.snapshot_events = {Event::largest_slip};
+  const MechanicsResult run = run_mechanics(scene);
+  ASSERT_EQ(run.snapshots.size(), 1U);
+  const MechanicsResult all = run_at(scene, run.trace.time);
+  double most = 0.0, when = 0.0;
+  for (const Snapshot& shot : all.snapshots)
+    if (largest_slip(shot) > most) {
+      most = largest_slip(shot);
+      when = shot.time;
+    }
+  EXPECT_GT(most, 1e-6);
+  EXPECT_LT(when, run.end_time) << "the load falls from 0.2 ms on";
+  Snapshot shot = run.snapshots.front();
+  EXPECT_EQ(shot.time, when);
+  shot.events.clear();
+  testing::expect_same(shot, *std::find_if(all.snapshots.begin(), all.snapshots.end(),
+                                           [&](const Snapshot& each) { return each.time == when; }));
+}
+
+// The launch that goes on from a checkpoint, or is computed again, is bitwise the same.
+TEST(SnapshotsOfEvents, OfIgnitionIsTheLaunchAtTheEarliestOfItsGaps) {
+  for (const auto form : {scene::Formulation::total_lagrangian, scene::Formulation::updated_lagrangian}) {
+    scene::Scene scene = shell();
+    scene.numerics.formulation = form;
+    scene.surface.gaps = {0.0, 4e-4, 6e-4};
+    scene.output.snapshot_times = {1e-5};
+    scene.output.snapshot_events = {Event::ignition};
+    const CaseResult result = run_case(scene);
+    ASSERT_TRUE(result.gaps[1].skin.ignition && result.gaps[2].skin.ignition);
+    const double earliest = std::min(result.gaps[1].skin.ignition->time, result.gaps[2].skin.ignition->time);
+    Snapshot shot = of(result.mechanics.snapshots, Event::ignition);
+    EXPECT_GE(shot.time, earliest);
+    ASSERT_EQ(shot.skins.size(), 3U);
+    // It is at T2 from then on, but for the exchange until the next sample.
+    EXPECT_NEAR(largest(shot.skins[2].temperature), scene.charge().kinetics.burnt_temperature, 1.0);
+    const MechanicsResult direct = run_at(scene, {1e-5, earliest});
+    ASSERT_EQ(direct.snapshots.size(), 2U);
+    EXPECT_EQ(result.mechanics.trace.bottom_pressure, direct.trace.bottom_pressure);
+    shot.events.clear();
+    shot.skins.clear();
+    testing::expect_same(shot, direct.snapshots[1]);
+  }
+}
+
+TEST(SnapshotsOfEvents, ThatDoNotHappenAreNamed) {
+  scene::Scene scene = shell();
+  scene.charge().kinetics.ignition_temperature = 500.0;
+  scene.output.snapshot_events = {Event::peak_pressure, Event::largest_slip, Event::ignition};
+  const CaseResult result = run_case(scene);
+  EXPECT_EQ(result.mechanics.snapshots.size(), 1U);
+  EXPECT_EQ(events_without_snapshot(scene, result), (std::vector{Event::largest_slip, Event::ignition}));
+}
+
+TEST(Snapshots, HoldTheSkinsOfAllGapsAlongTheBottom) {
+  scene::Scene scene = shell();
+  scene.output.snapshot_times = {0.0, 1.5e-4};
+  const CaseResult result = run_case(scene);
+  const trace::BottomTrace& trace = result.mechanics.trace;
+  const auto stations = scene::stations_of(scene);
+  ASSERT_EQ(result.mechanics.snapshots.size(), 2U);
+  const Snapshot &rest = result.mechanics.snapshots[0], &loaded = result.mechanics.snapshots[1];
+  ASSERT_EQ(rest.bottom_x.size(), 2 * stations.size());
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    EXPECT_NEAR(rest.bottom_x[2 * i], 0.04, 1e-12);
+    EXPECT_NEAR(rest.bottom_r[2 * i], stations[i].r_begin, 1e-12);
+    EXPECT_NEAR(rest.bottom_r[2 * i + 1], stations[i].r_end, 1e-12);
+  }
+  // Stations are two cells wide here: where two meet, the bottom is half way between those of its cells.
+  std::vector<std::size_t> row;  // cells at the bottom, from the axis outward
+  for (std::size_t i = 0; i < rest.x.size(); ++i)
+    if (rest.body[i] == 1 && rest.x[i] + rest.half_length_x[i] > 0.04 - 1e-9) row.push_back(i);
+  ASSERT_EQ(row.size(), 2 * stations.size());
+  for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
+    const std::size_t outside = row[row.size() - 2 * i - 2], inside = row[row.size() - 2 * i - 3];
+    EXPECT_NEAR(loaded.bottom_x[2 * i],
+                0.5 * (loaded.x[outside] + loaded.half_length_x[outside] + loaded.x[inside] +
+                       loaded.half_length_x[inside]),
+                1e-12);
+    EXPECT_EQ(loaded.bottom_x[2 * i], loaded.bottom_x[2 * i + 3]) << "the end of the next one inwards";
+    EXPECT_EQ(loaded.bottom_r[2 * i], loaded.bottom_r[2 * i + 3]);
+    EXPECT_NE(loaded.bottom_x[2 * i], 0.04);
+  }
+  ASSERT_EQ(loaded.skins.size(), result.gaps.size());
+  for (std::size_t gap = 0; gap < result.gaps.size(); ++gap) {
+    ASSERT_EQ(loaded.skins[gap].temperature.size(), stations.size());
+    EXPECT_EQ(loaded.skins[gap].gap, result.gaps[gap].gap);
+    EXPECT_TRUE(loaded.skins[gap].reaction_degree.empty());
+    if (result.gaps[gap].skin.ignition) continue;
+    for (std::size_t s = 0; s < stations.size(); ++s)
+      EXPECT_EQ(loaded.skins[gap].temperature[s],
+                surface::temperature_at_time(result.gaps[gap].skin, trace, s, loaded.time));
+  }
+}
+
+// The base carries the charge: its contact pressure is the bottom's axial stress. Slip adds up to the path of
+// sliding where it never turns.
+TEST(Snapshots, HoldSlipAndPressureOfFacesThatSlide) {
+  scene::Scene scene = shell(sliding_faces);
+  scene.output.snapshot_times = {1.5e-4, 3e-4};
+  const MechanicsResult run = run_mechanics(scene);
+  ASSERT_EQ(run.snapshots.size(), 2U);
+  for (const Snapshot& shot : run.snapshots) {
+    ASSERT_EQ(shot.faces.size(), run.interfaces.size());
+    for (const FaceSnapshot& face : shot.faces) {
+      ASSERT_FALSE(face.slip.empty());
+      for (std::size_t k = 0; k < face.slip.size(); ++k) {
+        EXPECT_GE(face.pressure[k], 0.0);
+        EXPECT_GT(face.opening[k], -1e-9);
+        EXPECT_LE(std::abs(face.shear[k]), 0.05 * face.pressure[k] * (1.0 + 1e-9) + 1e-3);
+      }
+    }
+  }
+  const auto base = std::find_if(run.interfaces.begin(), run.interfaces.end(),
+                                 [](const InterfaceResult& each) { return each.body == "base"; });
+  const auto index = static_cast<std::size_t>(base - run.interfaces.begin());
+  const FaceSnapshot& bottom = run.snapshots[0].faces[index];
+  double force = 0.0, area = 0.0;
+  for (std::size_t k = 0; k + 1 < bottom.r.size(); ++k) {
+    const double ring = bottom.r[k + 1] * bottom.r[k + 1] - bottom.r[k] * bottom.r[k];
+    force += ring * 0.5 * (bottom.pressure[k] + bottom.pressure[k + 1]);
+    area += ring;
+  }
+  const double pressure =
+      trace::interpolate(run.trace.time, run.trace.bottom_pressure, run.snapshots[0].time);
+  EXPECT_NEAR(force / area / pressure, 1.0, 0.05);
+  EXPECT_EQ(run.snapshots[1].faces[index].body, "base");
+  for (std::size_t k = 0; k < bottom.slip.size(); ++k)
+    EXPECT_LE(std::abs(run.snapshots[1].faces[index].slip[k]), base->slid[k] * (1.0 + 1e-9));
+}
+
+TEST(Snapshots, OfAGapThatBurnsBeginWithItsIgnition) {
+  scene::Scene scene;
+  scene.bodies = {{"charge", "charge", 0.0, 0.04, 0.0, 2.5e-3}, {"base", "steel", 0.04, 0.06, 0.0, 2.5e-3}};
+  scene.load.duration = 1e-3;
+  scene.load.peak = 200e6;
+  scene.load.peak_time = 5e-3;
+  scene.load.exponent = 1.0;
+  scene.surface.gaps = {0.0, 4e-4};
+  scene.surface.exchange_time = 5e-5;
+  scene.surface.friction = scene::FrictionClosure::none;
+  scene.charge().kinetics.ignition_temperature = 320.0;
+  scene.numerics.cell_size = 1.25e-3;
+  scene.output.trace_interval = 1e-5;
+  scene.coupling = scene::Coupling::two_way;
+  scene.combustion.duration = 1.5e-3;
+  scene.output.snapshot_times = {1e-4, 1e-3, 1.05e-3};
+  scene.output.snapshot_events = {Event::ignition, Event::burnt};
+  const CaseResult result = run_case(scene);
+  ASSERT_EQ(result.mechanics.snapshots.size(), 2U) << "the launch ends at 1 ms";
+  for (const Snapshot& shot : result.mechanics.snapshots) EXPECT_TRUE(shot.burnt_share.empty());
+  EXPECT_FALSE(result.gaps[0].combustion);
+  ASSERT_TRUE(result.gaps[1].combustion);
+  const CombustionHistory& burning = *result.gaps[1].combustion;
+  const double ignition = result.gaps[1].skin.ignition->time;
+  const Snapshot first = of(burning.snapshots, Event::ignition), last = of(burning.snapshots, Event::burnt);
+  ASSERT_FALSE(first.skins.empty() || last.skins.empty());
+  EXPECT_EQ(first.time, burning.snapshots.front().time);
+  EXPECT_NEAR(first.time, ignition, 2e-6);
+  EXPECT_EQ(last.time, burning.complete_time);
+  EXPECT_NEAR(largest(last.skins.front().reaction_degree), 1.0, 1e-12);
+  EXPECT_LT(largest(first.skins.front().reaction_degree), 0.1);
+  EXPECT_GT(largest(last.burnt_share), largest(first.burnt_share));
+  const auto late =
+      std::find_if(burning.snapshots.begin(), burning.snapshots.end(),
+                   [](const Snapshot& shot) { return shot.time >= 1e-3 && shot.events.empty(); });
+  ASSERT_NE(late, burning.snapshots.end());
+  EXPECT_TRUE(events_without_snapshot(scene, result).empty());
+}
+
+}  // namespace
+}  // namespace launchsafe::run
