@@ -26,6 +26,7 @@ inline constexpr const char* run_footer = R"(
 Examples:
   launchsafe run studies/scene_155mm.toml                print the table, write nothing
   launchsafe run studies/scene_155mm.toml -o results     write results/scene_155mm.h5 as well
+  launchsafe run studies/scene_155mm.toml --dry-run      what it would compute, at what cost; size of snapshots
   launchsafe run studies/scene_155mm.toml --json --quiet > case.json
 
 A file with the result of another input is never overwritten.)";
@@ -87,16 +88,17 @@ Examples:
 
 Pictures, each an SVG file drawn by gnuplot:
   pressure     pressure.svg: chamber and bottom pressure
-  fields       field_temperature_10ms.svg, field_pressure_, field_von_mises_, field_crack_radius_ and, where
-               something burns, field_burnt_share_: cells of the charge and the shell at each snapshot, to
-               scale, with the same colours for the same values in all pictures of a field
+  fields       field_temperature_10ms.svg, field_pressure_, field_von_mises_, field_crack_radius_: cells of the
+               charge and the shell at each snapshot, to scale, with the same colours for the same values in
+               all pictures of a field; of an event field_temperature_peak-pressure.svg, of a gap that burns
+               field_burnt_share_0.04cm_ignition.svg, ..., with colours of their own
   histories    histories_0.04cm.svg: skin temperatures of a gap against time
   profile      profile_0.04cm.svg: skin temperatures along the bottom; profile_spread.svg: highest less lowest
   air          air.svg: temperature of the gap's air against its compression, and the states reached
   energy       energy.svg: terms of the energy balance; energy_dissipated.svg
   combustion   combustion_mass_0.04cm.svg, combustion_pressure_, combustion_reaction_: after ignition
 
-Snapshots are what output.snapshots of the scene asks for. Nothing is overwritten: a picture whose place holds
+Snapshots are what output.snapshots and output.snapshot_events of the scene ask for. Nothing is overwritten: a picture whose place holds
 something else is refused, and then none is written.)";
 
 }  // namespace launchsafe::app

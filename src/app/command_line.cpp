@@ -155,6 +155,7 @@ void add_run(CLI::App& app, Parsed& parsed) {
   command.add_option("scene", parsed.run.scene, "Scene file")->required()->type_name("SCENE.toml");
   add_folder(command, parsed.run.output, "Folder to write the HDF5 case file to");
   add_longest_run(command, parsed.run.longest_run);
+  command.add_flag("--dry-run", parsed.run.dry_run, "Say what would be run and at what cost; write nothing");
   add_output_options(command, parsed);
 }
 

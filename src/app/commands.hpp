@@ -15,6 +15,7 @@ struct RunArguments {
   std::filesystem::path scene;
   std::optional<std::filesystem::path> output;  ///< folder of the case file; none: nothing is written
   std::optional<double> longest_run;            ///< s, predicted; a longer one is refused
+  bool dry_run = false;                         ///< say what would be run, and run nothing
 };
 ExitCode perform(const RunArguments& arguments, Console& console);
 

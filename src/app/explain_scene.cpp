@@ -153,12 +153,24 @@ nlohmann::ordered_json interfaces_json(const scene::Scene& scene) {
   return list;
 }
 
+/// Before compression.
+nlohmann::ordered_json snapshots_json(const scene::Scene& scene) {
+  if (!scene.output.asks_for_snapshots()) return nullptr;
+  const run::SnapshotSize size = run::snapshot_size(scene);
+  return {{"most_of_launch", size.of_launch},
+          {"most_of_combustion", size.of_combustion},
+          {"bytes_each", size.bytes_each},
+          {"bytes", size.bytes()}};
+}
+
 run::Reach reach_here() { return {.memory = study::available_memory(), .keeps_skins = true}; }
 
 }  // namespace
 
 std::string scene_text(const scene::Scene& scene, double update_rate) {
   std::string text = scene::to_text(scene::make_plan(scene), scene, update_rate) + "\n" + grid_text(scene);
+  if (scene.output.asks_for_snapshots())
+    text += fmt::format("\nSnapshots\n  {}\n", run::to_text(run::snapshot_size(scene)));
   if (const auto refusal = run::out_of_reach(scene, reach_here()))
     text += fmt::format("\nRefused by launchsafe run\n  {}\n", refusal->message());
   return text;
@@ -197,6 +209,7 @@ nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate)
           {"time_step_s", plan.time_step},
           {"steps", plan.steps},
           {"memory_bytes", plan.memory},
+          {"snapshots", snapshots_json(scene)},
           {"updates_per_second", update_rate},
           {"predicted_time_s",
            update_rate > 0 ? nlohmann::ordered_json(scene::predicted_time(plan, update_rate)) : nullptr},

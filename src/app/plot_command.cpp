@@ -109,7 +109,7 @@ std::optional<scene::InputError> fault_in_time(const report::DrawnCase& drawn, c
                                    [&](const auto& each) { return report::is_of_time(each, time); });
     if (known) return std::nullopt;
     std::vector<std::string> times;
-    for (const auto& each : snapshots) times.push_back(scene::time_text(each.asked_for));
+    for (const auto& each : snapshots) times.push_back(scene::time_text(each.time()));
     return option_fault("--times", found + ", of which the case has no snapshot",
                         fmt::format("{}; any time with --what profile", fmt::join(times, ", ")));
   }

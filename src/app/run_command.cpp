@@ -20,8 +20,10 @@
 #include "output_folder.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
+#include "update_rate.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -297,6 +299,29 @@ ExitCode report_interruption(const RunArguments& arguments, const run::Mechanics
   return ExitCode::interrupted;
 }
 
+/// The words of the events that a snapshot was asked of and that did not happen.
+std::vector<std::string> missing_events(const scene::Scene& scene, const run::CaseResult& result) {
+  std::vector<std::string> words;
+  for (const scene::Event event : run::events_without_snapshot(scene, result))
+    words.push_back(scene::word_of(event));
+  return words;
+}
+
+/// What the scene would run, and at what cost.
+ExitCode dry_run(const scene::Scene& scene, const std::filesystem::path& target, Console& console) {
+  const double update_rate = measured_update_rate(scene);
+  if (stop_requested()) {
+    console.error("interrupted while measuring the speed of this machine; there is nothing to keep");
+    return ExitCode::interrupted;
+  }
+  if (!target.empty()) console.remark(fmt::format("would write {}", target.string()));
+  console.print_text(scene_text(scene, update_rate));
+  nlohmann::ordered_json object = scene_json(scene, update_rate);
+  object["implausible"] = plausibility_json(scene);
+  console.print_json(object);
+  return ExitCode::done;
+}
+
 }  // namespace
 
 ExitCode perform(const RunArguments& arguments, Console& console) {
@@ -312,10 +337,11 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
   if (arguments.output) {
     target = *arguments.output / arguments.scene.stem().concat(".h5");
     auto obstacle = obstacle_at(target, manifest);
-    if (!obstacle && !scene.output.snapshot_times.empty()) obstacle = obstacle_to_sidecar(target);
-    if (!obstacle) obstacle = prepare_output_folder(*arguments.output);
+    if (!obstacle && scene.output.asks_for_snapshots()) obstacle = obstacle_to_sidecar(target);
+    if (!obstacle && !arguments.dry_run) obstacle = prepare_output_folder(*arguments.output);
     if (obstacle) return console.refuse(*obstacle);
   }
+  if (arguments.dry_run) return dry_run(scene, target, console);
 
   for (const scene::Implausible& each : scene::implausible_values(scene)) {
     if (!each.accepted()) console.remark("validity warning: " + scene::validity_warning(each));
@@ -334,8 +360,12 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
       return console.end_with(*error);
     console.remark(fmt::format("wrote {}", target.string()));
   }
+  const std::vector<std::string> missing = missing_events(scene, result);
+  if (!missing.empty())
+    console.remark(fmt::format("no snapshot of {}: it did not happen", fmt::join(missing, ", ")));
   console.print_text(case_text(scene, result));
   nlohmann::ordered_json object = case_json(scene, result);
+  object["events_without_snapshot"] = missing;
   object["implausible"] = plausibility_json(scene);
   object["input_sha256"] = manifest.input_sha256;
   object["file"] = target.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(target.string());

@@ -54,6 +54,23 @@ Plot energy_plot(const DrawnCase& drawn, const char* what, const std::vector<Ene
   return plot;
 }
 
+/// Adds those of a run, each instant once. A time that the scene asks for is that of the first snapshot which
+/// is not before it.
+void add_shown(const DrawnCase& drawn, const std::vector<run::Snapshot>& snapshots, std::optional<double> gap,
+               std::vector<ShownSnapshot>& shown) {
+  constexpr double round_off = 1e-9;
+  double before = -1.0;  // s
+  for (const run::Snapshot& shot : snapshots) {
+    if (shot.time == before) continue;
+    ShownSnapshot& each = shown.emplace_back(ShownSnapshot{&shot, {}, gap});
+    const double latest = shot.time * (1.0 + round_off);
+    for (const double time : drawn.scene.output.snapshot_times)
+      if (time > before * (1.0 + round_off) && time <= latest)
+        each.asked_for = std::max(time, each.asked_for.value_or(0.0));
+    before = shot.time;
+  }
+}
+
 }  // namespace
 
 std::string shortened(const std::string& text, std::size_t longest) {
@@ -155,21 +172,15 @@ const std::vector<PictureKind>& picture_kinds() {
 }
 
 std::vector<ShownSnapshot> shown_snapshots(const DrawnCase& drawn) {
-  const auto& snapshots = drawn.result.mechanics.snapshots;
-  std::vector<double> asked = drawn.scene.output.snapshot_times;
-  std::sort(asked.begin(), asked.end());
   std::vector<ShownSnapshot> shown;
-  for (std::size_t i = 0; i < snapshots.size(); ++i) {
-    const double time = snapshots[i].time;
-    if (i > 0 && snapshots[i - 1].time == time) continue;
-    const bool reached = asked.size() == snapshots.size() && time >= asked[i];
-    shown.push_back({i, reached ? asked[i] : time});
-  }
+  detail::add_shown(drawn, drawn.result.mechanics.snapshots, {}, shown);
+  for (const run::GapResult& gap : drawn.result.gaps)
+    if (gap.combustion) detail::add_shown(drawn, gap.combustion->snapshots, gap.gap, shown);
   return shown;
 }
 
 bool is_of_time(const ShownSnapshot& snapshot, double time) {
-  return std::abs(snapshot.asked_for - time) <= 1e-6 * std::abs(time);
+  return std::abs(snapshot.time() - time) <= 1e-6 * std::abs(time);
 }
 
 store::Result<std::string> to_svg(const CasePicture& picture, const DrawingLimits& limits) {

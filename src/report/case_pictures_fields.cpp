@@ -4,6 +4,7 @@
 #include "launchsafe/scene/mesh.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -58,22 +59,27 @@ std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const DrawnField& f
   return groups;
 }
 
-/// Over all snapshots of the case, drawn or not, so that all pictures of a field compare.
-ColourScale scale_of(const DrawnCase& drawn, const DrawnField& field, const ScaleGroup& group) {
+/// Over all snapshots of the launch, or of what burns, drawn or not, so that all pictures of a field in
+/// either compare: gas is hotter and at times under a higher pressure than any launch.
+ColourScale scale_of(const DrawnCase& drawn, const DrawnField& field, const ScaleGroup& group, bool burning) {
   ColourScale scale{fmt::format("{}: {}", group.name, field.label), HUGE_VAL, -HUGE_VAL};
-  for (const run::Snapshot& shot : drawn.result.mechanics.snapshots)
+  for (const ShownSnapshot& each : shown_snapshots(drawn)) {
+    if (each.gap.has_value() != burning) continue;
+    const run::Snapshot& shot = *each.snapshot;
     for (std::size_t i = 0; i < shot.x.size(); ++i) {
       const double value = value_of(drawn, field, shot, i);
       if (!std::isfinite(value) || is_charge(drawn, shot.body[i]) != group.charges) continue;
       scale.minimum = std::min(scale.minimum, value);
       scale.maximum = std::max(scale.maximum, value);
     }
+  }
   return scale;
 }
 
-std::vector<ColourScale> scales_of(const DrawnCase& drawn, const DrawnField& field) {
+std::vector<ColourScale> scales_of(const DrawnCase& drawn, const DrawnField& field, bool burning) {
   std::vector<ColourScale> scales;
-  for (const ScaleGroup& group : scale_groups(drawn, field)) scales.push_back(scale_of(drawn, field, group));
+  for (const ScaleGroup& group : scale_groups(drawn, field))
+    scales.push_back(scale_of(drawn, field, group, burning));
   return scales;
 }
 
@@ -152,10 +158,30 @@ std::vector<FieldCell> cells_of(const DrawnCase& drawn, const DrawnField& field,
   return cells;
 }
 
-CellPlot field_plot(const DrawnCase& drawn, const DrawnField& field, const run::Snapshot& shot,
+/// The words of a snapshot's events with something between.
+std::string events_of(const run::Snapshot& shot, const char* between) {
+  std::vector<std::string> words;
+  for (const scene::Event event : shot.events) words.push_back(scene::word_of(event));
+  return fmt::format("{}", fmt::join(words, between));
+}
+
+/// "field_pressure_0.04cm_18ms_burnt.svg": of a gap that burns, at a time that was asked for, at an event.
+std::string file_of(const DrawnField& field, const ShownSnapshot& shown) {
+  std::string name = fmt::format("field_{}", field.file);
+  if (shown.gap) name += "_" + gap_in_name(*shown.gap);
+  if (shown.asked_for || shown.snapshot->events.empty())
+    name += fmt::format("_{}ms", significant(1e3 * shown.time(), 6));
+  if (!shown.snapshot->events.empty()) name += "_" + events_of(*shown.snapshot, "_");
+  return name + ".svg";
+}
+
+CellPlot field_plot(const DrawnCase& drawn, const DrawnField& field, const ShownSnapshot& shown,
                     const std::vector<ColourScale>& scales) {
+  const run::Snapshot& shot = *shown.snapshot;
   CellPlot plot;
   plot.title = fmt::format("{} at {} ms", field.name, significant(1e3 * shot.time, 4));
+  if (!shot.events.empty()) plot.title += ", " + events_of(shot, ", ");
+  if (shown.gap) plot.title += fmt::format(", gap of {} burning", gap_text(*shown.gap));
   plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
   plot.subtitle = shortened(drawn.scene.title, 150);
   plot.scales = scales;
@@ -190,19 +216,21 @@ bool fits(const scene::Scene& scene, const run::Snapshot& shot) {
   return first == shot.body.size();
 }
 
-bool has_field(const DrawnCase& drawn, const DrawnField& field) {
+bool has_field(const DrawnCase& drawn, const DrawnField& field, bool burning) {
   if (field.charges_only && !scene::has_charge(drawn.scene)) return false;
-  const auto& snapshots = drawn.result.mechanics.snapshots;
-  return std::any_of(snapshots.begin(), snapshots.end(),
-                     [&](const run::Snapshot& shot) { return !(shot.*field.values).empty(); });
+  const auto shown = shown_snapshots(drawn);
+  return std::any_of(shown.begin(), shown.end(), [&](const ShownSnapshot& each) {
+    return each.gap.has_value() == burning && !(each.snapshot->*field.values).empty();
+  });
 }
 
 }  // namespace
 
 std::string lacks_fields(const DrawnCase& drawn) {
-  const auto& snapshots = drawn.result.mechanics.snapshots;
+  const auto snapshots = shown_snapshots(drawn);
   if (snapshots.empty()) return "it has no snapshots; output.snapshots of the scene asks for them";
-  for (const run::Snapshot& shot : snapshots) {
+  for (const ShownSnapshot& each : snapshots) {
+    const run::Snapshot& shot = *each.snapshot;
     if (shot.half_length_x.size() != shot.x.size() || shot.half_length_r.size() != shot.x.size())
       return "its snapshots are those of an older program, without the cells of the particles";
     if (!fits(drawn.scene, shot)) return "its snapshots do not fit the grid of its scene";
@@ -217,13 +245,13 @@ std::string lacks_fields(const DrawnCase& drawn) {
 std::vector<CasePicture> field_pictures(const DrawnCase& drawn) {
   std::vector<CasePicture> pictures;
   for (const DrawnField& field : drawn_fields) {
-    if (!has_field(drawn, field)) continue;
-    const std::vector<ColourScale> scales = scales_of(drawn, field);
-    for (const ShownSnapshot& each : chosen_snapshots(drawn)) {
-      const run::Snapshot& shot = drawn.result.mechanics.snapshots[each.index];
-      pictures.push_back({"fields",
-                          fmt::format("field_{}_{}ms.svg", field.file, significant(1e3 * each.asked_for, 6)),
-                          field_plot(drawn, field, shot, scales), shot.time});
+    for (const bool burning : {false, true}) {
+      if (!has_field(drawn, field, burning)) continue;
+      const std::vector<ColourScale> scales = scales_of(drawn, field, burning);
+      for (const ShownSnapshot& each : chosen_snapshots(drawn))
+        if (each.gap.has_value() == burning)
+          pictures.push_back({"fields", file_of(field, each), field_plot(drawn, field, each, scales),
+                              each.snapshot->time, each.gap});
     }
   }
   return pictures;

@@ -25,6 +25,28 @@ TEST_F(RunProgram, PrintsATableAndWritesACaseFile) {
   EXPECT_EQ(stored->result.mechanics.status, run::RunStatus::completed);
 }
 
+TEST_F(RunProgram, SaysWhichEventsOfSnapshotsDidNotHappen) {
+  write("shell.toml", with(tiny_scene, "[output]\n",
+                           "[output]\nsnapshot_events = \"largest-slip, peak-pressure, ignition\"\n"));
+  const Outcome outcome = run({"run", "shell.toml", "-o", "out"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.says("no snapshot of largest-slip, ignition: it did not happen")) << outcome.err;
+  EXPECT_TRUE(exists("out/shell.xdmf"));
+}
+
+TEST_F(RunProgram, SaysTheSizeOfSnapshotsBeforeItRuns) {
+  write("shell.toml", with(tiny_scene, "[output]\n",
+                           "[output]\nsnapshots = \"0, 0.05 ms\"\nsnapshot_events = \"ignition\"\n"));
+  const Outcome outcome = run({"run", "shell.toml", "-o", "out", "--dry-run"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("at most 3 of the launch, 0.0"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(outcome.says("would write out/shell.h5")) << outcome.err;
+  EXPECT_FALSE(exists("out"));
+  const auto object = nlohmann::json::parse(run({"explain", "shell.toml", "--json", "--quiet"}).out);
+  EXPECT_EQ(object["snapshots"]["most_of_launch"], 3);
+  EXPECT_EQ(object["snapshots"]["bytes"], 3 * object["snapshots"]["bytes_each"].get<double>());
+}
+
 TEST_F(RunProgram, WritesNothingWithoutBeingTold) {
   write("shell.toml", tiny_scene);
   EXPECT_EQ(run({"run", "shell.toml"}).code, 0);

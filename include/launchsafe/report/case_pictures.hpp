@@ -45,11 +45,14 @@ struct PictureKind {
 /// All of them, in the order in which they are drawn.
 const std::vector<PictureKind>& picture_kinds();
 
-/// A snapshot of a case; several of one instant count once.
+/// A snapshot of a case: of the launch, or of a gap that burns.
 struct ShownSnapshot {
-  std::size_t index = 0;  ///< in MechanicsResult::snapshots
-  double asked_for = 0;   ///< s, the scene's time; that of the snapshot where the run ended before
+  const run::Snapshot* snapshot;
+  std::optional<double> asked_for = {};  ///< s, the scene's time; none where an event alone asked for it
+  std::optional<double> gap = {};        ///< m, of one that burns
+  double time() const { return asked_for.value_or(snapshot->time); }  ///< s
 };
+/// All of them, those of the launch first.
 std::vector<ShownSnapshot> shown_snapshots(const DrawnCase& drawn);
 /// Whether it is the one of a time (s) that a user names.
 bool is_of_time(const ShownSnapshot& snapshot, double time);
