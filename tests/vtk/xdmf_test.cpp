@@ -1,0 +1,78 @@
+// What VTK's own reader, by which ParaView opens them, finds in the files of a run. Label `vtk`.
+#include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/read_scene.hpp"
+#include "launchsafe/store/case_file.hpp"
+#include "small_shell.hpp"
+#include "store/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+namespace launchsafe::store {
+namespace {
+
+constexpr int line = 3, quadrilateral = 9;  // VTK_LINE, VTK_QUAD
+
+class Xdmf : public testing::TemporaryFolder {
+ protected:
+  /// The values of an array at a step of a series, each with one component.
+  static std::vector<double> values(const nlohmann::json& array) {
+    std::vector<double> all;
+    for (const auto& tuple : array) all.push_back(tuple.at(0));
+    return all;
+  }
+
+  nlohmann::json read(const std::filesystem::path& description) const {
+    const std::string command =
+        std::string("\"" LAUNCHSAFE_VTK_PYTHON "\" \"" LAUNCHSAFE_SOURCE_DIR "/tests/vtk/read_xdmf.py\" \"") +
+        description.string() + "\" > \"" + (folder() / "found.json").string() + "\"";
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    std::ifstream found(folder() / "found.json");
+    return nlohmann::json::parse(found, nullptr, false);
+  }
+};
+
+TEST_F(Xdmf, IsATimeSeriesOfCellsWithTheValuesOfTheCase) {
+  const auto file =
+      scene::parse_scene(testing::small_shell + testing::small_shell_base +
+                             "[interface.wall]\ncondition = \"sliding\"\nfriction = 0.05\n"
+                             "[load]\nduration = \"0.3 ms\"\npeak = \"200 MPa\"\npeak_time = \"0.2 ms\"\n"
+                             "[numerics]\ncell_size = \"2.5 mm\"\n[gap]\nthickness = \"0, 0.01 cm\"\n"
+                             "[output]\nsnapshots = \"0, 0.1 ms\"\nsnapshot_events = \"peak-pressure\"\n",
+                         "small.toml");
+  ASSERT_TRUE(file) << file.error().message();
+  const run::CaseResult result = run::run_case(file->scene);
+  ASSERT_FALSE(write_case_file(folder() / "case.h5", file->scene, result, make_manifest("", 1)));
+  const nlohmann::json steps = read(folder() / "case.xdmf");
+  const auto& snapshots = result.mechanics.snapshots;
+  ASSERT_EQ(snapshots.size(), 3U);
+  ASSERT_EQ(steps.size(), snapshots.size());
+  for (std::size_t i = 0; i < snapshots.size(); ++i) {
+    const run::Snapshot& shot = snapshots[i];
+    EXPECT_DOUBLE_EQ(steps[i]["time"].get<double>(), shot.time);
+    const auto& grids = steps[i]["grids"];
+    ASSERT_TRUE(grids.contains("launch")) << grids.dump().substr(0, 400);
+    const auto& launch = grids["launch"];
+    EXPECT_EQ(launch["cells"], shot.x.size());
+    EXPECT_EQ(launch["cell_types"], nlohmann::json::array({quadrilateral}));
+    const std::vector<double> body = values(launch["cell_data"]["body"]);
+    EXPECT_EQ(std::count(body.begin(), body.end(), 1.0), std::count(shot.body.begin(), shot.body.end(), 1));
+    EXPECT_EQ(values(launch["cell_data"]["temperature"]), shot.temperature);
+    EXPECT_EQ(values(launch["cell_data"]["pressure"]), shot.pressure);
+    const auto& bottom = grids.at("bottom of the charge");
+    EXPECT_EQ(bottom["cells"], shot.bottom_x.size() / 2);
+    EXPECT_EQ(values(bottom["cell_data"]["skin temperature, gap 0.01 cm"]), shot.skins[1].temperature);
+    const auto& wall = grids.at("face 1 towards wall");
+    EXPECT_EQ(values(wall["point_data"]["slip"]), shot.faces[0].slip);
+    EXPECT_EQ(values(wall["point_data"]["contact_pressure"]), shot.faces[0].pressure);
+    EXPECT_NE(std::find(wall["cell_types"].begin(), wall["cell_types"].end(), line),
+              wall["cell_types"].end());
+  }
+}
+
+}  // namespace
+}  // namespace launchsafe::store
