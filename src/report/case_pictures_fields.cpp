@@ -60,7 +60,7 @@ std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const DrawnField& f
 }
 
 /// Over all snapshots of the launch, or of what burns, drawn or not, so that all pictures of a field in
-/// either compare: gas is hotter and at times under a higher pressure than any launch.
+/// either compare: what burns may press harder by far than any launch.
 ColourScale scale_of(const DrawnCase& drawn, const DrawnField& field, const ScaleGroup& group, bool burning) {
   ColourScale scale{fmt::format("{}: {}", group.name, field.label), HUGE_VAL, -HUGE_VAL};
   for (const ShownSnapshot& each : shown_snapshots(drawn)) {
@@ -155,6 +155,24 @@ std::vector<FieldCell> cells_of(const DrawnCase& drawn, const DrawnField& field,
     cells.push_back({millimetres * shot.x[i], millimetres * shot.r[i], millimetres * shot.half_length_x[i],
                      millimetres * shot.half_length_r[i], value_of(drawn, field, shot, i),
                      charges_first && !is_charge(drawn, shot.body[i]) ? std::size_t{1} : 0});
+  // Half lengths are those of a cell between its neighbours: beside one that has burnt there would be a slit.
+  // Neighbours in a row share an edge half way between their own.
+  std::size_t first = 0;
+  for (const scene::Body& body : drawn.scene.bodies) {
+    const scene::ParticleCount count = scene::particles_of(drawn.scene, body);
+    const std::size_t end = first + static_cast<std::size_t>(count.total());
+    for (std::size_t i = first + 1; i < end; ++i) {
+      if ((i - first) % static_cast<std::size_t>(count.nx) == 0) continue;
+      const double begin = cells[i].x - cells[i].half_x, behind = cells[i].x + cells[i].half_x;
+      const double before = cells[i - 1].x - cells[i - 1].half_x;
+      const double edge = 0.5 * (cells[i - 1].x + cells[i - 1].half_x + begin);
+      cells[i - 1].x = 0.5 * (before + edge);
+      cells[i - 1].half_x = 0.5 * (edge - before);
+      cells[i].x = 0.5 * (edge + behind);
+      cells[i].half_x = 0.5 * (behind - edge);
+    }
+    first = end;
+  }
   return cells;
 }
 

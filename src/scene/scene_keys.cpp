@@ -348,12 +348,12 @@ std::vector<Key<Output>> output_keys() {
       always_plausible(may_be_empty(list_key("snapshots", Dimension::time, between(0, 1), Standing::assumed,
                                              "Times at which the fields of all particles are stored.",
                                              &Output::snapshot_times)),
-                       "they change nothing"),
+                       "they change nothing of the launch"),
       always_plausible(written_where(words_key("snapshot_events", Standing::assumed,
                                                "Events at which they are stored too; empty for none.",
                                                event_words(), &Output::snapshot_events),
                                      [](const Output& output) { return !output.snapshot_events.empty(); }),
-                       "they change nothing"),
+                       "they change nothing of the launch"),
   };
 }
 

@@ -169,6 +169,39 @@ TEST(CasePictures, OfAFieldHaveTheSameColoursAtAllSnapshots) {
   EXPECT_EQ(seen, 4U);
 }
 
+TEST(CasePictures, OfEventsAndOfWhatBurnsSayItAndHaveColoursOfTheirOwn) {
+  RunScene run(cased_charge());
+  auto& snapshots = run.result.mechanics.snapshots;
+  ASSERT_EQ(snapshots.size(), 3U);
+  run::Snapshot of_peak = snapshots[1];
+  of_peak.time = 3e-5;
+  of_peak.events = {scene::Event::peak_pressure, scene::Event::largest_slip};
+  snapshots.insert(snapshots.begin() + 2, of_peak);
+  run::Snapshot burning = snapshots[3];
+  burning.events = {scene::Event::ignition};
+  burning.burnt_share.assign(burning.x.size(), 0.5);
+  for (double& pressure : burning.pressure) pressure = 2e9;
+  run.result.gaps[2].combustion.emplace().snapshots = {burning};
+  const auto drawn = pictures(run.drawn(), "fields");
+  const auto names = files(drawn);
+  const auto has = [&](const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const char* name : {"field_pressure_0.02ms.svg", "field_pressure_peak-pressure_largest-slip.svg",
+                           "field_pressure_0.04ms.svg", "field_pressure_0.04cm_0.04ms_ignition.svg",
+                           "field_burnt_share_0.04cm_0.04ms_ignition.svg"})
+    EXPECT_TRUE(has(name)) << name;
+  EXPECT_FALSE(has("field_burnt_share_0.04ms.svg")) << "nothing burns in the launch";
+  for (const CasePicture& picture : drawn) {
+    const auto& plot = std::get<CellPlot>(picture.plot);
+    if (!picture.file.starts_with("field_pressure_")) continue;
+    if (!picture.gap) EXPECT_LT(plot.scales[0].maximum, 2000.0) << picture.file;
+    if (!picture.gap) continue;
+    EXPECT_DOUBLE_EQ(plot.scales[0].maximum, 2000.0);
+    EXPECT_EQ(plot.title, "Pressure at 0.04 ms, ignition, gap of 0.04 cm burning");
+  }
+}
+
 double number_after(const std::string& text, const std::string& words) {
   const std::size_t at = text.find(words);
   EXPECT_NE(at, std::string::npos) << words;

@@ -141,6 +141,18 @@ TEST(MechanicalPart, HasNoNegativeZeros) {
   EXPECT_FALSE(std::signbit(without_signs.charge().strength.relaxation_rates[0]));
 }
 
+// It is a scene with one-way coupling, which would refuse them.
+TEST(MechanicalPart, HasNoSnapshotsOfIgnitionAndOfWhatFollows) {
+  Scene scene = plainly_written_scene().scene;
+  scene.coupling = Coupling::two_way;
+  scene.output.snapshot_times = {scene.load.duration + 1e-4, scene.load.duration};
+  scene.output.snapshot_events = {Event::first_yield, Event::ignition, Event::burnt};
+  const Scene part = mechanical_part(scene);
+  EXPECT_EQ(part.output.snapshot_times, std::vector{scene.load.duration});
+  EXPECT_EQ(part.output.snapshot_events, std::vector{Event::first_yield});
+  EXPECT_TRUE(parse_scene(to_toml(part), "part.toml"));
+}
+
 TEST(MechanicalPart, IsTheSameHoweverTheSceneIsWritten) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const std::string text = written_scene(seed);
