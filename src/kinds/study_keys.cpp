@@ -2,6 +2,7 @@
 
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/cited_limits.hpp"
+#include "launchsafe/study/published_statements.hpp"
 
 #include <fmt/format.h>
 
@@ -119,29 +120,35 @@ Fault read_reference_tables(const toml::table& root, const std::string& file, St
   return std::nullopt;
 }
 
-/// The references of a file of their own, which several studies share.
-Fault read_references_file(StudyFile& study, const std::filesystem::path& folder) {
-  const std::string& name = study.study.references_file;
+/// Tables of one name, in a file of a study or of their own.
+using ReadTables = Fault (*)(const toml::table& root, const std::string& file, StudyFile& study);
+
+/// Reads [[table]] of a study file, or of a file of their own that several studies share: the one that `key`
+/// names.
+Fault read_shared_tables(const StudySource& source, const char* key, const std::string& name,
+                         const std::string& table_name, ReadTables read, StudyFile& study) {
+  if (Fault fault = read(source.root, study.file, study)) return fault;
   if (name.empty()) return std::nullopt;
-  if (!study.study.references.empty())
-    return fault_at(study, "references", "a file of references beside [[reference]]", "one of both");
-  const std::string file = (folder / name).string();
+  const std::string tables = "[[" + table_name + "]]";
+  if (source.root.contains(table_name))
+    return fault_at(study, key, fmt::format("a file of {}s beside {}", table_name, tables), "one of both");
+  const std::string file = (source.folder / name).string();
   const auto text = scene::read_text_file(file);
   if (!text) {
-    return fault_at(study, "references", fmt::format("\"{}\", which cannot be read", name),
-                    "a file with [[reference]], by its path from the study file's folder",
+    return fault_at(study, key, fmt::format("\"{}\", which cannot be read", name),
+                    fmt::format("a file with {}, by its path from the study file's folder", tables),
                     text.error().suggestion);
   }
   study.records.push_back(store::sha256(*text));
   const auto table = scene::parse_toml(*text, file);
   if (!table) return table.error();
-  for (const auto& [key, node] : *table) {
-    if (key.str() != "reference") {
-      return scene::error_at(scene::place_of(node, file), std::string(key.str()),
-                             "a key of another kind of file", "only [[reference]]");
+  for (const auto& [each, node] : *table) {
+    if (each.str() != table_name) {
+      return scene::error_at(scene::place_of(node, file), std::string(each.str()),
+                             "a key of another kind of file", "only " + tables);
     }
   }
-  return read_reference_tables(*table, file, study);
+  return read(*table, file, study);
 }
 
 Fault check_references(const StudyFile& study) {
@@ -251,6 +258,13 @@ StudyKeys reference_keys() {
   };
 }
 
+StudyKeys statement_file_keys() {
+  return {scene::text_key<Study>(
+      "statements", Standing::input,
+      "Path of a file that holds what a publication says, [[statement]], from the study file's folder.",
+      &Study::statements_file)};
+}
+
 StudyKeys joined(std::vector<StudyKeys> lists) {
   StudyKeys result;
   for (StudyKeys& list : lists) std::move(list.begin(), list.end(), std::back_inserter(result));
@@ -269,10 +283,18 @@ StudyTable reference_table() { return table_of("reference", published_row_keys()
 
 StudyTable cited_limit_table() { return table_of("cited_limit", cited_limit_keys()); }
 
+StudyTable statement_table() { return table_of("statement", statement_keys()); }
+
 Fault read_references(const StudySource& source, StudyFile& study) {
-  if (Fault fault = read_reference_tables(source.root, study.file, study)) return fault;
-  if (Fault fault = read_references_file(study, source.folder)) return fault;
+  const std::string& name = study.study.references_file;
+  if (Fault fault = read_shared_tables(source, "references", name, "reference", read_reference_tables, study))
+    return fault;
   return check_references(study);
+}
+
+Fault read_statements(const StudySource& source, StudyFile& study) {
+  return read_shared_tables(source, "statements", study.study.statements_file, "statement",
+                            study::read_statements, study);
 }
 
 }  // namespace launchsafe::kinds

@@ -8,6 +8,7 @@
 #include "launchsafe/study/calibration_domain.hpp"
 #include "launchsafe/study/cited_limit.hpp"
 #include "launchsafe/study/model_form.hpp"
+#include "launchsafe/study/published_statement.hpp"
 
 #include <any>
 #include <cassert>
@@ -77,6 +78,8 @@ struct Study {
   std::vector<CitedLimit> cited_limits;
   std::string
       references_file;  ///< path of a file with the references, from the study file's folder; or empty
+  std::vector<PublishedStatement> statements;
+  std::string statements_file;  ///< the same of a file with the statements
 
   // every kind that judges gaps
   std::vector<double> gaps;  ///< m; those of the scene where the file has none
@@ -175,10 +178,6 @@ struct StudyFile {
   std::size_t most_cases = largest_case_count;  ///< a study with more is refused
   std::size_t confirmations_per_case = 0;       ///< coupled runs that may follow once its gaps are judged
 };
-
-/// What a published number is used for.
-enum class Use { held_out, selection, calibration };
-std::string to_string(Use use);
 
 /// As in scene files.
 std::string to_string(scene::FrictionClosure closure);
