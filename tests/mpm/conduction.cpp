@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <random>
+#include <string>
+#include <tuple>
 
 namespace {
 
@@ -139,6 +141,68 @@ TEST(Conduction, CarriesTheFluxThroughTheInterfacesOfALayer) {
       0.5 * (in_layer.lattice.length_x(0) / 0.246 + in_plate.lattice.length_x(0) / 38.0);
   EXPECT_NEAR((at(in_plate, 0) - at(in_layer, 1)) / resistance / flux,
               (sink + layer) / (sink + layer + plate), 1e-4);
+}
+
+/// Two columns that meet at x = 0.2 m, in plane strain.
+mpm::Simulation two_halves(const std::string& material, double length) {
+  scene::Scene pair;
+  pair.symmetry = scene::Symmetry::plane_strain;
+  pair.bodies = {{"left", "charge", 0.2 - 0.02, 0.2, 0.0, 1e-3},
+                 {"right", material, 0.2, 0.2 + length, 0.0, 1e-3}};
+  pair.numerics.cell_size = 0.5e-3;
+  return mpm::Simulation(pair);
+}
+
+/// The charge on the left turns to gas.
+void burn_left(mpm::Simulation& simulation) {
+  const mpm::Lattice lattice = mpm::particle_fields_of(simulation.bodies()[0]).lattice;
+  constexpr double energy = 1780.0 * 784.0;  // J/kg at T2
+  for (int j = 0; j < lattice.rows(); ++j)
+    for (int i = 0; i < lattice.columns(); ++i) simulation.burn(0, lattice.slot(i, j), 1.0, energy);
+  simulation.step(simulation.stable_time_step());
+  ASSERT_TRUE(simulation.within_gas_law());
+}
+
+struct HalfSpace {
+  double conductivity, capacity;  // W/(m K), J/(m3 K)
+  double effusivity() const { return std::sqrt(conductivity * capacity); }
+  double diffusivity() const { return conductivity / capacity; }
+};
+
+TEST(Conduction, BurntAndUnburntHalvesAreTwoHalfSpacesInContact) {
+  // Carslaw & Jaeger 1959, 2.15: the faces are at once at the mean of both temperatures, weighted with the
+  // effusivities, and stay there; each side goes there as erf(x/sqrt(4 alpha t)). Products conduct as the
+  // charge that they were (Eq. 40).
+  constexpr double hot = 784.0, cold = 300.0, duration = 28.0;  // s: 3 mm in the charge
+  const HalfSpace charge{0.246, 1717.0 * 1780.0}, steel{38.0, 7830.0 * 460.0};
+  for (const auto& [material, right, length] :
+       {std::tuple{"charge", charge, 0.02}, std::tuple{"steel", steel, 0.2}}) {
+    mpm::Simulation simulation = two_halves(material, length);
+    burn_left(simulation);
+    const double sides[] = {hot, cold};
+    for (std::size_t side : {0u, 1u}) {
+      auto& p = std::visit([](auto& body) -> mpm::ParticleFields& { return body.particles; },
+                           simulation.bodies()[side]);
+      for (double& temperature : p.temperature) temperature = sides[side];
+    }
+    mpm::Conduction conduction(simulation);
+    const double heat = conduction.heat(simulation);
+    for (int step = 0; step < 1000; ++step) conduction.advance(simulation, duration / 1000);
+    EXPECT_NEAR(conduction.heat(simulation) / heat, 1.0, 1e-12);
+    const double face =
+        (charge.effusivity() * hot + right.effusivity() * cold) / (charge.effusivity() + right.effusivity());
+    double largest = 0.0;
+    for (std::size_t side : {0u, 1u}) {
+      const mpm::ParticleFields& p = mpm::particle_fields_of(simulation.bodies()[side]);
+      const double alpha = (side == 0 ? charge : right).diffusivity();
+      for (int i = 0; i < p.lattice.columns(); ++i) {
+        const double depth = std::abs(p.lattice.x_of(i) - 0.2) / std::sqrt(4.0 * alpha * duration);
+        const double exact = face + (sides[side] - face) * std::erf(depth);
+        largest = std::max(largest, std::abs(p.temperature[p.lattice.slot(i, 0)] - exact));
+      }
+    }
+    EXPECT_LT(largest, 0.005 * (hot - cold)) << material;
+  }
 }
 
 TEST(Conduction, RefreshesTheFlowStressOfHeatedSteel) {

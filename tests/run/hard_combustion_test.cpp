@@ -1,4 +1,5 @@
 // Runs through ignition under hard circumstances: every one completes with its balances, or says why not.
+#include "burning_scenes.hpp"
 #include "launchsafe/run/run_case.hpp"
 
 #include <gtest/gtest.h>
@@ -12,26 +13,9 @@
 namespace launchsafe::run {
 namespace {
 
-constexpr double hard_gap = 4e-4;  // m
+using test_support::burning_gap;
 
-/// A column of charge on a base in a rigid barrel, in uniaxial strain; its skin ignites after some 0.5 ms.
-scene::Scene hard_column() {
-  scene::Scene scene;
-  scene.bodies = {{"charge", "charge", 0.0, 0.04, 0.0, 5e-3}, {"base", "steel", 0.04, 0.06, 0.0, 5e-3}};
-  scene.load.duration = 1e-3;
-  scene.load.peak = 200e6;
-  scene.load.peak_time = 5e-3;
-  scene.load.exponent = 1.0;
-  scene.surface.gaps = {hard_gap};
-  scene.surface.exchange_time = 5e-5;
-  scene.surface.friction = scene::FrictionClosure::none;
-  scene.charge().kinetics.ignition_temperature = 320.0;
-  scene.numerics.cell_size = 1.25e-3;
-  scene.output.trace_interval = 1e-5;
-  scene.coupling = scene::Coupling::two_way;
-  scene.combustion.duration = 0.3e-3;
-  return scene;
-}
+scene::Scene hard_column() { return test_support::burning_column(1.25e-3, 5e-3, 0.3e-3); }
 
 /// A small shell with nose, wall and base.
 scene::Scene hard_shell() {
@@ -72,7 +56,7 @@ void expect_sound(const scene::Scene& scene, const CaseResult& result) {
   }
 }
 
-CaseResult expect_completed(const scene::Scene& scene, double gap = hard_gap) {
+CaseResult expect_completed(const scene::Scene& scene, double gap = burning_gap) {
   const CaseResult result = run_with_skin(scene, gap);
   EXPECT_EQ(result.mechanics.status, RunStatus::completed)
       << to_string(result.mechanics.status) << ": " << result.mechanics.reason;
@@ -85,9 +69,9 @@ TEST(HardCombustion, ThreadsDoNotChangeABit) {
     scene::Scene scene = hard_shell();
     scene.combustion.release = release;
     RunOptions options;
-    const CaseResult one = run_with_skin(scene, hard_gap, options);
+    const CaseResult one = run_with_skin(scene, burning_gap, options);
     options.threads = 2;
-    const CaseResult two = run_with_skin(scene, hard_gap, options);
+    const CaseResult two = run_with_skin(scene, burning_gap, options);
     expect_sound(scene, one);
     ASSERT_TRUE(two.gaps.front().combustion.has_value());
     EXPECT_EQ(one.mechanics.steps, two.mechanics.steps);
@@ -146,7 +130,7 @@ TEST(HardCombustion, IgnitesAsSoonAsTheLoadHasComeToTheBottom) {
 
 TEST(HardCombustion, IgnitesInTheLastStepOfTheLaunch) {
   scene::Scene scene = hard_column();
-  const double ignition = run_with_skin(scene, hard_gap).gaps.front().skin.ignition->time;
+  const double ignition = run_with_skin(scene, burning_gap).gaps.front().skin.ignition->time;
   // A launch that ends where this one ignited, to within a thousandth of a step.
   scene.load.duration = ignition + 1e-10;
   scene.output.trace_interval = 1e-5;
@@ -221,7 +205,7 @@ TEST(HardCombustion, ChargeBodiesSideBySideOfWhichOneDoesNotReachTheBottom) {
 TEST(HardCombustion, AFlameThatOutrunsSoundIsRefused) {
   scene::Scene scene = hard_column();
   scene.charge().kinetics.frequency = 1e30;
-  const CaseResult result = run_with_skin(scene, hard_gap);
+  const CaseResult result = run_with_skin(scene, burning_gap);
   EXPECT_EQ(result.mechanics.status, RunStatus::flame_beyond_sound) << to_string(result.mechanics.status);
   expect_sound(scene, result);
 }
@@ -230,7 +214,7 @@ TEST(HardCombustion, AFastFlameThroughAThinSkinTakesNoEndOfSteps) {
   scene::Scene scene = hard_column();
   scene.charge().kinetics.frequency = 1e24;
   scene.surface.skin_thickness = 1e-7;
-  const CaseResult result = run_with_skin(scene, hard_gap);
+  const CaseResult result = run_with_skin(scene, burning_gap);
   EXPECT_GT(burnt(result).skin_flame_speed, 10.0);
   EXPECT_LT(result.mechanics.steps, 1000000u);
   expect_sound(scene, result);
