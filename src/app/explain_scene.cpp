@@ -137,6 +137,7 @@ nlohmann::ordered_json physics_json(const scene::Plan& plan) {
           {"conduction", term_json(plan.conduction)},
           {"bulk_reaction", term_json(plan.bulk_reaction)},
           {"inertial_scaling", term_json(plan.inertial_scaling)},
+          {"coupling", term_json(plan.coupling)},
           {"snapshots", term_json(plan.snapshots)}};
 }
 
@@ -213,6 +214,9 @@ nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate)
           {"updates_per_second", update_rate},
           {"predicted_time_s",
            update_rate > 0 ? nlohmann::ordered_json(scene::predicted_time(plan, update_rate)) : nullptr},
+          {"predicted_time_of_a_coupled_run_s", update_rate > 0 && plan.coupling.in
+                                                    ? nlohmann::ordered_json(plan.coupled_work / update_rate)
+                                                    : nullptr},
           {"refused", refusal ? nlohmann::ordered_json(refusal->message()) : nlohmann::ordered_json()}};
 }
 

@@ -63,6 +63,17 @@ std::string runs_text(const Forecast& forecast) {
   return text;
 }
 
+/// How those runs go, and how much of the time is theirs.
+std::string confirmation_text(const scene::Scene& scene, const Forecast& forecast) {
+  std::string text;
+  if (scene.surface.air_model == scene::AirModel::reservoir)
+    text += fmt::format(": from checkpoints of the launch and, after ignition, {} through combustion",
+                        scene::format_quantity(scene.combustion.duration, scene::Dimension::time));
+  if (forecast.confirmation_time > 0.0)
+    text += fmt::format("; about {} of the time", report::duration(forecast.confirmation_time));
+  return text;
+}
+
 std::string time_text(const Forecast& forecast, const std::filesystem::path& folder) {
   const Totals totals = totals_of(forecast);
   if (totals.refused > 0 && totals.to_run == 0) return "none: nothing is left that may run";
@@ -86,9 +97,9 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
   for (const auto& [key, value] : file.overrides) text += forecast_line("  " + key, value);
   text += forecast_line("mechanical runs", runs_text(forecast));
   if (forecast.confirmations > 0)
-    text += forecast_line("coupled runs",
-                          fmt::format("at most {} more, to confirm the critical gap; their time comes on top",
-                                      forecast.confirmations));
+    text += forecast_line(
+        "coupled runs", fmt::format("at most {} more, to confirm the critical gap{}", forecast.confirmations,
+                                    confirmation_text(file.scene.scene, forecast)));
   if (!file.study.kind.gaps_key.empty())
     text += forecast_line(
         "gaps", fmt::format("{} on the trace of each run, then a bisection", file.study.gaps.size()));
@@ -115,6 +126,7 @@ nlohmann::ordered_json forecast_json(const study::StudyFile& file, const Forecas
           {"rate_learned_from_runs", forecast.learned_from},
           {"memory_bytes", forecast.memory},
           {"predicted_time_s", forecast.time},
+          {"predicted_time_of_coupled_runs_s", forecast.confirmation_time},
           {"runs", report::to_json(run_table(forecast))["rows"]}};
 }
 

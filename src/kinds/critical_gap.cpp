@@ -87,7 +87,6 @@ void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confi
 
 /// Coupled runs on both sides of every bracket, from checkpoints of the mechanics where those were computed.
 void run_confirmations(CriticalGapResult& result, const StudyOptions& options, ProgressTracker& tracker) {
-  constexpr double continued_share = 0.15;  // of the steps of a launch, with combustion
   std::vector<CaseRuns> runs;
   std::vector<std::pair<CaseOutcome*, std::size_t>> places;
   for (CaseOutcome& outcome : result.cases) {
@@ -98,7 +97,7 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
       const double gap = outcome.confirmations[side].gap;
       CaseRun run = skin_run(outcome.input.scene.scene, gap, label_with_skin(outcome, gap));
       run.launch = &outcome.result.mechanics;
-      if (run.launch->checkpoints) run.cost *= continued_share;
+      if (run.launch->checkpoints) run.cost = continued_cost(run);
       runs.push_back({{}, {std::move(run)}, options.shard.index});
       places.emplace_back(&outcome, side);
     }

@@ -54,8 +54,11 @@ bool has_field(const scene::Scene& scene, std::string_view name) {
 std::string days(double seconds) { return fmt::format("{:.3g} days", seconds / 86400.0); }
 std::string gigabytes(double bytes) { return fmt::format("{:.3g} GB", 1e-9 * bytes); }
 
-/// A short step is the reason where steps as long as usual would do.
-const char* key_of_time(const scene::Scene& scene, double time, double longest) {
+/// What follows ignition is the reason where the launch alone would do, a short step where steps as long as
+/// usual would do.
+const char* key_of_time(const scene::Scene& scene, const Cost& cost, double longest) {
+  const double time = cost.time();
+  if (time - cost.coupled / cautious_update_rate <= longest) return "combustion.duration";
   const double usual = scene::Numerics{}.time_step_factor, given = scene.numerics.time_step_factor;
   return given < usual && time * given / usual <= longest ? "numerics.time_step_factor"
                                                           : "numerics.cell_size";
@@ -74,7 +77,12 @@ Cost cost_of(const scene::Scene& scene) {
   const scene::Plan plan = scene::make_plan(scene);
   const TraceSize size = trace_size(scene, plan);
   const double snapshots = scene.output.asks_for_snapshots() ? copies * snapshot_size(scene).bytes() : 0.0;
-  return {plan.work, plan.memory, trace_memory(size), snapshots, skin_memory(scene, size)};
+  return {.work = plan.work,
+          .coupled = plan.coupled_work * static_cast<double>(scene.surface.gaps.size()),
+          .particles = plan.memory,
+          .trace = trace_memory(size),
+          .snapshots = snapshots,
+          .skins = skin_memory(scene, size)};
 }
 
 SnapshotSize snapshot_size(const scene::Scene& scene) {
@@ -114,13 +122,17 @@ std::optional<scene::InputError> out_of_reach(const scene::Scene& scene, const R
   // Written so that what is no number is out of reach.
   if (!(cost.time() <= reach.longest_run) || std::isinf(cost.time())) {
     const scene::Plan plan = scene::make_plan(scene);
-    error.key = key_of_time(scene, cost.time(), reach.longest_run);
+    error.key = key_of_time(scene, cost, reach.longest_run);
     error.found = fmt::format(
         "{:.3g} particles and {} steps of {:.3g} s (sound at {:.3g} m/s), which take {} at {:.3g} million "
         "particle updates per second",
         static_cast<double>(plan.particles()),
         plan.steps < scene::most_counted ? fmt::format("{}", plan.steps) : "countless", plan.time_step,
         scene::longitudinal_speed(scene), days(cost.time()), 1e-6 * cautious_update_rate);
+    if (cost.coupled > 0.0)
+      error.found +=
+          fmt::format(", {} of it where every gap ignites and goes on through {:.3g} s of combustion",
+                      days(cost.coupled / cautious_update_rate), scene.combustion.duration);
     error.allowed = fmt::format(
         "a run of at most {}; larger cells or longer steps take less, and "
         "--longest-run allows more",

@@ -1,6 +1,7 @@
 #include "launchsafe/run/run_case.hpp"
 
 #include "launchsafe/mpm/simulation.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "runner.hpp"
 #include "snapshot.hpp"
 #include "snapshot_taker.hpp"
@@ -31,15 +32,13 @@ GapResult gap_result(const surface::SkinModel& model, surface::SkinHistory skin,
   return result;
 }
 
-/// Before this share of the launch the skin of a gap that is near to ignition is integrated on the trace.
-constexpr double stepped_share = 0.01;
-
 /// How many checkpoints of a launch lie before a gap ignites, or is hottest.
 std::size_t checkpoints_before(const trace::BottomTrace& launch, const GapResult& traced, double duration) {
   const double critical = traced.skin.ignition ? traced.skin.ignition->time : traced.at_stations.time;
   std::size_t count = 0;
   for (const double time : launch.time)
-    if (time <= critical - stepped_share * duration && time >= Runner::time_of_checkpoint(count, duration))
+    if (time <= critical - scene::share_before_ignition * duration &&
+        time >= Runner::time_of_checkpoint(count, duration))
       ++count;
   return count;
 }

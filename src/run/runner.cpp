@@ -3,6 +3,7 @@
 #include "flush_denormals.hpp"
 #include "launchsafe/run/processor_time.hpp"
 #include "launchsafe/run/stable_factor.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "snapshot.hpp"
 
 #include <fmt/format.h>
@@ -76,8 +77,7 @@ void Runner::keep_checkpoints(std::size_t enough) {
 }
 
 double Runner::time_of_checkpoint(std::size_t index, double duration) {
-  constexpr double parts = 16.0;
-  return duration * static_cast<double>(index + 1) / parts;
+  return duration * static_cast<double>(index + 1) / scene::parts_of_launch;
 }
 
 void Runner::end_with_snapshot(double time) {

@@ -134,6 +134,33 @@ Term plan_inertial_scaling(const Scene& scene) {
           scaling, 1.0};
 }
 
+/// s of the launch, at most, that the run of a gap computes before it ignites or the launch ends.
+double time_before_ignition(const Scene& scene) {
+  const bool checkpoints = scene.numerics.formulation == Formulation::total_lagrangian;
+  return scene.load.duration *
+         (checkpoints ? std::min(1.0, 1.0 / parts_of_launch + share_before_ignition) : 1.0);
+}
+
+/// Work of such a run over that of the launch.
+double coupled_share(const Scene& scene) {
+  // Measured on the 155 mm shell: steps that follow a flame are shorter, and each checks its stability.
+  constexpr double cost_of_burning = 2.5;
+  return (time_before_ignition(scene) + cost_of_burning * scene.combustion.duration) / scene.load.duration;
+}
+
+Term plan_coupling(const Scene& scene) {
+  const double duration = scene.combustion.duration;
+  if (!has_charge(scene)) return {false, false, "no charge", duration, 0.0};
+  if (scene.coupling == Coupling::one_way)
+    return {false, false, "one-way: runs end with the launch, and what ignites does not burn", duration, 0.0};
+  return {true, false,
+          fmt::format("two-way: every gap that ignites is computed once more from a checkpoint, at most {} "
+                      "before ignition, and on through combustion for {} or to {} at the bottom",
+                      time_text(time_before_ignition(scene)), time_text(duration),
+                      pressure_text(scene.combustion.stop_pressure)),
+          duration, 0.0};
+}
+
 Term plan_snapshots(const Scene& scene) {
   const std::size_t times = scene.output.snapshot_times.size(), events = scene.output.snapshot_events.size();
   const auto count = static_cast<double>(times + events);
@@ -204,6 +231,7 @@ void count_work(const Scene& scene, const CellRange& cells, Plan& plan) {
   const double cracked = cracked_particles(scene, plan);
   const double substeps = cracked > 0.0 ? crack_substeps(scene, plan.time_step) : 0.0;
   plan.work = steps * (static_cast<double>(plan.particles()) + updates_per_substep * substeps * cracked);
+  if (plan.coupling.in) plan.coupled_work = coupled_share(scene) * plan.work;
   plan.memory += bytes_per_cell * static_cast<double>(plan.cells);
 }
 
@@ -260,6 +288,7 @@ Plan make_plan(const Scene& scene) {
   plan.surface = plan_surface(scene);
   plan.friction_heat = plan_friction_heat(scene);
   plan.inertial_scaling = plan_inertial_scaling(scene);
+  plan.coupling = plan_coupling(scene);
   plan.snapshots = plan_snapshots(scene);
   count_work(scene, cells, plan);
   return plan;

@@ -70,6 +70,7 @@ std::string physics_text(const Plan& plan) {
         {"heat conduction", &plan.conduction},
         {"bulk reaction", &plan.bulk_reaction},
         {"inertial scaling", &plan.inertial_scaling},
+        {"coupling", &plan.coupling},
         {"snapshots", &plan.snapshots}}) {
     text += term_text(name, *term);
   }
@@ -115,6 +116,9 @@ std::string cost_text(const Plan& plan, const Scene& scene, double update_rate) 
   if (update_rate > 0.0) {
     text += row("time", fmt::format("about {} at {:.3g} particle updates per second",
                                     duration_text(predicted_time(plan, update_rate)), update_rate));
+    if (plan.coupling.in)
+      text += row("through ignition", fmt::format("about {} more, at most, for every gap that ignites",
+                                                  duration_text(plan.coupled_work / update_rate)));
   }
   return text;
 }

@@ -8,7 +8,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <queue>
 #include <sstream>
@@ -144,6 +143,22 @@ ForecastRun forecast_run(const CaseRun& needed, const StudyOptions& options, con
   return run;
 }
 
+/// s on a core, at most, of the coupled runs that follow the launches which are to run. What follows a stored
+/// launch is as a rule stored too.
+std::vector<double> confirmation_times(const StudyFile& study, const std::vector<CaseRuns>& cases,
+                                       const std::vector<std::vector<ForecastRun>>& runs,
+                                       double update_rate) {
+  std::vector<double> times;
+  if (study.confirmations_per_case == 0) return times;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (runs[i].front().stored || runs[i].front().given_up) continue;
+    const scene::Scene& scene = study.cases[cases[i].members.front()].scene.scene;
+    const double cost = continued_cost(skin_run(scene, study.study.largest_gap, {}));
+    times.insert(times.end(), study.confirmations_per_case, cost / update_rate);
+  }
+  return times;
+}
+
 }  // namespace
 
 std::optional<scene::InputError> all_out_of_reach(const StudyFile& study, const run::Reach& reach) {
@@ -176,7 +191,7 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
         });
     if (first.stored && !first.answered) first.why = "stored; its gaps are judged anew";
   });
-  for (auto& each : runs) std::move(each.begin(), each.end(), std::back_inserter(forecast.runs));
+  for (const auto& each : runs) forecast.runs.insert(forecast.runs.end(), each.begin(), each.end());
   std::vector<double> times, memories;
   for (const ForecastRun& run : forecast.runs) {
     if (run.stored || run.given_up) continue;
@@ -185,7 +200,9 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
   }
   forecast.jobs = std::max(1, std::min(jobs_of(options), static_cast<int>(forecast.runs.size())));
   forecast.confirmations = study.confirmations_per_case * cases.size();
-  forecast.time = time_on(times, forecast.jobs);
+  forecast.confirmation_time =
+      time_on(confirmation_times(study, cases, runs, forecast.update_rate), forecast.jobs);
+  forecast.time = time_on(times, forecast.jobs) + forecast.confirmation_time;
   std::sort(memories.rbegin(), memories.rend());
   memories.resize(std::min<std::size_t>(memories.size(), static_cast<std::size_t>(forecast.jobs)));
   for (const double memory : memories) forecast.memory += memory;

@@ -219,6 +219,8 @@ class CaseLoop {
   std::mutex mutex_;
 };
 
+double scheduled(double work) { return std::isfinite(work) ? std::max(work, 1.0) : 1.0; }
+
 CaseRun planned(scene::Scene scene, std::optional<double> gap, std::string label) {
   CaseRun run{std::move(label), std::move(scene), gap, {}, 1.0};
   run.hash = identity_of(run).hash();
@@ -241,6 +243,11 @@ CaseRun skin_run(const scene::Scene& scene, double gap, std::string label) {
   own.surface.gaps = {gap};
   if (own.surface.air_model == scene::AirModel::reservoir) own.coupling = scene::Coupling::two_way;
   return planned(std::move(own), gap, std::move(label));
+}
+
+double continued_cost(const CaseRun& run) {
+  const run::Cost cost = run::cost_of(run.scene);
+  return scheduled(cost.coupled > 0.0 ? cost.coupled : cost.work);
 }
 
 store::CaseIdentity identity_of(const CaseRun& run) {
@@ -322,8 +329,8 @@ std::string refusal_of(const scene::Scene& scene, const StudyOptions& options) {
 }
 
 double cost_of(const scene::Scene& scene) {
-  const double cost = run::cost_of(scene).work;
-  return std::isfinite(cost) ? std::max(cost, 1.0) : 1.0;
+  const run::Cost cost = run::cost_of(scene);
+  return scheduled(cost.work + cost.coupled);
 }
 
 std::string failure_of(const run::MechanicsResult& mechanics) {

@@ -36,6 +36,7 @@ struct Plan {
   Term surface;           ///< skin temperatures of the charge bottom; value: number of gaps
   Term friction_heat;     ///< value: localisation
   Term inertial_scaling;  ///< value: the factor
+  Term coupling;          ///< runs on through ignition; value: s of combustion
   Term snapshots;         ///< value: their number
 
   std::vector<MaterialParticles> by_material;  ///< of the materials that bodies are made of
@@ -47,8 +48,16 @@ struct Plan {
   /// Particle updates that the run is worth: steps times particles, and more where the crack law divides its
   /// steps.
   double work = 0;
+  /// The same, at most, of the run of one gap that goes on from a checkpoint of the launch and, where it
+  /// ignites, through combustion; 0 with one-way coupling.
+  double coupled_work = 0;
   double memory = 0;  ///< bytes of particles and grid, estimated
 };
+
+/// Into so many parts checkpoints divide a launch (total-Lagrangian; other formulations have none).
+inline constexpr double parts_of_launch = 16.0;
+/// So long before ignition, as a share of the launch, the checkpoint lies at least from which a run goes on.
+inline constexpr double share_before_ignition = 0.01;
 
 /// Longitudinal sound speed at rest (m/s), sqrt((K + 4/3 G)/rho).
 double longitudinal_speed(const materials::Law& law);

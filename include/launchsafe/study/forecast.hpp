@@ -34,6 +34,7 @@ struct Forecast {
   double update_rate = 0;         ///< particle updates per second on a core that the prediction rests on
   std::size_t learned_from = 0;   ///< runs in the journal that the rate was learned from; 0: measured now
   double time = 0;                ///< s of wall time, of all that is to run
+  double confirmation_time = 0;   ///< s of it, at most, of the confirmations of launches that are to run
   double memory = 0;              ///< bytes, of the cases that will run side by side
   int jobs = 1;
 };

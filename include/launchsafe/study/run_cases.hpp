@@ -28,6 +28,9 @@ struct CaseRun {
 
 CaseRun mechanics_run(const scene::Scene& scene, std::string label);
 CaseRun skin_run(const scene::Scene& scene, double gap, std::string label);
+/// Predicted particle updates of a run with skin that goes on from a checkpoint of its launch, where its air
+/// allows that; otherwise those of the whole run.
+double continued_cost(const CaseRun& run);
 /// What determines the result of a run: model version, kind of run, and scene.
 store::CaseIdentity identity_of(const CaseRun& run);
 
@@ -75,7 +78,8 @@ void run_every_case(const StudyFile& study, const StudyOptions& options, Timing&
 
 /// Why a run that is not stored must not be begun; empty for one that may.
 std::string refusal_of(const scene::Scene& scene, const StudyOptions& options);
-/// Relative cost of a run: predicted particle updates, > 0.
+/// Relative cost of a run from the start: predicted particle updates, with all that may follow ignitions; >
+/// 0.
 double cost_of(const scene::Scene& scene);
 /// Why mechanics that ended are no basis for a verdict; empty for completed ones.
 std::string failure_of(const run::MechanicsResult& mechanics);
