@@ -42,18 +42,6 @@ std::string answer_of(const CaseOutcome& outcome) {
   return fmt::format("the critical gap is indeterminate: {}.", gap.reason);
 }
 
-std::string uncertainty_text(const CriticalGapResult& result) {
-  std::string text = uncertainty_remark(result.study);
-  for (const CaseOutcome& outcome : result.cases) {
-    for (const study::Confirmation& each : outcome.confirmations) {
-      if (!std::isfinite(each.difference)) continue;
-      text += fmt::format(" Coupled minus traced at {} ({}): {} K.", centimetres(each.gap),
-                          outcome.input.label, scientific(each.difference, 1));
-    }
-  }
-  return text + "\n";
-}
-
 /// What would make one share of a row's uncertainty smaller.
 struct Remedy {
   const char* share;
@@ -214,7 +202,7 @@ Report report_of(const CriticalGapResult& result) {
                   ReportTable{comparison_table(result), "", "comparison"}};
   add_statements(result, report);
   for (ReportTable table : {ReportTable{critical_gap_table(result), "", "cases"},
-                            ReportTable{coupled_run_table(result), "", "coupled_runs", Shown::page},
+                            ReportTable{coupled_run_table(result), "", "coupled_runs"},
                             ReportTable{cited_limit_table(result), "", "cited_limits"},
                             ReportTable{air_model_table(result), "", "air_models"},
                             ReportTable{air_energy_table(result), "", "air_energy"}})
@@ -223,7 +211,7 @@ Report report_of(const CriticalGapResult& result) {
     report.items.push_back(ReportTable{fit_table(outcome), "", "fit"});
   report.items.push_back(Statement{undecided_text(result)});
   report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
-  report.items.push_back(Statement{uncertainty_text(result)});
+  report.items.push_back(Statement{uncertainty_remark(result.study) + "\n"});
   report.items.push_back(Statement{limiter_remark(result)});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
   for (const CaseOutcome& outcome : result.cases) {

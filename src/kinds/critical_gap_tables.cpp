@@ -2,6 +2,7 @@
 #include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/report/air_energy_table.hpp"
+#include "launchsafe/report/combustion_table.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/run_table.hpp"
 #include "launchsafe/report/study_text.hpp"
@@ -147,7 +148,8 @@ Table critical_gap_table(const CriticalGapResult& result) {
   table.title = "Critical gap";
   table.columns = {quantity::case_name()};
   append(table.columns, critical_gap_columns());
-  append(table.columns, {named_text("coupled runs", "coupled_runs"), named_text("remark", "reason")});
+  append(table.columns,
+         {for_programs(named_text("coupled runs", "coupled_runs")), named_text("remark", "reason")});
   for (const CaseOutcome& outcome : result.cases) {
     std::vector<Cell>& cells = table.rows.emplace_back();
     cells.emplace_back(outcome.input.label);
@@ -160,37 +162,38 @@ Table critical_gap_table(const CriticalGapResult& result) {
 namespace {
 
 /// What burnt in a coupled run; empty where nothing did.
-struct BurningCells {
-  Cell skin_burnt, mass, residual;
-};
-BurningCells burning_cells(const std::optional<run::CombustionHistory>& combustion) {
-  if (!combustion || combustion->burnt_mass.empty()) return {};
-  return {optional_number(1e3 * combustion->complete_time), 1e3 * combustion->burnt_mass.back(),
-          combustion->energy_residual};
+std::vector<Cell> burning_cells(const std::optional<run::CombustionHistory>& combustion) {
+  if (!combustion || combustion->burnt_mass.empty()) return std::vector<Cell>(5);
+  const BurntState state = burnt_state_of(*combustion);
+  return {optional_number(1e3 * combustion->complete_time), state.burnt_mass, state.released,
+          state.highest_pressure, combustion->energy_residual};
 }
 
 }  // namespace
 
 Table coupled_run_table(const CriticalGapResult& result) {
   Table table;
-  table.title = "Coupled runs";
+  table.title = "Coupled runs, on through combustion where they ignite";
   table.columns = {quantity::case_name(),
                    quantity::gap(),
                    named_text("expected", "expected"),
                    named_text("outcome", "outcome"),
                    quantity::temperature_max(),
                    scientific_column("coupled - traced", "K", 1, "coupled_minus_traced_K"),
-                   number_column("skin burnt", "ms", 3, "skin_burnt_time_ms"),
-                   significant_column("burnt", "g", 3, "burnt_mass_g"),
-                   scientific_column("energy residual", "", 1, "combustion_energy_residual"),
+                   quantity::skin_burnt_time(),
+                   quantity::burnt_mass(),
+                   quantity::heat_released(),
+                   quantity::bottom_pressure_max(),
+                   quantity::combustion_residual(),
                    quantity::reason()};
   for (const CaseOutcome& outcome : result.cases) {
     for (const Confirmation& each : outcome.confirmations) {
-      const BurningCells burning = burning_cells(each.combustion);
-      table.rows.push_back({outcome.input.label, 100.0 * each.gap, ignition_word(each.expected_ignition),
-                            outcome_word(each), optional_number(each.maximum_temperature),
-                            optional_number(each.difference), burning.skin_burnt, burning.mass,
-                            burning.residual, each.failure});
+      std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{
+          outcome.input.label, 100.0 * each.gap, ignition_word(each.expected_ignition), outcome_word(each),
+          optional_number(each.maximum_temperature), optional_number(each.difference)});
+      const std::vector<Cell> burning = burning_cells(each.combustion);
+      cells.insert(cells.end(), burning.begin(), burning.end());
+      cells.emplace_back(each.failure);
     }
   }
   return table;

@@ -25,31 +25,30 @@ double last_of(const std::vector<double>& values) { return values.empty() ? 0.0 
 
 }  // namespace
 
+BurntState burnt_state_of(const run::CombustionHistory& c) {
+  return {1e3 * last_of(c.burnt_mass), 1e-3 * last_of(c.released),
+          c.pressure.empty() ? 0.0 : 1e-6 * *std::max_element(c.pressure.begin(), c.pressure.end())};
+}
+
 Table combustion_table(const run::CaseResult& result) {
-  Table table{
-      "After ignition, with two-way coupling",
-      {quantity::gap(), significant_column("flame in the skin", "m/s", 3, "skin_flame_speed_m_per_s"),
-       significant_column("behind it", "m/s", 3, "bulk_flame_speed_m_per_s"),
-       number_column("skin burnt", "ms", 3, "skin_burnt_time_ms"),
-       significant_column("burnt", "g", 3, "burnt_mass_g"),
-       significant_column("gas", "cm3", 3, "gas_volume_cm3"),
-       number_column("T gas", "K", 0, "gas_temperature_K"),
-       significant_column("p max", "MPa", 3, "bottom_pressure_max_MPa"),
-       significant_column("released", "kJ", 3, "heat_released_kJ"),
-       significant_column("kept back", "kJ", 3, "heat_kept_back_kJ"),
-       significant_column("brought", "kJ", 3, "heat_brought_kJ"),
-       scientific_column("energy residual", "", 1, "combustion_energy_residual"), quantity::energy_drift(),
-       named_text("ended by", "combustion_end"), number_column("wall time", "s", 1, "wall_time_s")},
-      {}};
+  Table table{"After ignition, with two-way coupling",
+              {quantity::gap(), significant_column("flame in the skin", "m/s", 3, "skin_flame_speed_m_per_s"),
+               significant_column("behind it", "m/s", 3, "bulk_flame_speed_m_per_s"),
+               quantity::skin_burnt_time(), quantity::burnt_mass(), quantity::gas_volume(),
+               quantity::gas_temperature(), quantity::bottom_pressure_max(), quantity::heat_released(),
+               significant_column("kept back", "kJ", 3, "heat_kept_back_kJ"),
+               significant_column("brought", "kJ", 3, "heat_brought_kJ"), quantity::combustion_residual(),
+               quantity::energy_drift(), named_text("ended by", "combustion_end"),
+               number_column("wall time", "s", 1, "wall_time_s")},
+              {}};
   for (const run::GapResult& gap : result.gaps) {
     if (!gap.combustion) continue;
     const run::CombustionHistory& c = *gap.combustion;
-    const double pressure =
-        c.pressure.empty() ? 0.0 : *std::max_element(c.pressure.begin(), c.pressure.end());
+    const BurntState state = burnt_state_of(c);
     table.rows.push_back({100.0 * gap.gap, c.skin_flame_speed, c.bulk_flame_speed,
-                          optional_number(1e3 * c.complete_time), 1e3 * last_of(c.burnt_mass),
-                          1e6 * last_of(c.gas_volume), last_of(c.gas_temperature), 1e-6 * pressure,
-                          1e-3 * last_of(c.released), 1e-3 * last_of(c.kept_back), 1e-3 * last_of(c.brought),
+                          optional_number(1e3 * c.complete_time), state.burnt_mass,
+                          1e6 * last_of(c.gas_volume), last_of(c.gas_temperature), state.highest_pressure,
+                          state.released, 1e-3 * last_of(c.kept_back), 1e-3 * last_of(c.brought),
                           c.energy_residual, c.energy_drift, end_of(c), c.wall_time});
   }
   if (table.rows.empty()) return table;
@@ -71,12 +70,9 @@ Table combustion_history_table(const run::CombustionHistory& c, double gap, std:
   Table table{fmt::format("History of the combustion at {:.6g} cm", 100.0 * gap),
               {number_column("time", "ms", 3, "time_ms"),
                number_column("largest reaction degree", "", 3, "reaction_degree_max"),
-               number_column("largest depth", "mm", 4, "burnt_depth_mm"),
-               significant_column("burnt", "g", 3, "burnt_mass_g"),
-               significant_column("gas", "cm3", 3, "gas_volume_cm3"),
-               number_column("T gas", "K", 0, "gas_temperature_K"),
-               number_column("p bottom", "MPa", 1, "bottom_pressure_MPa"),
-               significant_column("released", "kJ", 3, "heat_released_kJ")},
+               number_column("largest depth", "mm", 4, "burnt_depth_mm"), quantity::burnt_mass(),
+               quantity::gas_volume(), quantity::gas_temperature(),
+               number_column("p bottom", "MPa", 1, "bottom_pressure_MPa"), quantity::heat_released()},
               {}};
   if (c.time.empty() || rows == 0) return table;
   const std::size_t stations = c.reaction_degree.size() / c.time.size();

@@ -95,6 +95,8 @@ TEST_F(StudyProgram, ExplainCountsItsRuns) {
   EXPECT_EQ(plan["kind"], "critical-gap");
   EXPECT_EQ(plan["mechanical_runs"], 1);
   EXPECT_EQ(plan["coupled_runs_at_most"], 2);
+  EXPECT_GT(plan["predicted_time_of_coupled_runs_s"], 0.0);
+  EXPECT_GT(plan["predicted_time_s"], plan["predicted_time_of_coupled_runs_s"]);
   EXPECT_EQ(plan["gaps"], 3);
   EXPECT_NE(run({"explain", "study.toml"}).out.find("mechanical runs       1"), std::string::npos);
 }

@@ -80,6 +80,16 @@ TEST(OutOfReach, GrowsWithWhatTheCallerAllows) {
   EXPECT_FALSE(out_of_reach(file, {.longest_run = 1.1 * time}));
 }
 
+TEST(OutOfReach, CountsWhatFollowsIgnition) {
+  scene::SceneFile file = small_file();
+  file.scene.coupling = scene::Coupling::two_way;
+  EXPECT_FALSE(out_of_reach(file, {}));
+  file.scene.combustion.duration = 1e6;
+  const auto error = out_of_reach(file, {});
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->key, "combustion.duration") << error->message();
+}
+
 TEST(Cost, CountsOneSampleAStepAtMost) {
   scene::Scene scene = small_file().scene;
   scene.output.trace_interval = 1e-300;

@@ -87,6 +87,25 @@ TEST(Plan, SteelAloneHasNoSurface) {
   EXPECT_EQ(plan.by_material[0].material, "steel");
 }
 
+TEST(Plan, TellsWhatARunThroughIgnitionAddsAndAtWhichCost) {
+  Scene scene = small();
+  EXPECT_FALSE(make_plan(scene).coupling.in);
+  EXPECT_EQ(make_plan(scene).coupled_work, 0.0);
+  scene.coupling = Coupling::two_way;
+  scene.combustion.duration = 1e-3;
+  const Plan plan = make_plan(scene);
+  EXPECT_TRUE(plan.coupling.in);
+  EXPECT_NE(plan.coupling.reason.find("through combustion for 1 ms or to 2 GPa"), std::string::npos)
+      << plan.coupling.reason;
+  // A millisecond more of burning costs more than a millisecond of the launch.
+  scene.combustion.duration = 2e-3;
+  EXPECT_GT(make_plan(scene).coupled_work - plan.coupled_work, plan.work * 1e-3 / scene.load.duration);
+  EXPECT_EQ(make_plan(scene).work, plan.work);
+  // Without checkpoints the launch is computed once more.
+  scene.numerics.formulation = Formulation::updated_lagrangian;
+  EXPECT_GT(make_plan(scene).coupled_work, make_plan(scene).work);
+}
+
 TEST(Plan, CountsParticlesAndStepsAsTheMeshDoes) {
   Scene scene = small();
   EXPECT_NEAR(longitudinal_speed(scene), 5905.50, 0.01);

@@ -64,6 +64,19 @@ inline Column steps() { return count_column("steps", "steps"); }
 inline Column particles() { return count_column("particles", "particles"); }
 inline Column limiters() { return named_text("limiters (particle steps)", "limiters"); }
 
+// Of what follows ignition.
+inline Column skin_burnt_time() { return number_column("skin burnt", "ms", 3, "skin_burnt_time_ms"); }
+inline Column burnt_mass() { return significant_column("burnt", "g", 3, "burnt_mass_g"); }
+inline Column gas_volume() { return significant_column("gas", "cm3", 3, "gas_volume_cm3"); }
+inline Column gas_temperature() { return number_column("T gas", "K", 0, "gas_temperature_K"); }
+inline Column heat_released() { return significant_column("released", "kJ", 3, "heat_released_kJ"); }
+inline Column bottom_pressure_max() {
+  return significant_column("p max", "MPa", 3, "bottom_pressure_max_MPa");
+}
+inline Column combustion_residual() {
+  return scientific_column("energy residual", "", 1, "combustion_energy_residual");
+}
+
 // Of calibrated constants.
 inline Column closure() { return named_text("closure", "closure"); }
 inline Column kinetics() { return named_text("kinetics", "kinetics"); }
