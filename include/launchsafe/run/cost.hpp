@@ -21,8 +21,8 @@ struct Cost {
   double trace = 0;      ///< bytes of the trace, with the copies that exist while it is stored
   double snapshots = 0;  ///< bytes of the snapshots, likewise
   double skins = 0;      ///< bytes of the skin temperatures of all the scene's gaps, where they are kept
-  double memory() const { return particles + trace + snapshots; }  ///< bytes of the mechanics
-  double time() const { return (work + coupled) / cautious_update_rate; }      ///< s on a core
+  double memory() const { return particles + trace + snapshots; }          ///< bytes of the mechanics
+  double time() const { return (work + coupled) / cautious_update_rate; }  ///< s on a core
 };
 Cost cost_of(const scene::Scene& scene);
 
