@@ -268,9 +268,28 @@ void add_explain(CLI::App& app, Parsed& parsed) {
   CLI::App& command = add_command(
       app, parsed, parsed.explain, "explain",
       "Say what a scene or a study will compute, what it leaves out, and the cost", explain_footer);
-  command.add_option("file", parsed.explain.file, "Scene or study file")->type_name("SCENE.toml|STUDY.toml");
-  command.add_flag("--keys", parsed.explain.keys,
-                   "List every key of a scene file: unit, range, default, standing, meaning");
+  command
+      .add_option("file", parsed.explain.file,
+                  "Scene or study file; with --keys the beginning of names, such as load")
+      ->type_name("SCENE.toml|STUDY.toml");
+  CLI::Option* keys = command.add_flag("--keys", parsed.explain.keys,
+                                       "List the keys of scene and study files, or those whose name begins "
+                                       "with the word given in the place of a "
+                                       "file: unit, range, default, standing, meaning");
+  CLI::Option* schema = command
+                            .add_option("--schema", parsed.explain.schema,
+                                        "Print the JSON schema of scene or study files, for editors")
+                            ->check(CLI::IsMember({"scene", "study"}))
+                            ->type_name("scene|study");
+  CLI::Option* manual = command.add_flag("--manual", parsed.explain.manual, "Print the manual page, for man");
+  CLI::Option* completion = command
+                                .add_option("--completion", parsed.explain.completion,
+                                            "Print what makes a shell complete commands and options")
+                                ->check(CLI::IsMember({"bash"}))
+                                ->type_name("bash");
+  for (CLI::Option* option : {keys, schema, manual, completion})
+    for (CLI::Option* other : {keys, schema, manual, completion})
+      if (other != option) option->excludes(other);
   add_place(command, "--grid", parsed.explain.picture, "FILE.svg", "file",
             "File to draw the half section of a scene and its grid to");
   add_output_options(command, parsed);
@@ -321,9 +340,10 @@ std::string contradiction(const VerifyArguments& verify) {
                                   : "";
 }
 std::string contradiction(const ExplainArguments& explain) {
-  if (explain.keys != explain.file.empty())
-    return "explain: allowed: either a scene or study file, or --keys";
-  if (explain.keys && explain.picture)
+  const bool of_program = !explain.schema.empty() || explain.manual || !explain.completion.empty();
+  if (!explain.keys && of_program != explain.file.empty())
+    return "explain: allowed: a scene or study file, or one of --keys, --schema, --manual and --completion";
+  if (explain.picture && (of_program || explain.keys))
     return "explain: --grid draws the grid of a scene; allowed: with a scene file";
   return {};
 }
@@ -332,15 +352,10 @@ std::string contradiction(const Other&) {
   return {};
 }
 
-}  // namespace
-
-CommandLine parse_command_line(int argument_count, const char* const* arguments) {
-  CLI::App app(description, "launchsafe");
-  Parsed parsed;
+void add_commands(CLI::App& app, Parsed& parsed) {
   app.require_subcommand(1);
   app.footer(footer);
   app.set_version_flag("--version", "", "Version, commit, compiler, flags and libraries");
-  parsed.study.command = parsed.merge.command = shell_command({arguments, arguments + argument_count});
   add_run(app, parsed);
   add_study(app, parsed);
   add_merge(app, parsed);
@@ -348,6 +363,35 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
   add_verify(app, parsed);
   add_explain(app, parsed);
   add_plot(app, parsed);
+}
+
+CommandDescription describe(const CLI::App& command) {
+  CommandDescription described{command.get_name(), command.get_description(), command.get_footer(), {}, {}};
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string type = option->get_type_name();  // "N:INT in [1 - 4096]" where there is a check
+    described.options.push_back({option->get_name(option->get_positional(), true),
+                                 type.substr(0, type.find(':')), option->get_description(),
+                                 option->get_positional()});
+  }
+  for (const CLI::App* subcommand : command.get_subcommands({}))
+    described.subcommands.push_back(describe(*subcommand));
+  return described;
+}
+
+}  // namespace
+
+CommandDescription describe_commands() {
+  CLI::App app(description, "launchsafe");
+  Parsed parsed;
+  add_commands(app, parsed);
+  return describe(app);
+}
+
+CommandLine parse_command_line(int argument_count, const char* const* arguments) {
+  CLI::App app(description, "launchsafe");
+  Parsed parsed;
+  add_commands(app, parsed);
+  parsed.study.command = parsed.merge.command = shell_command({arguments, arguments + argument_count});
 
   CommandLine& line = parsed.line;
   try {

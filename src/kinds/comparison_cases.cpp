@@ -28,27 +28,28 @@ struct VariantText {
 std::vector<scene::Key<VariantText>> variant_keys() {
   using scene::Standing;
   return {
-      scene::required(scene::text_key<VariantText>(
-          "name", Standing::input, "What it is called in tables; each once.", &VariantText::name)),
+      scene::required(scene::text_key<VariantText>("name", Standing::input,
+                                                   "What it is called in tables; each once.", "bonded charge",
+                                                   &VariantText::name)),
       scene::text_key<VariantText>("description", Standing::input, "What it is, a phrase.",
-                                   &VariantText::description),
+                                   "the charge is glued to the wall", &VariantText::description),
       scene::text_key<VariantText>(
           "calibration", Standing::input,
           "Path of the record of its own calibration, from the study file's folder; the study's if absent, "
           "or "
           "where the record found no constants. Its scene keys are in the table set, and what it accepts in "
           "accept.",
-          &VariantText::calibration),
+          "../reports/calibrate_table8/calibration.json", &VariantText::calibration),
   };
 }
 
 std::vector<scene::Key<ComparisonSettings>> comparison_keys() {
   return {
       scene::text_key<ComparisonSettings>("name", scene::Standing::input,
-                                          "What the scene without changes is called.",
+                                          "What the scene without changes is called.", "as in the scene",
                                           &ComparisonSettings::name),
       scene::text_key<ComparisonSettings>("description", scene::Standing::input, "What that is, a phrase.",
-                                          &ComparisonSettings::description),
+                                          "frictionless wall", &ComparisonSettings::description),
       scene::list_key<ComparisonSettings>(
           "peak_pressures", scene::Dimension::pressure, scene::above_to(0, 10e9), scene::Standing::assumed,
           "Peak chamber pressures, each a mechanical run of every variant; the scene's if absent.",

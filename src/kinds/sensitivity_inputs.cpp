@@ -54,7 +54,7 @@ std::vector<scene::Key<InputText>> input_keys(const scene::KeyDescription& scene
       scene::required(scene::text_key<InputText>(
           "key", scene::Standing::input,
           "What is uncertain: peak_pressure, crack_radius, flaw_size, or a scene key that takes one number.",
-          &InputText::name)),
+          "peak_pressure", &InputText::name)),
       scene::required(scene::word_key<InputText, Kind>("distribution", scene::Standing::input,
                                                        "How its values are distributed.",
                                                        {{to_string(Kind::uniform), Kind::uniform},

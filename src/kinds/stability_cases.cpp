@@ -33,18 +33,20 @@ struct StressCaseText {
 const std::vector<Key<StressCaseText>>& stress_case_keys() {
   static const std::vector<Key<StressCaseText>> keys{
       scene::required(scene::text_key<StressCaseText>("group", Standing::input, "What cases it belongs to.",
-                                                      &StressCaseText::group)),
-      scene::required(scene::text_key<StressCaseText>(
-          "name", Standing::input, "What the case is, unique in its group.", &StressCaseText::name)),
-      scene::required(scene::text_key<StressCaseText>(
-          "must_hold", Standing::input, "What must hold, a sentence.", &StressCaseText::must_hold)),
+                                                      "load", &StressCaseText::group)),
+      scene::required(scene::text_key<StressCaseText>("name", Standing::input,
+                                                      "What the case is, unique in its group.", "peak 10 MPa",
+                                                      &StressCaseText::name)),
+      scene::required(
+          scene::text_key<StressCaseText>("must_hold", Standing::input, "What must hold, a sentence.",
+                                          "T max as with half the time step", &StressCaseText::must_hold)),
       scene::text_key<StressCaseText>("scene", Standing::input,
                                       "Path of a scene of its own, from the study file's folder.",
-                                      &StressCaseText::scene),
+                                      "stability/thin_shell.toml", &StressCaseText::scene),
       scene::text_key<StressCaseText>(
           "refused", Standing::input,
           "What the reader must say of the scene: then the case is one of the reader, and nothing runs.",
-          &StressCaseText::refused),
+          "at least 0", &StressCaseText::refused),
       scene::number_key<StressCaseText>(
           "caught_within", Dimension::count, scene::between(0, 1e9), Standing::input,
           "Steps within which a broken computation must be caught; 0: any number.",

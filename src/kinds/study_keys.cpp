@@ -51,9 +51,10 @@ StudyKeys make_common_keys() {
       kind_key(),
       scene::text_key<Study>("title", Standing::input,
                              "What this study is, for reports; the scene's title where there is none.",
-                             &Study::title),
-      scene::required(scene::text_key<Study>(
-          "scene", Standing::input, "Path of the scene from the study file's folder.", &Study::scene)),
+                             "Critical gap of the 155 mm shell", &Study::title),
+      scene::required(scene::text_key<Study>("scene", Standing::input,
+                                             "Path of the scene from the study file's folder.",
+                                             "scene_155mm.toml", &Study::scene)),
       study_number("early_time", Dimension::time, above_to(0, 1),
                    "An instant at which temperatures are listed and compared too.", &Study::early_time),
   };
@@ -71,11 +72,11 @@ std::vector<Key<Reference>> make_published_row_keys() {
       reference_number("maximum_temperature", Dimension::temperature, "Its highest temperature.",
                        &Reference::maximum_temperature),
       scene::text_key<Reference>("point", Standing::paper, "Observation point of the highest temperature.",
-                                 &Reference::point),
+                                 "G2", &Reference::point),
       reference_number("early_temperature", Dimension::temperature, "Its highest temperature at early_time.",
                        &Reference::early_temperature),
       scene::text_key<Reference>("early_point", Standing::paper,
-                                 "Observation point of the highest temperature at early_time.",
+                                 "Observation point of the highest temperature at early_time.", "G13",
                                  &Reference::early_point),
       reference_number("spread", Dimension::temperature_difference,
                        "Highest minus lowest published temperature of the bottom at the end of the launch.",
@@ -200,7 +201,7 @@ StudyKeys calibration_record_keys() {
       "calibration", Standing::input,
       "Path of the record of a calibration, calibration.json, from the study file's folder; its load and "
       "constants replace the scene's, and hold where the calibrated launch is the study's.",
-      &Study::calibration_record)};
+      "../reports/calibrate_table8/calibration.json", &Study::calibration_record)};
 }
 
 StudyKeys uncertainty_keys() {
@@ -210,7 +211,7 @@ StudyKeys uncertainty_keys() {
           "Path of the record of an accuracy study, accuracy.json, from the study file's folder; it gives "
           "the "
           "numerical uncertainty of every setting in it.",
-          &Study::accuracy),
+          "../reports/accuracy_155mm/accuracy.json", &Study::accuracy),
       study_number(
           "setting_tolerance", Dimension::temperature_difference, above_to(0, 1000),
           "Replaces the scene's numerics by the cheapest setting of the record that knows the maximum "
@@ -233,7 +234,7 @@ StudyKeys uncertainty_keys() {
           "Path of the record of other models, model_form.json, from the study file's folder; it says how "
           "far "
           "they move the critical gap towards ignition.",
-          &Study::model_form_record),
+          "../reports/model_form/model_form.json", &Study::model_form_record),
       stated_uncertainty(
           "model_form_uncertainty",
           "By how much other models of the launch could be hotter, instead of such a record; an assumed one "
@@ -247,7 +248,7 @@ StudyKeys reference_keys() {
       scene::text_key<Study>(
           "references", Standing::input,
           "Path of a file that holds the published rows, [[reference]], from the study file's folder.",
-          &Study::references_file),
+          "table8.toml", &Study::references_file),
       scene::number_key<Study>(
           "reference_line.slope", Dimension::number, any_number(), Standing::paper,
           "Slope of a published line of maximum temperature against gap, K per cm.",

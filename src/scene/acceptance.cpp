@@ -73,9 +73,9 @@ const std::vector<Key<Acceptance>>& acceptance_keys() {
       required(text_key(
           "key", Standing::input,
           "Key, or quantity that follows from keys, whose value is meant though it is not plausible.",
-          &Acceptance::key)),
+          "load.peak", &Acceptance::key)),
       required(text_key("because", Standing::input, "Why, in words; printed beside every verdict.",
-                        &Acceptance::because)),
+                        "proof shots are fired at this pressure", &Acceptance::because)),
   };
   return keys;
 }

@@ -74,7 +74,8 @@ std::string allowed_text(const KeyDescription& key) {
     case KeyKind::words:
       return "any of " + quoted_list(key.words) + ", with commas between";
     case KeyKind::text:
-      return "a text in quotation marks";
+      return key.example.empty() ? "a text in quotation marks"
+                                 : fmt::format("a text in quotation marks, such as \"{}\"", key.example);
     case KeyKind::number: {
       std::string text = fmt::format("a {}{}, such as {}", name, limits, example_of(key.dimension));
       const auto units = units_of(key.dimension);

@@ -41,9 +41,9 @@ std::vector<std::string> names_of_materials() {
 
 /// The material of a body, by name.
 Key<Body> material_key() {
-  Key<Body> key =
-      always_plausible(text_key("material", Standing::input, "What the body is made of.", &Body::material),
-                       "the constants of each are judged");
+  Key<Body> key = always_plausible(
+      text_key("material", Standing::input, "What the body is made of.", "charge", &Body::material),
+      "the constants of each are judged");
   key.kind = KeyKind::word;
   key.words = names_of_materials();
   return key;
@@ -53,9 +53,9 @@ bool couples_back(const Scene& scene) { return scene.coupling == Coupling::two_w
 
 Keys general_keys() {
   return {
-      always_plausible(
-          text_key("title", Standing::assumed, "What this scene is, for reports.", &Scene::title),
-          "it is for people"),
+      always_plausible(text_key("title", Standing::assumed, "What this scene is, for reports.",
+                                "155 mm shell, Composition B", &Scene::title),
+                       "it is for people"),
       always_plausible(
           word_key("symmetry", Standing::paper,
                    "Full shell of revolution, or a slice of unit depth (half model).",
@@ -131,7 +131,7 @@ std::vector<Key<Load>> load_keys() {
               overriding(text_key("curve", Standing::assumed,
                                   "Measured curve that replaces the analytic shape: a CSV file beside the "
                                   "scene, with a header such as time_ms,pressure_MPa; empty for none.",
-                                  &Load::curve_file),
+                                  "pressure.csv", &Load::curve_file),
                          {"curve_time", "curve_pressure"}),
               [](const Load&) { return false; }),
           "its pressures are judged by load.measured_peak and load.simulated_peak"),
@@ -434,8 +434,9 @@ const std::vector<Key<Scene>>& scene_keys() {
 
 const std::vector<Key<Body>>& body_keys() {
   static const std::vector<Key<Body>> keys = {
-      always_plausible(required(text_key("name", Standing::input, "Name of the body, unique.", &Body::name)),
-                       "it is for people"),
+      always_plausible(
+          required(text_key("name", Standing::input, "Name of the body, unique.", "wall", &Body::name)),
+          "it is for people"),
       required(material_key()),
       plausibly(required(range_key("x", Dimension::length, between(0, 10), Standing::input,
                                    "Axial extent, from the nose to the base.", &Body::x_begin, &Body::x_end)),
@@ -449,9 +450,9 @@ const std::vector<Key<Body>>& body_keys() {
 
 const std::vector<Key<ObservationPoint>>& observation_point_keys() {
   static const std::vector<Key<ObservationPoint>> keys = {
-      always_plausible(
-          required(text_key("name", Standing::input, "Name of the point, unique.", &ObservationPoint::name)),
-          "it is for people"),
+      always_plausible(required(text_key("name", Standing::input, "Name of the point, unique.", "G2",
+                                         &ObservationPoint::name)),
+                       "it is for people"),
       always_plausible(required(number_key("x", Dimension::length, between(0, 10), Standing::input,
                                            "Axial position at rest.", &ObservationPoint::x)),
                        "it has to lie at the charge's bottom"),

@@ -22,7 +22,7 @@ std::vector<Key<CitedLimit>> make_cited_limit_keys() {
           [](auto& l) -> auto& { return l.peak_pressure; }),
       scene::required(scene::text_key<CitedLimit>(
           "source", Standing::literature, "Who found it, and how.",
-          [](auto& l) -> auto& { return l.source; })),
+          "firing tests of 1998, table 3", [](auto& l) -> auto& { return l.source; })),
   };
 }
 

@@ -95,6 +95,7 @@ struct KeyDescription {
   std::size_t list_length = 0;  ///< of a list that has a fixed one; 0: any
   Standing standing = Standing::assumed;
   std::string sentence = {};
+  std::string example = {};                 ///< of a text, without quotation marks
   bool may_be_empty = false;                ///< of a list: [] is allowed
   bool required = false;                    ///< no default: the user must say
   std::vector<std::string> overrides = {};  ///< keys whose earlier value a new one of this takes back
@@ -184,9 +185,11 @@ auto flag_key(std::string name, Standing standing, std::string sentence, Member 
 }
 
 template <class Named = void, class Member>
-auto text_key(std::string name, Standing standing, std::string sentence, Member member) {
+auto text_key(std::string name, Standing standing, std::string sentence, std::string example, Member member) {
+  KeyDescription described = description(std::move(name), KeyKind::text, standing, std::move(sentence));
+  described.example = std::move(example);
   return bound_key<OwnerOf<Named, Member>>(
-      description(std::move(name), KeyKind::text, standing, std::move(sentence)), member,
+      std::move(described), member,
       [](auto& text, const Value& value) { text = std::get<std::string>(value); },
       [](const auto& text) { return std::string(text); });
 }

@@ -1,0 +1,241 @@
+#include "key_schema.hpp"
+
+#include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace launchsafe::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using scene::KeyDescription, scene::KeyKind, scene::Dimension;
+
+/// A decimal number as scenes are written.
+constexpr const char* number_pattern = R"([+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?)";
+
+std::string literal(const std::string& text) {
+  std::string pattern;
+  for (const char letter : text) {
+    if (std::string_view("^$.()/*+?|[]{}\\").find(letter) != std::string_view::npos) pattern += '\\';
+    pattern += letter;
+  }
+  return pattern;
+}
+
+/// "(cm|mm|m)": any unit of a dimension, or nothing where it has none.
+std::string unit_pattern(Dimension dimension) {
+  std::vector<std::string> units = scene::units_of(dimension);
+  if (units.empty()) return {};
+  for (std::string& unit : units) unit = literal(unit);
+  return fmt::format("({})", fmt::join(units, "|"));
+}
+
+Json text_of_pattern(const std::string& pattern) {
+  return {{"type", "string"}, {"pattern", fmt::format("^\\s*{}\\s*$", pattern)}};
+}
+
+Json number_schema(const KeyDescription& key) {
+  if (const std::string unit = unit_pattern(key.dimension); !unit.empty())
+    return text_of_pattern(fmt::format("{}\\s*{}", number_pattern, unit));
+  Json schema{{"type", key.dimension == Dimension::count ? "integer" : "number"}};
+  if (std::isfinite(key.limits.lowest)) {
+    schema["minimum"] = key.limits.lowest;
+    if (!key.limits.lowest_allowed) schema["exclusiveMinimum"] = true;
+  }
+  if (std::isfinite(key.limits.highest)) {
+    schema["maximum"] = key.limits.highest;
+    if (!key.limits.highest_allowed) schema["exclusiveMaximum"] = true;
+  }
+  return schema;
+}
+
+Json range_schema(const KeyDescription& key) {
+  const std::string unit = unit_pattern(key.dimension);
+  const std::string first = unit.empty() ? number_pattern : fmt::format("{}\\s*{}?", number_pattern, unit);
+  return text_of_pattern(fmt::format("{}\\s*to\\s*{}\\s*{}", first, number_pattern, unit));
+}
+
+/// "0, 1.5, 2 cm", or an array of numbers each with its unit.
+Json list_schema(const KeyDescription& key) {
+  const std::string unit = unit_pattern(key.dimension);
+  const std::string first = unit.empty() ? number_pattern : fmt::format("{}\\s*{}?", number_pattern, unit);
+  Json array{{"type", "array"}, {"items", number_schema(key)}};
+  if (!key.may_be_empty) array["minItems"] = 1;
+  if (key.list_length > 0) array["minItems"] = array["maxItems"] = key.list_length;
+  const std::string text = fmt::format("({}\\s*,\\s*)*{}\\s*{}", first, number_pattern, unit);
+  return {{"anyOf", Json::array({text_of_pattern(text), array})}};
+}
+
+Json word_schema(const KeyDescription& key) {
+  Json words = key.words;
+  for (const keys::FormerWord& each : key.former_words) words.push_back(each.former);
+  return {{"type", "string"}, {"enum", words}};
+}
+
+Json type_of(const KeyDescription& key) {
+  switch (key.kind) {
+    case KeyKind::number:
+      return number_schema(key);
+    case KeyKind::flag:
+      return {{"type", "boolean"}};
+    case KeyKind::word:
+      return word_schema(key);
+    case KeyKind::text:
+      return {{"type", "string"}};
+    case KeyKind::list:
+      return list_schema(key);
+    case KeyKind::range:
+      return range_schema(key);
+  }
+  return {};
+}
+
+/// A value as it is written in a file.
+std::string example_for(const KeyDescription& key) {
+  const auto units = scene::units_of(key.dimension);
+  const std::string unit = units.empty() ? "" : " " + units.front();
+  switch (key.kind) {
+    case KeyKind::flag:
+      return "true";
+    case KeyKind::word:
+      return fmt::format("\"{}\"", key.words.front());
+    case KeyKind::text:
+      return fmt::format("\"{}\"", key.example);
+    case KeyKind::list:
+      return fmt::format("\"0, 1.5, 2{}\"", unit);
+    case KeyKind::range:
+      return fmt::format("\"0 to 2.5{}\"", unit);
+    case KeyKind::number:
+      return std::string(scene::example_of(key.dimension));
+  }
+  return {};
+}
+
+Json schema_of(const scene::DocumentedKey& documented) {
+  const KeyDescription& key = documented.description;
+  const bool has_default = !key.required && !documented.default_text.empty();
+  Json schema = type_of(key);
+  schema["description"] =
+      fmt::format("{}\n\nAllowed: {}.{}", key.sentence, scene::allowed_text(key),
+                  has_default ? fmt::format("\nDefault: {}.", documented.default_text) : "");
+  const std::string_view unit = scene::si_unit_of(key.dimension);
+  schema["unit"] = unit.empty() ? "none" : unit;
+  schema["range"] = scene::allowed_text(key);
+  schema["example"] = example_for(key);
+  return schema;
+}
+
+Json table_schema() {
+  return {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+}
+
+/// Puts a key "a.b" under the table a, which is made where it is missing.
+void put(Json& table, const std::string& name, const scene::DocumentedKey& key, bool may_require) {
+  const auto dot = name.find('.');
+  if (dot != std::string::npos) {
+    Json& part = table["properties"][name.substr(0, dot)];
+    if (part.is_null()) part = table_schema();
+    return put(part, name.substr(dot + 1), key, may_require);
+  }
+  table["properties"][name] = schema_of(key);
+  if (may_require && key.description.required) table["required"].push_back(name);
+}
+
+bool takes_tables(const std::string& name, const std::set<std::string>& tables) {
+  return tables.contains(name.substr(0, name.find('.')));
+}
+
+/// The keys of one table, without its name before them.
+Json schema_of_table(const std::string& table, const std::vector<scene::DocumentedKey>& keys,
+                     bool may_require = true) {
+  Json schema = table_schema();
+  for (const scene::DocumentedKey& key : keys)
+    if (const std::string& name = key.description.name; name.starts_with(table + "."))
+      put(schema, name.substr(table.size() + 1), key, may_require);
+  return schema;
+}
+
+Json array_of(Json table) { return {{"type", "array"}, {"items", std::move(table)}}; }
+/// Tables each under a name of the user's.
+Json named(Json table) { return {{"type", "object"}, {"additionalProperties", std::move(table)}}; }
+
+const std::set<std::string>& scene_tables() {
+  static const std::set<std::string> tables{"body", "interface", "observation_point", "accept"};
+  return tables;
+}
+
+/// All that one value of a scene is changed by: the keys of the scene, of its bodies and of its interfaces.
+Json changes_schema() {
+  const std::vector<scene::DocumentedKey> keys = scene::describe_keys();
+  Json schema = table_schema();
+  for (const scene::DocumentedKey& key : keys)
+    if (!takes_tables(key.description.name, scene_tables())) put(schema, key.description.name, key, false);
+  schema["properties"]["body"] = named(schema_of_table("body", keys, false));
+  schema["properties"]["interface"] = named(schema_of_table("interface.NAME", keys, false));
+  return schema;
+}
+
+Json with_head(Json schema, const char* title) {
+  Json whole{{"$schema", "http://json-schema.org/draft-04/schema#"}, {"title", title}};
+  whole.update(schema);
+  return whole;
+}
+
+/// Values of any scene key, under names that the schema of a scene explains.
+Json free_table(Json table) {
+  table["additionalProperties"] = true;
+  return table;
+}
+
+}  // namespace
+
+nlohmann::ordered_json scene_schema() {
+  const std::vector<scene::DocumentedKey> keys = scene::describe_keys();
+  Json schema = table_schema();
+  for (const scene::DocumentedKey& key : keys)
+    if (!takes_tables(key.description.name, scene_tables())) put(schema, key.description.name, key, true);
+  for (const char* table : {"body", "observation_point", "accept"})
+    schema["properties"][table] = array_of(schema_of_table(table, keys));
+  schema["properties"]["interface"] = named(schema_of_table("interface.NAME", keys));
+  return with_head(std::move(schema), "Scene of launchsafe");
+}
+
+nlohmann::ordered_json study_schema() {
+  const std::vector<scene::DocumentedKey> keys = kinds::describe_study_keys();
+  std::set<std::string> tables{"accept", "settings"};
+  for (const kinds::Kind& kind : kinds::kinds())
+    for (const kinds::StudyTable& table : kind.tables) tables.insert(table.name);
+  Json schema = table_schema();
+  for (const scene::DocumentedKey& key : keys)
+    if (!takes_tables(key.description.name, tables)) put(schema, key.description.name, key, true);
+  const Json changes = changes_schema();
+  for (const std::string& table : tables) {
+    Json entry = schema_of_table(table, keys);
+    if (table == "case") {
+      for (const char* changed : {"set", "against"}) entry["properties"][changed] = changes;
+      entry["properties"]["expect"] = {{"description", "Outcome or outcomes that are expected: held, degraded, caught, or not WRONG."}};
+    }
+    if (table == "variant") {
+      entry["properties"]["set"] = changes;
+      entry["properties"]["accept"] = array_of(schema_of_table("accept", keys));
+    }
+    if (table == "axes")
+      schema["properties"][table] = free_table(std::move(entry));
+    else
+      schema["properties"][table] = array_of(table == "settings" ? free_table(std::move(entry)) : entry);
+  }
+  schema["properties"]["set"] = changes;
+  return with_head(std::move(schema), "Study of launchsafe");
+}
+
+}  // namespace launchsafe::app
