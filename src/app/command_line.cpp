@@ -279,8 +279,8 @@ void add_explain(CLI::App& app, Parsed& parsed) {
   CLI::Option* schema = command
                             .add_option("--schema", parsed.explain.schema,
                                         "Print the JSON schema of scene or study files, for editors")
-                            ->check(CLI::IsMember({"scene", "study"}))
-                            ->type_name("scene|study");
+                            ->check(CLI::IsMember({"scene", "study", "references"}))
+                            ->type_name("scene|study|references");
   CLI::Option* manual = command.add_flag("--manual", parsed.explain.manual, "Print the manual page, for man");
   CLI::Option* completion = command
                                 .add_option("--completion", parsed.explain.completion,

@@ -68,7 +68,7 @@ ExitCode perform(const VerifyArguments& arguments, Console& console);
 struct ExplainArguments {
   std::filesystem::path file;  ///< scene or study; with `keys` the beginning of names, or empty
   bool keys = false;
-  std::string schema;                            ///< "scene" or "study"; empty: not asked for
+  std::string schema;                            ///< "scene", "study" or "references"; empty: not asked for
   bool manual = false;                           ///< the manual page
   std::string completion;                        ///< "bash"; empty: not asked for
   std::optional<std::filesystem::path> picture;  ///< SVG file for the scene's grid; none: nothing is written

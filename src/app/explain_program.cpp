@@ -140,7 +140,9 @@ ExitCode print(const char* member, const std::string& text, Console& console) {
 }
 
 ExitCode explain_schema(const std::string& what, Console& console) {
-  const nlohmann::ordered_json schema = what == "study" ? study_schema() : scene_schema();
+  const nlohmann::ordered_json schema = what == "study"   ? study_schema()
+                                        : what == "scene" ? scene_schema()
+                                                          : references_schema();
   console.print_text(schema.dump(2) + "\n");
   console.print_json(schema);
   return ExitCode::done;

@@ -197,6 +197,29 @@ Json free_table(Json table) {
   return table;
 }
 
+/// Numbers of an uncertain input are in a unit of its key, which a schema cannot follow.
+void free_of_unit(Json& input) {
+  for (const char* name : {"range", "mean", "deviation"})
+    for (const char* rule : {"type", "pattern", "minimum", "exclusiveMinimum"})
+      input["properties"][name].erase(rule);
+}
+
+/// What stands in a table of a study besides its documented keys.
+Json with_other_tables(Json entry, const std::string& table, const Json& changes) {
+  Json& properties = entry["properties"];
+  if (table == "input") free_of_unit(entry);
+  if (table == "case") {
+    // Some cases are of values that are refused.
+    for (const char* changed : {"set", "against"}) properties[changed] = {{"type", "object"}};
+    properties["expect"] = {{"description", "Outcomes that are expected: held, degraded or caught."}};
+  }
+  if (table == "variant") {
+    properties["set"] = changes;
+    properties["accept"] = array_of(schema_of_table("accept", scene::describe_keys()));
+  }
+  return table == "axes" || table == "settings" ? free_table(std::move(entry)) : entry;
+}
+
 }  // namespace
 
 nlohmann::ordered_json scene_schema() {
@@ -220,22 +243,17 @@ nlohmann::ordered_json study_schema() {
     if (!takes_tables(key.description.name, tables)) put(schema, key.description.name, key, true);
   const Json changes = changes_schema();
   for (const std::string& table : tables) {
-    Json entry = schema_of_table(table, keys);
-    if (table == "case") {
-      for (const char* changed : {"set", "against"}) entry["properties"][changed] = changes;
-      entry["properties"]["expect"] = {{"description", "Outcome or outcomes that are expected: held, degraded, caught, or not WRONG."}};
-    }
-    if (table == "variant") {
-      entry["properties"]["set"] = changes;
-      entry["properties"]["accept"] = array_of(schema_of_table("accept", keys));
-    }
-    if (table == "axes")
-      schema["properties"][table] = free_table(std::move(entry));
-    else
-      schema["properties"][table] = array_of(table == "settings" ? free_table(std::move(entry)) : entry);
+    Json entry = with_other_tables(schema_of_table(table, keys), table, changes);
+    schema["properties"][table] = table == "axes" ? entry : array_of(std::move(entry));
   }
   schema["properties"]["set"] = changes;
   return with_head(std::move(schema), "Study of launchsafe");
+}
+
+nlohmann::ordered_json references_schema() {
+  Json schema = table_schema();
+  schema["properties"]["reference"] = array_of(schema_of_table("reference", kinds::describe_study_keys()));
+  return with_head(std::move(schema), "Published rows for studies of launchsafe");
 }
 
 }  // namespace launchsafe::app

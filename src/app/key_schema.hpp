@@ -11,5 +11,7 @@ namespace launchsafe::app {
 nlohmann::ordered_json scene_schema();
 /// Of a study file of any kind.
 nlohmann::ordered_json study_schema();
+/// Of a file of published rows that studies name by `references`.
+nlohmann::ordered_json references_schema();
 
 }  // namespace launchsafe::app

@@ -1,5 +1,6 @@
 #include "command_line.hpp"
 #include "descriptors.hpp"
+#include "faster_program.hpp"
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/version.hpp"
 #include "signals.hpp"
@@ -93,6 +94,7 @@ struct Groundwork {
 }  // namespace
 
 int main(int argument_count, char** arguments) {
+  become_faster_program(arguments);
   try {
     catch_signals();
     const CommandLine line = parse_command_line(argument_count, arguments);
