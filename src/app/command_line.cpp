@@ -105,7 +105,10 @@ CLI::App& add_command(CLI::App& app, Parsed& parsed, const Arguments& arguments,
                       const char* meaning, const char* examples) {
   CLI::App& command = *app.add_subcommand(name, meaning);
   command.footer(examples);
-  command.callback([&parsed, &arguments] { parsed.line.request = arguments; });
+  command.callback([&parsed, &arguments, name] {
+    parsed.line.request = arguments;
+    parsed.line.command = name;
+  });
   return command;
 }
 

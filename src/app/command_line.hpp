@@ -24,6 +24,7 @@ using Request = std::variant<Information, UsageError, RunArguments, StudyArgumen
 
 struct CommandLine {
   Request request;
+  std::string command;  ///< "run"; empty where there is none
   bool quiet = false;
   bool json = false;  ///< also where the rest of the command line makes no sense
 };

@@ -52,6 +52,13 @@ ExitCode perform(const UsageError& error, Console& console) {
   return console.refuse(error.message + " (launchsafe --help shows the usage)");
 }
 
+/// "launchsafe run 1": what the JSON object of a command is, and its version, raised when members change
+/// their meaning or go.
+std::string format_of(const CommandLine& line) {
+  constexpr int version = 1;
+  return fmt::format("launchsafe {}{}{}", line.command, line.command.empty() ? "" : " ", version);
+}
+
 /// Whatever a command throws is its error.
 ExitCode perform_request(const CommandLine& line, Console& console) {
   try {
@@ -99,6 +106,7 @@ int main(int argument_count, char** arguments) {
     catch_signals();
     const CommandLine line = parse_command_line(argument_count, arguments);
     Console console(line.quiet, line.json);
+    console.print_json({{"format", format_of(line)}});
     const ExitCode code = perform_request(line, console);
     return static_cast<int>(console.finish(code));
   } catch (const std::bad_alloc&) {

@@ -122,7 +122,8 @@ std::string to_text(const Report& report, const std::filesystem::path& folder) {
 
 std::string study_json(const study::StudyFile& study, const Report& report,
                        const nlohmann::ordered_json& members) {
-  nlohmann::ordered_json head{{"kind", study.study.kind.name},
+  nlohmann::ordered_json head{{"format", "launchsafe study 1"},
+                              {"kind", study.study.kind.name},
                               {"study", study_file_name(study)},
                               {"title", report.title},
                               {"answer", report.answer}};

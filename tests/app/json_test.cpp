@@ -31,6 +31,15 @@ struct ErrorPath {
   std::string part;  ///< of the message
 };
 
+TEST_F(JsonProgram, EveryObjectSaysWhatItIs) {
+  EXPECT_EQ(object_of(run({"run", "shell.toml", "--json"}))["format"], "launchsafe run 1");
+  EXPECT_EQ(object_of(run({"explain", "--keys", "--json"}))["format"], "launchsafe explain 1");
+  EXPECT_EQ(object_of(run({"study", "study.toml", "-o", "out", "--json"}))["format"], "launchsafe study 1");
+  EXPECT_EQ(nlohmann::json::parse(read("out/study.json"))["format"], "launchsafe study 1");
+  EXPECT_EQ(object_of(run({"--version", "--json"}))["format"], "launchsafe 1");
+  EXPECT_EQ(object_of(run({"run", "--json"}))["format"], "launchsafe 1");
+}
+
 TEST_F(JsonProgram, EveryErrorIsAnObjectAndOneLineForPeople) {
   const std::vector<ErrorPath> paths{
       {{}, 2, "subcommand"},

@@ -1,0 +1,99 @@
+// What launchsafe explains of itself: keys, schemas, the manual page, completion.
+#include "launchsafe/scene/scene_keys.hpp"
+#include "program.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <set>
+
+namespace launchsafe::app {
+namespace {
+
+using Json = nlohmann::json;
+
+class ExplainedProgram : public Program {};
+
+/// Every key below a schema: what has a type or alternatives, and is no table.
+void for_each_key(const Json& schema, const std::string& name,
+                  const std::function<void(const std::string&, const Json&)>& visit) {
+  if (schema.contains("example")) return visit(name, schema);
+  if (schema.contains("items")) return for_each_key(schema["items"], name, visit);
+  if (!schema.contains("properties")) return;
+  for (const auto& [key, value] : schema["properties"].items())
+    for_each_key(value, name.empty() ? key : name + "." + key, visit);
+}
+
+TEST_F(ExplainedProgram, ListsTheKeysThatBeginWithAWord) {
+  const Json listed = Json::parse(run({"explain", "--keys", "load.p", "--json"}).out);
+  ASSERT_EQ(listed["keys"].size(), 2u);
+  EXPECT_EQ(listed["keys"][0]["key"], "load.peak");
+  EXPECT_EQ(listed["keys"][1]["key"], "load.peak_time");
+  const Outcome none = run({"explain", "--keys", "lode"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("\"lode\""), std::string::npos) << none.err;
+}
+
+TEST_F(ExplainedProgram, HasEveryKeyOfAReaderInItsSchemaWithUnitRangeAndExample) {
+  const Json schema = Json::parse(run({"explain", "--schema", "scene"}).out);
+  EXPECT_EQ(schema["$schema"], "http://json-schema.org/draft-04/schema#");
+  std::set<std::string> found;
+  for_each_key(schema, "", [&](const std::string& name, const Json& key) {
+    found.insert(name);
+    for (const char* part : {"description", "unit", "range", "example"})
+      EXPECT_FALSE(key[part].get<std::string>().empty()) << name << ": " << part;
+    EXPECT_NE(key["example"], "\"\"") << name;
+  });
+  for (const scene::DocumentedKey& key : scene::describe_keys()) {
+    if (key.description.name.starts_with("interface.")) continue;
+    EXPECT_TRUE(found.contains(key.description.name)) << key.description.name;
+  }
+  const Json& faces = schema["properties"]["interface"]["additionalProperties"];
+  EXPECT_EQ(faces["required"], Json({"condition"}));
+  EXPECT_TRUE(faces["properties"].contains("shear_strength"));
+}
+
+TEST_F(ExplainedProgram, TellsAllStudiesInOneSchema) {
+  const Json schema = Json::parse(run({"explain", "--schema", "study"}).out);
+  EXPECT_EQ(schema["required"], Json({"kind", "scene"}));
+  EXPECT_FALSE(schema["additionalProperties"]);
+  for (const char* table : {"set", "axes", "input", "variant", "case", "settings", "reference"})
+    EXPECT_TRUE(schema["properties"].contains(table)) << table;
+  for_each_key(schema, "", [&](const std::string& name, const Json& key) {
+    for (const char* part : {"description", "unit", "range", "example"})
+      EXPECT_FALSE(key[part].get<std::string>().empty()) << name << ": " << part;
+  });
+}
+
+TEST_F(ExplainedProgram, HasAManualPageOfAllCommandsAndOptions) {
+  const std::string page = run({"explain", "--manual"}).out;
+  EXPECT_TRUE(page.starts_with(".TH LAUNCHSAFE 1"));
+  for (const char* part : {"LAUNCHSAFE STUDY", "\\-\\-dry\\-run", "\\fISTUDY.toml\\fR", "Exit codes: 0 done"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+}
+
+TEST_F(ExplainedProgram, CompletesCommandsOptionsAndChoicesInBash) {
+  write("completion.bash", run({"explain", "--completion", "bash"}).out);
+  const auto completed = [&](const std::string& words, int current) {
+    write("ask.bash", ". ./completion.bash\ncompopt() { :; }\nCOMP_WORDS=(" + words + ")\nCOMP_CWORD=" +
+                          std::to_string(current) + "\n_launchsafe\necho \"${COMPREPLY[*]}\" > answer\n");
+    EXPECT_EQ(std::system(("cd '" + folder().string() + "' && bash ask.bash").c_str()), 0);
+    return read("answer");
+  };
+  EXPECT_EQ(completed("launchsafe ex", 1), "explain\n");
+  EXPECT_EQ(completed("launchsafe study --dr", 2), "--dry-run\n");
+  EXPECT_EQ(completed("launchsafe explain --schema s", 3), "scene study\n");
+  EXPECT_EQ(completed("launchsafe run ask", 2), "ask.bash\n");
+}
+
+TEST_F(ExplainedProgram, IsAskedForOneThingAtATime) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"explain", "--manual", "--keys"},
+                                             {"explain", "--schema", "recipe"},
+                                             {"explain", "--manual", "shell.toml"},
+                                             {"explain", "--manual", "--grid", "a.svg"}})
+    EXPECT_EQ(run(arguments).code, 2) << arguments[1];
+}
+
+}  // namespace
+}  // namespace launchsafe::app
