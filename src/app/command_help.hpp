@@ -16,8 +16,10 @@ Examples:
   launchsafe verify
   launchsafe explain studies/scene_155mm.toml
   launchsafe plot results/scene_155mm.h5
+  launchsafe init --calibre "105 mm" -o shell
+  launchsafe import-curve gauge.csv -o pressure.csv
 
-Results go to stdout, progress and messages to stderr. Nothing is written but under the folder of --output, the
+Results go to stdout, progress and messages to stderr. Nothing is written but what --output names, the
 picture of explain --grid, and the pictures of plot.
 Exit codes: 0 done, 2 bad usage or input, 3 some cases or checks failed, 4 a verdict is indeterminate,
 70 the machine or the program failed (memory, disk, internal error), 75 interrupted.)";
@@ -100,5 +102,24 @@ Pictures, each an SVG file drawn by gnuplot:
 
 Snapshots are what output.snapshots and output.snapshot_events of the scene ask for. Nothing is overwritten: a picture whose place holds
 something else is refused, and then none is written.)";
+
+inline constexpr const char* init_footer = R"(
+Examples:
+  launchsafe init --calibre "105 mm" -o shell                            the analytic load of 496 MPa
+  launchsafe init --calibre "105 mm" --peak "380 MPa" -o shell
+  launchsafe init --calibre "105 mm" --curve pressure.csv -o shell       a measured load
+
+Writes shell/scene.toml and shell/critical_gap.toml, with comments, and what they rest on. The shell is the 155 mm one,
+scaled: lengths are to be replaced by those of a drawing. Nothing is overwritten.)";
+
+inline constexpr const char* import_curve_footer = R"(
+Examples:
+  launchsafe import-curve gauge.csv                                      what the record holds
+  launchsafe import-curve gauge.csv -o pressure.csv                      the cleaned curve, and pressure.svg
+  launchsafe import-curve gauge.csv -o pressure.csv --pressure "P breech" --offset "0.3 MPa" --filter "0.2 ms"
+
+Headers such as Time (ms);P breech (bar). A semicolon, a tab or a comma stands between columns; decimal commas are
+read.
+Nothing is overwritten.)";
 
 }  // namespace launchsafe::app

@@ -1,6 +1,7 @@
 #include "command_line.hpp"
 
 #include "command_help.hpp"
+#include "launchsafe/scene/quantity.hpp"
 #include "shell_words.hpp"
 
 #include <CLI/CLI.hpp>
@@ -85,6 +86,19 @@ std::optional<double> parse_temperature(std::string_view text) {
 }
 constexpr const char* allowed_temperatures = "a temperature difference such as 2K or 0.5K";
 
+/// SI, of a quantity as scenes have them: "5 MPa", "-0.3 bar", "0.2 ms", "155 mm".
+template <scene::Dimension dimension>
+std::optional<double> parse_scene_quantity(std::string_view text) {
+  const auto value = scene::parse_quantity(text, dimension);
+  return value ? std::optional(*value) : std::nullopt;
+}
+/// The same of what is more than zero.
+template <scene::Dimension dimension>
+std::optional<double> parse_positive(std::string_view text) {
+  const auto value = parse_scene_quantity<dimension>(text);
+  return value && *value > 0.0 ? value : std::nullopt;
+}
+
 constexpr int most_jobs = 4096;
 
 /// Everything the options write to while CLI11 parses.
@@ -97,6 +111,8 @@ struct Parsed {
   VerifyArguments verify;
   ExplainArguments explain;
   PlotArguments plot;
+  InitArguments init;
+  ImportCurveArguments import_curve;
 };
 
 /// A subcommand whose arguments become the request.
@@ -317,6 +333,60 @@ void add_plot(CLI::App& app, Parsed& parsed) {
   add_output_options(command, parsed);
 }
 
+void add_init(CLI::App& app, Parsed& parsed) {
+  InitArguments& init = parsed.init;
+  CLI::App& command =
+      add_command(app, parsed, init, "init", "Write a scene and a study of a shell of your own to start from",
+                  init_footer);
+  const auto read_calibre = [&init](const std::string& text) {
+    constexpr double smallest = 0.02, largest = 0.5;
+    const auto calibre = parse_positive<scene::Dimension::length>(text);
+    if (!calibre || *calibre < smallest || *calibre > largest)
+      throw CLI::ValidationError(
+          "--calibre", fmt::format("found \"{}\"; allowed: 20 mm to 50 cm, such as \"105 mm\"", text));
+    init.calibre = *calibre;
+  };
+  command.add_option_function<std::string>("--calibre", read_calibre, "Calibre, such as \"105 mm\"")
+      ->required()
+      ->type_name("LENGTH");
+  CLI::Option* curve = command
+                           .add_option("--curve", init.curve,
+                                       "Measured pressure that scenes take, such as import-curve writes")
+                           ->type_name("FILE.csv");
+  add_amount(command, "--peak", init.peak, parse_positive<scene::Dimension::pressure>,
+             "a pressure such as 380MPa", "PRESSURE",
+             "Peak chamber pressure, where there is no measured curve");
+  command.get_option("--peak")->excludes(curve);
+  add_folder(command, init.output, "Folder for the files")->required();
+  add_output_options(command, parsed);
+}
+
+void add_import_curve(CLI::App& app, Parsed& parsed) {
+  ImportCurveArguments& import = parsed.import_curve;
+  CLI::App& command =
+      add_command(app, parsed, import, "import-curve",
+                  "Clean the record of a pressure gauge: offset, trigger, units, noise", import_curve_footer);
+  command
+      .add_option("record", import.record, "Record of a gauge, with a header that names quantities and units")
+      ->required()
+      ->type_name("RECORD.csv");
+  add_place(command, "-o,--output", import.output, "FILE.csv", "file",
+            "File for the curve, with a picture beside it; nothing is written unless given");
+  command.add_option("--pressure", import.pressure, "Name of the pressure's column, where there are several")
+      ->type_name("COLUMN");
+  add_amount(command, "--offset", import.offset, parse_scene_quantity<scene::Dimension::pressure>,
+             "a pressure such as \"0.3 MPa\"", "PRESSURE",
+             "What the gauge shows before the launch; the median of the points before the rise unless given");
+  add_amount(
+      command, "--trigger", import.trigger, parse_positive<scene::Dimension::pressure>,
+      "a pressure such as \"5 MPa\"", "PRESSURE",
+      "Pressure at which the launch begins; 1 % of the peak, or five deviations of noise, unless given");
+  add_amount(command, "--filter", import.filter, parse_positive<scene::Dimension::time>,
+             "a time such as \"0.2 ms\"", "TIME",
+             "Window of a centred average against noise; none unless given");
+  add_output_options(command, parsed);
+}
+
 std::string text_of_success(const CLI::App& app, const CLI::Success& success) {
   std::ostringstream text;
   app.exit(success, text, text);
@@ -366,6 +436,8 @@ void add_commands(CLI::App& app, Parsed& parsed) {
   add_verify(app, parsed);
   add_explain(app, parsed);
   add_plot(app, parsed);
+  add_init(app, parsed);
+  add_import_curve(app, parsed);
 }
 
 CommandDescription describe(const CLI::App& command) {

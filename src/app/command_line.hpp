@@ -19,8 +19,9 @@ struct UsageError {
   std::string message;
 };
 
-using Request = std::variant<Information, UsageError, RunArguments, StudyArguments, MergeArguments,
-                             EmitArguments, VerifyArguments, ExplainArguments, PlotArguments>;
+using Request =
+    std::variant<Information, UsageError, RunArguments, StudyArguments, MergeArguments, EmitArguments,
+                 VerifyArguments, ExplainArguments, PlotArguments, InitArguments, ImportCurveArguments>;
 
 struct CommandLine {
   Request request;

@@ -83,4 +83,21 @@ struct PlotArguments {
 };
 ExitCode perform(const PlotArguments& arguments, Console& console);
 
+struct InitArguments {
+  std::filesystem::path output;                ///< folder for the files
+  double calibre = 0.155;                      ///< m
+  std::optional<std::filesystem::path> curve;  ///< measured pressure; none: the analytic shape
+  std::optional<double> peak;                  ///< Pa, of the analytic shape
+};
+ExitCode perform(const InitArguments& arguments, Console& console);
+
+struct ImportCurveArguments {
+  std::filesystem::path record;                 ///< CSV file of a gauge
+  std::optional<std::filesystem::path> output;  ///< CSV file for the curve; none: nothing is written
+  std::string pressure;                         ///< name of the column; empty: the only one
+  std::optional<double> offset, trigger;        ///< Pa
+  std::optional<double> filter;                 ///< s
+};
+ExitCode perform(const ImportCurveArguments& arguments, Console& console);
+
 }  // namespace launchsafe::app

@@ -28,6 +28,7 @@ struct Column {
 
 struct Header {
   char separator = ',';
+  std::size_t columns = 2;
   Column time, pressure;
 };
 
@@ -71,16 +72,60 @@ std::optional<InputError> check_unit(const Column& column, const Place& place) {
       nearest_of(column.unit, units));
 }
 
-Expected<Header> read_header(std::string_view line, const Place& place) {
+/// The one column in a unit of the dimension, or of the wanted name; or why there is none: of several the
+/// user must say which.
+Expected<Column> chosen_column(const std::vector<Column>& columns, Dimension dimension, const Place& place,
+                               const std::string& wanted) {
+  std::vector<Column> found;
+  std::vector<std::string> names;
+  for (const Column& column : columns) {
+    if (!parse_quantity("1 " + column.unit, dimension)) continue;
+    names.push_back(column.name);
+    if (wanted.empty() || column.name == wanted) found.push_back(column);
+  }
+  if (found.size() == 1) return found.front();
+  const std::string_view quantity = name_of(dimension);
+  return error_at(place, quantity,
+                  wanted.empty() ? fmt::format("{} columns in units of {}", found.size(), quantity)
+                                 : fmt::format("no single column \"{}\" in units of {}", wanted, quantity),
+                  names.empty() ? std::string(allowed_header)
+                                : fmt::format("one of the columns {}{}", quoted_list(names),
+                                              dimension == Dimension::pressure ? ", by --pressure" : ""),
+                  nearest_of(wanted, names));
+}
+
+Expected<Header> read_gauge_header(const std::vector<std::string>& cells, const Place& place,
+                                   const std::string& wanted) {
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < cells.size(); ++i) columns.push_back(column_of(cells[i], i));
+  Header header;
+  header.columns = columns.size();
+  const auto time = chosen_column(columns, Dimension::time, place, {});
+  if (!time) return time.error();
+  const auto pressure = chosen_column(columns, Dimension::pressure, place, wanted);
+  if (!pressure) return pressure.error();
+  header.time = *time;
+  header.pressure = *pressure;
+  return header;
+}
+
+Expected<Header> read_header(std::string_view line, const Place& place, const GaugeColumns* gauge) {
   const auto wrong = [&] { return error_at(place, {}, fmt::format("\"{}\"", line), allowed_header); };
   Header header;
-  header.separator = separator_of(line);
-  const auto cells = cells_of(line, header.separator);
-  if (!cells || cells->size() != 2) return wrong();
-  header.time = column_of((*cells)[0], 0);
-  header.pressure = column_of((*cells)[1], 1);
-  if (!is_named(header.time, "time")) std::swap(header.time, header.pressure);
-  if (!is_named(header.time, "time") || !is_named(header.pressure, "pressure")) return wrong();
+  const char separator = separator_of(line);
+  const auto cells = cells_of(line, separator);
+  if (!cells || cells->size() < 2 || (cells->size() > 2 && gauge == nullptr)) return wrong();
+  if (gauge != nullptr) {
+    auto read = read_gauge_header(*cells, place, gauge->pressure);
+    if (!read) return read.error();
+    header = std::move(*read);
+  } else {
+    header.time = column_of((*cells)[0], 0);
+    header.pressure = column_of((*cells)[1], 1);
+    if (!is_named(header.time, "time")) std::swap(header.time, header.pressure);
+    if (!is_named(header.time, "time") || !is_named(header.pressure, "pressure")) return wrong();
+  }
+  header.separator = separator;
   header.pressure.dimension = Dimension::pressure;
   if (auto error = check_unit(header.time, place)) return *error;
   if (auto error = check_unit(header.pressure, place)) return *error;
@@ -140,21 +185,25 @@ class DecimalMark {
 /// Reads the points of a curve line by line.
 class CurveReader {
  public:
-  CurveReader(Header header, PressureCurve& curve) : header_(std::move(header)), curve_(curve) {}
+  CurveReader(Header header, double lowest, PressureCurve& curve)
+      : header_(std::move(header)), lowest_(lowest), curve_(curve) {}
 
   /// Adds the point of one line, which must come later than the last one.
   std::optional<InputError> add(std::string_view line, const Place& place) {
     const auto cells = cells_of(line, header_.separator);
     if (!cells) return error_at(place, {}, "a quotation mark that does not close its cell", "\"0.5\"");
-    if (cells->size() != 2) return wrong_count(cells->size(), place);
+    if (cells->size() != header_.columns) return wrong_count(cells->size(), place);
     const auto time = read_cell(*cells, header_.time, place);
     if (!time) return time.error();
     const auto pressure = read_cell(*cells, header_.pressure, place);
     if (!pressure) return pressure.error();
-    if (*pressure < 0.0 || *pressure > largest_load) {
-      return error_at(place, "pressure", (*cells)[header_.pressure.cell] + " " + header_.pressure.unit,
-                      fmt::format("a pressure of at least 0 {}, at most {}", header_.pressure.unit,
-                                  pressure_text(largest_load)));
+    if (*pressure < lowest_ || *pressure > largest_load) {
+      return error_at(
+          place, "pressure", (*cells)[header_.pressure.cell] + " " + header_.pressure.unit,
+          fmt::format("a pressure of at least {}, at most {}",
+                      lowest_ < 0.0 ? pressure_text(lowest_) : "0 " + header_.pressure.unit,
+                      pressure_text(largest_load)),
+          *pressure < lowest_ ? "launchsafe import-curve, for the offset and noise of a gauge" : "");
     }
     if (std::abs(*time) > largest_curve_time) {
       return error_at(place, "time", (*cells)[header_.time.cell] + " " + header_.time.unit,
@@ -177,10 +226,13 @@ class CurveReader {
     const char* separator = header_.separator == ','   ? "a comma"
                             : header_.separator == ';' ? "a semicolon"
                                                        : "a tab";
-    const bool decimal_commas = header_.separator == ',' && count > 2;
+    const bool decimal_commas = header_.separator == ',' && count > header_.columns;
+    const std::string values = header_.columns == 2
+                                   ? std::string("two values, a time and a pressure,")
+                                   : fmt::format("{} values, one for each column,", header_.columns);
     return error_at(
         place, {}, fmt::format("{} value{}", count, count == 1 ? "" : "s"),
-        fmt::format("two values, a time and a pressure, with {} between them{}", separator,
+        fmt::format("{} with {} between them{}", values, separator,
                     decimal_commas ? "; where numbers have decimal commas, a semicolon in every line"
                                    : " as in the header"));
   }
@@ -200,6 +252,7 @@ class CurveReader {
   }
 
   Header header_;
+  double lowest_;  ///< Pa
   PressureCurve& curve_;
   DecimalMark decimal_mark_;
 };
@@ -210,15 +263,8 @@ std::optional<InputError> check_text(std::string_view text, const std::string& f
   return check_encoding(text, file);
 }
 
-}  // namespace
-
-Expected<PressureCurve> read_pressure_curve(const std::filesystem::path& file) {
-  const auto text = read_text_file(file, largest_curve);
-  if (!text) return text.error();
-  return parse_pressure_curve(*text, file.string());
-}
-
-Expected<PressureCurve> parse_pressure_curve(const std::string& text, const std::string& file) {
+/// `gauge`: the columns of a gauge's record; none for a curve that is a load.
+Expected<PressureCurve> parse(const std::string& text, const std::string& file, const GaugeColumns* gauge) {
   if (auto error = check_text(text, file)) return *error;
   std::string_view rest = text;
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -232,9 +278,9 @@ Expected<PressureCurve> parse_pressure_curve(const std::string& text, const std:
     const std::string_view content = without_blanks_around(line);
     if (content.empty() || content.starts_with('#')) continue;
     if (!reader) {
-      auto header = read_header(line, place);
+      auto header = read_header(line, place, gauge);
       if (!header) return header.error();
-      reader.emplace(std::move(*header), curve);
+      reader.emplace(std::move(*header), gauge ? -largest_load : 0.0, curve);
     } else if (auto error = reader->add(line, place)) {
       return *error;
     }
@@ -247,6 +293,23 @@ Expected<PressureCurve> parse_pressure_curve(const std::string& text, const std:
   }
   if (auto error = reader->ambiguity()) return *error;
   return curve;
+}
+
+}  // namespace
+
+Expected<PressureCurve> read_pressure_curve(const std::filesystem::path& file) {
+  const auto text = read_text_file(file, largest_curve);
+  if (!text) return text.error();
+  return parse_pressure_curve(*text, file.string());
+}
+
+Expected<PressureCurve> parse_pressure_curve(const std::string& text, const std::string& file) {
+  return parse(text, file, nullptr);
+}
+
+Expected<PressureCurve> parse_gauge_record(const std::string& text, const std::string& file,
+                                           const GaugeColumns& columns) {
+  return parse(text, file, &columns);
 }
 
 }  // namespace launchsafe::scene

@@ -1,0 +1,172 @@
+// launchsafe import-curve: what a pressure gauge recorded as a curve that scenes take.
+#include "commands.hpp"
+#include "console.hpp"
+#include "launchsafe/report/plot.hpp"
+#include "launchsafe/scene/gauge_record.hpp"
+#include "launchsafe/scene/load_roughness.hpp"
+#include "launchsafe/scene/quantity.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
+#include "launchsafe/store/sha256.hpp"
+#include "output_folder.hpp"
+#include "shell_words.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::app {
+
+namespace {
+
+using scene::pressure_text, scene::time_text;
+
+/// A record, and what was made of it.
+struct Import {
+  scene::PressureCurve record;
+  scene::CleanedRecord cleaned;
+  scene::Load load;  ///< the curve as a load
+};
+
+scene::Load load_of(const scene::PressureCurve& curve) {
+  scene::Load load;
+  load.duration = curve.time.back();
+  load.curve_time = curve.time;
+  load.curve_pressure = curve.pressure;
+  return load;
+}
+
+/// What was done, a line each.
+std::string what_was_done(const ImportCurveArguments& arguments, const Import& import) {
+  const scene::CleanedRecord& cleaned = import.cleaned;
+  const scene::PressureCurve& record = import.record;
+  const std::string quiet = cleaned.quiet_points == 0
+                                ? std::string("as given; no quiet points to see noise in")
+                                : fmt::format("{} {} points before the rise; noise {} (standard deviation)",
+                                              arguments.offset ? "as given;" : "median of",
+                                              cleaned.quiet_points, pressure_text(cleaned.noise));
+  std::string text = fmt::format(
+      "record   {} points from {} to {}\noffset   {}, {}\ntrigger  {} above it is passed at {}, which is 0 "
+      "now; {} points "
+      "before it are left out\npeak     {} at {}, from {} in the record\nend      {} at {}\n",
+      record.time.size(), time_text(record.time.front()), time_text(record.time.back()),
+      pressure_text(cleaned.offset), quiet, pressure_text(cleaned.trigger), time_text(cleaned.start),
+      cleaned.points_before, pressure_text(cleaned.peak), time_text(cleaned.peak_time),
+      pressure_text(cleaned.recorded_peak), pressure_text(cleaned.curve.pressure.back()),
+      time_text(cleaned.curve.time.back()));
+  if (arguments.filter)
+    text += fmt::format("filter   centred average over {}\n", time_text(*arguments.filter));
+  if (cleaned.points_below_zero > 0)
+    text += fmt::format("below 0  {} points, {} at most, set to 0\n", cleaned.points_below_zero,
+                        pressure_text(-cleaned.lowest));
+  return text;
+}
+
+/// What is left of noise, and what would take it away.
+std::string noise_text(const Import& import) {
+  const auto window = scene::suggested_smoothing(import.load);
+  std::string text = fmt::format("noise    {}\n", scene::measured_load_text(import.load));
+  if (window)
+    text += fmt::format("         --filter \"{}\" here does the same as load.smoothing in the scene\n",
+                        time_text(*window));
+  return text;
+}
+
+std::vector<double> scaled(std::vector<double> values, double factor, double shift = 0.0) {
+  for (double& value : values) value = factor * (value - shift);
+  return values;
+}
+
+report::Plot plot_of(const ImportCurveArguments& arguments, const Import& import) {
+  const scene::CleanedRecord& cleaned = import.cleaned;
+  report::Plot plot;
+  plot.title = "Chamber pressure of " + arguments.record.filename().string();
+  plot.x.label = "time from the trigger [ms]";
+  plot.y.label = "pressure above the offset [MPa]";
+  plot.series.push_back({.label = "record",
+                         .x = scaled(import.record.time, 1e3, cleaned.start),
+                         .y = scaled(import.record.pressure, 1e-6, cleaned.offset),
+                         .style = report::Style::line,
+                         .colour = 7});
+  plot.series.push_back({.label = "curve",
+                         .x = scaled(cleaned.curve.time, 1e3),
+                         .y = scaled(cleaned.curve.pressure, 1e-6),
+                         .style = report::Style::line,
+                         .colour = 0});
+  return plot;
+}
+
+nlohmann::ordered_json json_of(const Import& import) {
+  const scene::CleanedRecord& cleaned = import.cleaned;
+  return {{"points", cleaned.curve.time.size()},
+          {"points_before", cleaned.points_before},
+          {"points_below_zero", cleaned.points_below_zero},
+          {"lowest_MPa", 1e-6 * cleaned.lowest},
+          {"offset_MPa", 1e-6 * cleaned.offset},
+          {"noise_MPa", 1e-6 * cleaned.noise},
+          {"quiet_points", cleaned.quiet_points},
+          {"trigger_MPa", 1e-6 * cleaned.trigger},
+          {"start_ms", 1e3 * cleaned.start},
+          {"recorded_peak_MPa", 1e-6 * cleaned.recorded_peak},
+          {"peak_MPa", 1e-6 * cleaned.peak},
+          {"peak_time_ms", 1e3 * cleaned.peak_time},
+          {"end_ms", 1e3 * cleaned.curve.time.back()},
+          {"roughness", scene::load_roughness(import.load)}};
+}
+
+/// The curve and its picture, beside each other. A curve is whole without its picture.
+ExitCode write(const ImportCurveArguments& arguments, const Import& import, const std::string& text,
+               Console& console) {
+  const std::filesystem::path& file = *arguments.output;
+  if (file.extension() != ".csv")
+    return console.refuse(fmt::format(
+        "--output: found \"{}\"; allowed: the name of a CSV file, such as pressure.csv", file.string()));
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const std::string csv = scene::csv_of(import.cleaned.curve, text);
+  std::filesystem::path picture = file;
+  picture.replace_extension(".svg");
+  const auto svg = report::to_svg(plot_of(arguments, import));
+  if (const auto obstacle = prepare_output_folder(folder)) return console.refuse(*obstacle);
+  if (const auto obstacle = obstacle_to_file(file, csv)) return console.refuse(*obstacle);
+  if (svg)
+    if (const auto obstacle = obstacle_to_file(picture, *svg)) return console.refuse(*obstacle);
+  if (const auto error = write_where_absent(file, csv)) return console.end_with(*error);
+  if (svg) {
+    if (const auto error = write_where_absent(picture, *svg)) return console.end_with(*error);
+  } else {
+    console.remark("no picture: " + svg.error().message);
+  }
+  console.print_text(fmt::format(
+      "\nwrote {}{}\nnext: {}\n", file.string(), svg ? " and " + picture.string() : "",
+      shell_command({"launchsafe", "init", "--calibre", "155 mm", "--curve", file.string(), "-o", "shell"})));
+  console.print_json({{"file", file.string()}});
+  return ExitCode::done;
+}
+
+}  // namespace
+
+ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
+  const auto text = scene::read_text_file(arguments.record, scene::largest_curve);
+  if (!text) return console.refuse(text.error());
+  auto record = scene::parse_gauge_record(*text, arguments.record.string(), {arguments.pressure});
+  if (!record) return console.refuse(record.error());
+  auto cleaned = scene::clean(*record, {arguments.offset, arguments.trigger, arguments.filter.value_or(0.0)},
+                              arguments.record.string());
+  if (!cleaned) return console.refuse(cleaned.error());
+  Import import{std::move(*record), std::move(*cleaned), {}};
+  import.load = load_of(import.cleaned.curve);
+  const std::string done =
+      fmt::format("{}, SHA-256 {}\n", arguments.record.filename().string(), store::sha256(*text)) +
+      what_was_done(arguments, import);
+  console.print_text(done + noise_text(import));
+  console.print_json(json_of(import));
+  if (arguments.output) return write(arguments, import, done, console);
+  console.print_text(fmt::format(
+      "\nnext: {}\n",
+      shell_command({"launchsafe", "import-curve", arguments.record.string(), "-o", "pressure.csv"})));
+  return ExitCode::done;
+}
+
+}  // namespace launchsafe::app

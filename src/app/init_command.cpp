@@ -1,0 +1,130 @@
+// launchsafe init: a scene and a study of a shell of the user's own to start from.
+#include "built_in_texts.hpp"
+#include "commands.hpp"
+#include "console.hpp"
+#include "key_schema.hpp"
+#include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/scene/pressure_curve.hpp"
+#include "launchsafe/scene/quantity.hpp"
+#include "launchsafe/scene/read_scene.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
+#include "output_folder.hpp"
+#include "shell_words.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace launchsafe::app {
+
+namespace {
+
+using NamedText = std::pair<std::string, std::string>;
+
+constexpr double published_calibre = 0.155;  // m
+
+/// The template with every {{name}} replaced.
+std::string filled(std::string text, const std::vector<NamedText>& values) {
+  for (const auto& [name, value] : values) {
+    const std::string mark = "{{" + name + "}}";
+    for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size()))
+      text.replace(at, mark.size(), value);
+  }
+  return text;
+}
+
+/// A length of the published shell (mm), scaled and rounded to half a millimetre.
+std::string scaled_length(double published, double factor) {
+  return fmt::format("{:g}", std::round(2.0 * published * factor) / 2.0);
+}
+
+/// The lines of [load].
+std::string load_lines(const InitArguments& arguments, const std::optional<scene::PressureCurve>& curve) {
+  if (curve) {
+    return fmt::format(
+        "curve = \"pressure.csv\"         # measured; `launchsafe explain scene.toml` tells its roughness\n"
+        "duration = \"{:.9g} ms\"         # the whole of it",
+        1e3 * curve->time.back());
+  }
+  // A gun that is scaled launches as fast, in a time that is scaled too.
+  const double factor = arguments.calibre / published_calibre;
+  const scene::Load published;
+  return fmt::format(
+      "peak = \"{}\"              # largest chamber pressure\n"
+      "duration = \"{:.4g} ms\"             # of the launch; time scales as lengths do\n"
+      "peak_time = \"{:.4g} ms\"\n"
+      "# curve = \"pressure.csv\"       # a measured curve instead; launchsafe import-curve makes one of a "
+      "gauge's record",
+      scene::pressure_text(arguments.peak.value_or(published.peak)), 1e3 * factor * published.duration,
+      1e3 * factor * published.peak_time);
+}
+
+std::vector<NamedText> files_of(const InitArguments& arguments,
+                                const std::optional<scene::PressureCurve>& curve, const std::string& csv) {
+  const double factor = arguments.calibre / published_calibre;
+  const double duration = curve ? curve->time.back() : factor * scene::Load{}.duration;
+  const std::string calibre = fmt::format("{:g} mm", 1e3 * arguments.calibre);
+  const std::vector<NamedText> values{{"calibre", calibre},
+                                      {"factor", fmt::format("{:.4g}", factor)},
+                                      {"charge_begin", scaled_length(118, factor)},
+                                      {"charge_end", scaled_length(678, factor)},
+                                      {"length", scaled_length(740, factor)},
+                                      {"bore", scaled_length(65, factor)},
+                                      {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
+                                      {"load", load_lines(arguments, curve)},
+                                      {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
+  std::vector<NamedText> files{{"scene.toml", filled(scene_template, values)},
+                               {"critical_gap.toml", filled(study_template, values)},
+                               {"calibration.json", shipped_calibration},
+                               {"scene.schema.json", scene_schema().dump(1) + "\n"},
+                               {"study.schema.json", study_schema().dump(1) + "\n"}};
+  if (curve) files.emplace_back("pressure.csv", csv);
+  return files;
+}
+
+/// A fault of the files just written is the program's, and is told before anybody computes with them.
+ExitCode check(const std::filesystem::path& study, Console& console) {
+  const auto read = kinds::read_study(study);
+  if (!read) return console.fail("internal error: what init wrote cannot be read: " + read.error().message());
+  return ExitCode::done;
+}
+
+}  // namespace
+
+ExitCode perform(const InitArguments& arguments, Console& console) {
+  std::optional<scene::PressureCurve> curve;
+  std::string csv;
+  if (arguments.curve) {
+    auto text = scene::read_text_file(*arguments.curve, scene::largest_curve);
+    if (!text) return console.refuse(text.error());
+    csv = std::move(*text);
+    auto read = scene::parse_pressure_curve(csv, arguments.curve->string());
+    if (!read) return console.refuse(read.error());
+    curve = std::move(*read);
+  }
+  const std::vector<NamedText> files = files_of(arguments, curve, csv);
+  if (const auto obstacle = prepare_output_folder(arguments.output)) return console.refuse(*obstacle);
+  for (const auto& [name, text] : files)
+    if (const auto obstacle = obstacle_to_file(arguments.output / name, text))
+      return console.refuse(*obstacle);
+  nlohmann::ordered_json written = nlohmann::ordered_json::array();
+  for (const auto& [name, text] : files) {
+    if (const auto error = write_where_absent(arguments.output / name, text)) return console.end_with(*error);
+    console.print_text(fmt::format("wrote {}\n", (arguments.output / name).string()));
+    written.push_back((arguments.output / name).string());
+  }
+  const std::filesystem::path study = arguments.output / "critical_gap.toml";
+  if (const ExitCode code = check(study, console); code != ExitCode::done) return code;
+  console.print_text(fmt::format(
+      "\nThe shell is the published one, scaled: put the lengths of a drawing into {}.\nnext: {}\n",
+      (arguments.output / "scene.toml").string(),
+      shell_command({"launchsafe", "study", study.string(), "-o", (arguments.output / "results").string()})));
+  console.print_json({{"files", written}});
+  return ExitCode::done;
+}
+
+}  // namespace launchsafe::app

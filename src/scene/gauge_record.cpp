@@ -1,0 +1,148 @@
+#include "launchsafe/scene/gauge_record.hpp"
+
+#include "launchsafe/scene/quantity.hpp"
+#include "launchsafe/scene/scene.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+namespace launchsafe::scene {
+namespace {
+
+constexpr std::size_t least_quiet_points = 10;
+constexpr double rise_share = 0.02, trigger_share = 0.01, largest_share_below_zero = 0.02;
+constexpr double noise_of_trigger = 5.0, noise_below_zero = 10.0;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// From the median absolute deviation, which a few spikes do not move: 1.4826 of it is the standard deviation
+/// of normal noise.
+double deviation_about(double centre, std::vector<double> values) {
+  for (double& value : values) value = std::abs(value - centre);
+  return 1.4826 * median(std::move(values));
+}
+
+/// The first point of the launch: after the last one before the peak that lies below the level.
+std::size_t last_passage(const std::vector<double>& pressure, double level) {
+  const auto peak = std::max_element(pressure.begin(), pressure.end());
+  const auto below = std::find_if(std::make_reverse_iterator(peak), pressure.rend(),
+                                  [level](double each) { return each < level; });
+  return static_cast<std::size_t>(pressure.rend() - below);
+}
+
+/// Points that the rise has certainly not reached: the foot of the rise is not quiet, half of what is before
+/// it is left to that.
+std::vector<double> quiet_points(const std::vector<double>& pressure) {
+  const auto peak = std::max_element(pressure.begin(), pressure.end());
+  const double lowest = *std::min_element(pressure.begin(), peak + 1);
+  const std::size_t rise = last_passage(pressure, lowest + rise_share * (*peak - lowest));
+  return {pressure.begin(), pressure.begin() + static_cast<std::ptrdiff_t>(rise / 2)};
+}
+
+/// Centred averages over the window, at the curve's own points.
+void average(PressureCurve& curve, double window) {
+  Load load;
+  load.duration = curve.time.back();
+  load.curve_time = curve.time;
+  load.curve_pressure = curve.pressure;
+  load.smoothing = window;
+  const PressureHistory history(load);
+  for (std::size_t i = 0; i < curve.time.size(); ++i) curve.pressure[i] = history.at(curve.time[i]);
+}
+
+/// Sets what noise left below zero to 0.
+std::optional<InputError> remove_negative(CleanedRecord& cleaned, const std::string& file) {
+  const double allowed =
+      std::max(noise_below_zero * cleaned.noise, largest_share_below_zero * cleaned.recorded_peak);
+  for (double& pressure : cleaned.curve.pressure) {
+    if (pressure >= 0.0) continue;
+    ++cleaned.points_below_zero;
+    cleaned.lowest = std::min(cleaned.lowest, pressure);
+    pressure = 0.0;
+  }
+  if (cleaned.lowest >= -allowed) return std::nullopt;
+  return error_at(
+      {file}, "pressure",
+      fmt::format("{} below the offset, which is no noise", pressure_text(-cleaned.lowest)),
+      fmt::format("pressures no further below zero than {}: another offset, or a record without a "
+                  "drift of its gauge",
+                  pressure_text(allowed)));
+}
+
+/// Offset and noise of the record, from the user or from its quiet part.
+std::optional<InputError> find_offset(const PressureCurve& record, const GaugeCleaning& cleaning,
+                                      CleanedRecord& cleaned, const std::string& file) {
+  const std::vector<double> quiet = quiet_points(record.pressure);
+  if (quiet.size() >= least_quiet_points) {
+    cleaned.quiet_points = quiet.size();
+    cleaned.offset = median(quiet);
+    cleaned.noise = deviation_about(cleaned.offset, quiet);
+  } else if (!cleaning.offset) {
+    return error_at(
+        {file}, "pressure",
+        fmt::format("{} points before the rise, from which no offset can be found", quiet.size()),
+        fmt::format("a record with {} of them, or an offset: --offset \"0 MPa\"", 2 * least_quiet_points));
+  }
+  cleaned.offset = cleaning.offset.value_or(cleaned.offset);
+  return std::nullopt;
+}
+
+}  // namespace
+
+Expected<CleanedRecord> clean(const PressureCurve& record, const GaugeCleaning& cleaning,
+                              const std::string& file) {
+  CleanedRecord cleaned;
+  if (auto error = find_offset(record, cleaning, cleaned, file)) return *error;
+  std::vector<double> pressure = record.pressure;
+  for (double& each : pressure) each -= cleaned.offset;
+  cleaned.recorded_peak = *std::max_element(pressure.begin(), pressure.end());
+  cleaned.trigger = cleaning.trigger.value_or(
+      std::max(trigger_share * cleaned.recorded_peak, noise_of_trigger * cleaned.noise));
+  if (!(cleaned.trigger > 0.0 && cleaned.trigger < cleaned.recorded_peak)) {
+    return error_at({file}, "pressure",
+                    fmt::format("a largest pressure of {} above the offset, and a trigger of {}",
+                                pressure_text(cleaned.recorded_peak), pressure_text(cleaned.trigger)),
+                    "a trigger between zero and the peak: --trigger \"5 MPa\"");
+  }
+  cleaned.points_before = last_passage(pressure, cleaned.trigger);
+  cleaned.start = record.time[cleaned.points_before];
+  for (std::size_t i = cleaned.points_before; i < pressure.size(); ++i) {
+    cleaned.curve.time.push_back(record.time[i] - cleaned.start);
+    cleaned.curve.pressure.push_back(pressure[i]);
+  }
+  if (cleaned.curve.time.size() < 2)
+    return error_at({file}, "pressure", "a record that ends where the launch begins",
+                    "one of the whole launch");
+  if (cleaning.filter > 0.1 * cleaned.curve.time.back()) {
+    return error_at(
+        {file}, "--filter", time_text(cleaning.filter),
+        fmt::format("no more than a tenth of the launch, {}", time_text(0.1 * cleaned.curve.time.back())));
+  }
+  if (cleaning.filter > 0.0) average(cleaned.curve, cleaning.filter);
+  if (auto error = remove_negative(cleaned, file)) return *error;
+  const auto peak = std::max_element(cleaned.curve.pressure.begin(), cleaned.curve.pressure.end());
+  cleaned.peak = *peak;
+  cleaned.peak_time = cleaned.curve.time[static_cast<std::size_t>(peak - cleaned.curve.pressure.begin())];
+  return cleaned;
+}
+
+std::string csv_of(const PressureCurve& curve, const std::string& remarks) {
+  std::string text;
+  std::istringstream lines(remarks);
+  for (std::string line; std::getline(lines, line);) text += "# " + line + "\n";
+  text += "time_ms,pressure_MPa\n";
+  for (std::size_t i = 0; i < curve.time.size(); ++i)
+    text += fmt::format("{:.9g},{:.9g}\n", 1e3 * curve.time[i], 1e-6 * curve.pressure[i]);
+  return text;
+}
+
+}  // namespace launchsafe::scene

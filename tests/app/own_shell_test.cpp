@@ -1,0 +1,100 @@
+// From a gauge's record to a verdict on a shell of one's own: three commands, each printed by the one before.
+#include "program.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace launchsafe::app {
+namespace {
+
+class OwnShell : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    std::string record = "Time (ms);P breech (bar)\n";
+    for (int i = 0; i <= 260; ++i) {
+      const double time = -2.0 + 0.05 * i, since = std::max(0.0, time - 0.5) / 4.0;
+      // An offset of 5 bar, and noise of half a bar that is below zero before the launch.
+      record +=
+          fmt::format("{:.2f};{:.2f}\n", time,
+                      3800.0 * std::pow(since * std::exp(1.0 - since), 3.0) + 5.0 + 0.5 * ((i * 7) % 5 - 2));
+    }
+    write("gauge.csv", record);
+  }
+
+  /// The words of the command that an output ends with.
+  static std::vector<std::string> next_of(const std::string& out) {
+    const auto at = out.rfind("next: launchsafe ");
+    EXPECT_NE(at, std::string::npos) << out;
+    std::istringstream words(out.substr(at + 17, out.find('\n', at) - at - 17));
+    std::vector<std::string> list;
+    for (std::string word; words >> word;) {
+      if (word.front() == '\'') {
+        std::string rest;
+        std::getline(words, rest, '\'');
+        word = word.substr(1) + rest;
+      }
+      list.push_back(word);
+    }
+    return list;
+  }
+};
+
+TEST_F(OwnShell, IsThreeCommandsAwayFromARecord) {
+  const Outcome imported = run({"import-curve", "gauge.csv", "-o", "pressure.csv"});
+  ASSERT_EQ(imported.code, 0) << imported.err;
+  EXPECT_NE(imported.out.find("offset   0.5 MPa"), std::string::npos) << imported.out;
+  const std::vector<std::string> init = next_of(imported.out);
+  ASSERT_EQ(init.front(), "init");
+  const Outcome started = run(init);
+  ASSERT_EQ(started.code, 0) << started.err;
+  std::vector<std::string> study = next_of(started.out);
+  ASSERT_EQ(study.front(), "study");
+  study.push_back("--dry-run");
+  const Outcome planned = run(study);
+  EXPECT_EQ(planned.code, 0) << planned.err;
+  const Outcome explained = run({"explain", "shell/scene.toml", "--json"});
+  ASSERT_EQ(explained.code, 0) << explained.err;
+  EXPECT_EQ(nlohmann::json::parse(explained.out)["implausible"].size(), 0u) << explained.out;
+}
+
+TEST_F(OwnShell, IsInitialisedForEveryCalibreWithoutImplausibleValues) {
+  for (const char* calibre : {"20 mm", "76 mm", "105 mm", "155 mm", "203 mm", "50 cm"}) {
+    const std::string folder = std::string("shell ") + calibre;
+    const Outcome started = run({"init", "--calibre", calibre, "--peak", "380 MPa", "-o", folder});
+    ASSERT_EQ(started.code, 0) << calibre << started.err;
+    const auto explained = nlohmann::json::parse(run({"explain", folder + "/scene.toml", "--json"}).out);
+    EXPECT_FALSE(explained.contains("error")) << calibre << explained["error"];
+    EXPECT_EQ(explained["implausible"].size(), 0u) << calibre << explained["implausible"];
+  }
+}
+
+TEST_F(OwnShell, OverwritesNothingAndRefusesSenselessWishes) {
+  ASSERT_EQ(run({"init", "--calibre", "105 mm", "-o", "shell"}).code, 0);
+  write("shell/scene.toml", "mine");
+  EXPECT_EQ(run({"init", "--calibre", "105 mm", "-o", "shell"}).code, 2);
+  EXPECT_EQ(read("shell/scene.toml"), "mine");
+  EXPECT_EQ(run({"init", "--calibre", "2 m", "-o", "other"}).code, 2);
+  EXPECT_EQ(run({"init", "--calibre", "105", "-o", "other"}).code, 2);
+  EXPECT_EQ(
+      run({"init", "--calibre", "105 mm", "--curve", "gauge.csv", "--peak", "3 MPa", "-o", "other"}).code, 2);
+  EXPECT_EQ(run({"import-curve", "absent.csv"}).code, 2);
+  EXPECT_EQ(run({"import-curve", "gauge.csv", "-o", "curve.txt"}).code, 2);
+  EXPECT_EQ(run({"import-curve", "gauge.csv", "--trigger", "-3 MPa"}).code, 2);
+  write("pressure.csv", "mine");
+  EXPECT_EQ(run({"import-curve", "gauge.csv", "-o", "pressure.csv"}).code, 2);
+  EXPECT_EQ(read("pressure.csv"), "mine");
+  EXPECT_FALSE(std::filesystem::exists(folder() / "other"));
+}
+
+TEST_F(OwnShell, WhatInitWritesIsAsTheSchemasSay) {
+  ASSERT_EQ(run({"init", "--calibre", "105 mm", "-o", "shell"}).code, 0);
+  EXPECT_EQ(nlohmann::json::parse(read("shell/scene.schema.json")),
+            nlohmann::json::parse(run({"explain", "--schema", "scene"}).out));
+  EXPECT_TRUE(read("shell/scene.toml").starts_with("#:schema scene.schema.json\n"));
+}
+
+}  // namespace
+}  // namespace launchsafe::app
