@@ -82,6 +82,14 @@ Json word_schema(const KeyDescription& key) {
   return {{"type", "string"}, {"enum", words}};
 }
 
+/// "a, b", each one of the words.
+Json words_schema(const KeyDescription& key) {
+  std::vector<std::string> words = key.words;
+  for (std::string& word : words) word = literal(word);
+  const std::string one = fmt::format("({})", fmt::join(words, "|"));
+  return text_of_pattern(fmt::format("({0}(\\s*,\\s*{0})*)?", one));
+}
+
 Json type_of(const KeyDescription& key) {
   switch (key.kind) {
     case KeyKind::number:
@@ -90,6 +98,8 @@ Json type_of(const KeyDescription& key) {
       return {{"type", "boolean"}};
     case KeyKind::word:
       return word_schema(key);
+    case KeyKind::words:
+      return words_schema(key);
     case KeyKind::text:
       return {{"type", "string"}};
     case KeyKind::list:
@@ -108,6 +118,7 @@ std::string example_for(const KeyDescription& key) {
     case KeyKind::flag:
       return "true";
     case KeyKind::word:
+    case KeyKind::words:
       return fmt::format("\"{}\"", key.words.front());
     case KeyKind::text:
       return fmt::format("\"{}\"", key.example);
@@ -252,7 +263,8 @@ nlohmann::ordered_json study_schema() {
 
 nlohmann::ordered_json references_schema() {
   Json schema = table_schema();
-  schema["properties"]["reference"] = array_of(schema_of_table("reference", kinds::describe_study_keys()));
+  for (const char* table : {"reference", "statement"})
+    schema["properties"][table] = array_of(schema_of_table(table, kinds::describe_study_keys()));
   return with_head(std::move(schema), "Published rows for studies of launchsafe");
 }
 

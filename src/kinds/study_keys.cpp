@@ -263,7 +263,7 @@ StudyKeys statement_file_keys() {
   return {scene::text_key<Study>(
       "statements", Standing::input,
       "Path of a file that holds what a publication says, [[statement]], from the study file's folder.",
-      &Study::statements_file)};
+      "paper_text.toml", &Study::statements_file)};
 }
 
 StudyKeys joined(std::vector<StudyKeys> lists) {

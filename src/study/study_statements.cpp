@@ -93,8 +93,9 @@ std::vector<Key<PublishedStatement>> make_statement_keys() {
                                                       {"selection", Use::selection},
                                                       {"calibration", Use::calibration},
                                                       {"input", Use::input}};
-  const auto text = [](std::string name, std::string sentence, std::string S::*member) {
-    return scene::text_key<S>(std::move(name), Standing::paper, std::move(sentence), member);
+  const auto text = [](std::string name, std::string sentence, std::string example, std::string S::*member) {
+    return scene::text_key<S>(std::move(name), Standing::paper, std::move(sentence), std::move(example),
+                              member);
   };
   return {
       scene::required(scene::word_key<S>("quantity", Standing::paper, "What the statement is about.",
@@ -103,7 +104,7 @@ std::vector<Key<PublishedStatement>> make_statement_keys() {
                          "Gaps of each of which it is said.", &S::gaps),
       scene::number_key<S>("time", Dimension::time, scene::at_least(0), Standing::paper,
                            "Instant of which it is said.", &S::time),
-      text("point", "Observation point or station at which a temperature is said.", &S::point),
+      text("point", "Observation point or station at which a temperature is said.", "G2", &S::point),
       scene::number_key<S>("level", Dimension::temperature, scene::above(0), Standing::paper,
                            "Temperature that is reached.", &S::level),
       scene::number_key<S>("ratio", Dimension::number, scene::at_least(1), Standing::paper,
@@ -111,12 +112,13 @@ std::vector<Key<PublishedStatement>> make_statement_keys() {
       scene::required(text("value",
                            "What is published: a quantity, a range such as \"400 to 445 K\", a point, or a "
                            "part of the bottom.",
-                           &S::value)),
+                           "328.5 K", &S::value)),
       text("tolerance", "How far a number may be off: half the last printed digit, or what a figure shows.",
-           &S::tolerance_text),
+           "0.05 K", &S::tolerance_text),
       scene::word_key<S>("used", Standing::input, "What the number was used for.", uses, &S::use),
-      scene::required(text("source", "Where the publication says it.", &S::source)),
-      text("remark", "Why it is not computed, or what else is to be said of it.", &S::remark),
+      scene::required(text("source", "Where the publication says it.", "Section 4.1", &S::source)),
+      text("remark", "Why it is not computed, or what else is to be said of it.", "read off a figure",
+           &S::remark),
   };
 }
 
