@@ -74,6 +74,22 @@ std::string noise_text(const Import& import) {
   return text;
 }
 
+/// The same import with what takes the noise away, into a file.
+std::vector<std::string> command_that_writes(const ImportCurveArguments& arguments, const Import& import) {
+  std::vector<std::string> words{"launchsafe", "import-curve", arguments.record.string()};
+  const auto add = [&words](const char* option, const std::string& value) {
+    words.emplace_back(option);
+    words.push_back(value);
+  };
+  if (!arguments.pressure.empty()) add("--pressure", arguments.pressure);
+  if (arguments.offset) add("--offset", pressure_text(*arguments.offset));
+  if (arguments.trigger) add("--trigger", pressure_text(*arguments.trigger));
+  const auto window = scene::suggested_smoothing(import.load);
+  if (window || arguments.filter) add("--filter", time_text(window.value_or(arguments.filter.value_or(0.0))));
+  add("-o", "pressure.csv");
+  return words;
+}
+
 std::vector<double> scaled(std::vector<double> values, double factor, double shift = 0.0) {
   for (double& value : values) value = factor * (value - shift);
   return values;
@@ -163,9 +179,7 @@ ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
   console.print_text(done + noise_text(import));
   console.print_json(json_of(import));
   if (arguments.output) return write(arguments, import, done, console);
-  console.print_text(fmt::format(
-      "\nnext: {}\n",
-      shell_command({"launchsafe", "import-curve", arguments.record.string(), "-o", "pressure.csv"})));
+  console.print_text(fmt::format("\nnext: {}\n", shell_command(command_that_writes(arguments, import))));
   return ExitCode::done;
 }
 
