@@ -5,6 +5,7 @@ set -euo pipefail
 packages=(
   build-essential g++ cmake ninja-build pkg-config
   libeigen3-dev libboost-dev libtbb-dev libhdf5-dev libssl-dev libcli11-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev
+  libkainjow-mustache-dev
   libgtest-dev libbenchmark-dev librapidcheck-dev clang libclang-rt-dev
   gnuplot-nox librsvg2-bin
 )

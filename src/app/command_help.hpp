@@ -18,6 +18,7 @@ Examples:
   launchsafe plot results/scene_155mm.h5
   launchsafe init --calibre "105 mm" -o shell
   launchsafe import-curve gauge.csv -o pressure.csv
+  launchsafe report results -o safety
 
 Results go to stdout, progress and messages to stderr. Nothing is written but what --output names, the
 picture of explain --grid, and the pictures of plot.
@@ -81,6 +82,36 @@ Examples:
   launchsafe explain --keys                              every key of a scene file
 
 Nothing is overwritten: a FILE.svg that holds something else is refused.)";
+
+inline constexpr const char* report_footer = R"(
+Examples:
+  launchsafe report results -o safety
+  launchsafe report results sweep accuracy sensitivity models stability -o safety
+  launchsafe report results -o safety --criterion "margin >= 2 uncertainty" --criterion-source "works standard 12"
+
+STUDY_DIR is what launchsafe study wrote with -o DIR, finished or not, with or without its case files. The report is
+about the study of kind critical-gap (without one, the sweep); accuracy, sweep, sensitivity, comparison and stability
+studies of the same shell add their sections. Histories, profile and temperature field need the case files.
+
+  report.html    one file that opens offline, fits a phone, and prints on A4; page one is the answer
+  report.md      the same for a terminal or a repository
+  report.json    every block with its parts and where they come from; its schema is
+                 src/report/templates/report.schema.json
+  *.svg          the figures, drawn by gnuplot (Debian: gnuplot-nox); a report without them says so
+
+--criterion: a largest gap is recommended only under a criterion that you state with its source; none is built in.
+  margin >= N uncertainty     N at least 1; the margin to the ignition temperature over its uncertainty
+  margin >= N K
+  distance >= N uncertainty   the distance to the critical gap over the uncertainty of that
+  distance >= N cm
+  Several are joined by "and". SAFE is asked for as well, of the gap and of all smaller ones. Only computed gaps count.
+
+--templates: a folder with any of report.html.mustache, report.md.mustache and texts.mustache; what it lacks stays as
+built in. The built-in ones are in src/report/templates, where texts.mustache says how to translate it.
+
+Exit codes: 0 the report was written, whatever its verdicts say; 2 bad usage or input: no study there, a file that
+differs from its manifest, another model version, a damaged case, studies of different shells or twice of one kind, a
+file of somebody else in the way; 70 it could not be written; 75 interrupted.)";
 
 inline constexpr const char* plot_footer = R"(
 Examples:

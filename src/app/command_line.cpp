@@ -113,6 +113,7 @@ struct Parsed {
   PlotArguments plot;
   InitArguments init;
   ImportCurveArguments import_curve;
+  ReportArguments report;
 };
 
 /// A subcommand whose arguments become the request.
@@ -387,6 +388,27 @@ void add_import_curve(CLI::App& app, Parsed& parsed) {
   add_output_options(command, parsed);
 }
 
+void add_report(CLI::App& app, Parsed& parsed) {
+  ReportArguments& report = parsed.report;
+  CLI::App& command = add_command(app, parsed, report, "report",
+                                  "Make the safety report of studies that were run", report_footer);
+  command.add_option("study", report.studies, "Folders of studies, at most one of each kind")
+      ->required()
+      ->type_name("STUDY_DIR...");
+  add_folder(command, report.output, "Folder for report.html, report.md, report.json and the figures")
+      ->required();
+  command
+      .add_option("--criterion", report.criterion,
+                  "What a gap must meet to be recommended, besides SAFE: \"margin >= 2 uncertainty\"")
+      ->type_name("TEXT");
+  command
+      .add_option("--criterion-source", report.criterion_source, "Who asks for that, as the report is to say")
+      ->type_name("TEXT");
+  add_place(command, "--templates", report.templates, "DIR", "folder",
+            "Folder of templates in place of those built in: letterhead, language");
+  add_output_options(command, parsed);
+}
+
 std::string text_of_success(const CLI::App& app, const CLI::Success& success) {
   std::ostringstream text;
   app.exit(success, text, text);
@@ -420,6 +442,11 @@ std::string contradiction(const ExplainArguments& explain) {
     return "explain: --grid draws the grid of a scene; allowed: with a scene file";
   return {};
 }
+std::string contradiction(const ReportArguments& report) {
+  if (report.criterion.has_value() == report.criterion_source.has_value()) return {};
+  return report.criterion ? "report: --criterion requires --criterion-source, which says who asks for it"
+                          : "report: --criterion-source requires --criterion";
+}
 template <class Other>
 std::string contradiction(const Other&) {
   return {};
@@ -438,6 +465,7 @@ void add_commands(CLI::App& app, Parsed& parsed) {
   add_plot(app, parsed);
   add_init(app, parsed);
   add_import_curve(app, parsed);
+  add_report(app, parsed);
 }
 
 CommandDescription describe(const CLI::App& command) {

@@ -19,9 +19,9 @@ struct UsageError {
   std::string message;
 };
 
-using Request =
-    std::variant<Information, UsageError, RunArguments, StudyArguments, MergeArguments, EmitArguments,
-                 VerifyArguments, ExplainArguments, PlotArguments, InitArguments, ImportCurveArguments>;
+using Request = std::variant<Information, UsageError, RunArguments, StudyArguments, MergeArguments,
+                             EmitArguments, VerifyArguments, ExplainArguments, PlotArguments, InitArguments,
+                             ImportCurveArguments, ReportArguments>;
 
 struct CommandLine {
   Request request;

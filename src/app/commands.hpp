@@ -100,4 +100,12 @@ struct ImportCurveArguments {
 };
 ExitCode perform(const ImportCurveArguments& arguments, Console& console);
 
+struct ReportArguments {
+  std::vector<std::filesystem::path> studies;      ///< folders
+  std::filesystem::path output;                    ///< folder of the report
+  std::optional<std::filesystem::path> templates;  ///< folder; none: those built in
+  std::optional<std::string> criterion, criterion_source;
+};
+ExitCode perform(const ReportArguments& arguments, Console& console);
+
 }  // namespace launchsafe::app

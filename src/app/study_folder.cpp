@@ -22,8 +22,6 @@ namespace launchsafe::app {
 
 namespace {
 
-std::filesystem::path manifest_path(const std::filesystem::path& folder) { return folder / "manifest.json"; }
-
 /// The study file's values; empty if the file has gone since it was read.
 std::string values_of(const std::string& path) {
   const auto text = scene::read_text_file(path);
@@ -33,81 +31,6 @@ std::string values_of(const std::string& path) {
   std::ostringstream values;
   values << *table;
   return values.str();
-}
-
-nlohmann::ordered_json files_json(const std::vector<store::WrittenFile>& files) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const store::WrittenFile& file : files) list.push_back({{"name", file.name}, {"sha256", file.sha256}});
-  return list;
-}
-
-nlohmann::ordered_json json_of(const StudyRecord& record) {
-  const store::Manifest& manifest = record.manifest;
-  nlohmann::ordered_json libraries;
-  for (const store::LibraryVersion& library : manifest.libraries) libraries[library.name] = library.version;
-  return {{"input_sha256", manifest.input_sha256},
-          {"model_version", manifest.model_version},
-          {"program_version", manifest.program_version},
-          {"commit", manifest.commit},
-          {"compiler", manifest.compiler},
-          {"compiler_flags", manifest.compiler_flags},
-          {"build_type", manifest.build_type},
-          {"libraries", libraries},
-          {"host", manifest.host},
-          {"threads", manifest.threads},
-          {"start_time", manifest.start_time},
-          {"wall_time_s", manifest.wall_time},
-          {"complete", record.complete},
-          {"files", files_json(record.files)},
-          {"failures_sha256", record.failures},
-          {"input", manifest.input_text}};
-}
-
-std::vector<store::WrittenFile> files_from(const nlohmann::json& list) {
-  std::vector<store::WrittenFile> files;
-  for (const auto& each : list) {
-    // A name that leads out of the folder is none of ours.
-    const std::string name = each.value("name", "");
-    if (name.empty() || name == "." || name == ".." || name == "cases" ||
-        std::filesystem::path(name).filename() != name)
-      continue;
-    files.push_back({name, each.value("sha256", "")});
-  }
-  return files;
-}
-
-/// Negative for what is no version; the first manifests had none, which is 0.
-int version_in(const nlohmann::json& value) {
-  const bool fits =
-      value.is_number_integer() && value >= 0 && value <= std::int64_t{std::numeric_limits<int>::max()};
-  return fits ? value.get<int>() : -1;
-}
-
-/// Whether it says of itself what only a manifest of ours says: its input and the SHA-256 of that.
-bool is_sound(const store::Manifest& manifest) {
-  return manifest.model_version >= 0 && manifest.input_sha256 == store::sha256(manifest.input_text);
-}
-
-/// Throws what the JSON library throws where a value is of another type, or where one is missing that every
-/// manifest has.
-StudyRecord record_from(const nlohmann::json& object) {
-  StudyRecord record;
-  record.manifest.input_sha256 = object.at("input_sha256").get<std::string>();
-  record.manifest.input_text = object.at("input").get<std::string>();
-  record.manifest.model_version = version_in(object.value("model_version", nlohmann::json(0)));
-  record.manifest.program_version = object.value("program_version", "");
-  record.manifest.commit = object.value("commit", "");
-  record.manifest.start_time = object.value("start_time", "");
-  record.files = files_from(object.value("files", nlohmann::json::array()));
-  record.complete = object.value("complete", true);
-  record.failures = object.value("failures_sha256", "");
-  return record;
-}
-
-std::optional<std::string> digest_of(const std::filesystem::path& path) {
-  const auto bytes = store::read_file(path);
-  if (!bytes) return std::nullopt;
-  return store::sha256(*bytes);
 }
 
 /// Files that a study rests on: with another one its report is no longer true.
@@ -144,42 +67,6 @@ store::Manifest study_manifest(const study::StudyFile& file, int jobs) {
 
 bool same_study(const store::Manifest& one, const store::Manifest& other) {
   return one.input_sha256 == other.input_sha256;
-}
-
-store::Result<StudyRecord> read_study_record(const std::filesystem::path& folder) {
-  const auto text = store::read_file(manifest_path(folder));
-  if (!text) return text.error();
-  const store::Error corrupt{store::Error::Kind::corrupt,
-                             fmt::format("{} is no manifest of a study", manifest_path(folder).string())};
-  const auto object = nlohmann::json::parse(*text, nullptr, false);
-  if (!object.is_object()) return corrupt;
-  try {
-    StudyRecord record = record_from(object);
-    if (!is_sound(record.manifest)) return corrupt;
-    return record;
-  } catch (const nlohmann::json::exception&) {
-    return corrupt;
-  }
-}
-
-store::MaybeError write_study_record(const std::filesystem::path& folder, const StudyRecord& record) {
-  return store::write_own_file(
-      manifest_path(folder),
-      {json_of(record).dump(2, ' ', false, nlohmann::json::error_handler_t::replace), "\n"});
-}
-
-std::vector<store::WrittenFile> record_files(const std::filesystem::path& folder,
-                                             const std::vector<std::string>& names) {
-  std::vector<store::WrittenFile> files;
-  for (const std::string& name : names)
-    if (auto digest = digest_of(folder / name)) files.push_back({name, std::move(*digest)});
-  return files;
-}
-
-bool files_unchanged(const std::filesystem::path& folder, const std::vector<store::WrittenFile>& files) {
-  return std::all_of(files.begin(), files.end(), [&](const store::WrittenFile& file) {
-    return digest_of(folder / file.name) == file.sha256;
-  });
 }
 
 namespace {
@@ -294,7 +181,7 @@ bool holds_store(const path& folder) {
 
 std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::Kind& kind,
                                               const store::Manifest& manifest, bool update) {
-  const auto record = read_study_record(folder);
+  const auto record = store::read_study_record(folder);
   if (!record && record.error().kind != store::Error::Kind::missing) {
     return record.error().message + ", and nothing is overwritten; move it away or name another folder";
   }
@@ -329,22 +216,22 @@ void remove_leftovers(const path& folder) {
   for (const path& each : leftovers) store::remove_leftover(each);
 }
 
-store::Result<path> take_folder(const path& folder, const store::Manifest& manifest) {
-  const auto record = read_study_record(folder);
+store::Result<path> take_folder(const path& folder, const StudyRecord& asked) {
+  const auto record = store::read_study_record(folder);
   const auto own = own_files(folder, record);
   if (!own) return own.error();
   if (record) {
     // An older program kept no journal of files; its manifest knows them, and it is one.
     std::vector<store::WrittenFile> files = record->files;
-    if (const auto digest = digest_of(manifest_path(folder));
-        digest && own->state_of(std::string(manifest_name)) == FileState::foreign)
-      files.push_back({std::string(manifest_name), *digest});
+    const std::string name(manifest_name);
+    if (own->state_of(name) == FileState::foreign)
+      for (store::WrittenFile& file : store::record_files(folder, {name})) files.push_back(std::move(file));
     if (auto error = store::note_own_files(folder, files)) return *error;
-    if (same_study(record->manifest, manifest)) return path{};
+    if (same_study(record->manifest, asked.manifest)) return path{};
   }
   auto moved_to = set_earlier_aside(folder, names_of_earlier(*own, record));
   if (!moved_to) return moved_to;
-  if (auto error = write_study_record(folder, {manifest, {}, true, {}})) return *error;
+  if (auto error = store::write_study_record(folder, asked)) return *error;
   return moved_to;
 }
 

@@ -5,6 +5,7 @@
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/result.hpp"
+#include "launchsafe/store/study_record.hpp"
 #include "launchsafe/study/study_file.hpp"
 
 #include <filesystem>
@@ -14,13 +15,7 @@
 
 namespace launchsafe::app {
 
-/// What manifest.json says.
-struct StudyRecord {
-  store::Manifest manifest;
-  std::vector<store::WrittenFile> files;  ///< of the report; none while the study is not finished
-  bool complete = true;                   ///< the report lacks no picture
-  std::string failures;                   ///< digest of what failed, which a report tells too
-};
+using store::StudyRecord;
 
 /// The manifest of a study: its input is the model version, what the study file says, without remarks and in
 /// sorted order, and the scene with what the study sets in it. Every case follows from these.
@@ -28,19 +23,6 @@ store::Manifest study_manifest(const study::StudyFile& file, int jobs);
 
 /// Whether both ask the same of the same model.
 bool same_study(const store::Manifest& one, const store::Manifest& other);
-
-/// Reads manifest.json. Errors: missing, unreadable, corrupt (also somebody else's file of that name).
-store::Result<StudyRecord> read_study_record(const std::filesystem::path& folder);
-
-/// Writes manifest.json; never over one that is not ours.
-store::MaybeError write_study_record(const std::filesystem::path& folder, const StudyRecord& record);
-
-/// Files as they are now; those that are not there are left out.
-std::vector<store::WrittenFile> record_files(const std::filesystem::path& folder,
-                                             const std::vector<std::string>& names);
-
-/// Whether every file has the content that was recorded.
-bool files_unchanged(const std::filesystem::path& folder, const std::vector<store::WrittenFile>& files);
 
 /// Whether the folder holds cases that a study stored.
 bool holds_store(const std::filesystem::path& folder);
@@ -58,7 +40,7 @@ void remove_leftovers(const std::filesystem::path& folder);
 /// `earlier-N` and writes manifest.json, unless it is there. Returns where the report went, empty if nowhere.
 /// Errors: conflict, write_failed, unreadable.
 store::Result<std::filesystem::path> take_folder(const std::filesystem::path& folder,
-                                                 const store::Manifest& manifest);
+                                                 const StudyRecord& asked);
 
 /// Moves what an earlier report left and the new one, of the files `written`, did not write again, such as a
 /// picture that cannot be drawn any more. Returns where it went, empty if nowhere. Errors: write_failed.

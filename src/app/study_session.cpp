@@ -46,7 +46,7 @@ bool report_stands(const std::filesystem::path& folder, const StudyRecord& recor
   return !record.files.empty() && record.complete && same_study(record.manifest, manifest) &&
          record.manifest.program_version == manifest.program_version &&
          record.manifest.commit == manifest.commit && record.failures == failures &&
-         files_unchanged(folder, record.files);
+         store::files_unchanged(folder, record.files);
 }
 
 ExitCode exit_code_of(const std::vector<kinds::Failure>& failures, bool indeterminate) {
@@ -86,7 +86,7 @@ ExitCode StudySession::open() {
           obstacle_in_folder(request_.folder, request_.kind, request_.manifest, request_.update))
     return console_.refuse(*late);
   if (request_.part.empty()) remove_leftovers(request_.folder);
-  const auto moved = take_folder(request_.folder, request_.manifest);
+  const auto moved = take_folder(request_.folder, record());
   if (!moved) return console_.end_with(moved.error());
   if (!moved->empty()) console_.remark(fmt::format("the earlier report moved to {}", moved->string()));
   return ExitCode::done;
@@ -160,10 +160,16 @@ ExitCode StudySession::keep_edited_files() {
   return ExitCode::done;
 }
 
+StudyRecord StudySession::record() const {
+  // Never an absolute path: it would name this machine.
+  const std::filesystem::path& study = request_.study;
+  return {.manifest = request_.manifest, .study = study.is_absolute() ? study.filename() : study};
+}
+
 ExitCode StudySession::write_files(const kinds::StudyOutcome& result,
                                    const std::vector<kinds::Failure>& failures) {
   const std::string digest = digest_of(failures);
-  const auto present = read_study_record(request_.folder);
+  const auto present = store::read_study_record(request_.folder);
   if (result.timing.runs == 0 && present &&
       report_stands(request_.folder, *present, request_.manifest, digest)) {
     console_.remark(fmt::format("the report in {} stands as it is", request_.folder.string()));
@@ -173,12 +179,13 @@ ExitCode StudySession::write_files(const kinds::StudyOutcome& result,
   const auto written = report::write_report(result.report, request_.folder, {.stop = &stop_requested()});
   if (!written) return console_.end_with(written.error());
   for (const std::string& remark : written->remarks) console_.remark(remark);
-  StudyRecord record{request_.manifest, {}, true, digest};
-  record.manifest.wall_time = result.timing.wall_time;
+  StudyRecord written_record = record();
+  written_record.failures = digest;
+  written_record.manifest.wall_time = result.timing.wall_time;
   // A report that lacks a picture is no finished one: the next time it is written again.
-  record.complete = written->pictures_missing == 0;
+  written_record.complete = written->pictures_missing == 0;
   const std::vector<std::string>& names = written->files;
-  record.files = record_files(request_.folder, names);
+  written_record.files = store::record_files(request_.folder, names);
   if (present) {
     const auto stale = set_stale_aside(request_.folder, *present, names);
     if (!stale) return console_.end_with(stale.error());
@@ -186,9 +193,10 @@ ExitCode StudySession::write_files(const kinds::StudyOutcome& result,
       console_.remark(
           fmt::format("files of the earlier report that the new one lacks moved to {}", stale->string()));
   }
-  if (const auto error = write_study_record(request_.folder, record)) return console_.end_with(*error);
+  if (const auto error = store::write_study_record(request_.folder, written_record))
+    return console_.end_with(*error);
   console_.remark(fmt::format("wrote {} files to {}", written->files.size() + 1, request_.folder.string()));
-  if (record.complete || !stop_requested()) return ExitCode::done;
+  if (written_record.complete || !stop_requested()) return ExitCode::done;
   console_.error(fmt::format(
       "interrupted while a picture was drawn; all results are kept; for the picture: {}", request_.command));
   return ExitCode::interrupted;

@@ -5,6 +5,7 @@
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/manifest.hpp"
+#include "launchsafe/store/study_record.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -50,6 +51,8 @@ class StudySession {
   ExitCode deliver_whole(const kinds::StudyOutcome& result);
   /// Remarks edited files of an earlier report, which keep their content under another name.
   ExitCode keep_edited_files();
+  /// What manifest.json is to say before there is a report.
+  store::StudyRecord record() const;
   ExitCode write_files(const kinds::StudyOutcome& result, const std::vector<kinds::Failure>& failures);
 
   SessionRequest request_;

@@ -12,11 +12,6 @@
 namespace launchsafe::report {
 namespace {
 
-const Cell& cell_at(const std::vector<Cell>& row, std::size_t column) {
-  static const Cell nothing;
-  return column < row.size() ? row[column] : nothing;
-}
-
 std::string rounded(double value, const Column& column) {
   switch (column.notation) {
     case Notation::scientific:
@@ -29,12 +24,40 @@ std::string rounded(double value, const Column& column) {
   return fixed(value, column.decimals);
 }
 
-/// For people.
-std::string shown(const Cell& cell, const Column& column) {
+}  // namespace
+
+std::string cell_text(const Cell& cell, const Column& column) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   if (const auto* number = std::get_if<double>(&cell)) return rounded(*number, column);
   if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
   return {};
+}
+
+std::string heading_of(const Column& column) {
+  return column.unit.empty() ? column.name : column.name + " [" + column.unit + "]";
+}
+
+std::string markdown_escaped(const std::string& text) {
+  constexpr std::string_view markup = "\\|*_`<>[]#~";
+  std::string escaped;
+  for (const char character : text) {
+    if (markup.find(character) != std::string_view::npos) escaped += '\\';
+    if (character == '&') {
+      escaped += "&amp;";
+    } else if (character == '\n') {
+      escaped += "<br>";
+    } else if (character != '\r') {
+      escaped += character;
+    }
+  }
+  return escaped;
+}
+
+namespace {
+
+const Cell& cell_at(const std::vector<Cell>& row, std::size_t column) {
+  static const Cell nothing;
+  return column < row.size() ? row[column] : nothing;
 }
 
 /// Places of the columns that people or programs read.
@@ -45,10 +68,6 @@ std::vector<std::size_t> places_for(const Table& table, Audience audience) {
     if (reader == Audience::everyone || reader == audience) places.push_back(i);
   }
   return places;
-}
-
-std::string heading(const Column& column) {
-  return column.unit.empty() ? column.name : column.name + " [" + column.unit + "]";
 }
 
 std::string padded(const std::string& text, std::size_t width, Alignment alignment) {
@@ -68,12 +87,12 @@ Grid grid_of(const Table& table, Escape escape) {
   const std::vector<std::size_t> places = places_for(table, Audience::people);
   for (const std::size_t place : places) {
     grid.columns.push_back(table.columns[place]);
-    grid.lines.front().push_back(escape(heading(table.columns[place])));
+    grid.lines.front().push_back(escape(heading_of(table.columns[place])));
   }
   for (const auto& row : table.rows) {
     auto& line = grid.lines.emplace_back();
     for (const std::size_t place : places)
-      line.push_back(escape(shown(cell_at(row, place), table.columns[place])));
+      line.push_back(escape(cell_text(cell_at(row, place), table.columns[place])));
   }
   return grid;
 }
@@ -99,22 +118,6 @@ std::string text_line(const std::vector<std::string>& cells, const std::vector<s
     line += (i > 0 ? "  " : "") + padded(cells[i], widths[i], columns[i].alignment);
   }
   return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-}
-
-std::string markdown_escaped(const std::string& text) {
-  constexpr std::string_view markup = "\\|*_`<>[]#~";
-  std::string escaped;
-  for (const char character : text) {
-    if (markup.find(character) != std::string_view::npos) escaped += '\\';
-    if (character == '&') {
-      escaped += "&amp;";
-    } else if (character == '\n') {
-      escaped += "<br>";
-    } else if (character != '\r') {
-      escaped += character;
-    }
-  }
-  return escaped;
 }
 
 std::string markdown_line(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,

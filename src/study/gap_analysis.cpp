@@ -177,6 +177,8 @@ void set_gap_uncertainty(const Study& study, CaseOutcome& outcome) {
   Uncertainty uncertainty = row_of(study, outcome, ground_of(study, outcome), at_below).uncertainty;
   uncertainty.coupling = coupling_share(outcome);
   const double temperature = uncertainty.total();
+  outcome.critical_shares = uncertainty;
+  outcome.critical_slope = slope;
   critical.uncertainty = half + (slope > 0 ? temperature / slope : critical.value);
 }
 

@@ -41,6 +41,13 @@ struct Table {
   std::vector<std::string> notes = {};  ///< sentences under the table; in text and Markdown only
 };
 
+/// A cell as people read it.
+std::string cell_text(const Cell& cell, const Column& column);
+/// "T max [K]".
+std::string heading_of(const Column& column);
+/// Text in which nothing is markup to GitHub's Markdown.
+std::string markdown_escaped(const std::string& text);
+
 /// The keys of all columns, all different.
 std::vector<std::string> keys_of(const Table& table);
 

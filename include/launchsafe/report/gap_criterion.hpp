@@ -1,0 +1,47 @@
+// The criterion under which a user recommends a largest gap. None is built in.
+#pragma once
+
+#include "launchsafe/scene/input_error.hpp"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace launchsafe::report {
+
+/// A row of a verdict table, as far as a criterion asks.
+struct JudgedGap {
+  double gap = 0;  ///< cm
+  bool safe = false;
+  double margin = 0;                                           ///< K, ignition temperature minus T max
+  double uncertainty = 0;                                      ///< K, of the margin
+  double distance = std::numeric_limits<double>::quiet_NaN();  ///< cm, to the critical gap; NaN without one
+  double distance_uncertainty = std::numeric_limits<double>::quiet_NaN();  ///< cm, of the critical gap
+};
+
+/// Conditions that a gap must meet besides the verdict SAFE.
+struct GapCriterion {
+  enum class Of { margin, distance };
+  struct Condition {
+    Of of = Of::margin;
+    double least = 0;  ///< times the uncertainty; or K, cm
+    bool times_uncertainty = false;
+  };
+  std::string text;    ///< as the user wrote it
+  std::string source;  ///< who asks for it
+  std::vector<Condition> conditions;
+
+  bool met_by(const JudgedGap& row) const;
+};
+
+/// Reads "margin >= 2 uncertainty", "margin >= 20 K", "distance >= 0.01 cm", "distance >= 1 uncertainty", or
+/// several of them with "and" between. Margins are in K, distances are those to the critical gap in cm (or
+/// mm). Numbers must be positive; one uncertainty is part of SAFE already, so fewer are refused. Errors: any
+/// other text, no source.
+scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std::string& source);
+
+/// The place of the largest computed gap that meets the criterion together with every smaller computed one;
+/// `rows.size()` where there is none. Only gaps that were computed count: nothing is interpolated.
+std::size_t largest_gap_under(const GapCriterion& criterion, const std::vector<JudgedGap>& rows);
+
+}  // namespace launchsafe::report

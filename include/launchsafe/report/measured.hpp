@@ -1,0 +1,38 @@
+// A value with its uncertainty in digits that mean something. Rounding never makes an allowed gap larger or
+// an uncertainty smaller.
+#pragma once
+
+#include <string>
+
+namespace launchsafe::report {
+
+/// Digits after the point with which an uncertainty (> 0) is told: one significant digit, two where the first
+/// is 1. At least 0.
+int decimals_for(double uncertainty);
+
+/// `value` cut to so many digits after the point, towards minus infinity; what is a decimal number already
+/// stays. Never above `value` by more than round-off.
+double rounded_down(double value, int decimals);
+/// Likewise towards plus infinity.
+double rounded_up(double value, int decimals);
+
+/// As it is printed.
+struct Measured {
+  double value = 0;            ///< rounded down
+  double minus = 0, plus = 0;  ///< rounded up
+  int decimals = 0;
+  double lower() const { return value - minus; }
+  double upper() const { return value + plus; }
+  /// "0.039 ± 0.010 cm", or "0.039 +0.010 −0.012 cm" where the two differ.
+  std::string text(const std::string& unit) const;
+};
+
+/// A value that may be smaller by `minus` and larger by `plus` (both finite, >= 0, not both 0).
+Measured measured(double value, double minus, double plus);
+
+/// `value` rounded down with so many decimals, as text: what is allowed. Never "-0.0".
+std::string allowed_text(double value, int decimals);
+/// `value` rounded up to so many significant digits, as text: what is uncertain. 0 stays 0.
+std::string uncertain_text(double value, int digits = 2);
+
+}  // namespace launchsafe::report

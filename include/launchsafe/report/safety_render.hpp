@@ -1,0 +1,44 @@
+// A safety report as files: a page for a browser, the same in Markdown and JSON, and its figures.
+#pragma once
+
+#include "launchsafe/report/report.hpp"
+#include "launchsafe/report/safety_document.hpp"
+#include "launchsafe/store/result.hpp"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::report {
+
+/// Mustache templates of the pages, and the texts by their names, each a template too.
+struct SafetyTemplates {
+  std::string html, markdown;
+  std::map<std::string, std::string> texts;
+};
+
+/// Names of the files in a folder of templates.
+inline constexpr const char* template_names[] = {"report.html.mustache", "report.md.mustache",
+                                                 "texts.mustache"};
+
+/// Those that are built in.
+SafetyTemplates built_in_templates();
+
+/// Those in a folder; what is not there, files or single texts, stays as it is built in. Errors: missing
+/// (none of the files is there), corrupt (no template: tags that do not fit together, a text without a name).
+store::Result<SafetyTemplates> read_templates(const std::filesystem::path& folder);
+
+struct RenderedReport {
+  std::vector<TextFile> files;       ///< report.html, report.md, report.json, and the figures
+  std::vector<std::string> remarks;  ///< why a figure is missing
+};
+
+/// Draws the figures and fills the templates. Whatever studies say is escaped, so that markup in it is shown.
+/// A figure that gnuplot does not draw is a remark, in the page too. Errors: corrupt (a template that cannot
+/// be rendered).
+store::Result<RenderedReport> render(const SafetyDocument& document, const SafetyTemplates& templates,
+                                     const DrawingLimits& limits = {});
+
+}  // namespace launchsafe::report

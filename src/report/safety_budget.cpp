@@ -1,0 +1,321 @@
+// What the uncertainty is made of, and what holds the results against what others published.
+#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "safety_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace launchsafe::report::safety {
+namespace {
+
+constexpr std::array<const char*, 4> share_names{"computation", "fit", "inputs", "model_form"};
+
+// --- shares ---
+
+Table share_table(const JudgedCase& each) {
+  Table table;
+  table.columns = {significant_column("gap", "cm", 6, "gap_cm"),
+                   named_text("computation", "computation"),
+                   named_text("fit", "fit"),
+                   named_text("inputs", "inputs"),
+                   named_text("model form", "model_form"),
+                   named_text("total", "uncertainty"),
+                   named_text("verdict", "verdict")};
+  for (Column& column : table.columns)
+    if (column.key != "verdict" && column.key != "gap_cm") {
+      column.unit = "K";
+      column.alignment = Alignment::right;
+    }
+  for (const Row* row : each.verdicts) {
+    if (!std::isfinite(number_of(*row, "uncertainty_K"))) continue;
+    std::vector<Cell>& cells = table.rows.emplace_back();
+    cells.emplace_back(number_of(*row, "gap_cm"));
+    for (const Share& share : shares_of(*row)) cells.emplace_back(uncertain_text(share.size));
+    cells.emplace_back(uncertain_text(number_of(*row, "uncertainty_K")));
+    cells.emplace_back(text_of(*row, "verdict"));
+  }
+  return table;
+}
+
+void say_gap_shares(const Subject& subject, const JudgedCase& each, SafetySection& section) {
+  const Row& critical = *each.critical;
+  if (!is_value(critical)) return;
+  const Origin origin = subject.origin("cases", each.label);
+  std::vector<Share> shares;
+  Parts parts{{"case", each.label}};
+  for (const char* name : share_names) {
+    const double size = number_of(critical, fmt::format("critical_gap_uncertainty_of_{}_cm", name));
+    if (!std::isfinite(size)) {
+      section.say("budget.no_gap_shares", {{"command", subject.study.command()}}, origin);
+      return;
+    }
+    shares.push_back({name, size});
+    parts[name] = part(uncertain_text(size) + " cm", size, "cm");
+  }
+  const Share& largest = largest_of(shares);
+  parts["largest"] = {{largest.name, true}, {"size", uncertain_text(largest.size) + " cm"}};
+  section.say("budget.gap_shares", parts, origin);
+}
+
+// --- numerics ---
+
+void say_accuracy(const StudyEvidence* accuracy, SafetySection& section) {
+  if (accuracy == nullptr || !accuracy->finished()) {
+    section.say("budget.no_accuracy");
+    return;
+  }
+  const Row* own = nullptr;
+  for (const Row& row : accuracy->rows("settings"))
+    if (text_of(row, "remark").find("the scene as it is") != std::string::npos) own = &row;
+  if (own != nullptr) {
+    const double bound = number_of(*own, "temperature_bound_K"),
+                 gap = number_of(*own, "critical_gap_bound_cm");
+    section.say("budget.accuracy",
+                {{"setting", text_of(*own, "setting")},
+                 {"bound", part(uncertain_text(bound) + " K", bound, "K")},
+                 {"gap", part(uncertain_text(gap) + " cm", gap, "cm")}},
+                origin_of(*accuracy, "settings", text_of(*own, "setting")));
+  }
+  Table table;
+  std::vector<std::string> meshes;
+  table.columns = {named_text("quantity", "quantity"), named_text("unit", "unit")};
+  const Row& rows = accuracy->rows("reference");
+  if (rows.empty()) return;
+  for (const auto& [key, value] : rows.front().items())
+    if (key.starts_with("cells_")) meshes.push_back(key);
+  std::sort(meshes.begin(), meshes.end(), [](const std::string& a, const std::string& b) {
+    return std::strtod(a.c_str() + 6, nullptr) < std::strtod(b.c_str() + 6, nullptr);
+  });
+  for (const std::string& mesh : meshes) {
+    std::string name = mesh.substr(6);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    table.columns.push_back(significant_column(name, "", 5, mesh));
+  }
+  append(table.columns, {significant_column("uncertainty of the limit", "", 2, "uncertainty"),
+                         named_text("method", "method")});
+  for (const Row& row : rows) {
+    std::vector<Cell>& cells = table.rows.emplace_back();
+    cells.insert(cells.end(), {text_of(row, "quantity"), text_of(row, "unit")});
+    for (const std::string& mesh : meshes) cells.emplace_back(optional_number(number_of(row, mesh)));
+    cells.insert(cells.end(), {optional_number(number_of(row, "uncertainty")), text_of(row, "method")});
+  }
+  section.blocks.push_back(SaidTable{"meshes", std::move(table), origin_of(*accuracy, "reference")});
+}
+
+// --- inputs ---
+
+void say_sensitivity(const StudyEvidence* sensitivity, SafetySection& section) {
+  if (sensitivity == nullptr || !sensitivity->finished()) {
+    section.say("budget.no_sensitivity");
+    return;
+  }
+  Table table;
+  table.columns = {named_text("input", "input"),
+                   named_text("distribution", "distribution"),
+                   significant_column("first order", "", 2, "first_order"),
+                   named_text("interval", "first_order_interval"),
+                   significant_column("total order", "", 2, "total_order"),
+                   named_text("interval", "total_order_interval")};
+  const Row* largest = nullptr;
+  bool below_first = false;
+  const auto interval = [](const Row& row, const std::string& order) {
+    return fmt::format("{} to {}", significant(number_of(row, order + "_lower"), 2),
+                       significant(number_of(row, order + "_upper"), 2));
+  };
+  for (const Row& row : sensitivity->rows("indices")) {
+    if (text_of(row, "output") != "critical_gap" || !std::isfinite(number_of(row, "total_order"))) continue;
+    table.rows.push_back({text_of(row, "input"), text_of(row, "distribution"), number_of(row, "first_order"),
+                          interval(row, "first_order"), number_of(row, "total_order"),
+                          interval(row, "total_order")});
+    below_first = below_first || number_of(row, "total_order") < number_of(row, "first_order");
+    if (largest == nullptr || number_of(row, "total_order") > number_of(*largest, "total_order"))
+      largest = &row;
+  }
+  const Origin origin = origin_of(*sensitivity, "indices");
+  if (largest == nullptr) {
+    section.say("budget.no_indices", {}, origin);
+    return;
+  }
+  section.say("budget.sensitivity",
+              {{"input", text_of(*largest, "input")},
+               {"share", significant(100 * number_of(*largest, "total_order"), 2) + " %"}},
+              origin);
+  section.blocks.push_back(SaidTable{"indices", std::move(table), origin});
+  if (below_first) section.say("budget.total_below_first", {}, origin);
+}
+
+// --- model form ---
+
+/// MPa, the pressure of a comparison that is nearest to the load's peak.
+double nearest_pressure(const StudyEvidence& comparison, double peak) {
+  double nearest = std::nan("");
+  for (const Row& row : comparison.rows("cases")) {
+    const double pressure = number_of(row, "peak_pressure_MPa");
+    if (!(std::abs(pressure - peak) >= std::abs(nearest - peak))) nearest = pressure;
+  }
+  return nearest;
+}
+
+std::string counts_as(const StudyEvidence& comparison, const std::string& variant) {
+  for (const Row& row : comparison.rows("models"))
+    if (text_of(row, "model") == variant) return text_of(row, "counts_as");
+  return {};
+}
+
+/// Critical gaps under each model, a bar each.
+Plot model_plot(const std::vector<const Row*>& rows, const std::string& pressure) {
+  Plot plot;
+  plot.title = "Critical gap under each model";
+  plot.subtitle = pressure;
+  plot.x = {.label = "critical gap with its uncertainty [cm]", .minimum = 0.0};
+  plot.height = 150 + 34 * static_cast<int>(rows.size());
+  Series series{.label = "", .x = {}, .y = {}, .style = Style::horizontal_bars, .colour = 0};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double gap = number_of(*rows[i], "critical_gap_cm"),
+                 u = number_of(*rows[i], "critical_gap_uncertainty_cm");
+    const double place = static_cast<double>(rows.size() - i);
+    const std::string name = text_of(*rows[i], "variant");
+    plot.y.tics.push_back(
+        {place, is_value(*rows[i]) ? name : name + ", " + text_of(*rows[i], "critical_gap_reads_as")});
+    if (!is_value(*rows[i])) continue;
+    series.x.push_back(gap);
+    series.y.push_back(place);
+    series.lower.push_back(std::isfinite(u) ? std::max(0.0, gap - u) : gap);
+    series.upper.push_back(std::isfinite(u) ? gap + u : gap);
+  }
+  plot.y.minimum = 0.4;
+  plot.y.maximum = static_cast<double>(rows.size()) + 0.6;
+  plot.series = {std::move(series)};
+  return plot;
+}
+
+void say_models(const Subject& subject, SafetySection& section) {
+  const StudyEvidence* comparison = subject.evidence.find("comparison");
+  if (comparison == nullptr || !comparison->finished()) {
+    section.say("budget.no_comparison");
+    return;
+  }
+  const double pressure = nearest_pressure(*comparison, 1e-6 * subject.scene().load.peak);
+  const bool with_pressure = std::isfinite(pressure);
+  std::vector<const Row*> rows;
+  for (const Row& row : comparison->rows("cases"))
+    if (!with_pressure || number_of(row, "peak_pressure_MPa") == pressure) rows.push_back(&row);
+  const std::string place = with_pressure ? significant(pressure, 4) + " MPa" : "";
+  const Origin origin = origin_of(*comparison, "cases", place);
+  Table table;
+  table.columns = {named_text("model", "variant"), named_text("critical gap", "critical_gap"),
+                   named_text("counts as", "counts_as"), named_text("reason", "reason")};
+  const Row* lowest = nullptr;
+  for (const Row& row : comparison->rows("cases"))
+    if (number_of(row, "critical_gap_difference_cm") <
+        (lowest ? number_of(*lowest, "critical_gap_difference_cm") : 0.0))
+      lowest = &row;
+  for (const Row* row : rows) {
+    const auto gap = measured_gap(*row);
+    table.rows.push_back({text_of(*row, "variant"),
+                          gap ? gap->text("cm") : text_of(*row, "critical_gap_reads_as"),
+                          counts_as(*comparison, text_of(*row, "variant")), text_of(*row, "reason")});
+  }
+  Parts parts{{"place", place}, {"count", rows.size()}};
+  if (lowest != nullptr)
+    parts["lowest"] = {{"model", text_of(*lowest, "variant")},
+                       {"by", uncertain_text(-number_of(*lowest, "critical_gap_difference_cm")) + " cm"},
+                       {"at", significant(number_of(*lowest, "peak_pressure_MPa"), 4) + " MPa"}};
+  section.say("budget.models", parts, origin);
+  if (std::any_of(rows.begin(), rows.end(), [](const Row* row) { return is_value(*row); }))
+    section.blocks.push_back(SaidFigure{"models", "models.svg", model_plot(rows, place), parts, origin});
+  section.blocks.push_back(SaidTable{"models", std::move(table), origin});
+}
+
+// --- published results ---
+
+Table published_table(const Subject& subject) {
+  Table table;
+  table.columns = {significant_column("gap", "cm", 6, "gap_cm"),
+                   named_text("used for", "used_for"),
+                   number_column("computed", "K", 1, "temperature_max_K"),
+                   number_column("published", "K", 1, "temperature_max_published_K"),
+                   number_column("difference", "K", 1, "temperature_max_computed_minus_published_K"),
+                   named_text("used for, early", "temperature_early_used_for"),
+                   number_column("computed, early", "K", 1, "temperature_early_K"),
+                   number_column("published, early", "K", 1, "temperature_early_published_K"),
+                   number_column("ignition", "ms", 2, "ignition_time_ms"),
+                   number_column("published", "ms", 2, "ignition_time_published_ms")};
+  for (const Row& row : subject.study.rows("comparison")) {
+    std::vector<Cell>& cells = table.rows.emplace_back();
+    for (const Column& column : table.columns)
+      cells.push_back(column.key.find("used_for") != std::string::npos
+                          ? Cell(text_of(row, column.key))
+                          : optional_number(number_of(row, column.key)));
+  }
+  return table;
+}
+
+Table limit_table(const Subject& subject) {
+  Table table;
+  table.columns = {significant_column("cited limit", "cm", 4, "limit_cm"),
+                   significant_column("at", "MPa", 4, "limit_peak_pressure_MPa"),
+                   named_text("source", "source"),
+                   named_text("nearest case", "case"),
+                   named_text("computed", "critical_gap_reads_as"),
+                   significant_column("computed less cited", "cm", 2, "difference_cm")};
+  for (const Row& row : subject.study.rows("cited_limits"))
+    table.rows.push_back({number_of(row, "limit_cm"),
+                          optional_number(number_of(row, "limit_peak_pressure_MPa")), text_of(row, "source"),
+                          text_of(row, "case"), text_of(row, "critical_gap_reads_as"),
+                          optional_number(number_of(row, "difference_cm"))});
+  return table;
+}
+
+}  // namespace
+
+SafetySection budget_section(const Subject& subject) {
+  SafetySection section{"budget"};
+  if (const JudgedCase* own = subject.own_case()) {
+    say_gap_shares(subject, *own, section);
+    Table table = share_table(*own);
+    if (!table.rows.empty()) {
+      section.say("budget.shares", {{"case", own->label}});
+      section.blocks.push_back(SaidTable{"shares", std::move(table), subject.origin("verdicts", own->label)});
+    }
+  } else {
+    section.say("budget.none");
+  }
+  say_accuracy(subject.evidence.find("accuracy"), section);
+  say_sensitivity(subject.evidence.find("sensitivity"), section);
+  say_models(subject, section);
+  return section;
+}
+
+SafetySection published_section(const Subject& subject) {
+  SafetySection section{"published"};
+  Table published = published_table(subject);
+  Parts parts{{"rows", published.rows.size()}, {"calibration", 0}, {"held_out", 0}};
+  double worst = 0;
+  for (const Row& row : subject.study.rows("comparison")) {
+    const std::string used = text_of(row, "used_for");
+    if (used == "calibration") parts["calibration"] = parts["calibration"].get<int>() + 1;
+    if (used != "held out") continue;
+    parts["held_out"] = parts["held_out"].get<int>() + 1;
+    const double misfit = std::abs(number_of(row, "temperature_max_computed_minus_published_K"));
+    if (misfit > worst) worst = misfit;
+  }
+  parts["worst"] = part(uncertain_text(worst) + " K", worst, "K");
+  if (published.rows.empty()) {
+    section.say("published.none", {}, subject.origin("comparison"));
+  } else {
+    section.blocks.push_back(SaidTable{"published", std::move(published), subject.origin("comparison")});
+    section.say("published.conclusion", parts, subject.origin("comparison"));
+  }
+  if (Table limits = limit_table(subject); !limits.rows.empty()) {
+    section.say("published.limits", {}, subject.origin("cited_limits"));
+    section.blocks.push_back(SaidTable{"limits", std::move(limits), subject.origin("cited_limits")});
+  }
+  return section;
+}
+
+}  // namespace launchsafe::report::safety

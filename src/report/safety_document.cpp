@@ -1,0 +1,184 @@
+#include "launchsafe/report/safety_document.hpp"
+
+#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "safety_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace launchsafe::report {
+
+Parts part(std::string text, double value, std::string unit) {
+  Parts number{{"text", std::move(text)}, {"value", nullptr}, {"unit", std::move(unit)}};
+  if (std::isfinite(value)) number["value"] = value;
+  return number;
+}
+
+std::string to_string(Look look) {
+  switch (look) {
+    case Look::lead:
+      return "lead";
+    case Look::item:
+      return "item";
+    case Look::code:
+      return "code";
+    case Look::plain:
+      break;
+  }
+  return "plain";
+}
+
+namespace safety {
+
+std::string text_of(const Row& row, const std::string& key) {
+  const auto found = row.find(key);
+  return found != row.end() && found->is_string() ? found->get<std::string>() : std::string{};
+}
+
+double number_of(const Row& row, const std::string& key) {
+  const auto found = row.find(key);
+  return found != row.end() && found->is_number() ? found->get<double>() : std::nan("");
+}
+
+Origin origin_of(const StudyEvidence& study, std::string of, std::string setting) {
+  return {study.label, std::move(of), std::move(setting)};
+}
+
+Origin Subject::origin(std::string of, std::string setting) const {
+  return origin_of(study, std::move(of), std::move(setting));
+}
+
+namespace {
+
+bool of_one_launch(const Row& one, const Row& other) {
+  for (const char* key : {"peak_pressure_MPa", "crack_radius_um", "flaw_size_mm"})
+    if (number_of(one, key) != number_of(other, key)) return false;
+  return true;
+}
+
+JudgedGap judged(const Row& row, const Row& critical) {
+  JudgedGap gap{.gap = number_of(row, "gap_cm"),
+                .safe = text_of(row, "verdict") == "SAFE",
+                .margin = number_of(row, "margin_K"),
+                .uncertainty = number_of(row, "uncertainty_K")};
+  if (is_value(critical)) {
+    gap.distance = number_of(critical, "critical_gap_lower_cm") - gap.gap;
+    gap.distance_uncertainty = number_of(critical, "critical_gap_uncertainty_cm");
+  }
+  return gap;
+}
+
+/// Verdicts stand case after case, in the order of the cases.
+std::vector<JudgedCase> judged_cases(const StudyEvidence& study) {
+  std::vector<JudgedCase> cases;
+  const Row& criticals = study.rows("cases");
+  const Row* before = nullptr;
+  for (const Row& row : study.rows("verdicts")) {
+    if (before == nullptr || !of_one_launch(*before, row)) {
+      if (cases.size() == criticals.size()) break;
+      const Row& critical = criticals[cases.size()];
+      cases.push_back({text_of(critical, "case"), &critical, {}, {}});
+    }
+    cases.back().verdicts.push_back(&row);
+    cases.back().gaps.push_back(judged(row, *cases.back().critical));
+    before = &row;
+  }
+  return cases;
+}
+
+}  // namespace
+
+Subject subject_of(const SafetyEvidence& evidence, const std::optional<GapCriterion>& criterion) {
+  const StudyEvidence& study = evidence.main();
+  return {evidence, study, study.kind == "critical-gap" ? judged_cases(study) : std::vector<JudgedCase>{},
+          criterion};
+}
+
+const JudgedCase* Subject::own_case() const {
+  if (cases.empty()) return nullptr;
+  const auto own = std::find_if(cases.begin(), cases.end(), [&](const JudgedCase& each) {
+    const Row& row = *each.verdicts.front();
+    const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); };
+    return same(number_of(row, "peak_pressure_MPa"), 1e-6 * scene().load.peak) &&
+           same(number_of(row, "crack_radius_um"), 1e6 * scene().charge().strength.initial_crack_radius) &&
+           same(number_of(row, "flaw_size_mm"), 1e3 * scene().charge().strength.flaw_size);
+  });
+  return own != cases.end() ? &*own : &cases.front();
+}
+
+bool is_value(const Row& critical) { return text_of(critical, "critical_gap_kind") == "value"; }
+
+std::optional<Measured> measured_gap(const Row& critical) {
+  const double value = number_of(critical, "critical_gap_cm");
+  const double total = number_of(critical, "critical_gap_uncertainty_cm");
+  if (!is_value(critical) || !std::isfinite(value) || !(total > 0.0)) return std::nullopt;
+  const double model_form = number_of(critical, "critical_gap_uncertainty_of_model_form_cm");
+  // Other models count on the side towards ignition only.
+  const double plus = std::isfinite(model_form) ? total - model_form : total;
+  return measured(value, total, plus);
+}
+
+std::vector<Share> shares_of(const Row& verdict) {
+  std::vector<Share> shares;
+  for (const char* name : {"computation", "fit", "inputs", "model_form"}) {
+    const double size = number_of(verdict, fmt::format("uncertainty_of_{}_K", name));
+    shares.push_back({name, std::isfinite(size) ? size : 0.0});
+  }
+  return shares;
+}
+
+const Share& largest_of(const std::vector<Share>& shares) {
+  return *std::max_element(shares.begin(), shares.end(),
+                           [](const Share& a, const Share& b) { return a.size < b.size; });
+}
+
+Table verdict_table(const std::vector<const JudgedCase*>& cases) {
+  Table table;
+  if (cases.size() > 1) table.columns.push_back(named_text("case", "case"));
+  append(table.columns, {significant_column("gap", "cm", 6, "gap_cm"), named_text("verdict", "verdict"),
+                         number_column("T max", "K", 0, "temperature_max_K"),
+                         significant_column("margin", "K", 6, "margin_K"),
+                         significant_column("uncertainty", "K", 6, "uncertainty_K"),
+                         number_column("margin over uncertainty", "", 1, "margin_over_uncertainty"),
+                         number_column("distance", "cm", 3, "distance_cm"), named_text("reason", "reason")});
+  for (const JudgedCase* each : cases) {
+    for (std::size_t i = 0; i < each->verdicts.size(); ++i) {
+      const Row& row = *each->verdicts[i];
+      const JudgedGap& gap = each->gaps[i];
+      std::vector<Cell>& cells = table.rows.emplace_back();
+      if (cases.size() > 1) cells.emplace_back(each->label);
+      const int decimals = decimals_for(gap.uncertainty);
+      const auto down = [](double value, int places) {
+        return std::isfinite(value) ? Cell(rounded_down(value, places)) : Cell();
+      };
+      // After ignition T max is that of the burning skin, and a margin says nothing.
+      const bool ignited = !text_of(row, "ignition_cause").empty();
+      const bool known = std::isfinite(gap.uncertainty);
+      cells.insert(cells.end(),
+                   {gap.gap, text_of(row, "verdict"), optional_number(number_of(row, "temperature_max_K")),
+                    ignited ? Cell() : down(gap.margin, decimals),
+                    known ? Cell(rounded_up(gap.uncertainty, decimals)) : Cell(),
+                    gap.uncertainty > 0 && !ignited ? down(gap.margin / gap.uncertainty, 1) : Cell(),
+                    down(gap.distance, 3), text_of(row, "reason")});
+    }
+  }
+  return table;
+}
+
+}  // namespace safety
+
+SafetyDocument make_safety_document(const SafetyEvidence& evidence,
+                                    const std::optional<GapCriterion>& criterion) {
+  using namespace safety;
+  const Subject subject = subject_of(evidence, criterion);
+  return {.title = subject.study.title,
+          .subject = subject.scene().title,
+          .answer = answer_parts(subject),
+          .sections = {answer_section(subject), gap_section(subject), scene_section(subject),
+                       place_section(subject), fit_section(subject), budget_section(subject),
+                       published_section(subject), validity_section(subject)}};
+}
+
+}  // namespace launchsafe::report

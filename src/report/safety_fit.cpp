@@ -1,0 +1,200 @@
+// The fit of T max against gap: coefficients, residuals, what each row says of the others, and what curves
+// other than a straight line would change.
+#include "launchsafe/math/statistics.hpp"
+#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "safety_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace launchsafe::report::safety {
+namespace {
+
+/// Regressors of a curve at a gap (cm).
+struct Curve {
+  std::string name;  ///< of its text
+  std::function<std::vector<double>(double)> at;
+};
+
+/// The rows that do not ignite.
+struct Data {
+  std::vector<double> gaps, temperatures;  ///< cm, K
+};
+
+Data data_of(const JudgedCase& each) {
+  Data data;
+  for (const Row* row : each.verdicts) {
+    const double temperature = number_of(*row, "temperature_max_K");
+    if (!text_of(*row, "ignition_cause").empty() || !std::isfinite(temperature)) continue;
+    data.gaps.push_back(number_of(*row, "gap_cm"));
+    data.temperatures.push_back(temperature);
+  }
+  return data;
+}
+
+std::optional<math::LeastSquares> fitted(const Curve& curve, const Data& data,
+                                         std::optional<std::size_t> without = {}) {
+  std::vector<std::vector<double>> rows;
+  std::vector<double> temperatures;
+  for (std::size_t i = 0; i < data.gaps.size(); ++i) {
+    if (i == without) continue;
+    rows.push_back(curve.at(data.gaps[i]));
+    temperatures.push_back(data.temperatures[i]);
+  }
+  return math::least_squares(rows, temperatures);
+}
+
+/// K, each row less what the others predict for it; NaN where they are too few.
+std::vector<double> left_out_errors(const Curve& curve, const Data& data) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < data.gaps.size(); ++i) {
+    const auto others = fitted(curve, data, i);
+    errors.push_back(others ? data.temperatures[i] - others->at(curve.at(data.gaps[i])) : std::nan(""));
+  }
+  return errors;
+}
+
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return values.empty() ? std::nan("") : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// Hurvich & Tsai, Biometrika 76 (1989); NaN where there are too few rows for it.
+double corrected_akaike(const math::LeastSquares& fit) {
+  const double n = static_cast<double>(fit.residuals.size());
+  const double k = static_cast<double>(fit.coefficients.size()) + 1;
+  double sum = 0;
+  for (const double residual : fit.residuals) sum += residual * residual;
+  return n - k - 1 > 0 ? n * std::log(sum / n) + 2 * k + 2 * k * (k + 1) / (n - k - 1) : std::nan("");
+}
+
+/// The straight line, a parabola, and the line with the heat of reaction of a skin at the line's temperature,
+/// relative to that at ignition.
+std::vector<Curve> curves_of(const Subject& subject, const math::LeastSquares& line) {
+  const double activation = subject.scene().charge().kinetics.activation_temperature;
+  const double ignition = subject.scene().charge().kinetics.ignition_temperature;
+  return {{"linear", [](double gap) { return math::polynomial_row(gap, 1); }},
+          {"quadratic", [](double gap) { return math::polynomial_row(gap, 2); }},
+          {"arrhenius", [line, activation, ignition](double gap) {
+             std::vector<double> row = math::polynomial_row(gap, 1);
+             row.push_back(std::exp(activation * (1.0 / ignition - 1.0 / line.at(row))));
+             return row;
+           }}};
+}
+
+struct Comparison {
+  Table table;
+  std::string best;
+  double best_error = std::nan("");
+};
+
+Comparison compare_curves(const std::vector<Curve>& curves, const Data& data) {
+  Comparison comparison;
+  comparison.table.columns = {named_text("curve", "curve"), count_column("coefficients", "coefficients"),
+                              significant_column("RMS of residuals", "K", 2, "rms_K"),
+                              significant_column("RMS left out", "K", 2, "left_out_rms_K"),
+                              significant_column("AICc", "", 3, "aicc")};
+  for (const Curve& curve : curves) {
+    const auto fit = fitted(curve, data);
+    if (!fit) continue;
+    const double error = root_mean_square(left_out_errors(curve, data));
+    comparison.table.rows.push_back({curve.name, static_cast<std::int64_t>(fit->coefficients.size()),
+                                     root_mean_square(fit->residuals), optional_number(error),
+                                     optional_number(corrected_akaike(*fit))});
+    if (std::isfinite(error) && !(error >= comparison.best_error)) {
+      comparison.best = curve.name;
+      comparison.best_error = error;
+    }
+  }
+  return comparison;
+}
+
+Table residual_table(const Data& data, const math::LeastSquares& line, const std::vector<double>& left_out) {
+  Table table;
+  table.columns = {
+      significant_column("gap", "cm", 6, "gap_cm"), number_column("T max", "K", 1, "temperature_max_K"),
+      number_column("on the line", "K", 1, "line_K"), number_column("residual", "K", 2, "residual_K"),
+      number_column("less what the others predict", "K", 2, "left_out_K")};
+  for (std::size_t i = 0; i < data.gaps.size(); ++i)
+    table.rows.push_back({data.gaps[i], data.temperatures[i], data.temperatures[i] - line.residuals[i],
+                          line.residuals[i], optional_number(left_out[i])});
+  return table;
+}
+
+Parts signed_part(double value, double error, const std::string& unit) {
+  if (!(error > 0.0)) return part(significant(value, 4) + " " + unit, value, unit);
+  const int decimals = decimals_for(error);
+  return part(
+      fmt::format("{} ± {} {}", fixed(value, decimals), fixed(rounded_up(error, decimals), decimals), unit),
+      value, unit);
+}
+
+/// The gap at which the line reaches the ignition temperature, beside that of the bisection.
+void say_inverse(const Subject& subject, const JudgedCase& each, const math::LeastSquares& line,
+                 SafetySection& section) {
+  const double slope = line.coefficients[1],
+               ignition = subject.scene().charge().kinetics.ignition_temperature;
+  if (!(slope > 0.0)) return;
+  const double gap = (ignition - line.coefficients[0]) / slope;
+  constexpr double level = 0.95;
+  const double half = line.degrees_of_freedom > 0
+                          ? line.prediction_half_width(math::polynomial_row(gap, 1), level) / slope
+                          : std::nan("");
+  const double computed = number_of(*each.critical, "critical_gap_cm");
+  Parts parts{{"ignition", fixed(ignition, 1) + " K"}};
+  parts["gap"] = half > 0 ? part(measured(gap, half, half).text("cm"), gap, "cm")
+                          : part(significant(gap, 3) + " cm", gap, "cm");
+  if (is_value(*each.critical)) {
+    parts["computed"] = part(significant(computed, 4) + " cm", computed, "cm");
+    parts["difference"] = part(significant(gap - computed, 2) + " cm", gap - computed, "cm");
+  }
+  section.say("fit.inverse", parts, subject.origin("fit, cases", each.label));
+}
+
+void say_fit(const Subject& subject, const JudgedCase& each, SafetySection& section) {
+  const Data data = data_of(each);
+  const auto line = math::fit_line(data.gaps, data.temperatures);
+  const Origin origin = subject.origin("verdicts", each.label);
+  constexpr std::size_t fewest_rows = 3;
+  if (!line || data.gaps.size() < fewest_rows) {
+    section.say("fit.too_few", {{"case", each.label}, {"rows", data.gaps.size()}}, origin);
+    return;
+  }
+  section.say(
+      "fit.line",
+      {{"case", each.label},
+       {"rows", data.gaps.size()},
+       {"slope", signed_part(line->coefficients[1], line->standard_errors[1], "K/cm")},
+       {"intercept", signed_part(line->coefficients[0], line->standard_errors[0], "K")},
+       {"deviation", part(uncertain_text(line->residual_deviation) + " K", line->residual_deviation, "K")}},
+      origin);
+  const std::vector<Curve> curves = curves_of(subject, *line);
+  const std::vector<double> left_out = left_out_errors(curves.front(), data);
+  section.blocks.push_back(SaidTable{"residuals", residual_table(data, *line, left_out), origin});
+  section.say("fit.lack_of_fit", {}, origin);
+  say_inverse(subject, each, *line, section);
+  const Comparison comparison = compare_curves(curves, data);
+  section.blocks.push_back(SaidTable{"curves", comparison.table, origin});
+  Parts parts{{"rows", data.gaps.size()}};
+  if (!comparison.best.empty()) parts[comparison.best] = true;
+  parts["error"] = part(significant(comparison.best_error, 2) + " K", comparison.best_error, "K");
+  section.say(comparison.best.empty() ? "fit.no_evidence" : "fit.evidence", parts, origin);
+}
+
+}  // namespace
+
+SafetySection fit_section(const Subject& subject) {
+  SafetySection section{"fit"};
+  if (subject.cases.empty()) section.say("fit.none");
+  // The others have the same shape; one table each would bury the answer.
+  if (const JudgedCase* own = subject.own_case()) say_fit(subject, *own, section);
+  if (subject.cases.size() > 1)
+    section.say("fit.others", {{"cases", subject.cases.size()}}, subject.origin("fit"));
+  return section;
+}
+
+}  // namespace launchsafe::report::safety

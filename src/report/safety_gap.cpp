@@ -1,0 +1,270 @@
+// T max against gap, and the safe envelope over what a sweep varies.
+#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/study/fit.hpp"
+#include "safety_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace launchsafe::report::safety {
+namespace {
+
+constexpr double band_level = 0.95;
+
+/// The rows that do not ignite, of which T max is a function that a line can follow.
+struct Inert {
+  std::vector<double> gap_cm, temperature;
+};
+Inert inert_rows(const JudgedCase& each) {
+  Inert rows;
+  for (const Row* row : each.verdicts) {
+    const double temperature = number_of(*row, "temperature_max_K");
+    if (!text_of(*row, "ignition_cause").empty() || !std::isfinite(temperature)) continue;
+    rows.gap_cm.push_back(number_of(*row, "gap_cm"));
+    rows.temperature.push_back(temperature);
+  }
+  return rows;
+}
+
+Series points_series(std::string label, Mark mark, int colour) {
+  return {
+      .label = std::move(label), .x = {}, .y = {}, .style = Style::points, .colour = colour, .mark = mark};
+}
+
+void add_computed(const JudgedCase& each, Plot& plot) {
+  Series safe{.label = "computed, with uncertainty",
+              .x = {},
+              .y = {},
+              .style = Style::vertical_bars,
+              .colour = 6,
+              .mark = Mark::circle};
+  Series ignited = points_series("ignites: T max without reaction", Mark::cross, 1);
+  for (const Row* row : each.verdicts) {
+    const double gap = number_of(*row, "gap_cm");
+    if (!text_of(*row, "ignition_cause").empty()) {
+      ignited.x.push_back(gap);
+      ignited.y.push_back(number_of(*row, "temperature_max_inert_K"));
+      continue;
+    }
+    const double temperature = number_of(*row, "temperature_max_K"), u = number_of(*row, "uncertainty_K");
+    safe.x.push_back(gap);
+    safe.y.push_back(temperature);
+    safe.lower.push_back(temperature - u);
+    safe.upper.push_back(temperature + u);
+  }
+  plot.series.push_back(std::move(safe));
+  if (!ignited.x.empty()) plot.series.push_back(std::move(ignited));
+}
+
+void add_fit(const JudgedCase& each, Plot& plot) {
+  const Inert rows = inert_rows(each);
+  const auto fit = math::fit_line(rows.gap_cm, rows.temperature);
+  if (!fit) return;
+  double end = 0;
+  for (const Row* row : each.verdicts) end = std::max(end, number_of(*row, "gap_cm"));
+  Series line{.label = "straight line through them", .x = {}, .y = {}, .style = Style::line, .colour = 7};
+  Series above{.label = "its band, 95 % at every gap at once",
+               .x = {},
+               .y = {},
+               .style = Style::dashed_line,
+               .colour = 7};
+  Series below = above;
+  below.label.clear();
+  constexpr int parts = 40;
+  for (int i = 0; i <= parts; ++i) {
+    const double gap = end * i / parts;
+    const std::vector<double> at = math::polynomial_row(gap, 1);
+    const double middle = fit->at(at);
+    const double half = fit->degrees_of_freedom > 0 ? fit->simultaneous_half_width(at, band_level) : 0.0;
+    line.x.push_back(gap);
+    line.y.push_back(middle);
+    above.x.push_back(gap);
+    above.y.push_back(middle + half);
+    below.x.push_back(gap);
+    below.y.push_back(middle - half);
+  }
+  plot.series.push_back(std::move(line));
+  if (fit->degrees_of_freedom > 0) {
+    plot.series.push_back(std::move(above));
+    plot.series.push_back(std::move(below));
+  }
+}
+
+void add_published(const Subject& subject, const JudgedCase& each, Plot& plot) {
+  if (&each != subject.own_case()) return;
+  Series calibrated = points_series("published, calibrated to", Mark::open_square, 0);
+  Series selection = points_series("published, chose the model", Mark::open_triangle, 2);
+  Series held_out = points_series("published, held out", Mark::open_circle, 1);
+  for (const Row& row : subject.study.rows("comparison")) {
+    const double published = number_of(row, "temperature_max_published_K");
+    if (!std::isfinite(number_of(row, "temperature_max_computed_minus_published_K"))) continue;
+    const std::string used = text_of(row, "used_for");
+    Series& series = used == "calibration" ? calibrated : used == "selection" ? selection : held_out;
+    series.x.push_back(number_of(row, "gap_cm"));
+    series.y.push_back(published);
+  }
+  for (Series* series : {&calibrated, &selection, &held_out})
+    if (!series->x.empty()) plot.series.push_back(std::move(*series));
+}
+
+Plot temperature_plot(const Subject& subject, const JudgedCase& each) {
+  Plot plot;
+  plot.title = "Highest temperature of the charge's bottom against gap";
+  plot.subtitle = each.label;
+  plot.x.label = "gap [cm]";
+  plot.y.label = "T max [K]";
+  plot.width = 860;
+  add_computed(each, plot);
+  add_fit(each, plot);
+  add_published(subject, each, plot);
+  if (const auto gap = measured_gap(*each.critical)) {
+    plot.vertical_lines = {{std::max(0.0, gap->lower()), "interval of the critical gap: " + gap->text("cm")},
+                           {gap->upper(), ""}};
+  }
+  const double ignition = subject.scene().charge().kinetics.ignition_temperature;
+  plot.horizontal_lines = {{ignition, fmt::format("ignition temperature, {} K", fixed(ignition, 1))}};
+  return plot;
+}
+
+// --- the sweep ---
+
+struct SweepAxis {
+  std::string name, key, unit;
+};
+std::vector<SweepAxis> axes_of(const StudyEvidence& sweep) {
+  std::vector<SweepAxis> axes;
+  for (const Row& row : sweep.rows("axes"))
+    if (text_of(row, "key") != "gap_cm" && row.contains("values") && row["values"].size() > 1)
+      axes.push_back({text_of(row, "name"), text_of(row, "key"), text_of(row, "unit")});
+  return axes;
+}
+
+std::string with_unit(const SweepAxis& axis) {
+  std::string name = axis.name;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return axis.unit.empty() ? name : fmt::format("{} [{}]", name, axis.unit);
+}
+
+/// cm: up to where no ignition is to be expected even at the end of the uncertainty; 0 where no gap is safe.
+double envelope_of(const Row& row) {
+  if (text_of(row, "critical_gap_kind") == "all-ignite") return 0.0;
+  const double gap = number_of(row, "critical_gap_cm"), u = number_of(row, "critical_gap_uncertainty_cm");
+  return std::isfinite(gap) && std::isfinite(u) ? std::max(0.0, gap - u) : std::nan("");
+}
+
+/// At most so many values of the second axis have a line of their own, the first and the last among them.
+constexpr std::size_t most_lines = 4;
+
+std::vector<double> shown_values(const StudyEvidence& sweep, const SweepAxis& axis) {
+  std::set<double> values;
+  for (const Row& row : sweep.rows("cases")) values.insert(number_of(row, axis.key));
+  const std::vector<double> all(values.begin(), values.end());
+  if (all.size() <= most_lines) return all;
+  std::vector<double> shown;
+  for (std::size_t i = 0; i < most_lines; ++i) shown.push_back(all[i * (all.size() - 1) / (most_lines - 1)]);
+  return shown;
+}
+
+void add_line(const StudyEvidence& sweep, const std::vector<SweepAxis>& axes, std::optional<double> value,
+              Plot& plot) {
+  const std::string label =
+      value ? fmt::format("{} {}", significant(*value, 4), axes[1].unit) : std::string{};
+  const int colour = static_cast<int>(plot.series.size() / 2);
+  Series critical{
+      .label = fmt::format("critical gap, with uncertainty{}{}", label.empty() ? "" : ", ", label),
+      .x = {},
+      .y = {},
+      .style = Style::vertical_bars,
+      .colour = colour};
+  Series envelope{.label = fmt::format("less its uncertainty{}{}", label.empty() ? "" : ", ", label),
+                  .x = {},
+                  .y = {},
+                  .style = Style::line,
+                  .colour = colour};
+  for (const Row& row : sweep.rows("cases")) {
+    if (value && number_of(row, axes[1].key) != *value) continue;
+    const double x = number_of(row, axes[0].key);
+    envelope.x.push_back(x);
+    envelope.y.push_back(envelope_of(row));
+    if (!is_value(row)) continue;
+    const double gap = number_of(row, "critical_gap_cm"), u = number_of(row, "critical_gap_uncertainty_cm");
+    critical.x.push_back(x);
+    critical.y.push_back(gap);
+    critical.lower.push_back(std::max(0.0, gap - u));
+    critical.upper.push_back(gap + u);
+  }
+  plot.series.push_back(std::move(critical));
+  plot.series.push_back(std::move(envelope));
+}
+
+void say_envelope(const StudyEvidence& sweep, SafetySection& section) {
+  const std::vector<SweepAxis> axes = axes_of(sweep);
+  const Origin origin = origin_of(sweep, "cases");
+  if (axes.empty() || axes.size() > 2) {
+    section.say("envelope.axes", {{"count", axes.size()}}, origin);
+    return;
+  }
+  const std::vector<double> values = axes.size() > 1 ? shown_values(sweep, axes[1]) : std::vector<double>{};
+  Plot plot;
+  plot.title = "Critical gap, and the safe envelope below it";
+  plot.x.label = with_unit(axes[0]);
+  plot.y = {.label = "gap [cm]", .minimum = 0.0};
+  plot.width = 860;
+  // One value with its bars: several on top of each other would hide each other.
+  std::vector<Series> envelopes;
+  for (std::size_t i = 0; i < std::max<std::size_t>(values.size(), 1); ++i) {
+    const auto value = values.empty() ? std::nullopt : std::optional(values[i]);
+    Plot one;
+    add_line(sweep, axes, value, one);
+    one.series[1].colour = static_cast<int>(i == 0 ? 0 : i);
+    one.series[1].style = i == 0 ? Style::line : Style::line_and_points;
+    if (i == 0) plot.series.push_back(std::move(one.series[0]));
+    envelopes.push_back(std::move(one.series[1]));
+  }
+  plot.series.insert(plot.series.end(), envelopes.begin(), envelopes.end());
+  section.blocks.push_back(SaidFigure{"envelope",
+                                      "safe_envelope.svg",
+                                      std::move(plot),
+                                      {{"axis", with_unit(axes[0])},
+                                       {"second", axes.size() > 1 ? with_unit(axes[1]) : ""},
+                                       {"cases", sweep.rows("cases").size()}},
+                                      origin});
+  section.say("envelope.read");
+}
+
+}  // namespace
+
+SafetySection gap_section(const Subject& subject) {
+  SafetySection section{"gap"};
+  std::vector<const JudgedCase*> cases;
+  for (const JudgedCase& each : subject.cases) cases.push_back(&each);
+  std::size_t rows = 0;
+  for (const JudgedCase& each : subject.cases) {
+    rows += each.verdicts.size();
+    const Inert inert = inert_rows(each);
+    if (inert.gap_cm.empty()) {
+      section.say("gap.nothing_computed", {{"case", each.label}}, subject.origin("verdicts", each.label));
+      continue;
+    }
+    const std::size_t number = static_cast<std::size_t>(&each - subject.cases.data()) + 1;
+    section.blocks.push_back(
+        SaidFigure{"temperature",
+                   number == 1 ? "temperature.svg" : fmt::format("temperature_{}.svg", number),
+                   temperature_plot(subject, each),
+                   {{"case", each.label}, {"rows", inert.gap_cm.size()}},
+                   subject.origin("verdicts, fit, comparison", each.label)});
+  }
+  constexpr std::size_t on_page_one = 12;
+  if (rows > on_page_one)
+    section.blocks.push_back(SaidTable{"verdicts", verdict_table(cases), subject.origin("verdicts")});
+  if (const StudyEvidence* sweep = subject.evidence.find("sweep"); sweep != nullptr && sweep->finished())
+    say_envelope(*sweep, section);
+  else
+    section.say("envelope.none");
+  return section;
+}
+
+}  // namespace launchsafe::report::safety

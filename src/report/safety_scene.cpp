@@ -1,0 +1,268 @@
+// What was simulated: shell, load, inputs; and where and when it becomes hot.
+#include "launchsafe/report/case_pictures.hpp"
+#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/section_drawing.hpp"
+#include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/scene/stations.hpp"
+#include "safety_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace launchsafe::report::safety {
+namespace {
+
+// --- load ---
+
+/// Points of the analytic load; enough for a smooth line on paper.
+constexpr int curve_points = 400;
+
+void say_load(const Subject& subject, SafetySection& section) {
+  const scene::Load& load = subject.scene().load;
+  const bool measured_curve = !load.curve_time.empty();
+  const CaseEvidence* run = nullptr;
+  for (const CaseEvidence& each : subject.evidence.cases)
+    if (each.present && run == nullptr && !each.mechanics.trace.time.empty()) run = &each;
+  Plot plot;
+  plot.title = "Load";
+  plot.x.label = "time [ms]";
+  plot.y.label = "pressure [MPa]";
+  plot.height = 440;
+  const auto add = [&](const char* label, const std::vector<double>& time,
+                       const std::vector<double>& pressure, Style style, int colour) {
+    Series series{.label = label, .x = {}, .y = {}, .style = style, .colour = colour};
+    for (std::size_t i = 0; i < time.size(); ++i) {
+      series.x.push_back(1e3 * time[i]);
+      series.y.push_back(1e-6 * pressure[i]);
+    }
+    plot.series.push_back(std::move(series));
+  };
+  if (measured_curve) add("measured, as stated", load.curve_time, load.curve_pressure, Style::points, 7);
+  const scene::PressureHistory chamber(load);
+  std::vector<double> time, pressure;
+  for (int i = 0; i <= curve_points; ++i) {
+    time.push_back(load.duration * i / curve_points);
+    pressure.push_back(chamber.at(time.back()));
+  }
+  add("chamber, as simulated", time, pressure, Style::line, 0);
+  if (run != nullptr)
+    add("charge's bottom, computed", run->mechanics.trace.time, run->mechanics.trace.bottom_pressure,
+        Style::dashed_line, 1);
+  section.blocks.push_back(
+      SaidFigure{"load",
+                 "load.svg",
+                 std::move(plot),
+                 {{"peak", significant(1e-6 * load.peak, 4) + " MPa"},
+                  {"duration", significant(1e3 * load.duration, 4) + " ms"},
+                  {"measured", measured_curve},
+                  {"points", load.curve_time.size()},
+                  {"file", load.curve_file},
+                  {"bottom", run != nullptr},
+                  {"smoothing", load.smoothing > 0 ? significant(1e3 * load.smoothing, 3) + " ms" : ""}},
+                 subject.origin("the scene, in its manifest", run != nullptr ? run->label : "")});
+}
+
+// --- inputs ---
+
+/// Keys of the study file's [set].
+bool is_set_by_study(const Subject& subject, const std::string& key) {
+  const std::string& input = subject.study.record.manifest.input_text;
+  const std::size_t end = input.find("\n\n# scene\n");
+  const std::size_t set = input.find("\n[set");
+  return set < end && input.substr(set, end - set).find(key.substr(key.rfind('.') + 1)) != std::string::npos;
+}
+
+Table input_table(const Subject& subject) {
+  std::map<std::string, scene::DocumentedKey> documented;
+  for (scene::DocumentedKey& key : scene::describe_keys()) documented.emplace(key.description.name, key);
+  Table table;
+  table.columns = {named_text("key", "key"), named_text("value", "value"), named_text("standing", "standing"),
+                   named_text("meaning", "meaning")};
+  for (const scene::ListedKey& key : scene::list_keys(subject.study.scene)) {
+    // The manifest writes every key: one with the value of the program's default has the default's standing.
+    const auto found = documented.find(key.name);
+    std::string standing = "stated";
+    if (found != documented.end() && found->second.default_text == key.value)
+      standing = std::string(scene::meaning_of(found->second.description.standing)) + " (default)";
+    else if (is_set_by_study(subject, key.name))
+      standing = "set by the study";
+    table.rows.push_back({key.name, key.value, standing, key.sentence});
+  }
+  return table;
+}
+
+Table body_table(const scene::Scene& scene) {
+  Table table;
+  table.columns = {named_text("body", "body"),
+                   named_text("material", "material"),
+                   significant_column("x from", "cm", 6, "x_begin_cm"),
+                   significant_column("to", "cm", 6, "x_end_cm"),
+                   significant_column("r from", "cm", 6, "r_begin_cm"),
+                   significant_column("to", "cm", 6, "r_end_cm")};
+  for (const scene::Body& body : scene.bodies)
+    table.rows.push_back({body.name, body.material, 100 * body.x_begin, 100 * body.x_end, 100 * body.r_begin,
+                          100 * body.r_end});
+  return table;
+}
+
+/// How bodies hold the charge, in words.
+std::string held_text(const scene::Scene& scene) {
+  std::string text;
+  for (const scene::InterfaceText& each : scene::describe_interfaces(scene))
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", each.body, each.condition);
+  return text;
+}
+
+// --- where and when ---
+
+Table place_table(const JudgedCase& each) {
+  Table table;
+  table.columns = {significant_column("gap", "cm", 6, "gap_cm"),
+                   number_column("T max", "K", 0, "temperature_max_K"),
+                   named_text("hottest station", "temperature_max_place"),
+                   number_column("at time", "ms", 2, "temperature_max_time_ms"),
+                   number_column("ignition at", "ms", 2, "ignition_time_ms"),
+                   named_text("cause", "ignition_cause"),
+                   number_column("chemical share", "", 2, "ignition_chemical_share"),
+                   number_column("spread along the bottom", "K", 0, "spread_K")};
+  for (const Row* row : each.verdicts)
+    table.rows.push_back(
+        {number_of(*row, "gap_cm"), optional_number(number_of(*row, "temperature_max_K")),
+         text_of(*row, "temperature_max_place"), optional_number(number_of(*row, "temperature_max_time_ms")),
+         optional_number(number_of(*row, "ignition_time_ms")), text_of(*row, "ignition_cause"),
+         optional_number(number_of(*row, "ignition_chemical_share")),
+         optional_number(number_of(*row, "spread_K"))});
+  return table;
+}
+
+/// The scene of a case: that of the study with the case's own load and defect.
+std::optional<scene::Scene> scene_of(const Subject& subject, const JudgedCase& each) {
+  scene::Scene scene = subject.scene();
+  const Row& row = *each.verdicts.front();
+  scene.load.peak = 1e6 * number_of(row, "peak_pressure_MPa");
+  scene.charge().strength.initial_crack_radius = 1e-6 * number_of(row, "crack_radius_um");
+  scene.charge().strength.flaw_size = 1e-3 * number_of(row, "flaw_size_mm");
+  return std::isfinite(scene.load.peak) ? std::optional(scene) : std::nullopt;
+}
+
+/// Gaps whose histories are shown: the largest that is SAFE, and the smallest that is not.
+std::vector<const Row*> shown_gaps(const JudgedCase& each) {
+  const Row *safe = nullptr, *other = nullptr;
+  for (const Row* row : each.verdicts) {
+    if (text_of(*row, "verdict") == "SAFE") safe = row;
+    if (other == nullptr && text_of(*row, "verdict") != "SAFE" && safe != nullptr) other = row;
+    if (text_of(*row, "verdict") == "UNSAFE") {
+      other = row;
+      break;
+    }
+  }
+  std::vector<const Row*> rows;
+  for (const Row* row : {safe, other})
+    if (row != nullptr) rows.push_back(row);
+  if (rows.empty() && !each.verdicts.empty()) rows.push_back(each.verdicts.front());
+  return rows;
+}
+
+/// K by which a temperature that is integrated again on the stored trace may differ from the study's.
+constexpr double same_temperature = 0.01;
+
+void add_pictures(const Subject& subject, const JudgedCase& judged, const DrawnCase& drawn,
+                  SafetySection& section) {
+  for (const PictureKind& kind : picture_kinds()) {
+    const std::string word = kind.word;
+    if (word != "histories" && word != "profile" && word != "fields") continue;
+    if (const std::string why = kind.lacks(drawn); !why.empty()) {
+      section.say("place.lacks",
+                  {{"fields", word == "fields"},
+                   {"histories", word == "histories"},
+                   {"profile", word == "profile"},
+                   {"why", why}},
+                  subject.origin("cases/*.h5", judged.label));
+      continue;
+    }
+    std::vector<CasePicture> pictures = kind.pictures(drawn);
+    std::erase_if(pictures, [](const CasePicture& each) {
+      return each.what == "fields" && !each.file.starts_with("field_temperature");
+    });
+    std::erase_if(pictures, [](const CasePicture& each) { return each.file == "profile_spread.svg"; });
+    // The last snapshot shows what the launch has done.
+    if (word == "fields" && pictures.size() > 1) pictures.erase(pictures.begin(), pictures.end() - 1);
+    for (CasePicture& each : pictures) {
+      Parts parts{{"case", judged.label}};
+      if (each.gap) parts["gap"] = significant(100 * *each.gap, 6) + " cm";
+      if (each.time) parts["time"] = significant(1e3 * *each.time, 4) + " ms";
+      std::variant<Plot, CellPlot, std::string> picture;
+      std::visit([&](auto& plot) { picture = std::move(plot); }, each.plot);
+      section.blocks.push_back(SaidFigure{"place." + word, each.file, std::move(picture), std::move(parts),
+                                          subject.origin("cases/*.h5", judged.label)});
+    }
+  }
+}
+
+void say_histories(const Subject& subject, const JudgedCase& judged, const CaseEvidence& stored,
+                   SafetySection& section) {
+  const auto scene = scene_of(subject, judged);
+  if (!scene || stored.mechanics.trace.samples() < 2) return;
+  run::CaseResult result{stored.mechanics, {}};
+  for (const Row* row : shown_gaps(judged)) {
+    const double gap = 1e-2 * number_of(*row, "gap_cm");
+    result.gaps.push_back(run::evaluate_gap(*scene, result.mechanics.trace, gap));
+    const double difference =
+        std::abs(result.gaps.back().at_stations.temperature - number_of(*row, "temperature_max_K"));
+    if (difference <= same_temperature) continue;
+    // Ignition under two-way coupling goes on in a run of its own.
+    result.gaps.pop_back();
+    section.say("place.other_history", {{"gap", significant(100 * gap, 6) + " cm"}},
+                subject.origin("cases/*.h5", judged.label));
+  }
+  add_pictures(subject, judged, {*scene, result}, section);
+}
+
+}  // namespace
+
+SafetySection scene_section(const Subject& subject) {
+  SafetySection section{"scene"};
+  const scene::Scene& scene = subject.scene();
+  const Origin origin = subject.origin("the scene, in its manifest");
+  section.say("scene.what",
+              {{"title", scene.title},
+               {"stations", scene::stations_of(scene).size()},
+               {"width", significant(1e3 * scene.surface.station_width, 4) + " mm"},
+               {"depth", significant(1e3 * scene.surface.station_depth, 4) + " mm"},
+               {"interfaces", held_text(scene)}},
+              origin);
+  if (!scene.bodies.empty())
+    section.blocks.push_back(
+        SaidFigure{"section", "section.svg", section_svg(scene), {{"title", scene.title}}, origin});
+  section.blocks.push_back(SaidTable{"bodies", body_table(scene), origin});
+  say_load(subject, section);
+  section.say("scene.inputs", {}, origin);
+  section.blocks.push_back(SaidTable{"inputs", input_table(subject), origin});
+  return section;
+}
+
+SafetySection place_section(const Subject& subject) {
+  SafetySection section{"place"};
+  const JudgedCase* own = subject.own_case();
+  if (own == nullptr) {
+    section.say("place.none", {{"command", subject.study.command()}});
+    return section;
+  }
+  section.blocks.push_back(SaidTable{"place", place_table(*own), subject.origin("verdicts", own->label)});
+  const auto stored =
+      std::find_if(subject.evidence.cases.begin(), subject.evidence.cases.end(),
+                   [&](const CaseEvidence& each) { return each.present && each.label == own->label; });
+  if (stored == subject.evidence.cases.end())
+    section.say("place.no_case_file", {{"command", subject.study.command()}},
+                subject.origin("runs", own->label));
+  else
+    say_histories(subject, *own, *stored, section);
+  return section;
+}
+
+}  // namespace launchsafe::report::safety

@@ -1,0 +1,72 @@
+// The sections of a safety report, and what they share.
+#pragma once
+
+#include "launchsafe/report/measured.hpp"
+#include "launchsafe/report/safety_document.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::report::safety {
+
+using Row = nlohmann::json;
+
+/// Text, truth and number of a member; "", NaN where it is none.
+std::string text_of(const Row& row, const std::string& key);
+double number_of(const Row& row, const std::string& key);
+
+/// One case of the main study with its verdicts.
+struct JudgedCase {
+  std::string label;
+  const Row* critical = nullptr;  ///< its row of `cases`
+  std::vector<const Row*> verdicts;
+  std::vector<JudgedGap> gaps;  ///< the same as a criterion sees them
+};
+
+/// What every section reads.
+struct Subject {
+  const SafetyEvidence& evidence;
+  const StudyEvidence& study;     ///< the main one
+  std::vector<JudgedCase> cases;  ///< none unless it is a finished study of kind critical-gap
+  const std::optional<GapCriterion>& criterion;
+
+  const scene::Scene& scene() const { return study.scene.scene; }
+  /// That of the scene's own load and defect, or the first; nullptr without any.
+  const JudgedCase* own_case() const;
+  Origin origin(std::string of, std::string setting = {}) const;
+};
+
+Subject subject_of(const SafetyEvidence& evidence, const std::optional<GapCriterion>& criterion);
+Origin origin_of(const StudyEvidence& study, std::string of, std::string setting = {});
+
+bool is_value(const Row& critical);
+/// cm: the critical gap with its uncertainty as printed; what moves towards ignition alone lowers it alone.
+/// Nothing where it is no value.
+std::optional<Measured> measured_gap(const Row& critical);
+
+/// Verdict rows of a case as a table for people.
+Table verdict_table(const std::vector<const JudgedCase*>& cases);
+
+/// The shares of the uncertainty of a verdict row, K, under the names of the texts.
+struct Share {
+  std::string name;
+  double size = 0;
+};
+std::vector<Share> shares_of(const Row& verdict);
+const Share& largest_of(const std::vector<Share>& shares);
+
+/// The answer for programs.
+Parts answer_parts(const Subject& subject);
+
+SafetySection answer_section(const Subject& subject);
+SafetySection gap_section(const Subject& subject);
+SafetySection scene_section(const Subject& subject);
+SafetySection place_section(const Subject& subject);
+SafetySection fit_section(const Subject& subject);
+SafetySection budget_section(const Subject& subject);
+SafetySection published_section(const Subject& subject);
+SafetySection validity_section(const Subject& subject);
+
+}  // namespace launchsafe::report::safety

@@ -1,0 +1,120 @@
+// How far the computations can be trusted, what was left out, and how to repeat all of it.
+#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "safety_sections.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace launchsafe::report::safety {
+namespace {
+
+Table run_table_of(const StudyEvidence& study) {
+  Table table;
+  table.columns = {named_text("case", "case"),
+                   named_text("status", "status"),
+                   scientific_column("energy drift", "", 1, "energy_drift"),
+                   count_column("steps", "steps"),
+                   count_column("particles", "particles"),
+                   named_text("limiters", "limiters"),
+                   named_text("stored case", "stored_case")};
+  for (const Row& row : study.rows("runs"))
+    table.rows.push_back({text_of(row, "case"), text_of(row, "status"),
+                          optional_number(number_of(row, "energy_drift")),
+                          static_cast<std::int64_t>(row.value("steps", 0)),
+                          static_cast<std::int64_t>(row.value("particles", 0)), text_of(row, "limiters"),
+                          text_of(row, "stored_case")});
+  return table;
+}
+
+void say_stability(const StudyEvidence* stability, SafetySection& section) {
+  if (stability == nullptr || !stability->finished()) {
+    section.say("validity.no_stability");
+    return;
+  }
+  const Row counts = stability->study.value("counts", Row::object());
+  const auto count = [&](const char* key) { return counts.value(key, 0); };
+  section.say("validity.stability",
+              {{"scene", stability->scene.scene.title},
+               {"cases", count("cases")},
+               {"held", count("held")},
+               {"degraded", count("degraded")},
+               {"caught", count("caught")},
+               {"wrong", count("WRONG")},
+               {"not_computed", count("not_computed")},
+               {"sound", count("WRONG") == 0 && count("not_computed") == 0}},
+              origin_of(*stability, "counts"));
+}
+
+/// The terms of the plan that were left out, and why.
+Table left_out_table(const scene::Scene& scene) {
+  const scene::Plan plan = scene::make_plan(scene);
+  Table table;
+  table.columns = {named_text("term", "term"), named_text("why", "why")};
+  const std::pair<const char*, const scene::Term*> terms[] = {{"conduction", &plan.conduction},
+                                                              {"bulk_reaction", &plan.bulk_reaction},
+                                                              {"air", &plan.air},
+                                                              {"cracks", &plan.cracks},
+                                                              {"crack_growth", &plan.crack_growth},
+                                                              {"crack_friction", &plan.crack_friction},
+                                                              {"surface", &plan.surface},
+                                                              {"friction_heat", &plan.friction_heat},
+                                                              {"inertial_scaling", &plan.inertial_scaling},
+                                                              {"snapshots", &plan.snapshots}};
+  for (const auto& [name, term] : terms)
+    if (!term->in) table.rows.push_back({name, term->reason});
+  return table;
+}
+
+Table study_table(const SafetyEvidence& evidence) {
+  Table table;
+  table.columns = {named_text("study", "label"),
+                   named_text("kind", "kind"),
+                   named_text("file", "study"),
+                   named_text("command", "command"),
+                   named_text("state", "state"),
+                   named_text("made", "made"),
+                   named_text("commit", "commit"),
+                   named_text("compiler", "compiler"),
+                   named_text("input SHA-256", "input_sha256"),
+                   named_text("differs in", "differences")};
+  for (const StudyEvidence& study : evidence.studies) {
+    const store::Manifest& manifest = study.record.manifest;
+    const std::string differs = study.kind == "stability"
+                                    ? "scenes of its own"
+                                    : fmt::format("{}", fmt::join(study.differences, ", "));
+    table.rows.push_back({study.label, study.kind, study.record.study, study.command(),
+                          std::string(study.finished() ? "finished" : "unfinished"), manifest.start_time,
+                          manifest.commit, manifest.compiler, manifest.input_sha256, differs});
+  }
+  return table;
+}
+
+}  // namespace
+
+SafetySection validity_section(const Subject& subject) {
+  SafetySection section{"validity"};
+  Table runs = run_table_of(subject.study);
+  if (!runs.rows.empty())
+    section.blocks.push_back(SaidTable{"runs", std::move(runs), subject.origin("runs")});
+  std::size_t warned = 0;
+  for (const Row& row : subject.study.rows("verdicts"))
+    if (text_of(row, "reason").find("validity") != std::string::npos) ++warned;
+  section.say("validity.warnings", {{"rows", warned}}, subject.origin("verdicts"));
+  say_stability(subject.evidence.find("stability"), section);
+  section.say("validity.left_out", {}, subject.origin("the scene, in its manifest"));
+  section.blocks.push_back(
+      SaidTable{"left_out", left_out_table(subject.scene()), subject.origin("the scene, in its manifest")});
+  section.say("validity.studies");
+  section.blocks.push_back(SaidTable{"studies", study_table(subject.evidence)});
+  section.say("validity.repeat", {{"version", subject.study.record.manifest.model_version},
+                                  {"program", subject.study.record.manifest.program_version}});
+  for (const StudyEvidence& study : subject.evidence.studies)
+    section.say("validity.command", {{"command", study.command()}}, {}, Look::code);
+  return section;
+}
+
+}  // namespace launchsafe::report::safety
