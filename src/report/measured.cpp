@@ -59,10 +59,9 @@ std::string allowed_text(double value, int decimals) {
 std::string uncertain_text(double value, int digits) {
   if (!(value > 0.0) || !std::isfinite(value)) return fixed(value, 0);
   const int decimals = digits - 1 - leading_place(value);
-  return significant(decimals >= 0 ? rounded_up(value, decimals)
-                                   : std::ceil(value * std::pow(10.0, decimals) * (1 - round_off)) *
-                                         std::pow(10.0, -decimals),
-                     digits);
+  if (decimals >= 0) return significant(rounded_up(value, decimals), digits);
+  const double unit = std::pow(10.0, -decimals);
+  return fixed(unit * rounded_up(value / unit, 0), 0);
 }
 
 }  // namespace launchsafe::report

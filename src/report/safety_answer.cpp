@@ -3,10 +3,12 @@
 #include "safety_sections.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 
 namespace launchsafe::report::safety {
 namespace {
@@ -153,14 +155,55 @@ bool says(const StudyEvidence& study, const char* key) {
   return study.record.manifest.input_text.find(fmt::format("\n{} = ", key)) != std::string::npos;
 }
 
+/// What is extrapolated, as study/case_uncertainty.cpp words it: items between commas, which may say in
+/// parentheses why they are accepted.
+struct Extrapolated {
+  std::string items, accepted;
+};
+
+Extrapolated extrapolated_in(const std::vector<const Row*>& rows) {
+  constexpr std::string_view word = "extrapolated: ", accepted_because = " (accepted because ";
+  std::vector<std::string> items, accepted;
+  const auto keep = [](std::vector<std::string>& all, const std::string& each) {
+    if (std::find(all.begin(), all.end(), each) == all.end()) all.push_back(each);
+  };
+  for (const Row* row : rows) {
+    const std::string reason = "; " + text_of(*row, "reason");
+    const std::size_t at = reason.find("; " + std::string(word));
+    if (at == std::string::npos) continue;
+    std::string item;
+    int depth = 0;
+    for (const char letter : reason.substr(at + 2 + word.size()) + ",") {
+      depth += letter == '(' ? 1 : letter == ')' ? -1 : 0;
+      const bool ends = depth == 0 && (letter == ',' || letter == ';');
+      if (!ends) {
+        if (!item.empty() || letter != ' ') item += letter;
+        continue;
+      }
+      const std::size_t because = item.find(accepted_because);
+      if (because != std::string::npos) {
+        keep(accepted, item.substr(because + accepted_because.size(),
+                                   item.size() - because - accepted_because.size() - 1));
+        item.resize(because);
+      }
+      keep(items, item);
+      item.clear();
+      if (letter == ';') break;
+    }
+  }
+  return {fmt::format("{}", fmt::join(items, ", ")), fmt::format("{}", fmt::join(accepted, "; "))};
+}
+
 void say_calibration(const Subject& subject, SafetySection& section) {
   const auto rows = all_verdicts(subject);
   const Origin origin = subject.origin("verdicts");
-  // Words of the program's reasons, as study/verdict.cpp and study/calibration_domain.cpp write them.
-  const std::string extrapolated = said_after(rows, "extrapolated: ");
-  if (!extrapolated.empty()) section.item("limits.extrapolated", {{"what", extrapolated}}, origin);
-  const std::string accepted = said_after(rows, "accepted: ");
-  if (!accepted.empty()) section.item("limits.accepted", {{"what", accepted}}, origin);
+  const Extrapolated extrapolated = extrapolated_in(rows);
+  if (!extrapolated.items.empty())
+    section.item("limits.extrapolated", {{"what", extrapolated.items}, {"accepted", extrapolated.accepted}},
+                 origin);
+  if (const std::string foreign = said_after(rows, "the constants were calibrated on another launch (");
+      !foreign.empty())
+    section.item("limits.foreign", {{"what", foreign.substr(0, foreign.find(')'))}}, origin);
   section.item("limits.calibrated", {{"record", says(subject.study, "calibration")}}, origin);
 }
 
@@ -174,13 +217,12 @@ void say_shares(const Subject& subject, SafetySection& section) {
   if (row == nullptr) return;
   const Share largest = largest_of(shares_of(*row));
   if (!(largest.size > 0.0)) return;
-  section.item("limits.largest_share",
-               {{largest.name, true},
-                {"size", part(uncertain_text(largest.size) + " K", largest.size, "K")},
-                {"total", part(uncertain_text(number_of(*row, "uncertainty_K")) + " K",
-                               number_of(*row, "uncertainty_K"), "K")},
-                {"gap", significant(number_of(*row, "gap_cm"), 6) + " cm"}},
-               subject.origin("verdicts", own->label));
+  Parts parts = truths_of(largest);
+  parts["size"] = part(uncertain_text(largest.size) + " K", largest.size, "K");
+  parts["total"] =
+      part(uncertain_text(number_of(*row, "uncertainty_K")) + " K", number_of(*row, "uncertainty_K"), "K");
+  parts["gap"] = significant(number_of(*row, "gap_cm"), 6) + " cm";
+  section.item("limits.largest_share", parts, subject.origin("verdicts", own->label));
 }
 
 void say_assumptions(const Subject& subject, SafetySection& section) {
@@ -199,7 +241,7 @@ void say_assumptions(const Subject& subject, SafetySection& section) {
 void say_launch(const Subject& subject, SafetySection& section) {
   const scene::Scene& scene = subject.scene();
   const auto kelvin = fixed(scene.initial_temperature, 0) + " K";
-  Parts parts{{"peak", significant(1e-6 * scene.load.peak, 4) + " MPa"},
+  Parts parts{{"peak", significant(1e-6 * scene::PressureHistory(scene.load).stated_peak(), 4) + " MPa"},
               {"duration", significant(1e3 * scene.load.duration, 3) + " ms"},
               {"crack", significant(1e6 * scene.charge().strength.initial_crack_radius, 4) + " µm"},
               {"flaw", significant(1e3 * scene.charge().strength.flaw_size, 3) + " mm"},
@@ -207,9 +249,9 @@ void say_launch(const Subject& subject, SafetySection& section) {
               {"several", subject.cases.size() > 1},
               {"sweep", subject.evidence.find("sweep") != nullptr}};
   section.item("limits.launch", parts, subject.origin("the scene, in its manifest"));
-  Parts missing = Parts::array();
+  std::string missing;
   for (const char* kind : {"critical-gap", "sweep", "accuracy", "sensitivity", "comparison", "stability"})
-    if (subject.evidence.find(kind) == nullptr) missing.push_back(Parts{{"kind", kind}});
+    if (subject.evidence.find(kind) == nullptr) missing += (missing.empty() ? "" : ", ") + std::string(kind);
   if (!missing.empty()) section.item("limits.missing", {{"kinds", missing}});
 }
 

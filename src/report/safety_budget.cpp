@@ -57,7 +57,8 @@ void say_gap_shares(const Subject& subject, const JudgedCase& each, SafetySectio
     parts[name] = part(uncertain_text(size) + " cm", size, "cm");
   }
   const Share& largest = largest_of(shares);
-  parts["largest"] = {{largest.name, true}, {"size", uncertain_text(largest.size) + " cm"}};
+  parts["largest"] = truths_of(largest);
+  parts["largest"]["size"] = uncertain_text(largest.size) + " cm";
   section.say("budget.gap_shares", parts, origin);
 }
 
@@ -160,10 +161,31 @@ double nearest_pressure(const StudyEvidence& comparison, double peak) {
   return nearest;
 }
 
-std::string counts_as(const StudyEvidence& comparison, const std::string& variant) {
-  for (const Row& row : comparison.rows("models"))
-    if (text_of(row, "model") == variant) return text_of(row, "counts_as");
-  return {};
+/// What the record of other models holds, over the pressures; without it the critical gaps at one pressure.
+Table model_table(const StudyEvidence& comparison, const std::vector<const Row*>& cases) {
+  Table table;
+  const Row& models = comparison.rows("models");
+  if (models.empty()) {
+    table.columns = {named_text("model", "variant"), named_text("critical gap", "critical_gap_reads_as"),
+                     named_text("reason", "reason")};
+    for (const Row* row : cases)
+      table.rows.push_back(
+          {text_of(*row, "variant"), text_of(*row, "critical_gap_reads_as"), text_of(*row, "reason")});
+    return table;
+  }
+  table.columns = {named_text("model", "model"), named_text("what it is", "what_it_is")};
+  constexpr std::string_view prefix = "critical_gap_at_", unit = "_MPa";
+  for (const auto& [key, value] : models.front().items()) {
+    if (!key.starts_with(prefix) || !key.ends_with(unit)) continue;
+    const std::string pressure = key.substr(prefix.size(), key.size() - prefix.size() - unit.size());
+    table.columns.push_back(named_text(fmt::format("gap at {} MPa [cm]", pressure), key));
+  }
+  table.columns.push_back(named_text("counts as", "counts_as"));
+  for (const Row& row : models) {
+    std::vector<Cell>& cells = table.rows.emplace_back();
+    for (const Column& column : table.columns) cells.emplace_back(text_of(row, column.key));
+  }
+  return table;
 }
 
 /// Critical gaps under each model, a bar each.
@@ -199,27 +221,19 @@ void say_models(const Subject& subject, SafetySection& section) {
     section.say("budget.no_comparison");
     return;
   }
-  const double pressure = nearest_pressure(*comparison, 1e-6 * subject.scene().load.peak);
+  const double pressure =
+      nearest_pressure(*comparison, 1e-6 * scene::PressureHistory(subject.scene().load).stated_peak());
   const bool with_pressure = std::isfinite(pressure);
   std::vector<const Row*> rows;
   for (const Row& row : comparison->rows("cases"))
     if (!with_pressure || number_of(row, "peak_pressure_MPa") == pressure) rows.push_back(&row);
   const std::string place = with_pressure ? significant(pressure, 4) + " MPa" : "";
   const Origin origin = origin_of(*comparison, "cases", place);
-  Table table;
-  table.columns = {named_text("model", "variant"), named_text("critical gap", "critical_gap"),
-                   named_text("counts as", "counts_as"), named_text("reason", "reason")};
   const Row* lowest = nullptr;
   for (const Row& row : comparison->rows("cases"))
     if (number_of(row, "critical_gap_difference_cm") <
         (lowest ? number_of(*lowest, "critical_gap_difference_cm") : 0.0))
       lowest = &row;
-  for (const Row* row : rows) {
-    const auto gap = measured_gap(*row);
-    table.rows.push_back({text_of(*row, "variant"),
-                          gap ? gap->text("cm") : text_of(*row, "critical_gap_reads_as"),
-                          counts_as(*comparison, text_of(*row, "variant")), text_of(*row, "reason")});
-  }
   Parts parts{{"place", place}, {"count", rows.size()}};
   if (lowest != nullptr)
     parts["lowest"] = {{"model", text_of(*lowest, "variant")},
@@ -228,7 +242,8 @@ void say_models(const Subject& subject, SafetySection& section) {
   section.say("budget.models", parts, origin);
   if (std::any_of(rows.begin(), rows.end(), [](const Row* row) { return is_value(*row); }))
     section.blocks.push_back(SaidFigure{"models", "models.svg", model_plot(rows, place), parts, origin});
-  section.blocks.push_back(SaidTable{"models", std::move(table), origin});
+  section.blocks.push_back(
+      SaidTable{"models", model_table(*comparison, rows), origin_of(*comparison, "models")});
 }
 
 // --- published results ---

@@ -101,7 +101,8 @@ const JudgedCase* Subject::own_case() const {
   const auto own = std::find_if(cases.begin(), cases.end(), [&](const JudgedCase& each) {
     const Row& row = *each.verdicts.front();
     const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); };
-    return same(number_of(row, "peak_pressure_MPa"), 1e-6 * scene().load.peak) &&
+    return same(number_of(row, "peak_pressure_MPa"),
+                1e-6 * scene::PressureHistory(scene().load).stated_peak()) &&
            same(number_of(row, "crack_radius_um"), 1e6 * scene().charge().strength.initial_crack_radius) &&
            same(number_of(row, "flaw_size_mm"), 1e3 * scene().charge().strength.flaw_size);
   });
@@ -134,6 +135,31 @@ const Share& largest_of(const std::vector<Share>& shares) {
                            [](const Share& a, const Share& b) { return a.size < b.size; });
 }
 
+Parts truths_of(const Share& share) {
+  Parts parts = Parts::object();
+  for (const char* name : {"computation", "fit", "inputs", "model_form"}) parts[name] = share.name == name;
+  return parts;
+}
+
+namespace {
+
+/// A reason without what other columns of its row and page one say of all rows: margin and extrapolation.
+std::string short_reason(const std::string& verdict, const std::string& reason) {
+  std::string text;
+  std::size_t begin = 0;
+  while (begin < reason.size()) {
+    const std::size_t end = std::min(reason.find("; ", begin), reason.size());
+    std::string clause = reason.substr(begin, end - begin);
+    begin = end + 2;
+    if (verdict == "SAFE" && clause.starts_with("margin ")) continue;
+    if (clause.starts_with("extrapolated: ")) clause = "extrapolated";
+    text += (text.empty() ? "" : "; ") + clause;
+  }
+  return text;
+}
+
+}  // namespace
+
 Table verdict_table(const std::vector<const JudgedCase*>& cases) {
   Table table;
   if (cases.size() > 1) table.columns.push_back(named_text("case", "case"));
@@ -142,7 +168,8 @@ Table verdict_table(const std::vector<const JudgedCase*>& cases) {
                          significant_column("margin", "K", 6, "margin_K"),
                          significant_column("uncertainty", "K", 6, "uncertainty_K"),
                          number_column("margin over uncertainty", "", 1, "margin_over_uncertainty"),
-                         number_column("distance", "cm", 3, "distance_cm"), named_text("reason", "reason")});
+                         number_column("distance", "cm", 3, "distance_cm"),
+                         for_people(named_text("why", "why")), for_programs(named_text("reason", "reason"))});
   for (const JudgedCase* each : cases) {
     for (std::size_t i = 0; i < each->verdicts.size(); ++i) {
       const Row& row = *each->verdicts[i];
@@ -161,7 +188,8 @@ Table verdict_table(const std::vector<const JudgedCase*>& cases) {
                     ignited ? Cell() : down(gap.margin, decimals),
                     known ? Cell(rounded_up(gap.uncertainty, decimals)) : Cell(),
                     gap.uncertainty > 0 && !ignited ? down(gap.margin / gap.uncertainty, 1) : Cell(),
-                    down(gap.distance, 3), text_of(row, "reason")});
+                    down(gap.distance, 3), short_reason(text_of(row, "verdict"), text_of(row, "reason")),
+                    text_of(row, "reason")});
     }
   }
   return table;

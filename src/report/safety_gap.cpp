@@ -66,11 +66,8 @@ void add_fit(const JudgedCase& each, Plot& plot) {
   double end = 0;
   for (const Row* row : each.verdicts) end = std::max(end, number_of(*row, "gap_cm"));
   Series line{.label = "straight line through them", .x = {}, .y = {}, .style = Style::line, .colour = 7};
-  Series above{.label = "its band, 95 % at every gap at once",
-               .x = {},
-               .y = {},
-               .style = Style::dashed_line,
-               .colour = 7};
+  Series above{
+      .label = "its 95 % band, all gaps at once", .x = {}, .y = {}, .style = Style::dashed_line, .colour = 7};
   Series below = above;
   below.label.clear();
   constexpr int parts = 40;
@@ -121,7 +118,7 @@ Plot temperature_plot(const Subject& subject, const JudgedCase& each) {
   add_fit(each, plot);
   add_published(subject, each, plot);
   if (const auto gap = measured_gap(*each.critical)) {
-    plot.vertical_lines = {{std::max(0.0, gap->lower()), "interval of the critical gap: " + gap->text("cm")},
+    plot.vertical_lines = {{std::max(0.0, gap->lower()), "critical gap, " + gap->text("cm")},
                            {gap->upper(), ""}};
   }
   const double ignition = subject.scene().charge().kinetics.ignition_temperature;
@@ -173,12 +170,11 @@ void add_line(const StudyEvidence& sweep, const std::vector<SweepAxis>& axes, st
   const std::string label =
       value ? fmt::format("{} {}", significant(*value, 4), axes[1].unit) : std::string{};
   const int colour = static_cast<int>(plot.series.size() / 2);
-  Series critical{
-      .label = fmt::format("critical gap, with uncertainty{}{}", label.empty() ? "" : ", ", label),
-      .x = {},
-      .y = {},
-      .style = Style::vertical_bars,
-      .colour = colour};
+  Series critical{.label = fmt::format("critical gap{}{}", label.empty() ? "" : ", ", label),
+                  .x = {},
+                  .y = {},
+                  .style = Style::vertical_bars,
+                  .colour = colour};
   Series envelope{.label = fmt::format("less its uncertainty{}{}", label.empty() ? "" : ", ", label),
                   .x = {},
                   .y = {},
@@ -254,7 +250,10 @@ SafetySection gap_section(const Subject& subject) {
         SaidFigure{"temperature",
                    number == 1 ? "temperature.svg" : fmt::format("temperature_{}.svg", number),
                    temperature_plot(subject, each),
-                   {{"case", each.label}, {"rows", inert.gap_cm.size()}},
+                   {{"case", each.label},
+                    {"rows", inert.gap_cm.size()},
+                    {"published", &each == subject.own_case() && !subject.study.rows("comparison").empty()},
+                    {"critical", measured_gap(*each.critical).has_value()}},
                    subject.origin("verdicts, fit, comparison", each.label)});
   }
   constexpr std::size_t on_page_one = 12;

@@ -42,7 +42,7 @@ void say_load(const Subject& subject, SafetySection& section) {
     }
     plot.series.push_back(std::move(series));
   };
-  if (measured_curve) add("measured, as stated", load.curve_time, load.curve_pressure, Style::points, 7);
+  if (measured_curve) add("measured, as stated", load.curve_time, load.curve_pressure, Style::line, 7);
   const scene::PressureHistory chamber(load);
   std::vector<double> time, pressure;
   for (int i = 0; i <= curve_points; ++i) {
@@ -57,7 +57,7 @@ void say_load(const Subject& subject, SafetySection& section) {
       SaidFigure{"load",
                  "load.svg",
                  std::move(plot),
-                 {{"peak", significant(1e-6 * load.peak, 4) + " MPa"},
+                 {{"peak", significant(1e-6 * chamber.stated_peak(), 4) + " MPa"},
                   {"duration", significant(1e3 * load.duration, 4) + " ms"},
                   {"measured", measured_curve},
                   {"points", load.curve_time.size()},
@@ -77,6 +77,22 @@ bool is_set_by_study(const Subject& subject, const std::string& key) {
   return set < end && input.substr(set, end - set).find(key.substr(key.rfind('.') + 1)) != std::string::npos;
 }
 
+/// A long list by its beginning; the manifest holds all of it.
+std::string short_value(const std::string& value) {
+  constexpr std::size_t longest = 120, beginning = 40;
+  if (value.size() <= longest) return value;
+  const auto commas = std::count(value.begin(), value.end(), ',');
+  return fmt::format("{} ... ({} values)", value.substr(0, value.rfind(',', beginning)), commas + 1);
+}
+
+/// Keys of a law of which no body is made.
+bool is_of_unused_law(const scene::Scene& scene, const std::string& key) {
+  const std::string law = key.substr(0, key.find('.'));
+  if (law != "steel" && law != "elastic") return false;
+  return std::none_of(scene.bodies.begin(), scene.bodies.end(),
+                      [&](const scene::Body& body) { return body.material == law; });
+}
+
 Table input_table(const Subject& subject) {
   std::map<std::string, scene::DocumentedKey> documented;
   for (scene::DocumentedKey& key : scene::describe_keys()) documented.emplace(key.description.name, key);
@@ -84,6 +100,7 @@ Table input_table(const Subject& subject) {
   table.columns = {named_text("key", "key"), named_text("value", "value"), named_text("standing", "standing"),
                    named_text("meaning", "meaning")};
   for (const scene::ListedKey& key : scene::list_keys(subject.study.scene)) {
+    if (is_of_unused_law(subject.scene(), key.name)) continue;
     // The manifest writes every key: one with the value of the program's default has the default's standing.
     const auto found = documented.find(key.name);
     std::string standing = "stated";
@@ -91,7 +108,7 @@ Table input_table(const Subject& subject) {
       standing = std::string(scene::meaning_of(found->second.description.standing)) + " (default)";
     else if (is_set_by_study(subject, key.name))
       standing = "set by the study";
-    table.rows.push_back({key.name, key.value, standing, key.sentence});
+    table.rows.push_back({key.name, short_value(key.value), standing, key.sentence});
   }
   return table;
 }

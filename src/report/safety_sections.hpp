@@ -56,6 +56,8 @@ struct Share {
 };
 std::vector<Share> shares_of(const Row& verdict);
 const Share& largest_of(const std::vector<Share>& shares);
+/// Which of the shares one is: a truth under every name.
+Parts truths_of(const Share& share);
 
 /// The answer for programs.
 Parts answer_parts(const Subject& subject);

@@ -74,13 +74,17 @@ Table study_table(const SafetyEvidence& evidence) {
   table.columns = {named_text("study", "label"),
                    named_text("kind", "kind"),
                    named_text("file", "study"),
-                   named_text("command", "command"),
+                   for_programs(named_text("command", "command")),
                    named_text("state", "state"),
                    named_text("made", "made"),
-                   named_text("commit", "commit"),
-                   named_text("compiler", "compiler"),
-                   named_text("input SHA-256", "input_sha256"),
+                   for_people(named_text("commit", "commit_begins")),
+                   for_programs(named_text("commit", "commit")),
+                   for_programs(named_text("compiler", "compiler")),
+                   for_programs(named_text("compiler flags", "compiler_flags")),
+                   for_people(named_text("SHA-256 of the input", "input_begins")),
+                   for_programs(named_text("input SHA-256", "input_sha256")),
                    named_text("differs in", "differences")};
+  constexpr std::size_t shown_digits = 12;
   for (const StudyEvidence& study : evidence.studies) {
     const store::Manifest& manifest = study.record.manifest;
     const std::string differs = study.kind == "stability"
@@ -88,7 +92,9 @@ Table study_table(const SafetyEvidence& evidence) {
                                     : fmt::format("{}", fmt::join(study.differences, ", "));
     table.rows.push_back({study.label, study.kind, study.record.study, study.command(),
                           std::string(study.finished() ? "finished" : "unfinished"), manifest.start_time,
-                          manifest.commit, manifest.compiler, manifest.input_sha256, differs});
+                          manifest.commit.substr(0, shown_digits), manifest.commit, manifest.compiler,
+                          manifest.compiler_flags, manifest.input_sha256.substr(0, shown_digits),
+                          manifest.input_sha256, differs});
   }
   return table;
 }
