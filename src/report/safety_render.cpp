@@ -179,7 +179,10 @@ struct Renderer {
 
   Fields paragraph(const SaidParagraph& said) const {
     Fields fields{Fields::type::object};
-    fields.set("text", words(said.id, said.parts));
+    std::string text = words(said.id, said.parts);
+    // A line break would end the block of code.
+    if (said.look == Look::code) std::replace(text.begin(), text.end(), '\n', ' ');
+    fields.set("text", text);
     fields.set("origin", text_field(text_of(said.origin)));
     fields.set("lead", Fields(said.look == Look::lead));
     return fields;

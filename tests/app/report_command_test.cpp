@@ -31,8 +31,8 @@ TEST_F(ReportCommand, WritesPageDataAndFiguresOfAStudyThatRan) {
 }
 
 TEST_F(ReportCommand, OfAStudyWhoseCaseFailedSaysSo) {
-  write("study.toml",
-        with(critical_gap_study, "gaps =", "set = { numerics.energy_drift_limit = 1e-6 }\ngaps ="));
+  write("shell.toml", with(tiny_scene, "energy_drift_limit = 0.5", "energy_drift_limit = 1e-6"));
+  write("study.toml", critical_gap_study);
   EXPECT_EQ(run({"study", "study.toml", "-o", "out"}).code, 3);
   EXPECT_EQ(run({"report", "out", "-o", "safety"}).code, 0);
   EXPECT_TRUE(reports("The critical gap is indeterminate"));
