@@ -240,8 +240,17 @@ void say_models(const Subject& subject, SafetySection& section) {
                        {"by", uncertain_text(-number_of(*lowest, "critical_gap_difference_cm")) + " cm"},
                        {"at", significant(number_of(*lowest, "peak_pressure_MPa"), 4) + " MPa"}};
   section.say("budget.models", parts, origin);
-  if (std::any_of(rows.begin(), rows.end(), [](const Row* row) { return is_value(*row); }))
-    section.blocks.push_back(SaidFigure{"models", "models.svg", model_plot(rows, place), parts, origin});
+  // Where they were calibrated all agree: the picture is that of the pressure at which they differ most.
+  const double drawn = lowest != nullptr ? number_of(*lowest, "peak_pressure_MPa") : pressure;
+  std::vector<const Row*> bars;
+  for (const Row& row : comparison->rows("cases"))
+    if (!std::isfinite(drawn) || number_of(row, "peak_pressure_MPa") == drawn) bars.push_back(&row);
+  if (std::any_of(bars.begin(), bars.end(), [](const Row* row) { return is_value(*row); })) {
+    const std::string where = std::isfinite(drawn) ? significant(drawn, 4) + " MPa" : "";
+    parts["place"] = where;
+    section.blocks.push_back(SaidFigure{"models", "models.svg", model_plot(bars, where), parts,
+                                        origin_of(*comparison, "cases", where)});
+  }
   section.blocks.push_back(
       SaidTable{"models", model_table(*comparison, rows), origin_of(*comparison, "models")});
 }

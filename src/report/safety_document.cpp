@@ -52,12 +52,6 @@ Origin Subject::origin(std::string of, std::string setting) const {
 
 namespace {
 
-bool of_one_launch(const Row& one, const Row& other) {
-  for (const char* key : {"peak_pressure_MPa", "crack_radius_um", "flaw_size_mm"})
-    if (number_of(one, key) != number_of(other, key)) return false;
-  return true;
-}
-
 JudgedGap judged(const Row& row, const Row& critical) {
   JudgedGap gap{.gap = number_of(row, "gap_cm"),
                 .safe = text_of(row, "verdict") == "SAFE",
@@ -70,20 +64,17 @@ JudgedGap judged(const Row& row, const Row& critical) {
   return gap;
 }
 
-/// Verdicts stand case after case, in the order of the cases.
+/// Verdicts stand case after case, in the order of the cases, each with all gaps of the study.
 std::vector<JudgedCase> judged_cases(const StudyEvidence& study) {
   std::vector<JudgedCase> cases;
-  const Row& criticals = study.rows("cases");
-  const Row* before = nullptr;
-  for (const Row& row : study.rows("verdicts")) {
-    if (before == nullptr || !of_one_launch(*before, row)) {
-      if (cases.size() == criticals.size()) break;
-      const Row& critical = criticals[cases.size()];
-      cases.push_back({text_of(critical, "case"), &critical, {}, {}});
+  const Row &criticals = study.rows("cases"), &verdicts = study.rows("verdicts");
+  for (const Row& critical : criticals) {
+    JudgedCase& each = cases.emplace_back(JudgedCase{text_of(critical, "case"), &critical, {}, {}});
+    const std::size_t gaps = verdicts.size() / criticals.size(), first = (cases.size() - 1) * gaps;
+    for (std::size_t i = first; i < first + gaps; ++i) {
+      each.verdicts.push_back(&verdicts[i]);
+      each.gaps.push_back(judged(verdicts[i], critical));
     }
-    cases.back().verdicts.push_back(&row);
-    cases.back().gaps.push_back(judged(row, *cases.back().critical));
-    before = &row;
   }
   return cases;
 }

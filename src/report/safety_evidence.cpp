@@ -123,11 +123,15 @@ store::MaybeError read_study_json(StudyEvidence& study) {
   return {};
 }
 
-/// A row whose own numbers contradict its SAFE.
+/// Rows that are not all there, or whose own numbers contradict their SAFE.
 store::MaybeError check_verdicts(const StudyEvidence& study) {
+  const std::size_t cases = study.rows("cases").size(), verdicts = study.rows("verdicts").size();
+  if (study.kind == "critical-gap" && study.finished() &&
+      (cases == 0 || verdicts == 0 || verdicts % cases != 0))
+    return refused(fmt::format("{}: found {} verdicts for {} cases; allowed: every gap in every case",
+                               (study.folder / "study.json").string(), verdicts, cases));
   for (const nlohmann::json& row : study.rows("verdicts")) {
     if (string_in(row, "verdict") != "SAFE") continue;
-    const nlohmann::json none;
     const auto number = [&](const char* key) {
       return row.contains(key) && row[key].is_number() ? row[key].get<double>() : std::nan("");
     };

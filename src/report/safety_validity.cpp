@@ -69,6 +69,20 @@ Table left_out_table(const scene::Scene& scene) {
   return table;
 }
 
+/// Whether the main study took the record that a comparison or an accuracy study wrote: by its digest, or by
+/// an uncertainty that stands in the main study's input.
+std::string record_text(const StudyEvidence& main, const StudyEvidence& study) {
+  const std::string& input = main.record.manifest.input_text;
+  const auto holds = [&](const std::string& text) { return input.find(text) != std::string::npos; };
+  bool used = false;
+  for (const store::WrittenFile& file : study.record.files)
+    if (file.name == "model_form.json") used = used || holds(file.sha256);
+  for (const Row& row : study.rows("settings"))
+    used = used || holds(fmt::format("\n{} at a rise of ", number_of(row, "temperature_bound_K")));
+  const bool has_record = study.kind == "comparison" || study.kind == "accuracy";
+  return !has_record || !study.finished() ? "" : used ? "yes" : "no";
+}
+
 Table study_table(const SafetyEvidence& evidence) {
   Table table;
   table.columns = {named_text("study", "label"),
@@ -83,6 +97,7 @@ Table study_table(const SafetyEvidence& evidence) {
                    for_programs(named_text("compiler flags", "compiler_flags")),
                    for_people(named_text("SHA-256 of the input", "input_begins")),
                    for_programs(named_text("input SHA-256", "input_sha256")),
+                   named_text("its record is that of the main study", "record_used"),
                    named_text("differs in", "differences")};
   constexpr std::size_t shown_digits = 12;
   for (const StudyEvidence& study : evidence.studies) {
@@ -94,7 +109,7 @@ Table study_table(const SafetyEvidence& evidence) {
                           std::string(study.finished() ? "finished" : "unfinished"), manifest.start_time,
                           manifest.commit.substr(0, shown_digits), manifest.commit, manifest.compiler,
                           manifest.compiler_flags, manifest.input_sha256.substr(0, shown_digits),
-                          manifest.input_sha256, differs});
+                          manifest.input_sha256, record_text(evidence.main(), study), differs});
   }
   return table;
 }

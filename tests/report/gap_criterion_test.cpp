@@ -11,10 +11,10 @@ namespace {
 
 /// The rows of the 155 mm shell's main job, rounded.
 const std::vector<JudgedGap> main_job{{0.0, true, 103, 22, 0.0394, 0.0094},
-                                  {0.01, true, 77, 23, 0.0294, 0.0094},
-                                  {0.02, true, 51, 25, 0.0194, 0.0094},
-                                  {0.03, false, 26, 28, 0.0094, 0.0094},
-                                  {0.04, false, -265, 29, -0.001, 0.0094}};
+                                      {0.01, true, 77, 23, 0.0294, 0.0094},
+                                      {0.02, true, 51, 25, 0.0194, 0.0094},
+                                      {0.03, false, 26, 28, 0.0094, 0.0094},
+                                      {0.04, false, -265, 29, -0.001, 0.0094}};
 
 double largest_under(const std::string& text, const std::vector<JudgedGap>& table = main_job) {
   const auto criterion = parse_criterion(text, "a standard");
