@@ -12,9 +12,7 @@ BulkHeat::BulkHeat(mpm::Simulation& simulation)
   const scene::Plan plan = scene::make_plan(simulation.scene());
   reaction_ = plan.bulk_reaction.in;
   if (plan.conduction.in) conduction_.emplace(simulation);
-  // A flame reads the bulk too: what it finds must not depend on what is written.
-  const bool is_read = reaction_ || conduction_ || simulation.scene().output.asks_for_snapshots() ||
-                       simulation.scene().coupling == scene::Coupling::two_way;
+  const bool is_read = reaction_ || conduction_ || simulation.scene().output.asks_for_snapshots();
   if (!is_read || closure_ >= trace::traced_closures) return;
   for (Charge& body : simulation.bodies_of<materials::Charge>()) {
     for (std::size_t slot = 0; slot < body.particles.mass.size(); slot += math::pack_width)

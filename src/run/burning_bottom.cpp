@@ -1,6 +1,7 @@
 #include "burning_bottom.hpp"
 
 #include "launchsafe/materials/deflagration.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/stations.hpp"
 
 #include <algorithm>
@@ -51,6 +52,13 @@ BurningTotals totals_of(const mpm::Simulation& simulation) {
   return totals;
 }
 
+/// Whether the plan follows the bulk's temperature. Snapshots follow it too, but what burns must not depend
+/// on what is written.
+bool heats_bulk(const scene::Scene& scene) {
+  const scene::Plan plan = scene::make_plan(scene);
+  return plan.conduction.in || plan.bulk_reaction.in;
+}
+
 }  // namespace
 
 BurningBottom::BurningBottom(const mpm::Simulation& simulation, const TraceRecorder& recorder)
@@ -58,6 +66,7 @@ BurningBottom::BurningBottom(const mpm::Simulation& simulation, const TraceRecor
       release_(simulation.scene().combustion.release),
       skin_thickness_(simulation.scene().surface.skin_thickness),
       initial_temperature_(simulation.scene().initial_temperature),
+      reads_bulk_(heats_bulk(simulation.scene())),
       whole_(simulation.axisymmetric() ? 2.0 * std::numbers::pi : 1.0) {
   const std::vector<trace::Station>& stations = recorder.trace().stations;
   flames_.resize(stations.size());
@@ -106,7 +115,7 @@ void BurningBottom::ignite(const mpm::Simulation& simulation, const SteppedSkin&
   Flame& flame = flames_[station];
   flame.room = rooms_[station];
   // A station over no body that reaches the bottom has nothing that burns.
-  flame.bulk_temperature = share > 0.0 ? temperature / share : initial_temperature_;
+  flame.bulk_temperature = reads_bulk_ && share > 0.0 ? temperature / share : initial_temperature_;
   const auto speed = [&](double unburnt) {
     return materials::deflagration_speed(charge_.kinetics, charge_.conductivity, charge_.initial_density(),
                                          charge_.specific_heat, unburnt);

@@ -70,6 +70,7 @@ class BurningBottom {
   scene::HeatRelease release_;
   double skin_thickness_;       ///< m
   double initial_temperature_;  ///< K
+  bool reads_bulk_;             ///< the plan follows the temperature of the bulk
   double whole_;                ///< 2 pi, or 1 in plane strain
   std::vector<Column> columns_;
   std::vector<Flame> flames_;  ///< by station

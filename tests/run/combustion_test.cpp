@@ -125,6 +125,18 @@ TEST(TwoWayCoupling, SnapshotsTellWhatHasBurntOfEveryParticle) {
   EXPECT_NEAR(mass / trace::interpolate(c.time, c.burnt_mass, burning.time), 1.0, 0.01);
 }
 
+TEST(TwoWayCoupling, BurnsTheSameWithAndWithoutSnapshots) {
+  scene::Scene scene = column();
+  scene.surface.friction = scene::FrictionClosure::total_strain_rate;
+  const CaseResult without = run_with_skin(scene, burning_gap);
+  scene.output.snapshot_times = {0.0, 1e-3};
+  const CaseResult with = run_with_skin(scene, burning_gap);
+  ASSERT_EQ(with.mechanics.snapshots.size(), 2u);
+  EXPECT_GT(without.gaps.front().combustion->burnt_mass.back(), 0.0);
+  EXPECT_EQ(without.gaps.front().combustion->burnt_mass, with.gaps.front().combustion->burnt_mass);
+  EXPECT_EQ(without.gaps.front().combustion->pressure, with.gaps.front().combustion->pressure);
+}
+
 TEST(TwoWayCoupling, GoesThroughIgnitionWithItsEnergyBalanced) {
   scene::Scene scene = column();
   scene.combustion.duration = 1.5e-3;

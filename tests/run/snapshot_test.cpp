@@ -89,8 +89,12 @@ TEST(SnapshotsOfEvents, OfFirstYieldAndCrackGrowthAreTheFirstSamplesWithThem) {
   const MechanicsResult before =
       run_at(scene, {sample_before(run, yield.time), sample_before(run, growth.time)});
   for (const Snapshot& shot : before.snapshots) {
-    if (shot.time < yield.time) EXPECT_EQ(largest(shot.plastic_strain), 0.0);
-    if (shot.time < growth.time) EXPECT_LE(largest(shot.crack_radius), grown);
+    if (shot.time < yield.time) {
+      EXPECT_EQ(largest(shot.plastic_strain), 0.0);
+    }
+    if (shot.time < growth.time) {
+      EXPECT_LE(largest(shot.crack_radius), grown);
+    }
   }
 }
 
