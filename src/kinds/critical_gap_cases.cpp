@@ -85,6 +85,7 @@ Kind critical_gap_kind() {
                 {"statements.csv"},
                 {"statements.md"},
                 {"temperature.svg"},
+                {"critical_gaps.svg"},
                 {"case_", ".h5"},
                 {"case_", ".xdmf"}},
   };

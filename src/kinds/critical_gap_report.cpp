@@ -129,45 +129,6 @@ std::string answer(const CriticalGapResult& result) {
   return text;
 }
 
-Plot temperature_plot(const CriticalGapResult& result) {
-  Plot plot;
-  plot.title = "Highest temperature of the charge bottom";
-  plot.x.label = "gap [cm]";
-  plot.y.label = "T max [K]";
-  Series published{"published", {}, {}, Style::points};
-  published.mark = Mark::open_square;
-  for (const CaseOutcome& outcome : result.cases) {
-    Series series{result.cases.size() == 1 ? "computed" : outcome.input.label, {}, {}, Style::points};
-    for (const study::GapVerdict& row : outcome.verdicts) {
-      series.x.push_back(100.0 * row.gap);
-      series.y.push_back(row.maximum.temperature);
-    }
-    plot.series.push_back(std::move(series));
-    if (outcome.fit && result.cases.size() == 1) {
-      Series line{"least squares", {}, {}, Style::line};
-      for (const double gap : outcome.fit->gaps) {
-        line.x.push_back(100.0 * gap);
-        line.y.push_back(outcome.fit->ordinary.intercept + outcome.fit->ordinary.slope * 100.0 * gap);
-      }
-      plot.series.push_back(std::move(line));
-    }
-    if (outcome.critical.kind == CriticalGapKind::value)
-      plot.vertical_lines.push_back(
-          {100.0 * outcome.critical.value,
-           fmt::format("critical gap{}: {} cm", result.cases.size() == 1 ? "" : " of " + outcome.input.label,
-                       significant(100.0 * outcome.critical.value, 3))});
-  }
-  for (const study::Reference& reference : result.study.study.references) {
-    published.x.push_back(100.0 * reference.gap);
-    published.y.push_back(reference.maximum_temperature);
-  }
-  if (!published.x.empty()) plot.series.push_back(std::move(published));
-  const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;
-  plot.horizontal_lines.push_back(
-      {ignition, fmt::format("ignition temperature: {} K", significant(ignition, 4))});
-  return plot;
-}
-
 namespace {
 
 /// What the publication says, by quantity on the page and one by one in files; nothing where the study names
@@ -198,8 +159,11 @@ Report report_of(const CriticalGapResult& result) {
   const Table verdicts = verdict_table(result);
   report.files.push_back({"verdicts.md", to_markdown(verdicts)});
   report.items = {ReportTable{verdicts, "verdicts.csv", "verdicts"},
-                  Picture{"temperature.svg", temperature_plot(result), "T max against gap"},
-                  ReportTable{comparison_table(result), "", "comparison"}};
+                  Picture{"temperature.svg", temperature_plot(result), "T max against gap"}};
+  if (result.cases.size() > 1)
+    report.items.push_back(
+        Picture{"critical_gaps.svg", critical_gaps_plot(result), "critical gap of every case"});
+  report.items.push_back(ReportTable{comparison_table(result), "", "comparison"});
   add_statements(result, report);
   for (ReportTable table : {ReportTable{critical_gap_table(result), "", "cases"},
                             ReportTable{coupled_run_table(result), "", "coupled_runs"},

@@ -1,4 +1,5 @@
 // The pictures of a sweep: the critical gap over one or two axes.
+#include "critical_gap_marks.hpp"
 #include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
@@ -75,35 +76,11 @@ std::string title_of(const char* quantity, const std::vector<SweptAxis>& axes,
   return quantity + fixed;
 }
 
-// --- kinds of answers ---
-
-/// What a bound of one kind says, if all of them say the same.
-std::string bound_label(const SweepResult& result, CriticalGapKind kind, const std::string& otherwise) {
-  std::string label;
-  for (const CaseAnswer& answer : result.answers) {
-    if (answer.critical.kind != kind) continue;
-    const std::string text = reads_as(answer.critical);
-    if (!label.empty() && text != label) return otherwise;
-    label = text;
-  }
-  return label;
+std::vector<const CriticalGap*> critical_gaps_of(const SweepResult& result) {
+  std::vector<const CriticalGap*> gaps;
+  for (const CaseAnswer& answer : result.answers) gaps.push_back(&answer.critical);
+  return gaps;
 }
-
-/// In the order of CriticalGapKind.
-std::array<std::string, 4> kind_labels(const SweepResult& result) {
-  return {"computed value",
-          bound_label(result, CriticalGapKind::all_safe, "above the searched gaps") + " (bound)",
-          bound_label(result, CriticalGapKind::all_ignite, "ignites at every gap") + " (bound)",
-          "indeterminate or failed"};
-}
-
-/// The kind as it is drawn: a value that is not finite is none.
-CriticalGapKind drawn_kind(const CaseAnswer& answer) {
-  const bool broken = answer.critical.kind == CriticalGapKind::value && !std::isfinite(answer.critical.value);
-  return broken ? CriticalGapKind::indeterminate : answer.critical.kind;
-}
-
-std::size_t index_of(CriticalGapKind kind) { return static_cast<std::size_t>(kind); }
 
 double value_in_cm(const CaseAnswer& answer) { return 100.0 * value_of(answer.critical); }
 
@@ -148,14 +125,17 @@ Plot empty_map(const SweepResult& result, const std::vector<SweptAxis>& axes, co
   map.y = y.values;
   map.values.assign(x.values.size() * y.values.size(), study::not_a_number);
   map.label = quantity.label;
+  if (quantity.value == value_in_cm) map.uncertainty = map.values;
   for (const CaseAnswer& answer : result.answers) {  // of all maps, so that their colours compare
     const double value = quantity.value(answer);
     if (!std::isfinite(value)) continue;
     map.minimum = std::min(map.minimum.value_or(value), value);
     map.maximum = std::max(map.maximum.value_or(value), value);
+    const double uncertainty = 100.0 * answer.critical.uncertainty;
+    if (std::isfinite(uncertainty)) map.least_step = std::max(map.least_step, uncertainty);
   }
-  auto labels = kind_labels(result);
-  labels[index_of(CriticalGapKind::value)] = quantity.without_value;
+  auto labels = kind_labels(critical_gaps_of(result));
+  labels[static_cast<std::size_t>(CriticalGapKind::value)] = quantity.without_value;
   constexpr std::array<Hatching, 4> hatchings{Hatching::rising, Hatching::dense, Hatching::falling,
                                               Hatching::crossed};
   for (std::size_t kind = 0; kind < labels.size(); ++kind)
@@ -184,8 +164,9 @@ std::vector<Plot> maps_of(const SweepResult& result, const std::vector<SweptAxis
     const std::size_t cell = place_in(y.values, y.key.value(input.coordinates[y.index])) * x.values.size() +
                              place_in(x.values, x.key.value(input.coordinates[x.index]));
     map.values[cell] = quantity.value(result.answers[i]);
+    if (!map.uncertainty.empty()) map.uncertainty[cell] = 100.0 * result.answers[i].critical.uncertainty;
     if (!std::isfinite(map.values[cell]))
-      map.hatched[index_of(drawn_kind(result.answers[i]))].cells.push_back(cell);
+      map.hatched[static_cast<std::size_t>(drawn_kind(result.answers[i].critical))].cells.push_back(cell);
   }
   return plots;
 }
@@ -200,61 +181,24 @@ void add_maps(std::vector<Plot> plots, const MappedQuantity& quantity, SweepPict
 
 // --- one axis ---
 
-/// Where the mark of a case without a value stands, cm: a bound at its end, anything else on the ground line.
-double height_of(const CaseAnswer& answer) {
-  switch (drawn_kind(answer)) {
-    case CriticalGapKind::value:
-      return value_in_cm(answer);
-    case CriticalGapKind::all_safe:
-      return 100.0 * answer.critical.lower;
-    case CriticalGapKind::all_ignite:
-      return 100.0 * answer.critical.upper;
-    case CriticalGapKind::indeterminate:
-      break;
-  }
-  return 0;
-}
-
-/// One mark and colour for every kind, in the order of CriticalGapKind.
-constexpr std::array<Mark, 4> kind_marks{Mark::circle, Mark::up_triangle, Mark::down_triangle, Mark::cross};
-constexpr std::array<int, 4> kind_colours{0, 2, 1, 7};
-
-std::vector<Series> series_of_kinds(const SweepResult& result) {
-  const auto labels = kind_labels(result);
-  std::vector<Series> series;
-  for (std::size_t kind = 0; kind < labels.size(); ++kind) {
-    series.push_back({labels[kind], {}, {}, kind == 0 ? Style::vertical_bars : Style::points});
-    series.back().colour = kind_colours[kind];
-    series.back().mark = kind_marks[kind];
-  }
-  return series;
-}
-
 Plot curve_of(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& axis) {
   Plot plot;
   plot.x = picture_axis(axis);
   plot.y.label = "critical gap [cm]";
   Series line{"", axis.values, std::vector<double>(axis.values.size(), study::not_a_number), Style::line};
   line.colour = 0;
-  std::vector<Series> kinds = series_of_kinds(result);
+  GapMarks marks(critical_gaps_of(result), Style::vertical_bars);
   for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) {
     const study::StudyCase& input = result.study.cases[i];
     if (input.coordinates.size() < axes.size()) continue;
     if (plot.title.empty()) plot.title = title_of(critical_gap.title, axes, {axis.index}, input);
     const CaseAnswer& answer = result.answers[i];
     const double x = axis.key.value(input.coordinates[axis.index]);
-    const double y = height_of(answer), error = 100.0 * answer.critical.uncertainty;
     line.y[place_in(axis.values, x)] = value_in_cm(answer);
-    Series& series = kinds[index_of(drawn_kind(answer))];
-    series.x.push_back(x);
-    series.y.push_back(y);
-    series.lower.push_back(y - error);
-    series.upper.push_back(y + error);
+    marks.add(answer.critical, x);
   }
   plot.series.push_back(std::move(line));
-  for (Series& series : kinds) {
-    if (!series.x.empty()) plot.series.push_back(std::move(series));
-  }
+  marks.put_into(plot);
   return plot;
 }
 

@@ -99,6 +99,16 @@ void add_series(const Plot& plot, Commands& commands) {
   }
 }
 
+void add_bands(const Plot& plot, Commands& commands) {
+  for (std::size_t i = 0; i < plot.vertical_bands.size(); ++i) {
+    const Band& band = plot.vertical_bands[i];
+    const std::string from = coordinate(band.from, plot.x.scale), to = coordinate(band.to, plot.x.scale);
+    commands.add(fmt::format("band{}", i), fmt::format("{0} 0\n{0} 1\n{1} 1\n{1} 0\n", from, to),
+                 fmt::format("1:2 axes x1y2 with filledcurves closed fillcolor rgb '#e4e4e4' {}",
+                             title_of(band.label)));
+  }
+}
+
 /// Lines from edge to edge: along the second axes, which go from 0 to 1.
 void add_lines(const Plot& plot, Commands& commands) {
   constexpr std::string_view style = "with lines linewidth 1.3 linecolor rgb '#444444'";
@@ -123,6 +133,7 @@ std::string legend_command(const Plot& plot) {
   std::size_t longest = 0;
   const auto add = [&](const std::string& label) { longest = std::max(longest, display_width(label)); };
   for (const Series& series : plot.series) add(series.label);
+  for (const Band& band : plot.vertical_bands) add(band.label);
   for (const Line& line : plot.vertical_lines) add(line.label);
   for (const Line& line : plot.horizontal_lines) add(line.label);
   const bool two_columns = 2.0 * (sample + letter * static_cast<double>(longest)) < 0.85 * plot.width;
@@ -196,6 +207,7 @@ std::string to_gnuplot(const Plot& plot) {
     commands.plots = std::move(map.plots);
   }
   text += axis_commands("x", plot.x) + axis_commands("y", plot.y);
+  add_bands(plot, commands);
   add_series(plot, commands);
   add_lines(plot, commands);
   return text + commands.data + fmt::format("plot {}\n", fmt::join(commands.plots, ", \\\n     "));

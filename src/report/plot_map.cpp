@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace launchsafe::report {
 namespace {
@@ -56,10 +57,11 @@ struct Cells {
                        exact(x_edges[i + 1]), exact(y_edges[j]), exact(y_edges[j + 1]));
   }
 
-  /// Whether a number of three digits has room in every cell.
+  /// Whether a number of three digits, and its uncertainty below it, has room in every cell.
   bool have_room(const Plot& plot) const {
     constexpr double share_of_width = 0.72, share_of_height = 0.68;  // that the cells fill, about
-    constexpr double number_width = 50, number_height = 20;          // pixels
+    const double number_width = map.uncertainty.empty() ? 50 : 64;   // pixels
+    const double number_height = map.uncertainty.empty() ? 20 : 36;
     return share_of_width * plot.width * least_width(x_edges, plot.x.scale) > number_width &&
            share_of_height * plot.height * least_width(y_edges, plot.y.scale) > number_height;
   }
@@ -83,7 +85,10 @@ ValueRange range_of(const std::vector<double>& values) {
 void add_values(const Map& map, const Cells& cells, MapCommands& commands) {
   std::string lines;
   for (std::size_t index = 0; index < map.values.size(); ++index) {
-    if (std::isfinite(map.values[index])) lines += cells.line(index) + " " + exact(map.values[index]) + "\n";
+    if (!std::isfinite(map.values[index])) continue;
+    lines += cells.line(index) + " " + exact(map.values[index]);
+    if (!map.uncertainty.empty()) lines += " " + coordinate(map.uncertainty[index], Scale::linear);
+    lines += "\n";
   }
   commands.settings += data_block("cells", lines) + palette_command() +
                        fmt::format("set cblabel {}\nset rmargin at screen 0.82\n", quoted(map.label));
@@ -109,32 +114,83 @@ void add_hatching(const HatchedCells& hatched, std::size_t number, const Cells& 
                   name, patterns[static_cast<std::size_t>(hatched.hatching)], quoted(hatched.label)));
 }
 
-/// gnuplot's contour lines as the data "$contours", in linear coordinates.
-std::string contour_commands(const Plot& plot) {
+/// The values themselves, or moved by their uncertainty.
+std::vector<double> moved(const Map& map, double uncertainties) {
+  std::vector<double> values = map.values;
+  for (std::size_t i = 0; uncertainties != 0.0 && i < values.size(); ++i)
+    values[i] += uncertainties * map.uncertainty[i];
+  return values;
+}
+
+/// Of contour lines, in the values' unit: one digit, about eight lines at most, and no finer than the values
+/// are known.
+double contour_step(const Map& map, const ValueRange& range) {
+  const double known = std::max(map.least_step, range_of(map.uncertainty).highest);
+  const double least = std::max(known, (range.highest - range.lowest) / 8.0);
+  const double unit = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double digits : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+    if (digits * unit >= least * (1.0 - 1e-9)) return digits * unit;
+  }
+  return 10.0 * unit;
+}
+
+/// Multiples of the step between the lowest and the highest value.
+std::vector<double> contour_levels(const ValueRange& range, double step) {
+  std::vector<double> levels;
+  for (double n = std::ceil(range.lowest / step); n * step < range.highest; ++n) {
+    if (n * step > range.lowest) levels.push_back(n * step);
+  }
+  return levels;
+}
+
+/// gnuplot's contour lines as data of a name, in linear coordinates.
+std::string contour_commands(const Plot& plot, const std::vector<double>& values,
+                             const std::vector<double>& levels, const std::string& name) {
   const Map& map = *plot.map;
-  std::string lines;
+  std::string lines, listed;
   for (std::size_t j = 0; j < map.y.size(); ++j) {
     for (std::size_t i = 0; i < map.x.size(); ++i)
       lines += fmt::format("{} {} {}\n", exact(to_linear(map.x[i], plot.x.scale)),
-                           exact(to_linear(map.y[j], plot.y.scale)), exact(map.values[j * map.x.size() + i]));
+                           exact(to_linear(map.y[j], plot.y.scale)), exact(values[j * map.x.size() + i]));
     lines += "\n";
   }
-  return data_block("grid", lines) +
-         "set contour base\nunset surface\nset cntrparam linear\nset cntrparam levels auto 8\n"
-         "set table $contours\nsplot $grid using 1:2:3\nunset table\n";
+  // Levels as people write them: 0.06, not 0.060000000000000005.
+  for (const double level : levels) listed += (listed.empty() ? "" : ",") + significant(level, 6);
+  // Where no line runs, gnuplot needs a point to skip.
+  return data_block("grid_of_" + name, lines) +
+         fmt::format(
+             "set contour base\nunset surface\nset cntrparam linear\nset cntrparam levels discrete {1}\n"
+             "set table ${0}\nsplot $grid_of_{0} using 1:2:3\nunset table\n"
+             "set print ${0} append\nprint \"NaN NaN NaN\"\nunset print\n",
+             name, listed);
 }
 
-void add_contours(const Plot& plot, MapCommands& commands) {
-  commands.settings += contour_commands(plot);
+/// Lines that no uncertainty blurs together: none where the values are not known well enough for two.
+void add_contours(const Plot& plot, const ValueRange& range, MapCommands& commands) {
+  const Map& map = *plot.map;
+  const double step = contour_step(map, range);
+  const std::vector<double> levels = contour_levels(range, step);
+  if (levels.empty()) return;
+  commands.settings += contour_commands(plot, map.values, levels, "contours");
   commands.settings += "set style textbox opaque margins 0.5, 0.3 fillcolor rgb '#ffffff' noborder\n";
   const auto back = [](int column, Scale scale) {
     return scale == Scale::linear ? fmt::format("{}", column) : fmt::format("(10**${})", column);
   };
   const std::string places = back(1, plot.x.scale) + ":" + back(2, plot.y.scale);
+  if (range_of(map.uncertainty).any()) {
+    const std::string label = "title " + quoted("where their uncertainty may move them");
+    for (const auto& [name, way] : {std::pair{"lower", -1.0}, std::pair{"upper", 1.0}}) {
+      commands.settings += contour_commands(plot, moved(map, way), levels, name);
+      commands.plots.push_back(
+          fmt::format("${} using {} with lines linewidth 1.2 dashtype 2 linecolor rgb '#222222' {}", name,
+                      places, way < 0 ? label : "notitle"));
+    }
+  }
   commands.plots.push_back(
-      fmt::format("$contours using {} with lines linewidth 1.2 linecolor rgb '#222222' notitle", places));
+      fmt::format("$contours using {} with lines linewidth 1.6 linecolor rgb '#222222' title {}", places,
+                  quoted(fmt::format("contour lines, every {}", significant(step, 6)))));
   // Labels of neighbouring levels stand at different places along their lines.
-  const std::size_t along = std::min(plot.map->x.size(), plot.map->y.size());
+  const std::size_t along = std::min(map.x.size(), map.y.size());
   for (const std::size_t parity : {0, 1}) {
     commands.plots.push_back(
         fmt::format("$contours using {}:3 index {}::2 every 100000::{} with labels font ',12' boxed notitle",
@@ -145,10 +201,12 @@ void add_contours(const Plot& plot, MapCommands& commands) {
 /// Black on light colours, white on dark ones.
 void add_numbers(const Map& map, const ValueRange& range, MapCommands& commands) {
   const double lowest = map.minimum.value_or(range.lowest), highest = map.maximum.value_or(range.highest);
-  commands.plots.push_back(fmt::format(
-      "$cells using 1:2:(sprintf('%.3g', $7)):($7 < {} ? 0xffffff : 0x111111) with labels font ',13' "
-      "textcolor rgb variable notitle",
-      exact(lowest + 0.3 * (highest - lowest))));
+  const std::string text =
+      map.uncertainty.empty() ? "sprintf('%.3g', $7)" : "sprintf(\"%.3g\\n+-%.2g\", $7, $8)";
+  commands.plots.push_back(
+      fmt::format("$cells using 1:2:({}):($7 < {} ? 0xffffff : 0x111111) with labels font ',13' "
+                  "textcolor rgb variable notitle",
+                  text, exact(lowest + 0.3 * (highest - lowest))));
 }
 
 }  // namespace
@@ -157,6 +215,8 @@ std::string unfit(const Map& map, const Plot& plot) {
   if (map.x.size() < 2 || map.y.size() < 2) return "a map has at least two values on each axis";
   if (map.values.size() != map.x.size() * map.y.size())
     return "a map has a value, or NaN, for every point of its grid";
+  if (!map.uncertainty.empty() && map.uncertainty.size() != map.values.size())
+    return "a map has an uncertainty for every value, or for none";
   const auto fits = [](const std::vector<double>& values, Scale scale) {
     return std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end() &&
            std::all_of(values.begin(), values.end(), [&](double value) { return drawable(value, scale); });
@@ -176,7 +236,7 @@ MapCommands map_commands(const Plot& plot) {
   if (range.any() && cells.have_room(plot)) {
     add_numbers(map, range, commands);
   } else if (range.lowest < range.highest) {
-    add_contours(plot, commands);
+    add_contours(plot, range, commands);
   }
   commands.settings +=
       fmt::format("unset grid\nset xrange [{}:{}]\nset yrange [{}:{}]\n", exact(cells.x_edges.front()),

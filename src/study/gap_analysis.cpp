@@ -293,8 +293,6 @@ void apply_confirmations(const Study& study, CaseOutcome& outcome) {
   }
 }
 
-/// True where a row that the constants were calibrated on is missed: the constants belong to other settings,
-/// and a stated uncertainty does not cover that.
 bool misses_calibrated_rows(const CaseOutcome& outcome) {
   constexpr double slack = 0.5;  // K
   return std::any_of(outcome.verdicts.begin(), outcome.verdicts.end(), [](const GapVerdict& row) {

@@ -95,6 +95,96 @@ TEST(CriticalGapReport, ThePageOpensWithTheAnswerAndSaysHowToRemakeIt) {
   EXPECT_EQ(page.find(LAUNCHSAFE_SOURCE_DIR), std::string::npos) << "a path of this machine";
 }
 
+const report::Series* series_named(const report::Plot& plot, const std::string& label) {
+  const auto found = std::find_if(plot.series.begin(), plot.series.end(),
+                                  [&](const report::Series& each) { return each.label == label; });
+  return found == plot.series.end() ? nullptr : &*found;
+}
+
+TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
+  const CriticalGapResult result = one_case();
+  const report::Plot plot = kinds::temperature_plot(result);
+  const report::Series* computed = series_named(plot, "computed, with its uncertainty");
+  ASSERT_NE(computed, nullptr);
+  EXPECT_EQ(computed->style, report::Style::vertical_bars);
+  ASSERT_EQ(computed->x, (std::vector<double>{0.0, 3.0e-4 * 100.0})) << "those that do not ignite";
+  const Uncertainty& uncertainty = result.cases.front().verdicts[1].uncertainty;
+  EXPECT_NEAR(computed->upper[1] - computed->y[1], uncertainty.total(), 1e-9);
+  // The model form moves towards ignition alone; the study states 1 K.
+  EXPECT_NEAR(computed->y[1] - computed->lower[1], uncertainty.total() - 1.0, 1e-9);
+  const report::Series* ignited = series_named(plot, "ignites: of the burning skin");
+  ASSERT_NE(ignited, nullptr);
+  EXPECT_EQ(ignited->style, report::Style::points) << "no uncertainty is known of it";
+  const CriticalGap& critical = result.cases.front().critical;
+  ASSERT_EQ(plot.vertical_bands.size(), 1u);
+  EXPECT_NEAR(plot.vertical_bands[0].from, 100.0 * std::max(0.0, critical.value - critical.uncertainty),
+              1e-12);
+  EXPECT_NEAR(plot.vertical_bands[0].to, 100.0 * (critical.value + critical.uncertainty), 1e-12);
+  EXPECT_NE(plot.vertical_bands[0].label.find(" +- "), std::string::npos) << plot.vertical_bands[0].label;
+  ASSERT_EQ(plot.vertical_lines.size(), 1u);
+}
+
+TEST(CriticalGapReport, ThePictureTellsCalibratedRowsFromHeldOutOnes) {
+  CriticalGapResult result = one_case();
+  const double computed = result.cases.front().verdicts.front().maximum.temperature;
+  const auto calibrate_to = [&](double temperature) {
+    result.study.study.references.front().maximum_temperature = temperature;
+    result.cases.front().verdicts.front().reference->maximum_temperature = temperature;
+  };
+  calibrate_to(computed);
+  const report::Plot met = kinds::temperature_plot(result);
+  ASSERT_NE(series_named(met, "published, calibrated to"), nullptr);
+  EXPECT_EQ(series_named(met, "published, calibrated to")->x, std::vector<double>{0.0});
+  ASSERT_NE(series_named(met, "published, held out"), nullptr);
+  EXPECT_EQ(series_named(met, "published, held out")->y, std::vector<double>{492.9});
+  calibrate_to(computed + 5.0);
+  const report::Plot missed = kinds::temperature_plot(result);
+  EXPECT_EQ(series_named(missed, "published, calibrated to"), nullptr) << "the constants are of elsewhere";
+  ASSERT_NE(series_named(missed, "published"), nullptr);
+  EXPECT_EQ(series_named(missed, "published")->x.size(), 2u);
+  result.cases.front().input.own_conditions = false;
+  EXPECT_EQ(series_named(kinds::temperature_plot(result), "published"), nullptr) << "another launch";
+}
+
+TEST(CriticalGapReport, AnIndeterminateCriticalGapIsWordsInThePicture) {
+  CriticalGapResult result = one_case();
+  result.cases.front().critical = CriticalGap{};
+  const report::Plot plot = kinds::temperature_plot(result);
+  EXPECT_TRUE(plot.vertical_bands.empty());
+  EXPECT_TRUE(plot.vertical_lines.empty());
+  EXPECT_EQ(plot.subtitle, "critical gap: indeterminate");
+}
+
+TEST(CriticalGapReport, SixCasesHaveTheirCriticalGapsInAPictureOfTheirOwn) {
+  CriticalGapResult result = run_critical_gap(
+      study_of(study_text + "peak_pressures = \"400, 450, 496 MPa\"\nflaw_sizes = \"1, 2 mm\"\n" +
+               synthetic_constants),
+      synthetic_options());
+  ASSERT_EQ(result.cases.size(), 6u);
+  result.cases[1].critical = CriticalGap{};
+  const report::Plot temperatures = kinds::temperature_plot(result);
+  EXPECT_TRUE(temperatures.vertical_lines.empty()) << "six of them would cover each other";
+  for (const CaseOutcome& outcome : result.cases)
+    EXPECT_NE(series_named(temperatures, outcome.input.label), nullptr) << outcome.input.label;
+  EXPECT_EQ(std::count_if(temperatures.series.begin(), temperatures.series.end(),
+                          [](const report::Series& each) { return each.label.starts_with("ignites"); }),
+            1)
+      << "one entry of the legend for all";
+  const report::Plot gaps = kinds::critical_gaps_plot(result);
+  ASSERT_EQ(gaps.y.tics.size(), 6u);
+  EXPECT_EQ(gaps.y.tics.front().label, result.cases.front().input.label);
+  const report::Series* values = series_named(gaps, "computed value");
+  ASSERT_NE(values, nullptr);
+  ASSERT_EQ(values->x.size(), 5u);
+  EXPECT_EQ(values->style, report::Style::horizontal_bars);
+  EXPECT_NEAR(values->upper[0] - values->x[0], 100.0 * result.cases[0].critical.uncertainty, 1e-12);
+  const report::Series* unknown = series_named(gaps, "indeterminate or failed");
+  ASSERT_NE(unknown, nullptr);
+  EXPECT_EQ(unknown->y, std::vector<double>{5.0}) << "the second from the top";
+  EXPECT_NE(report::to_markdown(kinds::report_of(result)).find("critical_gaps.svg"), std::string::npos);
+  EXPECT_EQ(report::to_markdown(kinds::report_of(one_case())).find("critical_gaps.svg"), std::string::npos);
+}
+
 TEST(CriticalGapReport, WritesItsFiles) {
   const Folder folder;
   const CriticalGapResult result = one_case();

@@ -223,6 +223,11 @@ TEST(SweepPictures, TwoAxesMakeAMapOfTheGapAndOneLessItsUncertainty) {
   EXPECT_NEAR(map.values[2 * 6 + 3], 0.0395, 1e-12);
   // Of each cell and its uncertainty, as critical_gap_table has them.
   EXPECT_NEAR(made.pictures[1].plot.map->values[2 * 6 + 3], 0.0395 - 0.0004, 1e-12);
+  ASSERT_EQ(map.uncertainty.size(), map.values.size());
+  EXPECT_NEAR(map.uncertainty[2 * 6 + 3], 0.0004, 1e-12);
+  EXPECT_TRUE(made.pictures[1].plot.map->uncertainty.empty()) << "an end of the interval has none";
+  for (const SweepPicture& each : made.pictures)
+    EXPECT_NEAR(each.plot.map->least_step, 0.0004, 1e-12) << "contour lines are no finer";
 }
 
 TEST(SweepPictures, WhatIsNoValueIsHatchedByItsReason) {

@@ -83,8 +83,52 @@ TEST(PlotMap, ContoursAreFoundInTheCoordinatesOfThePicture) {
   plot.x.scale = Scale::logarithmic;
   for (std::size_t i = 0; i < plot.map->x.size(); ++i) plot.map->x[i] = std::pow(10.0, 0.1 * double(i));
   const std::string text = to_gnuplot(plot);
-  EXPECT_EQ(block_of(text, "grid")[10], "1 0 10") << "the logarithm of 10";
+  EXPECT_EQ(block_of(text, "grid_of_contours")[10], "1 0 10") << "the logarithm of 10";
   EXPECT_NE(text.find("$contours using (10**$1):2 with lines"), std::string::npos);
+}
+
+/// The levels of the contour lines in gnuplot's text; empty where there are none.
+std::string levels_of(const std::string& gnuplot) {
+  const std::string before = "levels discrete ";
+  const std::size_t at = gnuplot.find(before);
+  if (at == std::string::npos) return {};
+  return gnuplot.substr(at + before.size(), gnuplot.find('\n', at) - at - before.size());
+}
+
+TEST(PlotMap, ContoursAreNoFinerThanTheUncertainty) {
+  Plot plot = plane(40, 30);  // from 0 to 97
+  EXPECT_EQ(levels_of(to_gnuplot(plot)), "20,40,60,80") << "about eight at most: 97/8, in one digit";
+  plot.map->least_step = 25;
+  EXPECT_EQ(levels_of(to_gnuplot(plot)), "30,60,90");
+  plot.map->least_step = 0;
+  plot.map->uncertainty.assign(plot.map->values.size(), 1.0);
+  EXPECT_EQ(levels_of(to_gnuplot(plot)), "20,40,60,80");
+  plot.map->uncertainty[7] = 45.0;
+  EXPECT_EQ(levels_of(to_gnuplot(plot)), "50") << "the largest decides";
+  plot.map->uncertainty[7] = 200.0;
+  const std::string unknown = to_gnuplot(plot);
+  EXPECT_EQ(unknown.find("$contours"), std::string::npos) << "no line is known";
+}
+
+TEST(PlotMap, DashedLinesShowWhereTheUncertaintyMovesContours) {
+  Plot plot = plane(40, 30);
+  EXPECT_EQ(to_gnuplot(plot).find("may move them"), std::string::npos);
+  plot.map->uncertainty.assign(plot.map->values.size(), 4.0);
+  const std::string text = to_gnuplot(plot);
+  EXPECT_EQ(block_of(text, "grid_of_contours")[2], "2 0 2");
+  EXPECT_EQ(block_of(text, "grid_of_lower")[2], "2 0 -2");
+  EXPECT_EQ(block_of(text, "grid_of_upper")[2], "2 0 6");
+  EXPECT_NE(text.find("where their uncertainty may move them"), std::string::npos);
+}
+
+TEST(PlotMap, NumbersStandWithTheirUncertainty) {
+  Plot plot = plane();
+  plot.map->uncertainty.assign(plot.map->values.size(), 0.5);
+  const std::string text = to_gnuplot(plot);
+  EXPECT_EQ(block_of(text, "cells")[6], "2 1 1.5 2.5 0.5 1.5 4 0.5");
+  EXPECT_NE(text.find("+-%.2g"), std::string::npos);
+  plot.map->uncertainty.pop_back();
+  EXPECT_FALSE(to_svg(plot)) << "one for every value, or none";
 }
 
 TEST(PlotMap, ColoursOfSeveralMapsCanBeMadeToCompare) {
@@ -151,6 +195,18 @@ TEST_F(DrawnMap, WorksWithOneValueOrEqualOnes) {
     plot.map->values.front() = 3.0;
     svg = to_svg(plot);
     EXPECT_TRUE(svg) << svg.error().message;
+  }
+}
+
+TEST_F(DrawnMap, ShowsUncertaintyAlsoWhereItLeavesNoContour) {
+  for (const double uncertainty : {0.5, 15.0, 200.0}) {
+    for (Plot plot : {plane(), plane(40, 30)}) {
+      plot.map->uncertainty.assign(plot.map->values.size(), uncertainty);
+      const auto svg = to_svg(plot);
+      ASSERT_TRUE(svg) << svg.error().message;
+      EXPECT_EQ(svg->find("may move them") != std::string::npos,
+                plot.map->x.size() > 4 && uncertainty < 100.0);
+    }
   }
 }
 

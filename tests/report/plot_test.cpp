@@ -141,6 +141,15 @@ TEST(Plot, ALegendOfLongEntriesStandsBesideIt) {
   EXPECT_NE(to_gnuplot(plot).find("set key outside right"), std::string::npos);
 }
 
+TEST(Plot, BandsLieBehindTheSeriesFromEdgeToEdge) {
+  Plot plot = sample();
+  plot.vertical_bands = {{0.01, 0.02, "where it may be"}};
+  const std::string text = to_gnuplot(plot);
+  EXPECT_NE(text.find("$band0 << END_OF_DATA\n0.01 0\n0.01 1\n0.02 1\n0.02 0\n"), std::string::npos) << text;
+  EXPECT_LT(text.find("$band0 using"), text.find("$series0 using")) << "what is drawn first is behind";
+  EXPECT_NE(text.find("title \"where it may be\""), std::string::npos);
+}
+
 TEST(Plot, BarsNeedTheirEnds) {
   Plot plot = sample();
   plot.series[0].style = Style::vertical_bars;

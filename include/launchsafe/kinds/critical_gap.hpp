@@ -60,8 +60,11 @@ report::Table fit_table(const study::CaseOutcome& outcome);
 /// Status, energy drift, limiters and speed of every run.
 report::Table run_table(const CriticalGapResult& result);
 
-/// Maximum temperature against gap.
+/// Maximum temperature against gap with its uncertainty, the published rows by what they were used for, and
+/// of one case the fit and the critical gap with its uncertainty.
 report::Plot temperature_plot(const CriticalGapResult& result);
+/// The critical gaps of several cases below each other, with their uncertainty; bounds as bounds.
+report::Plot critical_gaps_plot(const CriticalGapResult& result);
 
 /// The whole report, with what is printed on a terminal and every file.
 report::Report report_of(const CriticalGapResult& result);

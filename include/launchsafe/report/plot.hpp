@@ -66,6 +66,12 @@ struct Line {
   std::string label = {};
 };
 
+/// A grey band from edge to edge, behind all else; `label` is its entry in the legend.
+struct Band {
+  double from = 0, to = 0;
+  std::string label = {};
+};
+
 enum class Hatching { rising, falling, crossed, dense };
 
 /// Cells of a map that have no value, and why.
@@ -84,6 +90,9 @@ struct Map {
   std::string label;           ///< of the colour bar, with its unit
   std::optional<double> minimum = {}, maximum = {};  ///< of the colours; from the values where absent
   std::vector<HatchedCells> hatched = {};
+  /// Of every value, its unit. Numbers stand with it; dashed lines show where it may move a contour line.
+  std::vector<double> uncertainty = {};
+  double least_step = 0;  ///< contour lines are no closer, nor closer than the largest uncertainty
 };
 
 struct Plot {
@@ -94,6 +103,7 @@ struct Plot {
   std::optional<Map> map = {};    ///< below the series; the limits of both axes are those of its cells
   int width = 800, height = 560;  ///< pixels
   std::string subtitle = {};      ///< small, below the title
+  std::vector<Band> vertical_bands = {};
 };
 
 /// The commands and data that `to_svg` gives to gnuplot.

@@ -35,6 +35,10 @@ void evaluate_film(const Study& study, CaseOutcome& outcome);
 /// What the confirmations say about the critical gap: a disagreement makes it indeterminate.
 void apply_confirmations(const Study& study, CaseOutcome& outcome);
 
+/// Whether a row that the constants were calibrated on is missed: the constants belong to other settings, and
+/// a stated uncertainty does not cover that.
+bool misses_calibrated_rows(const CaseOutcome& outcome);
+
 /// Uncertainties, verdicts and the fit, once all runs are done.
 void conclude(const Study& study, CaseOutcome& outcome);
 

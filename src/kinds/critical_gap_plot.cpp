@@ -1,0 +1,178 @@
+// The pictures of a critical-gap study.
+#include "critical_gap_marks.hpp"
+#include "launchsafe/kinds/critical_gap.hpp"
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/verdict_text.hpp"
+#include "launchsafe/study/gap_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+namespace {
+
+/// "0.0395 +- 0.0094 cm": as many digits as two of the uncertainty are worth.
+std::string with_uncertainty(const CriticalGap& gap) {
+  const double value = 100.0 * gap.value, uncertainty = 100.0 * gap.uncertainty;
+  if (!(uncertainty > 0.0) || !std::isfinite(uncertainty)) return significant(value, 3) + " cm";
+  const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(uncertainty))));
+  return fmt::format("{} +- {} cm", fixed(value, decimals), fixed(uncertainty, decimals));
+}
+
+/// Colour and mark of a case. Open marks are larger: neighbours that lie on each other both show. The marks
+/// move on with every round of colours, so that no two cases look alike.
+void give_look(std::size_t index, Series& series) {
+  constexpr std::array<Mark, 8> marks{Mark::circle,      Mark::open_square,  Mark::up_triangle,
+                                      Mark::open_circle, Mark::diamond,      Mark::open_triangle,
+                                      Mark::square,      Mark::down_triangle};
+  series.colour = static_cast<int>(index);
+  series.mark = marks[(index + index / marks.size()) % marks.size()];
+}
+
+/// What did not ignite, with its uncertainty: the model form, whose sign is known, counts upwards alone.
+Series inert_series(const CaseOutcome& outcome, const std::string& label) {
+  Series series{label, {}, {}, Style::vertical_bars};
+  for (const GapVerdict& row : outcome.verdicts) {
+    const double temperature = row.maximum.temperature;
+    if (row.ignition || !std::isfinite(temperature)) continue;
+    const Uncertainty& uncertainty = row.uncertainty;
+    series.x.push_back(100.0 * row.gap);
+    series.y.push_back(temperature);
+    series.lower.push_back(temperature - (uncertainty.total() - uncertainty.model_form));
+    series.upper.push_back(temperature + uncertainty.total());
+  }
+  return series;
+}
+
+/// What ignited: the temperature is that of the burning skin, of which the uncertainty says nothing.
+Series ignited_series(const CaseOutcome& outcome) {
+  Series series{"", {}, {}, Style::points};
+  for (const GapVerdict& row : outcome.verdicts) {
+    if (!row.ignition || !std::isfinite(row.maximum.temperature)) continue;
+    series.x.push_back(100.0 * row.gap);
+    series.y.push_back(row.maximum.temperature);
+  }
+  return series;
+}
+
+Series fitted_line(const GapFit& fit, const std::string& label) {
+  Series line{label, {}, {}, Style::line};
+  for (const double gap : fit.gaps) {
+    line.x.push_back(100.0 * gap);
+    line.y.push_back(fit.ordinary.intercept + fit.ordinary.slope * 100.0 * gap);
+  }
+  return line;
+}
+
+void add_case(const CriticalGapResult& result, std::size_t index, Plot& plot) {
+  const CaseOutcome& outcome = result.cases[index];
+  const bool only = result.cases.size() == 1;
+  if (outcome.fit) {
+    Series line = fitted_line(*outcome.fit, only ? "least squares" : "");
+    line.colour = only ? 7 : static_cast<int>(index);
+    plot.series.push_back(std::move(line));
+  }
+  Series inert = inert_series(outcome, only ? "computed, with its uncertainty" : outcome.input.label);
+  give_look(index, inert);
+  Series ignited = ignited_series(outcome);
+  if (inert.x.empty() && !only) ignited.label = outcome.input.label + ": ignites";
+  if (!inert.x.empty()) plot.series.push_back(std::move(inert));
+  give_look(index, ignited);
+  ignited.mark = Mark::cross;
+  if (!ignited.x.empty()) plot.series.push_back(std::move(ignited));
+}
+
+/// One entry of the legend for the ignitions of all cases.
+void name_ignitions(Plot& plot) {
+  const auto first = std::find_if(plot.series.begin(), plot.series.end(), [](const Series& series) {
+    return series.mark == Mark::cross && series.label.empty();
+  });
+  if (first != plot.series.end()) first->label = "ignites: of the burning skin";
+}
+
+/// Where no case has the launch that was published there is nothing to compare; under constants that miss the
+/// calibrated rows none counts as calibrated.
+void add_published(const CriticalGapResult& result, Plot& plot) {
+  const auto own = std::find_if(result.cases.begin(), result.cases.end(),
+                                [](const CaseOutcome& each) { return each.input.own_conditions; });
+  if (own == result.cases.end()) return;
+  const bool foreign = misses_calibrated_rows(*own);
+  Series published{"published", {}, {}, Style::points};
+  Series calibrated{"published, calibrated to", {}, {}, Style::points};
+  Series held_out{"published, held out", {}, {}, Style::points};
+  published.mark = calibrated.mark = Mark::open_square;
+  published.colour = calibrated.colour = held_out.colour = 6;
+  held_out.mark = Mark::open_circle;
+  for (const Reference& reference : result.study.study.references) {
+    if (!std::isfinite(reference.maximum_temperature)) continue;
+    Series& used = used_for(reference) == to_string(Use::calibration) ? calibrated : held_out;
+    Series& series = foreign ? published : used;
+    series.x.push_back(100.0 * reference.gap);
+    series.y.push_back(reference.maximum_temperature);
+  }
+  for (Series* series : {&published, &calibrated, &held_out})
+    if (!series->x.empty()) plot.series.push_back(std::move(*series));
+}
+
+/// The critical gap of the only case: a band where it has an uncertainty, words where it is no value.
+void add_critical_gap(const CriticalGap& gap, Plot& plot) {
+  if (drawn_kind(gap) != CriticalGapKind::value) {
+    plot.subtitle = "critical gap: " + reads_as(gap);
+    return;
+  }
+  const std::string label = "critical gap: " + with_uncertainty(gap);
+  const bool has_band = std::isfinite(gap.uncertainty);
+  plot.vertical_lines = {{100.0 * gap.value, has_band ? "" : label}};
+  if (has_band)
+    plot.vertical_bands = {
+        {100.0 * std::max(0.0, gap.value - gap.uncertainty), 100.0 * (gap.value + gap.uncertainty), label}};
+}
+
+}  // namespace
+
+Plot temperature_plot(const CriticalGapResult& result) {
+  Plot plot;
+  plot.title = "Highest temperature of the charge bottom";
+  plot.x.label = "gap [cm]";
+  plot.y.label = "T max [K]";
+  // The legend stands below and takes two cases a line.
+  plot.height = 600 + 14 * static_cast<int>(result.cases.size());
+  for (std::size_t i = 0; i < result.cases.size(); ++i) add_case(result, i, plot);
+  name_ignitions(plot);
+  add_published(result, plot);
+  if (result.cases.size() == 1) add_critical_gap(result.cases.front().critical, plot);
+  const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;
+  plot.horizontal_lines.push_back(
+      {ignition, fmt::format("ignition temperature: {} K", significant(ignition, 4))});
+  return plot;
+}
+
+Plot critical_gaps_plot(const CriticalGapResult& result) {
+  Plot plot;
+  plot.title = "Critical gaps with their uncertainty";
+  plot.x.label = "critical gap [cm]";
+  plot.x.minimum = 0.0;
+  const std::size_t count = result.cases.size();
+  std::vector<const CriticalGap*> gaps;
+  for (const CaseOutcome& outcome : result.cases) gaps.push_back(&outcome.critical);
+  GapMarks marks(gaps, Style::horizontal_bars);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto line = static_cast<double>(count - i);
+    plot.y.tics.push_back({line, result.cases[i].input.label});
+    marks.add(result.cases[i].critical, line);
+  }
+  marks.put_into(plot);
+  plot.y.minimum = 0.4;
+  plot.y.maximum = static_cast<double>(count) + 0.6;
+  plot.height = std::min(190 + 34 * static_cast<int>(count), 1600);
+  return plot;
+}
+
+}  // namespace launchsafe::kinds
