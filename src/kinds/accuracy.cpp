@@ -275,12 +275,12 @@ double relative_difference(const PressureTrace& p, const PressureTrace& q) {
 
 void mark_front(std::vector<AccuracyRow>& rows) {
   const auto counts = [](const AccuracyRow& row) {
-    return row.sound() && !row.other_model && std::isfinite(row.largest_temperature_error);
+    return row.sound() && !row.other_model && std::isfinite(row.error_to_go_by());
   };
   for (AccuracyRow& row : rows) {
     row.on_front = counts(row) && std::none_of(rows.begin(), rows.end(), [&](const AccuracyRow& other) {
                      return counts(other) && other.measured.processor_time < row.measured.processor_time &&
-                            other.largest_temperature_error <= row.largest_temperature_error;
+                            other.error_to_go_by() <= row.error_to_go_by();
                    });
   }
 }

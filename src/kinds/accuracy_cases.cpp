@@ -212,6 +212,8 @@ Kind accuracy_kind() {
                 {"points.csv"},
                 {"times.csv"},
                 {"error_against_time.svg"},
+                {"error_against_mesh.svg"},
+                {"error_over_launch.svg"},
                 {"summary.md"}},
   };
 }

@@ -225,16 +225,21 @@ std::string summary(const AccuracyResult& result) {
 Report report_of(const AccuracyResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
   report.files.push_back({"summary.md", summary(result)});
-  if (result.reference) report.files.push_back({"accuracy.json", study::to_json_text(result.record)});
-  report.items = {
-      Picture{"error_against_time.svg", error_plot(result), "error against run time"},
-      ReportTable{setting_table(result), "accuracy.csv", "settings"},
-      ReportTable{reference_table(result), "reference.csv", "reference"},
-      ReportTable{time_table(result), "times.csv", "times"},
-      ReportTable{point_table(result), "points.csv", "points"},
-      Statement{"## Setup\n\n" + setup_text(result.study)},
-      Statement{timing_text(result.timing) + "\n"},
-  };
+  if (result.reference) {
+    report.files.push_back({"accuracy.json", study::to_json_text(result.record)});
+    report.items = {Picture{"error_against_time.svg", error_plot(result), "error against run time"},
+                    Picture{"error_against_mesh.svg", mesh_plot(result), "error against cell size"}};
+  }
+  if (result.reference && !accuracy_settings(result.study.study).times.empty())
+    report.items.push_back(
+        Picture{"error_over_launch.svg", launch_plot(result), "error against time in the launch"});
+  for (ReportTable table : {ReportTable{setting_table(result), "accuracy.csv", "settings"},
+                            ReportTable{reference_table(result), "reference.csv", "reference"},
+                            ReportTable{time_table(result), "times.csv", "times"},
+                            ReportTable{point_table(result), "points.csv", "points"}})
+    report.items.push_back(std::move(table));
+  report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
+  report.items.push_back(Statement{timing_text(result.timing) + "\n"});
   report.json = study_json(result.study, report, {{"timing", timing_json(result.timing)}});
   return report;
 }

@@ -1,4 +1,4 @@
-// The tables and the picture of an accuracy study.
+// The tables of an accuracy study.
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace launchsafe::kinds {
 
@@ -160,7 +159,7 @@ Table setting_table(const AccuracyResult& result) {
       "Errors are this minus the extrapolated value (where none is justified, the finest mesh); p(t) is the "
       "relative L2 difference of the bottom pressure from the finest mesh. Bounds: the "
       "distance from the finest mesh and its uncertainty, the largest over the gaps. Front: no setting is "
-      "both cheaper and nearer.");
+      "both cheaper and of a smaller bound.");
   return table;
 }
 
@@ -184,46 +183,6 @@ Table time_table(const AccuracyResult& result) {
     table.rows.push_back(std::move(cells));
   }
   return table;
-}
-
-Plot error_plot(const AccuracyResult& result) {
-  Plot plot;
-  plot.title = "Error of T max against processor time";
-  plot.x = {"processor time of a run [s]", Scale::logarithmic};
-  plot.y = {"largest error of T max [K]", Scale::logarithmic};
-  plot.width = 1100;
-  Series front{"Pareto front", {}, {}, Style::steps};
-  Series meshes{"reference meshes", {}, {}, Style::points}, settings{"other settings", {}, {}, Style::points};
-  for (Series* each : {&front, &meshes, &settings}) each->colour = 7;
-  meshes.mark = Mark::open_square;
-  settings.mark = Mark::circle;
-  std::vector<Series> named;  // one point each, so that the legend names them and no label covers others
-  std::vector<std::pair<double, double>> best;
-  for (const AccuracyRow& row : result.rows) {
-    if (!row.computed() || row.other_model || !(row.largest_temperature_error > 0)) continue;
-    const double time = row.measured.processor_time, error = row.largest_temperature_error;
-    if (row.on_front) best.emplace_back(time, error);
-    if (row.on_front || row.baseline) {
-      named.push_back(
-          {row.baseline ? "as in the scene" : result.study.cases[row.index].label, {time}, {error}});
-      named.back().style = Style::points;
-      named.back().colour = static_cast<int>((named.size() - 1) % 7);
-      if (!row.reference) continue;
-    }
-    Series& series = row.reference ? meshes : settings;
-    series.x.push_back(time);
-    series.y.push_back(error);
-  }
-  std::sort(best.begin(), best.end());
-  for (const auto& [time, error] : best) {
-    front.x.push_back(time);
-    front.y.push_back(error);
-  }
-  for (Series* each : {&front, &settings, &meshes}) {
-    if (!each->x.empty()) plot.series.push_back(std::move(*each));
-  }
-  for (Series& each : named) plot.series.push_back(std::move(each));
-  return plot;
 }
 
 }  // namespace launchsafe::kinds

@@ -93,4 +93,60 @@ TEST(AccuracyReport, WritesARecordThatOtherStudiesCanRead) {
   EXPECT_EQ(json["settings"].size(), 4u);
 }
 
+const report::Series* series_named(const report::Plot& plot, const std::string& label) {
+  const auto found = std::find_if(plot.series.begin(), plot.series.end(),
+                                  [&](const report::Series& each) { return each.label == label; });
+  return found == plot.series.end() ? nullptr : &*found;
+}
+
+TEST(AccuracyReport, ThePictureShowsBoundsAndNamesTheFrontAlone) {
+  const AccuracyResult result = made_accuracy();
+  const report::Plot plot = kinds::error_plot(result);
+  const report::Series* own = series_named(plot, "as in the scene");
+  ASSERT_NE(own, nullptr);
+  const AccuracyRow& row = result.rows[2];
+  ASSERT_TRUE(row.baseline);
+  EXPECT_EQ(own->style, report::Style::vertical_bars);
+  EXPECT_EQ(own->y.front(), row.temperature_bound) << "the mark";
+  EXPECT_EQ(own->upper.front(), row.temperature_bound);
+  EXPECT_EQ(own->lower.front(), row.largest_temperature_error) << "the bar goes down to the distance";
+  for (const AccuracyRow& each : result.rows) {
+    const std::string& label = result.study.cases[each.index].label;
+    if (!each.on_front) EXPECT_EQ(series_named(plot, label), nullptr) << label;
+  }
+  ASSERT_EQ(plot.horizontal_lines.size(), 1u);
+  double uncertainty = 0;
+  for (const ReferenceValue& value : result.reference->temperature)
+    uncertainty = std::max(uncertainty, value.limit.uncertainty + value.inexactness);
+  EXPECT_EQ(plot.horizontal_lines.front().at, uncertainty) << "nothing can be shown to be nearer";
+}
+
+TEST(AccuracyReport, WithoutABoundThePictureSaysSo) {
+  AccuracyResult result = made_accuracy();
+  result.record.unvaried = {"numerics.growth_x"};
+  for (AccuracyRow& row : result.rows) row.temperature_bound = not_a_number;
+  const report::Plot plot = kinds::error_plot(result);
+  EXPECT_NE(plot.subtitle.find("no bound"), std::string::npos);
+  const report::Series* own = series_named(plot, "as in the scene");
+  ASSERT_NE(own, nullptr);
+  EXPECT_EQ(own->y.front(), result.rows[2].largest_temperature_error);
+}
+
+TEST(AccuracyReport, ErrorsStandAgainstTheMeshAndOverTheLaunch) {
+  const AccuracyResult result = made_accuracy();
+  const report::Plot meshes = kinds::mesh_plot(result);
+  const report::Series* own = series_named(meshes, "as in the scene");
+  ASSERT_NE(own, nullptr);
+  ASSERT_EQ(own->x.size(), 3u);
+  EXPECT_NEAR(own->x[2], 2.5, 0.1) << "mm, from fine to coarse";
+  EXPECT_NEAR(own->lower[2], 2.0, 0.05) << "2 K times (cell/2.5 mm)^1.5";
+  ASSERT_NE(series_named(meshes, "time_step_factor 0.25"), nullptr) << "few enough to be named";
+  const report::Plot launch = kinds::launch_plot(result);
+  const report::Series* line = series_named(launch, "as in the scene");
+  ASSERT_NE(line, nullptr);
+  EXPECT_EQ(line->x, std::vector<double>{10.0}) << "ms";
+  EXPECT_EQ(line->y.front(),
+            bound_against(result.reference->at_times.front(), result.rows[2].measured.at_times.front()));
+}
+
 }  // namespace

@@ -95,12 +95,13 @@ TEST(Accuracy, MarksTheSettingsThatNoCheaperOneBeats) {
   const double time[] = {1, 2, 3, 4, 0.5}, error[] = {4, 5, 2, 1, 9};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].measured.processor_time = time[i];
-    rows[i].largest_temperature_error = error[i];
+    rows[i].temperature_bound = error[i];
+    rows[i].largest_temperature_error = 5.0 - time[i];  // a distance decides nothing where there is a bound
   }
   rows[3].other_model = true;
   mark_front(rows);
   EXPECT_TRUE(rows[0].on_front);
-  EXPECT_FALSE(rows[1].on_front) << "the first is cheaper and nearer";
+  EXPECT_FALSE(rows[1].on_front) << "the first is cheaper and less wrong";
   EXPECT_TRUE(rows[2].on_front);
   EXPECT_FALSE(rows[3].on_front) << "another model is no better computation";
   EXPECT_TRUE(rows[4].on_front);

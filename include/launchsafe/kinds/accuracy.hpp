@@ -10,6 +10,7 @@
 #include "launchsafe/study/reference_value.hpp"
 #include "launchsafe/study/study_file.hpp"
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -94,7 +95,11 @@ struct AccuracyRow {
   double peak_pressure_error = 0;           ///< relative
   std::vector<double> ignition_time_error;  ///< s, for every gap
   std::vector<double> error_at_times;       ///< K
-  bool on_front = false;                    ///< no other setting is both cheaper and nearer to the reference
+  bool on_front = false;                    ///< no other setting is both cheaper and less wrong
+  /// K, by how much T max may be off; its distance from the reference alone where no bound is known.
+  double error_to_go_by() const {
+    return std::isfinite(temperature_bound) ? temperature_bound : largest_temperature_error;
+  }
   bool computed() const { return measured.failure.empty(); }
   bool sound() const { return computed() && measured.validity_warnings.empty(); }
 };
@@ -139,8 +144,13 @@ report::Table time_table(const AccuracyResult& result);
 /// A row for every station: T max on the reference meshes, order, limit, uncertainty.
 report::Table point_table(const AccuracyResult& result);
 
-/// Error of T max against processor time, with the front of the settings that no other one beats.
+/// Error of T max against processor time: bound and distance, and the front of the settings that no other one
+/// beats, which alone are named.
 report::Plot error_plot(const AccuracyResult& result);
+/// The same against the cell size, with a line through settings that differ in their mesh alone.
+report::Plot mesh_plot(const AccuracyResult& result);
+/// Bound of the error at Study::times; for a study with a reference and times.
+report::Plot launch_plot(const AccuracyResult& result);
 /// One screen: how wrong is the critical gap, why believe it, what would it cost to halve the error.
 std::string summary(const AccuracyResult& result);
 
