@@ -106,6 +106,31 @@ std::string spread_note(const OutputSensitivity& output) {
                      significant(shown.scale * output.deviation, 3), shown.unit);
 }
 
+/// Whether the estimates of an input contradict each other: no true total order is below the first.
+bool total_below_first(const math::InputIndices& indices) {
+  return indices.total.value < indices.first.value;
+}
+
+/// Which inputs show sampling error by such estimates, with their intervals; empty where none does.
+std::string sampling_note(const SensitivityResult& result, const OutputSensitivity& output) {
+  const auto keys = shown_axes(result.study.study);
+  std::string inputs;
+  bool apart = false;
+  for (std::size_t i = 0; i < std::min(keys.size(), output.sobol.inputs.size()); ++i) {
+    const auto& [first, total] = output.sobol.inputs[i];
+    if (!total_below_first(output.sobol.inputs[i])) continue;
+    inputs +=
+        fmt::format("{}{} (ST {} [{}, {}], S1 {} [{}, {}])", inputs.empty() ? "" : ", ", keys[i].name,
+                    significant(total.value, 3), significant(total.lower, 3), significant(total.upper, 3),
+                    significant(first.value, 3), significant(first.lower, 3), significant(first.upper, 3));
+    apart = apart || total.upper < first.lower;
+  }
+  if (inputs.empty()) return {};
+  return fmt::format(
+      "ST below S1 is sampling error, as no true total order is below the first order: {}. {}", inputs,
+      apart ? "Where their intervals do not overlap, these are too narrow." : "Their intervals overlap.");
+}
+
 std::vector<std::string> notes_of(const SensitivityResult& result, const OutputSensitivity& output) {
   std::vector<std::string> notes;
   if (const std::string reason = reason_of(result, output); !reason.empty())
@@ -113,7 +138,9 @@ std::vector<std::string> notes_of(const SensitivityResult& result, const OutputS
   if (std::isfinite(output.mean)) notes.push_back(spread_note(output));
   if (output.missing > 0) notes.push_back(missing_note(output));
   notes.push_back(method_text(result));
+  if (has_indices(result, output)) notes.push_back(sampling_note(result, output));
   if (output.inert) notes.push_back(inert_note());
+  std::erase(notes, "");
   return notes;
 }
 
@@ -224,7 +251,10 @@ Plot index_plot(const SensitivityResult& result, const OutputSensitivity& output
   for (std::size_t i = 0; i < inputs; ++i) {
     const double y = static_cast<double>(inputs - i);
     const math::InputIndices& indices = output.sobol.inputs[i];
-    plot.y.tics.push_back({y, keys[i].name});
+    const bool contradictory = total_below_first(indices);
+    if (contradictory)
+      plot.subtitle = "* ST below S1 is sampling error: no true total order is below the first order";
+    plot.y.tics.push_back({y, keys[i].name + (contradictory ? " *" : "")});
     add_interval(first, indices.first.value, y + apart, indices.first);
     add_interval(total, indices.total.value, y - apart, indices.total);
   }

@@ -148,6 +148,23 @@ TEST(SensitivityReport, PicturesHaveIntervals) {
   EXPECT_NE(effects.x.label.find("[cm]"), std::string::npos);
 }
 
+TEST(SensitivityReport, ATotalOrderBelowTheFirstIsCalledSamplingError) {
+  SensitivityResult result = made_sensitivity(SensitivityMethod::sobol);
+  EXPECT_TRUE(sensitivity_plot(result, result.outputs[0]).subtitle.empty());
+  EXPECT_FALSE(has_note(sensitivity_table(result, result.outputs[0]), "sampling error"));
+  result.outputs[0].sobol.inputs[1] = {estimate(0.35, 0.1), estimate(0.3, 0.1)};
+  const Plot plot = sensitivity_plot(result, result.outputs[0]);
+  EXPECT_NE(plot.subtitle.find("sampling error"), std::string::npos);
+  EXPECT_EQ(plot.y.tics[0].label, "peak pressure");
+  EXPECT_EQ(plot.y.tics[1].label, "charge.crack_radius *");
+  const Table table = sensitivity_table(result, result.outputs[0]);
+  EXPECT_TRUE(has_note(table,
+                       "charge.crack_radius (ST 0.3 [0.2, 0.4], S1 0.35 [0.25, 0.45]). Their intervals "
+                       "overlap."));
+  result.outputs[0].sobol.inputs[1].first = estimate(0.6, 0.1);
+  EXPECT_TRUE(has_note(sensitivity_table(result, result.outputs[0]), "too narrow"));
+}
+
 TEST(SensitivityReport, WritesItsFilesTheSameEveryTime) {
   const Folder folder;
   for (const SensitivityMethod method : {SensitivityMethod::sobol, SensitivityMethod::morris}) {
