@@ -177,20 +177,26 @@ void add_contours(const Plot& plot, const ValueRange& range, MapCommands& comman
     return scale == Scale::linear ? fmt::format("{}", column) : fmt::format("(10**${})", column);
   };
   const std::string places = back(1, plot.x.scale) + ":" + back(2, plot.y.scale);
+  const std::size_t along = std::min(map.x.size(), map.y.size());
   if (range_of(map.uncertainty).any()) {
-    const std::string label = "title " + quoted("where their uncertainty may move them");
-    for (const auto& [name, way] : {std::pair{"lower", -1.0}, std::pair{"upper", 1.0}}) {
-      commands.settings += contour_commands(plot, moved(map, way), levels, name);
+    commands.settings += contour_commands(plot, moved(map, -1.0), levels, "lower") +
+                         contour_commands(plot, moved(map, 1.0), levels, "upper");
+    const auto add_moved = [&](const char* name, const char* sign, int dashes, const char* label) {
       commands.plots.push_back(
-          fmt::format("${} using {} with lines linewidth 1.2 dashtype 2 linecolor rgb '#222222' {}", name,
-                      places, way < 0 ? label : "notitle"));
-    }
+          fmt::format("${} using {} with lines linewidth 1.2 dashtype {} linecolor rgb '#222222' title {}",
+                      name, places, dashes, quoted(label)));
+      // Which line it belongs to, as that may not be the nearest one.
+      commands.plots.push_back(fmt::format(
+          "${} using {}:(sprintf('{} %g', $3)) every 100000::{} with labels font ',11' boxed notitle", name,
+          places, sign, along / 2));
+    };
+    add_moved("lower", ">", 2, "more than that, less the uncertainty");
+    add_moved("upper", "<", 3, "less than that, with the uncertainty");
   }
   commands.plots.push_back(
       fmt::format("$contours using {} with lines linewidth 1.6 linecolor rgb '#222222' title {}", places,
                   quoted(fmt::format("contour lines, every {}", significant(step, 6)))));
   // Labels of neighbouring levels stand at different places along their lines.
-  const std::size_t along = std::min(map.x.size(), map.y.size());
   for (const std::size_t parity : {0, 1}) {
     commands.plots.push_back(
         fmt::format("$contours using {}:3 index {}::2 every 100000::{} with labels font ',12' boxed notitle",

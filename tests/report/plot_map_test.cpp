@@ -110,15 +110,15 @@ TEST(PlotMap, ContoursAreNoFinerThanTheUncertainty) {
   EXPECT_EQ(unknown.find("$contours"), std::string::npos) << "no line is known";
 }
 
-TEST(PlotMap, DashedLinesShowWhereTheUncertaintyMovesContours) {
+TEST(PlotMap, BrokenLinesShowWhereTheUncertaintyMovesContours) {
   Plot plot = plane(40, 30);
-  EXPECT_EQ(to_gnuplot(plot).find("may move them"), std::string::npos);
+  EXPECT_EQ(to_gnuplot(plot).find("$lower"), std::string::npos);
   plot.map->uncertainty.assign(plot.map->values.size(), 4.0);
   const std::string text = to_gnuplot(plot);
   EXPECT_EQ(block_of(text, "grid_of_contours")[2], "2 0 2");
   EXPECT_EQ(block_of(text, "grid_of_lower")[2], "2 0 -2");
   EXPECT_EQ(block_of(text, "grid_of_upper")[2], "2 0 6");
-  EXPECT_NE(text.find("where their uncertainty may move them"), std::string::npos);
+  EXPECT_NE(text.find("sprintf('> %g', $3)"), std::string::npos) << "of which line they are";
 }
 
 TEST(PlotMap, NumbersStandWithTheirUncertainty) {
@@ -204,7 +204,7 @@ TEST_F(DrawnMap, ShowsUncertaintyAlsoWhereItLeavesNoContour) {
       plot.map->uncertainty.assign(plot.map->values.size(), uncertainty);
       const auto svg = to_svg(plot);
       ASSERT_TRUE(svg) << svg.error().message;
-      EXPECT_EQ(svg->find("may move them") != std::string::npos,
+      EXPECT_EQ(svg->find("less the uncertainty") != std::string::npos,
                 plot.map->x.size() > 4 && uncertainty < 100.0);
     }
   }

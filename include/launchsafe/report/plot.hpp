@@ -90,7 +90,7 @@ struct Map {
   std::string label;           ///< of the colour bar, with its unit
   std::optional<double> minimum = {}, maximum = {};  ///< of the colours; from the values where absent
   std::vector<HatchedCells> hatched = {};
-  /// Of every value, its unit. Numbers stand with it; dashed lines show where it may move a contour line.
+  /// Of every value, its unit. Numbers stand with it; broken lines show where it may move a contour line.
   std::vector<double> uncertainty = {};
   double least_step = 0;  ///< contour lines are no closer, nor closer than the largest uncertainty
 };
