@@ -15,7 +15,7 @@
 namespace launchsafe::store {
 namespace {
 
-constexpr int line = 3, quadrilateral = 9;  // VTK_LINE, VTK_QUAD
+constexpr int polyline = 4, quadrilateral = 9;  // VTK_POLY_LINE, VTK_QUAD
 
 class Xdmf : public testing::TemporaryFolder {
  protected:
@@ -65,12 +65,12 @@ TEST_F(Xdmf, IsATimeSeriesOfCellsWithTheValuesOfTheCase) {
     EXPECT_EQ(values(launch["cell_data"]["pressure"]), shot.pressure);
     const auto& bottom = grids.at("bottom of the charge");
     EXPECT_EQ(bottom["cells"], shot.bottom_x.size() / 2);
+    EXPECT_EQ(bottom["cell_types"], nlohmann::json::array({polyline}));
     EXPECT_EQ(values(bottom["cell_data"]["skin temperature, gap 0.01 cm"]), shot.skins[1].temperature);
     const auto& wall = grids.at("face 1 towards wall");
     EXPECT_EQ(values(wall["point_data"]["slip"]), shot.faces[0].slip);
     EXPECT_EQ(values(wall["point_data"]["contact_pressure"]), shot.faces[0].pressure);
-    EXPECT_NE(std::find(wall["cell_types"].begin(), wall["cell_types"].end(), line),
-              wall["cell_types"].end());
+    EXPECT_EQ(wall["cell_types"], nlohmann::json::array({polyline}));
   }
 }
 
