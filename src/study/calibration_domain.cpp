@@ -136,22 +136,27 @@ const scene::Body* find_body(const Scene& scene, const std::string& name) {
   return found == scene.bodies.end() ? nullptr : &*found;
 }
 
-/// Bodies are compared by what they are: another scene may give them other names.
+/// Bodies of the same shell are compared by what they are: another scene may give them other names. Those of
+/// another shell have other places, and are compared by name.
 bool same_interface(const scene::Interface& a, const Scene& scene_of_a, const scene::Interface& b,
-                    const Scene& scene_of_b) {
+                    const Scene& scene_of_b, bool same_shell) {
   const scene::Body *body = find_body(scene_of_a, a.body), *other = find_body(scene_of_b, b.body);
-  return body != nullptr && other != nullptr && same_body(*body, *other) && a.condition == b.condition &&
-         a.friction == b.friction && a.tension_strength == b.tension_strength &&
-         a.shear_strength == b.shear_strength;
+  if (body == nullptr || other == nullptr) return false;
+  const bool same = same_shell ? same_body(*body, *other) : body->name == other->name;
+  return same && a.condition == b.condition && a.friction == b.friction &&
+         a.tension_strength == b.tension_strength && a.shear_strength == b.shear_strength;
 }
 
 /// Faces that slide in one of the scenes and not in the same way in the other.
-void add_other_interfaces(CalibrationDistance& distance, const Scene& scene, const Scene& calibrated) {
+void add_other_interfaces(CalibrationDistance& distance, const Scene& scene, const Scene& calibrated,
+                          bool same_shell) {
   const auto ours = scene::sliding_interfaces(scene), theirs = scene::sliding_interfaces(calibrated);
   std::set<std::string> other;
   const auto add_missing = [&](const auto& from, const Scene& of_from, const auto& in, const Scene& of_in) {
     for (const scene::Interface& each : from) {
-      const auto same = [&](const auto& there) { return same_interface(each, of_from, there, of_in); };
+      const auto same = [&](const auto& there) {
+        return same_interface(each, of_from, there, of_in, same_shell);
+      };
       if (std::none_of(in.begin(), in.end(), same)) other.insert(each.body);
     }
   };
@@ -183,12 +188,13 @@ Calibration shipped_calibration() { return {calibration_scene(), {}}; }
 CalibrationDistance distance_to_calibration(const Scene& scene, const Calibration& calibration) {
   const Scene& calibrated = calibration.scene;
   CalibrationDistance distance;
-  if (!same_shell(scene, calibrated)) distance.unknown.emplace_back("another shell");
+  const bool shells_agree = same_shell(scene, calibrated);
+  if (!shells_agree) distance.unknown.emplace_back("another shell");
   for (const auto& key : scene::scene_keys()) {
     const Value value = key.get(scene), wanted = key.get(calibrated);
     if (!same_constant(value, wanted)) add_difference(distance, key.name, value, wanted);
   }
-  add_other_interfaces(distance, scene, calibrated);
+  add_other_interfaces(distance, scene, calibrated, shells_agree);
   const double peak = scene::PressureHistory(scene.load).stated_peak();
   const bool measured = !scene.load.curve_time.empty() || !calibrated.load.curve_time.empty();
   std::erase_if(distance.carried,

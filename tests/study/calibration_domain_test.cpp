@@ -78,6 +78,16 @@ TEST(CalibrationDomain, ComparesInterfacesByTheBodiesThatTheyName) {
   EXPECT_TRUE(distance_to_calibration(renamed, shipped_calibration()).inside());
 }
 
+TEST(CalibrationDomain, ComparesInterfacesOfAnotherShellByName) {
+  scene::Scene other = shipped_scene();
+  for (scene::Body& body : other.bodies) body.x_begin *= 0.5, body.x_end *= 0.5;
+  EXPECT_EQ(distance_to_calibration(other, shipped_calibration()).unknown,
+            std::vector<std::string>{"another shell"});
+  interface_of(other, "wall").friction = 0.1;
+  EXPECT_EQ(distance_to_calibration(other, shipped_calibration()).unknown,
+            (std::vector<std::string>{"another shell", "interface.wall.condition"}));
+}
+
 struct Change {
   const char* name;
   std::function<void(scene::Scene&)> change;
