@@ -29,11 +29,11 @@ std::string with_uncertainty(const CriticalGap& gap) {
 /// Colour and mark of a case. Open marks are larger: neighbours that lie on each other both show. The marks
 /// move on with every round of colours, so that no two cases look alike.
 void give_look(std::size_t index, Series& series) {
-  constexpr std::array<Mark, 8> marks{Mark::circle,      Mark::open_square,  Mark::up_triangle,
+  constexpr std::array<Mark, 8> looks{Mark::circle,      Mark::open_square,  Mark::up_triangle,
                                       Mark::open_circle, Mark::diamond,      Mark::open_triangle,
                                       Mark::square,      Mark::down_triangle};
   series.colour = static_cast<int>(index);
-  series.mark = marks[(index + index / marks.size()) % marks.size()];
+  series.mark = looks[(index + index / looks.size()) % looks.size()];
 }
 
 /// What did not ignite, with its uncertainty: the model form, whose sign is known, counts upwards alone.

@@ -21,8 +21,8 @@ std::vector<Key<CitedLimit>> make_cited_limit_keys() {
           "Peak pressure that it was found for; absent where none was stated.",
           [](auto& l) -> auto& { return l.peak_pressure; }),
       scene::required(scene::text_key<CitedLimit>(
-          "source", Standing::literature, "Who found it, and how.",
-          "firing tests of 1998, table 3", [](auto& l) -> auto& { return l.source; })),
+          "source", Standing::literature, "Who found it, and how.", "firing tests of 1998, table 3",
+          [](auto& l) -> auto& { return l.source; })),
   };
 }
 

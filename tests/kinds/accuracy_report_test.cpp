@@ -112,7 +112,9 @@ TEST(AccuracyReport, ThePictureShowsBoundsAndNamesTheFrontAlone) {
   EXPECT_EQ(own->lower.front(), row.largest_temperature_error) << "the bar goes down to the distance";
   for (const AccuracyRow& each : result.rows) {
     const std::string& label = result.study.cases[each.index].label;
-    if (!each.on_front) EXPECT_EQ(series_named(plot, label), nullptr) << label;
+    if (!each.on_front) {
+      EXPECT_EQ(series_named(plot, label), nullptr) << label;
+    }
   }
   ASSERT_EQ(plot.horizontal_lines.size(), 1u);
   double uncertainty = 0;
