@@ -147,10 +147,10 @@ inline constexpr const char* import_curve_footer = R"(
 Examples:
   launchsafe import-curve gauge.csv                                      what the record holds
   launchsafe import-curve gauge.csv -o pressure.csv                      the cleaned curve, and pressure.svg
-  launchsafe import-curve gauge.csv -o pressure.csv --pressure "P breech" --offset "0.3 MPa" --filter "0.2 ms"
+  launchsafe import-curve gauge.csv -o pressure.csv --pressure "P breech" --offset "0.3 MPa"
 
 Headers such as Time (ms);P breech (bar). A semicolon, a tab or a comma stands between columns; decimal commas are
 read.
-Nothing is overwritten.)";
+Noise stays in the curve: load.smoothing of the scene averages it, and counts what that takes. Nothing is overwritten.)";
 
 }  // namespace launchsafe::app

@@ -382,9 +382,6 @@ void add_import_curve(CLI::App& app, Parsed& parsed) {
       command, "--trigger", import.trigger, parse_positive<scene::Dimension::pressure>,
       "a pressure such as \"5 MPa\"", "PRESSURE",
       "Pressure at which the launch begins; 1 % of the peak, or five deviations of noise, unless given");
-  add_amount(command, "--filter", import.filter, parse_positive<scene::Dimension::time>,
-             "a time such as \"0.2 ms\"", "TIME",
-             "Window of a centred average against noise; none unless given");
   add_output_options(command, parsed);
 }
 

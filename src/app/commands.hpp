@@ -96,7 +96,6 @@ struct ImportCurveArguments {
   std::optional<std::filesystem::path> output;  ///< CSV file for the curve; none: nothing is written
   std::string pressure;                         ///< name of the column; empty: the only one
   std::optional<double> offset, trigger;        ///< Pa
-  std::optional<double> filter;                 ///< s
 };
 ExitCode perform(const ImportCurveArguments& arguments, Console& console);
 

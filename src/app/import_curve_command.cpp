@@ -30,14 +30,6 @@ struct Import {
   scene::Load load;  ///< the curve as a load
 };
 
-scene::Load load_of(const scene::PressureCurve& curve) {
-  scene::Load load;
-  load.duration = curve.time.back();
-  load.curve_time = curve.time;
-  load.curve_pressure = curve.pressure;
-  return load;
-}
-
 /// What was done, a line each.
 std::string what_was_done(const ImportCurveArguments& arguments, const Import& import) {
   const scene::CleanedRecord& cleaned = import.cleaned;
@@ -50,32 +42,24 @@ std::string what_was_done(const ImportCurveArguments& arguments, const Import& i
   std::string text = fmt::format(
       "record   {} points from {} to {}\noffset   {}, {}\ntrigger  {} above it is passed at {}, which is 0 "
       "now; {} points "
-      "before it are left out\npeak     {} at {}, from {} in the record\nend      {} at {}\n",
+      "before it are left out\npeak     {} at {}\nend      {} at {}\n",
       record.time.size(), time_text(record.time.front()), time_text(record.time.back()),
       pressure_text(cleaned.offset), quiet, pressure_text(cleaned.trigger), time_text(cleaned.start),
       cleaned.points_before, pressure_text(cleaned.peak), time_text(cleaned.peak_time),
-      pressure_text(cleaned.recorded_peak), pressure_text(cleaned.curve.pressure.back()),
-      time_text(cleaned.curve.time.back()));
-  if (arguments.filter)
-    text += fmt::format("filter   centred average over {}\n", time_text(*arguments.filter));
+      pressure_text(cleaned.curve.pressure.back()), time_text(cleaned.curve.time.back()));
   if (cleaned.points_below_zero > 0)
     text += fmt::format("below 0  {} points, {} at most, set to 0\n", cleaned.points_below_zero,
                         pressure_text(-cleaned.lowest));
   return text;
 }
 
-/// What is left of noise, and what would take it away.
+/// How much of the load is noise, and what the scene may do about it.
 std::string noise_text(const Import& import) {
-  const auto window = scene::suggested_smoothing(import.load);
-  std::string text = fmt::format("noise    {}\n", scene::measured_load_text(import.load));
-  if (window)
-    text += fmt::format("         --filter \"{}\" here does the same as load.smoothing in the scene\n",
-                        time_text(*window));
-  return text;
+  return fmt::format("noise    {}\n", scene::measured_load_text(import.load));
 }
 
-/// The same import with what takes the noise away, into a file.
-std::vector<std::string> command_that_writes(const ImportCurveArguments& arguments, const Import& import) {
+/// The same import into a file.
+std::vector<std::string> command_that_writes(const ImportCurveArguments& arguments) {
   std::vector<std::string> words{"launchsafe", "import-curve", arguments.record.string()};
   const auto add = [&words](const char* option, const std::string& value) {
     words.emplace_back(option);
@@ -84,8 +68,6 @@ std::vector<std::string> command_that_writes(const ImportCurveArguments& argumen
   if (!arguments.pressure.empty()) add("--pressure", arguments.pressure);
   if (arguments.offset) add("--offset", pressure_text(*arguments.offset));
   if (arguments.trigger) add("--trigger", pressure_text(*arguments.trigger));
-  const auto window = scene::suggested_smoothing(import.load);
-  if (window || arguments.filter) add("--filter", time_text(window.value_or(arguments.filter.value_or(0.0))));
   add("-o", "pressure.csv");
   return words;
 }
@@ -125,7 +107,6 @@ nlohmann::ordered_json json_of(const Import& import) {
           {"quiet_points", cleaned.quiet_points},
           {"trigger_MPa", 1e-6 * cleaned.trigger},
           {"start_ms", 1e3 * cleaned.start},
-          {"recorded_peak_MPa", 1e-6 * cleaned.recorded_peak},
           {"peak_MPa", 1e-6 * cleaned.peak},
           {"peak_time_ms", 1e3 * cleaned.peak_time},
           {"end_ms", 1e3 * cleaned.curve.time.back()},
@@ -168,18 +149,17 @@ ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
   if (!text) return console.refuse(text.error());
   auto record = scene::parse_gauge_record(*text, arguments.record.string(), {arguments.pressure});
   if (!record) return console.refuse(record.error());
-  auto cleaned = scene::clean(*record, {arguments.offset, arguments.trigger, arguments.filter.value_or(0.0)},
-                              arguments.record.string());
+  auto cleaned = scene::clean(*record, {arguments.offset, arguments.trigger}, arguments.record.string());
   if (!cleaned) return console.refuse(cleaned.error());
   Import import{std::move(*record), std::move(*cleaned), {}};
-  import.load = load_of(import.cleaned.curve);
+  import.load = scene::load_of_curve(import.cleaned.curve);
   const std::string done =
       fmt::format("{}, SHA-256 {}\n", arguments.record.filename().string(), store::sha256(*text)) +
       what_was_done(arguments, import);
   console.print_text(done + noise_text(import));
   console.print_json(json_of(import));
   if (arguments.output) return write(arguments, import, done, console);
-  console.print_text(fmt::format("\nnext: {}\n", shell_command(command_that_writes(arguments, import))));
+  console.print_text(fmt::format("\nnext: {}\n", shell_command(command_that_writes(arguments))));
   return ExitCode::done;
 }
 

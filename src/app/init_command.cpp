@@ -4,6 +4,7 @@
 #include "console.hpp"
 #include "key_schema.hpp"
 #include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/read_scene.hpp"
@@ -45,10 +46,15 @@ std::string scaled_length(double published, double factor) {
 /// The lines of [load].
 std::string load_lines(const InitArguments& arguments, const std::optional<scene::PressureCurve>& curve) {
   if (curve) {
+    const auto window = scene::suggested_smoothing(scene::load_of_curve(*curve));
     return fmt::format(
         "curve = \"pressure.csv\"         # measured; `launchsafe explain scene.toml` tells its roughness\n"
-        "duration = \"{:.9g} ms\"         # the whole of it",
-        1e3 * curve->time.back());
+        "duration = \"{:.9g} ms\"         # the whole of it{}",
+        1e3 * curve->time.back(),
+        window ? fmt::format("\nsmoothing = \"{}\"           # noise heats falsely; what this takes counts "
+                             "as uncertainty",
+                             scene::time_text(*window))
+               : "");
   }
   // A gun that is scaled launches as fast, in a time that is scaled too.
   const double factor = arguments.calibre / published_calibre;

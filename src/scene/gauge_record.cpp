@@ -48,21 +48,9 @@ std::vector<double> quiet_points(const std::vector<double>& pressure) {
   return {pressure.begin(), pressure.begin() + static_cast<std::ptrdiff_t>(rise / 2)};
 }
 
-/// Centred averages over the window, at the curve's own points.
-void average(PressureCurve& curve, double window) {
-  Load load;
-  load.duration = curve.time.back();
-  load.curve_time = curve.time;
-  load.curve_pressure = curve.pressure;
-  load.smoothing = window;
-  const PressureHistory history(load);
-  for (std::size_t i = 0; i < curve.time.size(); ++i) curve.pressure[i] = history.at(curve.time[i]);
-}
-
 /// Sets what noise left below zero to 0.
 std::optional<InputError> remove_negative(CleanedRecord& cleaned, const std::string& file) {
-  const double allowed =
-      std::max(noise_below_zero * cleaned.noise, largest_share_below_zero * cleaned.recorded_peak);
+  const double allowed = std::max(noise_below_zero * cleaned.noise, largest_share_below_zero * cleaned.peak);
   for (double& pressure : cleaned.curve.pressure) {
     if (pressure >= 0.0) continue;
     ++cleaned.points_below_zero;
@@ -104,13 +92,14 @@ Expected<CleanedRecord> clean(const PressureCurve& record, const GaugeCleaning& 
   if (auto error = find_offset(record, cleaning, cleaned, file)) return *error;
   std::vector<double> pressure = record.pressure;
   for (double& each : pressure) each -= cleaned.offset;
-  cleaned.recorded_peak = *std::max_element(pressure.begin(), pressure.end());
-  cleaned.trigger = cleaning.trigger.value_or(
-      std::max(trigger_share * cleaned.recorded_peak, noise_of_trigger * cleaned.noise));
-  if (!(cleaned.trigger > 0.0 && cleaned.trigger < cleaned.recorded_peak)) {
+  const auto peak = std::max_element(pressure.begin(), pressure.end());
+  cleaned.peak = *peak;
+  cleaned.trigger =
+      cleaning.trigger.value_or(std::max(trigger_share * cleaned.peak, noise_of_trigger * cleaned.noise));
+  if (!(cleaned.trigger > 0.0 && cleaned.trigger < cleaned.peak)) {
     return error_at({file}, "pressure",
                     fmt::format("a largest pressure of {} above the offset, and a trigger of {}",
-                                pressure_text(cleaned.recorded_peak), pressure_text(cleaned.trigger)),
+                                pressure_text(cleaned.peak), pressure_text(cleaned.trigger)),
                     "a trigger between zero and the peak: --trigger \"5 MPa\"");
   }
   cleaned.points_before = last_passage(pressure, cleaned.trigger);
@@ -122,16 +111,8 @@ Expected<CleanedRecord> clean(const PressureCurve& record, const GaugeCleaning& 
   if (cleaned.curve.time.size() < 2)
     return error_at({file}, "pressure", "a record that ends where the launch begins",
                     "one of the whole launch");
-  if (cleaning.filter > 0.1 * cleaned.curve.time.back()) {
-    return error_at(
-        {file}, "--filter", time_text(cleaning.filter),
-        fmt::format("no more than a tenth of the launch, {}", time_text(0.1 * cleaned.curve.time.back())));
-  }
-  if (cleaning.filter > 0.0) average(cleaned.curve, cleaning.filter);
   if (auto error = remove_negative(cleaned, file)) return *error;
-  const auto peak = std::max_element(cleaned.curve.pressure.begin(), cleaned.curve.pressure.end());
-  cleaned.peak = *peak;
-  cleaned.peak_time = cleaned.curve.time[static_cast<std::size_t>(peak - cleaned.curve.pressure.begin())];
+  cleaned.peak_time = record.time[static_cast<std::size_t>(peak - pressure.begin())] - cleaned.start;
   return cleaned;
 }
 

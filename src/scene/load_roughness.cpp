@@ -150,6 +150,14 @@ std::string smoothing_text(const Load& load) {
 
 }  // namespace
 
+Load load_of_curve(const PressureCurve& curve) {
+  Load load;
+  load.duration = curve.time.back();
+  load.curve_time = curve.time;
+  load.curve_pressure = curve.pressure;
+  return load;
+}
+
 double load_roughness(const Load& load) {
   if (load.curve_time.size() < 2) return 0.0;
   const Work work = work_of(load);

@@ -13,13 +13,17 @@ class OwnShell : public Program {
  protected:
   void SetUp() override {
     Program::SetUp();
+    write_gauge(0.5);
+  }
+
+  /// A record with an offset of 5 bar, and noise (bar) that is below zero before the launch.
+  void write_gauge(double noise) {
     std::string record = "Time (ms);P breech (bar)\n";
     for (int i = 0; i <= 260; ++i) {
       const double time = -2.0 + 0.05 * i, since = std::max(0.0, time - 0.5) / 4.0;
-      // An offset of 5 bar, and noise of half a bar that is below zero before the launch.
-      record +=
-          fmt::format("{:.2f};{:.2f}\n", time,
-                      3800.0 * std::pow(since * std::exp(1.0 - since), 3.0) + 5.0 + 0.5 * ((i * 7) % 5 - 2));
+      record += fmt::format(
+          "{:.2f};{:.2f}\n", time,
+          3800.0 * std::pow(since * std::exp(1.0 - since), 3.0) + 5.0 + noise * ((i * 7) % 5 - 2));
     }
     write("gauge.csv", record);
   }
@@ -58,6 +62,15 @@ TEST_F(OwnShell, IsThreeCommandsAwayFromARecord) {
   const Outcome explained = run({"explain", "shell/scene.toml", "--json"});
   ASSERT_EQ(explained.code, 0) << explained.err;
   EXPECT_EQ(nlohmann::json::parse(explained.out)["implausible"].size(), 0u) << explained.out;
+}
+
+// Noise that is averaged outside the scene would be no uncertainty of any verdict.
+TEST_F(OwnShell, AveragesARoughCurveInTheSceneWhereItCountsAsUncertainty) {
+  write_gauge(20.0);
+  ASSERT_EQ(run({"import-curve", "gauge.csv", "-o", "pressure.csv"}).code, 0);
+  ASSERT_EQ(run({"init", "--calibre", "105 mm", "--curve", "pressure.csv", "-o", "shell"}).code, 0);
+  EXPECT_NE(read("shell/scene.toml").find("\nsmoothing = \""), std::string::npos) << read("shell/scene.toml");
+  EXPECT_EQ(run({"import-curve", "gauge.csv", "--filter", "0.2 ms"}).code, 2);
 }
 
 TEST_F(OwnShell, IsInitialisedForEveryCalibreWithoutImplausibleValues) {

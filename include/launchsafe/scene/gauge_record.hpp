@@ -14,7 +14,6 @@ namespace launchsafe::scene {
 struct GaugeCleaning {
   std::optional<double> offset = {};   ///< Pa, that the gauge shows before the launch
   std::optional<double> trigger = {};  ///< Pa above the offset; where it is passed the launch begins
-  double filter = 0.0;                 ///< s, window of a centred average; 0: none
 };
 
 /// A cleaned curve, and what was done.
@@ -28,18 +27,18 @@ struct CleanedRecord {
   std::size_t points_before = 0;  ///< left out
   std::size_t points_below_zero = 0;   ///< noise about zero, set to 0
   double lowest = 0.0;                 ///< Pa, of these
-  double recorded_peak = 0.0;          ///< Pa above the offset, before the average
   double peak = 0.0, peak_time = 0.0;  ///< Pa and s, of the curve
 };
 
-/// Takes the offset away, lets time begin at the trigger, averages, and sets what noise left below zero to 0.
+/// Takes the offset away, lets time begin at the trigger, and sets what noise left below zero to 0. All other
+/// noise stays: what an average takes from a load counts as uncertainty where the scene averages
+/// (load.smoothing), and would be stated nowhere if it were taken here.
 ///
 /// The offset is the median of the points before the rise, which is where 2 % of the range is last passed
 /// before the largest pressure; without at least ten such points it has to be given. The trigger is 1 % of
 /// the peak, or five standard deviations of the noise where that is more. Errors, in the sense of the record:
 /// no quiet points and no offset; a trigger that is never passed; a pressure further below zero than ten
-/// standard deviations of the noise and 2 % of the peak, which is no noise; a filter longer than a tenth of
-/// the launch.
+/// standard deviations of the noise and 2 % of the peak, which is no noise.
 Expected<CleanedRecord> clean(const PressureCurve& record, const GaugeCleaning& cleaning,
                               const std::string& file);
 

@@ -1,6 +1,7 @@
 // How much of a load's going up and down is noise of its measurement, and what smoothing does about it.
 #pragma once
 
+#include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/scene.hpp"
 
 #include <optional>
@@ -14,6 +15,9 @@ inline constexpr double least_smoothing_share = 1e-6;
 
 /// Roughness from which on the friction heat of a load is off by more than a kelvin or so.
 inline constexpr double least_roughness = 0.01;
+
+/// The whole of a measured curve as a load.
+Load load_of_curve(const PressureCurve& curve);
 
 /// The integral of p |dp| over the simulated time, of the history that is simulated, over that of the same
 /// curve without noise, minus 1; 0 for the analytic load. Where strain follows pressure, as it does in a
