@@ -1,5 +1,6 @@
-// The walkthroughs of studies/walkthroughs: every command is run, and prints what the page says. With
-// LAUNCHSAFE_WALKTHROUGHS=write in the environment the pages are written anew instead.
+// The walkthroughs of studies/walkthroughs and the page for Python: every command and every block of Python
+// is run, and prints what the page says. With LAUNCHSAFE_WALKTHROUGHS=write in the environment the pages are
+// written anew instead.
 #include "program.hpp"
 
 #include <algorithm>
@@ -10,20 +11,24 @@
 namespace launchsafe::app {
 namespace {
 
-const std::filesystem::path pages = std::filesystem::path(LAUNCHSAFE_SOURCE_DIR) / "studies" / "walkthroughs";
+const std::filesystem::path pages = std::filesystem::path(LAUNCHSAFE_SOURCE_DIR) / "studies";
 
-/// A page with every command's output replaced by what `output_of` gives.
+/// A page with every output replaced by what the command above it prints; `python_output_of` is given a block
+/// of Python, whose output is the next block of text.
 std::string with_outputs(const std::string& page,
-                         const std::function<std::string(const std::string&)>& output_of) {
+                         const std::function<std::string(const std::string&)>& output_of,
+                         const std::function<std::string(const std::string&)>& python_output_of) {
   std::istringstream lines(page);
-  std::string text;
-  bool in_console = false;
+  std::string text, fence, python;
   for (std::string line; std::getline(lines, line);) {
     const bool is_fence = line.starts_with("```");
-    if (is_fence) in_console = line == "```console";
-    if (!in_console || is_fence) {
+    if (is_fence) fence = fence.empty() ? line : "";
+    const bool is_output = fence == "```console" || fence == "```text";
+    if (is_fence || !is_output) {
       text += line + "\n";
-    } else if (line.starts_with("$ ")) {
+      if (!is_fence && fence == "```python") python += line + "\n";
+      if (is_fence && fence == "```text") text += python_output_of(std::exchange(python, {}));
+    } else if (fence == "```console" && line.starts_with("$ ")) {
       text += line + "\n" + output_of(line.substr(2));
     }
   }
@@ -69,6 +74,34 @@ class Walkthrough : public Program, public ::testing::WithParamInterface<const c
     if (!text.empty() && text.back() != '\n') text += '\n';
     return text;
   }
+
+  /// What a block of Python adds to the output of those before it, whose names it may use.
+  std::string python_output_of(const std::string& block) {
+    python_ += block;
+    write("page.py", python_);
+    const std::string text = output_of("python3 page.py");
+    EXPECT_EQ(text.find("Traceback"), std::string::npos) << text;
+    const std::size_t before = std::exchange(printed_, text.size());
+    return text.substr(std::min(before, text.size()));
+  }
+
+  /// Whether a Python that reads the files is there, as `python3` from now on.
+  bool finds_python() {
+    for (const char* python : {"python3", "/usr/bin/python3"}) {
+      const std::string path = output_of(std::string("command -v ") + python);
+      if (path.empty()) continue;
+      const std::filesystem::path link = folder() / "bin" / "python3";
+      std::filesystem::remove(link);
+      std::filesystem::create_symlink(path.substr(0, path.find('\n')), link);
+      if (output_of("python3 -c 'import h5py, pandas' && echo found") == "found\n") return true;
+      std::filesystem::remove(link);
+    }
+    return false;
+  }
+
+ private:
+  std::string python_;
+  std::size_t printed_ = 0;
 };
 
 TEST_P(Walkthrough, PrintsWhatThePageSays) {
@@ -76,8 +109,11 @@ TEST_P(Walkthrough, PrintsWhatThePageSays) {
   std::ifstream stream(file);
   const std::string page{std::istreambuf_iterator<char>(stream), {}};
   ASSERT_FALSE(page.empty()) << file;
-  const std::string run =
-      with_outputs(page, [this](const std::string& command) { return output_of(command); });
+  if (page.find("```python") != std::string::npos && !finds_python())
+    GTEST_SKIP() << "no Python with h5py and pandas (Debian: python3-h5py, python3-pandas)";
+  const std::string run = with_outputs(
+      page, [this](const std::string& command) { return output_of(command); },
+      [this](const std::string& block) { return python_output_of(block); });
   if (std::getenv("LAUNCHSAFE_WALKTHROUGHS") != nullptr) {
     std::ofstream(file) << run;
     return;
@@ -88,13 +124,16 @@ TEST_P(Walkthrough, PrintsWhatThePageSays) {
     ASSERT_TRUE(agrees(expected[i], found[i])) << expected[i] << " is " << found[i] << " in\n" << run;
 }
 
+std::string name_of(const ::testing::TestParamInfo<const char*>& page) {
+  return std::filesystem::path(page.param).stem();
+}
+
 INSTANTIATE_TEST_SUITE_P(Pages, Walkthrough,
-                         ::testing::Values("own_shell.md", "overnight_sweep.md", "reading_accuracy.md"),
-                         [](const auto& page) {
-                           std::string name = page.param;
-                           name.resize(name.find('.'));
-                           return name;
-                         });
+                         ::testing::Values("walkthroughs/main_job.md", "walkthroughs/own_shell.md",
+                                           "walkthroughs/overnight_sweep.md",
+                                           "walkthroughs/reading_accuracy.md"),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Python, Walkthrough, ::testing::Values("python.md"), name_of);
 
 }  // namespace
 }  // namespace launchsafe::app
