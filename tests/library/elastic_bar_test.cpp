@@ -1,4 +1,4 @@
-// The example of README.md, compiled and held against a closed form.
+// The example of include/launchsafe/README.md, compiled and held against a closed form.
 #include "launchsafe/run/run_case.hpp"
 
 #include <gtest/gtest.h>
@@ -41,12 +41,12 @@ TEST(LibraryExample, StoresTheEnergyOfTheClosedForm) {
   EXPECT_NEAR(mass_of(result, "glass"), 2500.0 * volume, 1e-12 * 2500.0 * volume);
 }
 
-TEST(LibraryExample, StandsInTheReadmeAsItIsCompiled) {
+TEST(LibraryExample, StandsInTheMapOfModulesAsItIsCompiled) {
   const std::string source = text_of("tests/library/elastic_bar_test.cpp"), begin = "// example begin\n";
   const std::size_t first = source.find(begin) + begin.size();
   const std::string example = source.substr(first, source.find("// example end") - first);
   ASSERT_GT(example.size(), 100U);
-  EXPECT_NE(text_of("README.md").find(example), std::string::npos);
+  EXPECT_NE(text_of("include/launchsafe/README.md").find(example), std::string::npos);
 }
 
 }  // namespace

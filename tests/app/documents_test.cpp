@@ -1,0 +1,165 @@
+// The pages that ship: what they link to is there, and the README shows of the main job what the walkthrough
+// of it says, which walkthrough_test.cpp holds against the program.
+#include "store/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace launchsafe::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path source = LAUNCHSAFE_SOURCE_DIR;
+
+std::string page_of(const fs::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// A page's lines outside of code.
+std::vector<std::string> prose_of(const std::string& page) {
+  std::istringstream stream(page);
+  std::vector<std::string> lines;
+  bool in_code = false;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("```"))
+      in_code = !in_code;
+    else if (!in_code && !line.starts_with("    "))
+      lines.push_back(line);
+  }
+  return lines;
+}
+
+/// The anchors of a page's headings, by the rule of the forges that show it: small letters, digits, hyphens
+/// for blanks, and a number behind the second of a name.
+std::set<std::string> anchors_of(const std::string& page) {
+  std::set<std::string> anchors;
+  std::map<std::string, int> seen;
+  for (const std::string& line : prose_of(page)) {
+    const std::size_t begin = line.find_first_not_of('#');
+    if (begin == 0 || begin == std::string::npos || line[begin] != ' ') continue;
+    std::string anchor;
+    for (const char letter : line.substr(begin + 1)) {
+      const auto c = static_cast<unsigned char>(letter);
+      if (std::isalnum(c) != 0 || c == '-' || c == '_') anchor += static_cast<char>(std::tolower(c));
+      if (c == ' ') anchor += '-';
+    }
+    const int before = seen[anchor]++;
+    anchors.insert(before == 0 ? anchor : anchor + "-" + std::to_string(before));
+  }
+  return anchors;
+}
+
+/// The links of a page that lead to nothing in the files here; those to other machines are left out.
+std::vector<std::string> broken_links(const fs::path& file) {
+  static const std::regex link(R"(\]\(([^)\s]+)\))");
+  std::vector<std::string> broken;
+  for (const std::string& line : prose_of(page_of(file))) {
+    for (std::sregex_iterator each(line.begin(), line.end(), link), end; each != end; ++each) {
+      const std::string to = (*each)[1];
+      if (to.find("://") != std::string::npos) continue;
+      const std::size_t hash = to.find('#');
+      const fs::path target = hash == 0 ? file : file.parent_path() / to.substr(0, hash);
+      if (!fs::exists(target) ||
+          (hash != std::string::npos && !anchors_of(page_of(target)).contains(to.substr(hash + 1))))
+        broken.push_back(to);
+    }
+  }
+  return broken;
+}
+
+/// Every page that is written by hand: all but the folders of reports, which come from the program.
+std::vector<fs::path> pages_by_hand() {
+  std::vector<fs::path> pages = {source / "reports" / "README.md"};
+  for (const auto& top : fs::directory_iterator(source))
+    if (top.path().extension() == ".md") pages.push_back(top.path());
+  for (const char* folder : {"include", "src", "studies", "tests"})
+    for (const auto& each : fs::recursive_directory_iterator(source / folder))
+      if (each.path().extension() == ".md") pages.push_back(each.path());
+  return pages;
+}
+
+TEST(Documents, EveryLinkLeadsSomewhere) {
+  const std::vector<fs::path> pages = pages_by_hand();
+  EXPECT_GT(pages.size(), 10U);
+  for (const fs::path& page : pages)
+    for (const std::string& link : broken_links(page)) ADD_FAILURE() << page << " links to " << link;
+}
+
+using MadePages = launchsafe::testing::TemporaryFolder;
+
+TEST_F(MadePages, TellTheirBrokenLinks) {
+  std::ofstream(folder() / "a.md")
+      << "# Of *a* page\n## Twice\n## Twice\n[a](b.md) [b](#of-a-page) [c](c.md#what)\n"
+      << "![d](a.md#twice-1) [e](#twice-2)\n```\n# Code\n[f](g.md)\n```\n[h](#code)\n"
+      << "[i](https://example.org/none)\n";
+  std::ofstream(folder() / "c.md") << "## What?\n";
+  EXPECT_EQ(broken_links(folder() / "a.md"), (std::vector<std::string>{"b.md", "#twice-2", "#code"}));
+}
+
+/// What stands between two texts.
+std::string between(const std::string& page, const std::string& begin, const std::string& end) {
+  const std::size_t first = page.find(begin);
+  const std::size_t last = page.find(end, first);
+  if (first == std::string::npos || last == std::string::npos) return {};
+  return page.substr(first + begin.size(), last - first - begin.size());
+}
+
+std::set<std::string> lines_of_main_job() {
+  std::istringstream page(page_of(source / "studies" / "walkthroughs" / "main_job.md"));
+  std::set<std::string> lines;
+  for (std::string line; std::getline(page, line);) lines.insert(line);
+  return lines;
+}
+
+TEST(Documents, TheReadmeShowsLinesThatTheMainJobPrints) {
+  const std::set<std::string> printed = lines_of_main_job();
+  std::istringstream block(between(page_of(source / "README.md"), "<!-- main-job-output: begin -->\n",
+                                   "<!-- main-job-output: end -->"));
+  std::size_t lines = 0;
+  for (std::string line; std::getline(block, line);) {
+    if (line.empty()) continue;
+    ASSERT_TRUE(line.starts_with("    ")) << line;
+    EXPECT_TRUE(printed.contains(line.substr(4))) << line;
+    ++lines;
+  }
+  EXPECT_GT(lines, 3U);
+}
+
+// Every cell of a row of the README's table stands in one row of the printed one, in this order.
+TEST(Documents, TheReadmesVerdictsAreThoseOfTheMainJob) {
+  const std::set<std::string> printed = lines_of_main_job();
+  std::istringstream table(between(page_of(source / "README.md"), "|---:|---:|---:|---:|---|\n", "\n\n") +
+                           "\n");
+  std::size_t rows = 0;
+  for (std::string row; std::getline(table, row); ++rows) {
+    static const std::regex cell(R"(\|\s*([^|]+?)\s*(?=\|))");
+    std::string facts = "^\\s*";
+    for (std::sregex_iterator each(row.begin(), row.end(), cell), end; each != end; ++each)
+      facts += std::regex_replace((*each)[1].str(), std::regex(R"(\.)"), "\\.") + "\\s(?:.*\\s)?";
+    const std::regex pattern(facts);
+    EXPECT_TRUE(std::any_of(printed.begin(), printed.end(), [&](const std::string& line) {
+      return std::regex_search(line, pattern);
+    })) << row;
+  }
+  EXPECT_EQ(rows, 6U);
+}
+
+TEST(Documents, TheReadmeFitsOnThreeScreens) {
+  std::istringstream page(page_of(source / "README.md"));
+  std::size_t lines = 0;
+  for (std::string line; std::getline(page, line); ++lines)
+    EXPECT_TRUE(line.size() <= 120 || line.starts_with("    The critical gap is ")) << line;
+  EXPECT_LE(lines, 120U);
+}
+
+}  // namespace
+}  // namespace launchsafe::app
