@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <fstream>
+#include <iterator>
 
 namespace {
 
@@ -121,8 +123,8 @@ TEST(StudyPlausibility, AStabilityStudyJudgesWithoutIt) {
 
 TEST(StudyPlausibility, EveryCaseOfTheShippedStudiesIsPlausible) {
   // Studies of accuracy vary numerics beyond what a verdict may rest on.
-  for (const char* name :
-       {"critical_gap_155mm", "sweep_pressure_defect", "sweep_smoke", "sensitivity", "calibrate_table8"}) {
+  for (const char* name : {"critical_gap_155mm", "critical_gap_105mm", "critical_gap_203mm",
+                           "sweep_pressure_defect", "sweep_smoke", "sensitivity", "calibrate_table8"}) {
     const auto study = read_study(studies_folder / (std::string(name) + ".toml"));
     ASSERT_TRUE(study) << study.error().message();
     EXPECT_TRUE(study->study.implausible.empty()) << name;
@@ -131,6 +133,26 @@ TEST(StudyPlausibility, EveryCaseOfTheShippedStudiesIsPlausible) {
         ADD_FAILURE() << name << ", " << each.label << ": " << scene::validity_warning(value);
     }
   }
+}
+
+// On a bottom that stays within 2 K of its first temperature nothing but the calibration keeps a gap from
+// SAFE.
+TEST(StudyPlausibility, TheShellThatNobodyTakesTheConstantsOverForIsNeverSafe) {
+  std::ifstream file(studies_folder / "critical_gap_203mm.toml");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string whole =
+      "[set]\nload.duration = \"18 ms\"\noutput.snapshots = \"9 ms\"\n";  // as long as the synthetic launch
+  StudyOptions options = synthetic_options();
+  options.runners = synthetic_runners(2.0);
+  const CriticalGapResult shipped = run_critical_gap(study_of(text + whole), options);
+  ASSERT_FALSE(shipped.cases.at(0).verdicts.empty());
+  for (const GapVerdict& each : shipped.cases[0].verdicts) {
+    EXPECT_EQ(each.judgement.verdict, Verdict::indeterminate);
+    EXPECT_TRUE(says(each.judgement.reason, "calibrated on another launch")) << each.judgement.reason;
+  }
+  const std::string taken_over = accept("calibration", "for this test") + text + whole;
+  const Judgement& judgement = judgement_in(run_critical_gap(study_of(taken_over), options));
+  EXPECT_EQ(judgement.verdict, Verdict::safe) << judgement.reason;
 }
 
 TEST(StudyPlausibility, AcceptancesOfAStudyReplaceThoseOfItsSceneAndReachEveryCase) {
