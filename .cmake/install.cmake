@@ -31,12 +31,18 @@ install(FILES "${told_dir}/launchsafe.bash" DESTINATION "${CMAKE_INSTALL_DATADIR
 install(FILES "${told_dir}/scene.schema.json" "${told_dir}/study.schema.json" "${told_dir}/references.schema.json"
   DESTINATION "${data_dir}/schema"
   COMPONENT program)
-# Studies rest on the records of others, which they name by their place beside them.
+# Studies rest on the records of others, which they name by their place beside them; pages link to each other likewise.
 install(DIRECTORY studies DESTINATION "${data_dir}" COMPONENT program
-  FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.md" PATTERN "library" EXCLUDE)
+  FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.md" PATTERN "*.cpp")
 install(DIRECTORY reports DESTINATION "${data_dir}" COMPONENT program
-  FILES_MATCHING PATTERN "calibration.json" PATTERN "accuracy.json" PATTERN "model_form.json")
-install(FILES LICENSE README.md CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
+  FILES_MATCHING PATTERN "calibration.json" PATTERN "accuracy.json" PATTERN "model_form.json"
+  PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
+foreach(folder launchsafe launchsafe/mpm)
+  install(FILES include/${folder}/README.md DESTINATION "${data_dir}/include/${folder}" COMPONENT program)
+endforeach()
+install(DIRECTORY src/report/templates DESTINATION "${data_dir}/src/report" COMPONENT program)
+install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${data_dir}" COMPONENT program)
+install(FILES LICENSE CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright COMPONENT program)
 
 # --- the Debian package ---

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -76,33 +77,45 @@ std::vector<std::string> broken_links(const fs::path& file) {
   return broken;
 }
 
-/// Every page that is written by hand: all but the folders of reports, which come from the program.
-std::vector<fs::path> pages_by_hand() {
-  std::vector<fs::path> pages = {source / "reports" / "README.md"};
-  for (const auto& top : fs::directory_iterator(source))
+/// Every page below a folder that is written by hand: all but the folders of reports, which come from the
+/// program.
+std::vector<fs::path> pages_by_hand(const fs::path& root) {
+  std::vector<fs::path> pages = {root / "reports" / "README.md"};
+  for (const auto& top : fs::directory_iterator(root))
     if (top.path().extension() == ".md") pages.push_back(top.path());
-  for (const char* folder : {"include", "src", "studies", "tests"})
-    for (const auto& each : fs::recursive_directory_iterator(source / folder))
+  for (const char* folder : {"include", "src", "studies", "tests"}) {
+    if (!fs::exists(root / folder)) continue;
+    for (const auto& each : fs::recursive_directory_iterator(root / folder))
       if (each.path().extension() == ".md") pages.push_back(each.path());
+  }
   return pages;
 }
 
-TEST(Documents, EveryLinkLeadsSomewhere) {
-  const std::vector<fs::path> pages = pages_by_hand();
+void expect_no_broken_links(const fs::path& root) {
+  const std::vector<fs::path> pages = pages_by_hand(root);
   EXPECT_GT(pages.size(), 10U);
   for (const fs::path& page : pages)
     for (const std::string& link : broken_links(page)) ADD_FAILURE() << page << " links to " << link;
 }
 
-using MadePages = launchsafe::testing::TemporaryFolder;
+TEST(Documents, EveryLinkLeadsSomewhere) { expect_no_broken_links(source); }
 
-TEST_F(MadePages, TellTheirBrokenLinks) {
+using PagesInAFolder = launchsafe::testing::TemporaryFolder;
+
+TEST_F(PagesInAFolder, TellTheirBrokenLinks) {
   std::ofstream(folder() / "a.md")
       << "# Of *a* page\n## Twice\n## Twice\n[a](b.md) [b](#of-a-page) [c](c.md#what)\n"
       << "![d](a.md#twice-1) [e](#twice-2)\n```\n# Code\n[f](g.md)\n```\n[h](#code)\n"
       << "[i](https://example.org/none)\n";
   std::ofstream(folder() / "c.md") << "## What?\n";
   EXPECT_EQ(broken_links(folder() / "a.md"), (std::vector<std::string>{"b.md", "#twice-2", "#code"}));
+}
+
+TEST_F(PagesInAFolder, AreLinkedAfterAnInstallationToo) {
+  const std::string install = std::string("'") + LAUNCHSAFE_CMAKE + "' --install '" + LAUNCHSAFE_BUILD_DIR +
+                              "' --component program --prefix '" + folder().string() + "' > /dev/null";
+  ASSERT_EQ(std::system(install.c_str()), 0) << install;
+  expect_no_broken_links(folder() / LAUNCHSAFE_DATA_DIR);
 }
 
 /// What stands between two texts.
