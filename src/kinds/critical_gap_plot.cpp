@@ -1,7 +1,9 @@
 // The pictures of a critical-gap study.
 #include "critical_gap_marks.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
+#include "launchsafe/report/measured.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 
@@ -18,14 +20,6 @@ using namespace study;
 using namespace report;
 namespace {
 
-/// "0.0395 +- 0.0094 cm": as many digits as two of the uncertainty are worth.
-std::string with_uncertainty(const CriticalGap& gap) {
-  const double value = 100.0 * gap.value, uncertainty = 100.0 * gap.uncertainty;
-  if (!(uncertainty > 0.0) || !std::isfinite(uncertainty)) return significant(value, 3) + " cm";
-  const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(uncertainty))));
-  return fmt::format("{} +- {} cm", fixed(value, decimals), fixed(uncertainty, decimals));
-}
-
 /// Colour and mark of a case. Open marks are larger: neighbours that lie on each other both show. The marks
 /// move on with every round of colours, so that no two cases look alike.
 void give_look(std::size_t index, Series& series) {
@@ -39,6 +33,7 @@ void give_look(std::size_t index, Series& series) {
 /// What did not ignite, with its uncertainty: the model form, whose sign is known, counts upwards alone.
 Series inert_series(const CaseOutcome& outcome, const std::string& label) {
   Series series{label, {}, {}, Style::vertical_bars};
+  if (!outcome.completed()) return series;  // temperatures of a part of the launch
   for (const GapVerdict& row : outcome.verdicts) {
     const double temperature = row.maximum.temperature;
     if (row.ignition || !std::isfinite(temperature)) continue;
@@ -121,18 +116,24 @@ void add_published(const CriticalGapResult& result, Plot& plot) {
     if (!series->x.empty()) plot.series.push_back(std::move(*series));
 }
 
+/// cm: the share of the model form in the uncertainty of a critical gap; NaN where it is not known.
+double model_form_share(const CaseOutcome& outcome) {
+  const bool known = outcome.critical_shares && outcome.critical_slope > 0.0;
+  return known ? 100.0 * outcome.critical_shares->model_form / outcome.critical_slope : not_a_number;
+}
+
 /// The critical gap of the only case: a band where it has an uncertainty, words where it is no value.
-void add_critical_gap(const CriticalGap& gap, Plot& plot) {
+void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
+  const CriticalGap& gap = outcome.critical;
   if (drawn_kind(gap) != CriticalGapKind::value) {
     plot.subtitle = "critical gap: " + reads_as(gap);
     return;
   }
-  const std::string label = "critical gap: " + with_uncertainty(gap);
-  const bool has_band = std::isfinite(gap.uncertainty);
-  plot.vertical_lines = {{100.0 * gap.value, has_band ? "" : label}};
-  if (has_band)
-    plot.vertical_bands = {
-        {100.0 * std::max(0.0, gap.value - gap.uncertainty), 100.0 * (gap.value + gap.uncertainty), label}};
+  const double value = 100.0 * gap.value;
+  const auto known = measured_gap(value, 100.0 * gap.uncertainty, model_form_share(outcome));
+  const std::string label = "critical gap: " + (known ? known->text("cm") : centimetres(gap.value));
+  plot.vertical_lines = {{value, known ? "" : label}};
+  if (known) plot.vertical_bands = {{std::max(0.0, known->lower()), known->upper(), label}};
 }
 
 }  // namespace
@@ -147,7 +148,7 @@ Plot temperature_plot(const CriticalGapResult& result) {
   for (std::size_t i = 0; i < result.cases.size(); ++i) add_case(result, i, plot);
   name_ignitions(plot);
   add_published(result, plot);
-  if (result.cases.size() == 1) add_critical_gap(result.cases.front().critical, plot);
+  if (result.cases.size() == 1) add_critical_gap(result.cases.front(), plot);
   const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;
   plot.horizontal_lines.push_back(
       {ignition, fmt::format("ignition temperature: {} K", significant(ignition, 4))});

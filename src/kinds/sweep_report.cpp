@@ -1,5 +1,6 @@
 // The answer, the page and the files of a sweep.
 #include "launchsafe/kinds/sweep.hpp"
+#include "launchsafe/report/measured.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
@@ -97,10 +98,8 @@ std::string smallest_text(const SweepResult& result, const std::vector<ShownKey>
   std::string text;
   if (const auto best = smallest(result)) {
     const study::CriticalGap& gap = result.answers[*best].critical;
-    const std::string error = std::isfinite(gap.uncertainty)
-                                  ? fmt::format(" +- {} cm", significant(100.0 * gap.uncertainty, 2))
-                                  : std::string{};
-    text = fmt::format("The smallest value is {} cm{}, at {}.", significant(100.0 * gap.value, 6), error,
+    const auto known = measured_gap(100.0 * gap.value, 100.0 * gap.uncertainty, not_a_number);
+    text = fmt::format("The smallest value is {}, at {}.", known ? known->text("cm") : centimetres(gap.value),
                        case_name(result, keys, *best));
   }
   const std::vector<std::size_t> none = without_safe_gap(result);

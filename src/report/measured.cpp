@@ -52,6 +52,11 @@ Measured measured(double value, double minus, double plus) {
   return shown;
 }
 
+std::optional<Measured> measured_gap(double value, double uncertainty, double model_form) {
+  if (!std::isfinite(value) || !std::isfinite(uncertainty) || !(uncertainty > 0.0)) return std::nullopt;
+  return measured(value, uncertainty, std::isfinite(model_form) ? uncertainty - model_form : uncertainty);
+}
+
 std::string allowed_text(double value, int decimals) {
   return fixed(rounded_down(value, decimals), decimals);
 }

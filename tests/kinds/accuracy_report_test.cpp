@@ -93,12 +93,6 @@ TEST(AccuracyReport, WritesARecordThatOtherStudiesCanRead) {
   EXPECT_EQ(json["settings"].size(), 4u);
 }
 
-const report::Series* series_named(const report::Plot& plot, const std::string& label) {
-  const auto found = std::find_if(plot.series.begin(), plot.series.end(),
-                                  [&](const report::Series& each) { return each.label == label; });
-  return found == plot.series.end() ? nullptr : &*found;
-}
-
 TEST(AccuracyReport, ThePictureShowsBoundsAndNamesTheFrontAlone) {
   const AccuracyResult result = made_accuracy();
   const report::Plot plot = kinds::error_plot(result);

@@ -2,6 +2,7 @@
 #include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/report/measured.hpp"
 #include "report/report_folder.hpp"
 #include "study/synthetic_launch.hpp"
 
@@ -95,12 +96,6 @@ TEST(CriticalGapReport, ThePageOpensWithTheAnswerAndSaysHowToRemakeIt) {
   EXPECT_EQ(page.find(LAUNCHSAFE_SOURCE_DIR), std::string::npos) << "a path of this machine";
 }
 
-const report::Series* series_named(const report::Plot& plot, const std::string& label) {
-  const auto found = std::find_if(plot.series.begin(), plot.series.end(),
-                                  [&](const report::Series& each) { return each.label == label; });
-  return found == plot.series.end() ? nullptr : &*found;
-}
-
 TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
   const CriticalGapResult result = one_case();
   const report::Plot plot = kinds::temperature_plot(result);
@@ -117,10 +112,16 @@ TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
   EXPECT_EQ(ignited->style, report::Style::points) << "no uncertainty is known of it";
   const CriticalGap& critical = result.cases.front().critical;
   ASSERT_EQ(plot.vertical_bands.size(), 1u);
-  EXPECT_NEAR(plot.vertical_bands[0].from, 100.0 * std::max(0.0, critical.value - critical.uncertainty),
-              1e-12);
-  EXPECT_NEAR(plot.vertical_bands[0].to, 100.0 * (critical.value + critical.uncertainty), 1e-12);
-  EXPECT_NE(plot.vertical_bands[0].label.find(" +- "), std::string::npos) << plot.vertical_bands[0].label;
+  // The same words and ends as in a safety report: rounded away from the value, the model form below alone.
+  const double model_form = 1.0 / result.cases.front().critical_slope;
+  const auto measured =
+      report::measured_gap(100.0 * critical.value, 100.0 * critical.uncertainty, 100.0 * model_form);
+  ASSERT_TRUE(measured);
+  EXPECT_EQ(plot.vertical_bands[0].from, std::max(0.0, measured->lower()));
+  EXPECT_EQ(plot.vertical_bands[0].to, measured->upper());
+  EXPECT_LE(plot.vertical_bands[0].from,
+            100.0 * std::max(0.0, critical.value - critical.uncertainty) + 1e-12);
+  EXPECT_EQ(plot.vertical_bands[0].label, "critical gap: " + measured->text("cm"));
   ASSERT_EQ(plot.vertical_lines.size(), 1u);
 }
 

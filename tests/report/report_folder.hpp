@@ -1,9 +1,12 @@
 // Where reports are written in tests, and what they hold.
 #pragma once
 
+#include "launchsafe/report/plot.hpp"
+
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -20,6 +23,13 @@ inline std::string content_of(const std::filesystem::path& file) {
 template <class Result>
 nlohmann::ordered_json json_of(const Result& result) {
   return nlohmann::ordered_json::parse(report_of(result).json);
+}
+
+/// A line or the marks of a plot; nullptr without one of that name.
+inline const Series* series_named(const Plot& plot, const std::string& label) {
+  const auto found = std::find_if(plot.series.begin(), plot.series.end(),
+                                  [&](const Series& each) { return each.label == label; });
+  return found == plot.series.end() ? nullptr : &*found;
 }
 
 /// A folder of its own, gone with the test.

@@ -2,6 +2,7 @@
 // an uncertainty smaller.
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace launchsafe::report {
@@ -29,6 +30,11 @@ struct Measured {
 
 /// A value that may be smaller by `minus` and larger by `plus` (both finite, >= 0, not both 0).
 Measured measured(double value, double minus, double plus);
+
+/// A critical gap and its uncertainty in cm, of which `model_form` moves towards ignition alone and so lowers
+/// the gap alone; NaN where that share is not known: then all of it counts on both sides. Nothing where there
+/// is no value or no uncertainty.
+std::optional<Measured> measured_gap(double value, double uncertainty, double model_form);
 
 /// `value` rounded down with so many decimals, as text: what is allowed. Never "-0.0".
 std::string allowed_text(double value, int decimals);
