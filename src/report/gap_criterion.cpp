@@ -53,6 +53,14 @@ std::optional<GapCriterion::Condition> condition_of(const std::vector<std::strin
                                                                                   : std::nullopt;
 }
 
+/// Words with one blank between them.
+std::string on_one_line(const std::string& text) {
+  std::istringstream stream(text);
+  std::string line;
+  for (std::string word; stream >> word;) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
 }  // namespace
 
 bool GapCriterion::met_by(const JudgedGap& row) const {
@@ -66,7 +74,7 @@ bool GapCriterion::met_by(const JudgedGap& row) const {
 }
 
 scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std::string& source) {
-  GapCriterion criterion{text, source, {}};
+  GapCriterion criterion{on_one_line(text), on_one_line(source), {}};
   std::istringstream stream(text);
   std::vector<std::string> words;
   const auto close = [&] {
@@ -83,7 +91,7 @@ scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std
     }
   }
   if (!close()) return criterion_fault(fmt::format("\"{}\"", text));
-  if (source.find_first_not_of(" \t\n") == std::string::npos) {
+  if (criterion.source.empty()) {
     scene::InputError fault;
     fault.key = "--criterion-source";
     fault.found = "none";

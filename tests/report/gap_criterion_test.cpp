@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -50,12 +52,86 @@ TEST(GapCriterion, WithoutACriticalGapNoDistanceIsMet) {
 }
 
 TEST(GapCriterion, AnythingElseIsRefused) {
-  for (const char* text :
-       {"", "margin", "margin > 2 uncertainty", "margin >= 0.5 uncertainty", "margin >= -2 K",
-        "margin >= nan K", "margin >= 2", "margin >= 2 cm", "gap <= 0.02 cm", "margin >= 2 uncertainty and",
-        "margin >= 2 uncertainty or margin >= 3 K", "margin >= 2,5 K"})
-    EXPECT_FALSE(parse_criterion(text, "a standard")) << text;
-  EXPECT_FALSE(parse_criterion("margin >= 2 uncertainty", " "));
+  for (const char* text : {"",
+                           " ",
+                           "and",
+                           "margin",
+                           "margin > 2 uncertainty",
+                           "margin <= 2 uncertainty",
+                           "margin = 2 uncertainty",
+                           "margin ≥ 2 uncertainty",
+                           "Margin >= 2 K",
+                           "margin >= 0.5 uncertainty",
+                           "margin >= 0 K",
+                           "margin >= -2 K",
+                           "margin >= -0 K",
+                           "margin >= nan K",
+                           "margin >= inf K",
+                           "margin >= 1e400 K",
+                           "margin >= 0x10 K",
+                           "margin >= 2",
+                           "margin >= 2K",
+                           "margin >= two K",
+                           "margin >= 2 cm",
+                           "margin >= 2 C",
+                           "margin >= 2 %",
+                           "distance >= 2 K",
+                           "distance >= 0.01",
+                           "distance >= 1 m",
+                           "distance >= -0.01 cm",
+                           "gap <= 0.02 cm",
+                           "margin >= 2 uncertainty and",
+                           "and margin >= 2 K",
+                           "margin >= 2 K and and distance >= 1 mm",
+                           "margin >= 2 uncertainty or margin >= 3 K",
+                           "margin >= 2 K, distance >= 1 mm",
+                           "margin >= 2,5 K",
+                           "not margin >= 2 K",
+                           "margin >= 2 K distance >= 1 mm"}) {
+    const auto parsed = parse_criterion(text, "a standard");
+    ASSERT_FALSE(parsed) << text;
+    EXPECT_EQ(parsed.error().key, "--criterion") << text;
+  }
+  for (const char* source : {"", " ", "\t\r\n"}) {
+    const auto parsed = parse_criterion("margin >= 2 uncertainty", source);
+    ASSERT_FALSE(parsed);
+    EXPECT_EQ(parsed.error().key, "--criterion-source");
+  }
+}
+
+TEST(GapCriterion, WordsAreToldOnOneLine) {
+  const auto parsed =
+      parse_criterion(" margin >=\n 2   K\tand distance >= 1 mm ", " works\n\n# standard  12\r");
+  ASSERT_TRUE(parsed);
+  EXPECT_EQ(parsed->text, "margin >= 2 K and distance >= 1 mm");
+  EXPECT_EQ(parsed->source, "works # standard 12");
+}
+
+// Whatever the table and the criterion: what is recommended is SAFE, and so is every smaller computed gap.
+TEST(GapCriterion, WhatIsRecommendedIsSafeWithAllThatIsSmaller) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-1.0, 5.0);
+  std::bernoulli_distribution safe(0.8), known(0.9);
+  const auto any = [&] { return known(random) ? number(random) : std::nan(""); };
+  std::size_t recommended = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::vector<JudgedGap> table;
+    for (int row = 0; row < 5; ++row) table.push_back({0.01 * row, safe(random), any(), any(), any(), any()});
+    std::shuffle(table.begin(), table.end(), random);
+    const char* texts[] = {"margin >= 1 uncertainty", "margin >= 0.1 K", "distance >= 1 uncertainty",
+                           "distance >= 0.1 cm and margin >= 1 uncertainty"};
+    const auto criterion = parse_criterion(texts[i % 4], "a standard");
+    ASSERT_TRUE(criterion);
+    const std::size_t largest = largest_gap_under(*criterion, table);
+    if (largest == table.size()) continue;
+    ++recommended;
+    for (const JudgedGap& row : table)
+      if (row.gap <= table[largest].gap) {
+        EXPECT_TRUE(row.safe);
+        EXPECT_TRUE(criterion->met_by(row));
+      }
+  }
+  EXPECT_GT(recommended, 1000u);
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ struct GapCriterion {
     double least = 0;  ///< times the uncertainty; or K, cm
     bool times_uncertainty = false;
   };
-  std::string text;    ///< as the user wrote it
-  std::string source;  ///< who asks for it
+  std::string text;    ///< as the user wrote it, on one line
+  std::string source;  ///< who asks for it, likewise
   std::vector<Condition> conditions;
 
   bool met_by(const JudgedGap& row) const;
