@@ -2,31 +2,63 @@
 #include "commands.hpp"
 #include "launchsafe/report/safety_evidence.hpp"
 #include "launchsafe/report/safety_render.hpp"
+#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/own_files.hpp"
+#include "launchsafe/store/study_record.hpp"
 #include "output_folder.hpp"
 #include "signals.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace launchsafe::app {
 namespace {
 
-/// A report is not written into a folder from which it is made: its report.md would take the study's place.
+/// A report is not written into the folder of a study: its report.md would take the place of the study's.
 std::optional<std::string> obstacle_in(const ReportArguments& arguments) {
-  for (const auto& study : arguments.studies) {
-    std::error_code failed;
-    if (std::filesystem::equivalent(study, arguments.output, failed))
-      return fmt::format("report: --output names {}, which is one of the studies; allowed: another folder",
-                         arguments.output.string());
-  }
-  return std::nullopt;
+  if (!store::read_study_record(arguments.output)) return std::nullopt;
+  return fmt::format("report: --output names {}, which holds a study; allowed: another folder",
+                     arguments.output.string());
 }
 
 store::Result<report::SafetyTemplates> templates_of(const ReportArguments& arguments) {
   if (!arguments.templates) return report::built_in_templates();
   return report::read_templates(*arguments.templates);
+}
+
+/// Takes away figures of an earlier report in the folder that the new one does not have, if they are as they
+/// were written. Only what that report names: other files of ours there are not the report's. Returns remarks
+/// on those that stay.
+store::Result<std::vector<std::string>> remove_stale_figures(const std::filesystem::path& folder,
+                                                             const std::vector<std::string>& names) {
+  const auto own = store::OwnFiles::read(folder);
+  if (!own) return own.error();
+  std::vector<std::string> remarks;
+  if (own->state_of("report.json") != store::FileState::ours) return remarks;
+  const auto text = store::read_file(folder / "report.json");
+  if (!text) return text.error();
+  for (const std::string& figure : report::figures_of(*text)) {
+    if (std::find(names.begin(), names.end(), figure) != names.end()) continue;
+    std::error_code failed;
+    switch (own->state_of(figure)) {
+      case store::FileState::ours:
+        if (!std::filesystem::remove(folder / figure, failed) && failed)
+          return store::Error{store::Error::Kind::write_failed,
+                              fmt::format("cannot remove {}, a figure that the report no longer has: {}",
+                                          (folder / figure).string(), failed.message())};
+        break;
+      case store::FileState::edited:
+        remarks.push_back(
+            fmt::format("{} was edited and stays; this report does not have it", (folder / figure).string()));
+        break;
+      default:
+        break;
+    }
+  }
+  return remarks;
 }
 
 }  // namespace
@@ -57,9 +89,12 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
     texts.emplace_back(file.name, file.text);
   }
   if (const auto obstacle = obstacle_to_report(arguments.output, names)) return console.refuse(*obstacle);
+  const auto stale = remove_stale_figures(arguments.output, names);
+  if (!stale) return console.end_with(stale.error());
   report::WrittenFiles written;
   if (const auto error = write_texts(arguments.output, texts, written)) return console.end_with(*error);
-  for (const std::string& remark : rendered->remarks) console.remark(remark);
+  for (const auto* remarks : {&*stale, &rendered->remarks})
+    for (const std::string& remark : *remarks) console.remark(remark);
   std::string text;
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (const std::string& name : names) {

@@ -3,12 +3,9 @@
 #include "safety_sections.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
-#include <set>
-#include <string_view>
 
 namespace launchsafe::report::safety {
 namespace {
@@ -19,15 +16,14 @@ constexpr std::size_t most_rows = 12;
 Parts gap_part(double gap, int decimals) { return part(allowed_text(gap, decimals) + " cm", gap, "cm"); }
 
 /// A bracket in digits that tell its ends apart, the lower end rounded down and the upper one up.
-Parts bracket_parts(const Row& critical) {
+Parts bracket_parts(const Subject& subject, const Row& critical) {
   const double lower = number_of(critical, "critical_gap_lower_cm");
   const double upper = number_of(critical, "critical_gap_upper_cm");
   const int decimals = std::max(decimals_for(upper - lower), 3);
   Parts parts{{"case", text_of(critical, "case")}};
   parts["lower"] = gap_part(lower, decimals);
   parts["upper"] = part(fixed(rounded_up(upper, decimals), decimals) + " cm", upper, "cm");
-  const std::string coupled = text_of(critical, "coupled_runs");
-  parts["confirmed"] = !coupled.empty();
+  parts["confirmed"] = is_confirmed(subject, text_of(critical, "case"));
   return parts;
 }
 
@@ -36,7 +32,7 @@ void say_critical_gap(const Subject& subject, const JudgedCase& each, SafetySect
   const Origin origin = subject.origin("cases", each.label);
   const std::string kind = text_of(critical, "critical_gap_kind");
   if (const auto gap = measured_gap(critical)) {
-    Parts parts = bracket_parts(critical);
+    Parts parts = bracket_parts(subject, critical);
     parts["gap"] = part(gap->text("cm"), number_of(critical, "critical_gap_cm"), "cm");
     parts["from"] = part(fixed(std::max(0.0, gap->lower()), gap->decimals), gap->lower(), "cm");
     parts["to"] = part(fixed(gap->upper(), gap->decimals) + " cm", gap->upper(), "cm");
@@ -83,212 +79,7 @@ void say_recommended(const Subject& subject, SafetySection& section) {
   section.say(allowed ? "recommended.gap" : "recommended.none", parts, origin, Look::lead);
 }
 
-// --- what was not covered ---
-
-std::vector<const Row*> all_verdicts(const Subject& subject) {
-  std::vector<const Row*> rows;
-  for (const JudgedCase& each : subject.cases)
-    rows.insert(rows.end(), each.verdicts.begin(), each.verdicts.end());
-  return rows;
-}
-
-std::size_t count_of(const std::vector<const Row*>& rows, const std::string& verdict) {
-  return static_cast<std::size_t>(std::count_if(
-      rows.begin(), rows.end(), [&](const Row* row) { return text_of(*row, "verdict") == verdict; }));
-}
-
-/// What stands behind a word in the reasons of verdicts, each once: "extrapolated: peak pressure".
-std::string said_after(const std::vector<const Row*>& rows, const std::string& word) {
-  std::set<std::string> found;
-  std::string text;
-  for (const Row* row : rows) {
-    const std::string reason = text_of(*row, "reason");
-    const std::size_t at = reason.find(word);
-    if (at == std::string::npos) continue;
-    const std::size_t begin = at + word.size();
-    const std::string said = reason.substr(begin, reason.find("; ", begin) - begin);
-    if (found.insert(said).second) text += (text.empty() ? "" : "; ") + said;
-  }
-  return text;
-}
-
-void say_verdict_counts(const Subject& subject, SafetySection& section) {
-  const auto rows = all_verdicts(subject);
-  const std::size_t open = count_of(rows, "INDETERMINATE");
-  if (rows.empty()) return;
-  const Parts parts{{"of", rows.size()},
-                    {"safe", count_of(rows, "SAFE")},
-                    {"unsafe", count_of(rows, "UNSAFE")},
-                    {"indeterminate", open},
-                    {"all", open == rows.size()}};
-  section.item(open > 0 ? "limits.indeterminate" : "limits.all_decided", parts, subject.origin("verdicts"));
-}
-
-/// The basis of the air's heat.
-void say_air(const Subject& subject, SafetySection& section) {
-  const Origin origin = subject.origin("verdicts");
-  const scene::AirModel air = subject.scene().surface.air_model;
-  if (air != scene::AirModel::reservoir) {
-    section.item(air == scene::AirModel::film ? "limits.air_film" : "limits.air_balance", {}, origin);
-    return;
-  }
-  const Row* most = nullptr;
-  for (const Row* row : all_verdicts(subject))
-    if (number_of(*row, "taken_over_supplied") > (most ? number_of(*most, "taken_over_supplied") : 0.0))
-      most = row;
-  if (most == nullptr) {
-    section.item("limits.air_unknown", {}, origin);
-    return;
-  }
-  const double ratio = number_of(*most, "taken_over_supplied");
-  Parts parts{
-      {"ratio", part(significant(ratio, 2), ratio, "")},
-      {"gap", part(significant(number_of(*most, "gap_cm"), 6) + " cm", number_of(*most, "gap_cm"), "cm")},
-      {"took", part(significant(number_of(*most, "skin_took_kJ_per_m2"), 2) + " kJ/m²",
-                    number_of(*most, "skin_took_kJ_per_m2"), "kJ/m2")},
-      {"supplied", part(significant(number_of(*most, "compression_supplies_kJ_per_m2"), 2) + " kJ/m²",
-                        number_of(*most, "compression_supplies_kJ_per_m2"), "kJ/m2")}};
-  section.item(ratio > 1.0 ? "limits.air_reservoir" : "limits.air_reservoir_within", parts, origin);
-}
-
-bool says(const StudyEvidence& study, const char* key) {
-  return study.record.manifest.input_text.find(fmt::format("\n{} = ", key)) != std::string::npos;
-}
-
-/// What is extrapolated, as study/case_uncertainty.cpp words it: items between commas, which may say in
-/// parentheses why they are accepted.
-struct Extrapolated {
-  std::string items, accepted;
-};
-
-Extrapolated extrapolated_in(const std::vector<const Row*>& rows) {
-  constexpr std::string_view word = "extrapolated: ", accepted_because = " (accepted because ";
-  std::vector<std::string> items, accepted;
-  const auto keep = [](std::vector<std::string>& all, const std::string& each) {
-    if (std::find(all.begin(), all.end(), each) == all.end()) all.push_back(each);
-  };
-  for (const Row* row : rows) {
-    const std::string reason = "; " + text_of(*row, "reason");
-    const std::size_t at = reason.find("; " + std::string(word));
-    if (at == std::string::npos) continue;
-    std::string item;
-    int depth = 0;
-    for (const char letter : reason.substr(at + 2 + word.size()) + ",") {
-      depth += letter == '(' ? 1 : letter == ')' ? -1 : 0;
-      const bool ends = depth == 0 && (letter == ',' || letter == ';');
-      if (!ends) {
-        if (!item.empty() || letter != ' ') item += letter;
-        continue;
-      }
-      const std::size_t because = item.find(accepted_because);
-      if (because != std::string::npos) {
-        keep(accepted, item.substr(because + accepted_because.size(),
-                                   item.size() - because - accepted_because.size() - 1));
-        item.resize(because);
-      }
-      keep(items, item);
-      item.clear();
-      if (letter == ';') break;
-    }
-  }
-  return {fmt::format("{}", fmt::join(items, ", ")), fmt::format("{}", fmt::join(accepted, "; "))};
-}
-
-void say_calibration(const Subject& subject, SafetySection& section) {
-  const auto rows = all_verdicts(subject);
-  const Origin origin = subject.origin("verdicts");
-  const Extrapolated extrapolated = extrapolated_in(rows);
-  if (!extrapolated.items.empty())
-    section.item("limits.extrapolated", {{"what", extrapolated.items}, {"accepted", extrapolated.accepted}},
-                 origin);
-  if (const std::string foreign = said_after(rows, "the constants were calibrated on another launch (");
-      !foreign.empty())
-    section.item("limits.foreign", {{"what", foreign.substr(0, foreign.find(')'))}}, origin);
-  section.item("limits.calibrated", {{"record", says(subject.study, "calibration")}}, origin);
-}
-
-void say_shares(const Subject& subject, SafetySection& section) {
-  const JudgedCase* own = subject.own_case();
-  if (own == nullptr) return;
-  // The row at which the question is decided: the largest gap that does not ignite.
-  const Row* row = nullptr;
-  for (const Row* each : own->verdicts)
-    if (text_of(*each, "verdict") != "UNSAFE" && std::isfinite(number_of(*each, "uncertainty_K"))) row = each;
-  if (row == nullptr) return;
-  const Share largest = largest_of(shares_of(*row));
-  if (!(largest.size > 0.0)) return;
-  Parts parts = truths_of(largest);
-  parts["size"] = part(uncertain_text(largest.size) + " K", largest.size, "K");
-  parts["total"] =
-      part(uncertain_text(number_of(*row, "uncertainty_K")) + " K", number_of(*row, "uncertainty_K"), "K");
-  parts["gap"] = significant(number_of(*row, "gap_cm"), 6) + " cm";
-  section.item("limits.largest_share", parts, subject.origin("verdicts", own->label));
-}
-
-void say_assumptions(const Subject& subject, SafetySection& section) {
-  const StudyEvidence& study = subject.study;
-  const Origin origin = subject.origin("the study file, in its manifest");
-  const bool inputs = !says(study, "input_uncertainty");
-  const bool computation = !says(study, "accuracy") && !says(study, "numerical_uncertainty");
-  const bool models = !says(study, "model_form") && !says(study, "model_form_uncertainty");
-  const std::string others = said_after(all_verdicts(subject), "ignition not excluded under ");
-  if (inputs || computation || models)
-    section.item("limits.assumed", {{"inputs", inputs}, {"computation", computation}, {"models", models}},
-                 origin);
-  if (!others.empty()) section.item("limits.other_models", {{"models", others}}, subject.origin("verdicts"));
-}
-
-void say_launch(const Subject& subject, SafetySection& section) {
-  const scene::Scene& scene = subject.scene();
-  const auto kelvin = fixed(scene.initial_temperature, 0) + " K";
-  Parts parts{{"peak", significant(1e-6 * scene::PressureHistory(scene.load).stated_peak(), 4) + " MPa"},
-              {"duration", significant(1e3 * scene.load.duration, 3) + " ms"},
-              {"crack", significant(1e6 * scene.charge().strength.initial_crack_radius, 4) + " µm"},
-              {"flaw", significant(1e3 * scene.charge().strength.flaw_size, 3) + " mm"},
-              {"temperature", kelvin},
-              {"several", subject.cases.size() > 1},
-              {"sweep", subject.evidence.find("sweep") != nullptr}};
-  section.item("limits.launch", parts, subject.origin("the scene, in its manifest"));
-  std::string missing;
-  for (const char* kind : {"critical-gap", "sweep", "accuracy", "sensitivity", "comparison", "stability"})
-    if (subject.evidence.find(kind) == nullptr) missing += (missing.empty() ? "" : ", ") + std::string(kind);
-  if (!missing.empty()) section.item("limits.missing", {{"kinds", missing}});
-}
-
-void say_unfinished(const Subject& subject, SafetySection& section) {
-  for (const StudyEvidence& study : subject.evidence.studies) {
-    if (study.finished()) {
-      if (!study.record.complete)
-        section.item("limits.no_pictures", {{"study", study.label}}, origin_of(study, "manifest"));
-      continue;
-    }
-    std::map<store::CaseState, std::size_t> states;
-    for (const store::JournalEntry& entry : study.runs) ++states[entry.state];
-    section.item("limits.unfinished",
-                 {{"study", study.label},
-                  {"kind", study.kind},
-                  {"done", states[store::CaseState::done]},
-                  {"failed", states[store::CaseState::failed] + states[store::CaseState::timed_out]},
-                  {"command", study.command()}},
-                 origin_of(study, "journal"));
-  }
-}
-
-/// Cases that failed, by their reasons.
-void say_failed(const Subject& subject, SafetySection& section) {
-  for (const JudgedCase& each : subject.cases) {
-    const Row& critical = *each.critical;
-    const std::string coupled = text_of(critical, "coupled_runs");
-    if (is_value(critical) && coupled.empty())
-      section.item("limits.not_confirmed", {{"case", each.label}}, subject.origin("cases", each.label));
-  }
-  for (const Row& run : subject.study.rows("runs"))
-    if (text_of(run, "status") != "completed")
-      section.item("limits.failed", {{"case", text_of(run, "case")}, {"status", text_of(run, "status")}},
-                   subject.origin("runs", text_of(run, "case")));
-}
-
-// --- tables of many cases ---
+// --- many cases ---
 
 Table case_table(const Subject& subject) {
   Table table;
@@ -311,9 +102,34 @@ Table case_table(const Subject& subject) {
   return table;
 }
 
+/// What is smallest, and how many have none; of a sweep, or of several cases.
+void say_cases(const Subject& subject, const std::string& text, SafetySection& section) {
+  const Row* smallest = nullptr;
+  std::map<std::string, std::size_t> kinds;
+  const Row& cases = subject.study.rows("cases");
+  for (const Row& row : cases) {
+    ++kinds[text_of(row, "critical_gap_kind")];
+    if (is_value(row) &&
+        (smallest == nullptr || number_of(row, "critical_gap_cm") < number_of(*smallest, "critical_gap_cm")))
+      smallest = &row;
+  }
+  Parts parts{
+      {"cases", cases.size()},
+      {"none_safe", count_part(kinds["all-ignite"])},
+      {"unknown", count_part(cases.size() - kinds["value"] - kinds["all-safe"] - kinds["all-ignite"])}};
+  if (smallest != nullptr) {
+    const auto gap = measured_gap(*smallest);
+    parts["smallest"] = part(gap ? gap->text("cm") : text_of(*smallest, "critical_gap_reads_as"),
+                             number_of(*smallest, "critical_gap_cm"), "cm");
+    parts["case"] = name_of_case(subject.study, *smallest);
+  }
+  section.say(text, parts, subject.origin("cases"), Look::lead);
+}
+
 void answer_critical_gap(const Subject& subject, SafetySection& section) {
-  for (const JudgedCase& each : subject.cases)
-    if (subject.cases.size() == 1 || &each == subject.own_case()) say_critical_gap(subject, each, section);
+  if (const JudgedCase* own = subject.own_case(); subject.cases.size() == 1 || subject.is_own(*own))
+    say_critical_gap(subject, *own, section);
+  if (subject.cases.size() > 1) say_cases(subject, "answer.cases", section);
   say_recommended(subject, section);
   std::vector<const JudgedCase*> cases;
   for (const JudgedCase& each : subject.cases) cases.push_back(&each);
@@ -322,24 +138,6 @@ void answer_critical_gap(const Subject& subject, SafetySection& section) {
   else
     section.blocks.push_back(SaidTable{"cases", case_table(subject), subject.origin("cases")});
   section.say("answer.read_verdicts");
-}
-
-/// What a sweep says, where no study asks for the critical gap of one launch.
-void answer_sweep(const Subject& subject, SafetySection& section) {
-  const Row* smallest = nullptr;
-  std::size_t none = 0;
-  const Row& cases = subject.study.rows("cases");
-  for (const Row& row : cases) {
-    if (text_of(row, "critical_gap_kind") == "all-ignite") ++none;
-    if (is_value(row) &&
-        (smallest == nullptr || number_of(row, "critical_gap_cm") < number_of(*smallest, "critical_gap_cm")))
-      smallest = &row;
-  }
-  Parts parts{{"cases", cases.size()}, {"none_safe", none}};
-  if (smallest != nullptr)
-    if (const auto gap = measured_gap(*smallest))
-      parts["smallest"] = part(gap->text("cm"), number_of(*smallest, "critical_gap_cm"), "cm");
-  section.say("answer.sweep", parts, subject.origin("cases"), Look::lead);
 }
 
 }  // namespace
@@ -381,18 +179,14 @@ SafetySection answer_section(const Subject& subject) {
   else if (!subject.cases.empty())
     answer_critical_gap(subject, section);
   else if (study.kind == "sweep")
-    answer_sweep(subject, section);
+    say_cases(subject, "answer.sweep", section);
   else
     section.say("answer.no_verdicts", {{"kind", study.kind}}, subject.origin("study.json"), Look::lead);
-  section.say("limits.begin");
-  say_unfinished(subject, section);
-  say_failed(subject, section);
-  say_verdict_counts(subject, section);
-  say_calibration(subject, section);
-  say_air(subject, section);
-  say_shares(subject, section);
-  say_assumptions(subject, section);
-  say_launch(subject, section);
+  if (subject.criterion && subject.cases.empty())
+    section.say("recommended.not_applied",
+                {{"criterion", subject.criterion->text}, {"source", subject.criterion->source}}, {},
+                Look::lead);
+  say_limits(subject, section);
   return section;
 }
 

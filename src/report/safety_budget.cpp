@@ -16,6 +16,13 @@ constexpr std::array<const char*, 4> share_names{"computation", "fit", "inputs",
 
 // --- shares ---
 
+/// A size in digits that mean something: of next to nothing, below what it is.
+std::string share_text(double size, double least) {
+  return size > 0.0 && size < least ? "< " + significant(least, 1) : uncertain_text(size);
+}
+constexpr double least_gap_share = 1e-4;         // cm
+constexpr double least_temperature_share = 0.1;  // K
+
 Table share_table(const JudgedCase& each) {
   Table table;
   table.columns = {significant_column("gap", "cm", 6, "gap_cm"),
@@ -31,10 +38,11 @@ Table share_table(const JudgedCase& each) {
       column.alignment = Alignment::right;
     }
   for (const Row* row : each.verdicts) {
-    if (!std::isfinite(number_of(*row, "uncertainty_K"))) continue;
+    if (!each.completed || !std::isfinite(number_of(*row, "uncertainty_K"))) continue;
     std::vector<Cell>& cells = table.rows.emplace_back();
     cells.emplace_back(number_of(*row, "gap_cm"));
-    for (const Share& share : shares_of(*row)) cells.emplace_back(uncertain_text(share.size));
+    for (const Share& share : shares_of(*row))
+      cells.emplace_back(share_text(share.size, least_temperature_share));
     cells.emplace_back(uncertain_text(number_of(*row, "uncertainty_K")));
     cells.emplace_back(text_of(*row, "verdict"));
   }
@@ -54,7 +62,7 @@ void say_gap_shares(const Subject& subject, const JudgedCase& each, SafetySectio
       return;
     }
     shares.push_back({name, size});
-    parts[name] = part(uncertain_text(size) + " cm", size, "cm");
+    parts[name] = part(share_text(size, least_gap_share) + " cm", size, "cm");
   }
   const Share& largest = largest_of(shares);
   parts["largest"] = truths_of(largest);
@@ -98,12 +106,7 @@ void say_accuracy(const StudyEvidence* accuracy, SafetySection& section) {
   }
   append(table.columns, {significant_column("uncertainty of the limit", "", 2, "uncertainty"),
                          named_text("method", "method")});
-  for (const Row& row : rows) {
-    std::vector<Cell>& cells = table.rows.emplace_back();
-    cells.insert(cells.end(), {text_of(row, "quantity"), text_of(row, "unit")});
-    for (const std::string& mesh : meshes) cells.emplace_back(optional_number(number_of(row, mesh)));
-    cells.insert(cells.end(), {optional_number(number_of(row, "uncertainty")), text_of(row, "method")});
-  }
+  for (const Row& row : rows) append_row(row, table);
   section.blocks.push_back(SaidTable{"meshes", std::move(table), origin_of(*accuracy, "reference")});
 }
 
@@ -168,9 +171,7 @@ Table model_table(const StudyEvidence& comparison, const std::vector<const Row*>
   if (models.empty()) {
     table.columns = {named_text("model", "variant"), named_text("critical gap", "critical_gap_reads_as"),
                      named_text("reason", "reason")};
-    for (const Row* row : cases)
-      table.rows.push_back(
-          {text_of(*row, "variant"), text_of(*row, "critical_gap_reads_as"), text_of(*row, "reason")});
+    for (const Row* row : cases) append_row(*row, table);
     return table;
   }
   table.columns = {named_text("model", "model"), named_text("what it is", "what_it_is")};
@@ -181,10 +182,7 @@ Table model_table(const StudyEvidence& comparison, const std::vector<const Row*>
     table.columns.push_back(named_text(fmt::format("gap at {} MPa [cm]", pressure), key));
   }
   table.columns.push_back(named_text("counts as", "counts_as"));
-  for (const Row& row : models) {
-    std::vector<Cell>& cells = table.rows.emplace_back();
-    for (const Column& column : table.columns) cells.emplace_back(text_of(row, column.key));
-  }
+  for (const Row& row : models) append_row(row, table);
   return table;
 }
 
@@ -269,13 +267,7 @@ Table published_table(const Subject& subject) {
                    number_column("published, early", "K", 1, "temperature_early_published_K"),
                    number_column("ignition", "ms", 2, "ignition_time_ms"),
                    number_column("published", "ms", 2, "ignition_time_published_ms")};
-  for (const Row& row : subject.study.rows("comparison")) {
-    std::vector<Cell>& cells = table.rows.emplace_back();
-    for (const Column& column : table.columns)
-      cells.push_back(column.key.find("used_for") != std::string::npos
-                          ? Cell(text_of(row, column.key))
-                          : optional_number(number_of(row, column.key)));
-  }
+  for (const Row& row : subject.study.rows("comparison")) append_row(row, table);
   return table;
 }
 
@@ -287,11 +279,7 @@ Table limit_table(const Subject& subject) {
                    named_text("nearest case", "case"),
                    named_text("computed", "critical_gap_reads_as"),
                    significant_column("computed less cited", "cm", 2, "difference_cm")};
-  for (const Row& row : subject.study.rows("cited_limits"))
-    table.rows.push_back({number_of(row, "limit_cm"),
-                          optional_number(number_of(row, "limit_peak_pressure_MPa")), text_of(row, "source"),
-                          text_of(row, "case"), text_of(row, "critical_gap_reads_as"),
-                          optional_number(number_of(row, "difference_cm"))});
+  for (const Row& row : subject.study.rows("cited_limits")) append_row(row, table);
   return table;
 }
 

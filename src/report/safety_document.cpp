@@ -42,6 +42,31 @@ double number_of(const Row& row, const std::string& key) {
   return found != row.end() && found->is_number() ? found->get<double>() : std::nan("");
 }
 
+InertRows inert_rows(const JudgedCase& each) {
+  InertRows rows;
+  if (!each.completed) return rows;
+  for (const Row* row : each.verdicts) {
+    const double temperature = number_of(*row, "temperature_max_K");
+    if (!text_of(*row, "ignition_cause").empty() || !std::isfinite(temperature)) continue;
+    rows.gaps.push_back(number_of(*row, "gap_cm"));
+    rows.temperatures.push_back(temperature);
+  }
+  return rows;
+}
+
+void append_row(const Row& row, Table& table) {
+  std::vector<Cell>& cells = table.rows.emplace_back();
+  for (const Column& column : table.columns) {
+    const auto found = row.find(column.key);
+    if (found != row.end() && found->is_string())
+      cells.emplace_back(found->get<std::string>());
+    else if (found != row.end() && found->is_number_integer())
+      cells.emplace_back(found->get<std::int64_t>());
+    else
+      cells.push_back(optional_number(number_of(row, column.key)));
+  }
+}
+
 Origin origin_of(const StudyEvidence& study, std::string of, std::string setting) {
   return {study.label, std::move(of), std::move(setting)};
 }
@@ -69,7 +94,9 @@ std::vector<JudgedCase> judged_cases(const StudyEvidence& study) {
   std::vector<JudgedCase> cases;
   const Row &criticals = study.rows("cases"), &verdicts = study.rows("verdicts");
   for (const Row& critical : criticals) {
-    JudgedCase& each = cases.emplace_back(JudgedCase{text_of(critical, "case"), &critical, {}, {}});
+    JudgedCase& each = cases.emplace_back(JudgedCase{text_of(critical, "case"), &critical, {}, {}, false});
+    for (const Row& run : study.rows("runs"))
+      if (text_of(run, "case") == each.label) each.completed = text_of(run, "status") == "completed";
     const std::size_t gaps = verdicts.size() / criticals.size(), first = (cases.size() - 1) * gaps;
     for (std::size_t i = first; i < first + gaps; ++i) {
       each.verdicts.push_back(&verdicts[i]);
@@ -87,29 +114,36 @@ Subject subject_of(const SafetyEvidence& evidence, const std::optional<GapCriter
           criterion};
 }
 
+bool Subject::is_own(const JudgedCase& each) const {
+  const Row& row = *each.verdicts.front();
+  const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); };
+  return same(number_of(row, "peak_pressure_MPa"),
+              1e-6 * scene::PressureHistory(scene().load).stated_peak()) &&
+         same(number_of(row, "crack_radius_um"), 1e6 * scene().charge().strength.initial_crack_radius) &&
+         same(number_of(row, "flaw_size_mm"), 1e3 * scene().charge().strength.flaw_size);
+}
+
 const JudgedCase* Subject::own_case() const {
   if (cases.empty()) return nullptr;
-  const auto own = std::find_if(cases.begin(), cases.end(), [&](const JudgedCase& each) {
-    const Row& row = *each.verdicts.front();
-    const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); };
-    return same(number_of(row, "peak_pressure_MPa"),
-                1e-6 * scene::PressureHistory(scene().load).stated_peak()) &&
-           same(number_of(row, "crack_radius_um"), 1e6 * scene().charge().strength.initial_crack_radius) &&
-           same(number_of(row, "flaw_size_mm"), 1e3 * scene().charge().strength.flaw_size);
-  });
-  return own != cases.end() ? &*own : &cases.front();
+  const auto own =
+      std::find_if(cases.begin(), cases.end(), [&](const JudgedCase& each) { return is_own(each); });
+  if (own != cases.end()) return &*own;
+  const auto gap = [](const JudgedCase& each) {
+    return is_value(*each.critical) ? number_of(*each.critical, "critical_gap_cm") : HUGE_VAL;
+  };
+  return &*std::min_element(cases.begin(), cases.end(),
+                            [&](const JudgedCase& a, const JudgedCase& b) { return gap(a) < gap(b); });
 }
+
+Parts count_part(std::size_t count) { return count > 0 ? Parts(count) : Parts(); }
 
 bool is_value(const Row& critical) { return text_of(critical, "critical_gap_kind") == "value"; }
 
 std::optional<Measured> measured_gap(const Row& critical) {
-  const double value = number_of(critical, "critical_gap_cm");
-  const double total = number_of(critical, "critical_gap_uncertainty_cm");
-  if (!is_value(critical) || !std::isfinite(value) || !(total > 0.0)) return std::nullopt;
-  const double model_form = number_of(critical, "critical_gap_uncertainty_of_model_form_cm");
-  // Other models count on the side towards ignition only.
-  const double plus = std::isfinite(model_form) ? total - model_form : total;
-  return measured(value, total, plus);
+  if (!is_value(critical)) return std::nullopt;
+  return report::measured_gap(number_of(critical, "critical_gap_cm"),
+                              number_of(critical, "critical_gap_uncertainty_cm"),
+                              number_of(critical, "critical_gap_uncertainty_of_model_form_cm"));
 }
 
 std::vector<Share> shares_of(const Row& verdict) {
@@ -144,6 +178,7 @@ std::string short_reason(const std::string& verdict, const std::string& reason) 
     begin = end + 2;
     if (verdict == "SAFE" && clause.starts_with("margin ")) continue;
     if (clause.starts_with("extrapolated: ")) clause = "extrapolated";
+    if (clause.starts_with("margin ")) clause = "margin within the uncertainty";
     text += (text.empty() ? "" : "; ") + clause;
   }
   return text;
@@ -168,14 +203,15 @@ Table verdict_table(const std::vector<const JudgedCase*>& cases) {
       std::vector<Cell>& cells = table.rows.emplace_back();
       if (cases.size() > 1) cells.emplace_back(each->label);
       const int decimals = decimals_for(gap.uncertainty);
-      const auto down = [](double value, int places) {
-        return std::isfinite(value) ? Cell(rounded_down(value, places)) : Cell();
+      const auto down = [each](double value, int places) {
+        return each->completed && std::isfinite(value) ? Cell(rounded_down(value, places)) : Cell();
       };
       // After ignition T max is that of the burning skin, and a margin says nothing.
       const bool ignited = !text_of(row, "ignition_cause").empty();
-      const bool known = std::isfinite(gap.uncertainty);
+      const bool known = each->completed && std::isfinite(gap.uncertainty);
       cells.insert(cells.end(),
-                   {gap.gap, text_of(row, "verdict"), optional_number(number_of(row, "temperature_max_K")),
+                   {gap.gap, text_of(row, "verdict"),
+                    each->completed ? optional_number(number_of(row, "temperature_max_K")) : Cell(),
                     ignited ? Cell() : down(gap.margin, decimals),
                     known ? Cell(rounded_up(gap.uncertainty, decimals)) : Cell(),
                     gap.uncertainty > 0 && !ignited ? down(gap.margin / gap.uncertainty, 1) : Cell(),

@@ -1,6 +1,7 @@
 #include "launchsafe/report/safety_evidence.hpp"
 
 #include "launchsafe/run/model_version.hpp"
+#include "launchsafe/run/run_case.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/sha256.hpp"
@@ -9,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string_view>
@@ -90,9 +92,10 @@ std::string said_in(const std::string& input, const std::string& key) {
   return text;
 }
 
-store::MaybeError check_files(const StudyEvidence& study) {
+/// Files as they were written; the maps of a sweep are kept.
+store::MaybeError check_files(StudyEvidence& study) {
   for (const store::WrittenFile& file : study.record.files) {
-    const auto bytes = store::read_file(study.folder / file.name);
+    auto bytes = store::read_file(study.folder / file.name);
     if (!bytes)
       return refused(
           fmt::format("{}: the manifest lists this file, and it cannot be read; allowed: a study's "
@@ -103,6 +106,7 @@ store::MaybeError check_files(const StudyEvidence& study) {
           fmt::format("{}: this is not what the study wrote, its checksum differs from that of the "
                       "manifest; allowed: files as they were written ({})",
                       (study.folder / file.name).string(), study.command()));
+    if (study.kind == "sweep" && file.name.ends_with(".svg")) study.drawings[file.name] = std::move(*bytes);
   }
   return {};
 }
@@ -117,29 +121,50 @@ store::MaybeError read_study_json(StudyEvidence& study) {
   if (!study.study.is_object() || string_in(study.study, "kind").empty())
     return refused(fmt::format("{}: found no results of a study; allowed: study.json as a study writes it",
                                (study.folder / "study.json").string()));
-  study.kind = string_in(study.study, "kind");
+  if (string_in(study.study, "kind") != study.kind)
+    return refused(
+        fmt::format("{}: found results of kind {}, its manifest is of a study of kind {}; allowed: "
+                    "study.json as a study writes it",
+                    (study.folder / "study.json").string(), string_in(study.study, "kind"), study.kind));
   study.title = string_in(study.study, "title");
   if (study.record.study.empty()) study.record.study = string_in(study.study, "study");
   return {};
 }
 
+double number_in(const nlohmann::json& object, const char* key) {
+  return object.contains(key) && object[key].is_number() ? object[key].get<double>() : std::nan("");
+}
+
+/// Whether a gap's own numbers, and the critical gap of its case, allow it to be called SAFE.
+bool may_be_safe(const StudyEvidence& study, const nlohmann::json& row, const nlohmann::json* critical) {
+  const double margin = number_in(row, "margin_K");
+  if (!(margin > number_in(row, "uncertainty_K")) || !string_in(row, "ignition_cause").empty()) return false;
+  if (critical == nullptr) return true;
+  constexpr double slack = 1e-6;  // K
+  const double ignition = study.scene.scene.charge().kinetics.ignition_temperature;
+  if (!(std::abs(ignition - number_in(row, "temperature_max_K") - margin) <= slack)) return false;
+  const std::string kind = string_in(*critical, "critical_gap_kind");
+  const double distance = number_in(*critical, "critical_gap_cm") - number_in(row, "gap_cm");
+  return kind == "all-safe" ||
+         (kind == "value" && distance > number_in(*critical, "critical_gap_uncertainty_cm"));
+}
+
 /// Rows that are not all there, or whose own numbers contradict their SAFE.
 store::MaybeError check_verdicts(const StudyEvidence& study) {
-  const std::size_t cases = study.rows("cases").size(), verdicts = study.rows("verdicts").size();
-  if (study.kind == "critical-gap" && study.finished() &&
-      (cases == 0 || verdicts == 0 || verdicts % cases != 0))
+  const bool by_case = study.kind == "critical-gap";
+  const nlohmann::json &cases = study.rows("cases"), &verdicts = study.rows("verdicts");
+  if (by_case && study.finished() &&
+      (cases.empty() || verdicts.empty() || verdicts.size() % cases.size() != 0))
     return refused(fmt::format("{}: found {} verdicts for {} cases; allowed: every gap in every case",
-                               (study.folder / "study.json").string(), verdicts, cases));
-  for (const nlohmann::json& row : study.rows("verdicts")) {
-    if (string_in(row, "verdict") != "SAFE") continue;
-    const auto number = [&](const char* key) {
-      return row.contains(key) && row[key].is_number() ? row[key].get<double>() : std::nan("");
-    };
-    if (number("margin_K") > number("uncertainty_K") && string_in(row, "ignition_cause").empty()) continue;
-    return refused(
-        fmt::format("{}: a gap of {} cm is called SAFE with a margin that is not above its "
-                    "uncertainty; allowed: verdicts as a study writes them",
-                    (study.folder / "study.json").string(), number("gap_cm")));
+                               (study.folder / "study.json").string(), verdicts.size(), cases.size()));
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    if (string_in(verdicts[i], "verdict") != "SAFE") continue;
+    if (may_be_safe(study, verdicts[i], by_case ? &cases[i * cases.size() / verdicts.size()] : nullptr))
+      continue;
+    return refused(fmt::format(
+        "{}: a gap of {} cm is called SAFE, which its temperature, its margin, the uncertainty or "
+        "the critical gap contradicts; allowed: verdicts as a study writes them",
+        (study.folder / "study.json").string(), number_in(verdicts[i], "gap_cm")));
   }
   return {};
 }
@@ -223,6 +248,28 @@ store::MaybeError check_kinds(const SafetyEvidence& evidence) {
   return {};
 }
 
+/// The largest gap of a case that is called SAFE, evaluated again on the case's stored run, must be as warm
+/// as its verdict says.
+store::MaybeError check_against_run(const StudyEvidence& study, const CaseEvidence& stored) {
+  const nlohmann::json &cases = study.rows("cases"), &verdicts = study.rows("verdicts");
+  const nlohmann::json* largest = nullptr;
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    if (string_in(cases[i * cases.size() / verdicts.size()], "case") != stored.label) continue;
+    if (string_in(verdicts[i], "verdict") != "SAFE") continue;
+    if (!largest || number_in(verdicts[i], "gap_cm") > number_in(*largest, "gap_cm")) largest = &verdicts[i];
+  }
+  if (largest == nullptr || stored.mechanics.trace.samples() < 2) return {};
+  const auto scene = scene_of(study, *largest);
+  if (!scene) return {};
+  const double gap = number_in(*largest, "gap_cm"), said = number_in(*largest, "temperature_max_K");
+  const double found = run::evaluate_gap(*scene, stored.mechanics.trace, 1e-2 * gap).at_stations.temperature;
+  if (std::abs(found - said) <= same_temperature) return {};
+  return refused(
+      fmt::format("{}: the gap of {} cm is called SAFE at {:.6g} K, and the stored run of {} gives {:.6g} K; "
+                  "allowed: results and case files of one study ({})",
+                  (study.folder / "study.json").string(), gap, said, stored.label, found, study.command()));
+}
+
 /// The stored runs of the main study, as far as they were kept. A file under another case's name is damaged
 /// too.
 store::MaybeError read_cases(SafetyEvidence& evidence) {
@@ -243,6 +290,7 @@ store::MaybeError read_cases(SafetyEvidence& evidence) {
                         file.string(), main.command()));
       each.mechanics = std::move(stored->result.mechanics);
       each.present = true;
+      if (auto error = check_against_run(main, each)) return *error;
     }
     evidence.cases.push_back(std::move(each));
   }
@@ -250,6 +298,14 @@ store::MaybeError read_cases(SafetyEvidence& evidence) {
 }
 
 }  // namespace
+
+std::optional<scene::Scene> scene_of(const StudyEvidence& study, const nlohmann::json& verdict) {
+  scene::Scene scene = study.scene.scene;
+  scene.load.peak = 1e6 * number_in(verdict, "peak_pressure_MPa");
+  scene.charge().strength.initial_crack_radius = 1e-6 * number_in(verdict, "crack_radius_um");
+  scene.charge().strength.flaw_size = 1e-3 * number_in(verdict, "flaw_size_mm");
+  return std::isfinite(scene.load.peak) ? std::optional(scene) : std::nullopt;
+}
 
 std::string StudyEvidence::command() const {
   return fmt::format("launchsafe study {} -o DIR", record.study.empty() ? "STUDY.toml" : record.study);

@@ -13,29 +13,16 @@
 namespace launchsafe::report::safety {
 namespace {
 
+/// Of which a line is told.
+constexpr std::size_t fewest_rows = 3;
+
 /// Regressors of a curve at a gap (cm).
 struct Curve {
   std::string name;  ///< of its text
   std::function<std::vector<double>(double)> at;
 };
 
-/// The rows that do not ignite.
-struct Data {
-  std::vector<double> gaps, temperatures;  ///< cm, K
-};
-
-Data data_of(const JudgedCase& each) {
-  Data data;
-  for (const Row* row : each.verdicts) {
-    const double temperature = number_of(*row, "temperature_max_K");
-    if (!text_of(*row, "ignition_cause").empty() || !std::isfinite(temperature)) continue;
-    data.gaps.push_back(number_of(*row, "gap_cm"));
-    data.temperatures.push_back(temperature);
-  }
-  return data;
-}
-
-std::optional<math::LeastSquares> fitted(const Curve& curve, const Data& data,
+std::optional<math::LeastSquares> fitted(const Curve& curve, const InertRows& data,
                                          std::optional<std::size_t> without = {}) {
   std::vector<std::vector<double>> rows;
   std::vector<double> temperatures;
@@ -48,7 +35,7 @@ std::optional<math::LeastSquares> fitted(const Curve& curve, const Data& data,
 }
 
 /// K, each row less what the others predict for it; NaN where they are too few.
-std::vector<double> left_out_errors(const Curve& curve, const Data& data) {
+std::vector<double> left_out_errors(const Curve& curve, const InertRows& data) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < data.gaps.size(); ++i) {
     const auto others = fitted(curve, data, i);
@@ -61,6 +48,11 @@ double root_mean_square(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value * value;
   return values.empty() ? std::nan("") : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// K; NaN of a curve with as many coefficients as rows: what remains is round-off.
+double misfit(const math::LeastSquares& fit) {
+  return fit.residuals.size() > fit.coefficients.size() ? root_mean_square(fit.residuals) : std::nan("");
 }
 
 /// Hurvich & Tsai, Biometrika 76 (1989); NaN where there are too few rows for it.
@@ -92,7 +84,7 @@ struct Comparison {
   double best_error = std::nan("");
 };
 
-Comparison compare_curves(const std::vector<Curve>& curves, const Data& data) {
+Comparison compare_curves(const std::vector<Curve>& curves, const InertRows& data) {
   Comparison comparison;
   comparison.table.columns = {named_text("curve", "curve"), count_column("coefficients", "coefficients"),
                               significant_column("RMS of residuals", "K", 2, "rms_K"),
@@ -103,7 +95,7 @@ Comparison compare_curves(const std::vector<Curve>& curves, const Data& data) {
     if (!fit) continue;
     const double error = root_mean_square(left_out_errors(curve, data));
     comparison.table.rows.push_back({curve.name, static_cast<std::int64_t>(fit->coefficients.size()),
-                                     root_mean_square(fit->residuals), optional_number(error),
+                                     optional_number(misfit(*fit)), optional_number(error),
                                      optional_number(corrected_akaike(*fit))});
     if (std::isfinite(error) && !(error >= comparison.best_error)) {
       comparison.best = curve.name;
@@ -113,7 +105,8 @@ Comparison compare_curves(const std::vector<Curve>& curves, const Data& data) {
   return comparison;
 }
 
-Table residual_table(const Data& data, const math::LeastSquares& line, const std::vector<double>& left_out) {
+Table residual_table(const InertRows& data, const math::LeastSquares& line,
+                     const std::vector<double>& left_out) {
   Table table;
   table.columns = {
       significant_column("gap", "cm", 6, "gap_cm"), number_column("T max", "K", 1, "temperature_max_K"),
@@ -155,11 +148,41 @@ void say_inverse(const Subject& subject, const JudgedCase& each, const math::Lea
   section.say("fit.inverse", parts, subject.origin("fit, cases", each.label));
 }
 
+/// Every case with a fit, a row each: how well a row follows from the others, by curve.
+Table left_out_table(const Subject& subject) {
+  Table table;
+  table.columns = {named_text("case", "case"),
+                   count_column("rows", "rows"),
+                   significant_column("slope", "K/cm", 4, "slope_K_per_cm"),
+                   significant_column("RMS of residuals", "K", 2, "rms_K"),
+                   significant_column("largest left out", "K", 2, "left_out_largest_K"),
+                   significant_column("RMS left out", "K", 2, "left_out_rms_K"),
+                   significant_column("of a parabola", "K", 2, "left_out_rms_quadratic_K"),
+                   significant_column("with an Arrhenius term", "K", 2, "left_out_rms_arrhenius_K")};
+  for (const JudgedCase& each : subject.cases) {
+    const InertRows data = inert_rows(each);
+    const auto line = math::fit_line(data.gaps, data.temperatures);
+    if (!line || data.gaps.size() < fewest_rows) continue;
+    std::vector<Cell>& cells =
+        table.rows.emplace_back(std::vector<Cell>{each.label, static_cast<std::int64_t>(data.gaps.size()),
+                                                  line->coefficients[1], optional_number(misfit(*line))});
+    for (const Curve& curve : curves_of(subject, *line)) {
+      const std::vector<double> errors = left_out_errors(curve, data);
+      if (curve.name == "linear") {
+        double largest = 0;
+        for (const double error : errors) largest = std::abs(error) <= largest ? largest : std::abs(error);
+        cells.push_back(optional_number(largest));
+      }
+      cells.push_back(optional_number(root_mean_square(errors)));
+    }
+  }
+  return table;
+}
+
 void say_fit(const Subject& subject, const JudgedCase& each, SafetySection& section) {
-  const Data data = data_of(each);
+  const InertRows data = inert_rows(each);
   const auto line = math::fit_line(data.gaps, data.temperatures);
   const Origin origin = subject.origin("verdicts", each.label);
-  constexpr std::size_t fewest_rows = 3;
   if (!line || data.gaps.size() < fewest_rows) {
     section.say("fit.too_few", {{"case", each.label}, {"rows", data.gaps.size()}}, origin);
     return;
@@ -190,10 +213,10 @@ void say_fit(const Subject& subject, const JudgedCase& each, SafetySection& sect
 SafetySection fit_section(const Subject& subject) {
   SafetySection section{"fit"};
   if (subject.cases.empty()) section.say("fit.none");
-  // The others have the same shape; one table each would bury the answer.
+  // The others have the same shape; two tables each would bury the answer.
   if (const JudgedCase* own = subject.own_case()) say_fit(subject, *own, section);
-  if (subject.cases.size() > 1)
-    section.say("fit.others", {{"cases", subject.cases.size()}}, subject.origin("fit"));
+  if (Table others = left_out_table(subject); subject.cases.size() > 1 && !others.rows.empty())
+    section.blocks.push_back(SaidTable{"left_out_rows", std::move(others), subject.origin("verdicts")});
   return section;
 }
 

@@ -14,21 +14,6 @@ namespace {
 
 constexpr double band_level = 0.95;
 
-/// The rows that do not ignite, of which T max is a function that a line can follow.
-struct Inert {
-  std::vector<double> gap_cm, temperature;
-};
-Inert inert_rows(const JudgedCase& each) {
-  Inert rows;
-  for (const Row* row : each.verdicts) {
-    const double temperature = number_of(*row, "temperature_max_K");
-    if (!text_of(*row, "ignition_cause").empty() || !std::isfinite(temperature)) continue;
-    rows.gap_cm.push_back(number_of(*row, "gap_cm"));
-    rows.temperature.push_back(temperature);
-  }
-  return rows;
-}
-
 Series points_series(std::string label, Mark mark, int colour) {
   return {
       .label = std::move(label), .x = {}, .y = {}, .style = Style::points, .colour = colour, .mark = mark};
@@ -60,8 +45,8 @@ void add_computed(const JudgedCase& each, Plot& plot) {
 }
 
 void add_fit(const JudgedCase& each, Plot& plot) {
-  const Inert rows = inert_rows(each);
-  const auto fit = math::fit_line(rows.gap_cm, rows.temperature);
+  const InertRows rows = inert_rows(each);
+  const auto fit = math::fit_line(rows.gaps, rows.temperatures);
   if (!fit) return;
   double end = 0;
   for (const Row* row : each.verdicts) end = std::max(end, number_of(*row, "gap_cm"));
@@ -139,10 +124,14 @@ std::vector<SweepAxis> axes_of(const StudyEvidence& sweep) {
   return axes;
 }
 
-std::string with_unit(const SweepAxis& axis) {
+std::string words_of(const SweepAxis& axis) {
   std::string name = axis.name;
   std::replace(name.begin(), name.end(), '_', ' ');
-  return axis.unit.empty() ? name : fmt::format("{} [{}]", name, axis.unit);
+  return name;
+}
+
+std::string with_unit(const SweepAxis& axis) {
+  return axis.unit.empty() ? words_of(axis) : fmt::format("{} [{}]", words_of(axis), axis.unit);
 }
 
 /// cm: up to where no ignition is to be expected even at the end of the uncertainty; 0 where no gap is safe.
@@ -196,13 +185,83 @@ void add_line(const StudyEvidence& sweep, const std::vector<SweepAxis>& axes, st
   plot.series.push_back(std::move(envelope));
 }
 
+// --- more than two axes ---
+
+/// "flaw size 1 mm, initial temperature 300 K": where a row lies on the axes from one of them on.
+std::string place_on(const std::vector<SweepAxis>& axes, std::size_t first, const Row& row) {
+  std::string text;
+  for (std::size_t i = first; i < axes.size(); ++i)
+    text += fmt::format("{}{} {}{}{}", i > first ? ", " : "", words_of(axes[i]),
+                        significant(number_of(row, axes[i].key), 6), axes[i].unit.empty() ? "" : " ",
+                        axes[i].unit);
+  return text;
+}
+
+/// One map of a sweep: the cases of one combination of the axes behind the first two.
+struct MappedCases {
+  std::string others;  ///< "flaw size 1 mm, initial temperature 300 K"
+  std::vector<const Row*> cases;
+};
+
+/// In the order in which the sweep draws and numbers its maps: that of its cases.
+std::vector<MappedCases> maps_of(const StudyEvidence& sweep, const std::vector<SweepAxis>& axes) {
+  std::vector<MappedCases> maps;
+  for (const Row& row : sweep.rows("cases")) {
+    const std::string others = place_on(axes, 2, row);
+    auto map = std::find_if(maps.begin(), maps.end(),
+                            [&](const MappedCases& each) { return each.others == others; });
+    if (map == maps.end()) map = maps.insert(maps.end(), {others, {}});
+    map->cases.push_back(&row);
+  }
+  return maps;
+}
+
+/// What a map shows, for who cannot see it.
+Parts parts_of(const MappedCases& map, const std::vector<SweepAxis>& axes) {
+  double smallest = std::nan(""), largest_uncertainty = 0;
+  std::size_t none = 0, unknown = 0;
+  for (const Row* row : map.cases) {
+    const double envelope = envelope_of(*row), u = number_of(*row, "critical_gap_uncertainty_cm");
+    if (!(envelope >= smallest) && std::isfinite(envelope)) smallest = envelope;
+    if (is_value(*row) && u > largest_uncertainty) largest_uncertainty = u;
+    none += envelope == 0.0;
+    unknown += !std::isfinite(envelope) && text_of(*row, "critical_gap_kind") != "all-safe";
+  }
+  Parts parts{{"others", map.others},
+              {"axis", with_unit(axes[0])},
+              {"second", with_unit(axes[1])},
+              {"cases", map.cases.size()},
+              {"none", none},
+              {"unknown", unknown}};
+  if (std::isfinite(smallest)) parts["smallest"] = part(allowed_text(smallest, 3) + " cm", smallest, "cm");
+  if (largest_uncertainty > 0)
+    parts["uncertainty"] = part(uncertain_text(largest_uncertainty) + " cm", largest_uncertainty, "cm");
+  return parts;
+}
+
+/// The maps that the sweep itself drew: the envelope first, then the critical gap that it is taken from.
+void say_maps(const StudyEvidence& sweep, const std::vector<SweepAxis>& axes, SafetySection& section) {
+  const std::vector<MappedCases> maps = maps_of(sweep, axes);
+  std::size_t drawn = 0;
+  for (const char* quantity : {"safe_gap", "critical_gap"}) {
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      const std::string file = fmt::format("{}{}.svg", quantity, i == 0 ? "" : fmt::format("_{}", i + 1));
+      const auto found = sweep.drawings.find(file);
+      if (found == sweep.drawings.end()) continue;
+      if (std::string_view(quantity) == "safe_gap") ++drawn;
+      section.blocks.push_back(SaidFigure{quantity, file, found->second, parts_of(maps[i], axes),
+                                          origin_of(sweep, "cases", maps[i].others)});
+    }
+  }
+  section.say("envelope.maps", {{"count", axes.size()}, {"drawn", drawn}, {"maps", maps.size()}},
+              origin_of(sweep, "cases"));
+}
+
 void say_envelope(const StudyEvidence& sweep, SafetySection& section) {
   const std::vector<SweepAxis> axes = axes_of(sweep);
   const Origin origin = origin_of(sweep, "cases");
-  if (axes.empty() || axes.size() > 2) {
-    section.say("envelope.axes", {{"count", axes.size()}}, origin);
-    return;
-  }
+  if (axes.size() > 2) return say_maps(sweep, axes, section);
+  if (axes.empty()) return section.say("envelope.axes", {}, origin);
   const std::vector<double> values = axes.size() > 1 ? shown_values(sweep, axes[1]) : std::vector<double>{};
   Plot plot;
   plot.title = "Critical gap, and the safe envelope below it";
@@ -233,6 +292,10 @@ void say_envelope(const StudyEvidence& sweep, SafetySection& section) {
 
 }  // namespace
 
+std::string name_of_case(const StudyEvidence& study, const Row& row) {
+  return study.kind == "sweep" ? place_on(axes_of(study), 0, row) : text_of(row, "case");
+}
+
 SafetySection gap_section(const Subject& subject) {
   SafetySection section{"gap"};
   std::vector<const JudgedCase*> cases;
@@ -240,8 +303,8 @@ SafetySection gap_section(const Subject& subject) {
   std::size_t rows = 0;
   for (const JudgedCase& each : subject.cases) {
     rows += each.verdicts.size();
-    const Inert inert = inert_rows(each);
-    if (inert.gap_cm.empty()) {
+    const InertRows inert = inert_rows(each);
+    if (inert.gaps.empty()) {
       section.say("gap.nothing_computed", {{"case", each.label}}, subject.origin("verdicts", each.label));
       continue;
     }
@@ -251,7 +314,9 @@ SafetySection gap_section(const Subject& subject) {
                    number == 1 ? "temperature.svg" : fmt::format("temperature_{}.svg", number),
                    temperature_plot(subject, each),
                    {{"case", each.label},
-                    {"rows", inert.gap_cm.size()},
+                    {"rows", inert.gaps.size()},
+                    {"line", inert.gaps.size() > 1},
+                    {"band", inert.gaps.size() > 2},
                     {"published", &each == subject.own_case() && !subject.study.rows("comparison").empty()},
                     {"critical", measured_gap(*each.critical).has_value()}},
                    subject.origin("verdicts, fit, comparison", each.label)});

@@ -416,6 +416,19 @@ store::Result<SafetyTemplates> read_templates(const std::filesystem::path& folde
                                   folder.string(), fmt::join(template_names, ", "))};
 }
 
+std::vector<std::string> figures_of(const std::string& report_json) {
+  std::vector<std::string> files;
+  const auto report = nlohmann::json::parse(report_json, nullptr, false);
+  const auto list = [](const nlohmann::json& object, const char* key) {
+    return object.is_object() && object.contains(key) ? object[key] : nlohmann::json::array();
+  };
+  for (const auto& section : list(report, "sections"))
+    for (const auto& block : list(section, "blocks"))
+      if (block.is_object() && block.contains("file") && block["file"].is_string())
+        files.push_back(block["file"]);
+  return files;
+}
+
 store::Result<RenderedReport> render(const SafetyDocument& document, const SafetyTemplates& templates,
                                      const DrawingLimits& limits) {
   Renderer renderer{document, Words(templates)};

@@ -147,24 +147,8 @@ Table place_table(const JudgedCase& each) {
                    named_text("cause", "ignition_cause"),
                    number_column("chemical share", "", 2, "ignition_chemical_share"),
                    number_column("spread along the bottom", "K", 0, "spread_K")};
-  for (const Row* row : each.verdicts)
-    table.rows.push_back(
-        {number_of(*row, "gap_cm"), optional_number(number_of(*row, "temperature_max_K")),
-         text_of(*row, "temperature_max_place"), optional_number(number_of(*row, "temperature_max_time_ms")),
-         optional_number(number_of(*row, "ignition_time_ms")), text_of(*row, "ignition_cause"),
-         optional_number(number_of(*row, "ignition_chemical_share")),
-         optional_number(number_of(*row, "spread_K"))});
+  for (const Row* row : each.verdicts) append_row(*row, table);
   return table;
-}
-
-/// The scene of a case: that of the study with the case's own load and defect.
-std::optional<scene::Scene> scene_of(const Subject& subject, const JudgedCase& each) {
-  scene::Scene scene = subject.scene();
-  const Row& row = *each.verdicts.front();
-  scene.load.peak = 1e6 * number_of(row, "peak_pressure_MPa");
-  scene.charge().strength.initial_crack_radius = 1e-6 * number_of(row, "crack_radius_um");
-  scene.charge().strength.flaw_size = 1e-3 * number_of(row, "flaw_size_mm");
-  return std::isfinite(scene.load.peak) ? std::optional(scene) : std::nullopt;
 }
 
 /// Gaps whose histories are shown: the largest that is SAFE, and the smallest that is not.
@@ -184,9 +168,6 @@ std::vector<const Row*> shown_gaps(const JudgedCase& each) {
   if (rows.empty() && !each.verdicts.empty()) rows.push_back(each.verdicts.front());
   return rows;
 }
-
-/// K by which a temperature that is integrated again on the stored trace may differ from the study's.
-constexpr double same_temperature = 0.01;
 
 void add_pictures(const Subject& subject, const JudgedCase& judged, const DrawnCase& drawn,
                   SafetySection& section) {
@@ -223,7 +204,7 @@ void add_pictures(const Subject& subject, const JudgedCase& judged, const DrawnC
 
 void say_histories(const Subject& subject, const JudgedCase& judged, const CaseEvidence& stored,
                    SafetySection& section) {
-  const auto scene = scene_of(subject, judged);
+  const auto scene = scene_of(subject.study, *judged.verdicts.front());
   if (!scene || stored.mechanics.trace.samples() < 2) return;
   run::CaseResult result{stored.mechanics, {}};
   for (const Row* row : shown_gaps(judged)) {
@@ -268,6 +249,10 @@ SafetySection place_section(const Subject& subject) {
   const JudgedCase* own = subject.own_case();
   if (own == nullptr) {
     section.say("place.none", {{"command", subject.study.command()}});
+    return section;
+  }
+  if (!own->completed) {
+    section.say("place.not_completed", {{"case", own->label}}, subject.origin("runs", own->label));
     return section;
   }
   section.blocks.push_back(SaidTable{"place", place_table(*own), subject.origin("verdicts", own->label)});

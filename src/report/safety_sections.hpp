@@ -23,6 +23,9 @@ struct JudgedCase {
   const Row* critical = nullptr;  ///< its row of `cases`
   std::vector<const Row*> verdicts;
   std::vector<JudgedGap> gaps;  ///< the same as a criterion sees them
+  /// Whether its run came to its end: temperatures of one that was cut off are those of a part of the launch,
+  /// and no number of it is told.
+  bool completed = false;
 };
 
 /// What every section reads.
@@ -33,10 +36,21 @@ struct Subject {
   const std::optional<GapCriterion>& criterion;
 
   const scene::Scene& scene() const { return study.scene.scene; }
-  /// That of the scene's own load and defect, or the first; nullptr without any.
+  /// Whether a case is of the scene's own load and defect.
+  bool is_own(const JudgedCase& each) const;
+  /// That case, or else the one with the smallest critical gap; nullptr without any.
   const JudgedCase* own_case() const;
   Origin origin(std::string of, std::string setting = {}) const;
 };
+
+/// The rows of a case that do not ignite: T max (K) as a function of the gap (cm).
+struct InertRows {
+  std::vector<double> gaps, temperatures;
+};
+InertRows inert_rows(const JudgedCase& each);
+
+/// Puts a row of a study's table under the columns, by their keys.
+void append_row(const Row& row, Table& table);
 
 Subject subject_of(const SafetyEvidence& evidence, const std::optional<GapCriterion>& criterion);
 Origin origin_of(const StudyEvidence& study, std::string of, std::string setting = {});
@@ -58,6 +72,20 @@ std::vector<Share> shares_of(const Row& verdict);
 const Share& largest_of(const std::vector<Share>& shares);
 /// Which of the shares one is: a truth under every name.
 Parts truths_of(const Share& share);
+
+/// The verdict rows of the main study, where it judges gaps.
+std::vector<const Row*> all_verdicts(const Subject& subject);
+std::size_t count_of(const std::vector<const Row*>& rows, const std::string& verdict);
+/// Whether complete coupled runs on both sides of a case's critical gap do what is expected of them.
+bool is_confirmed(const Subject& subject, const std::string& label);
+/// What the answer rests on and does not cover: items.
+void say_limits(const Subject& subject, SafetySection& section);
+
+/// A count that a text tells only where there is something to count.
+Parts count_part(std::size_t count);
+
+/// The label of a case; of a sweep the values of its axes.
+std::string name_of_case(const StudyEvidence& study, const Row& row);
 
 /// The answer for programs.
 Parts answer_parts(const Subject& subject);

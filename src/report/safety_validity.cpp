@@ -21,12 +21,7 @@ Table run_table_of(const StudyEvidence& study) {
                    count_column("particles", "particles"),
                    named_text("limiters", "limiters"),
                    named_text("stored case", "stored_case")};
-  for (const Row& row : study.rows("runs"))
-    table.rows.push_back({text_of(row, "case"), text_of(row, "status"),
-                          optional_number(number_of(row, "energy_drift")),
-                          static_cast<std::int64_t>(row.value("steps", 0)),
-                          static_cast<std::int64_t>(row.value("particles", 0)), text_of(row, "limiters"),
-                          text_of(row, "stored_case")});
+  for (const Row& row : study.rows("runs")) append_row(row, table);
   return table;
 }
 

@@ -1,4 +1,5 @@
 // launchsafe report as a user meets it: of studies that ran, failed or were interrupted, and of bad input.
+#include "launchsafe/store/sha256.hpp"
 #include "stored_study.hpp"
 
 namespace launchsafe::app {
@@ -38,6 +39,15 @@ TEST_F(ReportCommand, OfAStudyWhoseCaseFailedSaysSo) {
   EXPECT_TRUE(reports("The critical gap is indeterminate"));
   EXPECT_TRUE(reports("did not complete"));
   EXPECT_TRUE(reports("nothing is shown to be safe"));
+  // What a run was like until it was cut off is no margin.
+  const auto report = nlohmann::json::parse(read("safety/report.json"));
+  for (const auto& block : report["sections"][0]["blocks"]) {
+    if (block["id"] != "verdicts") continue;
+    for (const auto& row : block["rows"])
+      for (const char* key : {"temperature_max_K", "margin_K", "uncertainty_K", "margin_over_uncertainty"})
+        EXPECT_TRUE(row[key].is_null()) << key << " " << row[key];
+  }
+  EXPECT_FALSE(exists("safety/temperature.svg"));
 }
 
 TEST_F(ReportCommand, OfAStudyThatWasInterruptedSaysHowToGoOn) {
@@ -64,10 +74,17 @@ TEST_F(ReportCommand, BadInputIsOneMessage) {
   };
   refused({"report", "nowhere", "-o", "safety"}, "found no study there");
   refused({"report", "out", "out", "-o", "safety"}, "both are studies of kind critical-gap");
-  refused({"report", "out", "-o", "out"}, "one of the studies");
+  refused({"report", "out", "-o", "out"}, "holds a study");
   refused({"report", "out", "-o", "safety", "--criterion", "margin > 2", "--criterion-source", "a"},
           "--criterion");
   refused({"report", "out", "-o", "safety", "--criterion", "margin >= 2 K"}, "--criterion-source");
+  refused({"report", "out", "-o", "safety", "--criterion-source", "a"}, "requires --criterion");
+  for (const char* criterion :
+       {"margin", "margin >= 2", "margin >= nan K", "distance >= 3 K", "margin >= -1 K"})
+    refused({"report", "out", "-o", "safety", "--criterion", criterion, "--criterion-source", "a"},
+            "margin >= N uncertainty");
+  refused({"report", "out", "-o", "safety", "--criterion", "margin >= 2 K", "--criterion-source", " "},
+          "--criterion-source");
   refused({"report", "out", "-o", "safety", "--templates", "nowhere"}, "found no template there");
 }
 
@@ -81,11 +98,53 @@ TEST_F(ReportCommand, ADamagedCaseIsRefused) {
   EXPECT_FALSE(exists("safety"));
 }
 
+TEST_F(ReportCommand, ASafeThatTheStoredRunDoesNotGiveIsRefused) {
+  write("study.toml", with(critical_gap_study, "input_uncertainty",
+                           "numerical_uncertainty = \"1 K\"\nfit_uncertainty = \"1 K\"\ninput_uncertainty"));
+  run({"study", "study.toml", "-o", "out"});
+  EXPECT_EQ(run({"report", "out", "-o", "as_it_is"}).code, 0);
+  auto results = nlohmann::ordered_json::parse(read("out/study.json"));
+  const auto safe = std::find_if(results["verdicts"].begin(), results["verdicts"].end(),
+                                 [](const auto& row) { return row["verdict"] == "SAFE"; });
+  ASSERT_NE(safe, results["verdicts"].end());
+  // Margin and temperature go together, and the checksums with them: only the stored run tells.
+  for (const auto& [key, by] : {std::pair{"temperature_max_K", -5.0}, std::pair{"margin_K", 5.0}})
+    (*safe)[key] = (*safe)[key].get<double>() + by;
+  const std::string before = store::sha256(read("out/study.json"));
+  write("out/study.json", results.dump());
+  write("out/manifest.json", with(read("out/manifest.json"), before, store::sha256(read("out/study.json"))));
+  const Outcome outcome = run({"report", "out", "-o", "safety"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(outcome.says("the stored run of")) << outcome.err;
+  EXPECT_FALSE(exists("safety"));
+}
+
 TEST_F(ReportCommand, WithoutCaseFilesItSaysWhatTheyWouldShow) {
   run_critical_gap();
   std::filesystem::remove_all(folder() / "out/cases");
   EXPECT_EQ(run({"report", "out", "-o", "safety"}).code, 0);
   EXPECT_TRUE(reports("need the case files"));
+}
+
+TEST_F(ReportCommand, FiguresThatTheReportNoLongerHasAreTakenAway) {
+  run_critical_gap();
+  EXPECT_EQ(run({"report", "out", "-o", "safety"}).code, 0);
+  std::vector<std::string> pictures;
+  for (const auto& entry : std::filesystem::directory_iterator(folder() / "safety"))
+    if (const std::string name = entry.path().filename();
+        name.starts_with("histories_") || name.starts_with("profile_"))
+      pictures.push_back("safety/" + name);
+  ASSERT_GE(pictures.size(), 2u);
+  write("safety/mine.svg", "mine");
+  write(pictures[0], "edited");
+  std::filesystem::remove_all(folder() / "out/cases");
+  const Outcome outcome = run({"report", "out", "-o", "safety"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.says(pictures[0] + " was edited and stays")) << outcome.err;
+  EXPECT_EQ(read(pictures[0]), "edited");
+  EXPECT_EQ(read("safety/mine.svg"), "mine");
+  EXPECT_FALSE(exists(pictures[1]));
+  EXPECT_TRUE(exists("safety/section.svg")) << "the new report has it";
 }
 
 TEST_F(ReportCommand, SomebodyElsesReportIsNotOverwritten) {

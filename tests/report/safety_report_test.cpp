@@ -43,6 +43,14 @@ class SafetyReport : public launchsafe::testing::TemporaryFolder {
     replace_in(study / "study.json", from, to);
     replace_in(study / "manifest.json", before, store::sha256(read(study / "study.json")));
   }
+  /// Likewise, of its results as a value.
+  static void change(const path& study, const std::function<void(nlohmann::ordered_json&)>& how) {
+    const std::string before = store::sha256(read(study / "study.json"));
+    auto results = nlohmann::ordered_json::parse(read(study / "study.json"));
+    how(results);
+    write(study / "study.json", results.dump(1));
+    replace_in(study / "manifest.json", before, store::sha256(read(study / "study.json")));
+  }
   static std::string fault_of(const std::vector<path>& folders) {
     const auto evidence = read_safety_evidence(folders);
     return evidence ? "" : evidence.error().message;
@@ -137,6 +145,141 @@ TEST_F(SafetyReport, ASafeThatItsOwnNumbersContradictIsRefused) {
   const path study = copy_of("critical_gap_155mm");
   restate(study, "\"verdict\": \"INDETERMINATE\"", "\"verdict\": \"SAFE\"");
   EXPECT_TRUE(has(fault_of({study}), "0.03 cm is called SAFE")) << fault_of({study});
+}
+
+TEST_F(SafetyReport, ASafeThatItsTemperatureOrCriticalGapContradictsIsRefused) {
+  const path colder = copy_of("critical_gap_155mm");
+  change(colder, [](auto& results) { results["verdicts"][2]["margin_K"] = 300.0; });
+  EXPECT_TRUE(has(fault_of({colder}), "0.02 cm is called SAFE")) << fault_of({colder});
+  std::filesystem::remove_all(colder);
+  // 0.0195 cm from the critical gap, which is now uncertain by more.
+  const path near = copy_of("critical_gap_155mm");
+  change(near, [](auto& results) { results["cases"][0]["critical_gap_uncertainty_cm"] = 0.0196; });
+  EXPECT_TRUE(has(fault_of({near}), "0.02 cm is called SAFE")) << fault_of({near});
+  change(near, [](auto& results) { results["cases"][0]["critical_gap_kind"] = "indeterminate"; });
+  EXPECT_TRUE(has(fault_of({near}), "0 cm is called SAFE")) << fault_of({near});
+}
+
+TEST_F(SafetyReport, ResultsOfAnotherKindThanTheManifestsAreRefused) {
+  const path study = copy_of("critical_gap_155mm");
+  change(study, [](auto& results) { results["kind"] = "accuracy"; });
+  EXPECT_TRUE(has(fault_of({study}), "its manifest is of a study of kind critical-gap")) << fault_of({study});
+}
+
+TEST_F(SafetyReport, OnlyCoupledRunsThatAgreeConfirmACriticalGap) {
+  const auto page_with = [this](const std::function<void(nlohmann::ordered_json&)>& how) {
+    const path study = copy_of("critical_gap_155mm");
+    change(study, how);
+    const std::string page = file_of({study}, "report.md");
+    std::filesystem::remove_all(study);
+    return page;
+  };
+  EXPECT_TRUE(has(page_with([](auto&) {}), "complete coupled runs on both sides agree"));
+  for (const auto& broken : std::vector<std::function<void(nlohmann::ordered_json&)>>{
+           [](auto& results) {
+             results["coupled_runs"] = nlohmann::ordered_json::array();
+             results["cases"][0]["coupled_runs"] = "not confirmed";
+           },
+           [](auto& results) { results["coupled_runs"][1]["outcome"] = "failed"; },
+           [](auto& results) { results["coupled_runs"].erase(1); }}) {
+    const std::string page = page_with(broken);
+    EXPECT_FALSE(has(page, "on both sides agree"));
+    EXPECT_TRUE(has(page, "no coupled run has confirmed that"));
+    EXPECT_TRUE(has(page, "No coupled run has confirmed the critical gap of 496 MPa"));
+  }
+}
+
+/// A second case with the same rows at another pressure.
+void add_case(nlohmann::ordered_json& results) {
+  const auto verdicts = results["verdicts"];
+  results["cases"].push_back(results["cases"][0]);
+  results["cases"][1]["case"] = "510 MPa, 30 um, 1 mm";
+  results["cases"][1]["critical_gap_kind"] = "all-ignite";
+  results["runs"].push_back(results["runs"][0]);
+  results["runs"][1]["case"] = results["cases"][1]["case"];
+  results["runs"][1]["stored_case"] = "";
+  for (auto row : verdicts) {
+    row["peak_pressure_MPa"] = 510.0;
+    row["verdict"] = "INDETERMINATE";
+    results["verdicts"].push_back(row);
+  }
+}
+
+TEST_F(SafetyReport, OfSeveralCasesTheWorstStandsOnPageOneAndEachIsLeftOneOut) {
+  const path study = copy_of("critical_gap_155mm");
+  change(study, add_case);
+  const std::string page = file_of({study}, "report.md");
+  EXPECT_TRUE(has(page, "Covered is this launch alone: 496 MPa peak pressure")) << "one of the two";
+  EXPECT_TRUE(has(page, "Of 2 cases the smallest critical gap that was found is 0.039"));
+  EXPECT_TRUE(has(page, "In 1 of them no gap is safe"));
+  EXPECT_TRUE(has(page, "No computed gap has the verdict SAFE in every case"));
+  const auto json = nlohmann::json::parse(file_of({study}, "report.json"));
+  for (const auto& block : json["sections"][4]["blocks"]) {
+    if (block["id"] != "left_out_rows") continue;
+    ASSERT_EQ(block["rows"].size(), 2u);
+    EXPECT_EQ(block["rows"][1]["case"], "510 MPa, 30 um, 1 mm");
+    EXPECT_EQ(block["rows"][1]["left_out_rms_K"], block["rows"][0]["left_out_rms_K"]) << "the same rows";
+    EXPECT_GT(block["rows"][0]["left_out_rms_K"], block["rows"][0]["rms_K"]);
+    return;
+  }
+  ADD_FAILURE() << "no table of rows left out";
+}
+
+TEST_F(SafetyReport, TheScenesLaunchIsNotCalledCoveredWhereNoCaseIsOfIt) {
+  const path study = copy_of("critical_gap_155mm");
+  change(study, [](auto& results) {
+    for (auto& row : results["verdicts"]) row["peak_pressure_MPa"] = 400.0;
+  });
+  const std::string page = file_of({study}, "report.md");
+  EXPECT_FALSE(has(page, "Covered is this launch alone"));
+  EXPECT_TRUE(has(page, "The scene's own launch, 496 MPa, is covered only if a case names it"));
+}
+
+TEST_F(SafetyReport, ASweepByItselfRecommendsNothingAndSaysWhatIsExtrapolated) {
+  const auto criterion = parse_criterion("margin >= 3 uncertainty", "works standard 12");
+  ASSERT_TRUE(criterion);
+  const std::string page = file_of({shipped("sweep_pressure_defect")}, "report.md", *criterion);
+  EXPECT_TRUE(has(page, "no gap is recommended"));
+  EXPECT_TRUE(has(page, "Covered are the 133 computed cases alone"));
+  EXPECT_TRUE(has(page, "No gap can be recommended: there are no verdicts of one launch"));
+  EXPECT_TRUE(has(page, "The calibration is extrapolated in: "));
+}
+
+TEST_F(SafetyReport, ASweepOverMoreThanTwoQuantitiesShowsTheMapsThatItDrew) {
+  const path study = copy_of("sweep_pressure_defect");
+  for (const char* quantity : {"safe_gap", "critical_gap"}) {
+    const std::string first = read(study / (std::string(quantity) + ".svg"));
+    write(study / (std::string(quantity) + "_2.svg"), first);
+    auto manifest = nlohmann::ordered_json::parse(read(study / "manifest.json"));
+    manifest["files"].push_back(
+        {{"name", std::string(quantity) + "_2.svg"}, {"sha256", store::sha256(first)}});
+    write(study / "manifest.json", manifest.dump(2));
+  }
+  change(study, [](auto& results) {
+    results["axes"].push_back(
+        {{"name", "flaw_size"}, {"key", "flaw_size_mm"}, {"unit", "mm"}, {"values", {0.5, 1.0}}});
+    const auto cases = results["cases"];
+    results["cases"] = nlohmann::ordered_json::array();
+    for (auto row : cases)
+      for (const double size : {0.5, 1.0}) {
+        row["flaw_size_mm"] = size;
+        results["cases"].push_back(row);
+      }
+  });
+  const auto report = nlohmann::json::parse(file_of({study}, "report.json"));
+  std::vector<std::string> files;
+  for (const auto& block : report["sections"][1]["blocks"]) {
+    if (block["kind"] != "figure") continue;
+    files.push_back(block["file"]);
+    const std::string size = files.back().find("_2") == std::string::npos ? "0.5 mm" : "1 mm";
+    EXPECT_TRUE(has(block["caption"], "at flaw size " + size)) << block["caption"];
+    EXPECT_TRUE(has(block["alternative"], "at flaw size " + size)) << block["alternative"];
+    EXPECT_EQ(block["parts"]["cases"], 133) << "19 pressures times 7 cracks";
+  }
+  EXPECT_EQ(files, (std::vector<std::string>{"safe_gap.svg", "safe_gap_2.svg", "critical_gap.svg",
+                                             "critical_gap_2.svg"}));
+  EXPECT_TRUE(has(file_of({study}, "report.md"), "2 of 2 combinations of the others"));
+  EXPECT_TRUE(has(file_of({study}, "critical_gap_2.svg"), "uncertain by up to"));
 }
 
 TEST_F(SafetyReport, AFolderWithoutAStudyIsRefused) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,9 +22,10 @@ struct StudyEvidence {
   std::filesystem::path folder;
   store::StudyRecord record;
   std::string kind, title;
-  scene::SceneFile scene;                 ///< what was simulated, with what the study sets
-  nlohmann::json study;                   ///< study.json; null while the study is not finished
-  std::vector<store::JournalEntry> runs;  ///< of the folder's journal; none where it was left out
+  scene::SceneFile scene;                       ///< what was simulated, with what the study sets
+  nlohmann::json study;                         ///< study.json; null while the study is not finished
+  std::map<std::string, std::string> drawings;  ///< its maps as it drew them, SVG by file name
+  std::vector<store::JournalEntry> runs;        ///< of the folder's journal; none where it was left out
   /// Scene keys whose values differ from those of the report's main study.
   std::vector<std::string> differences;
   bool finished() const { return study.is_object(); }
@@ -32,6 +34,13 @@ struct StudyEvidence {
   /// The rows of a table of study.json; none where it has no such table.
   const nlohmann::json& rows(const std::string& member) const;
 };
+
+/// The scene of a verdict row: that of the study with the row's own load and defect. Nothing for a row
+/// without a load.
+std::optional<scene::Scene> scene_of(const StudyEvidence& study, const nlohmann::json& verdict);
+
+/// K by which a temperature that is integrated again on a stored trace may differ from the study's.
+inline constexpr double same_temperature = 0.01;
 
 /// The stored mechanical run of one case of the main study.
 struct CaseEvidence {
@@ -53,8 +62,8 @@ struct SafetyEvidence {
 
 /// Reads the folders of studies. Every file that a manifest lists must be there as it was written. Errors, a
 /// message each: no study there, a file that was edited or is missing, a model version other than this
-/// program's or another study's, a damaged case, a SAFE that its own numbers contradict, two studies of a
-/// kind, studies of different shells.
+/// program's or another study's, a damaged case, a SAFE that its own numbers or its stored run contradict,
+/// two studies of a kind, studies of different shells.
 store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace launchsafe::report

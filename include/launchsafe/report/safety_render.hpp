@@ -41,4 +41,7 @@ struct RenderedReport {
 store::Result<RenderedReport> render(const SafetyDocument& document, const SafetyTemplates& templates,
                                      const DrawingLimits& limits = {});
 
+/// The files of the figures that a report.json names; none where it is no report.
+std::vector<std::string> figures_of(const std::string& report_json);
+
 }  // namespace launchsafe::report

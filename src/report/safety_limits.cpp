@@ -1,0 +1,279 @@
+// What the answer rests on, and what it does not cover: the rest of page one.
+#include "launchsafe/report/number.hpp"
+#include "safety_sections.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string_view>
+
+namespace launchsafe::report::safety {
+
+bool is_confirmed(const Subject& subject, const std::string& label) {
+  bool below = false, above = false;
+  for (const Row& run : subject.study.rows("coupled_runs")) {
+    if (text_of(run, "case") != label) continue;
+    if (text_of(run, "outcome") != text_of(run, "expected")) return false;
+    (text_of(run, "expected") == "ignites" ? above : below) = true;
+  }
+  return below && above;
+}
+
+std::vector<const Row*> all_verdicts(const Subject& subject) {
+  std::vector<const Row*> rows;
+  if (subject.study.kind == "critical-gap" || subject.study.kind == "sweep")
+    for (const Row& row : subject.study.rows("verdicts")) rows.push_back(&row);
+  return rows;
+}
+
+std::size_t count_of(const std::vector<const Row*>& rows, const std::string& verdict) {
+  return static_cast<std::size_t>(std::count_if(
+      rows.begin(), rows.end(), [&](const Row* row) { return text_of(*row, "verdict") == verdict; }));
+}
+
+namespace {
+
+/// What stands behind a word in the reasons of verdicts, each once: "extrapolated: peak pressure".
+std::string said_after(const std::vector<const Row*>& rows, const std::string& word) {
+  std::set<std::string> found;
+  std::string text;
+  for (const Row* row : rows) {
+    const std::string reason = text_of(*row, "reason");
+    const std::size_t at = reason.find(word);
+    if (at == std::string::npos) continue;
+    const std::size_t begin = at + word.size();
+    const std::string said = reason.substr(begin, reason.find("; ", begin) - begin);
+    if (found.insert(said).second) text += (text.empty() ? "" : "; ") + said;
+  }
+  return text;
+}
+
+void say_verdict_counts(const Subject& subject, SafetySection& section) {
+  const auto rows = all_verdicts(subject);
+  const std::size_t open = count_of(rows, "INDETERMINATE");
+  if (rows.empty()) return;
+  const Parts parts{{"of", rows.size()},
+                    {"safe", count_of(rows, "SAFE")},
+                    {"unsafe", count_of(rows, "UNSAFE")},
+                    {"indeterminate", open},
+                    {"all", open == rows.size()}};
+  section.item(open > 0 ? "limits.indeterminate" : "limits.all_decided", parts, subject.origin("verdicts"));
+}
+
+/// Two digits, or all before the point.
+std::string two_digits(double value) { return value < 10.0 ? significant(value, 2) : fixed(value, 0); }
+
+/// The basis of the air's heat.
+void say_air(const Subject& subject, SafetySection& section) {
+  const Origin origin = subject.origin("verdicts");
+  const scene::AirModel air = subject.scene().surface.air_model;
+  if (air != scene::AirModel::reservoir) {
+    section.item(air == scene::AirModel::film ? "limits.air_film" : "limits.air_balance", {}, origin);
+    return;
+  }
+  const Row* most = nullptr;
+  for (const Row* row : all_verdicts(subject))
+    if (number_of(*row, "taken_over_supplied") > (most ? number_of(*most, "taken_over_supplied") : 0.0))
+      most = row;
+  if (most == nullptr) {
+    section.item("limits.air_unknown", {}, origin);
+    return;
+  }
+  const double ratio = number_of(*most, "taken_over_supplied");
+  Parts parts{
+      {"ratio", part(two_digits(ratio), ratio, "")},
+      {"gap", part(significant(number_of(*most, "gap_cm"), 6) + " cm", number_of(*most, "gap_cm"), "cm")},
+      {"took", part(two_digits(number_of(*most, "skin_took_kJ_per_m2")) + " kJ/m²",
+                    number_of(*most, "skin_took_kJ_per_m2"), "kJ/m2")},
+      {"supplied", part(two_digits(number_of(*most, "compression_supplies_kJ_per_m2")) + " kJ/m²",
+                        number_of(*most, "compression_supplies_kJ_per_m2"), "kJ/m2")}};
+  section.item(ratio > 1.0 ? "limits.air_reservoir" : "limits.air_reservoir_within", parts, origin);
+}
+
+bool says(const StudyEvidence& study, const char* key) {
+  return study.record.manifest.input_text.find(fmt::format("\n{} = ", key)) != std::string::npos;
+}
+
+/// What is extrapolated, as study/case_uncertainty.cpp words it: items between commas, which may say in
+/// parentheses why they are accepted.
+struct Extrapolated {
+  std::string items, accepted;
+};
+
+Extrapolated extrapolated_in(const std::vector<const Row*>& rows) {
+  constexpr std::string_view word = "extrapolated: ", accepted_because = " (accepted because ";
+  std::vector<std::string> items, accepted;
+  const auto keep = [](std::vector<std::string>& all, const std::string& each) {
+    if (std::find(all.begin(), all.end(), each) == all.end()) all.push_back(each);
+  };
+  for (const Row* row : rows) {
+    const std::string reason = "; " + text_of(*row, "reason");
+    const std::size_t at = reason.find("; " + std::string(word));
+    if (at == std::string::npos) continue;
+    std::string item;
+    int depth = 0;
+    for (const char letter : reason.substr(at + 2 + word.size()) + ",") {
+      depth += letter == '(' ? 1 : letter == ')' ? -1 : 0;
+      const bool ends = depth == 0 && (letter == ',' || letter == ';');
+      if (!ends) {
+        if (!item.empty() || letter != ' ') item += letter;
+        continue;
+      }
+      const std::size_t because = item.find(accepted_because);
+      if (because != std::string::npos) {
+        keep(accepted, item.substr(because + accepted_because.size(),
+                                   item.size() - because - accepted_because.size() - 1));
+        item.resize(because);
+      }
+      keep(items, item);
+      item.clear();
+      if (letter == ';') break;
+    }
+  }
+  return {fmt::format("{}", fmt::join(items, ", ")), fmt::format("{}", fmt::join(accepted, "; "))};
+}
+
+void say_calibration(const Subject& subject, SafetySection& section) {
+  const auto rows = all_verdicts(subject);
+  const Origin origin = subject.origin("verdicts");
+  const Extrapolated extrapolated = extrapolated_in(rows);
+  if (!extrapolated.items.empty())
+    section.item("limits.extrapolated", {{"what", extrapolated.items}, {"accepted", extrapolated.accepted}},
+                 origin);
+  if (const std::string foreign = said_after(rows, "the constants were calibrated on another launch (");
+      !foreign.empty())
+    section.item("limits.foreign", {{"what", foreign.substr(0, foreign.find(')'))}}, origin);
+  section.item("limits.calibrated", {{"record", says(subject.study, "calibration")}}, origin);
+}
+
+void say_shares(const Subject& subject, SafetySection& section) {
+  const JudgedCase* own = subject.own_case();
+  if (own == nullptr || !own->completed) return;
+  // The row at which the question is decided: the largest gap that does not ignite.
+  const Row* row = nullptr;
+  for (const Row* each : own->verdicts)
+    if (text_of(*each, "verdict") != "UNSAFE" && std::isfinite(number_of(*each, "uncertainty_K"))) row = each;
+  if (row == nullptr) return;
+  const Share largest = largest_of(shares_of(*row));
+  if (!(largest.size > 0.0)) return;
+  Parts parts = truths_of(largest);
+  const double total = number_of(*row, "uncertainty_K");
+  const auto kelvin = [&](double value) {
+    const int decimals = decimals_for(total);  // as in the table
+    return part(fixed(rounded_up(value, decimals), decimals) + " K", value, "K");
+  };
+  parts["size"] = kelvin(largest.size);
+  parts["total"] = kelvin(total);
+  parts["gap"] = significant(number_of(*row, "gap_cm"), 6) + " cm";
+  section.item("limits.largest_share", parts, subject.origin("verdicts", own->label));
+}
+
+void say_assumptions(const Subject& subject, SafetySection& section) {
+  const StudyEvidence& study = subject.study;
+  const Origin origin = subject.origin("the study file, in its manifest");
+  const bool inputs = !says(study, "input_uncertainty");
+  const bool computation = !says(study, "accuracy") && !says(study, "numerical_uncertainty");
+  const bool models = !says(study, "model_form") && !says(study, "model_form_uncertainty");
+  const std::string others = said_after(all_verdicts(subject), "ignition not excluded under ");
+  if (inputs || computation || models)
+    section.item("limits.assumed", {{"inputs", inputs}, {"computation", computation}, {"models", models}},
+                 origin);
+  if (!others.empty()) section.item("limits.other_models", {{"models", others}}, subject.origin("verdicts"));
+}
+
+void say_launch(const Subject& subject, SafetySection& section) {
+  const scene::Scene& scene = subject.scene();
+  const auto kelvin = fixed(scene.initial_temperature, 0) + " K";
+  const JudgedCase* own = subject.own_case();
+  Parts parts{{"own", own != nullptr && subject.is_own(*own)},
+              {"cases", subject.study.rows("cases").size()},
+              {"peak", significant(1e-6 * scene::PressureHistory(scene.load).stated_peak(), 4) + " MPa"},
+              {"duration", significant(1e3 * scene.load.duration, 3) + " ms"},
+              {"crack", significant(1e6 * scene.charge().strength.initial_crack_radius, 4) + " µm"},
+              {"flaw", significant(1e3 * scene.charge().strength.flaw_size, 3) + " mm"},
+              {"temperature", kelvin},
+              {"several", subject.cases.size() > 1},
+              {"others", subject.study.kind != "sweep" && subject.evidence.find("sweep") != nullptr}};
+  section.item("limits.launch", parts, subject.origin("the scene, in its manifest"));
+  std::string missing;
+  for (const char* kind : {"critical-gap", "sweep", "accuracy", "sensitivity", "comparison", "stability"})
+    if (subject.evidence.find(kind) == nullptr) missing += (missing.empty() ? "" : ", ") + std::string(kind);
+  if (!missing.empty()) section.item("limits.missing", {{"kinds", missing}});
+}
+
+/// Studies of other values than the main one's; what a scene writes out changes no number.
+void say_differences(const Subject& subject, SafetySection& section) {
+  constexpr std::size_t most_keys = 4;
+  for (const StudyEvidence& study : subject.evidence.studies) {
+    std::vector<std::string> keys;
+    for (const std::string& key : study.differences)
+      if (!key.starts_with("output.") && key != "title") keys.push_back(key);
+    if (keys.empty()) continue;
+    const std::size_t shown = std::min(keys.size(), most_keys);
+    section.item("limits.differs",
+                 {{"study", study.label},
+                  {"kind", study.kind},
+                  {"keys", fmt::format("{}", fmt::join(keys.begin(), keys.begin() + shown, ", "))},
+                  {"more", count_part(keys.size() - shown)}},
+                 origin_of(study, "the scene, in its manifest"));
+  }
+}
+
+void say_unfinished(const Subject& subject, SafetySection& section) {
+  for (const StudyEvidence& study : subject.evidence.studies) {
+    if (study.finished()) {
+      if (!study.record.complete)
+        section.item("limits.no_pictures", {{"study", study.label}}, origin_of(study, "manifest"));
+      continue;
+    }
+    std::map<store::CaseState, std::size_t> states;
+    for (const store::JournalEntry& entry : study.runs) ++states[entry.state];
+    section.item("limits.unfinished",
+                 {{"study", study.label},
+                  {"kind", study.kind},
+                  {"done", states[store::CaseState::done]},
+                  {"failed", states[store::CaseState::failed] + states[store::CaseState::timed_out]},
+                  {"command", study.command()}},
+                 origin_of(study, "journal"));
+  }
+}
+
+/// Cases that failed, by their reasons.
+void say_failed(const Subject& subject, SafetySection& section) {
+  std::vector<std::string> not_confirmed;
+  for (const JudgedCase& each : subject.cases)
+    if (is_value(*each.critical) && !is_confirmed(subject, each.label)) not_confirmed.push_back(each.label);
+  if (!not_confirmed.empty())
+    section.item("limits.not_confirmed",
+                 {{"case", not_confirmed.front()}, {"others", count_part(not_confirmed.size() - 1)}},
+                 subject.origin("coupled_runs", not_confirmed.front()));
+  std::map<std::string, std::vector<std::string>> failed;  // by status
+  for (const char* table : {"runs", "cases"})              // a sweep has one row a case
+    for (const Row& run : subject.study.rows(table))
+      if (const std::string status = text_of(run, "status"); !status.empty() && status != "completed")
+        failed[status].push_back(name_of_case(subject.study, run));
+  for (const auto& [status, names] : failed)
+    section.item("limits.failed",
+                 {{"case", names.front()}, {"status", status}, {"others", count_part(names.size() - 1)}},
+                 subject.origin("runs", names.front()));
+}
+
+}  // namespace
+
+void say_limits(const Subject& subject, SafetySection& section) {
+  section.say("limits.begin");
+  say_unfinished(subject, section);
+  say_failed(subject, section);
+  say_differences(subject, section);
+  say_verdict_counts(subject, section);
+  say_calibration(subject, section);
+  say_air(subject, section);
+  say_shares(subject, section);
+  say_assumptions(subject, section);
+  say_launch(subject, section);
+}
+
+}  // namespace launchsafe::report::safety
