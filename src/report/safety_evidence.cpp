@@ -248,26 +248,26 @@ store::MaybeError check_kinds(const SafetyEvidence& evidence) {
   return {};
 }
 
-/// The largest gap of a case that is called SAFE, evaluated again on the case's stored run, must be as warm
-/// as its verdict says.
+/// Gaps of a case that are called SAFE, evaluated again on the case's stored run, must be as warm as their
+/// verdicts say.
 store::MaybeError check_against_run(const StudyEvidence& study, const CaseEvidence& stored) {
   const nlohmann::json &cases = study.rows("cases"), &verdicts = study.rows("verdicts");
-  const nlohmann::json* largest = nullptr;
+  if (stored.mechanics.trace.samples() < 2) return {};
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    if (string_in(cases[i * cases.size() / verdicts.size()], "case") != stored.label) continue;
-    if (string_in(verdicts[i], "verdict") != "SAFE") continue;
-    if (!largest || number_in(verdicts[i], "gap_cm") > number_in(*largest, "gap_cm")) largest = &verdicts[i];
+    const nlohmann::json& row = verdicts[i];
+    const bool of_case = string_in(cases[i * cases.size() / verdicts.size()], "case") == stored.label;
+    const auto scene = scene_of(study, row);
+    if (!of_case || string_in(row, "verdict") != "SAFE" || !scene) continue;
+    const double gap = number_in(row, "gap_cm"), said = number_in(row, "temperature_max_K");
+    const double found =
+        run::evaluate_gap(*scene, stored.mechanics.trace, 1e-2 * gap).at_stations.temperature;
+    if (std::abs(found - said) <= same_temperature) continue;
+    return refused(fmt::format(
+        "{}: the gap of {} cm is called SAFE at {:.6g} K, and the stored run of {} gives {:.6g} K; allowed: "
+        "results and case files of one study ({})",
+        (study.folder / "study.json").string(), gap, said, stored.label, found, study.command()));
   }
-  if (largest == nullptr || stored.mechanics.trace.samples() < 2) return {};
-  const auto scene = scene_of(study, *largest);
-  if (!scene) return {};
-  const double gap = number_in(*largest, "gap_cm"), said = number_in(*largest, "temperature_max_K");
-  const double found = run::evaluate_gap(*scene, stored.mechanics.trace, 1e-2 * gap).at_stations.temperature;
-  if (std::abs(found - said) <= same_temperature) return {};
-  return refused(
-      fmt::format("{}: the gap of {} cm is called SAFE at {:.6g} K, and the stored run of {} gives {:.6g} K; "
-                  "allowed: results and case files of one study ({})",
-                  (study.folder / "study.json").string(), gap, said, stored.label, found, study.command()));
+  return {};
 }
 
 /// The stored runs of the main study, as far as they were kept. A file under another case's name is damaged
