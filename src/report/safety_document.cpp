@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace launchsafe::report {
 
@@ -40,6 +41,19 @@ std::string text_of(const Row& row, const std::string& key) {
 double number_of(const Row& row, const std::string& key) {
   const auto found = row.find(key);
   return found != row.end() && found->is_number() ? found->get<double>() : std::nan("");
+}
+
+bool has_validity_warning(const Row& verdict) {
+  return text_of(verdict, "reason").find("validity warning") != std::string::npos;
+}
+
+std::string without_advice(std::string reason) {
+  constexpr std::string_view begins = " (accept = [", ends = " takes them)";
+  for (std::size_t begin = 0; (begin = reason.find(begins)) != std::string::npos;) {
+    const std::size_t end = reason.find(ends, begin);
+    reason.erase(begin, end == std::string::npos ? end : end + ends.size() - begin);
+  }
+  return reason;
 }
 
 InertRows inert_rows(const JudgedCase& each) {
@@ -208,14 +222,15 @@ Table verdict_table(const std::vector<const JudgedCase*>& cases) {
       };
       // After ignition T max is that of the burning skin, and a margin says nothing.
       const bool ignited = !text_of(row, "ignition_cause").empty();
-      const bool known = each->completed && std::isfinite(gap.uncertainty);
+      const bool known = each->completed && std::isfinite(gap.uncertainty) && !has_validity_warning(row);
       cells.insert(cells.end(),
                    {gap.gap, text_of(row, "verdict"),
                     each->completed ? optional_number(number_of(row, "temperature_max_K")) : Cell(),
                     ignited ? Cell() : down(gap.margin, decimals),
                     known ? Cell(rounded_up(gap.uncertainty, decimals)) : Cell(),
-                    gap.uncertainty > 0 && !ignited ? down(gap.margin / gap.uncertainty, 1) : Cell(),
-                    down(gap.distance, 3), short_reason(text_of(row, "verdict"), text_of(row, "reason")),
+                    known && gap.uncertainty > 0 && !ignited ? down(gap.margin / gap.uncertainty, 1) : Cell(),
+                    down(gap.distance, 3),
+                    short_reason(text_of(row, "verdict"), without_advice(text_of(row, "reason"))),
                     text_of(row, "reason")});
     }
   }

@@ -26,6 +26,7 @@ void add_computed(const JudgedCase& each, Plot& plot) {
               .style = Style::vertical_bars,
               .colour = 6,
               .mark = Mark::circle};
+  Series unknown = points_series("computed, nothing says how wrong", Mark::open_circle, 6);
   Series ignited = points_series("ignites: T max without reaction", Mark::cross, 1);
   for (const Row* row : each.verdicts) {
     const double gap = number_of(*row, "gap_cm");
@@ -35,13 +36,18 @@ void add_computed(const JudgedCase& each, Plot& plot) {
       continue;
     }
     const double temperature = number_of(*row, "temperature_max_K"), u = number_of(*row, "uncertainty_K");
+    if (has_validity_warning(*row)) {
+      unknown.x.push_back(gap);
+      unknown.y.push_back(temperature);
+      continue;
+    }
     safe.x.push_back(gap);
     safe.y.push_back(temperature);
     safe.lower.push_back(temperature - u);
     safe.upper.push_back(temperature + u);
   }
-  plot.series.push_back(std::move(safe));
-  if (!ignited.x.empty()) plot.series.push_back(std::move(ignited));
+  for (Series* series : {&safe, &unknown, &ignited})
+    if (!series->x.empty()) plot.series.push_back(std::move(*series));
 }
 
 void add_fit(const JudgedCase& each, Plot& plot) {
@@ -316,6 +322,8 @@ SafetySection gap_section(const Subject& subject) {
                    {{"case", each.label},
                     {"rows", inert.gaps.size()},
                     {"line", inert.gaps.size() > 1},
+                    {"known", std::none_of(each.verdicts.begin(), each.verdicts.end(),
+                                           [](const Row* row) { return has_validity_warning(*row); })},
                     {"band", inert.gaps.size() > 2},
                     {"published", &each == subject.own_case() && !subject.study.rows("comparison").empty()},
                     {"critical", measured_gap(*each.critical).has_value()}},

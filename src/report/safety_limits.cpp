@@ -155,7 +155,9 @@ void say_shares(const Subject& subject, SafetySection& section) {
   // The row at which the question is decided: the largest gap that does not ignite.
   const Row* row = nullptr;
   for (const Row* each : own->verdicts)
-    if (text_of(*each, "verdict") != "UNSAFE" && std::isfinite(number_of(*each, "uncertainty_K"))) row = each;
+    if (text_of(*each, "verdict") != "UNSAFE" && !has_validity_warning(*each) &&
+        std::isfinite(number_of(*each, "uncertainty_K")))
+      row = each;
   if (row == nullptr) return;
   const Share largest = largest_of(shares_of(*row));
   if (!(largest.size > 0.0)) return;
@@ -197,7 +199,9 @@ void say_launch(const Subject& subject, SafetySection& section) {
               {"temperature", kelvin},
               {"several", subject.cases.size() > 1},
               {"others", subject.study.kind != "sweep" && subject.evidence.find("sweep") != nullptr}};
-  section.item("limits.launch", parts, subject.origin("the scene, in its manifest"));
+  // Nothing is covered by what was not computed.
+  if (!subject.study.rows("cases").empty())
+    section.item("limits.launch", parts, subject.origin("the scene, in its manifest"));
   std::string missing;
   for (const char* kind : {"critical-gap", "sweep", "accuracy", "sensitivity", "comparison", "stability"})
     if (subject.evidence.find(kind) == nullptr) missing += (missing.empty() ? "" : ", ") + std::string(kind);

@@ -225,6 +225,31 @@ TEST_F(SafetyReport, OfSeveralCasesTheWorstStandsOnPageOneAndEachIsLeftOneOut) {
   ADD_FAILURE() << "no table of rows left out";
 }
 
+TEST_F(SafetyReport, ARowOfWhichNothingSaysHowWrongItIsHasNoUncertainty) {
+  const path study = copy_of("critical_gap_155mm");
+  change(study, [](auto& results) {
+    for (auto& row : results["verdicts"]) {
+      row["verdict"] = "INDETERMINATE";
+      row["reason"] =
+          "validity warning: extrapolated: the constants were calibrated on another launch (gap.air), and "
+          "nothing "
+          "says how wrong they are here (accept = [{ key = \"calibration\", because = \"...\" }] takes them)";
+    }
+  });
+  const std::string page = file_of({study}, "report.md");
+  EXPECT_FALSE(has(page.substr(0, page.find("## 2.")), "takes them"));
+  EXPECT_TRUE(has(page, "of which nothing says how wrong they are"));
+  EXPECT_FALSE(has(page, "What limits the answer"));
+  const auto report = nlohmann::json::parse(file_of({study}, "report.json"));
+  for (const auto& block : report["sections"][0]["blocks"]) {
+    if (block["id"] != "verdicts") continue;
+    for (const auto& row : block["rows"]) {
+      EXPECT_TRUE(row["uncertainty_K"].is_null());
+      EXPECT_TRUE(row["margin_over_uncertainty"].is_null());
+    }
+  }
+}
+
 TEST_F(SafetyReport, TheScenesLaunchIsNotCalledCoveredWhereNoCaseIsOfIt) {
   const path study = copy_of("critical_gap_155mm");
   change(study, [](auto& results) {
@@ -322,6 +347,7 @@ TEST_F(SafetyReport, AStudyThatIsNotFinishedHasNoAnswer) {
   write(study / "manifest.json", manifest.dump(2));
   const std::string page = file_of({study}, "report.md");
   EXPECT_TRUE(has(page, "There is no answer yet"));
+  EXPECT_FALSE(has(page, "Covered"));
   EXPECT_FALSE(has(page, "SAFE |"));
   EXPECT_TRUE(has(page, "Bodies"));
 }
