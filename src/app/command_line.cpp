@@ -290,12 +290,16 @@ void add_explain(CLI::App& app, Parsed& parsed) {
       "Say what a scene or a study will compute, what it leaves out, and the cost", explain_footer);
   command
       .add_option("file", parsed.explain.file,
-                  "Scene or study file; with --keys the beginning of names, such as load")
+                  "Scene or study file; with --keys or --materials the beginning of names, such as load")
       ->type_name("SCENE.toml|STUDY.toml");
   CLI::Option* keys = command.add_flag("--keys", parsed.explain.keys,
                                        "List the keys of scene and study files, or those whose name begins "
                                        "with the word given in the place of a "
                                        "file: unit, range, default, standing, meaning");
+  CLI::Option* materials =
+      command.add_flag("--materials", parsed.explain.materials,
+                       "List the materials that ship, or those whose name begins with the "
+                       "word given in the place of a file: every number and its source");
   CLI::Option* schema = command
                             .add_option("--schema", parsed.explain.schema,
                                         "Print the JSON schema of scene or study files, for editors")
@@ -307,8 +311,8 @@ void add_explain(CLI::App& app, Parsed& parsed) {
                                             "Print what makes a shell complete commands and options")
                                 ->check(CLI::IsMember({"bash"}))
                                 ->type_name("bash");
-  for (CLI::Option* option : {keys, schema, manual, completion})
-    for (CLI::Option* other : {keys, schema, manual, completion})
+  for (CLI::Option* option : {keys, materials, schema, manual, completion})
+    for (CLI::Option* other : {keys, materials, schema, manual, completion})
       if (other != option) option->excludes(other);
   add_place(command, "--grid", parsed.explain.picture, "FILE.svg", "file",
             "File to draw the half section of a scene and its grid to");
@@ -433,9 +437,11 @@ std::string contradiction(const VerifyArguments& verify) {
 }
 std::string contradiction(const ExplainArguments& explain) {
   const bool of_program = !explain.schema.empty() || explain.manual || !explain.completion.empty();
-  if (!explain.keys && of_program != explain.file.empty())
-    return "explain: allowed: a scene or study file, or one of --keys, --schema, --manual and --completion";
-  if (explain.picture && (of_program || explain.keys))
+  const bool lists = explain.keys || explain.materials;
+  if (!lists && of_program != explain.file.empty())
+    return "explain: allowed: a scene or study file, or one of --keys, --materials, --schema, --manual and "
+           "--completion";
+  if (explain.picture && (of_program || lists))
     return "explain: --grid draws the grid of a scene; allowed: with a scene file";
   return {};
 }

@@ -66,8 +66,9 @@ struct VerifyArguments {
 ExitCode perform(const VerifyArguments& arguments, Console& console);
 
 struct ExplainArguments {
-  std::filesystem::path file;  ///< scene or study; with `keys` the beginning of names, or empty
-  bool keys = false;
+  std::filesystem::path
+      file;  ///< scene or study; with `keys` or `materials` the beginning of names, or empty
+  bool keys = false, materials = false;
   std::string schema;                            ///< "scene", "study" or "references"; empty: not asked for
   bool manual = false;                           ///< the manual page
   std::string completion;                        ///< "bash"; empty: not asked for

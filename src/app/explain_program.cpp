@@ -3,6 +3,7 @@
 
 #include "command_line.hpp"
 #include "command_manual.hpp"
+#include "explain_materials.hpp"
 #include "key_schema.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/scene/plausibility.hpp"
@@ -151,11 +152,13 @@ ExitCode explain_schema(const std::string& what, Console& console) {
 }  // namespace
 
 bool explains_program(const ExplainArguments& arguments) {
-  return arguments.keys || arguments.manual || !arguments.schema.empty() || !arguments.completion.empty();
+  return arguments.keys || arguments.materials || arguments.manual || !arguments.schema.empty() ||
+         !arguments.completion.empty();
 }
 
 ExitCode explain_program(const ExplainArguments& arguments, Console& console) {
   if (arguments.keys) return explain_keys(arguments.file.string(), console);
+  if (arguments.materials) return explain_materials(arguments.file.string(), console);
   if (arguments.manual)
     return print("manual", manual_page(describe_commands(), std::string(version::number)), console);
   if (!arguments.completion.empty())

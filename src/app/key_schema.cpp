@@ -2,6 +2,7 @@
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 
 #include <fmt/format.h>
@@ -181,8 +182,37 @@ Json array_of(Json table) { return {{"type", "array"}, {"items", std::move(table
 Json named(Json table) { return {{"type", "object"}, {"additionalProperties", std::move(table)}}; }
 
 const std::set<std::string>& scene_tables() {
-  static const std::set<std::string> tables{"body", "interface", "observation_point", "accept"};
+  static const std::set<std::string> tables{"body",     "interface", "observation_point", "accept", "source",
+                                            "material", "contact"};
   return tables;
+}
+
+/// A table that says where its values come from.
+Json with_sources(const std::string& table, const std::vector<scene::DocumentedKey>& keys, bool may_require) {
+  Json schema = schema_of_table(table, keys, may_require);
+  schema["properties"]["source"] = array_of(schema_of_table(table + ".source", keys));
+  return schema;
+}
+
+/// A law's numbers by the names that materials have for them.
+Json schema_of_law(const std::string& law, const std::vector<scene::DocumentedKey>& keys, bool may_require) {
+  Json schema = with_sources("material.NAME", keys, may_require);
+  schema["properties"]["law"]["enum"] = Json::array({law});
+  for (const scene::DocumentedKey& key : keys) {
+    const std::string& name = key.description.name;
+    const bool kinetics = law == "charge" && name.starts_with("kinetics.");
+    if ((kinetics || name.starts_with(law + ".")) && name != law + ".title")
+      put(schema, scene::key_in_material(law, name), key, false);
+  }
+  return schema;
+}
+
+/// Which numbers a material has, its law says.
+Json material_schema(const std::vector<scene::DocumentedKey>& keys, bool may_require) {
+  Json laws = Json::array();
+  for (const scene::Material& material : scene::usual_materials())
+    laws.push_back(schema_of_law(material.name, keys, may_require));
+  return named({{"anyOf", laws}});
 }
 
 /// All that one value of a scene is changed by: the keys of the scene, of its bodies and of its interfaces.
@@ -193,6 +223,7 @@ Json changes_schema() {
     if (!takes_tables(key.description.name, scene_tables())) put(schema, key.description.name, key, false);
   schema["properties"]["body"] = named(schema_of_table("body", keys, false));
   schema["properties"]["interface"] = named(schema_of_table("interface.NAME", keys, false));
+  schema["properties"]["material"] = material_schema(keys, false);
   return schema;
 }
 
@@ -238,9 +269,14 @@ nlohmann::ordered_json scene_schema() {
   Json schema = table_schema();
   for (const scene::DocumentedKey& key : keys)
     if (!takes_tables(key.description.name, scene_tables())) put(schema, key.description.name, key, true);
-  for (const char* table : {"body", "observation_point", "accept"})
+  for (const char* table : {"body", "observation_point", "accept", "source"})
     schema["properties"][table] = array_of(schema_of_table(table, keys));
-  schema["properties"]["interface"] = named(schema_of_table("interface.NAME", keys));
+  Json faces = schema_of_table("interface.NAME", keys, false);
+  for (const char* needed : {"condition", "contact"})
+    faces["anyOf"].push_back({{"required", Json::array({needed})}});
+  schema["properties"]["interface"] = named(std::move(faces));
+  schema["properties"]["contact"] = named(with_sources("contact.NAME", keys, true));
+  schema["properties"]["material"] = material_schema(keys, true);
   return with_head(std::move(schema), "Scene of launchsafe");
 }
 

@@ -171,11 +171,12 @@ std::vector<bool> inert_gaps(const AccuracyResult& result, const std::vector<boo
 
 /// Whether a case differs from the study's scene in more than a setting.
 bool is_other_model(const scene::Scene& scene, const scene::Scene& own) {
-  scene::Scene same = scene;
+  scene::Scene same = scene, all = own;
+  for (scene::Scene* each : {&same, &all}) scene::clear_remarks(*each);
   for (const auto& key : scene::scene_keys()) {
     if (belongs_to_setting(key.name)) key.set(same, key.get(own));
   }
-  return scene::to_toml(same) != scene::to_toml(own);
+  return scene::to_toml(same) != scene::to_toml(all);
 }
 
 /// A setting for the record; nothing where it did not run soundly or has temperatures that nothing has.

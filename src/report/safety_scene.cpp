@@ -93,6 +93,18 @@ bool is_of_unused_law(const scene::Scene& scene, const std::string& key) {
                       [&](const scene::Body& body) { return body.material == law; });
 }
 
+/// Values of bodies, interfaces and further materials whose source the scene says.
+void add_sources_of_tables(const scene::SceneFile& file, Table& table) {
+  for (const scene::Source& source : file.scene.sources)
+    for (const std::string& name : source.keys) {
+      const auto key = scene::describe_key(file, name, {});
+      if (!key || scene::find_key(scene::scene_keys(), name) != nullptr) continue;
+      table.rows.push_back({name, scene::format_value(*key, scene::value_in(file, name)),
+                            fmt::format("{}: {}", scene::meaning_of(source.standing), source.citation),
+                            key->sentence});
+    }
+}
+
 Table input_table(const Subject& subject) {
   std::map<std::string, scene::DocumentedKey> documented;
   for (scene::DocumentedKey& key : scene::describe_keys()) documented.emplace(key.description.name, key);
@@ -104,12 +116,15 @@ Table input_table(const Subject& subject) {
     // The manifest writes every key: one with the value of the program's default has the default's standing.
     const auto found = documented.find(key.name);
     std::string standing = "stated";
-    if (found != documented.end() && found->second.default_text == key.value)
+    if (!key.citation.empty())
+      standing = fmt::format("{}: {}", scene::meaning_of(key.standing), key.citation);
+    else if (found != documented.end() && found->second.default_text == key.value)
       standing = std::string(scene::meaning_of(found->second.description.standing)) + " (default)";
     else if (is_set_by_study(subject, key.name))
       standing = "set by the study";
     table.rows.push_back({key.name, short_value(key.value), standing, key.sentence});
   }
+  add_sources_of_tables(subject.study.scene, table);
   return table;
 }
 
@@ -122,8 +137,8 @@ Table body_table(const scene::Scene& scene) {
                    significant_column("r from", "cm", 6, "r_begin_cm"),
                    significant_column("to", "cm", 6, "r_end_cm")};
   for (const scene::Body& body : scene.bodies)
-    table.rows.push_back({body.name, body.material, 100 * body.x_begin, 100 * body.x_end, 100 * body.r_begin,
-                          100 * body.r_end});
+    table.rows.push_back({body.name, scene::material_text(scene, body), 100 * body.x_begin, 100 * body.x_end,
+                          100 * body.r_begin, 100 * body.r_end});
   return table;
 }
 

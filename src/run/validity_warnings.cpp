@@ -276,31 +276,34 @@ void check_faces(const Scene& scene, const MechanicsResult& mechanics, Warnings&
 
 /// Temperature (K) of steel after a plastic strain without conduction, by steps of the strain. The rate is
 /// one at which launches strain; it enters as a logarithm.
-double heated_steel(const Scene& scene, double plastic_strain) {
+double heated_steel(const scene::Steel& law, double initial_temperature, double plastic_strain) {
   constexpr double rate = 1e3;  // 1/s
   constexpr int steps = 200;
-  const materials::JohnsonCookParameters& steel = scene.steel().strength;
-  double temperature = scene.initial_temperature;
+  const materials::JohnsonCookParameters& steel = law.strength;
+  double temperature = initial_temperature;
   for (int step = 0; step < steps; ++step) {
     const double strain = plastic_strain * (step + 0.5) / steps;
     const double flow = materials::johnson_cook_flow_stress(steel, strain, rate, temperature);
-    temperature += steel.taylor_quinney * flow * plastic_strain / steps /
-                   (scene.steel().eos.density * steel.specific_heat);
+    temperature +=
+        steel.taylor_quinney * flow * plastic_strain / steps / (law.eos.density * steel.specific_heat);
   }
   return temperature;
 }
 
 void check_steel(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
-  if (!scene::has_law<scene::Steel>(scene)) return;
   const double strain = largest(mechanics, [](const auto& sample) { return sample.largest_plastic_strain; });
-  const materials::JohnsonCookParameters& steel = scene.steel().strength;
-  const double temperature = heated_steel(scene, strain);
-  const double share =
-      (temperature - steel.room_temperature) / (steel.melting_temperature - steel.room_temperature);
-  if (!(share > largest_homologous_temperature)) return;
-  warnings.push_back(
-      fmt::format("a plastic strain of {:.3g} heats the steel to {:.4g} K; it melts at {:.4g} K", strain,
-                  temperature, steel.melting_temperature));
+  for (const scene::Material& material : scene::used_materials(scene)) {
+    const auto* law = std::get_if<scene::Steel>(&material.law);
+    if (law == nullptr) continue;
+    const materials::JohnsonCookParameters& steel = law->strength;
+    const double temperature = heated_steel(*law, scene.initial_temperature, strain);
+    const double share =
+        (temperature - steel.room_temperature) / (steel.melting_temperature - steel.room_temperature);
+    if (!(share > largest_homologous_temperature)) continue;
+    warnings.push_back(
+        fmt::format("a plastic strain of {:.3g} heats the {} to {:.4g} K; it melts at {:.4g} K", strain,
+                    material.name, temperature, steel.melting_temperature));
+  }
 }
 
 /// Distance (m) that the load drives the whole projectile as one rigid body.

@@ -1,5 +1,6 @@
 #include "launchsafe/scene/interfaces.hpp"
 
+#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <fmt/format.h>
@@ -73,6 +74,58 @@ std::optional<InputError> check_law(const SceneFile& file, const Interface& face
   return std::nullopt;
 }
 
+/// The values of the contact that a table [interface.NAME] names; none where it names none.
+Expected<const NamedContact*> contact_of(const toml::table& table, const std::string& file,
+                                         const std::vector<NamedContact>& contacts) {
+  const toml::node* node = table.get("contact");
+  if (node == nullptr) return static_cast<const NamedContact*>(nullptr);
+  const auto name = read_value(*node, contact_of_interface_key(), file);
+  if (!name) return name.error();
+  std::vector<std::string> names;
+  for (const NamedContact& each : contacts) {
+    if (each.name == std::get<std::string>(*name)) return &each;
+    names.push_back(each.name);
+  }
+  return error_at(place_of(*node, file), "contact", found_text(*node),
+                  quoted_list(names) + "; or one that a table [contact.NAME] describes",
+                  nearest_of(std::get<std::string>(*name), names));
+}
+
+/// Keys of which a contact may give the condition.
+const std::vector<Key<Interface>>& keys_beside_a_contact() {
+  static const std::vector<Key<Interface>> keys = [] {
+    std::vector<Key<Interface>> all = interface_keys();
+    for (Key<Interface>& key : all) key.required = false;
+    return all;
+  }();
+  return keys;
+}
+
+/// One table [interface.NAME].
+Expected<Interface> read_interface(const std::string& body, const toml::table& table, const std::string& file,
+                                   const std::vector<NamedContact>& contacts, std::vector<Source>& sources,
+                                   std::map<std::string, Place>& places) {
+  const auto contact = contact_of(table, file, contacts);
+  if (!contact) return contact.error();
+  Interface faces;
+  if (*contact != nullptr) faces = (*contact)->faces;
+  faces.body = body;
+  const auto& keys = *contact != nullptr ? keys_beside_a_contact() : interface_keys();
+  const auto read = read_table(table, keys, {"contact"}, file, faces);
+  if (!read) return read.error();
+  std::vector<Source> of_contact = *contact != nullptr ? (*contact)->sources : std::vector<Source>{};
+  for (const auto& [key, place] : *read) {
+    places[fmt::format("interface.{}.{}", body, key)] = place;
+    forget_source(of_contact, key);
+  }
+  for (Source& source : of_contact) {
+    for (std::string& key : source.keys) key = fmt::format("interface.{}.{}", body, key);
+    source.citation = fmt::format("{}: {}", (*contact)->name, source.citation);
+    sources.push_back(std::move(source));
+  }
+  return faces;
+}
+
 }  // namespace
 
 const std::vector<Key<Interface>>& interface_keys() {
@@ -124,11 +177,12 @@ std::vector<std::string> bodies_at_the_charge(const Scene& scene) {
   return names;
 }
 
-Expected<std::vector<Interface>> read_interfaces(const toml::table& root, const std::string& file,
-                                                 std::map<std::string, Place>& places) {
-  std::vector<Interface> interfaces;
+Expected<ReadInterfaces> read_interfaces(const toml::table& root, const std::string& file,
+                                         const std::vector<NamedContact>& contacts,
+                                         std::map<std::string, Place>& places) {
+  ReadInterfaces read;
   const toml::node* node = root.get("interface");
-  if (node == nullptr) return interfaces;
+  if (node == nullptr) return read;
   const auto no_table = [&](const toml::node& found, const std::string& key) {
     return error_at(
         place_of(found, file), key, found_text(found),
@@ -138,19 +192,17 @@ Expected<std::vector<Interface>> read_interfaces(const toml::table& root, const 
   for (const auto& [name, inner] : *node->as_table()) {
     const std::string table = "interface." + std::string(name.str());
     if (!inner.is_table()) return no_table(inner, table);
-    Interface faces;
-    faces.body = std::string(name.str());
-    const auto read = read_table(*inner.as_table(), interface_keys(), {}, file, faces);
-    if (!read) {
-      InputError error = read.error();
+    places[table] = place_of(inner, file);
+    auto faces =
+        read_interface(std::string(name.str()), *inner.as_table(), file, contacts, read.sources, places);
+    if (!faces) {
+      InputError error = faces.error();
       error.key = table + "." + error.key;
       return error;
     }
-    places[table] = place_of(inner, file);
-    for (const auto& [key, place] : *read) places[table + "." + key] = place;
-    interfaces.push_back(std::move(faces));
+    read.interfaces.push_back(std::move(*faces));
   }
-  return interfaces;
+  return read;
 }
 
 std::optional<InputError> check_interfaces(const SceneFile& file) {

@@ -115,7 +115,7 @@ Scene mechanical_part(const Scene& scene) {
   // snapshots.
   const bool temperatures_matter =
       plan.conduction.in || plan.bulk_reaction.in || part.output.asks_for_snapshots();
-  part.title.clear();
+  clear_remarks(part);
   part.accepted.clear();
   part.coupling = Coupling::one_way;  // until ignition nothing acts back
   part.combustion = {};

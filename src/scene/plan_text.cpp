@@ -24,7 +24,7 @@ std::string bodies_text(const Scene& scene) {
   for (const Body& body : scene.bodies) {
     const ParticleCount count = particles_of(scene, body);
     text += row(body.name, fmt::format("{}, x {:.6g} to {:.6g} cm, r {:.6g} to {:.6g} cm, {} x {} particles",
-                                       body.material, 100 * body.x_begin, 100 * body.x_end,
+                                       material_text(scene, body), 100 * body.x_begin, 100 * body.x_end,
                                        100 * body.r_begin, 100 * body.r_end, count.nx, count.nr));
   }
   const char* unit = scene.symmetry == Symmetry::axisymmetric ? "kg" : "kg per metre, half model";

@@ -2,6 +2,7 @@
 
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 
@@ -58,6 +59,20 @@ void judge_interfaces(const Scene& scene, Judge& judge) {
     for (const Key<Interface>& key : interface_keys())
       if (!key.is_written || key.is_written(faces))
         judge.key(key, fmt::format("interface.{}.{}", faces.body, key.name), key.get(faces));
+}
+
+/// Materials beside those that the keys of the laws speak of.
+void judge_materials(const Scene& scene, Judge& judge) {
+  for (const Material& material : used_materials(scene)) {
+    std::visit(
+        [&]<class Law>(const Law& law) {
+          if (material.name == scene.material<Law>().name) return;
+          for (const Key<Law>& key : Law::parameters())
+            judge.key(key, fmt::format("material.{}.{}", material.name, key_in_material(Law::name, key.name)),
+                      key.get(law));
+        },
+        material.law);
+  }
 }
 
 /// Physics that the plan would have in.
@@ -119,6 +134,7 @@ std::vector<Implausible> implausible_values(const Scene& scene) {
   judge_switches(scene, judge);
   judge_bodies(scene, judge);
   judge_interfaces(scene, judge);
+  judge_materials(scene, judge);
   for (const DerivedQuantity& quantity : derived_quantities()) {
     if (const auto value = quantity.value(scene))
       judge.key(quantity.description, quantity.description.name, Value(*value));
@@ -136,6 +152,15 @@ std::vector<std::string> acceptable_names(const Scene& scene) {
   for (const Interface& faces : scene.interfaces)
     for (const Key<Interface>& key : interface_keys())
       names.push_back(fmt::format("interface.{}.{}", faces.body, key.name));
+  for (const Material& material : scene.materials)
+    std::visit(
+        [&]<class Law>(const Law&) {
+          if (material.name == scene.material<Law>().name) return;
+          for (const Key<Law>& key : Law::parameters())
+            names.push_back(
+                fmt::format("material.{}.{}", material.name, key_in_material(Law::name, key.name)));
+        },
+        material.law);
   for (const DerivedQuantity& quantity : derived_quantities()) names.push_back(quantity.description.name);
   names.emplace_back(foreign_calibration);
   return names;

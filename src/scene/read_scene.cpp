@@ -4,6 +4,7 @@
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
+#include "use_materials.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +14,8 @@
 namespace launchsafe::scene {
 namespace {
 
-const std::vector<std::string> tables_read_apart{"body", "observation_point", "accept", "interface"};
+const std::vector<std::string> read_apart{"body",     "observation_point", "accept", "interface",
+                                          "material", "contact",           "source", "material_file"};
 
 /// Reads [[name]] tables into `owners`; the places become "name.<name of the owner>.<key>".
 template <class Owner>
@@ -59,6 +61,7 @@ std::optional<InputError> rebuild(SceneFile& file, bool has_curve) {
   fresh.output.observation_points = std::move(file.scene.output.observation_points);
   fresh.accepted = std::move(file.scene.accepted);
   fresh.interfaces = std::move(file.scene.interfaces);
+  if (auto error = use_materials(file, fresh)) return error;
   for (const Key<Scene>& key : scene_keys()) {
     const auto given = file.given.find(key.name);
     if (given != file.given.end()) key.set(fresh, given->second.value);
@@ -97,35 +100,97 @@ Key<Scene> with_friction_only_where_used(Key<Scene> key, const std::string& body
   return key;
 }
 
-/// Keys of the scene's bodies that say where they lie, "body.<name>.x" and ".r", and of the interfaces of all
-/// bodies that touch the charge, "interface.<name>.<key>".
-std::vector<Key<Scene>> keys_of_tables(const Scene& scene) {
-  std::vector<Key<Scene>> all;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    for (Key<Scene>& key : keys::keys_of_part<Scene>(
-             "body." + scene.bodies[i].name + ".", [i](auto& owner) -> auto& { return owner.bodies[i]; },
-             body_keys()))
+/// Keys of the scene's bodies, "body.<name>.x", ".r" and ".material", of the interfaces of all bodies that
+/// touch the charge, "interface.<name>.<key>", and of the materials that bodies name.
+std::vector<Key<SceneFile>> keys_of_tables(const SceneFile& file) {
+  const Scene& scene = file.scene;
+  std::vector<Key<SceneFile>> all;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const std::string prefix = "body." + scene.bodies[i].name + ".";
+    for (Key<SceneFile>& key : keys::keys_of_part<SceneFile>(
+             prefix, [i](auto& owner) -> auto& { return owner.scene.bodies[i]; }, body_keys()))
       if (key.kind == KeyKind::range) all.push_back(std::move(key));
-  for (const std::string& body : bodies_at_the_charge(scene))
+    Key<SceneFile> material = text_key<SceneFile>(
+        prefix + "material", Standing::input, find_key(body_keys(), "material")->sentence,
+        "comp-b", [i](auto& owner) -> auto& { return owner.body_materials[i]; });
+    all.push_back(std::move(material));
+  }
+  for (const std::string& body : bodies_at_the_charge(scene)) {
+    std::vector<Key<Scene>> keys;
     for (Key<Scene>& key : keys::keys_of_part<Scene>(
              "interface." + body + ".", [body](auto& owner) -> auto& { return interface_of(owner, body); },
              interface_keys()))
-      all.push_back(with_friction_only_where_used(std::move(key), body));
-  return all;
+      keys.push_back(with_friction_only_where_used(std::move(key), body));
+    all = keys::joined({all, keys::keys_of_part("", &SceneFile::scene, keys)});
+  }
+  return keys::joined({all, keys_of_used_materials(file)});
 }
 
-std::vector<std::string> names_of_keys(const Scene& scene) {
+/// The keys of the scene itself, on the scene of a file.
+const std::vector<Key<SceneFile>>& keys_of_scene() {
+  static const std::vector<Key<SceneFile>> keys = keys::keys_of_part("", &SceneFile::scene, scene_keys());
+  return keys;
+}
+
+Expected<Key<SceneFile>> key_named(const SceneFile& file, const std::string& name, const Place& place) {
+  if (const Key<SceneFile>* key = find_key(keys_of_scene(), name)) return *key;
+  const std::vector<Key<SceneFile>> of_tables = keys_of_tables(file);
+  if (const Key<SceneFile>* key = find_key(of_tables, name)) return *key;
   std::vector<std::string> names;
-  for (const auto& keys : {scene_keys(), keys_of_tables(scene)})
-    for (const Key<Scene>& key : keys) names.push_back(key.name);
+  for (const auto& keys : {keys_of_scene(), of_tables})
+    for (const Key<SceneFile>& key : keys) names.push_back(key.name);
+  return unknown_key(place, name, names);
+}
+
+/// What the sources of a scene may speak of.
+std::vector<std::string> names_of_values(const SceneFile& file) {
+  std::vector<std::string> names;
+  for (const Key<Scene>& key : scene_keys()) names.push_back(key.name);
+  for (const Body& body : file.scene.bodies) {
+    for (const Key<Body>& key : body_keys()) names.push_back(fmt::format("body.{}.{}", body.name, key.name));
+    for (const Key<Interface>& key : interface_keys())
+      names.push_back(fmt::format("interface.{}.{}", body.name, key.name));
+  }
+  for (const auto* list : {&file.materials, &shipped_materials()})
+    for (const NamedMaterial& material : *list)
+      for (const auto& each : material.values)
+        names.push_back(
+            fmt::format("material.{}.{}", material.name, key_in_material(material.law, each.first)));
   return names;
 }
 
-Expected<Key<Scene>> key_named(const Scene& scene, const std::string& name, const Place& place) {
-  if (const Key<Scene>* key = find_key(scene_keys(), name)) return *key;
-  const std::vector<Key<Scene>> of_tables = keys_of_tables(scene);
-  if (const Key<Scene>* key = find_key(of_tables, name)) return *key;
-  return unknown_key(place, name, names_of_keys(scene));
+/// The materials and contacts of a scene file, and of the file of materials that it names.
+std::optional<InputError> read_own_materials(const toml::table& table, SceneFile& file,
+                                             std::vector<NamedContact>& contacts) {
+  std::vector<NamedMaterial> known = shipped_materials();
+  const auto add = [&](const toml::table& from, const std::string& name) -> std::optional<InputError> {
+    auto materials = read_materials(from, name, known);
+    if (!materials) return materials.error();
+    for (std::vector<NamedMaterial>* list : {&known, &file.materials})
+      list->insert(list->end(), materials->begin(), materials->end());
+    auto more = read_contacts(from, name, contacts);
+    if (!more) return more.error();
+    contacts.insert(contacts.end(), more->begin(), more->end());
+    return std::nullopt;
+  };
+  if (const toml::node* node = table.get("material_file")) {
+    const auto named = read_value(*node, material_file_key(), file.file);
+    if (!named) return named.error();
+    const std::filesystem::path path = file.folder / std::get<std::string>(*named);
+    const auto text = read_text_file(path);
+    if (!text)
+      return error_at(place_of(*node, file.file), "material_file",
+                      fmt::format("\"{}\", which cannot be read", std::get<std::string>(*named)),
+                      "a TOML file with tables [material.NAME] and [contact.NAME], by its path from the "
+                      "scene file's folder",
+                      text.error().suggestion);
+    const auto content = parse_toml(*text, path.string());
+    if (!content) return content.error();
+    if (auto other = read_described(*content, {}, {"material", "contact"}, path.string()); !other)
+      return other.error();
+    if (auto error = add(*content, path.string())) return error;
+  }
+  return add(table, file.file);
 }
 
 }  // namespace
@@ -138,7 +203,7 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
   file.folder = path.parent_path();
   Scene& scene = file.scene;
   // Faults of the keys first, then of the tables; within each by line.
-  auto read = read_described(*table, descriptions_of(scene_keys()), tables_read_apart, file.file);
+  auto read = read_described(*table, descriptions_of(scene_keys()), read_apart, file.file);
   if (!read) return read.error();
   file.notes = std::move(read->notes);
   for (auto& [index, value] : read->values) {
@@ -151,10 +216,20 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
                               scene.output.observation_points, file.places)) {
     return *error;
   }
-  auto interfaces = read_interfaces(*table, file.file, file.places);
+  std::vector<NamedContact> contacts = shipped_contacts();
+  if (auto error = read_own_materials(*table, file, contacts)) return *error;
+  for (const Body& body : scene.bodies) file.body_materials.push_back(body.material);
+  auto interfaces = read_interfaces(*table, file.file, contacts, file.places);
   if (!interfaces) return interfaces.error();
-  scene.interfaces = std::move(*interfaces);
-  auto accepted = read_acceptances(*table, acceptable_names(scene), file.file);
+  scene.interfaces = std::move(interfaces->interfaces);
+  const std::vector<std::string> names = names_of_values(file);
+  auto sources = read_sources(*table, names, file.file);
+  if (!sources) return sources.error();
+  file.sources = std::move(*sources);
+  file.sources.insert(file.sources.end(), interfaces->sources.begin(), interfaces->sources.end());
+  std::vector<std::string> acceptable = acceptable_names(scene);
+  acceptable.insert(acceptable.end(), names.begin(), names.end());
+  auto accepted = read_acceptances(*table, acceptable, file.file);
   if (!accepted) return accepted.error();
   scene.accepted = std::move(*accepted);
   if (auto error = rebuild(file, false)) return *error;
@@ -168,29 +243,31 @@ Expected<SceneFile> read_scene(const std::filesystem::path& file) {
 }
 
 Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& name, const Place& place) {
-  const auto key = key_named(file.scene, name, place);
+  const auto key = key_named(file, name, place);
   if (!key) return key.error();
   return KeyDescription(*key);
 }
 
 Value value_in(const SceneFile& file, const std::string& name) {
-  const auto key = key_named(file.scene, name, {});
+  const auto key = key_named(file, name, {});
   assert(key);
-  return key->get(file.scene);
+  return key->get(file);
 }
 
 Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange>& changes) {
   SceneFile changed = file;
   bool other_curve = false;
   for (const auto& [name, value, place] : changes) {
-    const auto key = key_named(file.scene, name, place);
+    const auto key = key_named(changed, name, place);
     if (!key) return key.error();
     if (find_key(scene_keys(), name) == nullptr) {
-      key->set(changed.scene, value);
+      if (key->get(changed) != value) forget_source(changed.sources, name);
+      key->set(changed, value);
       changed.places[name] = place;
       continue;
     }
     for (const std::string& overridden : key->overrides) changed.given.erase(overridden);
+    if (key->get(file) != value) forget_source(changed.sources, name);
     changed.given[name] = {place, value};
     other_curve = other_curve || name == "load.curve";
   }
@@ -217,9 +294,10 @@ std::vector<ListedKey> list_keys(const SceneFile& file) {
   for (const Key<Scene>& key : scene_keys()) {
     const auto given = file.given.find(key.name);
     const bool is_given = given != file.given.end();
-    listed.push_back({key.name, format_value(key, key.get(file.scene)),
-                      is_given ? Standing::input : key.standing, key.sentence,
-                      is_given ? given->second.place : Place{}});
+    const Source* source = source_of(file.scene.sources, key.name);
+    const Standing standing = source ? source->standing : is_given ? Standing::input : key.standing;
+    listed.push_back({key.name, format_value(key, key.get(file.scene)), standing, key.sentence,
+                      is_given ? given->second.place : Place{}, source ? source->citation : std::string{}});
   }
   return listed;
 }
@@ -241,8 +319,7 @@ std::string inline_tables(std::string_view name, const std::vector<Key<Owner>>& 
   return text + "]\n";
 }
 
-/// Materials under other names than their law's, which only programs make. Files cannot declare them, but
-/// texts of different scenes differ.
+/// Materials under other names than their law's. Where their numbers come from is among the scene's sources.
 std::string own_materials(const Scene& scene) {
   std::string text;
   for (const Material& material : scene.materials) {
@@ -250,9 +327,12 @@ std::string own_materials(const Scene& scene) {
         [&]<class Law>(const Law& law) {
           if (material.name == Law::name) return;
           text += fmt::format("material.\"{}\".law = '{}'\n", material.name, Law::name);
+          if (!material.title.empty())
+            text += fmt::format("material.\"{}\".title = {}\n", material.name,
+                                exact_toml({.kind = KeyKind::text}, material.title));
           for (const Key<Law>& key : Law::parameters())
-            text += fmt::format("material.\"{}\".{} = {}\n", material.name, key.name,
-                                exact_toml(key, key.get(law)));
+            text += fmt::format("material.\"{}\".{} = {}\n", material.name,
+                                key_in_material(Law::name, key.name), exact_toml(key, key.get(law)));
         },
         material.law);
   }
@@ -269,7 +349,8 @@ std::string to_toml(const Scene& scene) {
   text += own_materials(scene) + interfaces_as_toml(scene.interfaces) +
           inline_tables("body", body_keys(), scene.bodies) +
           inline_tables("observation_point", observation_point_keys(), scene.output.observation_points);
-  return scene.accepted.empty() ? text : text + inline_tables("accept", acceptance_keys(), scene.accepted);
+  if (!scene.accepted.empty()) text += inline_tables("accept", acceptance_keys(), scene.accepted);
+  return scene.sources.empty() ? text : text + inline_tables("source", source_keys(), scene.sources);
 }
 
 }  // namespace launchsafe::scene

@@ -51,6 +51,12 @@ std::vector<Material> usual_materials() {
   return all;
 }
 
+void clear_remarks(Scene& scene) {
+  scene.title.clear();
+  scene.sources.clear();
+  for (Material& material : scene.materials) material.title.clear();
+}
+
 const Material* find_material(const Scene& scene, std::string_view name) {
   for (const Material& material : scene.materials)
     if (material.name == name) return &material;
@@ -63,6 +69,12 @@ const materials::Law& law_of(const Scene& scene, const Body& body) {
     throw std::invalid_argument("body \"" + body.name + "\" is of a material that the scene has not: \"" +
                                 body.material + "\"");
   return material->law;
+}
+
+std::string material_text(const Scene& scene, const Body& body) {
+  const Material* material = find_material(scene, body.material);
+  if (material == nullptr || material->title.empty()) return body.material;
+  return material->name + " (" + material->title + ")";
 }
 
 std::vector<Material> used_materials(const Scene& scene) {

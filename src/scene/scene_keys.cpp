@@ -2,7 +2,11 @@
 
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/named_contact.hpp"
+#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
@@ -12,41 +16,39 @@ namespace {
 
 using Keys = std::vector<Key<Scene>>;
 
+/// What the scene's first material of a law is, for people.
+template <class Law>
+Key<Scene> title_key() {
+  return always_plausible(
+      written_where(
+          text_key<Scene>(
+              fmt::format("{}.title", Law::name), Standing::assumed, "What the material is, for reports.",
+              "PBX 9501", [](auto& scene) -> auto& { return scene.template material<Law>().title; }),
+          [](const Scene& scene) { return !scene.material<Law>().title.empty(); }),
+      "it is for people");
+}
+
 /// The keys of a law as those of the scene's first material of it.
 template <class Law>
 Keys keys_of_law() {
   Keys keys = keys::keys_of_part<Scene>(
       "", [](auto& scene) -> auto& { return scene.template parameters<Law>(); }, Law::parameters());
-  if (Law::always_written) return keys;
-  for (Key<Scene>& key : keys)
-    key.is_written = [get = key.get, usual = key.default_value()](const Scene& scene) {
-      return has_law<Law>(scene) || get(scene) != usual;
-    };
+  if (!Law::always_written) {
+    for (Key<Scene>& key : keys)
+      key.is_written = [get = key.get, usual = key.default_value()](const Scene& scene) {
+        return has_law<Law>(scene) || get(scene) != usual;
+      };
+  }
+  keys.push_back(title_key<Law>());
   return keys;
 }
 
-Keys material_keys() {
+Keys keys_of_laws() {
   Keys keys;
   materials::for_each_law([&keys]<class Law>(const Law&) {
     keys = keys::joined({keys, keys_of_law<Law>()});
   });
   return keys;
-}
-
-std::vector<std::string> names_of_materials() {
-  std::vector<std::string> names;
-  for (const Material& material : usual_materials()) names.push_back(material.name);
-  return names;
-}
-
-/// The material of a body, by name.
-Key<Body> material_key() {
-  Key<Body> key = always_plausible(
-      text_key("material", Standing::input, "What the body is made of.", "charge", &Body::material),
-      "the constants of each are judged");
-  key.kind = KeyKind::word;
-  key.words = names_of_materials();
-  return key;
 }
 
 bool couples_back(const Scene& scene) { return scene.coupling == Coupling::two_way; }
@@ -390,7 +392,7 @@ Keys written_combustion_keys() {
 
 Keys all_scene_keys() {
   using keys::keys_of_part;
-  return keys::joined({general_keys(), keys_of_part("load.", &Scene::load, load_keys()), material_keys(),
+  return keys::joined({general_keys(), keys_of_part("load.", &Scene::load, load_keys()), keys_of_laws(),
                        keys_of_part("gap.", &Scene::surface, gap_keys()),
                        keys_of_part<Scene>(
                            "gap.air_", [](auto& scene) -> auto& { return scene.surface.air; }, air_keys()),
@@ -437,7 +439,12 @@ const std::vector<Key<Body>>& body_keys() {
       always_plausible(
           required(text_key("name", Standing::input, "Name of the body, unique.", "wall", &Body::name)),
           "it is for people"),
-      required(material_key()),
+      always_plausible(
+          required(text_key(
+              "material", Standing::input,
+              "What the body is made of: a law, whose table gives the numbers, or a material by name.",
+              "comp-b", &Body::material)),
+          "the numbers of each are judged"),
       plausibly(required(range_key("x", Dimension::length, between(0, 10), Standing::input,
                                    "Axial extent, from the nose to the base.", &Body::x_begin, &Body::x_end)),
                 between(5e-4, 2), "parts of shells are half a millimetre to two metres long"),
@@ -468,8 +475,17 @@ std::vector<DocumentedKey> describe_keys() {
   document(documented, scene_keys(), "");
   document(documented, body_keys(), "body.");
   document(documented, interface_keys(), "interface.NAME.");
+  documented.push_back({contact_of_interface_key(), {}});
+  documented.back().description.name = "interface.NAME.contact";
   document(documented, observation_point_keys(), "observation_point.");
   document(documented, acceptance_keys(), "accept.");
+  document(documented, source_keys(), "source.");
+  documented.push_back({material_file_key(), {}});
+  document(documented, material_keys(), "material.NAME.");
+  document(documented, source_keys(), "material.NAME.source.");
+  document(documented, contact_keys(), "contact.NAME.");
+  document(documented, interface_keys(), "contact.NAME.");
+  document(documented, source_keys(), "contact.NAME.source.");
   return documented;
 }
 

@@ -282,10 +282,16 @@ Fault check_jwl(const SceneFile& file) {
 }
 
 Fault check_steel(const SceneFile& file) {
-  const materials::JohnsonCookParameters& steel = file.scene.steel().strength;
-  if (steel.room_temperature < steel.melting_temperature) return std::nullopt;
-  return fault_at(file, "steel.melting_temperature", fmt::format("{:.6g} K", steel.melting_temperature),
-                  fmt::format("a temperature above the room temperature, {:.6g} K", steel.room_temperature));
+  for (const Material& material : file.scene.materials) {
+    const auto* law = std::get_if<Steel>(&material.law);
+    if (law == nullptr || law->strength.room_temperature < law->strength.melting_temperature) continue;
+    const std::string table = material.name == Steel::name ? "" : "material." + material.name + ".";
+    return fault_at(
+        file, (table.empty() ? "steel." : table) + "melting_temperature",
+        fmt::format("{:.6g} K", law->strength.melting_temperature),
+        fmt::format("a temperature above the room temperature, {:.6g} K", law->strength.room_temperature));
+  }
+  return std::nullopt;
 }
 
 Fault check_crack_friction(const SceneFile& file) {

@@ -42,7 +42,7 @@ bool same_setting(const Setting& a, const Setting& b) {
 std::string shell_of(const scene::Scene& scene) {
   scene::Scene shell = scene;
   const scene::Scene usual;
-  shell.title.clear();
+  scene::clear_remarks(shell);
   shell.accepted.clear();
   shell.interfaces = scene::sliding_interfaces(scene);
   shell.frame = usual.frame;

@@ -151,7 +151,7 @@ std::vector<std::string> answer_keys(const StudyFile& study, const std::vector<C
     for (const std::size_t member : runs[i].members) {
       const StudyCase& input = study.cases[member];
       scene::Scene scene = input.scene.scene;
-      scene.title.clear();
+      scene::clear_remarks(scene);
       scene.surface.gaps = {};
       keys[member] = store::CaseIdentity(
                          runs[i].runs.front().hash + analysis + (input.own_conditions ? "own" : "other") +

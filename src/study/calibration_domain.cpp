@@ -37,6 +37,9 @@ struct NamedRole {
 // clang-format off
 constexpr std::array special_keys{
     NamedRole{"title", Role::none},
+    NamedRole{"charge.title", Role::none},
+    NamedRole{"steel.title", Role::none},
+    NamedRole{"elastic.title", Role::none},
     NamedRole{"coupling", Role::none},                 // acts after ignition, as do the keys of combustion
     NamedRole{"frame", Role::numerics},
     NamedRole{"initial_temperature", Role::condition},
@@ -130,6 +133,17 @@ void add_difference(CalibrationDistance& distance, const std::string& key, const
   }
 }
 
+/// Many constants of another explosive by its name.
+void summarise_explosive(CalibrationDistance& distance, const Scene& scene, const Scene& calibrated) {
+  const std::string& title = scene.material<scene::Charge>().title;
+  if (title.empty() || title == calibrated.material<scene::Charge>().title) return;
+  const auto is_its = [](const std::string& key) {
+    return key.starts_with("charge.") || key.starts_with("kinetics.");
+  };
+  if (std::erase_if(distance.unknown, is_its) > 0)
+    distance.unknown.push_back(fmt::format("another explosive, {}", title));
+}
+
 const scene::Body* find_body(const Scene& scene, const std::string& name) {
   const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(),
                                   [&name](const scene::Body& body) { return body.name == name; });
@@ -194,6 +208,7 @@ CalibrationDistance distance_to_calibration(const Scene& scene, const Calibratio
     const Value value = key.get(scene), wanted = key.get(calibrated);
     if (!same_constant(value, wanted)) add_difference(distance, key.name, value, wanted);
   }
+  summarise_explosive(distance, scene, calibrated);
   add_other_interfaces(distance, scene, calibrated, shells_agree);
   const double peak = scene::PressureHistory(scene.load).stated_peak();
   const bool measured = !scene.load.curve_time.empty() || !calibrated.load.curve_time.empty();

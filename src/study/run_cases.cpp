@@ -238,7 +238,7 @@ CaseRun mechanics_run(const scene::Scene& scene, std::string label) {
 
 CaseRun skin_run(const scene::Scene& scene, double gap, std::string label) {
   scene::Scene own = scene;
-  own.title.clear();
+  scene::clear_remarks(own);
   own.accepted.clear();
   own.surface.gaps = {gap};
   if (own.surface.air_model == scene::AirModel::reservoir) own.coupling = scene::Coupling::two_way;

@@ -130,7 +130,7 @@ std::string name_of(const ::testing::TestParamInfo<const char*>& page) {
 
 INSTANTIATE_TEST_SUITE_P(Pages, Walkthrough,
                          ::testing::Values("walkthroughs/main_job.md", "walkthroughs/own_shell.md",
-                                           "walkthroughs/overnight_sweep.md",
+                                           "walkthroughs/new_explosive.md", "walkthroughs/overnight_sweep.md",
                                            "walkthroughs/reading_accuracy.md"),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Python, Walkthrough, ::testing::Values("python.md"), name_of);

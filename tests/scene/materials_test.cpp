@@ -65,8 +65,8 @@ TEST(Materials, OfOneLawMayBeManyUnderDifferentNames) {
 TEST(Materials, AreNamedWhereABodyAsksForAnUnknownOne) {
   const std::string text = with(small_scene, "material = \"charge\"", "material = \"elastc\"");
   const InputError error = error_of(text);
-  expect_error(error, line_of(text, "elastc"), "body.material", "\"elastc\"",
-               "\"steel\", \"charge\" or \"elastic\"");
+  expect_error(error, line_of(text, "elastc"), "body.filling.material", "\"elastc\"",
+               "\"steel\", \"charge\", \"elastic\"");
   EXPECT_EQ(error.suggestion, "\"elastic\"");
 }
 

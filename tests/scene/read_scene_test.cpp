@@ -97,8 +97,8 @@ TEST(ReadScene, WrongUnitsAndTypesAreRefused) {
   text = with(small_scene, "\"1 ms\"", "\"nan ms\"");
   expect_error(error_of(text), 2, "load.duration", "not a finite number", "a time");
   text = with(small_scene, "material = \"steel\"", "material = \"stele\"");
-  expect_error(error_of(text), line_of(text, "stele"), "body.material", "\"stele\"",
-               "\"steel\", \"charge\" or \"elastic\"");
+  expect_error(error_of(text), line_of(text, "stele"), "body.cup.material", "\"stele\"",
+               "\"steel\", \"charge\", \"elastic\"");
   EXPECT_EQ(error_of(text).suggestion, "\"steel\"");
   text = with(small_scene, "x = \"0 to 1 cm\"", "x = \"1 cm\"");
   expect_error(error_of(text), line_of(text, "x = "), "body.x", "without \"to\"", "a range");

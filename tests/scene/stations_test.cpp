@@ -7,14 +7,14 @@
 namespace launchsafe::scene {
 namespace {
 
-Scene shipped() {
+Scene shell_of_155mm() {
   const auto file = read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml");
   EXPECT_TRUE(file);
   return file->scene;
 }
 
 TEST(Stations, OfThePublishedShellHaveThePublishedPointsInTheirMiddles) {
-  const Scene scene = shipped();
+  const Scene scene = shell_of_155mm();
   const auto stations = stations_of(scene);
   ASSERT_EQ(stations.size(), scene.output.observation_points.size());
   for (std::size_t k = 0; k < stations.size(); ++k) {
@@ -26,7 +26,7 @@ TEST(Stations, OfThePublishedShellHaveThePublishedPointsInTheirMiddles) {
 }
 
 TEST(Stations, TileTheBottomWhateverTheirWidth) {
-  Scene scene = shipped();
+  Scene scene = shell_of_155mm();
   for (const double width : {0.8e-3, 3e-3, 7e-3, 26e-3, 65e-3, 0.2}) {
     scene.surface.station_width = width;
     const auto stations = stations_of(scene);
@@ -40,7 +40,7 @@ TEST(Stations, TileTheBottomWhateverTheirWidth) {
 }
 
 TEST(Stations, OfAHollowChargeEndAtItsBore) {
-  Scene scene = shipped();
+  Scene scene = shell_of_155mm();
   scene.bodies[1].r_begin = 0.02;
   const auto stations = stations_of(scene);
   ASSERT_EQ(stations.size(), 9u);
@@ -48,7 +48,7 @@ TEST(Stations, OfAHollowChargeEndAtItsBore) {
 }
 
 TEST(Stations, CountCellsInTheCornerAndWhereTheyAreLongest) {
-  Scene scene = shipped();
+  Scene scene = shell_of_155mm();
   scene.numerics.cell_size = 2.5e-3;
   scene.numerics.growth_x = scene.numerics.growth_r = 1.0;
   StationCells cells = cells_in_stations(scene);

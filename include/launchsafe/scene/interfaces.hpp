@@ -1,6 +1,7 @@
 // The tables [interface.NAME] of a scene file: how the body of that name and the charge hold each other.
 #pragma once
 
+#include "launchsafe/scene/named_contact.hpp"
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
@@ -21,10 +22,17 @@ bool share_a_face(const Scene& scene, const Body& a, const Body& b);
 /// Names of the bodies, no charges themselves, that touch a charge.
 std::vector<std::string> bodies_at_the_charge(const Scene& scene);
 
+/// The interfaces of a file.
+struct ReadInterfaces {
+  std::vector<Interface> interfaces;
+  std::vector<Source> sources;  ///< of the values that they have of a contact, by "interface.<name>.<key>"
+};
 /// Reads all [interface.NAME] of a file, in the order of their names. Faults: a table that is none, a key
-/// that does not exist, a value out of range. Places become "interface.<name>.<key>", and "interface.<name>".
-Expected<std::vector<Interface>> read_interfaces(const toml::table& root, const std::string& file,
-                                                 std::map<std::string, Place>& places);
+/// that does not exist, a value out of range, a contact that is not among `contacts`. Places become
+/// "interface.<name>.<key>", and "interface.<name>".
+Expected<ReadInterfaces> read_interfaces(const toml::table& root, const std::string& file,
+                                         const std::vector<NamedContact>& contacts,
+                                         std::map<std::string, Place>& places);
 
 /// Faults that only the whole scene shows: a body that does not touch the charge, keys that are missing or
 /// would do nothing, sliding in a form that has none.

@@ -1,6 +1,7 @@
 // A scene from a file: read, completed, validated; changed key by key; listed and written back.
 #pragma once
 
+#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
@@ -14,20 +15,17 @@
 
 namespace launchsafe::scene {
 
-/// A value that the user gave, and where.
-struct Given {
-  Place place;
-  Value value;
-};
-
 /// A valid scene, and what in it was said rather than assumed.
 struct SceneFile {
   Scene scene;
-  std::string file;                     ///< as named by the user
-  std::filesystem::path folder;         ///< what relative paths in it start from
-  std::map<std::string, Given> given;   ///< scene keys that the user set
-  std::map<std::string, Place> places;  ///< of "body.<name>.x", "observation_point.<name>.r", ...
-  std::vector<std::string> notes;       ///< on words of earlier versions, a line each
+  std::string file;                         ///< as named by the user
+  std::filesystem::path folder;             ///< what relative paths in it start from
+  std::map<std::string, Given> given;       ///< scene keys that the user set, or a material that he named
+  std::vector<NamedMaterial> materials;     ///< that bodies may be of, besides the shipped ones
+  std::vector<std::string> body_materials;  ///< of each body, as the user named it
+  std::vector<Source> sources;              ///< of the scene's own values
+  std::map<std::string, Place> places;      ///< of "body.<name>.x", "observation_point.<name>.r", ...
+  std::vector<std::string> notes;           ///< on words of earlier versions, a line each
 };
 
 /// Reads and validates a scene file; its curve file is read too. Nothing is computed. Never throws.
@@ -35,9 +33,9 @@ Expected<SceneFile> read_scene(const std::filesystem::path& file);
 /// The same from text; `file` is named in errors, and relative paths start from its folder.
 Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& file);
 
-/// The key of a scene by dotted name; for geometry "body.<name>.x" or ".r" of a body that the scene has,
-/// for what holds the charge "interface.<name>.<key>" of a body that touches it, whether or not the scene has
-/// that table.
+/// The key of a scene by dotted name; "body.<name>.x", ".r" or ".material" of a body that the scene has, for
+/// what holds the charge "interface.<name>.<key>" of a body that touches it, whether or not the scene has
+/// that table, and "material.<name>.<key>" of a material that a body names.
 Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& name, const Place& place);
 
 /// The value of a key that `describe_key` knows and that is no geometry. Numbers of an interface that are not
@@ -67,7 +65,8 @@ struct ListedKey {
   std::string value;  ///< as people read it
   Standing standing;  ///< `input` where the user gave it
   std::string sentence;
-  Place place;  ///< where the user gave it
+  Place place;           ///< where the user gave it
+  std::string citation;  ///< where the value comes from; empty where nothing is said
 };
 std::vector<ListedKey> list_keys(const SceneFile& file);
 

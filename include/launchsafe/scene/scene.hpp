@@ -2,6 +2,7 @@
 // `read_scene.hpp`.
 #pragma once
 
+#include "launchsafe/keys/key.hpp"
 #include "launchsafe/materials/ideal_gas.hpp"
 #include "launchsafe/materials/laws.hpp"
 
@@ -34,6 +35,7 @@ enum class Exchange { rate, per_step };
 struct Material {
   std::string name;
   materials::Law law;
+  std::string title = {};  ///< for people, such as "PBX 9501"; may be empty
 };
 /// One of each law, as it is by default, under the law's own name.
 std::vector<Material> usual_materials();
@@ -155,6 +157,13 @@ struct Acceptance {
   std::string because;
 };
 
+/// Where the values of some keys come from.
+struct Source {
+  std::vector<std::string> keys;  ///< "charge.density", "load.peak", ...
+  keys::Standing standing = keys::Standing::literature;
+  std::string citation;
+};
+
 /// Whether what the skin does after its ignition acts on the mechanics.
 enum class Coupling { one_way, two_way };
 /// Heat that burning explosive gives off: as much as brings its products to T2, where the published model
@@ -185,21 +194,31 @@ struct Scene {
   Coupling coupling = Coupling::one_way;
   Combustion combustion;
   std::vector<Acceptance> accepted;
+  std::vector<Source> sources;
 
-  /// Parameters of the first material of a law, which the law's keys speak of. The defaults where there is
-  /// none; the second form then adds it.
+  /// The first material of a law, which the law's keys speak of. The usual one where there is none; the
+  /// second form then adds it.
   template <class Law>
-  const Law& parameters() const {
-    static const Law usual{};
+  const Material& material() const {
+    static const Material usual{std::string(Law::name), Law{}};
     for (const Material& material : materials)
-      if (const Law* law = std::get_if<Law>(&material.law)) return *law;
+      if (std::holds_alternative<Law>(material.law)) return material;
     return usual;
   }
   template <class Law>
-  Law& parameters() {
+  Material& material() {
     for (Material& material : materials)
-      if (Law* law = std::get_if<Law>(&material.law)) return *law;
-    return std::get<Law>(materials.emplace_back(Material{std::string(Law::name), Law{}}).law);
+      if (std::holds_alternative<Law>(material.law)) return material;
+    return materials.emplace_back(Material{std::string(Law::name), Law{}});
+  }
+  /// Its parameters.
+  template <class Law>
+  const Law& parameters() const {
+    return std::get<Law>(material<Law>().law);
+  }
+  template <class Law>
+  Law& parameters() {
+    return std::get<Law>(material<Law>().law);
   }
   const Steel& steel() const { return parameters<Steel>(); }
   Steel& steel() { return parameters<Steel>(); }
@@ -207,10 +226,15 @@ struct Scene {
   Charge& charge() { return parameters<Charge>(); }
 };
 
+/// Takes away what is there for people alone: titles, and where values come from.
+void clear_remarks(Scene& scene);
+
 /// The material of a name; none where the scene has none of that name.
 const Material* find_material(const Scene& scene, std::string_view name);
 /// The law of a body's material, which the scene must have.
 const materials::Law& law_of(const Scene& scene, const Body& body);
+/// A body's material for people: "charge (PBX 9501)" where it has a title.
+std::string material_text(const Scene& scene, const Body& body);
 /// The materials that bodies are made of, in the scene's order.
 std::vector<Material> used_materials(const Scene& scene);
 /// Whether a body is of that law.

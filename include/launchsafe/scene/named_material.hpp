@@ -1,0 +1,61 @@
+// Materials as data: [material.NAME] in a scene or in a file of materials, and those that ship with the
+// program. Each number may say where it comes from.
+#pragma once
+
+#include "launchsafe/scene/scene.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace launchsafe::scene {
+
+/// A value that a file gives, and where.
+struct Given {
+  Place place;
+  Value value;
+  bool of_material = false;  ///< by the material of a body, and not by the scene itself
+};
+
+/// All numbers of a material, whose name bodies refer to.
+struct NamedMaterial {
+  std::string name;
+  std::string law;    ///< the word of its law, such as "charge"
+  std::string title;  ///< for people
+  std::string like;   ///< name of the material that gives what is not given here
+  Place place;
+  std::map<std::string, Given> values;  ///< by the scene's key, such as "charge.density"
+  std::vector<Source> sources;          ///< of these keys
+};
+
+/// The key of a scene that names a file of materials and contacts.
+const KeyDescription& material_file_key();
+/// What [material.NAME] says beside the numbers of its law.
+const std::vector<Key<NamedMaterial>>& material_keys();
+/// A number's key as a material has it: "density" for "charge.density"; others keep their table.
+std::string key_in_material(std::string_view law, std::string_view scene_key);
+
+/// The materials that the program brings along, by name; texts in studies/materials.
+const std::vector<NamedMaterial>& shipped_materials();
+
+/// The tables [material.NAME] of a file; none if it has none. `known`: materials of other files, which these
+/// may be like, and whose names they must not take. Faults: a name that is taken, an unknown law or key, a
+/// number that is neither given nor that of another material, a material that is like itself, and those of
+/// sources.
+Expected<std::vector<NamedMaterial>> read_materials(const toml::table& root, const std::string& file,
+                                                    const std::vector<NamedMaterial>& known);
+
+/// Keys of [[source]], and of the sources of a material.
+const std::vector<Key<Source>>& source_keys();
+/// The tables "source" of a table; none if it has none. Faults: a key that is not among `known`, one with two
+/// sources, a source without words.
+Expected<std::vector<Source>> read_sources(const toml::table& table, const std::vector<std::string>& known,
+                                           const std::string& file);
+/// The source of a key; none where nothing is said.
+const Source* source_of(const std::vector<Source>& sources, const std::string& key);
+/// Takes a key away from its source: its value is another one.
+void forget_source(std::vector<Source>& sources, const std::string& key);
+
+}  // namespace launchsafe::scene

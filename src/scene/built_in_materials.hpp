@@ -1,0 +1,15 @@
+// The texts of the shipped materials.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace launchsafe::scene {
+
+struct BuiltInText {
+  std::string file, text;
+};
+/// One for every file in studies/materials.
+const std::vector<BuiltInText>& built_in_materials();
+
+}  // namespace launchsafe::scene

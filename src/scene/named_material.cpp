@@ -1,0 +1,272 @@
+#include "launchsafe/scene/named_material.hpp"
+
+#include "built_in_materials.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+namespace launchsafe::scene {
+namespace {
+
+/// A key of a law under the name that materials have for it.
+struct LawKey {
+  std::string scene_key;
+  KeyDescription description;
+};
+
+std::vector<std::string> words_of_laws() {
+  std::vector<std::string> words;
+  for (const Material& material : usual_materials()) words.push_back(material.name);
+  return words;
+}
+
+std::vector<LawKey> keys_of_law_in_material(const std::string& law) {
+  std::vector<LawKey> keys;
+  materials::for_each_law([&]<class Law>(const Law&) {
+    if (law != Law::name) return;
+    for (const Key<Law>& key : Law::parameters()) {
+      LawKey& own = keys.emplace_back(LawKey{key.name, key});
+      own.description.name = key_in_material(law, key.name);
+    }
+  });
+  return keys;
+}
+
+InputError in_material(InputError error, const std::string& name) {
+  error.key = "material." + name + "." + error.key;
+  return error;
+}
+
+const NamedMaterial* find_named(const std::vector<NamedMaterial>& materials, const std::string& name) {
+  const auto found = std::find_if(materials.begin(), materials.end(),
+                                  [&](const NamedMaterial& each) { return each.name == name; });
+  return found == materials.end() ? nullptr : &*found;
+}
+
+Expected<std::string> read_law(const toml::table& table, const Place& place, const std::string& file) {
+  const KeyDescription& key = *find_key(material_keys(), "law");
+  const toml::node* node = table.get("law");
+  if (node == nullptr) return error_at(place, "law", "nothing; the key is missing", allowed_text(key));
+  const auto word = read_value(*node, key, file);
+  if (!word) return word.error();
+  return std::get<std::string>(*word);
+}
+
+/// One table [material.NAME], without what it takes of another material.
+Expected<NamedMaterial> read_material(const std::string& name, const toml::table& table,
+                                      const std::string& file) {
+  NamedMaterial material{.name = name, .place = place_of(table, file)};
+  const auto law = read_law(table, material.place, file);
+  if (!law) return law.error();
+  const std::vector<LawKey> law_keys = keys_of_law_in_material(*law);
+  std::vector<const KeyDescription*> described = descriptions_of(material_keys());
+  const std::size_t own = described.size();
+  for (const LawKey& key : law_keys) described.push_back(&key.description);
+  const auto read = read_described(table, described, {"source"}, file);
+  if (!read) return read.error();
+  std::vector<std::string> given;
+  for (const auto& [index, value] : read->values) {
+    if (index < own) {
+      material_keys()[index].set(material, value);
+      continue;
+    }
+    const LawKey& key = law_keys[index - own];
+    given.push_back(key.description.name);
+    material.values[key.scene_key] = {read->places.at(key.description.name), value, true};
+  }
+  auto sources = read_sources(table, given, file);
+  if (!sources) return sources.error();
+  material.sources = std::move(*sources);
+  for (Source& source : material.sources)
+    for (std::string& key : source.keys)
+      for (const LawKey& each : law_keys)
+        if (each.description.name == key) {
+          key = each.scene_key;
+          break;
+        }
+  return material;
+}
+
+std::optional<InputError> check_name(const toml::node& node, const std::string& name, const std::string& file,
+                                     const std::vector<NamedMaterial>& known) {
+  const std::vector<std::string> laws = words_of_laws();
+  const bool is_law = std::find(laws.begin(), laws.end(), name) != laws.end();
+  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+  if (plain && !is_law && find_named(known, name) == nullptr) return std::nullopt;
+  return error_at(place_of(node, file), "material", fmt::format("a material called \"{}\"", name),
+                  "a name of letters, digits, - and _ that no law and no other material has",
+                  is_law ? fmt::format("[{}]", name) : std::string{});
+}
+
+/// Whether a key of the law that is not given is settled by one that is, as kinetics.set is by its numbers.
+bool is_settled(const NamedMaterial& material, const LawKey& key, const std::vector<LawKey>& keys) {
+  const auto names = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  return std::any_of(keys.begin(), keys.end(), [&](const LawKey& other) {
+    return material.values.contains(other.scene_key) && (names(other.description.overrides, key.scene_key) ||
+                                                         names(key.description.overrides, other.scene_key));
+  });
+}
+
+/// Takes what a material does not give from the one that it is like, and says so of each value.
+void take_over(NamedMaterial& material, const NamedMaterial& from) {
+  const std::vector<LawKey> keys = keys_of_law_in_material(material.law);
+  const NamedMaterial own = material;
+  Source taken{.standing = Standing::assumed, .citation = "as of " + from.name};
+  for (const LawKey& key : keys) {
+    const auto value = from.values.find(key.scene_key);
+    if (value == from.values.end() || own.values.contains(key.scene_key) || is_settled(own, key, keys))
+      continue;
+    material.values.insert(*value);
+    taken.keys.push_back(key.scene_key);
+  }
+  if (!taken.keys.empty()) material.sources.push_back(std::move(taken));
+}
+
+std::optional<InputError> check_complete(const NamedMaterial& material) {
+  const std::vector<LawKey> keys = keys_of_law_in_material(material.law);
+  for (const LawKey& key : keys) {
+    if (material.values.contains(key.scene_key) || is_settled(material, key, keys)) continue;
+    return error_at(material.place, "material." + material.name + "." + key.description.name,
+                    "nothing; the key is missing",
+                    fmt::format("{}; or like = \"NAME\", a material whose value stands for it",
+                                allowed_text(key.description)));
+  }
+  return std::nullopt;
+}
+
+/// Completes materials in the order in which they are like each other.
+class Completion {
+ public:
+  Completion(std::vector<NamedMaterial>& materials, const std::vector<NamedMaterial>& known)
+      : materials_(materials), known_(known), done_(materials.size()) {}
+
+  std::optional<InputError> all() {
+    for (std::size_t i = 0; i < materials_.size(); ++i)
+      if (auto error = complete(i, 0)) return error;
+    return std::nullopt;
+  }
+
+ private:
+  std::optional<InputError> complete(std::size_t i, std::size_t depth) {
+    if (done_[i]) return std::nullopt;
+    NamedMaterial& material = materials_[i];
+    if (!material.like.empty()) {
+      const auto fault = [&](std::string found, std::string allowed) {
+        return error_at(material.place, "material." + material.name + ".like", std::move(found),
+                        std::move(allowed));
+      };
+      if (depth > materials_.size())
+        return fault(fmt::format("\"{}\", which is like this material", material.like),
+                     "a material with numbers of its own");
+      const NamedMaterial* other = find_named(known_, material.like);
+      const auto own = std::find_if(materials_.begin(), materials_.end(),
+                                    [&](const NamedMaterial& each) { return each.name == material.like; });
+      if (other == nullptr && own != materials_.end()) {
+        if (auto error = complete(static_cast<std::size_t>(own - materials_.begin()), depth + 1))
+          return error;
+        other = &*own;
+      }
+      if (other == nullptr || other->law != material.law)
+        return fault(fmt::format("\"{}\"", material.like),
+                     fmt::format("the name of a material of law \"{}\"", material.law));
+      take_over(material, *other);
+    }
+    done_[i] = true;
+    return check_complete(material);
+  }
+
+  std::vector<NamedMaterial>& materials_;
+  const std::vector<NamedMaterial>& known_;
+  std::vector<bool> done_;
+};
+
+std::vector<NamedMaterial> read_shipped() {
+  std::vector<NamedMaterial> all;
+  for (const BuiltInText& each : built_in_materials()) {
+    const auto table = parse_toml(each.text, each.file);
+    auto materials =
+        table ? read_materials(*table, each.file, all) : Expected<std::vector<NamedMaterial>>(table.error());
+    if (!materials) {
+      fmt::print(stderr, "{}\n", materials.error().message());
+      std::abort();  // tests read every shipped file
+    }
+    all.insert(all.end(), materials->begin(), materials->end());
+  }
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Key<NamedMaterial>>& material_keys() {
+  static const std::vector<Key<NamedMaterial>> keys = [] {
+    Key<NamedMaterial> law = required(text_key("law", Standing::input, "Law whose numbers the table gives.",
+                                               "charge", &NamedMaterial::law));
+    law.kind = KeyKind::word;
+    law.words = words_of_laws();
+    return std::vector<Key<NamedMaterial>>{
+        always_plausible(law, "the numbers are judged"),
+        always_plausible(text_key("title", Standing::input, "What the material is, for reports.", "PBX 9501",
+                                  &NamedMaterial::title),
+                         "it is for people"),
+        always_plausible(text_key("like", Standing::input,
+                                  "Material whose values stand for those that are not given here.", "comp-b",
+                                  &NamedMaterial::like),
+                         "the numbers are judged")};
+  }();
+  return keys;
+}
+
+const KeyDescription& material_file_key() {
+  static const KeyDescription key{
+      .name = "material_file",
+      .kind = KeyKind::text,
+      .standing = Standing::input,
+      .sentence = "File with tables [material.NAME] and [contact.NAME], by its path from the scene's folder.",
+      .example = "explosives.toml",
+      .plausible = {.because = "the numbers are judged"}};
+  return key;
+}
+
+std::string key_in_material(std::string_view law, std::string_view scene_key) {
+  const bool own =
+      scene_key.starts_with(law) && scene_key.size() > law.size() && scene_key[law.size()] == '.';
+  return std::string(own ? scene_key.substr(law.size() + 1) : scene_key);
+}
+
+const std::vector<NamedMaterial>& shipped_materials() {
+  static const std::vector<NamedMaterial> all = read_shipped();
+  return all;
+}
+
+Expected<std::vector<NamedMaterial>> read_materials(const toml::table& root, const std::string& file,
+                                                    const std::vector<NamedMaterial>& known) {
+  std::vector<NamedMaterial> materials;
+  const toml::node* node = root.get("material");
+  if (node == nullptr) return materials;
+  const auto no_table = [&](const toml::node& found, const std::string& key) {
+    return error_at(place_of(found, file), key, found_text(found),
+                    "tables, each written [material.NAME] with the name that bodies refer to");
+  };
+  if (!node->is_table()) return no_table(*node, "material");
+  for (const auto& [name, inner] : *node->as_table()) {
+    const std::string text(name.str());
+    if (!inner.is_table()) return no_table(inner, "material." + text);
+    if (auto error = check_name(inner, text, file, known)) return *error;
+    auto material = read_material(text, *inner.as_table(), file);
+    if (!material) return in_material(material.error(), text);
+    materials.push_back(std::move(*material));
+  }
+  if (auto error = Completion(materials, known).all()) return *error;
+  return materials;
+}
+
+}  // namespace launchsafe::scene

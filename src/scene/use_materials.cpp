@@ -1,0 +1,196 @@
+#include "use_materials.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace launchsafe::scene {
+namespace {
+
+bool is_word_of_law(const std::string& name) {
+  const std::vector<Material> usual = usual_materials();
+  return std::any_of(usual.begin(), usual.end(), [&](const Material& each) { return each.name == name; });
+}
+
+/// Names of the materials of each law that bodies are of, in the order of the bodies.
+using NamesByLaw = std::map<std::string, std::vector<std::string>>;
+
+InputError unknown_material(const SceneFile& file, const std::string& body, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Material& each : usual_materials()) names.push_back(each.name);
+  for (const NamedMaterial& each : file.materials) names.push_back(each.name);
+  for (const NamedMaterial& each : shipped_materials()) names.push_back(each.name);
+  const std::string key = "body." + body + ".material";
+  const auto place = file.places.find(key);
+  const std::string nearest = nearest_of(name, names);
+  return error_at(place == file.places.end() ? Place{file.file} : place->second, key,
+                  fmt::format("\"{}\", a material that is nowhere described", name),
+                  quoted_list(names) + "; or one that a table [material.NAME] describes",
+                  nearest.empty() ? nearest : "\"" + nearest + "\"");
+}
+
+Expected<NamesByLaw> names_by_law(const SceneFile& file, const Scene& scene) {
+  NamesByLaw by_law;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const std::string& name = file.body_materials[i];
+    const NamedMaterial* named = find_named_material(file, name);
+    if (named == nullptr && !is_word_of_law(name)) return unknown_material(file, scene.bodies[i].name, name);
+    std::vector<std::string>& names = by_law[named ? named->law : name];
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return by_law;
+}
+
+/// Whether the scene itself gives the key, or one that overrides it.
+bool scene_gives(const SceneFile& file, const std::string& name) {
+  return std::any_of(file.given.begin(), file.given.end(), [&](const auto& each) {
+    if (each.second.of_material) return false;
+    const std::vector<std::string>& overridden = find_key(scene_keys(), each.first)->overrides;
+    return each.first == name || std::find(overridden.begin(), overridden.end(), name) != overridden.end();
+  });
+}
+
+/// The named material as the scene's material of its law. A number that is the program's own is no given one:
+/// what rests on defaults, such as the constants of a calibration, stays as it is.
+void use_as_law(const NamedMaterial& material, SceneFile& file, Scene& scene) {
+  std::vector<Source> sources = material.sources;
+  for (const auto& [name, given] : material.values) {
+    if (scene_gives(file, name)) {
+      forget_source(sources, name);
+    } else if (const Key<Scene>& key = *find_key(scene_keys(), name); given.value != key.default_value()) {
+      file.given[name] = given;
+    }
+  }
+  const std::string title = material.law + ".title";
+  if (!material.title.empty() && !scene_gives(file, title))
+    file.given[title] = {material.place, Value(material.title), true};
+  scene.sources.insert(scene.sources.end(), sources.begin(), sources.end());
+}
+
+/// The named material beside another one of its law.
+void add_beside(const NamedMaterial& material, Scene& scene) {
+  materials::for_each_law([&]<class Law>(Law law) {
+    if (material.law != Law::name) return;
+    for (const Key<Law>& key : Law::parameters())
+      if (const auto given = material.values.find(key.name); given != material.values.end())
+        key.set(law, given->second.value);
+    scene.materials.push_back({material.name, law, material.title});
+  });
+  for (Source source : material.sources) {
+    for (std::string& key : source.keys)
+      key = fmt::format("material.{}.{}", material.name, key_in_material(material.law, key));
+    scene.sources.push_back(std::move(source));
+  }
+}
+
+std::optional<InputError> check_one_explosive(const SceneFile& file, const Scene& scene,
+                                              const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (file.body_materials[i] != names[1]) continue;
+    const std::string key = "body." + scene.bodies[i].name + ".material";
+    const auto place = file.places.find(key);
+    return error_at(place == file.places.end() ? Place{file.file} : place->second, key,
+                    fmt::format("\"{}\" beside \"{}\", two explosives", names[1], names[0]),
+                    "one explosive in a scene, whose skin is followed");
+  }
+  return std::nullopt;
+}
+
+/// Keys of a law of whose materials none has the law's name.
+std::optional<InputError> check_unambiguous(const SceneFile& file, const std::string& law,
+                                            const std::vector<std::string>& names) {
+  for (const auto& [key, given] : file.given) {
+    if (given.of_material || !key.starts_with(law + ".")) continue;
+    return error_at(given.place, key,
+                    fmt::format("a key of [{}], where bodies are of {}", law, quoted_list(names)),
+                    fmt::format("[material.NAME] of each, or a body of material \"{}\"", law));
+  }
+  return std::nullopt;
+}
+
+/// The material as the file's own, which may have other numbers than the shipped one.
+NamedMaterial& own_material(SceneFile& file, const std::string& name) {
+  for (NamedMaterial& each : file.materials)
+    if (each.name == name) return each;
+  return file.materials.emplace_back(*find_named_material(file, name));
+}
+
+void set_number(SceneFile& file, const std::string& name, const KeyDescription& key, const Value& value) {
+  NamedMaterial& material = own_material(file, name);
+  for (const std::string& overridden : key.overrides) material.values.erase(overridden);
+  Given& given = material.values[key.name];
+  if (given.value != value) forget_source(material.sources, key.name);
+  given = {material.place, value, true};
+}
+
+}  // namespace
+
+const NamedMaterial* find_named_material(const SceneFile& file, const std::string& name) {
+  for (const auto* list : {&file.materials, &shipped_materials()})
+    for (const NamedMaterial& each : *list)
+      if (each.name == name) return &each;
+  return nullptr;
+}
+
+std::vector<Key<SceneFile>> keys_of_used_materials(const SceneFile& file) {
+  std::vector<Key<SceneFile>> keys;
+  for (const std::string& name :
+       std::set<std::string>(file.body_materials.begin(), file.body_materials.end())) {
+    const NamedMaterial* named = find_named_material(file, name);
+    if (named == nullptr) continue;
+    materials::for_each_law([&]<class Law>(const Law&) {
+      if (named->law != Law::name) return;
+      for (const Key<Law>& key : Law::parameters()) {
+        const KeyDescription own = key;
+        Key<SceneFile>& lifted = keys.emplace_back(Key<SceneFile>{own});
+        lifted.name = fmt::format("material.{}.{}", name, key_in_material(Law::name, key.name));
+        lifted.overrides.clear();
+        lifted.set = [name, own](SceneFile& owner, const Value& value) {
+          set_number(owner, name, own, value);
+        };
+        lifted.get = [name, own, usual = key.default_value()](const SceneFile& owner) {
+          const auto& values = find_named_material(owner, name)->values;
+          const auto given = values.find(own.name);
+          return given == values.end() ? usual : given->second.value;
+        };
+      }
+    });
+  }
+  return keys;
+}
+
+std::optional<InputError> use_materials(SceneFile& file, Scene& scene) {
+  std::erase_if(file.given, [](const auto& each) { return each.second.of_material; });
+  scene.sources = file.sources;
+  const auto by_law = names_by_law(file, scene);
+  if (!by_law) return by_law.error();
+  std::map<std::string, std::string> renamed;  // materials that stand for their law
+  for (const auto& [law, names] : *by_law) {
+    const bool has_own = std::find(names.begin(), names.end(), law) != names.end();
+    if (names.size() > 1 && is_explosive(find_material(scene, law)->law))
+      return check_one_explosive(file, scene, names);
+    if (names.size() > 1 && !has_own)
+      if (auto error = check_unambiguous(file, law, names)) return error;
+    const std::string& first = has_own ? law : names.front();
+    renamed[first] = law;
+    for (const std::string& name : names) {
+      const NamedMaterial* named = find_named_material(file, name);
+      if (named == nullptr) continue;
+      if (name == first) {
+        use_as_law(*named, file, scene);
+      } else {
+        add_beside(*named, scene);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const auto law = renamed.find(file.body_materials[i]);
+    scene.bodies[i].material = law == renamed.end() ? file.body_materials[i] : law->second;
+  }
+  return std::nullopt;
+}
+
+}  // namespace launchsafe::scene
