@@ -7,6 +7,7 @@ packages=(
   libeigen3-dev libboost-dev libtbb-dev libhdf5-dev libssl-dev libcli11-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev
   libkainjow-mustache-dev
   libgtest-dev libbenchmark-dev librapidcheck-dev clang libclang-rt-dev
+  file # tells cpack what is a program
   gnuplot-nox librsvg2-bin
 )
 

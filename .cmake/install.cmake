@@ -21,11 +21,14 @@ add_told_file(launchsafe.bash --completion bash)
 add_told_file(scene.schema.json --schema scene)
 add_told_file(study.schema.json --schema study)
 add_told_file(references.schema.json --schema references)
-add_custom_target(told ALL DEPENDS "${told_dir}/launchsafe.1" "${told_dir}/launchsafe.bash"
+add_custom_command(OUTPUT "${told_dir}/launchsafe.1.gz"
+  COMMAND gzip --best --no-name --keep --force "${told_dir}/launchsafe.1"
+  DEPENDS "${told_dir}/launchsafe.1")
+add_custom_target(told ALL DEPENDS "${told_dir}/launchsafe.1.gz" "${told_dir}/launchsafe.bash"
   "${told_dir}/scene.schema.json" "${told_dir}/study.schema.json" "${told_dir}/references.schema.json")
 
 set(data_dir "${CMAKE_INSTALL_DATADIR}/launchsafe")
-install(FILES "${told_dir}/launchsafe.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program)
+install(FILES "${told_dir}/launchsafe.1.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program)
 install(FILES "${told_dir}/launchsafe.bash" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
   RENAME launchsafe COMPONENT program)
 install(FILES "${told_dir}/scene.schema.json" "${told_dir}/study.schema.json" "${told_dir}/references.schema.json"
@@ -52,7 +55,7 @@ set(CPACK_PACKAGE_NAME launchsafe)
 set(CPACK_PACKAGE_CONTACT "The launchsafe developers <launchsafe@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "launch safety of explosive shells by the material point method")
 set(CPACK_PACKAGE_DESCRIPTION
-  "How thick may the gap under an explosive charge be before a launch can ignite it?\n launchsafe simulates launches by the material point method, seeks the critical gap,\n and writes verdict tables and reports.")
+  "How thick may the gap under an explosive charge be before a launch ignites it?\nlaunchsafe simulates launches by the material point method, seeks the critical\ngap, and writes verdict tables and reports.")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

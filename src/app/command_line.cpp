@@ -1,105 +1,18 @@
 #include "command_line.hpp"
 
 #include "command_help.hpp"
-#include "launchsafe/scene/quantity.hpp"
+#include "common_options.hpp"
 #include "shell_words.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <charconv>
-#include <cmath>
 #include <sstream>
 #include <string_view>
 
 namespace launchsafe::app {
 
 namespace {
-
-struct UnitFactor {
-  std::string_view name;  ///< lower case
-  double factor;
-};
-
-constexpr std::array<UnitFactor, 14> size_units{{{"", 1},
-                                                 {"b", 1},
-                                                 {"kb", 1e3},
-                                                 {"mb", 1e6},
-                                                 {"gb", 1e9},
-                                                 {"tb", 1e12},
-                                                 {"k", 1e3},
-                                                 {"m", 1e6},
-                                                 {"g", 1e9},
-                                                 {"t", 1e12},
-                                                 {"kib", 1024.0},
-                                                 {"mib", 1024.0 * 1024},
-                                                 {"gib", 1024.0 * 1024 * 1024},
-                                                 {"tib", 1024.0 * 1024 * 1024 * 1024}}};
-
-constexpr std::array<UnitFactor, 6> duration_units{
-    {{"", 1}, {"ms", 1e-3}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}};
-
-constexpr std::array<UnitFactor, 2> temperature_units{{{"", 1}, {"k", 1}}};
-
-/// The unit's own letters, without the blanks around them.
-std::string unit_in(std::string_view text) {
-  std::string unit;
-  for (const char letter : text) unit += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  const auto first = unit.find_first_not_of(' ');
-  if (first == std::string::npos) return {};
-  return unit.substr(first, unit.find_last_not_of(' ') - first + 1);
-}
-
-template <std::size_t count>
-std::optional<double> parse_amount(std::string_view text, const std::array<UnitFactor, count>& units) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{}) return std::nullopt;
-  const std::string unit = unit_in(text.substr(static_cast<std::size_t>(end - text.data())));
-  const auto found =
-      std::find_if(units.begin(), units.end(), [&](const UnitFactor& each) { return each.name == unit; });
-  if (found == units.end()) return std::nullopt;
-  const double amount = number * found->factor;
-  return std::isfinite(amount) && amount > 0 ? std::optional(amount) : std::nullopt;
-}
-
-/// Bytes: "8GB", "500 MB", "1.5GiB", "8e9". kB, MB, GB and TB are powers of 1000; KiB, MiB, GiB and TiB of
-/// 1024. Nothing for any other text, and for less than a byte or more than 1e18.
-std::optional<double> parse_size(std::string_view text) {
-  const auto size = parse_amount(text, size_units);
-  constexpr double largest = 1e18;  // what whole numbers of bytes are counted with
-  return size && *size >= 1 && *size <= largest ? size : std::nullopt;
-}
-constexpr const char* allowed_sizes = "a size such as 500MB, 8GB, 1.5GiB or 8e9, up to 1e18";
-
-/// Seconds: "90s", "10min", "2h", "1.5 d", "90". Nothing for any other text, and for what is not more than
-/// zero.
-std::optional<double> parse_duration(std::string_view text) { return parse_amount(text, duration_units); }
-constexpr const char* allowed_durations = "a duration such as 90s, 10min, 2h or 1d";
-
-/// K: "2K", "0.5 K", "2". Nothing for any other text, and for what is not more than zero.
-std::optional<double> parse_temperature(std::string_view text) {
-  return parse_amount(text, temperature_units);
-}
-constexpr const char* allowed_temperatures = "a temperature difference such as 2K or 0.5K";
-
-/// SI, of a quantity as scenes have them: "5 MPa", "-0.3 bar", "0.2 ms", "155 mm".
-template <scene::Dimension dimension>
-std::optional<double> parse_scene_quantity(std::string_view text) {
-  const auto value = scene::parse_quantity(text, dimension);
-  return value ? std::optional(*value) : std::nullopt;
-}
-/// The same of what is more than zero.
-template <scene::Dimension dimension>
-std::optional<double> parse_positive(std::string_view text) {
-  const auto value = parse_scene_quantity<dimension>(text);
-  return value && *value > 0.0 ? value : std::nullopt;
-}
-
-constexpr int most_jobs = 4096;
 
 /// Everything the options write to while CLI11 parses.
 struct Parsed {
@@ -135,39 +48,6 @@ void add_output_options(CLI::App& command, Parsed& parsed) {
   command.add_flag("-q,--quiet", parsed.line.quiet, "No progress and no remarks on stderr; errors remain");
 }
 
-/// A place to write to. `-o --json` would name a folder that nobody means.
-template <class Path>
-CLI::Option* add_place(CLI::App& command, const char* name, Path& path, const char* type, const char* kind,
-                       const char* meaning) {
-  const auto check = [kind](const std::string& text) {
-    if (!text.starts_with("-")) return std::string{};
-    return fmt::format("found {1}, which is an option; allowed: a {0} (./{1} for one of this name)", kind,
-                       text);
-  };
-  return command.add_option(name, path, meaning)->check(CLI::Validator(check, ""))->type_name(type);
-}
-
-template <class Path>
-CLI::Option* add_folder(CLI::App& command, Path& path, const char* meaning) {
-  return add_place(command, "-o,--output", path, "DIR", "folder", meaning);
-}
-
-/// An option whose text is read by `parse`.
-template <class Parse>
-void add_amount(CLI::App& command, const std::string& name, std::optional<double>& value, Parse parse,
-                const char* allowed, const char* type, const char* meaning) {
-  const auto read = [name, &value, parse, allowed](const std::string& text) {
-    value = parse(text);
-    if (!value) throw CLI::ValidationError(name, fmt::format("found \"{}\"; allowed: {}", text, allowed));
-  };
-  command.add_option_function<std::string>(name, read, meaning)->type_name(type);
-}
-
-void add_longest_run(CLI::App& command, std::optional<double>& longest_run) {
-  add_amount(command, "--longest-run", longest_run, parse_duration, allowed_durations, "DURATION",
-             "Refuse a case that is predicted to take longer; 30d unless given");
-}
-
 void add_run(CLI::App& app, Parsed& parsed) {
   CLI::App& command =
       add_command(app, parsed, parsed.run, "run",
@@ -177,38 +57,6 @@ void add_run(CLI::App& app, Parsed& parsed) {
   add_longest_run(command, parsed.run.longest_run);
   command.add_flag("--dry-run", parsed.run.dry_run, "Say what would be run and at what cost; write nothing");
   add_output_options(command, parsed);
-}
-
-void add_jobs(CLI::App& command, int& jobs, const char* meaning) {
-  command.add_option("-j,--jobs", jobs, meaning)->check(CLI::Range(1, most_jobs))->type_name("N");
-}
-
-void add_limits(CLI::App& command, std::optional<double>& memory, std::optional<double>& time_limit) {
-  add_amount(command, "--memory", memory, parse_size, allowed_sizes, "SIZE",
-             "Memory of all running cases together, such as 8GB; most of what is free unless given");
-  add_amount(command, "--time-limit", time_limit, parse_duration, allowed_durations, "DURATION",
-             "Wall time after which a case is given up, such as 10min");
-}
-
-void add_shard(CLI::App& command, study::Shard& shard) {
-  const auto read = [&shard](const std::string& text) {
-    if (!study::parse_shard(text, shard))
-      throw CLI::ValidationError("--shard", fmt::format("found \"{}\"; allowed: i/N such as 2/4", text));
-  };
-  command
-      .add_option_function<std::string>("--shard", read,
-                                        "Run only part i of N of the mechanical runs; see launchsafe merge")
-      ->type_name("i/N");
-}
-
-void add_tolerance(CLI::App& command, std::optional<double>& tolerance) {
-  add_amount(command, "--tolerance", tolerance, parse_temperature, allowed_temperatures, "KELVIN",
-             "Use the cheapest setting of the study's accuracy record that knows T max to this, such as 2K");
-}
-
-void add_update(CLI::App& command, bool& update) {
-  command.add_flag("--update", update,
-                   "Use the stored cases of another study in DIR; its report moves to DIR/earlier-N");
 }
 
 void add_study(CLI::App& app, Parsed& parsed) {

@@ -31,10 +31,6 @@ scene::InputError option_fault(std::string key, std::string found, std::string a
   return fault;
 }
 
-/// A command's own value, or what is wrong with the option it came from.
-template <class Value>
-using Wanted = scene::Expected<Value>;
-
 /// The words of a list between commas or blanks.
 std::vector<std::string> words_of(const std::string& list) {
   std::vector<std::string> words;
@@ -80,7 +76,7 @@ Selection all_kinds(const report::DrawnCase& drawn) {
 }
 
 /// The kinds that a user named; each must be one, and the case must have what it needs.
-Wanted<Selection> named_kinds(const report::DrawnCase& drawn, const std::string& list) {
+scene::Expected<Selection> named_kinds(const report::DrawnCase& drawn, const std::string& list) {
   const std::vector<std::string> words = words_of(list), known = kind_words();
   if (words.empty()) return option_fault("--what", fmt::format("\"{}\"", list), scene::quoted_list(known));
   for (const std::string& word : words) {
@@ -119,8 +115,8 @@ std::optional<scene::InputError> fault_in_time(const report::DrawnCase& drawn, c
 }
 
 /// The times that a user named, each of which must be one that can be drawn.
-Wanted<std::vector<double>> wanted_times(const report::DrawnCase& drawn, const Selection& selection,
-                                         const std::string& text) {
+scene::Expected<std::vector<double>> wanted_times(const report::DrawnCase& drawn, const Selection& selection,
+                                                  const std::string& text) {
   const auto times = scene::parse_list(text, scene::Dimension::time);
   if (!times)
     return option_fault("--times", times.error().found, times.error().allowed, times.error().suggestion);

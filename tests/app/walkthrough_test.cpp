@@ -1,6 +1,8 @@
 // The walkthroughs of studies/walkthroughs and the page for Python: every command and every block of Python
 // is run, and prints what the page says. With LAUNCHSAFE_WALKTHROUGHS=write in the environment the pages are
-// written anew instead.
+// written anew instead. With LAUNCHSAFE_ROOT, a folder with a system where launchsafe is installed, the pages
+// are those of that system, and their commands run there, by a user who may write nowhere else
+// (tests/app/deb.sh).
 #include "program.hpp"
 
 #include <algorithm>
@@ -10,8 +12,6 @@
 
 namespace launchsafe::app {
 namespace {
-
-const std::filesystem::path pages = std::filesystem::path(LAUNCHSAFE_SOURCE_DIR) / "studies";
 
 /// A page with every output replaced by what the command above it prints; `python_output_of` is given a block
 /// of Python, whose output is the next block of text.
@@ -53,10 +53,17 @@ bool agrees(const std::string& a, const std::string& b) {
   return std::abs(first - second) <= 0.01 * std::max(std::abs(first), std::abs(second));
 }
 
-class Walkthrough : public Program, public ::testing::WithParamInterface<const char*> {
+class Walkthrough : public Program, public ::testing::WithParamInterface<std::string> {
  protected:
   void SetUp() override {
     Program::SetUp();
+    if (const char* root = std::getenv("LAUNCHSAFE_ROOT")) {
+      root_ = root;
+      std::filesystem::permissions(folder(), std::filesystem::perms::all);
+      ASSERT_EQ(output_of(copy_of_installed), "");
+      EXPECT_NE(Program::read("studies/walkthroughs/README.md").find(copy_of_installed), std::string::npos);
+      return;
+    }
     const std::filesystem::path source = LAUNCHSAFE_SOURCE_DIR;
     for (const char* shared : {"studies", "reports"})
       std::filesystem::create_directory_symlink(source / shared, folder() / shared);
@@ -67,9 +74,13 @@ class Walkthrough : public Program, public ::testing::WithParamInterface<const c
   /// What a command prints, on both streams, in the one folder of the page.
   std::string output_of(const std::string& command) {
     write("command.sh", command + "\n");
-    const std::string call =
-        "cd '" + folder().string() + "' && PATH=\"$PWD/bin:$PATH\" bash command.sh > output 2>&1";
-    [[maybe_unused]] const int code = std::system(call.c_str());
+    const std::string here = "'" + folder().string() + "'";
+    const std::string call = root_.empty()
+                                 ? "cd " + here + R"( && PATH="$PWD/bin:$PATH" bash command.sh)"
+                                 : "chroot --userspec=1000:1000 '" + root_.string() +
+                                       "' env -i PATH=/usr/bin:/bin bash -c 'cd /" +
+                                       folder().lexically_relative(root_).string() + " && bash command.sh'";
+    [[maybe_unused]] const int code = std::system((call + " > " + here + "/output 2>&1").c_str());
     std::string text = Program::read("output");
     if (!text.empty() && text.back() != '\n') text += '\n';
     return text;
@@ -100,12 +111,16 @@ class Walkthrough : public Program, public ::testing::WithParamInterface<const c
   }
 
  private:
+  /// How the pages' folder tells to begin after an installation.
+  static constexpr const char* copy_of_installed =
+      "cp -r /usr/share/launchsafe/studies /usr/share/launchsafe/reports .";
+  std::filesystem::path root_;
   std::string python_;
   std::size_t printed_ = 0;
 };
 
 TEST_P(Walkthrough, PrintsWhatThePageSays) {
-  const std::filesystem::path file = pages / GetParam();
+  const std::filesystem::path file = folder() / "studies" / GetParam();
   std::ifstream stream(file);
   const std::string page{std::istreambuf_iterator<char>(stream), {}};
   ASSERT_FALSE(page.empty()) << file;
@@ -124,15 +139,22 @@ TEST_P(Walkthrough, PrintsWhatThePageSays) {
     ASSERT_TRUE(agrees(expected[i], found[i])) << expected[i] << " is " << found[i] << " in\n" << run;
 }
 
-std::string name_of(const ::testing::TestParamInfo<const char*>& page) {
+/// The walkthroughs in their folder, from that of the studies.
+std::vector<std::string> walkthroughs() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(LAUNCHSAFE_SOURCE_DIR) /
+                                                               "studies" / "walkthroughs"))
+    if (entry.path().extension() == ".md" && entry.path().stem() != "README")
+      names.push_back("walkthroughs/" + entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string name_of(const ::testing::TestParamInfo<std::string>& page) {
   return std::filesystem::path(page.param).stem();
 }
 
-INSTANTIATE_TEST_SUITE_P(Pages, Walkthrough,
-                         ::testing::Values("walkthroughs/main_job.md", "walkthroughs/own_shell.md",
-                                           "walkthroughs/new_explosive.md", "walkthroughs/overnight_sweep.md",
-                                           "walkthroughs/reading_accuracy.md"),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(Pages, Walkthrough, ::testing::ValuesIn(walkthroughs()), name_of);
 INSTANTIATE_TEST_SUITE_P(Python, Walkthrough, ::testing::Values("python.md"), name_of);
 
 }  // namespace

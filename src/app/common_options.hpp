@@ -1,0 +1,64 @@
+// Options that several commands have, and those whose text is an amount with a unit.
+#pragma once
+
+#include "launchsafe/scene/quantity.hpp"
+#include "launchsafe/study/shard.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace launchsafe::app {
+
+/// The amount that a text tells; nothing for any other text.
+using ReadAmount = std::function<std::optional<double>(std::string_view)>;
+
+/// SI, of a quantity as scenes have them: "5 MPa", "-0.3 bar", "0.2 ms", "155 mm".
+template <scene::Dimension dimension>
+std::optional<double> parse_scene_quantity(std::string_view text) {
+  const auto value = scene::parse_quantity(text, dimension);
+  return value ? std::optional(*value) : std::nullopt;
+}
+/// The same of what is more than zero.
+template <scene::Dimension dimension>
+std::optional<double> parse_positive(std::string_view text) {
+  const auto value = parse_scene_quantity<dimension>(text);
+  return value && *value > 0.0 ? value : std::nullopt;
+}
+
+/// Refuses `-o --json`, which would name a folder or file (`kind`) that nobody means.
+CLI::Validator no_option_name(const char* kind);
+
+/// A place to write to: a `kind`, "folder" or "file", that the help calls `type`.
+template <class Path>
+CLI::Option* add_place(CLI::App& command, const char* name, Path& path, const char* type, const char* kind,
+                       const char* meaning) {
+  return command.add_option(name, path, meaning)->check(no_option_name(kind))->type_name(type);
+}
+
+template <class Path>
+CLI::Option* add_folder(CLI::App& command, Path& path, const char* meaning) {
+  return add_place(command, "-o,--output", path, "DIR", "folder", meaning);
+}
+
+/// An option whose text is read by `parse`; a text that tells no amount is refused with what is `allowed`.
+void add_amount(CLI::App& command, const std::string& name, std::optional<double>& value, ReadAmount parse,
+                const char* allowed, const char* type, const char* meaning);
+
+/// --longest-run, s.
+void add_longest_run(CLI::App& command, std::optional<double>& longest_run);
+/// --jobs.
+void add_jobs(CLI::App& command, int& jobs, const char* meaning);
+/// --memory, bytes, and --time-limit, s.
+void add_limits(CLI::App& command, std::optional<double>& memory, std::optional<double>& time_limit);
+/// --shard.
+void add_shard(CLI::App& command, study::Shard& shard);
+/// --tolerance, K.
+void add_tolerance(CLI::App& command, std::optional<double>& tolerance);
+/// --update.
+void add_update(CLI::App& command, bool& update);
+
+}  // namespace launchsafe::app
