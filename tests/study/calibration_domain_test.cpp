@@ -10,6 +10,7 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -62,6 +63,20 @@ TEST(CalibrationDomain, WhatFollowsIgnitionIsNoPartOfIt) {
   scene.coupling = scene::Coupling::two_way;
   scene.combustion = {scene::HeatRelease::full, 2e-3, 1e9};
   EXPECT_TRUE(distance_to_calibration(scene, shipped_calibration()).inside());
+}
+
+/// A charge of many other constants is told by its name; what its constants are decides, and no name does.
+TEST(CalibrationDomain, TellsAnotherExplosiveByItsTitle) {
+  scene::Scene scene = calibration_scene();
+  scene.material<scene::Charge>().title = "PBX 9501";
+  EXPECT_TRUE(distance_to_calibration(scene, shipped_calibration()).inside());
+  scene.charge().eos.initial_density = 1832;
+  scene.charge().kinetics.frequency = 5e19;
+  EXPECT_EQ(distance_to_calibration(scene, shipped_calibration()).unknown,
+            std::vector<std::string>{"another explosive, PBX 9501"});
+  scene.material<scene::Charge>().title.clear();
+  EXPECT_EQ(distance_to_calibration(scene, shipped_calibration()).unknown,
+            (std::vector<std::string>{"charge.density", "kinetics.frequency"}));
 }
 
 TEST(CalibrationDomain, ComparesInterfacesByTheBodiesThatTheyName) {
