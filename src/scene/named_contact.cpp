@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -37,21 +36,6 @@ Expected<NamedContact> read_contact(const std::string& name, const toml::table& 
   return contact;
 }
 
-std::vector<NamedContact> read_shipped_contacts() {
-  std::vector<NamedContact> all;
-  for (const BuiltInText& each : built_in_materials()) {
-    const auto table = parse_toml(each.text, each.file);
-    auto contacts =
-        table ? read_contacts(*table, each.file, all) : Expected<std::vector<NamedContact>>(table.error());
-    if (!contacts) {
-      fmt::print(stderr, "{}\n", contacts.error().message());
-      std::abort();  // tests read every shipped file
-    }
-    all.insert(all.end(), contacts->begin(), contacts->end());
-  }
-  return all;
-}
-
 }  // namespace
 
 const std::vector<Key<NamedContact>>& contact_keys() {
@@ -74,7 +58,7 @@ const KeyDescription& contact_of_interface_key() {
 }
 
 const std::vector<NamedContact>& shipped_contacts() {
-  static const std::vector<NamedContact> all = read_shipped_contacts();
+  static const std::vector<NamedContact> all = read_built_in<NamedContact>(read_contacts);
   return all;
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdlib>
 #include <optional>
 #include <utility>
 
@@ -189,21 +188,6 @@ class Completion {
   std::vector<bool> done_;
 };
 
-std::vector<NamedMaterial> read_shipped() {
-  std::vector<NamedMaterial> all;
-  for (const BuiltInText& each : built_in_materials()) {
-    const auto table = parse_toml(each.text, each.file);
-    auto materials =
-        table ? read_materials(*table, each.file, all) : Expected<std::vector<NamedMaterial>>(table.error());
-    if (!materials) {
-      fmt::print(stderr, "{}\n", materials.error().message());
-      std::abort();  // tests read every shipped file
-    }
-    all.insert(all.end(), materials->begin(), materials->end());
-  }
-  return all;
-}
-
 }  // namespace
 
 const std::vector<Key<NamedMaterial>>& material_keys() {
@@ -243,7 +227,7 @@ std::string key_in_material(std::string_view law, std::string_view scene_key) {
 }
 
 const std::vector<NamedMaterial>& shipped_materials() {
-  static const std::vector<NamedMaterial> all = read_shipped();
+  static const std::vector<NamedMaterial> all = read_built_in<NamedMaterial>(read_materials);
   return all;
 }
 

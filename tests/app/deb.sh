@@ -40,7 +40,7 @@ install_packages() {
 say "a clean root"
 mmdebstrap --quiet --variant=minbase --include=bash-completion bookworm "$root" >"$folder/mmdebstrap.log" 2>&1 ||
   { tail -n 20 "$folder/mmdebstrap.log"; fail "no clean root"; }
-cp "$package" "$root/tmp/launchsafe.deb"
+cp "$package" "$root/launchsafe.deb"
 cp /etc/resolv.conf "$root/etc/resolv.conf" 2>/dev/null || true
 mount -t proc proc "$root/proc"
 chown 1000:1000 "$root/home"
@@ -48,7 +48,7 @@ chown 1000:1000 "$root/home"
 say "install"
 as_root apt-get -qq update
 start=$SECONDS
-install_packages /tmp/launchsafe.deb
+install_packages /launchsafe.deb
 say "after $((SECONDS - start)) s, with what it depends on; $(stat -c %s "$package") bytes"
 
 say "which program this processor is given"
@@ -95,7 +95,7 @@ TMPDIR=$root/tmp LAUNCHSAFE_ROOT=$root "$walkthroughs" --gtest_filter='Pages/Wal
 
 say "removal"
 as_root apt-get -qq purge -y launchsafe >"$folder/purge.log" 2>&1 || fail "apt-get purge"
-rm "$root/tmp/launchsafe.deb"
+rm "$root/launchsafe.deb"
 left=$(find "$root" -xdev -name '*launchsafe*')
 [[ -z $left ]] || fail "left behind: $left"
 say "passed"
