@@ -1,4 +1,4 @@
-// One row of particles in the total-Lagrangian form: eight neighbours at a time, which lie in eight
+// One row of particles in the total-Lagrangian form: a Pack of neighbours at a time, which lie in
 // neighbouring cells, read and write consecutive nodes.
 #pragma once
 
@@ -25,8 +25,8 @@ struct RowStep {
   bool first;  ///< in its row of cells: it writes the nodes' sums anew, later ones add to them
 };
 
-/// A nodal field in eight cells, at the particles' share `s` of the cells' length from the left: in the row
-/// of nodes towards the axis (0) and in the one away from it (1).
+/// A nodal field in a Pack of cells, at the particles' share `s` of the cells' length from the left: in the
+/// row of nodes towards the axis (0) and in the one away from it (1).
 struct CellField {
   Pack value[2];       ///< at s
   Pack difference[2];  ///< right less left
@@ -65,10 +65,8 @@ class NodeRow {
  public:
   NodeRow(double* sums, bool first) : sums_(sums), first_(first) {}
   void add(std::size_t i, Pack left, Pack right) {
-    const Pack before =
-        Pack(__builtin_shufflevector(carried_.lanes, right.lanes, 7, 8, 9, 10, 11, 12, 13, 14));
+    const Pack both = left + math::moved_up(carried_, right);
     carried_ = right;
-    const Pack both = left + before;
     (first_ ? both : Pack::load(sums_ + i) + both).store(sums_ + i);
   }
   /// The node after the last Pack: it ends the row where the cells fill their Packs.
@@ -119,7 +117,7 @@ inline Deformation deformation_of(const Gradient& f, const Gradient& d, Pack res
   return result;
 }
 
-/// Force of the stress in eight cells on their corners, f = -V0 P grad0 N, of one direction.
+/// Force of the stress in a Pack of cells on their corners, f = -V0 P grad0 N, of one direction.
 struct CornerForces {
   Pack along_r, along_x, hoop, hourglass;  ///< N: V0 P_iR/dr, V0 P_iX/dx, V0 P_tt (m N), k q
 

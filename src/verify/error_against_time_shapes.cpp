@@ -52,23 +52,22 @@ double even_share(int k) {
 
 constexpr int particles = 4096;
 
-/// 4096 particles of half a cell's length, anywhere in their cells: in eights one cell apart, as in a body,
+/// 4096 particles of half a cell's length, anywhere in their cells: in Packs one cell apart, as in a body,
 /// the same number in every cell along x.
 ReadError read_error(const Field& field, const mpm::Grid& grid) {
   const double half_x = 0.25 * grid.dx, half_r = 0.25 * grid.dr;
   const mpm::StencilContext context{grid, grid.origin_x, half_x, half_r, false};
-  constexpr mpm::Mask everyone{mpm::Mask::Lanes{-1, -1, -1, -1, -1, -1, -1, -1}};
   constexpr int width = static_cast<int>(math::pack_width);
-  const int eights = static_cast<int>(std::lround(length / grid.dx)) / width;
+  const int packs = static_cast<int>(std::lround(length / grid.dx)) / width;
   mechanics::RelativeError value, slope;
   for (int k = 0; k < particles / width; ++k) {
-    const double begin = grid.dx * (width * (k % eights) + even_share(k / eights));
+    const double begin = grid.dx * (width * (k % packs) + even_share(k / packs));
     const double r = half_r + (radius - 2.0 * half_r) * even_share(7 * k + 3);
     Pack x(0.0);
     for (std::size_t lane = 0; lane < math::pack_width; ++lane)
       x.set(lane, begin + grid.dx * static_cast<double>(lane));
     const mpm::GridToParticle read =
-        mpm::grid_to_particle(grid, mpm::stencil_of(context, x, Pack(r)), everyone);
+        mpm::grid_to_particle(grid, mpm::stencil_of(context, x, Pack(r)), mpm::Mask::all());
     for (std::size_t lane = 0; lane < math::pack_width; ++lane) {
       value.add(read.velocity_x[lane], field.value(x[lane], r));
       slope.add(read.rate_xx[lane], field.slope(x[lane], r));

@@ -13,7 +13,7 @@ using math::Deviator;
 using math::Pack;
 using State = materials::ViscoScramState<Pack>;
 
-/// Shear at a constant rate (1/s) for a time (s), of eight equal particles in one Pack, as the program does.
+/// Shear at a constant rate (1/s) for a time (s), of equal particles in one Pack, as the program does.
 State sheared(const ViscoScramParameters& solid, State state, double rate, double time, int steps) {
   const auto step = materials::relaxation(solid, time / steps);
   const Deviator<Pack> increment{Pack(0.0), Pack(0.0), Pack(rate * time / steps)};

@@ -83,7 +83,7 @@ class Transfer : public testing::TestWithParam<Layout> {
   Pack x_{0.0}, r_{0.0};
 };
 
-constexpr mpm::Mask everyone{mpm::Mask::Lanes{-1, -1, -1, -1, -1, -1, -1, -1}};
+const mpm::Mask everyone = mpm::Mask::all();
 
 TEST_P(Transfer, GathersWhatAScalarReferenceGathers) {
   for (auto* field :

@@ -1,5 +1,5 @@
-// Eight doubles that are computed together, and the few functions that let one template serve a double and a
-// Pack.
+// As many doubles as a register of the processor holds, computed together, and the few functions that let one
+// template serve a double and a Pack.
 //
 // Material laws are written once as `template <class Real>`: with Real = double they are tested and
 // tabulated, with Real = Pack they run inside the step. Branches become `select`, loops run `while
@@ -11,21 +11,31 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 namespace launchsafe::math {
 
+/// Doubles of a Pack: those of one register. Wider ones are compared and selected lane by lane by the
+/// compiler.
+#if defined(__AVX512F__)
 inline constexpr std::size_t pack_width = 8;
+#elif defined(__AVX__)
+inline constexpr std::size_t pack_width = 4;
+#else
+inline constexpr std::size_t pack_width = 2;
+#endif
 
 /// Lane-wise truth values; all bits set where true.
 struct Mask {
   using Lanes = std::int64_t __attribute__((vector_size(pack_width * sizeof(std::int64_t))));
   Lanes lanes;
+  static Mask all() { return {~Lanes{}}; }
   friend Mask operator&(Mask a, Mask b) { return {a.lanes & b.lanes}; }
   friend Mask operator|(Mask a, Mask b) { return {a.lanes | b.lanes}; }
   friend Mask operator!(Mask a) { return {~a.lanes}; }
 };
 
-/// Eight double-precision lanes with element-wise arithmetic.
+/// `pack_width` double-precision lanes with element-wise arithmetic.
 struct Pack {
   using Lanes = double __attribute__((vector_size(pack_width * sizeof(double))));
   Lanes lanes;
@@ -34,7 +44,7 @@ struct Pack {
   Pack(double value) : lanes(value - Lanes{}) {}  // NOLINT: a scalar broadcasts, as in a formula
   explicit Pack(Lanes value) : lanes(value) {}
 
-  /// Reads eight consecutive doubles; no alignment is required.
+  /// Reads consecutive doubles; no alignment is required.
   static Pack load(const double* source) {
     Pack result;
     std::memcpy(&result.lanes, source, sizeof(Lanes));
@@ -58,6 +68,15 @@ struct Pack {
   friend Mask operator>=(Pack a, Pack b) { return {a.lanes >= b.lanes}; }
 };
 
+/// `work` of all lane numbers at once, each a constant of its own type.
+template <class Work>
+constexpr auto each_lane(Work work) {
+  return [&]<std::size_t... lane>(std::index_sequence<lane...>) {
+    return work(std::integral_constant<std::size_t, lane>{}...);
+  }
+  (std::make_index_sequence<pack_width>{});
+}
+
 // ---- the shared vocabulary: the same names for double and Pack
 // --------------------------------------------------
 
@@ -68,9 +87,8 @@ inline Pack select(Mask condition, Pack yes, Pack no) { return Pack(condition.la
 inline std::uint64_t bytes_of(Mask condition) {
   using Bytes = std::int8_t __attribute__((vector_size(pack_width)));
   const Bytes narrow = __builtin_convertvector(condition.lanes, Bytes);
-  std::uint64_t bytes;
-  static_assert(sizeof(bytes) == sizeof(narrow));
-  std::memcpy(&bytes, &narrow, sizeof(bytes));
+  std::uint64_t bytes = 0;
+  std::memcpy(&bytes, &narrow, sizeof(narrow));
   return bytes;
 }
 inline bool any(bool condition) { return condition; }
@@ -96,17 +114,33 @@ inline double abs(double x) { return std::abs(x); }
 inline Pack abs(Pack x) { return max(x, -x); }
 
 inline double sqrt(double x) { return std::sqrt(x); }
-/// Written out rather than as a loop, which stays one where the compiler favours size: this is one
+/// By `each_lane` rather than a loop, which stays one where the compiler favours size: this is one
 /// instruction.
 inline Pack sqrt(Pack x) {
-  using std::sqrt;
-  return Pack(Pack::Lanes{sqrt(x[0]), sqrt(x[1]), sqrt(x[2]), sqrt(x[3]), sqrt(x[4]), sqrt(x[5]), sqrt(x[6]),
-                          sqrt(x[7])});
+  return each_lane([x](auto... lane) { return Pack(Pack::Lanes{std::sqrt(x[lane])...}); });
 }
 
-/// Sum over the lanes, pairwise, so that the order of addition is fixed.
+/// 0, 1, 2, ... in the lanes.
+inline constexpr Mask::Lanes lane_numbers =
+    each_lane([](auto... lane) { return Mask::Lanes{static_cast<std::int64_t>(lane)...}; });
+
+/// The last lane of `before`, then all lanes of `x` but its last.
+inline Pack moved_up(Pack before, Pack x) {
+  return each_lane([&](auto... lane) {
+    return Pack(__builtin_shufflevector(before.lanes, x.lanes, (pack_width - 1 + lane)...));
+  });
+}
+
+/// Sum over the lanes, pairwise, so that the order of addition is fixed on a processor.
+template <std::size_t count = pack_width>
+double sum(Pack x, std::size_t first = 0) {
+  if constexpr (count == 1) {
+    return x[first];
+  } else {
+    return sum<count / 2>(x, first) + sum<count / 2>(x, first + count / 2);
+  }
+}
 inline double sum(double x) { return x; }
-inline double sum(Pack x) { return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7])); }
 inline double largest(double x) { return x; }
 inline double largest(Pack x) {
   double result = x[0];

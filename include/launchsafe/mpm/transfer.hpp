@@ -1,9 +1,9 @@
 // Particle-to-grid and grid-to-particle transfer of a Pack of particles.
 //
-// Eight neighbouring particles mostly lie in eight consecutive cells, so node values are read and written as
-// consecutive Packs. Lanes for which that holds with the same offset share a pass; after cell crossings a
-// Pack takes two passes, in the worst case eight. One path, no scalar fallback, and an order of addition that
-// is fixed.
+// Neighbouring particles mostly lie in consecutive cells, so node values are read and written as consecutive
+// Packs. Lanes for which that holds with the same offset share a pass; after cell crossings a
+// Pack takes two passes, in the worst case one a lane. One path, no scalar fallback, and an order of addition
+// that is fixed.
 #pragma once
 
 #include "launchsafe/mpm/grid.hpp"
@@ -25,7 +25,7 @@ struct StencilContext {
   bool axisymmetric;
 };
 
-/// Weights of eight particles, and the first node of each.
+/// Weights of a Pack of particles, and the first node of each.
 struct Stencil {
   AxialWeights<Pack> axial;
   RadialWeights<Pack> radial;
@@ -48,8 +48,8 @@ inline CellPosition locate(Pack coordinate, int lowest, int highest) {
   return {truncate(select(inside, coordinate, low)), inside};
 }
 
-/// Stencils of eight particles. A Pack may touch seven nodes before and after those of its particles, hence
-/// the margin.
+/// Stencils of a Pack of particles. It may touch `pack_width` - 1 nodes before and after those of its
+/// particles, hence the margin.
 inline Stencil stencil_of(const StencilContext& context, Pack x, Pack r) {
   constexpr int margin = static_cast<int>(math::pack_width);
   const Grid& grid = context.grid;
@@ -77,8 +77,7 @@ inline Stencil stencil_of(const StencilContext& context, Pack x, Pack r) {
       stencil.radial.hoop[k] = Pack(0.0);
     }
   }
-  constexpr Mask::Lanes lane = {0, 1, 2, 3, 4, 5, 6, 7};
-  stencil.first = radial.cell * static_cast<std::int64_t>(grid.nodes_x) + axial.cell - lane;
+  stencil.first = radial.cell * static_cast<std::int64_t>(grid.nodes_x) + axial.cell - math::lane_numbers;
   stencil.inside = axial.inside & radial.inside;
   return stencil;
 }
@@ -97,7 +96,7 @@ void for_each_run(const Stencil& stencil, Mask lanes, Pass&& pass) {
   }
 }
 
-/// Grid-to-particle interpolation at eight particles.
+/// Grid-to-particle interpolation at a Pack of particles.
 struct GridToParticle {
   Pack velocity_x{0.0}, velocity_r{0.0};                      ///< m/s
   Pack velocity_increment_x{0.0}, velocity_increment_r{0.0};  ///< m/s
@@ -162,7 +161,7 @@ inline GridToParticle grid_to_particle(const Grid& grid, const Stencil& stencil,
   return result;
 }
 
-/// Particle-to-grid contribution of eight particles.
+/// Particle-to-grid contribution of a Pack of particles.
 struct ParticleToGrid {
   Pack mass, velocity_x, velocity_r;                ///< kg, m/s
   Pack volume;                                      ///< m3 per radian, or per metre of depth
