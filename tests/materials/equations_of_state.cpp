@@ -74,13 +74,13 @@ TEST(Jwl, LargeStepOfOneLaneLeavesTheOthersAlone) {
   using launchsafe::math::Pack;
   const JwlParameters m = unreacted_composition_b();
   Pack v1(0.999);
-  v1.set(3, 0.3);
+  v1.set(1, 0.3);
   const auto state = jwl_compress(m, Pack(1.0), Pack(0.0), Pack(m.initial_energy), v1);
   const auto small = jwl_compress(m, Pack(1.0), Pack(0.0), Pack(m.initial_energy), Pack(0.999));
   EXPECT_EQ(state.pressure[0], small.pressure[0]);
-  EXPECT_EQ(state.energy[7], small.energy[7]);
+  EXPECT_EQ(state.energy[0], small.energy[0]);
   const auto large = jwl_compress(m, 1.0, 0.0, m.initial_energy, 0.3);
-  EXPECT_NEAR(state.pressure[3] / large.pressure, 1.0, 1e-12);
+  EXPECT_NEAR(state.pressure[1] / large.pressure, 1.0, 1e-12);
 }
 
 TEST(MieGruneisen, BulkModulusIsTheSlopeOfTheAdiabat) {

@@ -57,8 +57,8 @@ TEST(PackExp, EndsAreZeroInfinityAndNotANumber) {
   EXPECT_EQ(math::exp(Pack(-pack_infinity))[0], 0.0);
   EXPECT_EQ(math::exp(Pack(1000.0))[0], pack_infinity);
   EXPECT_EQ(math::exp(Pack(pack_infinity))[0], pack_infinity);
-  EXPECT_EQ(math::exp(Pack(0.0))[3], 1.0);
-  EXPECT_TRUE(std::isnan(math::exp(Pack(std::nan("")))[7]));
+  EXPECT_EQ(math::exp(Pack(0.0))[1], 1.0);
+  EXPECT_TRUE(std::isnan(math::exp(Pack(std::nan("")))[math::pack_width - 1]));
 }
 
 TEST(PackLog, AgreesWithTheLibraryToTwoUlp) {

@@ -193,12 +193,19 @@ TEST_P(Transfer, ReadsALinearFieldExactly) {
 
 TEST_P(Transfer, FlagsParticlesOffTheGrid) {
   place();
-  x_.set(2, grid_.origin_x - 1.0);
-  x_.set(3, std::nan(""));
-  r_.set(5, 1.0);
-  const mpm::Stencil stencil = mpm::stencil_of(context(), x_, r_);
-  for (std::size_t lane = 0; lane < math::pack_width; ++lane)
-    EXPECT_EQ(stencil.inside.lanes[lane] != 0, lane != 2 && lane != 3 && lane != 5) << lane;
+  const auto expect_only_lane_1_off = [this](const Pack& x, const Pack& r) {
+    const mpm::Stencil stencil = mpm::stencil_of(context(), x, r);
+    for (std::size_t lane = 0; lane < math::pack_width; ++lane)
+      EXPECT_EQ(stencil.inside.lanes[lane] != 0, lane != 1) << lane;
+  };
+  for (const double off : {grid_.origin_x - 1.0, std::nan("")}) {
+    Pack x = x_;
+    x.set(1, off);
+    expect_only_lane_1_off(x, r_);
+  }
+  Pack r = r_;
+  r.set(1, 1.0);
+  expect_only_lane_1_off(x_, r);
 }
 
 INSTANTIATE_TEST_SUITE_P(Layouts, Transfer,
