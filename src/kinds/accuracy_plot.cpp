@@ -34,6 +34,14 @@ void add_row(const AccuracyRow& row, double x, Series& series) {
   series.upper.push_back(error);
 }
 
+constexpr int grey = 7;
+
+/// The look of the named series of a number: none has the colour and the mark of another of the first 56.
+void give_look(int number, Series& series) {
+  series.colour = number % grey;
+  series.mark = static_cast<Mark>((number % grey + number / grey) % 8);
+}
+
 Series bars(std::string label, int colour, Mark mark) {
   Series series{std::move(label), {}, {}, Style::vertical_bars};
   series.colour = colour;
@@ -123,9 +131,9 @@ Plot error_plot(const AccuracyResult& result) {
   Plot plot = plot_of_errors(result, "Error of T max against processor time",
                              {"processor time of a run [s]", Scale::logarithmic});
   Series front{"Pareto front", {}, {}, Style::steps};
-  front.colour = 7;
-  Series meshes = bars("reference meshes", 7, Mark::open_square);
-  Series settings = bars("other settings", 7, Mark::circle);
+  front.colour = grey;
+  Series meshes = bars("reference meshes", grey, Mark::open_square);
+  Series settings = bars("other settings", grey, Mark::circle);
   std::vector<Series> named;  // one point each, so that the legend names them and no label covers others
   std::vector<std::pair<double, double>> best;
   for (const AccuracyRow& row : result.rows) {
@@ -133,9 +141,9 @@ Plot error_plot(const AccuracyResult& result) {
     const double time = row.measured.processor_time;
     if (row.on_front) best.emplace_back(time, row.error_to_go_by());
     if (row.on_front || row.baseline) {
-      const auto look = static_cast<int>(named.size() % 7);
       named.push_back(
-          bars(row.baseline ? "as in the scene" : label_of_row(result, row), look, static_cast<Mark>(look)));
+          {row.baseline ? "as in the scene" : label_of_row(result, row), {}, {}, Style::vertical_bars});
+      give_look(static_cast<int>(named.size()) - 1, named.back());
       add_row(row, time, named.back());
       if (!row.reference) continue;
     }
@@ -157,12 +165,13 @@ Plot mesh_plot(const AccuracyResult& result) {
       plot_of_errors(result, "Error of T max against the mesh", {"cell size [mm]", Scale::logarithmic});
   plot.x.tics = mesh_tics(result);
   const auto series = mesh_series(result);
-  Series others = bars("other settings", 7, Mark::circle);
+  Series others = bars("other settings", grey, Mark::circle);
   int look = 0;
   for (const auto& [name, rows] : series) {
     const bool is_named = rows.size() > 1 || series.size() <= most_named;
-    Series line{"", {}, {}, Style::line}, marks = bars(warned(rows, name.empty() ? "as in the scene" : name),
-                                                       look % 7, static_cast<Mark>(look % 7));
+    Series line{"", {}, {}, Style::line},
+        marks{warned(rows, name.empty() ? "as in the scene" : name), {}, {}, Style::vertical_bars};
+    give_look(look, marks);
     line.colour = marks.colour;
     for (const AccuracyRow* row : rows) add_row(*row, 1e3 * row->measured.cell, is_named ? marks : others);
     if (!is_named) continue;
@@ -198,7 +207,8 @@ Plot launch_plot(const AccuracyResult& result) {
                 {},
                 {},
                 is_named ? Style::line_and_points : Style::line};
-    line.colour = is_named ? look++ : 7;
+    line.colour = grey;
+    if (is_named) give_look(look++, line);
     for (std::size_t i = 0; i < times.size(); ++i) {
       const double bound = bound_against(result.reference->at_times[i], row.measured.at_times[i]);
       line.x.push_back(1e3 * times[i]);

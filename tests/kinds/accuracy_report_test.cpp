@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace {
 
@@ -143,6 +145,23 @@ TEST(AccuracyReport, ErrorsStandAgainstTheMeshAndOverTheLaunch) {
   EXPECT_EQ(line->x, std::vector<double>{10.0}) << "ms";
   EXPECT_EQ(line->y.front(),
             bound_against(result.reference->at_times.front(), result.rows[2].measured.at_times.front()));
+}
+
+TEST(AccuracyReport, NoTwoNamedSettingsLookAlike) {
+  AccuracyResult result = made_accuracy();
+  result.rows.resize(20, result.rows[2]);
+  for (AccuracyRow& row : result.rows) row.on_front = true;
+  for (const report::Plot& plot : {kinds::error_plot(result), kinds::launch_plot(result)}) {
+    std::set<std::pair<int, report::Mark>> looks;
+    std::size_t named = 0;
+    for (const report::Series& series : plot.series) {
+      if (!series.mark || series.label == "reference meshes") continue;
+      ++named;
+      looks.emplace(*series.colour, *series.mark);
+    }
+    EXPECT_EQ(named, 20u);
+    EXPECT_EQ(looks.size(), named);
+  }
 }
 
 }  // namespace
