@@ -22,6 +22,17 @@ namespace {
 
 Judgement indeterminate(std::string reason) { return {Verdict::indeterminate, std::move(reason)}; }
 
+/// A difference of temperatures (K) to the digits that count, never as a power of ten.
+std::string kelvin(double value, int digits) {
+  return std::abs(value) < std::pow(10.0, digits) ? fmt::format("{:.{}g} K", value, digits)
+                                                  : fmt::format("{:.0f} K", value);
+}
+
+std::string margin_text(const char* relation, const Evidence& evidence) {
+  return fmt::format("margin {} {} {}", kelvin(evidence.margin, 3), relation,
+                     kelvin(evidence.uncertainty, 2));
+}
+
 /// The distance of a gap that did not ignite to the critical gap.
 Judgement judge_distance(const Evidence& evidence, const CriticalGap& critical) {
   switch (critical.kind) {
@@ -30,8 +41,7 @@ Judgement judge_distance(const Evidence& evidence, const CriticalGap& critical) 
     case CriticalGapKind::all_ignite:
       return indeterminate("no ignition here, but at smaller gaps");
     case CriticalGapKind::all_safe:
-      return {Verdict::safe, fmt::format("margin {:.3g} K over uncertainty {:.2g} K", evidence.margin,
-                                         evidence.uncertainty)};
+      return {Verdict::safe, margin_text("over uncertainty", evidence)};
     case CriticalGapKind::value:
       break;
   }
@@ -41,16 +51,14 @@ Judgement judge_distance(const Evidence& evidence, const CriticalGap& critical) 
     return indeterminate(fmt::format("{:.3g} cm from the critical gap, whose uncertainty is {:.2g} cm",
                                      100.0 * distance, 100.0 * critical.uncertainty));
   }
-  return {Verdict::safe,
-          fmt::format("margin {:.3g} K over uncertainty {:.2g} K", evidence.margin, evidence.uncertainty)};
+  return {Verdict::safe, margin_text("over uncertainty", evidence)};
 }
 
 Judgement judge_sound(const Evidence& evidence, const CriticalGap& critical) {
   if (evidence.ignited) return {Verdict::unsafe, "ignition"};
   if (!evidence.optimistic.empty()) return indeterminate(evidence.optimistic);
   if (!(evidence.margin > evidence.uncertainty)) {
-    return indeterminate(fmt::format("margin {:.3g} K within the uncertainty, {:.2g} K", evidence.margin,
-                                     evidence.uncertainty));
+    return indeterminate(margin_text("within the uncertainty,", evidence));
   }
   return judge_distance(evidence, critical);
 }

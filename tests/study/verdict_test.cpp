@@ -37,6 +37,13 @@ TEST(Verdict, AMarginWithinTheUncertaintyIsIndeterminate) {
   EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate);
 }
 
+TEST(Verdict, ReasonsHaveNoPowersOfTen) {
+  Evidence evidence = calm();
+  evidence.margin = 1034.5;
+  evidence.uncertainty = 138.2;
+  EXPECT_EQ(judge(evidence, critical_at(4e-4, 1e-6)).reason, "margin 1034 K over uncertainty 138 K");
+}
+
 TEST(Verdict, ADistanceWithinTheUncertaintyIsIndeterminate) {
   const Judgement judged = judge(calm(), critical_at(3.95e-4, 2e-4));
   EXPECT_EQ(judged.verdict, Verdict::indeterminate);
