@@ -1,6 +1,6 @@
 #include "xdmf.hpp"
 
-#include "case_layout.hpp"
+#include "snapshot_layout.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,128 @@
+#include "surface_keys.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace launchsafe::scene {
+namespace {
+
+std::vector<Key<Surface>> gap_keys() {
+  return {
+      always_plausible(list_key("thickness", Dimension::length, between(0, 0.01), Standing::paper,
+                                "Gaps between charge and base; all are judged on one run of the mechanics.",
+                                &Surface::gaps),
+                       "each gap is judged for itself, and a larger one is hotter"),
+      always_plausible(
+          word_key("pressure", Standing::assumed,
+                   "What compresses the air: the charge's bottom stress or the chamber.",
+                   {{"charge-bottom", AirPressure::charge_bottom}, {"chamber", AirPressure::chamber}},
+                   &Surface::air_pressure),
+          "both are readings of the published model"),
+      always_plausible(
+          word_key(
+              "air", Standing::paper,
+              "Air that stays on its adiabat, air that loses what the skin gains, or a film that conducts "
+              "into charge and base, the optimistic bound; in the film no exchange, skin or air density "
+              "counts.",
+              {{"reservoir", AirModel::reservoir}, {"balance", AirModel::balance}, {"film", AirModel::film}},
+              &Surface::air_model),
+          "all are models of the air; constants are calibrated for one of them"),
+      plausibly(
+          word_key("exchange", Standing::derived,
+                   "Heat exchange as a rate, or the printed share in each time step, which depends on it.",
+                   {{"rate", Exchange::rate}, {"per-step", Exchange::per_step}}, &Surface::exchange),
+          std::vector<std::string>{"rate"}, "the printed share in each step depends on the step"),
+      plausibly(number_key("skin_thickness", Dimension::length, above_to(0, 0.01), Standing::paper,
+                           "Thickness of the charge's skin that the air heats.", &Surface::skin_thickness),
+                between(3e-5, 1.5e-4), "heat goes 40 um deep in a launch, and the published skin is 0.1 mm"),
+      plausibly(number_key("exchange_time", Dimension::time, above_to(0, 100), Standing::calibrated,
+                           "Time constant of the exchange between air and skin.", &Surface::exchange_time),
+                between(1.5e-4, 6e-4), "published temperatures ask for 0.3 ms, whatever mesh and closure"),
+  };
+}
+
+std::vector<Key<materials::AirParameters>> air_keys() {
+  using materials::AirParameters;
+  return {
+      plausibly(number_key("density", Dimension::density, between(0.01, 100), Standing::literature,
+                           "Density of the air before launch.", &AirParameters::density),
+                between(0.6, 1.7), "air has 1.2 kg/m3 at the ground"),
+      plausibly(number_key("specific_heat", Dimension::specific_heat, between(100, 1e4), Standing::literature,
+                           "Specific heat of the air.", &AirParameters::specific_heat),
+                between(950, 1.2e3), "air has 1.00 kJ/(kg K), at 1000 K 1.14"),
+      plausibly(number_key("heat_ratio", Dimension::number, above_to(1, 1.67), Standing::paper,
+                           "Adiabatic exponent of the air.", &AirParameters::heat_ratio),
+                between(1.3, 1.42), "air has 1.40, at 2000 K 1.30"),
+      plausibly(number_key("temperature", Dimension::temperature, between(200, 500), Standing::paper,
+                           "Temperature of the air before launch; follows initial_temperature unless given.",
+                           &AirParameters::initial_temperature),
+                between(219, 345), "shells are stored and fired from -54 to 71 degC"),
+      plausibly(number_key("pressure", Dimension::pressure, above_to(0, 10e6), Standing::assumed,
+                           "Pressure of the air before launch.", &AirParameters::initial_pressure),
+                between(5e4, 1.2e5), "it lies between those at 5500 m of altitude and at the ground"),
+  };
+}
+
+const std::vector<std::pair<std::string, FrictionClosure>>& closure_words() {
+  static const std::vector<std::pair<std::string, FrictionClosure>> words{
+      {"total strain rate", FrictionClosure::total_strain_rate},
+      {"inelastic", FrictionClosure::inelastic},
+      {"none", FrictionClosure::none}};
+  return words;
+}
+
+std::vector<Key<Surface>> friction_keys() {
+  return {
+      plausibly(formerly(word_key("closure", Standing::assumed,
+                                  "Which strain rate the sliding friction acts on: total, inelastic or none. "
+                                  "Files may still say \"literal\" for the total strain rate.",
+                                  closure_words(), &Surface::friction),
+                         {"literal", "total strain rate"}),
+                std::vector<std::string>{"total strain rate", "inelastic"},
+                "without friction heat the published temperatures are missed by 80 K"),
+      plausibly(
+          number_key("localisation", Dimension::number, between(0, 1e6), Standing::calibrated,
+                     "Crack spacing over the thickness of the sliding layer: factor on the friction heat.",
+                     &Surface::localisation),
+          between(250, 2.5e3),
+          "published temperatures ask for 1100 to 2000, however the shell holds the charge"),
+  };
+}
+
+std::vector<Key<Surface>> station_keys() {
+  return {
+      plausibly(number_key("width", Dimension::length, above_to(0, 1), Standing::assumed,
+                           "Width of the stations that tile the charge's bottom, rounded so that a whole "
+                           "number of them does; skin temperatures and verdicts are theirs.",
+                           &Surface::station_width),
+                between(2e-3, 0.01),
+                "published points are 5 mm apart, a wider station hides a hot place, and beside the wall the "
+                "stress of a narrower one grows without bound"),
+      plausibly(number_key("depth", Dimension::length, above_to(0, 1), Standing::assumed,
+                           "Depth from the bottom over which stations average pressure and strain.",
+                           &Surface::station_depth),
+                between(2e-3, 0.01),
+                "a deeper station averages what is not near the bottom, and beside the wall the stress of a "
+                "shallower one grows without bound"),
+  };
+}
+
+}  // namespace
+
+std::vector<Key<Scene>> surface_keys() {
+  using keys::keys_of_part;
+  return keys::joined({keys_of_part("gap.", &Scene::surface, gap_keys()),
+                       keys_of_part<Scene>(
+                           "gap.air_", [](auto& scene) -> auto& { return scene.surface.air; }, air_keys()),
+                       keys_of_part("friction.", &Scene::surface, friction_keys()),
+                       keys_of_part("station.", &Scene::surface, station_keys())});
+}
+
+std::string_view word_of(FrictionClosure closure) {
+  const auto& words = closure_words();
+  return std::find_if(words.begin(), words.end(), [=](const auto& each) { return each.second == closure; })
+      ->first;
+}
+
+}  // namespace launchsafe::scene

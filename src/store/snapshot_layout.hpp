@@ -1,0 +1,188 @@
+// Where everything is in the group of a snapshot.
+#pragma once
+
+#include "archive_parts.hpp"
+#include "launchsafe/run/case_result.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace launchsafe::store {
+
+/// Whether files hold a quantity of snapshots always, or where it was recorded: older ones do without.
+enum class Kept { always, where_recorded };
+
+/// A quantity that snapshots may hold of every particle.
+struct ParticleField {
+  const char* name;
+  std::vector<double> run::Snapshot::*values;
+  const char* units;
+  const char* description;
+  Kept kept = Kept::always;
+};
+inline constexpr std::array particle_fields{
+    ParticleField{"density", &run::Snapshot::density, "kg/m3", "density"},
+    ParticleField{"pressure", &run::Snapshot::pressure, "Pa", "pressure, compression positive"},
+    ParticleField{"von_mises", &run::Snapshot::von_mises, "Pa", "von Mises stress"},
+    ParticleField{
+        "deviator_rr", &run::Snapshot::deviator_rr, "Pa",
+        "radial stress deviator; the stress, positive in tension, is deviator_rr - pressure; of the "
+        "hoop -(deviator_rr + deviator_xx) - pressure"},
+    ParticleField{"deviator_xx", &run::Snapshot::deviator_xx, "Pa",
+                  "axial stress deviator; the stress, positive in tension, is deviator_xx - pressure"},
+    ParticleField{"deviator_rx", &run::Snapshot::deviator_rx, "Pa", "shear stress"},
+    ParticleField{"temperature", &run::Snapshot::temperature, "K", "temperature"},
+    ParticleField{"crack_radius", &run::Snapshot::crack_radius, "m", "crack radius", Kept::where_recorded},
+    ParticleField{"plastic_strain", &run::Snapshot::plastic_strain, "1", "equivalent plastic strain",
+                  Kept::where_recorded},
+    ParticleField{"half_length_x", &run::Snapshot::half_length_x, "m",
+                  "of the particle's cell at present, axial", Kept::where_recorded},
+    ParticleField{"half_length_r", &run::Snapshot::half_length_r, "m",
+                  "of the particle's cell at present, radial", Kept::where_recorded},
+    ParticleField{"burnt_share", &run::Snapshot::burnt_share, "1", "burnt share of the particle's mass",
+                  Kept::where_recorded},
+};
+
+/// Whether snapshots hold the cells of their particles.
+inline bool has_cells(const run::Snapshot& snapshot) {
+  return !snapshot.x.empty() && snapshot.half_length_x.size() == snapshot.x.size() &&
+         snapshot.half_length_r.size() == snapshot.x.size();
+}
+
+/// The corners of the particles' cells, once around each, as rows of x and r.
+inline std::vector<double> corners_of(const run::Snapshot& snapshot) {
+  std::vector<double> corners;
+  corners.reserve(8 * snapshot.x.size());
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
+    const double left = snapshot.x[i] - snapshot.half_length_x[i],
+                 right = snapshot.x[i] + snapshot.half_length_x[i],
+                 inside = snapshot.r[i] - snapshot.half_length_r[i],
+                 outside = snapshot.r[i] + snapshot.half_length_r[i];
+    corners.insert(corners.end(), {left, inside, right, inside, right, outside, left, outside});
+  }
+  return corners;
+}
+
+/// The stresses of all particles, positive in tension, as rows of a symmetric tensor: xx, xr, 0, rr, 0 and
+/// the hoop stress.
+inline std::vector<double> stresses_of(const run::Snapshot& snapshot) {
+  std::vector<double> rows;
+  rows.reserve(6 * snapshot.x.size());
+  for (std::size_t i = 0; i < snapshot.x.size(); ++i) {
+    const double xx = snapshot.deviator_xx[i], rr = snapshot.deviator_rr[i], p = snapshot.pressure[i];
+    rows.insert(rows.end(), {xx - p, snapshot.deviator_rx[i], 0.0, rr - p, 0.0, -(xx + rr) - p});
+  }
+  return rows;
+}
+/// Whether snapshots hold all stresses of their particles.
+inline bool has_stresses(const run::Snapshot& snapshot) {
+  const std::size_t count = snapshot.x.size();
+  return count > 0 && snapshot.deviator_xx.size() == count && snapshot.deviator_rr.size() == count &&
+         snapshot.deviator_rx.size() == count && snapshot.pressure.size() == count;
+}
+
+/// 0, 1, 2, ...: corners that each belong to one cell alone.
+inline std::vector<std::int64_t> counted_up(std::size_t count) {
+  std::vector<std::int64_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+/// The pairs of neighbours in a chain of nodes.
+inline std::vector<std::int64_t> links_of(std::size_t nodes) {
+  std::vector<std::int64_t> links;
+  for (std::size_t i = 1; i < nodes; ++i)
+    links.insert(links.end(), {static_cast<std::int64_t>(i) - 1, static_cast<std::int64_t>(i)});
+  return links;
+}
+
+/// The stations' part of the charge's bottom, each a line with the skin temperatures of all gaps on it.
+template <class Archive, class Value>
+void lay_out_bottom(Archive& archive, Value& snapshot) {
+  auto &x = snapshot.bottom_x, &r = snapshot.bottom_r;
+  std::vector<double> middles;
+  for (std::size_t i = 0; i + 1 < r.size(); i += 2) middles.push_back(0.5 * (r[i] + r[i + 1]));
+  archive.array("r", middles, {"m", "of the stations' middles at present"});
+  const std::size_t stations = middles.size();
+  plane_vectors(archive, "points", x, r, 2 * stations,
+                {"m", "axial, radial, 0; both ends of every station at present, station after station"});
+  if constexpr (!Archive::reading)
+    archive.array("lines", counted_up(2 * stations), {"1", "rows of points, two a station"});
+  list(archive, "gaps", "The skin of one gap, by station", snapshot.skins, [&](auto& skin) {
+    archive.value("gap", skin.gap, {"m", "thickness of the gap"});
+    history(archive, "temperature", skin.temperature, stations,
+            {"K", "temperature of the skin, which holds the heat of its sliding layers"});
+    history(archive, "reaction_degree", skin.reaction_degree, stations, {"1", "of the skin"});
+  });
+}
+
+template <class Archive, class Value>
+void lay_out_face(Archive& archive, Value& face) {
+  archive.value("body", face.body, {"none", "the body that touches the charge"});
+  archive.array(
+      "slip", face.slip,
+      {"m", "of the body against the charge since the start: along x on a side, along r on an end"});
+  const std::size_t nodes = face.slip.size();
+  plane_vectors(archive, "position", face.x, face.r, nodes, {"m", "axial, radial, 0; of the charge's face"});
+  history(archive, "contact_pressure", face.pressure, nodes, {"Pa", "normal traction, compression positive"});
+  history(archive, "shear", face.shear, nodes, {"Pa", "traction on the body in the direction of the slip"});
+  history(archive, "opening", face.opening, nodes, {"m", "by which the faces have parted"});
+  if constexpr (!Archive::reading)
+    archive.array("lines", links_of(nodes), {"1", "rows of the position, two a line"});
+}
+
+/// The words of the events of a snapshot, "a, b".
+template <class Archive, class Value>
+void lay_out_events(Archive& archive, Value& snapshot) {
+  std::vector<std::string> words;
+  for (const scene::Event event : snapshot.events) words.push_back(scene::word_of(event));
+  archive.array("events", words, {"none", "events that it is of; none where it is of a time alone"});
+  if constexpr (Archive::reading) {
+    const std::vector<std::string>& known = scene::event_words();
+    for (const std::string& word : words) {
+      const auto found = std::find(known.begin(), known.end(), word);
+      if (found == known.end())
+        return archive.fail("events has '" + word + "', which this program does not know");
+      snapshot.events.push_back(static_cast<scene::Event>(found - known.begin()));
+    }
+  }
+}
+
+template <class Archive, class Value>
+void lay_out_snapshot(Archive& archive, Value& snapshot) {
+  archive.value("time", snapshot.time, {"s", "time of the snapshot"});
+  if (is_stored(archive, "events")) lay_out_events(archive, snapshot);
+  if (is_recorded(archive, "bottom", snapshot.bottom_x))
+    archive.group("bottom", "The charge's bottom", [&] { lay_out_bottom(archive, snapshot); });
+  if (is_recorded(archive, "faces", snapshot.faces))
+    list(archive, "faces", "A face of the charge on which a body can slide", snapshot.faces,
+         [&](auto& face) { lay_out_face(archive, face); });
+  std::vector<std::int64_t> body(snapshot.body.begin(), snapshot.body.end());
+  archive.array("body", body, {"1", "index of the body, in the order of scene/bodies"});
+  if constexpr (Archive::reading) snapshot.body.assign(body.begin(), body.end());
+  const std::size_t count = body.size();
+  plane_vectors(archive, "position", snapshot.x, snapshot.r, count, {"m", "axial, radial, 0"});
+  plane_vectors(archive, "velocity", snapshot.velocity_x, snapshot.velocity_r, count,
+                {"m/s", "axial, radial, 0; relative to the frame"});
+  for (const ParticleField& field : particle_fields) {
+    auto& values = snapshot.*field.values;
+    if (field.kept == Kept::always || is_recorded(archive, field.name, values))
+      history(archive, field.name, values, count, {field.units, field.description});
+  }
+  if constexpr (!Archive::reading) {
+    if (has_stresses(snapshot))
+      archive.table("stress", stresses_of(snapshot), {count, 6},
+                    {"Pa", "positive in tension: xx, xr, 0, rr, 0, hoop"});
+    if (!has_cells(snapshot)) return;
+    archive.table("corners", corners_of(snapshot), {4 * count, 2},
+                  {"m", "axial, radial; the four corners of every particle's cell, once around"});
+    archive.array("cells", counted_up(4 * count),
+                  {"1", "rows of corners, four a cell, as visualisation programs want them"});
+  }
+}
+
+}  // namespace launchsafe::store
