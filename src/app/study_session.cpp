@@ -1,6 +1,6 @@
 #include "study_session.hpp"
 
-#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/forecast.hpp"
@@ -26,17 +26,6 @@ std::string digest_of(const std::vector<kinds::Failure>& failures) {
 
 std::string runs(std::size_t count) {
   return fmt::format("{} mechanical run{}", count, count == 1 ? "" : "s");
-}
-
-/// "re-used 3 mechanical runs, ran 12 ...": runs, rate, wall time.
-std::string timing_text(const study::Timing& timing) {
-  std::string text = fmt::format("re-used {} mechanical run{}, ran {}", timing.reused,
-                                 timing.reused == 1 ? "" : "s", timing.runs);
-  if (timing.run_time > 0)
-    text += fmt::format(" at {} particle updates per second and core",
-                        report::scientific(timing.updates_per_second(), 2));
-  return text + fmt::format("; {} of wall time with {} job{}", report::duration(timing.wall_time),
-                            timing.jobs, timing.jobs == 1 ? "" : "s");
 }
 
 /// Whether the report in the folder says what a new one would. A study's results follow from its input, but
@@ -133,7 +122,7 @@ ExitCode StudySession::deliver_shard(const kinds::StudyOutcome& result, const st
   const std::vector<kinds::Failure>& failures = result.failures;
   console_.print_json(shard_json(result, shard, failures));
   console_.failures(failures);
-  console_.remark(timing_text(result.timing));
+  console_.remark(report::timing_text(result.timing));
   console_.remark(fmt::format(
       "shard {}/{} is done{}; once all are: {} (then the folders of shards that have one of their own)",
       shard.index, shard.count, failures.empty() ? "" : fmt::format(", {} failed", failures.size()),
@@ -146,7 +135,7 @@ ExitCode StudySession::deliver_whole(const kinds::StudyOutcome& result) {
   console_.print_text(report::to_text(result.report, request_.folder));
   if (console_.json()) console_.print_json(nlohmann::ordered_json::parse(result.report.json));
   console_.failures(failures);
-  console_.remark(timing_text(result.timing));
+  console_.remark(report::timing_text(result.timing));
   const ExitCode written = write_files(result, failures);
   return written == ExitCode::done ? exit_code_of(failures, result.indeterminate) : written;
 }

@@ -239,7 +239,7 @@ Report report_of(const AccuracyResult& result) {
                             ReportTable{point_table(result), "points.csv", "points"}})
     report.items.push_back(std::move(table));
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
-  report.items.push_back(Statement{timing_text(result.timing) + "\n"});
+  report.items.push_back(Statement{timing_sentence(result.timing)});
   report.json = study_json(result.study, report, {{"timing", timing_json(result.timing)}});
   return report;
 }

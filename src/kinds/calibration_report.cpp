@@ -301,7 +301,7 @@ Report report_of(const CalibrationResult& result) {
   report.items.push_back(ReportTable{placement_table(result), "", "placements", Shown::file});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
   report.items.push_back(ReportTable{run_table(result), "", "runs", Shown::page});
-  report.items.push_back(Statement{timing_text(result.timing) + "\n"});
+  report.items.push_back(Statement{timing_sentence(result.timing)});
   report.json = study_json(result.study, report,
                            {{"recommendation", recommendation_json(result)},
                             {"in_scene", in_scene_json(result)},

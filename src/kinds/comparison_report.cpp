@@ -241,7 +241,7 @@ Report report_of(const ComparisonResult& result) {
   report.items.push_back(Statement{uncertainty_remark(result.study) + "\n"});
   report.items.push_back(Statement{station_note(result.study) + "\n"});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
-  report.items.push_back(Statement{timing_text(result.timing) + "\n"});
+  report.items.push_back(Statement{timing_sentence(result.timing)});
   report.json = study_json(result.study, report,
                            {{"axes", axes_json(result.study.study)},
                             {"early_time_ms", 1e3 * result.study.study.early_time},

@@ -184,7 +184,7 @@ Report report_of(const CriticalGapResult& result) {
     report.items.push_back(ReportTable{.table = std::move(faces), .shown = Shown::page});
   }
   report.items.push_back(ReportTable{run_table(result), "", "runs"});
-  report.items.push_back(Statement{timing_text(result.timing) + "\n"});
+  report.items.push_back(Statement{timing_sentence(result.timing)});
   report.json = study_json(result.study, report,
                            {{"critical_gap", only_critical_gap(result)},
                             {"early_time_ms", 1e3 * result.study.study.early_time},

@@ -44,7 +44,11 @@ std::string Measured::text(const std::string& unit) const {
 
 Measured measured(double value, double minus, double plus) {
   Measured shown;
-  shown.decimals = decimals_for(std::max(minus, plus));
+  const double uncertainty = std::max(minus, plus);
+  shown.decimals = decimals_for(uncertainty);
+  const int place = leading_place(uncertainty);
+  if (value != 0 && place >= leading_place(std::abs(value)))
+    shown.decimals = std::max(shown.decimals, 1 - place);
   shown.value = rounded_down(value, shown.decimals);
   shown.minus = rounded_up(minus, shown.decimals);
   // The value went down, and its upper end must not.

@@ -73,16 +73,23 @@ std::string setup_text(const study::StudyFile& study) {
 }
 
 std::string timing_text(const study::Timing& timing) {
-  return fmt::format(
-      "{} mechanical run{}, {} particle updates per second and core, {} of wall time with {} "
-      "case{} at a time.",
-      timing.runs, timing.runs == 1 ? "" : "s", scientific(timing.updates_per_second(), 2),
-      duration(timing.wall_time), timing.jobs, timing.jobs == 1 ? "" : "s");
+  std::string text = fmt::format("re-used {} mechanical run{}, ran {}", timing.reused,
+                                 timing.reused == 1 ? "" : "s", timing.runs);
+  if (timing.run_time > 0)
+    text += fmt::format(" at {} particle updates per second and core",
+                        scientific(timing.updates_per_second(), 2));
+  return text + fmt::format("; {} of wall time with {} job{}", duration(timing.wall_time), timing.jobs,
+                            timing.jobs == 1 ? "" : "s");
+}
+
+std::string timing_sentence(const study::Timing& timing) {
+  return fmt::format("This computation {}.\n", timing_text(timing));
 }
 
 nlohmann::ordered_json timing_json(const study::Timing& timing) {
   return {{"wall_time_s", number(timing.wall_time)},
           {"runs", timing.runs},
+          {"reused", timing.reused},
           {"jobs", timing.jobs},
           {"particle_updates", number(timing.particle_updates)},
           {"run_time_s", number(timing.run_time)},

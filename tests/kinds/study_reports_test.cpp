@@ -55,7 +55,7 @@ TEST(CriticalGapReport, JsonHasTheKeysThatOtherProgramsReadFrom) {
   EXPECT_EQ(json["comparison"][1]["temperature_max_published_K"], 492.9);
   EXPECT_TRUE(json["verdicts"][0]["ignition_cause"].is_null());
   EXPECT_EQ(json["verdicts"][2]["ignition_place"], "S2");
-  for (const char* key : {"wall_time_s", "runs", "updates_per_second"})
+  for (const char* key : {"wall_time_s", "runs", "reused", "updates_per_second"})
     EXPECT_TRUE(json["timing"].contains(key));
   EXPECT_TRUE(
       json["fit"][0]["slope_standard_error_K_per_cm"].is_null());  // two rows: no degree of freedom left

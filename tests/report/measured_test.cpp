@@ -9,7 +9,7 @@ namespace launchsafe::report {
 namespace {
 
 // Expected texts follow from the rule by hand: one significant digit of the uncertainty, two after a leading
-// 1, the value down, the uncertainty up.
+// 1 and where it is of the value's order, the value down, the uncertainty up.
 TEST(Measured, AValueHasTheDigitsOfItsUncertainty) {
   EXPECT_EQ(measured(0.0395058, 0.0083, 0.0083).text("cm"), "0.039 ± 0.009 cm");
   EXPECT_EQ(measured(0.0395058, 0.00938, 0.00938).text("cm"), "0.039 ± 0.010 cm");
@@ -17,6 +17,8 @@ TEST(Measured, AValueHasTheDigitsOfItsUncertainty) {
   EXPECT_EQ(measured(519.44, 2.0, 2.0).text("K"), "519 ± 2 K");
   EXPECT_EQ(measured(0.03, 0.002, 0.002).text("cm"), "0.030 ± 0.002 cm");
   EXPECT_EQ(measured(123.4, 60.0, 60.0).text(""), "123 ± 60");
+  EXPECT_EQ(measured(0.0381508, 0.03801, 0.03801).text("cm"), "0.038 ± 0.039 cm");
+  EXPECT_EQ(measured(0.0081, 0.038, 0.038).text("cm"), "0.008 ± 0.038 cm");
 }
 
 TEST(Measured, SharesWithASignMakeItAsymmetric) {

@@ -28,7 +28,8 @@ struct Measured {
   std::string text(const std::string& unit) const;
 };
 
-/// A value that may be smaller by `minus` and larger by `plus` (both finite, >= 0, not both 0).
+/// A value that may be smaller by `minus` and larger by `plus` (both finite, >= 0, not both 0). An
+/// uncertainty of the value's own order has two digits, or rounding would halve the value.
 Measured measured(double value, double minus, double plus);
 
 /// A critical gap and its uncertainty in cm, of which `model_form` moves towards ignition alone and so lowers

@@ -25,8 +25,10 @@ std::string remaking_command(const study::StudyFile& study);
 std::string setup_text(const study::StudyFile& study);
 /// Whether a study varies the scene key of that name.
 bool varies(const study::Study& study, const std::string& key);
-/// Runs, update rate and wall time in one sentence.
+/// "re-used 3 mechanical runs, ran 12 ...": runs, rate, wall time.
 std::string timing_text(const study::Timing& timing);
+/// That as a sentence of a report.
+std::string timing_sentence(const study::Timing& timing);
 nlohmann::ordered_json timing_json(const study::Timing& timing);
 /// "crack bound 12, tension cut-off 3", or "none".
 std::string limiters_text(const run::LimiterCounts& limiters);
