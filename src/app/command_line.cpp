@@ -137,9 +137,11 @@ void add_explain(CLI::App& app, Parsed& parsed) {
       app, parsed, parsed.explain, "explain",
       "Say what a scene or a study will compute, what it leaves out, and the cost", explain_footer);
   command
-      .add_option("file", parsed.explain.file,
-                  "Scene or study file; with --keys or --materials the beginning of names, such as load")
-      ->type_name("SCENE.toml|STUDY.toml");
+      .add_option(
+          "file", parsed.explain.file,
+          "Scene, study or file of materials; with --keys or --materials the beginning of names, such as "
+          "load")
+      ->type_name("SCENE.toml|STUDY.toml|MATERIALS.toml");
   CLI::Option* keys = command.add_flag("--keys", parsed.explain.keys,
                                        "List the keys of scene and study files, or those whose name begins "
                                        "with the word given in the place of a "
@@ -287,7 +289,8 @@ std::string contradiction(const ExplainArguments& explain) {
   const bool of_program = !explain.schema.empty() || explain.manual || !explain.completion.empty();
   const bool lists = explain.keys || explain.materials;
   if (!lists && of_program != explain.file.empty())
-    return "explain: allowed: a scene or study file, or one of --keys, --materials, --schema, --manual and "
+    return "explain: allowed: a scene, study or file of materials, or one of --keys, --materials, --schema, "
+           "--manual and "
            "--completion";
   if (explain.picture && (of_program || lists))
     return "explain: --grid draws the grid of a scene; allowed: with a scene file";

@@ -1,10 +1,12 @@
 // launchsafe explain: what would be computed, and at what cost.
 #include "commands.hpp"
+#include "explain_materials.hpp"
 #include "explain_program.hpp"
 #include "explain_scene.hpp"
 #include "forecast_text.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/section_drawing.hpp"
+#include "launchsafe/scene/input_content.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
@@ -28,13 +30,12 @@ namespace launchsafe::app {
 
 namespace {
 
-/// Only a study names a kind or a scene. What cannot be read is left to the reader of scenes to complain
-/// about.
-bool is_study(const std::filesystem::path& path) {
+/// What cannot be read is left to the reader of scenes to complain about.
+scene::InputContent content_of(const std::filesystem::path& path) {
   const auto text = scene::read_text_file(path);
-  if (!text) return false;
+  if (!text) return scene::InputContent::unknown;
   const auto table = scene::parse_toml(*text, path.string());
-  return table && (table->contains("kind") || table->contains("scene"));
+  return table ? scene::content_of(*table) : scene::InputContent::unknown;
 }
 
 ExitCode interrupted(Console& console) {
@@ -143,11 +144,15 @@ ExitCode explain_study(const std::filesystem::path& path, Console& console) {
 
 ExitCode perform(const ExplainArguments& arguments, Console& console) {
   if (explains_program(arguments)) return explain_program(arguments, console);
-  if (!is_study(arguments.file)) return explain_scene(arguments, console);
+  const scene::InputContent content = content_of(arguments.file);
+  if (content != scene::InputContent::study && content != scene::InputContent::materials)
+    return explain_scene(arguments, console);
   if (arguments.picture)
-    return console.refuse("--grid: found the study " + arguments.file.string() +
-                          "; allowed: a scene, such as the study's");
-  return explain_study(arguments.file, console);
+    return console.refuse(
+        fmt::format("--grid: found {}, which is no scene; allowed: a scene, such as that of a study",
+                    arguments.file.string()));
+  return content == scene::InputContent::study ? explain_study(arguments.file, console)
+                                               : explain_material_file(arguments.file, console);
 }
 
 }  // namespace launchsafe::app

@@ -1,6 +1,7 @@
 #include "launchsafe/kinds/read_study.hpp"
 
 #include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/input_content.hpp"
 #include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
@@ -41,11 +42,13 @@ std::vector<std::string> kinds_with(const std::string& name) {
 /// The tables of all study files that are read apart from the keys.
 std::vector<std::string> common_tables() { return {"set", "accept"}; }
 
-/// Every key and every table that some kind has.
+/// Every key and every table that some kind has, once.
 void add_keys_of_all_kinds(StudyKeys& keys, std::vector<std::string>& tables) {
   for (const Kind& kind : kinds()) {
-    keys = joined({std::move(keys), kind.keys});
-    for (const StudyTable& table : kind.tables) tables.push_back(table.name);
+    for (const auto& key : kind.keys)
+      if (scene::find_key(keys, key.name) == nullptr) keys.push_back(key);
+    for (const StudyTable& table : kind.tables)
+      if (std::find(tables.begin(), tables.end(), table.name) == tables.end()) tables.push_back(table.name);
   }
 }
 
@@ -146,6 +149,7 @@ scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesys
   StudyFile study;
   study.file = path.string();
   study.most_cases = request.most_cases;
+  if (Fault fault = scene::check_content(*table, study.file, scene::InputContent::study)) return *fault;
   const auto kind = read_kind(*table, study.file);
   if (!kind) return kind.error();
   if (Fault fault = check_kind(*table, **kind, study.file)) return *fault;

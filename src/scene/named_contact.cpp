@@ -15,7 +15,8 @@ namespace {
 
 Expected<NamedContact> read_contact(const std::string& name, const toml::table& table,
                                     const std::string& file) {
-  NamedContact contact{.name = name};
+  NamedContact contact;
+  contact.name = name;
   std::vector<const KeyDescription*> described = descriptions_of(contact_keys());
   const std::size_t own = described.size();
   for (const KeyDescription* key : descriptions_of(interface_keys())) described.push_back(key);

@@ -59,7 +59,9 @@ Expected<std::string> read_law(const toml::table& table, const Place& place, con
 /// One table [material.NAME], without what it takes of another material.
 Expected<NamedMaterial> read_material(const std::string& name, const toml::table& table,
                                       const std::string& file) {
-  NamedMaterial material{.name = name, .place = place_of(table, file)};
+  NamedMaterial material;
+  material.name = name;
+  material.place = place_of(table, file);
   const auto law = read_law(table, material.place, file);
   if (!law) return law.error();
   const std::vector<LawKey> law_keys = keys_of_law_in_material(*law);
@@ -119,7 +121,7 @@ bool is_settled(const NamedMaterial& material, const LawKey& key, const std::vec
 void take_over(NamedMaterial& material, const NamedMaterial& from) {
   const std::vector<LawKey> keys = keys_of_law_in_material(material.law);
   const NamedMaterial own = material;
-  Source taken{.standing = Standing::assumed, .citation = "as of " + from.name};
+  Source taken{{}, Standing::assumed, "as of " + from.name};
   for (const LawKey& key : keys) {
     const auto value = from.values.find(key.scene_key);
     if (value == from.values.end() || own.values.contains(key.scene_key) || is_settled(own, key, keys))

@@ -1,7 +1,9 @@
 #include "launchsafe/scene/read_scene.hpp"
 
 #include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/input_content.hpp"
 #include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/material_file.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "use_materials.hpp"
@@ -186,8 +188,7 @@ std::optional<InputError> read_own_materials(const toml::table& table, SceneFile
                       text.error().suggestion);
     const auto content = parse_toml(*text, path.string());
     if (!content) return content.error();
-    if (auto other = read_described(*content, {}, {"material", "contact"}, path.string()); !other)
-      return other.error();
+    if (auto error = check_material_tables(*content, path.string())) return error;
     if (auto error = add(*content, path.string())) return error;
   }
   return add(table, file.file);
@@ -201,6 +202,7 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
   SceneFile file;
   file.file = path.string();
   file.folder = path.parent_path();
+  if (auto error = check_content(*table, file.file, InputContent::scene)) return *error;
   Scene& scene = file.scene;
   // Faults of the keys first, then of the tables; within each by line.
   auto read = read_described(*table, descriptions_of(scene_keys()), read_apart, file.file);

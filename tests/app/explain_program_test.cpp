@@ -1,9 +1,11 @@
 // What launchsafe explains of itself: keys, schemas, the manual page, completion.
+#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "program.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 
@@ -98,6 +100,60 @@ TEST_F(ExplainedProgram, IsAskedForOneThingAtATime) {
                                              {"explain", "--manual", "shell.toml"},
                                              {"explain", "--manual", "--grid", "a.svg"}})
     EXPECT_EQ(run(arguments).code, 2) << arguments[1];
+}
+
+class WrongFile : public Program {};
+
+/// A study in the place of a scene, a scene in that of a study, materials in the place of either.
+TEST_F(WrongFile, IsToldByWhatItHolds) {
+  const std::string studies = LAUNCHSAFE_SOURCE_DIR "/studies/";
+  const std::string scene = studies + "scene_155mm.toml", study = studies + "critical_gap_155mm.toml",
+                    materials = studies + "materials/comp-b.toml";
+  const auto expect = [&](const std::vector<std::string>& arguments, const std::string& said) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_TRUE(outcome.says(said)) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  expect({"run", study}, "found a study, which launchsafe study computes; allowed: a scene");
+  expect({"study", scene, "--dry-run"}, "found a scene, which launchsafe run computes; allowed: a study");
+  expect({"run", materials}, "found materials");
+  expect({"study", materials, "--dry-run"}, "found materials");
+}
+
+TEST_F(WrongFile, WithoutAKindNamesEveryKeyOnce) {
+  write("study.toml", "knd = \"sweep\"\n");
+  const std::string message = run({"study", "study.toml", "--dry-run"}).err;
+  EXPECT_NE(message.find("did you mean kind?"), std::string::npos) << message;
+  EXPECT_EQ(message.find("calibration,"), message.rfind("calibration,")) << message;
+}
+
+class ExplainedMaterials : public Program {};
+
+TEST_F(ExplainedMaterials, OfAShippedFileAreThoseOfItsName) {
+  const std::string file = LAUNCHSAFE_SOURCE_DIR "/studies/materials/contacts.toml";
+  const Json told = Json::parse(run({"explain", file, "--json"}).out);
+  EXPECT_TRUE(told["materials"].empty());
+  ASSERT_EQ(told["contacts"].size(), 2u);
+  EXPECT_EQ(told["contacts"][0]["name"], "bonded");
+}
+
+TEST_F(ExplainedMaterials, OfAnOwnFileHaveEveryNumberEvenWithoutASource) {
+  const std::string mix =
+      "[material.mix]\nlaw = \"charge\"\nlike = \"comp-b\"\ndensity = \"1.65 g/cm3\"\n"
+      "[contact.oiled]\ncondition = \"sliding\"\nfriction = 0.1\n";
+  write("mix.toml", mix);
+  const Outcome text = run({"explain", "mix.toml"});
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_NE(text.out.find("never calibrated"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("no source is given\n      density                         1650 kg/m3"),
+            std::string::npos)
+      << text.out;
+  const Json told = Json::parse(run({"explain", "mix.toml", "--json"}).out);
+  EXPECT_EQ(told["materials"][0]["numbers"].size(), scene::shipped_materials().front().values.size());
+  EXPECT_EQ(told["contacts"][0]["numbers"].size(), 2u);
+  write("taken.toml", "[material.comp-b]\nlaw = \"charge\"\nlike = \"pbx-9501\"\n");
+  EXPECT_TRUE(run({"explain", "taken.toml"}).says("a material called \"comp-b\""));
 }
 
 }  // namespace

@@ -67,7 +67,8 @@ INSTANTIATE_TEST_SUITE_P(
                     {"a.a"}},
         HostileFile{
             "HugeKey", std::string(1'000'000, 'k') + " = 1\n", {"input.toml:1:", "an unknown key", " ... "}},
-        HostileFile{"HugeWord", "kind = \"" + std::string(1'000'000, 'k') + "\"\n", {"kind"}},
+        HostileFile{"HugeWord", "symmetry = \"" + std::string(1'000'000, 'k') + "\"\n", {"symmetry"}},
+        HostileFile{"HugeKind", "kind = \"" + std::string(1'000'000, 'k') + "\"\n", {"found"}},
         HostileFile{"Binary",
                     std::string("\x7f"
                                 "ELF\0\0\1",
