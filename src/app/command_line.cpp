@@ -290,8 +290,7 @@ std::string contradiction(const ExplainArguments& explain) {
   const bool lists = explain.keys || explain.materials;
   if (!lists && of_program != explain.file.empty())
     return "explain: allowed: a scene, study or file of materials, or one of --keys, --materials, --schema, "
-           "--manual and "
-           "--completion";
+           "--manual and --completion";
   if (explain.picture && (of_program || lists))
     return "explain: --grid draws the grid of a scene; allowed: with a scene file";
   return {};

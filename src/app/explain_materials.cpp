@@ -145,8 +145,10 @@ ExitCode explain_materials(const std::string& word, Console& console) {
 ExitCode explain_material_file(const std::filesystem::path& file, Console& console) {
   const auto named = scene::read_material_file(file);
   if (!named) return console.refuse(named.error());
-  print_materials(*named, {}, console);
-  return ExitCode::done;
+  if (print_materials(*named, {}, console)) return ExitCode::done;
+  return console.refuse(
+      fmt::format("{}: found no material and no contact; allowed: tables [material.NAME] and [contact.NAME]",
+                  file.string()));
 }
 
 }  // namespace launchsafe::app

@@ -152,6 +152,8 @@ TEST_F(ExplainedMaterials, OfAnOwnFileHaveEveryNumberEvenWithoutASource) {
   const Json told = Json::parse(run({"explain", "mix.toml", "--json"}).out);
   EXPECT_EQ(told["materials"][0]["numbers"].size(), scene::shipped_materials().front().values.size());
   EXPECT_EQ(told["contacts"][0]["numbers"].size(), 2u);
+  write("none.toml", "[material]\n");
+  EXPECT_TRUE(run({"explain", "none.toml"}).says("none.toml: found no material"));
   write("taken.toml", "[material.comp-b]\nlaw = \"charge\"\nlike = \"pbx-9501\"\n");
   EXPECT_TRUE(run({"explain", "taken.toml"}).says("a material called \"comp-b\""));
 }
