@@ -5,8 +5,6 @@
 #include "launchsafe/study/answer_cases.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
@@ -16,8 +14,6 @@ namespace launchsafe::kinds {
 
 using namespace study;
 namespace {
-
-using verify::Finding, verify::Outcome;
 
 /// What is known of one launch.
 struct LaunchRecord {
@@ -226,26 +222,6 @@ std::vector<LaunchRecord> run_launches(const StudyFile& study, const StudyOption
   return records;
 }
 
-std::vector<StressCaseRow> rows_of_laws(const StudyOptions& options) {
-  const std::vector<verify::StressTest> laws = verify::law_stress_tests();
-  std::vector<StressCaseRow> rows(laws.size());
-  tbb::task_arena arena(jobs_of(options));
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, laws.size(), [&](std::size_t i) {
-      StressCaseRow& row = rows[i];
-      row.group = laws[i].group;
-      row.name = laws[i].name;
-      row.must_hold = laws[i].must_hold;
-      try {
-        row.finding = laws[i].compute();
-      } catch (const std::exception& error) {
-        row.failure = std::string("the computation failed: ") + error.what();
-      }
-    });
-  });
-  return rows;
-}
-
 }  // namespace
 
 bool StressCaseRow::is_as_expected() const {
@@ -277,8 +253,6 @@ StabilityResult run_stability(const StudyFile& study, const StudyOptions& option
   result.timing.jobs = jobs_of(options);
   const auto records = run_launches(study, options, result.timing);
   result.interrupted = stop_requested(options);
-  if (!result.interrupted && options.shard.whole() && settings_of<StabilitySettings>(study.study).laws)
-    result.rows = rows_of_laws(options);
   for (const StressCase& launch : settings_of<StabilitySettings>(study.study).cases)
     result.rows.push_back(judge_stress_case(launch, launch.run ? &records[*launch.run] : nullptr,
                                             launch.against ? &records[*launch.against] : nullptr));

@@ -12,7 +12,6 @@ namespace launchsafe::kinds {
 namespace {
 
 using run::CombustionHistory;
-using verify::Finding, verify::Outcome;
 
 /// Of the heat of reaction of what burnt, that may be made or lost.
 constexpr double energy_share = 0.01;

@@ -18,7 +18,6 @@ using namespace study;
 namespace {
 
 using scene::Dimension, scene::InputError, scene::Key, scene::Place, scene::SceneFile, scene::Standing;
-using verify::Outcome;
 
 /// What may be expected: nobody expects a WRONG.
 constexpr std::array expectable{Outcome::held, Outcome::degraded, Outcome::caught};
@@ -256,12 +255,6 @@ Fault make_stability_cases(const StudySource& source, StudyFile& study) {
   return std::nullopt;
 }
 
-std::vector<scene::Key<StabilitySettings>> stability_keys() {
-  return {scene::flag_key<StabilitySettings>(
-      "laws", scene::Standing::assumed,
-      "The laws by themselves at stiff and extreme arguments, before the cases.", &StabilitySettings::laws)};
-}
-
 /// It varies nothing but what its cases say.
 Fault read_stability(const StudySource&, StudyFile&) { return std::nullopt; }
 
@@ -282,6 +275,20 @@ std::vector<Failure> stability_failures(const StabilityResult& result) {
 
 }  // namespace
 
+std::string to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::held:
+      return "held";
+    case Outcome::degraded:
+      return "degraded";
+    case Outcome::caught:
+      return "caught";
+    case Outcome::wrong:
+      break;
+  }
+  return "WRONG";
+}
+
 Kind stability_kind() {
   return {
       .traits = {.name = "stability",
@@ -289,7 +296,7 @@ Kind stability_kind() {
                  .gives_verdicts = false,
                  .own_scenes = true,
                  .goes_through_ignition = true},
-      .keys = joined({gaps_keys(), judging_keys(), own_keys(stability_keys())}),
+      .keys = joined({gaps_keys(), judging_keys()}),
       .tables = {table_of("case", stress_case_keys())},
       .read = read_stability,
       .make_cases = make_stability_cases,

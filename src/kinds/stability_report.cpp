@@ -32,7 +32,7 @@ std::string shortened(const std::string& text) {
 std::string expected_text(const StressCaseRow& row) {
   if (row.expected.empty()) return "not WRONG";
   std::vector<std::string> names;
-  for (const verify::Outcome each : row.expected) names.push_back(to_string(each));
+  for (const Outcome each : row.expected) names.push_back(to_string(each));
   return fmt::format("{}", fmt::join(names, " or "));
 }
 
@@ -118,8 +118,6 @@ Table launch_table(const StabilityResult& result) {
 }
 
 namespace {
-
-using verify::Outcome;
 
 std::string counts_text(const StabilityResult& result) {
   return fmt::format("{}: {} held, {} degraded with a reason, {} caught, {} WRONG.",

@@ -89,7 +89,7 @@ times = "0.03 ms"
 numerics.cell_size = "5 mm"
 )";
 
-/// All laws, one launch and its safe computation.
+/// One launch and its safe computation.
 inline const std::string stability_study = R"(kind = "stability"
 scene = "shell.toml"
 numerical_uncertainty = "4 K"

@@ -10,7 +10,6 @@ namespace {
 using namespace launchsafe;
 using namespace launchsafe::kinds;
 using namespace launchsafe::study;
-using verify::Outcome;
 
 /// The first [[case]] starts at line 4, its own keys at line 8.
 const std::string head =

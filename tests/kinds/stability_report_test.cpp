@@ -18,7 +18,6 @@ namespace {
 
 using kinds::StressCaseRow, kinds::StabilityResult;
 using testing::in_order;
-using verify::Outcome;
 
 StressCaseRow row(const std::string& name, Outcome outcome, const std::string& finding) {
   StressCaseRow made;
@@ -48,12 +47,12 @@ StressCaseRow launch(const std::string& name, Outcome outcome, double against) {
 StabilityResult made_stability() {
   StabilityResult result;
   result.study = bare_study(kinds::traits_of("stability"), {2e-4});
-  StressCaseRow law = row("law", Outcome::held, "3e-9 of 1e-6");
+  StressCaseRow reader = row("reader", Outcome::held, "3e-9 of 1e-6");
   StressCaseRow late = row("late", Outcome::degraded, "caught late");
   late.expected = {Outcome::caught};
   StressCaseRow lost = row("lost", Outcome::wrong, "");
   lost.failure = "the run failed: no more memory";
-  result.rows = {law, launch("wrong", Outcome::wrong, 460.0),
+  result.rows = {reader, launch("wrong", Outcome::wrong, 460.0),
                  launch("sound", Outcome::held, std::numeric_limits<double>::quiet_NaN()), late, lost};
   return result;
 }
@@ -100,7 +99,7 @@ TEST(StabilityReport, JsonHoldsCountsAndCases) {
   ASSERT_EQ(json["cases"].size(), 5u);
   EXPECT_EQ(json["cases"][1]["outcome"], "WRONG");
   EXPECT_EQ(json["cases"][3]["as_expected"], "no");
-  ASSERT_EQ(json["launches"].size(), 2u) << "laws have none";
+  ASSERT_EQ(json["launches"].size(), 2u) << "a case of the reader has none";
   EXPECT_EQ(json["launches"][0]["deviation_K"], 11.0);
   EXPECT_EQ(json["launches"][0]["temperature_max_inert_K"], 471.0);
   EXPECT_TRUE(json["launches"][1]["deviation_K"].is_null());

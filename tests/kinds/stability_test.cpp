@@ -18,11 +18,10 @@ namespace {
 using namespace launchsafe;
 using namespace launchsafe::kinds;
 using namespace launchsafe::study;
-using verify::Outcome;
 
 const std::string stability_head =
     "kind = \"stability\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = \"3 K\"\n"
-    "gaps = \"0.01 cm\"\nlaws = false\n";
+    "gaps = \"0.01 cm\"\n";
 
 std::string case_text(const std::string& keys, const std::string& name = "one") {
   return "[[case]]\ngroup = \"made\"\nname = \"" + name + "\"\nmust_hold = \"it holds\"\n" + keys + "\n";
@@ -226,19 +225,6 @@ TEST(Stability, TheImpulseOfTheLoadIsTheMomentumInTheLabFrame) {
   EXPECT_EQ(violations_of(scene, run, {1e-4}).size(), 1u);
 }
 
-TEST(Stability, LawsComeFirst) {
-  std::string text = stability_head + case_text("") + synthetic_constants;
-  text.replace(text.find("laws = false"), 12, "laws = true");
-  StudyOptions options = options_with([](const scene::Scene& scene) { return sound_mechanics(scene); });
-  const StabilityResult result = run_stability(study_of(text), options);
-  EXPECT_EQ(result.rows.size(), verify::law_stress_tests().size() + 1);
-  EXPECT_FALSE(result.rows.front().ran);
-  EXPECT_TRUE(result.rows.back().ran);
-  // A shard has no use for them.
-  options.shard = {1, 2};
-  EXPECT_EQ(run_stability(study_of(text), options).rows.size(), 1u);
-}
-
 /// A closed-form run through ignition that keeps all invariants: 1 g of the charge, to T2.
 run::CaseResult sound_burn(const scene::Scene& scene) {
   run::CaseResult result;
@@ -266,7 +252,7 @@ scene::Scene burning_scene() {
 
 TEST(StabilityBurns, ASoundOneIsHeld) {
   const scene::Scene scene = burning_scene();
-  const verify::Finding finding = judge_burn(scene, 4e-4, sound_burn(scene));
+  const Finding finding = judge_burn(scene, 4e-4, sound_burn(scene));
   EXPECT_EQ(finding.outcome, Outcome::held) << finding.text;
   EXPECT_NE(finding.text.find("burnt 1 g"), std::string::npos) << finding.text;
 }
@@ -290,7 +276,7 @@ TEST(StabilityBurns, EveryBrokenInvariantIsWrong) {
   for (const auto& [part, spoil] : breaks) {
     run::CaseResult result = sound_burn(scene);
     spoil(*result.gaps[0].combustion);
-    const verify::Finding finding = judge_burn(scene, 4e-4, result);
+    const Finding finding = judge_burn(scene, 4e-4, result);
     EXPECT_EQ(finding.outcome, Outcome::wrong) << part << ": " << finding.text;
     EXPECT_NE(finding.text.find(part), std::string::npos) << finding.text;
   }
@@ -311,12 +297,12 @@ TEST(StabilityBurns, WhatBreaksOffIsCaughtAndWhatDoesNotIgniteOrHasScaledInertia
 }
 
 TEST(StabilityBurns, TheWorstFindingCounts) {
-  const verify::Finding held{Outcome::held, "fine"};
+  const Finding held{Outcome::held, "fine"};
   EXPECT_EQ(joined_finding(held, {}).outcome, Outcome::held);
   EXPECT_EQ(joined_finding(held, {{1e-4, {Outcome::caught, "a"}}, {2e-4, {Outcome::degraded, "b"}}}).outcome,
             Outcome::caught);
   EXPECT_EQ(joined_finding({Outcome::degraded, "c"}, {{1e-4, held}}).outcome, Outcome::degraded);
-  const verify::Finding wrong = joined_finding(held, {{1e-4, {Outcome::wrong, "w"}}, {2e-4, held}});
+  const Finding wrong = joined_finding(held, {{1e-4, {Outcome::wrong, "w"}}, {2e-4, held}});
   EXPECT_EQ(wrong.outcome, Outcome::wrong);
   EXPECT_EQ(wrong.text, "fine; w; fine");
 }

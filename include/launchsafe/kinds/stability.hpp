@@ -6,7 +6,6 @@
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
-#include "launchsafe/verify/stress_test.hpp"
 
 #include <cstdint>
 #include <string>
@@ -14,11 +13,25 @@
 
 namespace launchsafe::kinds {
 
+/// What became of a stress case.
+enum class Outcome {
+  held,      ///< what must hold held
+  degraded,  ///< it did not, or not fully, and the result says so itself
+  caught,    ///< the computation was stopped or flagged
+  wrong      ///< a broken computation gave a finite, plausible result without a flag
+};
+std::string to_string(Outcome outcome);  ///< "held", "degraded", "caught", "WRONG"
+
+struct Finding {
+  Outcome outcome = Outcome::wrong;
+  std::string text;  ///< the numbers behind it, or the reason
+};
+
 /// One [[case]] of a stability study: a launch that is extreme, or whose computation is, and what must hold.
 struct StressCase {
   std::string group, name;
-  std::string must_hold;                  ///< a sentence
-  std::vector<verify::Outcome> expected;  ///< acceptable ones; empty: anything but WRONG
+  std::string must_hold;          ///< a sentence
+  std::vector<Outcome> expected;  ///< acceptable ones; empty: anything but WRONG
   /// Steps within which a broken computation must be caught; 0: any number.
   std::uint64_t caught_within = 0;
   std::vector<double> gaps;            ///< m, to judge; all on one run
@@ -31,7 +44,6 @@ struct StressCase {
 
 /// What a study file of this kind says besides.
 struct StabilitySettings {
-  bool laws = true;               ///< the laws by themselves too (verify::law_stress_tests)
   std::vector<StressCase> cases;  ///< in the order written; their runs are among the cases
 };
 
@@ -46,17 +58,17 @@ std::vector<std::string> violations_of(const scene::Scene& scene, const run::Mec
 /// What a run through ignition of one gap (m) came to.
 struct Burn {
   double gap = 0;
-  verify::Finding finding;
+  Finding finding;
 };
 
 /// Caught: it broke off, and says why. WRONG: it completed with numbers that are not finite, an energy
 /// residual above 1 % of the heat of reaction of what burnt, an energy drift past the scene's limit, more
 /// burnt than the charge has, heat released beyond that of reaction, or gas outside of the temperatures of
 /// its law. Degraded: nothing ignited, or a validity warning holds.
-verify::Finding judge_burn(const scene::Scene& scene, double gap, const run::CaseResult& result);
+Finding judge_burn(const scene::Scene& scene, double gap, const run::CaseResult& result);
 
 /// Of a launch and what its runs through ignition came to: WRONG before caught before degraded before held.
-verify::Finding joined_finding(verify::Finding launch, const std::vector<Burn>& burns);
+Finding joined_finding(Finding launch, const std::vector<Burn>& burns);
 
 /// One gap of a stress case beside the safe computation of the same launch.
 struct StressCaseGap {
@@ -78,8 +90,8 @@ struct StressCaseGap {
 /// A row of the matrix.
 struct StressCaseRow {
   std::string group, name, must_hold;
-  verify::Finding finding;
-  std::vector<verify::Outcome> expected;               ///< empty: anything but WRONG
+  Finding finding;
+  std::vector<Outcome> expected;                       ///< empty: anything but WRONG
   study::RunOutcome outcome = study::RunOutcome::ran;  ///< of its run, or of that of the safe computation
   std::string failure;                                 ///< why it was not computed at all; empty where it was
   bool ran = false;                                    ///< a launch: the members below tell of its run
@@ -90,24 +102,24 @@ struct StressCaseRow {
   std::vector<StressCaseGap> gaps;
 
   bool computed() const { return failure.empty(); }
-  bool is_wrong() const { return computed() && finding.outcome == verify::Outcome::wrong; }
+  bool is_wrong() const { return computed() && finding.outcome == Outcome::wrong; }
   /// Neither WRONG nor other than what the study expects.
   bool is_as_expected() const;
 };
 
 struct StabilityResult {
   study::StudyFile study;
-  std::vector<StressCaseRow> rows;  ///< laws first, then the cases as written
+  std::vector<StressCaseRow> rows;  ///< the cases as written
   study::Timing timing;
   bool interrupted = false;
-  std::size_t count(verify::Outcome outcome) const;  ///< rows that were computed and came out so
-  std::size_t wrong() const { return count(verify::Outcome::wrong); }
+  std::size_t count(Outcome outcome) const;  ///< rows that were computed and came out so
+  std::size_t wrong() const { return count(Outcome::wrong); }
   std::size_t unexpected() const;  ///< computed, not WRONG, and yet not what the study expects
   std::size_t failed() const;      ///< not computed
 };
 
-/// Runs a study of kind stability. A case that breaks is its row. Laws are computed with the whole study
-/// only, not with a shard of it. Apart from the timing the result depends on the study alone.
+/// Runs a study of kind stability. A case that breaks is its row. Apart from the timing the result depends on
+/// the study alone.
 StabilityResult run_stability(const study::StudyFile& study, const study::StudyOptions& options = {});
 
 /// The row of the table of kinds.
