@@ -12,10 +12,12 @@ namespace math = launchsafe::math;
 const std::vector<double> gaps{0.0, 0.01, 0.02, 0.03, 0.039};
 const std::vector<double> temperatures{416.1, 442.2, 467.7, 492.9, 523.3};
 
-// Slope and intercept of these rows are checks of `launchsafe verify`.
-TEST(LeastSquares, ResidualsOfALineSumToZero) {
+TEST(LeastSquares, GiveTheLineOfThePapersSafeRows) {
   const auto fit = math::fit_line(gaps, temperatures);
   ASSERT_TRUE(fit.has_value());
+  // Ordinary least squares of Table 8, worked out apart: K and K/cm.
+  EXPECT_NEAR(fit->coefficients[0], 414.939, 5.01e-4);
+  EXPECT_NEAR(fit->coefficients[1], 2702.061, 5.01e-4);
   EXPECT_EQ(fit->degrees_of_freedom, 3);
   double total = 0.0;
   for (const double residual : fit->residuals) total += residual;
@@ -69,7 +71,13 @@ TEST(LeastSquares, WithoutFreedomThereIsNoUncertaintyToState) {
   EXPECT_TRUE(std::isnan(fit->mean_half_width({1.0, 0.5}, 0.95)));
 }
 
-// Its values are checks of `launchsafe verify`.
+TEST(ToleranceFactor, IsThatOfTheTables) {
+  // One-sided, 95/95: noncentral t; ISO 16269-6.
+  EXPECT_NEAR(math::one_sided_tolerance_factor(5, 0.95, 0.95), 4.2027, 5.01e-5);
+  EXPECT_NEAR(math::one_sided_tolerance_factor(10, 0.95, 0.95), 2.9110, 5.01e-5);
+  EXPECT_NEAR(math::one_sided_tolerance_factor(20, 0.95, 0.95), 2.3960, 5.01e-5);
+}
+
 TEST(ToleranceFactor, OfOneSampleOrOfCertaintyIsNotANumber) {
   EXPECT_TRUE(std::isnan(math::one_sided_tolerance_factor(1, 0.95, 0.95)));
   EXPECT_TRUE(std::isnan(math::one_sided_tolerance_factor(5, 1.0, 0.95)));
@@ -84,6 +92,16 @@ TEST(GridConvergence, FindsTheOrderOfAnExactPowerLaw) {
   EXPECT_NEAR(grid->extrapolated, 7.0, 1e-10);
   EXPECT_NEAR(grid->fine_index, 1.25 * 0.2 / 7.2, 1e-10);  // 1.25 times the true relative error
   EXPECT_FALSE(grid->oscillating);
+}
+
+TEST(GridConvergence, IsThatOfThePublishedExample) {
+  // Celik et al. 2008, Table 1, recomputed without rounding.
+  const auto size = [](double cells) { return math::representative_cell_size(cells, 2); };
+  const auto grid = math::grid_convergence({6.063, 5.972, 5.863}, {size(18000), size(8000), size(4500)});
+  ASSERT_TRUE(grid.has_value());
+  EXPECT_NEAR(grid->order, 1.5340, 5.01e-5);
+  EXPECT_NEAR(grid->extrapolated, 6.1685, 5.01e-5);
+  EXPECT_NEAR(100.0 * grid->fine_index, 2.175, 5.01e-4);
 }
 
 TEST(GridConvergence, MeshesWithoutAnOrderGiveNone) {

@@ -1,0 +1,106 @@
+// The laws against single numbers known to all their digits: half a unit of the last one is the tolerance.
+#include "launchsafe/materials/ideal_gas.hpp"
+#include "launchsafe/materials/jwl.hpp"
+#include "launchsafe/materials/mie_gruneisen.hpp"
+#include "launchsafe/materials/visco_scram.hpp"
+#include "launchsafe/materials/vlw.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace launchsafe::materials;
+
+/// Half of the last digit's unit, and a hair.
+double digits(double unit) { return 0.501 * unit; }
+
+TEST(AirAdiabat, HasTheStatedTemperatures) {
+  // T0 ratio^(2/7) from 300 K.
+  const AirParameters air;
+  const struct {
+    double ratio, expected;
+  } cases[] = {
+      {1.5, 336.847}, {3.0, 410.621}, {9.5, 570.783}, {100.0, 1118.278}, {496e6 / 101325.0, 3398.911}};
+  for (const auto& each : cases)
+    EXPECT_NEAR(adiabatic_temperature(air, each.ratio * air.initial_pressure), each.expected, digits(1e-3));
+}
+
+TEST(Jwl, HasTheStatedStatesOfTheUnreactedCharge) {
+  // The temperature form of the same law at 298 K, nine digits, in Mbar.
+  const JwlParameters m = unreacted_composition_b();
+  const struct {
+    double v, energy, pressure;
+  } states[] = {{0.99, -6.18040254e-3, 1.03371865e-3}, {0.95, -6.30783693e-3, 6.71521900e-3}};
+  for (const auto& state : states) {
+    const double energy = jwl_energy_at_temperature(m, state.v, 2.487e6, 298.0);
+    EXPECT_NEAR(energy / 1e11, state.energy, digits(1e-11)) << state.v;
+    EXPECT_NEAR(jwl_pressure(m, state.v, energy) / 1e11, state.pressure, digits(1e-11)) << state.v;
+  }
+  EXPECT_NEAR(m.initial_energy, -6.11861e8, digits(1e3));         // p(V = 1) = 0 solved for E
+  EXPECT_NEAR(jwl_pressure(m, 1.0, m.initial_energy), 0.0, 1.0);  // a charge at rest bears no pressure
+  EXPECT_NEAR(jwl_bulk_modulus(m, 1.0, m.initial_energy) / 1e9, 10.297,
+              digits(1e-3));  // -V dp/dV, dE = -p dV
+}
+
+TEST(Jwl, HasTheEnergyOfTheProductsBeforeDetonation) {
+  // Eq. 34; the literature's E0. D and P_CJ are rounded to three digits.
+  EXPECT_NEAR(chapman_jouguet_initial_energy(composition_b_products(), 7980.0, 29.5e9) / 8.5e9, 1.0, 0.005);
+}
+
+TEST(VirialGas, HasTheStatedCoefficientsAndCompressibilities) {
+  // Gamma series in 50 digits; agrees with Hirschfelder's table.
+  EXPECT_NEAR(reduced_second_virial(1.0), -2.53808134, digits(1e-8));
+  EXPECT_NEAR(reduced_second_virial(2.0), -0.627625288, digits(1e-9));
+  EXPECT_NEAR(reduced_second_virial(5.0), 0.243343503, digits(1e-9));
+  EXPECT_NEAR(reduced_second_virial(20.0), 0.525374204, digits(1e-9));
+  // Eq. 37 corrected, three terms.
+  EXPECT_NEAR(virial_compressibility(nitrogen(), 800.0, 100e-6), 1.37323443, digits(1e-8));
+  EXPECT_NEAR(virial_compressibility(nitrogen(), 1500.0, 50e-6), 2.07576984, digits(1e-8));
+}
+
+TEST(MieGruneisen, HasTheStatedHugoniot) {
+  // Eq. 19 with s - 1, and p_H mu/(2 rho0 (1 + mu)).
+  const MieGruneisenParameters m;
+  EXPECT_NEAR(hugoniot_pressure(m, 0.001) / 1e9, 0.166814, digits(1e-6));
+  EXPECT_NEAR(hugoniot_pressure(m, 0.01) / 1e9, 1.705489, digits(1e-6));
+  EXPECT_NEAR(hugoniot_pressure(m, 0.1) / 1e9, 21.300845, digits(1e-6));
+  EXPECT_NEAR(hugoniot_energy(m, 0.01), 1078.291, digits(1e-3));
+}
+
+TEST(CrackGrowth, HasTheStatedSpeeds) {
+  // The growth law with K1 = K' (1 + m/2)^(1/m) = 655202.812.
+  const ViscoScramParameters m;
+  const auto speed = [&](double intensity) { return crack_growth_speed(m, intensity, m.toughness); };
+  EXPECT_NEAR(speed(3e5), 0.1215, digits(1e-4));
+  EXPECT_NEAR(speed(5e5), 20.09388, digits(1e-5));
+  EXPECT_NEAR(speed(1e6), 225.0, 1e-9);
+  EXPECT_NEAR(speed(547722.5575051661), 50.0, 1e-9);  // K', where both branches give v_max/(1 + m/2)
+  EXPECT_NEAR(speed(0.5 * 655202.812) / (300.0 / 1024.0), 1.0, 1e-6);  // v_max (1/2)^10
+}
+
+TEST(CrackGrowth, HasTheStatedToughnessUnderFriction) {
+  // K0 sqrt[1 + (pi A/K0)(1 + A/K0)] at 141 MPa, c = 30 um.
+  EXPECT_NEAR(frictional_toughness(ViscoScramParameters{}, 141e6, 30e-6), 1.827012e6, digits(1.0));
+}
+
+TEST(ViscoScram, HasTheStatedRelaxationModulus) {
+  // sum G_n exp(-t/tau_n), with the relaxation times as the paper's Table 3 prints them (the law's default
+  // rates are these rounded to three digits).
+  ViscoScramParameters solid;
+  solid.relaxation_rates = {0.0, 1.0 / 1.366e-4, 1.0 / 1.366e-5, 1.0 / 1.366e-6, 1.0 / 5e-7};
+  solid.flaw_size = 0.0;
+  const struct {
+    double time;
+    int steps;
+    double modulus;
+  } cases[] = {{0.0, 0, 3.235}, {1e-5, 1, 1.356785}, {1e-5, 1000, 1.356785}, {1e-3, 1, 0.944115}};
+  for (const auto& each : cases) {
+    ViscoScramState<double> state{};
+    for (std::size_t n = 0; n < maxwell_elements; ++n) state.elements[n].rx = 2e-4 * solid.shear_moduli[n];
+    const auto step = relaxation(solid, each.steps > 0 ? each.time / each.steps : 1e-9);
+    for (int k = 0; k < each.steps; ++k) visco_scram_update<double>(solid, step, state, {}, 0.0);
+    EXPECT_NEAR(total_deviator(state).rx / 2e-4 / 1e9, each.modulus, digits(1e-6)) << each.time;
+  }
+}
+
+}  // namespace
