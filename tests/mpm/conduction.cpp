@@ -1,6 +1,7 @@
 // Heat conduction: conservation, bounds, interfaces, the axisymmetric operator.
 #include "launchsafe/mpm/conduction.hpp"
 
+#include "exact_solutions.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +50,7 @@ TEST(Conduction, ConservesHeatOnEveryMeshAndSymmetry) {
 
 TEST(Conduction, StaysWithinTheInitialExtremesForAnyStep) {
   // Backward Euler with an M-matrix has a discrete maximum principle.
-  for (const double dt : {1e-6, 1e-2, 1e2, 1e6, 1e9}) {
+  for (const double dt : {1e-298, 1e-6, 1e-2, 1e2, 1e6, 1e9}) {
     mpm::Simulation simulation(test_support::shell_155(10e-3));
     shake(simulation, 5);
     mpm::Conduction conduction(simulation);
@@ -78,6 +79,42 @@ TEST(Conduction, EndsAtTheMeanTemperature) {
     EXPECT_NEAR(t, mean, 1e-6);
   });
   EXPECT_NEAR(conduction.heat(simulation) / heat, 1.0, 1e-12);
+}
+
+TEST(Conduction, DoesNotLoseATemperatureThatIsNotANumber) {
+  mpm::Simulation simulation(test_support::shell_155(10e-3));
+  mpm::Conduction conduction(simulation);
+  mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
+  p.temperature[p.lattice.slot(1, 1)] = std::nan("");
+  conduction.advance(simulation, 1.0);
+  EXPECT_TRUE(std::isnan(p.temperature[p.lattice.slot(1, 1)]));
+}
+
+TEST(Conduction, WarmsAHalfSpaceAsTheClosedFormsSay) {
+  // Carslaw & Jaeger: a face held 1 K hotter, by erfc, and one under 1 MW/m2, 2 q sqrt(t/(pi k rho c)).
+  const double duration = test_support::half_space_duration;
+  for (const bool held : {true, false}) {
+    mpm::Simulation simulation(test_support::half_space(0.5e-6));
+    const scene::Charge& charge = simulation.scene().charge();
+    EXPECT_NEAR(charge.conductivity / (charge.eos.initial_density * charge.specific_heat) / 8.049053e-8, 1.0,
+                1e-7);  // m2/s
+    mpm::Conduction conduction(simulation);
+    if (held) {
+      conduction.hold_base(simulation.scene().initial_temperature + 1.0);
+    } else {
+      conduction.heat_base(1e6);
+    }
+    for (int step = 0; step < 1000; ++step) conduction.advance(simulation, duration / 1000);
+    const mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
+    const auto rise = [&](int i) { return p.temperature[p.lattice.slot(i, 0)] - 300.0; };
+    if (held) {
+      EXPECT_NEAR(0.5 * (rise(179) + rise(180)), 0.430605, 5e-4);  // 10 um deep, between two particles
+    } else {
+      // The face lies half a spacing beyond the last particle; the slope there is q/k.
+      const double beyond = 0.5 * p.lattice.length_x(0) * 1e6 / charge.conductivity;
+      EXPECT_NEAR((rise(p.lattice.columns() - 1) + beyond) / 41.15213, 1.0, 1e-3);
+    }
+  }
 }
 
 TEST(Conduction, DecaysLikeTheFirstRadialMode) {

@@ -59,6 +59,19 @@ TEST(SkinHistory, WithoutGapOnlyFrictionHeats) {
   EXPECT_EQ(history.air_temperature.front(), 300.0);
 }
 
+TEST(SkinHistory, EachTenthOfAMillimetreOfGapAddsLess) {
+  // The shape of the paper's Table 8: 26.1, 25.5, 25.2 K.
+  const trace::BottomTrace trace = launch(900, 0, friction_energy);
+  double before = HUGE_VAL;
+  for (const double gap : {0.0, 1e-4, 2e-4}) {
+    const double added = last(integrate_skin(plain_model(), trace, gap + 1e-4), trace, 0) -
+                         last(integrate_skin(plain_model(), trace, gap), trace, 0);
+    EXPECT_GT(added, 0.0) << gap;
+    EXPECT_LT(added, before) << gap;
+    before = added;
+  }
+}
+
 TEST(SkinHistory, SamplingErrorIsFourthOrder) {
   SkinModel model = plain_model();
   const auto temperature = [&](int intervals) {

@@ -1,0 +1,129 @@
+// States of rest, reached by dynamic relaxation, against closed forms, in either formulation.
+#include "exact_solutions.hpp"
+#include "scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::test_support;
+
+/// Least squares of y = a f(r) + b g(r).
+struct TwoTerms {
+  double a, b;
+};
+template <class F, class G>
+TwoTerms fit(const std::vector<double>& r, const std::vector<double>& y, F&& f, G&& g) {
+  double ff = 0.0, fg = 0.0, gg = 0.0, fy = 0.0, gy = 0.0;
+  for (std::size_t k = 0; k < r.size(); ++k) {
+    ff += f(r[k]) * f(r[k]);
+    fg += f(r[k]) * g(r[k]);
+    gg += g(r[k]) * g(r[k]);
+    fy += f(r[k]) * y[k];
+    gy += g(r[k]) * y[k];
+  }
+  const double determinant = ff * gg - fg * fg;
+  return {(fy * gg - gy * fg) / determinant, (gy * ff - fy * fg) / determinant};
+}
+
+constexpr double bore = 0.065, outside = 0.0775;  // m
+
+/// A tube under 100 MPa inside.
+struct Tube {
+  double hoop_bore, hoop_outside;  ///< Pa
+  double displacement;             ///< of the bore, without the part due to the free ends, m
+};
+
+/// A short ring with free ends, where sigma_rr + sigma_tt is uniform: the stresses are Lame's, and plane
+/// strain differs by a uniform axial strain only. The load is 0.1 MPa, where the laws are linear; results are
+/// scaled to 100 MPa. It is a suction, so that the outer face moves into its cell: beyond a grid line it
+/// would meet nodes of almost no mass, and the stress of the outermost particles would fall with time (an
+/// error of the first order in the cell size). For the same reason the bore lies inside a cell and the ends
+/// are left out.
+Tube relaxed_tube(scene::Formulation formulation, int radial_cells) {
+  constexpr double pressure = -1e5, scale = 100e6 / pressure;
+  const double cell_size = outside / radial_cells;
+  scene::Scene ring = block("steel", 8.0 * cell_size, outside, cell_size, formulation);
+  ring.bodies[0].r_begin = bore;
+  ring.frame = scene::Frame::lab;
+  ring.barrel = scene::Barrel::none;
+  ring.load = ramp(0.0, 1e-4);
+  ring.numerics.damping_time = 6.8e-6;  // critical for the breathing mode
+  ring.steel().strength.a = 1e15;       // never yields
+  mpm::Simulation simulation(ring);
+  simulation.apply_bore_pressure(0, pressure);
+  run_to(simulation, 3e-4);
+  const mpm::Body<materials::Steel>& body = simulation.bodies_of<materials::Steel>()[0];
+  const mpm::ParticleFields& p = body.particles;
+  const int begin = 2, end = p.lattice.columns() - 3;  // clear of the ends
+  std::vector<double> radius, hoop, displacement;
+  for (int j = 0; j < p.lattice.rows(); ++j)
+    for (int i = begin; i <= end; ++i) {
+      const std::size_t slot = p.lattice.slot(i, j);
+      radius.push_back(p.lattice.r_of(j));
+      hoop.push_back(-body[materials::Steel::stress_rr][slot] - body[materials::Steel::stress_xx][slot] -
+                     p.pressure[slot]);
+      displacement.push_back(p.r[slot] - p.lattice.r_of(j));
+    }
+  const auto stress = fit(
+      radius, hoop, [](double) { return 1.0; }, [](double r) { return 1.0 / (r * r); });
+  const auto motion = fit(
+      radius, displacement, [](double r) { return r; }, [](double r) { return 1.0 / r; });
+  const double length = p.x[p.lattice.slot(end, 0)] - p.x[p.lattice.slot(begin, 0)];
+  const double axial_strain = length / (p.lattice.x_of(end) - p.lattice.x_of(begin)) - 1.0;
+  const double bulk = bulk_modulus(ring.steel()), shear = ring.steel().strength.shear_modulus;
+  const double poisson = (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear);
+  return {scale * (stress.a + stress.b / (bore * bore)), scale * (stress.a + stress.b / (outside * outside)),
+          scale * (motion.a * bore + motion.b / bore + poisson * axial_strain * bore)};
+}
+
+class Statics : public testing::TestWithParam<scene::Formulation> {};
+
+INSTANTIATE_TEST_SUITE_P(Formulations, Statics, testing::ValuesIn(both_formulations),
+                         [](const auto& test) { return name_of(test.param); });
+
+TEST_P(Statics, ThickWalledTubeBearsLamesStresses) {
+  // Lame, 65/77.5 mm, plane strain.
+  const double exact = 574.386e6;
+  const Tube coarse = relaxed_tube(GetParam(), 29), fine = relaxed_tube(GetParam(), 116);
+  EXPECT_NEAR(fine.hoop_bore / exact, 1.0, 5e-4);
+  EXPECT_NEAR(fine.hoop_outside / 474.386e6, 1.0, 5e-4);
+  EXPECT_NEAR(fine.displacement / 0.1769119e-3, 1.0, 5e-4);
+  // From 5 to 20 cells in the wall.
+  const double order =
+      std::log(std::abs(coarse.hoop_bore - exact) / std::abs(fine.hoop_bore - exact)) / std::log(4.0);
+  EXPECT_NEAR(order, 2.0, 0.3);
+}
+
+TEST_P(Statics, ColumnOfChargeBearsItsOwnWeight) {
+  // rho L a at the acceleration of the 155 mm shell at 496 MPa, Pa.
+  constexpr double length = 0.56, cell = 5e-3;
+  const struct {
+    scene::Symmetry symmetry;
+    double expected;
+  } columns[] = {{scene::Symmetry::axisymmetric, 140.843e6}, {scene::Symmetry::plane_strain, 163.156e6}};
+  for (const auto& [symmetry, expected] : columns) {
+    scene::Scene shell = shell_155(cell);
+    shell.symmetry = symmetry;
+    const double pressure = 1717.0 * length * scene::rigid_acceleration(shell, 496e6);
+    scene::Scene column = block("charge", length, 2.0 * cell, cell, GetParam());
+    column.symmetry = symmetry;
+    column.load = ramp(pressure, 1e-3);
+    column.numerics.damping_time = 3e-5;
+    mpm::Simulation simulation(column);
+    run_to(simulation, 3e-3);
+    const mpm::Body<materials::Charge>& body = simulation.bodies_of<materials::Charge>()[0];
+    const mpm::Lattice& lattice = body.particles.lattice;
+    for (int i = 0; i < lattice.columns(); ++i)
+      EXPECT_NEAR(-axial_stress(body, lattice.slot(i, 0)) / pressure, lattice.x_of(i) / length, 1e-3) << i;
+    const int last = lattice.columns() - 1;
+    const double bottom = -axial_stress(body, lattice.slot(last, 0)) * length / lattice.x_of(last);
+    EXPECT_NEAR(bottom / expected, 1.0, 1e-3);
+  }
+}
+
+}  // namespace
