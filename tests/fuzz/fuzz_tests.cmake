@@ -1,8 +1,9 @@
-# The fuzzers of the readers as tests: clang++ builds them in a configuration of their own, then each runs for some
-# seconds on the seeds of tests/fuzz/corpus and on what earlier runs found. An input that fails is kept in
-# fuzz/failures of the build folder, and `fuzz/tests/fuzz/fuzz_scene FILE` repeats it.
-if(LAUNCHSAFE_SANITIZE)
-  return() # the fuzzers have the same sanitizers; once is enough
+# The fuzzers of the readers as tests with the label `fuzz`: clang++ builds them in a configuration of their own, then
+# each runs for some seconds on the seeds of tests/fuzz/corpus and on what earlier runs found. An input that fails is
+# kept in fuzz/failures of the build folder, `fuzz/tests/fuzz/fuzz_scene FILE` repeats it, and what it showed becomes
+# a usual test (tests/scene/fuzzed_input_test.cpp).
+if(LAUNCHSAFE_SANITIZE OR NOT TARGET launchsafe)
+  return() # the fuzzers have the same sanitizers: once is enough
 endif()
 
 set(fuzz_dir "${PROJECT_BINARY_DIR}/fuzz")
@@ -25,7 +26,7 @@ if(NOT LAUNCHSAFE_CAN_FUZZ)
   message(STATUS "clang++ with the library of its fuzzer not found: the fuzzers are skipped")
   foreach(reader IN LISTS fuzzed_readers)
     add_test(NAME fuzz.${reader} COMMAND "${CMAKE_COMMAND}" -E echo "skipped: no clang++ with libFuzzer")
-    set_tests_properties(fuzz.${reader} PROPERTIES SKIP_REGULAR_EXPRESSION "skipped")
+    set_tests_properties(fuzz.${reader} PROPERTIES LABELS fuzz SKIP_REGULAR_EXPRESSION "skipped")
   endforeach()
   return()
 endif()
@@ -36,10 +37,19 @@ add_test(NAME fuzz.configure
           "-DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
 add_test(NAME fuzz.build COMMAND "${CMAKE_COMMAND}" --build "${fuzz_dir}" --parallel 2 --target fuzzers)
-set_tests_properties(fuzz.configure PROPERTIES FIXTURES_SETUP fuzz_configuration TIMEOUT 120)
+set(words "${fuzz_dir}/words.dict")
+add_test(NAME fuzz.words
+  COMMAND sh -c "exec sh \"$0\" \"$1\" > \"$2\"" "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/words.sh" "$<TARGET_FILE:launchsafe>" "${words}")
+set_tests_properties(fuzz.words PROPERTIES
+  FIXTURES_SETUP fuzzers LABELS fuzz TIMEOUT 120)
+set_tests_properties(fuzz.configure PROPERTIES FIXTURES_SETUP fuzz_configuration LABELS fuzz TIMEOUT 120)
 set_tests_properties(fuzz.build PROPERTIES
-  FIXTURES_REQUIRED fuzz_configuration FIXTURES_SETUP fuzzers PROCESSORS 2 TIMEOUT 900)
+  FIXTURES_REQUIRED fuzz_configuration FIXTURES_SETUP fuzzers LABELS fuzz PROCESSORS 2 TIMEOUT 1800)
 
+# Shipped files are seeds too.
+set(shipped "${PROJECT_SOURCE_DIR}/studies")
+set(seeds_scene "-seed_inputs=${shipped}/scene_155mm.toml")
+set(seeds_study "-seed_inputs=${shipped}/critical_gap_155mm.toml,${shipped}/calibrate_table8.toml,${shipped}/sweep_smoke.toml")
 file(MAKE_DIRECTORY "${fuzz_dir}/failures")
 foreach(reader IN LISTS fuzzed_readers)
   set(found "${fuzz_dir}/found_${reader}")
@@ -47,8 +57,8 @@ foreach(reader IN LISTS fuzzed_readers)
   # -timeout, s: a reader that takes so long on an input hangs. -rss_limit_mb: or holds all of it.
   add_test(NAME fuzz.${reader}
     COMMAND "${fuzz_dir}/tests/fuzz/fuzz_${reader}" -seed=1 -max_total_time=15 -timeout=10 -rss_limit_mb=2048 -max_len=6000
-            -print_final_stats=1 "-dict=${CMAKE_CURRENT_SOURCE_DIR}/fuzz/keys.dict"
-            "-artifact_prefix=${fuzz_dir}/failures/${reader}-" "${found}"
+            -print_final_stats=1 "-dict=${words}"
+            "-artifact_prefix=${fuzz_dir}/failures/${reader}-" ${seeds_${reader}} "${found}"
             "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${reader}")
-  set_tests_properties(fuzz.${reader} PROPERTIES FIXTURES_REQUIRED fuzzers TIMEOUT 180)
+  set_tests_properties(fuzz.${reader} PROPERTIES FIXTURES_REQUIRED fuzzers LABELS fuzz TIMEOUT 180)
 endforeach()
