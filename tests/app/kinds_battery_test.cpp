@@ -36,12 +36,19 @@ class EveryKind : public StoredStudy, public ::testing::WithParamInterface<std::
     return run(command);
   }
 
-  /// Runs the study into the folder "alone"; its exit code says that every case has an answer, if perhaps an
-  /// indeterminate one.
-  int run_alone() {
-    const Outcome outcome = study_into("alone");
-    EXPECT_TRUE(outcome.code == 0 || outcome.code == 4) << outcome.code << outcome.err;
-    return outcome.code;
+  /// The study that ran into the folder "alone", once for all cases; its exit code says that every case has
+  /// an answer, if perhaps an indeterminate one.
+  const Outcome& run_alone() {
+    static const testing::SharedFolder shared;
+    static std::map<std::string, Outcome> outcomes;
+    const std::filesystem::path kept = shared.path / GetParam(), alone = folder() / "alone";
+    const auto [outcome, is_new] = outcomes.try_emplace(GetParam());
+    if (is_new) outcome->second = study_into("alone", {"--json"});
+    const int code = outcome->second.code;
+    EXPECT_TRUE(code == 0 || code == 4) << code << outcome->second.err;
+    std::filesystem::copy(is_new ? alone : kept, is_new ? kept : alone,
+                          std::filesystem::copy_options::recursive);
+    return outcome->second;
   }
 
   json study_json(const std::string& output) const {
@@ -58,9 +65,8 @@ class EveryKind : public StoredStudy, public ::testing::WithParamInterface<std::
 };
 
 TEST_P(EveryKind, PrintsWhatStudyJsonHoldsAndHasTheCommonKeys) {
-  const Outcome outcome = study_into("out", {"--json"});
-  EXPECT_TRUE(outcome.code == 0 || outcome.code == 4) << outcome.err;
-  const json object = study_json("out");
+  const Outcome outcome = run_alone();
+  const json object = study_json("alone");
   EXPECT_EQ(json::parse(outcome.out, nullptr, false), object);
   EXPECT_EQ(object.value("kind", ""), GetParam());
   EXPECT_EQ(object.value("study", ""), "study.toml");
@@ -80,7 +86,7 @@ TEST_P(EveryKind, WritesOnlyNamesThatAreExpected) {
 }
 
 TEST_P(EveryKind, ThatIsFinishedStandsAsItIs) {
-  const int code = run_alone();
+  const int code = run_alone().code;
   const auto written = std::filesystem::last_write_time(folder() / "alone/report.md");
   const auto before = results_in("alone");
   const std::string manifest = read("alone/manifest.json");
@@ -94,7 +100,7 @@ TEST_P(EveryKind, ThatIsFinishedStandsAsItIs) {
 }
 
 TEST_P(EveryKind, ThatWasKilledComesToTheSame) {
-  const int code = run_alone();
+  const int code = run_alone().code;
   // On a busy machine a study may end before it is killed.
   bool was_killed = false;
   for (int attempt = 0; attempt < 5 && !was_killed; ++attempt) {
@@ -115,7 +121,7 @@ TEST_P(EveryKind, ThatWasKilledComesToTheSame) {
 }
 
 TEST_P(EveryKind, InShardsMergesToTheWhole) {
-  const int code = run_alone();
+  const int code = run_alone().code;
   for (const char* shard : {"1", "2"}) {
     const std::string output = std::string("shard-") + shard;
     const Outcome outcome = study_into(output, {"--shard", std::string(shard) + "/2"});

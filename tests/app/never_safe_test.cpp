@@ -1,5 +1,7 @@
-// Mistaken inputs, one change each to a study that is SAFE: none of them may stay SAFE. The control comes
-// first.
+// Mistaken inputs, one change each to a study that is SAFE: none of them may stay SAFE. They are examples, by
+// the program, of what validity_warnings_test.cpp, the two plausibility_test.cpp and
+// calibration_domain_test.cpp list. The control comes first; what it ran is there when its user makes a
+// mistake and runs it again.
 #include "program.hpp"
 
 #include <nlohmann/json.hpp>
@@ -14,13 +16,17 @@
 namespace launchsafe::app {
 namespace {
 
-/// The shipped scene on few cells with so much inertia that its launch takes some tenths of a second.
+/// The shipped scene on few cells with so much inertia that its launch takes a tenth of a second.
 std::string sound_scene() {
   std::ifstream file(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  return with(with(with(text, "growth_x = 1.3 ", "growth_x = 1.5 "), "time_step_factor",
-                   "inertial_scaling = 16\ntime_step_factor"),
-              "\"0, 0.01, 0.02, 0.03, 0.039, 0.04 cm\"", "\"0, 0.005 cm\"");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"cell_size = \"1.25 mm\"", "cell_size = \"2.5 mm\""},
+           {"growth_x = 1.3 ", "growth_x = 1.5 "},
+           {"time_step_factor", "inertial_scaling = 16\ntime_step_factor"},
+           {"\"0, 0.01, 0.02, 0.03, 0.039, 0.04 cm\"", "\"0, 0.005 cm\""}})
+    text = with(text, from, to);
+  return text;
 }
 
 const std::string sound_study = R"(kind = "critical-gap"
@@ -65,14 +71,27 @@ std::vector<Edit> in_study(std::string from, std::string to) {
 
 class NeverSafe : public Program, public ::testing::WithParamInterface<Mistake> {
  protected:
-  void write_sound() const {
+  void write_edited(const std::vector<Edit>& edits) const {
     write("shell.toml", sound_scene());
     write("study.toml", sound_study);
     write("pressure.csv", sound_curve);
-  }
-  void apply(const std::vector<Edit>& edits) const {
     for (const Edit& edit : edits)
       write(edit.file, edit.from.empty() ? edit.to : with(read(edit.file), edit.from, edit.to));
+  }
+  /// Runs the edited study in the folder of the sound one, which ran once for all cases.
+  Outcome run_edited(const std::vector<Edit>& edits, const std::vector<std::string>& more = {}) {
+    static const testing::SharedFolder shared;
+    const std::filesystem::path sound = shared.path / "out", out = folder() / "out";
+    if (!std::filesystem::exists(sound)) {
+      write_edited({});
+      EXPECT_EQ(run({"study", "study.toml", "-o", sound.string()}).code, 0);
+    }
+    std::filesystem::remove_all(out);
+    std::filesystem::copy(sound, out, std::filesystem::copy_options::recursive);
+    write_edited(edits);
+    std::vector<std::string> command{"study", "study.toml", "-o", "out", "--update"};
+    command.insert(command.end(), more.begin(), more.end());
+    return run(command);
   }
   int verdicts(const std::string& verdict) const {
     const std::string table = read("out/verdicts.csv"), wanted = "," + verdict + ",";
@@ -83,32 +102,32 @@ class NeverSafe : public Program, public ::testing::WithParamInterface<Mistake> 
   }
 };
 
-TEST_F(NeverSafe, TheUnchangedStudyIsSafe) {
-  write_sound();
-  const Outcome outcome = run({"study", "study.toml", "-o", "out"});
+void expect_both_safe(const Outcome& outcome, int safe) {
   EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
-  EXPECT_EQ(verdicts("SAFE"), 2) << outcome.out;
+  EXPECT_EQ(safe, 2) << outcome.out;
+}
+
+TEST_F(NeverSafe, TheUnchangedStudyIsSafe) {
+  const Outcome outcome = run_edited({});
+  expect_both_safe(outcome, verdicts("SAFE"));
 }
 
 TEST_F(NeverSafe, AMeasuredCurveThatIsSimulatedWholeIsSafe) {
-  write_sound();
-  apply(with_curve(sound_curve));
-  const Outcome outcome = run({"study", "study.toml", "-o", "out"});
-  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
-  EXPECT_EQ(verdicts("SAFE"), 2) << outcome.out;
+  const Outcome outcome = run_edited(with_curve(sound_curve));
+  expect_both_safe(outcome, verdicts("SAFE"));
 }
 
 TEST_P(NeverSafe, Mistaken) {
   const Mistake& mistake = GetParam();
-  write_sound();
-  apply(mistake.edits);
-  const Outcome outcome = run({"study", "study.toml", "-o", "out"});
   if (mistake.refused) {
+    write_edited(mistake.edits);
+    const Outcome outcome = run({"study", "study.toml", "-o", "out"});
     EXPECT_EQ(outcome.code, 2) << outcome.out << outcome.err;
     EXPECT_TRUE(outcome.says(mistake.says)) << outcome.err;
     EXPECT_FALSE(exists("out"));
     return;
   }
+  const Outcome outcome = run_edited(mistake.edits);
   EXPECT_EQ(outcome.code, 4) << outcome.out << outcome.err;
   EXPECT_EQ(verdicts("SAFE"), 0) << outcome.out;
   EXPECT_EQ(verdicts("INDETERMINATE"), 2) << outcome.out;
@@ -120,16 +139,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Mistake{"QuietBeforeThePulse", with_curve("time_ms,pressure_MPa\n0,0\n20,0\n24,60\n30,496\n36,70\n"),
                 "not covered"},
-        Mistake{"CutBeforeThePeak", with_curve("time_ms,pressure_MPa\n0,0\n5,60\n9,200\n18,480\n"),
-                "cut off"},
-        Mistake{"ACurveThatGoesOn", with_curve(sound_curve + "25,40\n"), "after the end of the simulation"},
-        Mistake{"ASecondHumpAfterTheEnd", with_curve(sound_curve + "25,480\n30,20\n"), "after the end"},
         Mistake{"DelayedAndRescaled",
                 with_curve("time_ms,pressure_MPa\n0,0\n20,0\n24,60\n30,300\n36,70\n",
                            "peak = \"496 MPa\"\nrescale_to_peak = true\n"),
-                "not covered"},
-        Mistake{"ThePeakAfterTheEnd", in_scene("[load]", "[load]\npeak_time = \"40 ms\""), "not covered"},
-        Mistake{"ShorterThanTheRise", in_scene("duration = \"18 ms\"", "duration = \"10.5 ms\""),
                 "not covered"},
         Mistake{"EndsAtThePeak", in_scene("[load]", "[load]\npeak_time = \"18 ms\""), "cut off"}),
     [](const auto& test) { return test.param.name; });
@@ -143,30 +155,15 @@ std::vector<Edit> in_table(const std::string& table, const std::string& line) {
 INSTANTIATE_TEST_SUITE_P(
     Implausible, NeverSafe,
     ::testing::Values(
-        Mistake{"MegapascalsLabelledPascal", with_curve(with(sound_curve, "MPa", "Pa")),
-                "load.measured_peak"},
         Mistake{"MegapascalsLabelledKilopascal", with_curve(with(sound_curve, "MPa", "kPa")),
                 "load.measured_peak"},
         Mistake{"NoLoad", with_curve("time_ms,pressure_MPa\n0,0\n9,0\n18,0\n"), "load.measured_peak"},
-        Mistake{"AHundredthOfThePeak", in_scene("496 MPa", "4.96 MPa"), "load.peak"},
-        Mistake{"SlowExchange", in_table("gap", "exchange_time = \"100 s\""), "gap.exchange_time"},
-        Mistake{"ThickSkin", in_scene("skin_thickness = \"0.1 mm\"", "skin_thickness = \"1 cm\""),
-                "gap.skin_thickness"},
         Mistake{"ThinAir", in_table("gap", "air_density = \"0.7 kg/m3\""), "gap.gas_law"},
-        Mistake{"AirWithoutHeat", in_table("gap", "air_specific_heat = \"1e-300 J/(kg K)\""),
-                "gap.air_specific_heat", true},
         Mistake{"NoIgnition", in_table("kinetics", "ignition_temperature = \"1e6 K\""),
                 "kinetics.ignition_temperature", true},
         Mistake{"LateIgnition", in_table("kinetics", "ignition_temperature = \"700 K\""),
                 "kinetics.ignition_temperature"},
-        Mistake{"NegativeJwl", in_table("charge", "jwl.a = \"-1 GPa\""), "charge.jwl.a", true},
-        Mistake{"NoFriction", in_table("charge", "sliding_friction = 0"), "charge.sliding_friction"},
-        Mistake{"NoDriftLimit", in_scene("[numerics]\n", "[numerics]\nenergy_drift_limit = 100\n"),
-                "numerics.energy_drift_limit"},
-        Mistake{"AnExactMesh", in_study("\"5 K\"\nfit", "\"0 K\"\nfit"), "numerical_uncertainty"},
-        Mistake{"ExactConstants", in_study("\"3 K\"", "\"0 K\""), "fit_uncertainty"},
-        Mistake{"ExactInputs", in_study("input_uncertainty = \"5 K\"", "input_uncertainty = \"0 K\""),
-                "input_uncertainty"}),
+        Mistake{"AnExactMesh", in_study("\"5 K\"\nfit", "\"0 K\"\nfit"), "numerical_uncertainty"}),
     [](const auto& test) { return test.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -176,19 +173,13 @@ INSTANTIATE_TEST_SUITE_P(
                 in_scene("x = \"0 to 11.8 cm\",    r = \"0 to 7.75 cm\"",
                          "x = \"1 to 11.8 cm\",    r = \"0 to 7.75 cm\""),
                 "another shell"},
-        Mistake{"WiderStations", in_scene("width = \"5 mm\"", "width = \"7 mm\""), "station.width"},
         Mistake{"WiderStationsUnderAGeneralAcceptance",
                 {{"shell.toml", "width = \"5 mm\"", "width = \"7 mm\""},
                  {"shell.toml", "title =",
                   "accept = [{ key = \"calibration\", because = \"everything is much alike\" }]\ntitle ="}},
                 "station.width"},
-        Mistake{"DeeperStations", in_scene("depth = \"5 mm\"", "depth = \"9 mm\""), "station.depth"},
-        Mistake{"StationsOfOneCell", in_scene("cell_size = \"1.25 mm\"", "cell_size = \"3 mm\""),
+        Mistake{"StationsOfOneCell", in_scene("cell_size = \"2.5 mm\"", "cell_size = \"3 mm\""),
                 "two are needed"},
-        Mistake{"ASlidingCharge",
-                in_scene("[interface.wall]\ncondition = \"sliding\"\nfriction = 0 ",
-                         "[interface.wall]\ncondition = \"sliding\"\nfriction = 0.3 "),
-                "interface.wall.condition"},
         Mistake{"ASlidingChargeOfTheStudyUnderAGeneralAcceptance",
                 {{"shell.toml", "title =",
                   "accept = [{ key = \"calibration\", because = \"everything is much alike\" }]\ntitle ="},
@@ -206,13 +197,6 @@ INSTANTIATE_TEST_SUITE_P(
              {"study.toml", "confirm = false",
               "confirm = false\nset = { interface = { wall = { friction = 0.2 } } }"}},
             "interface.wall.condition"},
-        Mistake{"AnotherExplosive", in_table("charge", "density = \"1.6 g/cm3\""), "charge.density"},
-        Mistake{"AnotherClosure", in_scene("closure = \"total strain rate\"", "closure = \"inelastic\""),
-                "friction.closure"},
-        Mistake{"ColderConstants", in_scene("[friction]", "[friction]\nlocalisation = 600"),
-                "friction.localisation"},
-        Mistake{"SlowerExchange", in_scene("[gap]", "[gap]\nexchange_time = \"0.5 ms\""),
-                "gap.exchange_time"},
         Mistake{
             "FilmUnderAGeneralAcceptance",
             {{"shell.toml", "title =",
@@ -242,9 +226,7 @@ TEST_F(NeverSafe, AnOmittedUncertaintyIsNoSmallerThanAStatedOne) {
       {"input_uncertainty = \"5 K\"\n", "uncertainty_of_inputs_K", 12.0},
       {"model_form_uncertainty = \"1 K\"\n", "uncertainty_of_model_form_K", 50.0}};
   for (const auto& [line, share, least] : omissions) {
-    write_sound();
-    apply(in_study(line, ""));
-    const Outcome outcome = run({"study", "study.toml", "-o", share, "--json"});
+    const Outcome outcome = run_edited(in_study(line, ""), {"--json"});
     const auto verdicts = nlohmann::json::parse(outcome.out)["verdicts"];
     ASSERT_EQ(verdicts.size(), 2u) << outcome.err;
     for (const auto& row : verdicts) EXPECT_GE(row[share].get<double>(), least) << share;

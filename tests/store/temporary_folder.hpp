@@ -10,12 +10,27 @@
 
 namespace launchsafe::testing {
 
+/// Makes an empty folder, which is the caller's to remove. Its path is empty where none can be made.
+inline std::filesystem::path new_temporary_folder() {
+  std::string name = (std::filesystem::temp_directory_path() / "launchsafe-XXXXXX").string();
+  return ::mkdtemp(name.data()) == nullptr ? std::filesystem::path() : std::filesystem::path(name);
+}
+
+/// An empty folder for several tests, gone with this object.
+struct SharedFolder {
+  const std::filesystem::path path = new_temporary_folder();
+
+  SharedFolder() = default;
+  SharedFolder(const SharedFolder&) = delete;
+  SharedFolder& operator=(const SharedFolder&) = delete;
+  ~SharedFolder() { std::filesystem::remove_all(path); }
+};
+
 class TemporaryFolder : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "launchsafe-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
+    folder_ = new_temporary_folder();
+    ASSERT_FALSE(folder_.empty());
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
