@@ -1,14 +1,12 @@
 // The walkthroughs of studies/walkthroughs and the page for Python: every command and every block of Python
-// is run, and prints what the page says. With LAUNCHSAFE_WALKTHROUGHS=write in the environment the pages are
-// written anew instead. With LAUNCHSAFE_ROOT, a folder with a system where launchsafe is installed, the pages
-// are those of that system, and their commands run there, by a user who may write nowhere else
-// (tests/app/deb.sh).
+// is run, and prints what the page says (stored_page.hpp). With LAUNCHSAFE_ROOT, a folder with a system where
+// launchsafe is installed, the pages are those of that system, and their commands run there, by a user who
+// may write nowhere else (tests/app/deb.sh).
 #include "program.hpp"
+#include "stored_page.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <regex>
 
 namespace launchsafe::app {
 namespace {
@@ -33,24 +31,6 @@ std::string with_outputs(const std::string& page,
     }
   }
   return text;
-}
-
-/// Words of a text, with every number by itself; what only draws a table's columns is left out.
-std::vector<std::string> words_of(const std::string& text) {
-  static const std::regex word(R"([-+]?\d+\.?\d*(?:e[-+]?\d+)?|[^\s\d]+)");
-  std::vector<std::string> words;
-  for (std::sregex_iterator each(text.begin(), text.end(), word), end; each != end; ++each)
-    if (each->str().find_first_not_of('-') != std::string::npos) words.push_back(each->str());
-  return words;
-}
-
-/// Numbers may differ by a hundredth between processors, words not at all.
-bool agrees(const std::string& a, const std::string& b) {
-  if (a == b) return true;
-  char *end_a = nullptr, *end_b = nullptr;
-  const double first = std::strtod(a.c_str(), &end_a), second = std::strtod(b.c_str(), &end_b);
-  if (*end_a != '\0' || *end_b != '\0') return false;
-  return std::abs(first - second) <= 0.01 * std::max(std::abs(first), std::abs(second));
 }
 
 class Walkthrough : public Program, public ::testing::WithParamInterface<std::string> {
@@ -129,14 +109,7 @@ TEST_P(Walkthrough, PrintsWhatThePageSays) {
   const std::string run = with_outputs(
       page, [this](const std::string& command) { return output_of(command); },
       [this](const std::string& block) { return python_output_of(block); });
-  if (std::getenv("LAUNCHSAFE_WALKTHROUGHS") != nullptr) {
-    std::ofstream(file) << run;
-    return;
-  }
-  const std::vector<std::string> expected = words_of(page), found = words_of(run);
-  ASSERT_EQ(expected.size(), found.size()) << run;
-  for (std::size_t i = 0; i < expected.size(); ++i)
-    ASSERT_TRUE(agrees(expected[i], found[i])) << expected[i] << " is " << found[i] << " in\n" << run;
+  testing::expect_stored(run, file);
 }
 
 /// The walkthroughs in their folder, from that of the studies.
