@@ -47,23 +47,27 @@ TEST_F(FailingCase, ADriftOfEnergyIsItsRowAndIsNotComputedAgain) {
 }
 
 TEST_F(FailingCase, ARunawayIsGivenUpAndTriedAgainWithMoreTimeOnly) {
-  // The short launch takes some milliseconds, the long one seconds: a busy machine does not confuse them.
-  write_study("\"load.duration\" = \"0.05, 400 ms\"");
-  const Outcome first = run({"study", "study.toml", "-o", "out", "--time-limit", "1s"});
+  // Half of the cases in a time that is enough for each, then the others in one that is enough for none.
+  const auto shard = [this](const std::string& part, const std::string& output, const std::string& limit) {
+    return run({"study", "study.toml", "-o", output, "--time-limit", limit, "--shard", part}).code;
+  };
+  const std::string enough = "1h", none = "1e-9s";
+  write_study("\"load.duration\" = \"0.05, 0.06 ms\"");
+  EXPECT_EQ(shard("1/2", "out", enough), 0);
+  const Outcome first = run({"study", "study.toml", "-o", "out", "--time-limit", none});
   EXPECT_EQ(first.code, 3);
-  EXPECT_TRUE(first.says("load.duration 400 ms: timed out")) << first.err;
-  EXPECT_FALSE(first.says("load.duration 50 us: ")) << first.err;
+  EXPECT_TRUE(first.says(": timed out")) << first.err;
   EXPECT_EQ(done_cases("out").size(), 1u);
-  const Outcome again = run({"study", "study.toml", "-o", "out", "--time-limit", "1s"});
+  const Outcome again = run({"study", "study.toml", "-o", "out", "--time-limit", none});
   EXPECT_EQ(again.code, 3);
   EXPECT_TRUE(again.says("ran 0")) << again.err;
-  EXPECT_TRUE(again.says("load.duration 400 ms: timed out")) << again.err;
+  EXPECT_TRUE(again.says(": timed out")) << again.err;
   // A shard that gave a case up has a row for it too.
-  EXPECT_EQ(run({"study", "study.toml", "-o", "shard-1", "--time-limit", "1s", "--shard", "1/2"}).code, 3);
-  EXPECT_EQ(run({"study", "study.toml", "-o", "shard-2", "--time-limit", "1s", "--shard", "2/2"}).code, 0);
+  EXPECT_EQ(shard("1/2", "shard-1", enough), 0);
+  EXPECT_EQ(shard("2/2", "shard-2", none), 3);
   EXPECT_EQ(run({"merge", "study.toml", "-o", "merged", "shard-1", "shard-2"}).code, 3);
   expect_same_results("out", "merged");
-  const Outcome longer = run({"study", "study.toml", "-o", "out", "--time-limit", "5min"});
+  const Outcome longer = run({"study", "study.toml", "-o", "out", "--time-limit", enough});
   EXPECT_TRUE(longer.says("re-used 1 mechanical run, ran 1 ")) << longer.err;
   EXPECT_EQ(done_cases("out").size(), 2u);
 }
@@ -75,7 +79,6 @@ TEST_F(FailingCase, OneThatNeedsTooMuchMemoryFailsRatherThanSwaps) {
   EXPECT_EQ(outcome.code, 3);
   EXPECT_TRUE(outcome.says("memory")) << outcome.err;
   EXPECT_TRUE(outcome.says("peak_pressure 60 MPa: ")) << outcome.err;
-  EXPECT_LT(outcome.seconds, 10.0);
 }
 
 TEST_F(FailingCase, TwentyAreNamedAndTheRestCounted) {

@@ -38,7 +38,6 @@ class HostileFileProgram : public Program, public ::testing::WithParamInterface<
     EXPECT_TRUE(outcome.out.empty()) << outcome.out;
     EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
     EXPECT_LT(outcome.err.size(), 6000u);
-    EXPECT_LT(outcome.seconds, 20.0);
     for (const std::string& part : message) EXPECT_TRUE(outcome.says(part)) << part << " in " << outcome.err;
     EXPECT_FALSE(exists("out"));
   }

@@ -4,7 +4,6 @@
 namespace launchsafe::app {
 namespace {
 
-using namespace std::chrono_literals;
 using Arguments = std::vector<std::string>;
 
 class JsonProgram : public StoredStudy {
@@ -119,7 +118,7 @@ TEST_F(JsonProgram, FailedCasesStandBesideTheResults) {
 TEST_F(JsonProgram, AnInterruptionIsAnErrorOfOneObject) {
   write("long.toml", long_scene());
   start({"run", "long.toml", "--json", "--quiet"});
-  std::this_thread::sleep_for(500ms);
+  wait_until_it_catches(SIGTERM);
   send(SIGTERM);
   const Outcome outcome = wait();
   EXPECT_EQ(outcome.code, 75) << outcome.err;

@@ -6,8 +6,6 @@
 namespace launchsafe::app {
 namespace {
 
-using namespace std::chrono_literals;
-
 class HangingPicture : public StoredStudy {
  protected:
   void SetUp() override {
@@ -26,14 +24,11 @@ class HangingPicture : public StoredStudy {
 
 TEST_F(HangingPicture, IsGivenUpWhenTheUserStopsAndDrawnTheNextTime) {
   start({"study", "study.toml", "-o", "out", "--json"});
-  for (int tries = 0; tries < 600 && !exists("bin/gnuplot.began"); ++tries) std::this_thread::sleep_for(50ms);
-  ASSERT_TRUE(exists("bin/gnuplot.began"));
-  const auto begin = std::chrono::steady_clock::now();
+  wait_for_file("bin/gnuplot.began");
   send(SIGINT);
   const Outcome outcome = wait();
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, 2s);
   EXPECT_EQ(outcome.code, 75) << outcome.err;
-  EXPECT_TRUE(outcome.says("no picture: ")) << outcome.err;
+  EXPECT_TRUE(outcome.says("asked to stop")) << outcome.err;
   const auto object = nlohmann::json::parse(outcome.out);
   EXPECT_TRUE(object.contains("error")) << outcome.out;
   EXPECT_TRUE(object.contains("cases")) << outcome.out;

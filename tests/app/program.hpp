@@ -91,7 +91,6 @@ inline std::string long_scene() {
 struct Outcome {
   int code = -1;  ///< of its exit; -1 when a signal ended it
   std::string out, err;
-  double seconds = 0;
 
   int lines_of_error() const {
     int lines = 0;
@@ -125,7 +124,6 @@ class Program : public testing::TemporaryFolder {
   }
   /// Starts another program.
   void start_program(std::vector<std::string> arguments, int error_descriptor = -1) {
-    start_time_ = std::chrono::steady_clock::now();
     child_ = ::fork();
     if (child_ == 0) become(arguments, error_descriptor);
     ASSERT_GT(child_, 0);
@@ -133,12 +131,39 @@ class Program : public testing::TemporaryFolder {
   void send(int signal) const { ASSERT_EQ(::kill(child_, signal), 0); }
   pid_t child() const { return child_; }
 
+  /// Waits until something has come about; fails where the program ends before.
+  void wait_until(const std::function<bool()>& has_come_about) const {
+    using namespace std::chrono_literals;
+    for (bool ended = false; !has_come_about(); std::this_thread::sleep_for(5ms)) {
+      ASSERT_FALSE(ended) << "the program ended before: " << read("stderr.txt");
+      ended = has_ended();
+    }
+  }
+  bool has_ended() const {
+    siginfo_t end{};
+    return ::waitid(P_PID, static_cast<id_t>(child_), &end, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+           end.si_pid == child_;
+  }
+  void wait_for_file(const std::string& name) const {
+    wait_until([&] { return exists(name); });
+  }
+  /// Waits until the program catches a signal, by the mask of the kernel.
+  void wait_until_it_catches(int signal) const {
+    wait_until([&] {
+      std::ifstream status("/proc/" + std::to_string(child_) + "/status");
+      std::string word;
+      while (status >> word && word != "SigCgt:") {
+      }
+      status >> word;
+      return status && (std::stoull(word, nullptr, 16) >> (signal - 1) & 1U) != 0;
+    });
+  }
+
   Outcome wait() {
     Outcome outcome;
     int status = 0;
     EXPECT_EQ(::waitpid(child_, &status, 0), child_);
     if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
-    outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_time_).count();
     outcome.out = read(output_file("stdout"));
     outcome.err = read(output_file("stderr"));
     return outcome;
@@ -158,12 +183,10 @@ class Program : public testing::TemporaryFolder {
   /// Runs the program while another is running.
   Outcome run_beside(const std::vector<std::string>& arguments) {
     const auto child = std::exchange(child_, -1);
-    const auto start_time = start_time_;
     output_mark_ = "_beside";
     const Outcome outcome = run(arguments);
     output_mark_.clear();
     child_ = child;
-    start_time_ = start_time;
     return outcome;
   }
 
@@ -188,7 +211,6 @@ class Program : public testing::TemporaryFolder {
   pid_t child_ = -1;
   std::string output_mark_;
   std::function<void()> preparation_;
-  std::chrono::steady_clock::time_point start_time_;
 };
 
 }  // namespace launchsafe::app

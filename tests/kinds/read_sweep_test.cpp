@@ -3,7 +3,6 @@
 #include "store/temporary_folder.hpp"
 #include "study/read_error.hpp"
 
-#include <ctime>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -247,20 +246,6 @@ TEST(ReadSweep, ThereIsAMostOfCases) {
       "load.exponent " + axis + "charge.face_friction = [" + numbers(101, 0.0, 0.01) +
           "]\nsteel.gruneisen = [" + numbers(101, 1.0, 0.01) + "]",
       {4, "axes.load.exponent", "1030301 mechanical runs, 101 of axes.load.exponent x", "at most 1000000"});
-}
-
-TEST(ReadSweep, TenThousandCasesAreReadWithoutADelay) {
-  const std::string text = sweep_text + "peak_pressure = \"" + numbers(100, 300.0, 1.0) +
-                           " MPa\"\nflaw_size = \"" + numbers(100, 1.0, 0.01) + " mm\"\n";
-  const std::clock_t start = std::clock();
-  const StudyFile study = study_of(text);
-  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  EXPECT_EQ(study.cases.size(), 10000u);
-  RecordProperty("milliseconds", static_cast<int>(1e3 * seconds));
-#ifdef NDEBUG
-  // A tenth of a second on a quiet core. What grows with the square of the cases takes minutes.
-  EXPECT_LT(seconds, 5.0) << "processor time";
-#endif
 }
 
 }  // namespace

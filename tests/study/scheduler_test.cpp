@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <condition_variable>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -117,22 +118,22 @@ TEST(Scheduler, ARefusedTaskFailsWithItsReasonAndTheOthersRun) {
   EXPECT_TRUE(outcomes[1].failure.empty());
 }
 
-/// Tasks that record how much memory they and those beside them take.
+/// Tasks that record how much memory they and those beside them take, and go on once it was `awaited`.
 struct MemoryUse {
+  double awaited = 0;
   std::mutex mutex;
+  std::condition_variable changed;
   double now = 0, most = 0;
   std::vector<Task> tasks;
 
   void add(double cost, double memory) {
     tasks.push_back({cost,
                      [this, memory](const Allotment&) {
-                       {
-                         const std::lock_guard lock(mutex);
-                         now += memory;
-                         most = std::max(most, now);
-                       }
-                       std::this_thread::sleep_for(std::chrono::milliseconds(3));
-                       const std::lock_guard lock(mutex);
+                       std::unique_lock lock(mutex);
+                       now += memory;
+                       most = std::max(most, now);
+                       changed.notify_all();
+                       changed.wait(lock, [this] { return most >= awaited; });
                        now -= memory;
                      },
                      memory});
@@ -141,12 +142,12 @@ struct MemoryUse {
 
 TEST(Scheduler, NeverTakesMoreThanTheMemoryLimit) {
   MemoryUse use;
+  use.awaited = 5.0;  // several at a time all the same
   for (int i = 0; i < 20; ++i) use.add(1 + i % 3, 1.0 + i % 4);
   ProgressTracker tracker({});
   const auto outcomes = run_tasks(use.tasks, {4, 5.0}, tracker);
   for (const TaskOutcome& outcome : outcomes) EXPECT_TRUE(outcome.started && outcome.failure.empty());
-  EXPECT_LE(use.most, 5.0);
-  EXPECT_GT(use.most, 4.0);  // several at a time all the same
+  EXPECT_EQ(use.most, 5.0);
 }
 
 TEST(Scheduler, RefusesATaskThatIsTooLargeEvenAlone) {
