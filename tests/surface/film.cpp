@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <functional>
 #include <numbers>
 
@@ -355,37 +354,6 @@ TEST(FilmIgnition, ByRunawayBesideColdWallsKeepsTheLedger) {
     EXPECT_GT(film.energy[0].reaction, 0.0);
     EXPECT_LE(film.skin.energy_residual, 1e-11);
   }
-}
-
-TEST(Film, OfThirteenStationsTakesATenthOfASecond) {
-  trace::BottomTrace trace = film_launch(900, 1.1e6);
-  while (trace.stations.size() < 13) {
-    trace.stations.push_back(trace.stations.back());
-    for (auto& closure : trace.friction) {
-      const std::size_t count = trace.stations.size() - 1;
-      std::vector<double> wider;
-      for (std::size_t k = 0; k < closure.size(); ++k) {
-        wider.push_back(closure[k]);
-        if (k % count == count - 1) wider.push_back(closure[k]);
-      }
-      closure = wider;
-    }
-  }
-  const auto now = [] {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  };
-  double best = 10.0;
-  for (int run = 0; run < 3; ++run) {
-    const double begin = now();
-    integrate_film(film_model(), trace, 4e-4);
-    best = std::min(best, now() - begin);
-  }
-  RecordProperty("film_ms", std::to_string(1e3 * best));
-#ifdef NDEBUG
-  EXPECT_LT(best, 0.2);
-#endif
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 namespace {
 
@@ -228,31 +227,6 @@ TEST(SkinMaxima, AreTakenOverTheirStationsAndTimes) {
   EXPECT_TRUE(std::isnan(maximum_at_stations(history, trace).temperature));
   EXPECT_TRUE(std::isnan(maximum_at_time(history, trace, 1.0).temperature));
   EXPECT_TRUE(std::isnan(spread_at_time(history, trace, 1.0)));
-}
-
-TEST(SkinHistory, FortyStationsOnAThousandSamplesTakeMilliseconds) {
-  const trace::BottomTrace trace = launch(1000, 38, friction_energy);
-  for (const auto air : {scene::AirModel::reservoir, scene::AirModel::balance}) {
-    SkinModel model = plain_model();
-    model.surface.air_model = air;
-    // Processor time, the best of three, as the machine may be busy with other things.
-    const auto now = [] {
-      timespec time{};
-      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-      return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-    };
-    double best = 1.0;
-    for (int run = 0; run < 3; ++run) {
-      const double begin = now();
-      integrate_skin(model, trace, 4e-4);
-      best = std::min(best, now() - begin);
-    }
-    RecordProperty(air == scene::AirModel::balance ? "balance_ms" : "reservoir_ms",
-                   std::to_string(1e3 * best));
-#ifdef NDEBUG
-    EXPECT_LT(best, 0.05);
-#endif
-  }
 }
 
 }  // namespace
