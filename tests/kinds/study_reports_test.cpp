@@ -86,14 +86,10 @@ TEST(CriticalGapReport, SeveralCasesHaveNoSingleCriticalGap) {
   EXPECT_NE(kinds::answer(result).find("400 MPa"), std::string::npos);
 }
 
-TEST(CriticalGapReport, ThePageOpensWithTheAnswerAndSaysHowToRemakeIt) {
-  const CriticalGapResult result = one_case();
-  const std::string page = report::to_markdown(kinds::report_of(result));
-  EXPECT_TRUE(page.starts_with("# A test\n\nThe critical gap is 0.0")) << page.substr(0, 200);
-  EXPECT_NE(page.find("launchsafe study some_study.toml -o DIR"), std::string::npos);
+TEST(CriticalGapReport, ThePageNamesHeldOutRowsAndNoPathOfThisMachine) {
+  const std::string page = report::to_markdown(kinds::report_of(one_case()));
   EXPECT_NE(page.find("held out"), std::string::npos);
-  EXPECT_NE(page.find("60 K for mesh, step and scaling, assumed"), std::string::npos);
-  EXPECT_EQ(page.find(LAUNCHSAFE_SOURCE_DIR), std::string::npos) << "a path of this machine";
+  EXPECT_EQ(page.find(LAUNCHSAFE_SOURCE_DIR), std::string::npos);
 }
 
 TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
