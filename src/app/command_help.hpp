@@ -70,8 +70,7 @@ Examples:
   launchsafe verify                      every check
   launchsafe verify --filter jwl         those with "jwl" in their name
   launchsafe verify --error-against-time             error, order and processor time over step and mesh
-  launchsafe verify --error-against-time -o parts    parts/parts.md, .csv and .svg as well
-  launchsafe verify --finite-elements -o stresses    static stresses against CalculiX, where ccx is installed)";
+  launchsafe verify --error-against-time -o parts    parts/parts.md, .csv and .svg as well)";
 
 inline constexpr const char* explain_footer = R"(
 Examples:
@@ -118,6 +117,7 @@ Examples:
   launchsafe plot results/scene_155mm.h5                 all pictures, to results/scene_155mm_pictures
   launchsafe plot results/scene_155mm.h5 -o pictures --what pressure,histories
   launchsafe plot results/scene_155mm.h5 --what fields --times "10, 18 ms"
+  launchsafe plot results/scene_155mm.h5 --csv -o numbers
 
 Pictures, each an SVG file drawn by gnuplot:
   pressure     pressure.svg: chamber and bottom pressure
@@ -130,6 +130,9 @@ Pictures, each an SVG file drawn by gnuplot:
   air          air.svg: temperature of the gap's air against its compression, and the states reached
   energy       energy.svg: terms of the energy balance; energy_dissipated.svg
   combustion   combustion_mass_0.04cm.svg, combustion_pressure_, combustion_reaction_: after ignition
+
+Numbers of --csv, without gnuplot: pressure.csv; field_10ms.csv, ..., a row a particle, all fields of a snapshot;
+histories_0.04cm.csv, ..., a row a time, skin temperatures of all stations and observation points of a gap.
 
 Snapshots are what output.snapshots and output.snapshot_events of the scene ask for. Nothing is overwritten: a picture whose place holds
 something else is refused, and then none is written.)";

@@ -119,16 +119,11 @@ void add_verify(CLI::App& app, Parsed& parsed) {
                                   "Compare the program with closed-form solutions", verify_footer);
   command.add_option("--filter", parsed.verify.filter, "Only checks with this in their name, case ignored")
       ->type_name("TEXT");
-  CLI::Option* table = command.add_flag(
+  command.add_flag(
       "--error-against-time", parsed.verify.error_against_time,
       "Error against processor time of the parts with exact solutions, over step, tolerance and mesh");
-  command
-      .add_flag("--finite-elements", parsed.verify.finite_elements,
-                "Static stresses at the charge bottom against CalculiX (ccx): minutes")
-      ->excludes(table);
   add_folder(command, parsed.verify.output,
-             "Folder for parts.md, parts.csv and parts.svg of --error-against-time, or summary.md and "
-             "stresses.csv of --finite-elements");
+             "Folder for parts.md, parts.csv and parts.svg of --error-against-time");
   add_output_options(command, parsed);
 }
 
@@ -185,6 +180,8 @@ void add_plot(CLI::App& app, Parsed& parsed) {
       .add_option("--times", parsed.plot.times,
                   "Times of fields, which must be snapshots, and of profiles, such as \"8, 10 ms\"")
       ->type_name("LIST");
+  command.add_flag("--csv", parsed.plot.tables,
+                   "Their numbers instead of pictures: pressure, fields and histories, as CSV files");
   add_output_options(command, parsed);
 }
 
@@ -281,9 +278,7 @@ std::string contradiction(const StudyArguments& study) {
   return study.output.empty() && !study.dry_run ? "study: --output is required unless with --dry-run" : "";
 }
 std::string contradiction(const VerifyArguments& verify) {
-  const bool writes = verify.error_against_time || verify.finite_elements;
-  return verify.output && !writes ? "verify: --output requires --error-against-time or --finite-elements"
-                                  : "";
+  return verify.output && !verify.error_against_time ? "verify: --output requires --error-against-time" : "";
 }
 std::string contradiction(const ExplainArguments& explain) {
   const bool of_program = !explain.schema.empty() || explain.manual || !explain.completion.empty();

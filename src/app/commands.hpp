@@ -60,8 +60,7 @@ ExitCode perform(const EmitArguments& arguments, Console& console);
 struct VerifyArguments {
   std::string filter;                           ///< part of a check's group or name, case ignored
   bool error_against_time = false;              ///< tabulate errors against processor time instead
-  bool finite_elements = false;                 ///< compare static stresses with CalculiX instead
-  std::optional<std::filesystem::path> output;  ///< folder of either table; none: nothing is written
+  std::optional<std::filesystem::path> output;  ///< folder of that table; none: nothing is written
 };
 ExitCode perform(const VerifyArguments& arguments, Console& console);
 
@@ -81,6 +80,7 @@ struct PlotArguments {
   std::optional<std::filesystem::path> output;  ///< folder; none: CASE_pictures beside the file
   std::optional<std::string> what;              ///< words of kinds of pictures; none: all with data
   std::optional<std::string> times;             ///< with units, of fields and profiles
+  bool tables = false;                          ///< CSV files of numbers instead
 };
 ExitCode perform(const PlotArguments& arguments, Console& console);
 

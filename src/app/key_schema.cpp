@@ -299,8 +299,7 @@ nlohmann::ordered_json study_schema() {
 
 nlohmann::ordered_json references_schema() {
   Json schema = table_schema();
-  for (const char* table : {"reference", "statement"})
-    schema["properties"][table] = array_of(schema_of_table(table, kinds::describe_study_keys()));
+  schema["properties"]["reference"] = array_of(schema_of_table("reference", kinds::describe_study_keys()));
   return with_head(std::move(schema), "Published rows for studies of launchsafe");
 }
 

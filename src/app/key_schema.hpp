@@ -11,7 +11,7 @@ namespace launchsafe::app {
 nlohmann::ordered_json scene_schema();
 /// Of a study file of any kind.
 nlohmann::ordered_json study_schema();
-/// Of a file of what is published, which studies name by `references` or `statements`.
+/// Of a file of what is published, which studies name by `references`.
 nlohmann::ordered_json references_schema();
 
 }  // namespace launchsafe::app

@@ -1,4 +1,4 @@
-// launchsafe plot: pictures of one case.
+// launchsafe plot: pictures of one case, or their numbers.
 #include "commands.hpp"
 #include "launchsafe/report/case_pictures.hpp"
 #include "launchsafe/scene/quantity.hpp"
@@ -62,11 +62,17 @@ struct Selection {
   }
 };
 
+/// Why nothing of a kind can be written; empty where it can.
+std::string obstacle_to_kind(const PictureKind& kind, const report::DrawnCase& drawn, bool as_tables) {
+  if (as_tables && !kind.tables) return "it is drawn only";
+  return kind.lacks(drawn);
+}
+
 /// All that the case has data for.
-Selection all_kinds(const report::DrawnCase& drawn) {
+Selection all_kinds(const report::DrawnCase& drawn, bool as_tables) {
   Selection selection;
   for (const PictureKind& kind : report::picture_kinds()) {
-    if (std::string why = kind.lacks(drawn); why.empty()) {
+    if (std::string why = obstacle_to_kind(kind, drawn, as_tables); why.empty()) {
       selection.kinds.push_back(&kind);
     } else {
       selection.left_out.emplace_back(&kind, std::move(why));
@@ -76,7 +82,8 @@ Selection all_kinds(const report::DrawnCase& drawn) {
 }
 
 /// The kinds that a user named; each must be one, and the case must have what it needs.
-scene::Expected<Selection> named_kinds(const report::DrawnCase& drawn, const std::string& list) {
+scene::Expected<Selection> named_kinds(const report::DrawnCase& drawn, const std::string& list,
+                                       bool as_tables) {
   const std::vector<std::string> words = words_of(list), known = kind_words();
   if (words.empty()) return option_fault("--what", fmt::format("\"{}\"", list), scene::quoted_list(known));
   for (const std::string& word : words) {
@@ -87,7 +94,7 @@ scene::Expected<Selection> named_kinds(const report::DrawnCase& drawn, const std
   Selection selection;
   for (const PictureKind& kind : report::picture_kinds()) {
     if (std::find(words.begin(), words.end(), kind.word) == words.end()) continue;
-    if (const std::string why = kind.lacks(drawn); !why.empty())
+    if (const std::string why = obstacle_to_kind(kind, drawn, as_tables); !why.empty())
       return option_fault("--what",
                           fmt::format("\"{}\", which this case has no data for: {}", kind.word, why),
                           "what the case has data for; all of that without --what");
@@ -127,22 +134,31 @@ scene::Expected<std::vector<double>> wanted_times(const report::DrawnCase& drawn
   return *times;
 }
 
-/// A picture as it will be written.
-struct DrawnPicture {
-  CasePicture picture;
-  std::string svg;
+/// A picture, or its numbers, as it will be written.
+struct DrawnFile {
+  std::string what;  ///< the word of its kind
+  std::string name, text;
+  std::optional<double> time = {}, gap = {};  ///< s and m, of a picture
 };
 
-store::Result<std::vector<DrawnPicture>> draw(const report::DrawnCase& drawn, const Selection& selection,
-                                              const Console& console) {
+std::vector<DrawnFile> tabulate(const report::DrawnCase& drawn, const Selection& selection) {
+  std::vector<DrawnFile> files;
+  for (const PictureKind* kind : selection.kinds)
+    for (const report::CaseTable& each : kind->tables(drawn))
+      files.push_back({kind->word, each.file, report::to_csv(each.table)});
+  return files;
+}
+
+store::Result<std::vector<DrawnFile>> draw(const report::DrawnCase& drawn, const Selection& selection,
+                                           const Console& console) {
   Progress progress(progress_style(console.quiet()));
-  std::vector<DrawnPicture> pictures;
+  std::vector<DrawnFile> pictures;
   for (const PictureKind* kind : selection.kinds) {
-    for (CasePicture& picture : kind->pictures(drawn)) {
+    for (const CasePicture& picture : kind->pictures(drawn)) {
       progress.show("drawing " + picture.file);
       auto svg = report::to_svg(picture, {.stop = &stop_requested()});
       if (!svg) return svg.error();
-      pictures.push_back({std::move(picture), std::move(*svg)});
+      pictures.push_back({picture.what, picture.file, std::move(*svg), picture.time, picture.gap});
     }
   }
   return pictures;
@@ -154,36 +170,34 @@ std::filesystem::path folder_of(const PlotArguments& arguments) {
   return arguments.file.parent_path() / (arguments.file.stem().string() + "_pictures");
 }
 
-/// Writes all pictures, or none where one may not be written.
-ExitCode write_pictures(const std::vector<DrawnPicture>& pictures, const std::filesystem::path& folder,
-                        Console& console) {
-  for (const DrawnPicture& each : pictures)
-    if (const auto obstacle = obstacle_to_file(folder / each.picture.file, each.svg))
+/// Writes all files, or none where one may not be written.
+ExitCode write_files(const std::vector<DrawnFile>& files, const std::filesystem::path& folder,
+                     Console& console) {
+  for (const DrawnFile& each : files)
+    if (const auto obstacle = obstacle_to_file(folder / each.name, each.text))
       return console.refuse(*obstacle);
   if (const auto obstacle = prepare_output_folder(folder)) return console.refuse(*obstacle);
-  for (const DrawnPicture& each : pictures)
-    if (const auto error = write_where_absent(folder / each.picture.file, each.svg))
-      return console.end_with(*error);
+  for (const DrawnFile& each : files)
+    if (const auto error = write_where_absent(folder / each.name, each.text)) return console.end_with(*error);
   return ExitCode::done;
 }
 
-std::string written_text(const std::vector<DrawnPicture>& pictures, const std::filesystem::path& folder) {
+std::string written_text(const std::vector<DrawnFile>& files, const std::filesystem::path& folder) {
   std::string text;
-  for (const DrawnPicture& each : pictures) text += (folder / each.picture.file).string() + "\n";
+  for (const DrawnFile& each : files) text += (folder / each.name).string() + "\n";
   return text;
 }
 
-nlohmann::ordered_json written_json(const std::vector<DrawnPicture>& pictures,
-                                    const std::filesystem::path& folder, const Selection& selection) {
+nlohmann::ordered_json written_json(const std::vector<DrawnFile>& files, const std::filesystem::path& folder,
+                                    const Selection& selection, const char* list) {
   nlohmann::ordered_json object{{"folder", folder.string()},
-                                {"pictures", nlohmann::ordered_json::array()},
+                                {list, nlohmann::ordered_json::array()},
                                 {"left_out", nlohmann::ordered_json::array()}};
-  for (const DrawnPicture& each : pictures) {
-    const CasePicture& picture = each.picture;
-    nlohmann::ordered_json entry{{"what", picture.what}, {"file", (folder / picture.file).string()}};
-    if (picture.time) entry["time_ms"] = 1e3 * *picture.time;
-    if (picture.gap) entry["gap_cm"] = scene::in_unit(*picture.gap, scene::Dimension::length, "cm");
-    object["pictures"].push_back(std::move(entry));
+  for (const DrawnFile& each : files) {
+    nlohmann::ordered_json entry{{"what", each.what}, {"file", (folder / each.name).string()}};
+    if (each.time) entry["time_ms"] = 1e3 * *each.time;
+    if (each.gap) entry["gap_cm"] = scene::in_unit(*each.gap, scene::Dimension::length, "cm");
+    object[list].push_back(std::move(entry));
   }
   for (const auto& [kind, why] : selection.left_out)
     object["left_out"].push_back({{"what", kind->word}, {"because", why}});
@@ -210,21 +224,23 @@ ExitCode perform(const PlotArguments& arguments, Console& console) {
     return console.refuse(file.error().message +
                           "; allowed: a case file, such as launchsafe run SCENE.toml -o DIR writes");
   report::DrawnCase drawn{file->scene, file->stored.result};
-  const auto selection = arguments.what ? named_kinds(drawn, *arguments.what) : all_kinds(drawn);
+  const bool tables = arguments.tables;
+  const auto selection =
+      arguments.what ? named_kinds(drawn, *arguments.what, tables) : all_kinds(drawn, tables);
   if (!selection) return console.refuse(selection.error());
   if (arguments.times) {
     auto times = wanted_times(drawn, *selection, *arguments.times);
     if (!times) return console.refuse(times.error());
     drawn.times = std::move(*times);
   }
-  const auto pictures = draw(drawn, *selection, console);
-  if (!pictures) return end_of_drawing(pictures.error(), console);
+  const auto files = tables ? tabulate(drawn, *selection) : draw(drawn, *selection, console);
+  if (!files) return end_of_drawing(files.error(), console);
   const std::filesystem::path folder = folder_of(arguments);
-  if (const ExitCode code = write_pictures(*pictures, folder, console); code != ExitCode::done) return code;
+  if (const ExitCode code = write_files(*files, folder, console); code != ExitCode::done) return code;
   for (const auto& [kind, why] : selection->left_out)
-    console.remark(fmt::format("no picture of {}: {}", kind->word, why));
-  console.print_text(written_text(*pictures, folder));
-  console.print_json(written_json(*pictures, folder, *selection));
+    console.remark(fmt::format("no {} of {}: {}", tables ? "table" : "picture", kind->word, why));
+  console.print_text(written_text(*files, folder));
+  console.print_json(written_json(*files, folder, *selection, tables ? "tables" : "pictures"));
   return ExitCode::done;
 }
 

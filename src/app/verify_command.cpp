@@ -127,7 +127,6 @@ std::string verify_command(const char* form, const VerifyArguments& arguments) {
 }
 
 ExitCode perform(const VerifyArguments& arguments, Console& console) {
-  if (arguments.finite_elements) return compare_with_finite_elements(arguments, console);
   return arguments.error_against_time ? tabulate_errors(arguments, console)
                                       : compare_with_expected(arguments, console);
 }

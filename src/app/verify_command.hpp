@@ -13,8 +13,6 @@ namespace launchsafe::app {
 
 /// `launchsafe verify --error-against-time`.
 ExitCode tabulate_errors(const VerifyArguments& arguments, Console& console);
-/// `launchsafe verify --finite-elements`.
-ExitCode compare_with_finite_elements(const VerifyArguments& arguments, Console& console);
 
 /// Whether the name has the filter in it, case ignored.
 bool has_in_its_name(std::string_view name, std::string_view filter);
@@ -27,7 +25,7 @@ ExitCode refuse_filter(const std::string& filter, const std::vector<std::string>
 void compute_unless_stopped(Console& console, const char* lost,
                             const std::function<void(Progress&)>& compute);
 
-/// The command that makes a form's result again, on any machine; `form`: "--finite-elements".
+/// The command that makes a form's result again, on any machine; `form`: "--error-against-time".
 std::string verify_command(const char* form, const VerifyArguments& arguments);
 
 }  // namespace launchsafe::app

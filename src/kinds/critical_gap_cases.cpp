@@ -35,7 +35,6 @@ std::vector<scene::Key<CriticalGapSettings>> critical_gap_keys() {
 /// The lists that are given become axes, in this order.
 Fault read_critical_gap(const StudySource& source, StudyFile& study) {
   if (Fault fault = read_references(source, study)) return fault;
-  if (Fault fault = kinds::read_statements(source, study)) return fault;
   if (Fault fault = read_cited_limits(source.root, study)) return fault;
   const CriticalGapSettings& own = settings_of<CriticalGapSettings>(study.study);
   const std::vector<std::tuple<const char*, const char*, const std::vector<double>*>> lists{
@@ -72,9 +71,9 @@ std::vector<Failure> critical_gap_failures(const CriticalGapResult& result) {
 Kind critical_gap_kind() {
   return {
       .traits = {.name = "critical-gap", .gaps_key = "gaps"},
-      .keys = joined({reference_keys(), statement_file_keys(), gaps_keys(), own_keys(critical_gap_keys()),
-                      judging_keys(), calibration_record_keys(), uncertainty_keys()}),
-      .tables = {reference_table(), statement_table(), cited_limit_table()},
+      .keys = joined({reference_keys(), gaps_keys(), own_keys(critical_gap_keys()), judging_keys(),
+                      calibration_record_keys(), uncertainty_keys()}),
+      .tables = {reference_table(), cited_limit_table()},
       .instead_of = {{"gap", "gaps"}},
       .read = read_critical_gap,
       .make_cases = make_critical_gap_cases,
@@ -82,8 +81,6 @@ Kind critical_gap_kind() {
       // Reports of older programs had files of cases too.
       .files = {{"verdicts.csv"},
                 {"verdicts.md"},
-                {"statements.csv"},
-                {"statements.md"},
                 {"temperature.svg"},
                 {"critical_gaps.svg"},
                 {"case_", ".h5"},

@@ -2,7 +2,6 @@
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/report/interface_table.hpp"
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/report/statement_table.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 
@@ -129,31 +128,6 @@ std::string answer(const CriticalGapResult& result) {
   return text;
 }
 
-namespace {
-
-/// What the publication says, by quantity on the page and one by one in files; nothing where the study names
-/// no statements, or has no case of its own launch to compare with them.
-void add_statements(const CriticalGapResult& result, Report& report) {
-  const auto own = std::find_if(result.cases.begin(), result.cases.end(),
-                                [](const CaseOutcome& each) { return each.input.own_conditions; });
-  if (result.study.study.statements.empty() || own == result.cases.end()) return;
-  const std::vector<StatementCheck> checks = check_statements(result.study.study, *own);
-  const Table table = report::statement_table(checks);
-  const Table summary = statement_summary(checks);
-  report.files.push_back(
-      {"statements.md",
-       fmt::format("# What the publication says, line by line\n\nOf {}, as [the report](report.md) has it. "
-                   "\"Agrees\": within the digits printed, or what a figure shows.\n\n{}\n{}",
-                   own->input.label, to_markdown(table), statement_definitions(checks))});
-  report.items.push_back(ReportTable{summary, "", "statement_summary", Shown::page});
-  report.items.push_back(ReportTable{table, "statements.csv", "statements", Shown::file});
-  report.items.push_back(
-      Statement{"Every statement with its place in the publication, what was computed and how: "
-                "[statements.md](statements.md).\n"});
-}
-
-}  // namespace
-
 Report report_of(const CriticalGapResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
   const Table verdicts = verdict_table(result);
@@ -164,7 +138,6 @@ Report report_of(const CriticalGapResult& result) {
     report.items.push_back(
         Picture{"critical_gaps.svg", critical_gaps_plot(result), "critical gap of every case"});
   report.items.push_back(ReportTable{comparison_table(result), "", "comparison"});
-  add_statements(result, report);
   for (ReportTable table : {ReportTable{critical_gap_table(result), "", "cases"},
                             ReportTable{coupled_run_table(result), "", "coupled_runs"},
                             ReportTable{cited_limit_table(result), "", "cited_limits"},

@@ -2,7 +2,6 @@
 
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/cited_limits.hpp"
-#include "launchsafe/study/published_statements.hpp"
 
 #include <fmt/format.h>
 
@@ -121,18 +120,13 @@ Fault read_reference_tables(const toml::table& root, const std::string& file, St
   return std::nullopt;
 }
 
-/// Tables of one name, in a file of a study or of their own.
-using ReadTables = Fault (*)(const toml::table& root, const std::string& file, StudyFile& study);
-
-/// Reads [[table]] of a study file, or of a file of their own that several studies share: the one that `key`
-/// names.
-Fault read_shared_tables(const StudySource& source, const char* key, const std::string& name,
-                         const std::string& table_name, ReadTables read, StudyFile& study) {
-  if (Fault fault = read(source.root, study.file, study)) return fault;
+/// Reads the file of references that a study names, which several may share.
+Fault read_shared_references(const StudySource& source, StudyFile& study) {
+  constexpr const char *key = "references", *table_name = "reference", *tables = "[[reference]]";
+  const std::string& name = study.study.references_file;
   if (name.empty()) return std::nullopt;
-  const std::string tables = "[[" + table_name + "]]";
   if (source.root.contains(table_name))
-    return fault_at(study, key, fmt::format("a file of {}s beside {}", table_name, tables), "one of both");
+    return fault_at(study, key, fmt::format("a file of references beside {}", tables), "one of both");
   const std::string file = (source.folder / name).string();
   const auto text = scene::read_text_file(file);
   if (!text) {
@@ -146,10 +140,10 @@ Fault read_shared_tables(const StudySource& source, const char* key, const std::
   for (const auto& [each, node] : *table) {
     if (each.str() != table_name) {
       return scene::error_at(scene::place_of(node, file), std::string(each.str()),
-                             "a key of another kind of file", "only " + tables);
+                             "a key of another kind of file", fmt::format("only {}", tables));
     }
   }
-  return read(*table, file, study);
+  return read_reference_tables(*table, file, study);
 }
 
 Fault check_references(const StudyFile& study) {
@@ -259,13 +253,6 @@ StudyKeys reference_keys() {
   };
 }
 
-StudyKeys statement_file_keys() {
-  return {scene::text_key<Study>(
-      "statements", Standing::input,
-      "Path of a file that holds what a publication says, [[statement]], from the study file's folder.",
-      "paper_text.toml", &Study::statements_file)};
-}
-
 StudyKeys joined(std::vector<StudyKeys> lists) {
   StudyKeys result;
   for (StudyKeys& list : lists) std::move(list.begin(), list.end(), std::back_inserter(result));
@@ -284,18 +271,10 @@ StudyTable reference_table() { return table_of("reference", published_row_keys()
 
 StudyTable cited_limit_table() { return table_of("cited_limit", cited_limit_keys()); }
 
-StudyTable statement_table() { return table_of("statement", statement_keys()); }
-
 Fault read_references(const StudySource& source, StudyFile& study) {
-  const std::string& name = study.study.references_file;
-  if (Fault fault = read_shared_tables(source, "references", name, "reference", read_reference_tables, study))
-    return fault;
+  if (Fault fault = read_reference_tables(source.root, study.file, study)) return fault;
+  if (Fault fault = read_shared_references(source, study)) return fault;
   return check_references(study);
-}
-
-Fault read_statements(const StudySource& source, StudyFile& study) {
-  return read_shared_tables(source, "statements", study.study.statements_file, "statement",
-                            study::read_statements, study);
 }
 
 }  // namespace launchsafe::kinds

@@ -24,8 +24,6 @@ StudyKeys calibration_record_keys();
 StudyKeys uncertainty_keys();
 /// A file of published rows, and a published line.
 StudyKeys reference_keys();
-/// A file of statements of a publication.
-StudyKeys statement_file_keys();
 
 /// The key of a list that a study may state.
 template <class Settings>
@@ -68,14 +66,11 @@ StudyTable table_of(const std::string& name, const std::vector<scene::Key<Owner>
   return table;
 }
 
-/// [[reference]], [[statement]] and [[cited_limit]].
+/// [[reference]] and [[cited_limit]].
 StudyTable reference_table();
-StudyTable statement_table();
 StudyTable cited_limit_table();
 
 /// Reads [[reference]], or the file that holds them, into Study::references.
 study::Fault read_references(const StudySource& source, study::StudyFile& study);
-/// The same of [[statement]].
-study::Fault read_statements(const StudySource& source, study::StudyFile& study);
 
 }  // namespace launchsafe::kinds

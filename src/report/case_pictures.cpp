@@ -122,6 +122,16 @@ std::vector<CasePicture> pressure_pictures(const DrawnCase& drawn) {
   return {{"pressure", "pressure.svg", std::move(plot)}};
 }
 
+std::vector<CaseTable> pressure_tables(const DrawnCase& drawn) {
+  const trace::BottomTrace& trace = drawn.result.mechanics.trace;
+  Table table;
+  table.columns = {{"time", "ms"}, {"chamber", "MPa"}, {"bottom", "MPa"}};
+  for (std::size_t i = 0; i < trace.samples(); ++i)
+    table.rows.push_back(
+        {1e3 * trace.time[i], 1e-6 * trace.chamber_pressure[i], 1e-6 * trace.bottom_pressure[i]});
+  return {{"pressure.csv", std::move(table)}};
+}
+
 std::string lacks_energy(const DrawnCase& drawn) {
   const auto& monitor = drawn.result.mechanics.monitor;
   const bool moves = std::any_of(monitor.begin(), monitor.end(), [](const run::MonitorSample& sample) {
@@ -155,11 +165,11 @@ std::vector<CasePicture> energy_pictures(const DrawnCase& drawn) {
 const std::vector<PictureKind>& picture_kinds() {
   static const std::vector<PictureKind> kinds{
       {"pressure", "chamber and bottom pressure against time", detail::lacks_pressure,
-       detail::pressure_pictures},
+       detail::pressure_pictures, detail::pressure_tables},
       {"fields", "temperature, pressure, von Mises stress, crack radius and burnt share at every snapshot",
-       detail::lacks_fields, detail::field_pictures},
+       detail::lacks_fields, detail::field_pictures, detail::field_tables},
       {"histories", "skin temperature of the stations against time, for each gap", detail::lacks_skins,
-       detail::history_pictures},
+       detail::history_pictures, detail::history_tables},
       {"profile", "skin temperature along the bottom at several times, and its spread over time",
        detail::lacks_skins, detail::profile_pictures},
       {"air", "air temperature against compression, with the states reached", detail::lacks_air,

@@ -298,6 +298,23 @@ std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
   return pictures;
 }
 
+std::vector<CaseTable> history_tables(const DrawnCase& drawn) {
+  const std::vector<trace::Station>& stations = trace_of(drawn).stations;
+  std::vector<CaseTable> tables;
+  for (const run::GapResult* gap : gaps_with_skin(drawn)) {
+    Table table;
+    table.columns = {{"time", "ms"}};
+    for (const trace::Station& station : stations) table.columns.push_back({station.name, "K"});
+    for (std::size_t sample = 0; sample < gap->skin.time.size(); ++sample) {
+      std::vector<Cell>& row = table.rows.emplace_back(1, 1e3 * gap->skin.time[sample]);
+      for (std::size_t i = 0; i < stations.size(); ++i)
+        row.emplace_back(gap->skin.temperature[sample * stations.size() + i]);
+    }
+    tables.push_back({fmt::format("histories_{}.csv", gap_in_name(gap->gap)), std::move(table)});
+  }
+  return tables;
+}
+
 std::vector<CasePicture> profile_pictures(const DrawnCase& drawn) {
   std::vector<CasePicture> pictures;
   for (const run::GapResult* gap : gaps_with_skin(drawn))

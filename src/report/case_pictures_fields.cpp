@@ -183,14 +183,14 @@ std::string events_of(const run::Snapshot& shot, const char* between) {
   return fmt::format("{}", fmt::join(words, between));
 }
 
-/// "field_pressure_0.04cm_18ms_burnt.svg": of a gap that burns, at a time that was asked for, at an event.
-std::string file_of(const DrawnField& field, const ShownSnapshot& shown) {
-  std::string name = fmt::format("field_{}", field.file);
+/// "_0.04cm_18ms_burnt": of a gap that burns, at a time that was asked for, at an event.
+std::string name_of(const ShownSnapshot& shown) {
+  std::string name;
   if (shown.gap) name += "_" + gap_in_name(*shown.gap);
   if (shown.asked_for || shown.snapshot->events.empty())
     name += fmt::format("_{}ms", significant(1e3 * shown.time(), 6));
   if (!shown.snapshot->events.empty()) name += "_" + events_of(*shown.snapshot, "_");
-  return name + ".svg";
+  return name;
 }
 
 CellPlot field_plot(const DrawnCase& drawn, const DrawnField& field, const ShownSnapshot& shown,
@@ -268,11 +268,47 @@ std::vector<CasePicture> field_pictures(const DrawnCase& drawn) {
       const std::vector<ColourScale> scales = scales_of(drawn, field, burning);
       for (const ShownSnapshot& each : chosen_snapshots(drawn))
         if (each.gap.has_value() == burning)
-          pictures.push_back({"fields", file_of(field, each), field_plot(drawn, field, each, scales),
-                              each.snapshot->time, each.gap});
+          pictures.push_back({"fields", fmt::format("field_{}{}.svg", field.file, name_of(each)),
+                              field_plot(drawn, field, each, scales), each.snapshot->time, each.gap});
     }
   }
   return pictures;
+}
+
+std::vector<CaseTable> field_tables(const DrawnCase& drawn) {
+  struct Value {
+    Column column;
+    std::vector<double> run::Snapshot::*values;
+    double factor;  ///< from SI
+  };
+  using run::Snapshot;
+  const std::vector<Value> all{{{"x", "mm"}, &Snapshot::x, millimetres},
+                               {{"r", "mm"}, &Snapshot::r, millimetres},
+                               {{"half length x", "mm"}, &Snapshot::half_length_x, millimetres},
+                               {{"half length r", "mm"}, &Snapshot::half_length_r, millimetres},
+                               {{"temperature", "K"}, &Snapshot::temperature, 1.0},
+                               {{"pressure", "MPa"}, &Snapshot::pressure, 1e-6},
+                               {{"deviator xx", "MPa"}, &Snapshot::deviator_xx, 1e-6},
+                               {{"deviator rr", "MPa"}, &Snapshot::deviator_rr, 1e-6},
+                               {{"deviator rx", "MPa"}, &Snapshot::deviator_rx, 1e-6},
+                               {{"plastic strain", ""}, &Snapshot::plastic_strain, 1.0},
+                               {{"crack radius", "um"}, &Snapshot::crack_radius, 1e6},
+                               {{"burnt share", ""}, &Snapshot::burnt_share, 1.0}};
+  std::vector<CaseTable> tables;
+  for (const ShownSnapshot& each : chosen_snapshots(drawn)) {
+    const Snapshot& shot = *each.snapshot;
+    Table table;
+    table.columns = {text_column("body")};
+    for (const Value& value : all) table.columns.push_back(value.column);
+    for (std::size_t i = 0; i < shot.x.size(); ++i) {
+      std::vector<Cell>& row =
+          table.rows.emplace_back(1, drawn.scene.bodies[static_cast<std::size_t>(shot.body[i])].name);
+      for (const Value& value : all)
+        row.push_back((shot.*value.values).empty() ? Cell() : Cell(value.factor * (shot.*value.values)[i]));
+    }
+    tables.push_back({"field" + name_of(each) + ".csv", std::move(table)});
+  }
+  return tables;
 }
 
 }  // namespace launchsafe::report::detail

@@ -11,14 +11,17 @@ namespace launchsafe::report::detail {
 
 std::string lacks_pressure(const DrawnCase& drawn);
 std::vector<CasePicture> pressure_pictures(const DrawnCase& drawn);
+std::vector<CaseTable> pressure_tables(const DrawnCase& drawn);
 std::string lacks_energy(const DrawnCase& drawn);
 std::vector<CasePicture> energy_pictures(const DrawnCase& drawn);
 
 std::string lacks_fields(const DrawnCase& drawn);
 std::vector<CasePicture> field_pictures(const DrawnCase& drawn);
+std::vector<CaseTable> field_tables(const DrawnCase& drawn);
 
 std::string lacks_skins(const DrawnCase& drawn);
 std::vector<CasePicture> history_pictures(const DrawnCase& drawn);
+std::vector<CaseTable> history_tables(const DrawnCase& drawn);
 std::vector<CasePicture> profile_pictures(const DrawnCase& drawn);
 std::string lacks_air(const DrawnCase& drawn);
 std::vector<CasePicture> air_pictures(const DrawnCase& drawn);

@@ -43,9 +43,8 @@ std::string written_on(const Descriptor& file) {
 }
 
 /// The process id, or the negative error number.
-pid_t start(const std::string& program, const std::vector<std::string>& arguments,
-            const std::filesystem::path& folder, const Descriptor& input, const Descriptor& output,
-            const Descriptor& errors) {
+pid_t start(const std::string& program, const std::vector<std::string>& arguments, const Descriptor& input,
+            const Descriptor& output, const Descriptor& errors) {
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
@@ -57,7 +56,6 @@ pid_t start(const std::string& program, const std::vector<std::string>& argument
   ::posix_spawn_file_actions_adddup2(&actions, input.number(), STDIN_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, output.number(), STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, errors.number(), STDERR_FILENO);
-  if (!folder.empty()) ::posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   // In a group of its own: Ctrl-C is for us, and whatever it starts can be ended with it.
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
@@ -110,12 +108,11 @@ bool end_group(pid_t process) {
 }  // namespace
 
 Result<ProgramOutput> run_program(const std::string& program, const std::vector<std::string>& arguments,
-                                  const std::string& input, const ProgramLimits& limits,
-                                  const std::filesystem::path& folder) {
+                                  const std::string& input, const ProgramLimits& limits) {
   const Descriptor in = memory_file("input"), out = memory_file("output"), errors = memory_file("errors");
   if (!out.is_open() || !errors.is_open() || !fill(in, input))
     return Error{Error::Kind::failed, fmt::format("cannot start {}: no memory for its input", program)};
-  const pid_t process = start(program, arguments, folder, in, out, errors);
+  const pid_t process = start(program, arguments, in, out, errors);
   if (process < 0) {
     const auto kind = process == -ENOENT ? Error::Kind::missing : Error::Kind::failed;
     return Error{kind, fmt::format("cannot start {}: {}", program, system_reason(-process))};

@@ -12,8 +12,6 @@ std::string to_string(Use use) {
       return "selection";
     case Use::calibration:
       return "calibration";
-    case Use::input:
-      return "input";
   }
   return "held out";
 }

@@ -74,7 +74,7 @@ for architecture in x86-64 x86-64-v3 x86-64-v4; do
 done
 
 say "the shipped scenes and studies"
-for file in $(cd "$root" && grep -rLE '^(\[\[)?(reference|statement)\b' --include='*.toml' usr/share/launchsafe/studies); do
+for file in $(cd "$root" && grep -rLE '^(\[\[)?reference\b' --include='*.toml' usr/share/launchsafe/studies); do
   as_user launchsafe explain "/$file" >/dev/null || fail "$file"
 done
 

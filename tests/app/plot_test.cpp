@@ -112,6 +112,21 @@ TEST_F(Plotted, SaysWhatDrawsWhereThatIsNotInstalled) {
   expect_refused({"shell.h5", "-o", "out"}, "found no program gnuplot");
 }
 
+TEST_F(Plotted, WritesNumbersAsTablesWithoutGnuplot) {
+  before_start([] { ::setenv("PATH", "/nowhere", 1); });
+  expect_refused({"shell.h5", "-o", "out", "--csv", "--what", "air"}, "it is drawn only");
+  const Outcome outcome = run({"plot", "shell.h5", "-o", "out", "--csv"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out,
+            "out/pressure.csv\nout/field_0.02ms.csv\nout/field_0.05ms.csv\nout/histories_0cm.csv\n"
+            "out/histories_0.01cm.csv\n");
+  EXPECT_TRUE(outcome.says("no table of air: ")) << outcome.err;
+  EXPECT_TRUE(read("out/pressure.csv").starts_with("time_ms,chamber_MPa,bottom_MPa\r\n0,"));
+  const auto json = nlohmann::json::parse(
+      run({"plot", "shell.h5", "-o", "out", "--csv", "--json", "--what", "pressure"}).out);
+  EXPECT_EQ(json["tables"][0]["file"], "out/pressure.csv");
+}
+
 TEST_F(Plotted, DrawsProfilesAtAnyTimeOfTheRun) {
   if (!can_draw()) GTEST_SKIP() << "gnuplot is not installed";
   const Outcome outcome =

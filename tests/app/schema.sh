@@ -22,7 +22,7 @@ for what in scene study references; do "$program" explain --schema $what >"$fold
 check() { "$folder/npm/node_modules/.bin/taplo" check --schema "file://$folder/$1.schema.json" "$2" >"$folder/log" 2>&1; }
 # A study names a kind; a file of what is published has nothing else.
 schema_for() {
-  if grep -q '^kind' "$1"; then echo study; elif grep -q '^\(\[\[\)\?\(reference\|statement\)\b' "$1"; then echo references; else echo scene; fi
+  if grep -q '^kind' "$1"; then echo study; elif grep -q '^\(\[\[\)\?reference\b' "$1"; then echo references; else echo scene; fi
 }
 
 failed=0 passed=0

@@ -424,5 +424,36 @@ TEST(CasePictures, AreDrawnWithAFilledShapeForEveryCell) {
   EXPECT_NE(svg->find("Bulk temperature at 0.04"), std::string::npos);
 }
 
+TEST(CaseTables, HoldTheNumbersOfSnapshotsAndOfEveryGapsSkin) {
+  const RunScene run(cased_charge());
+  const DrawnCase drawn = run.drawn({2e-5});
+  const auto fields = kind("fields").tables(drawn);
+  ASSERT_EQ(fields.size(), 1U) << "of the time that is asked for";
+  EXPECT_EQ(fields[0].file, "field_0.02ms.csv");
+  const run::Snapshot& shot = run.result.mechanics.snapshots[1];
+  const Table& particles = fields[0].table;
+  ASSERT_EQ(particles.rows.size(), shot.x.size());
+  const std::vector<std::string> keys = keys_of(particles);
+  const auto cell = [&](std::size_t row, const char* key) {
+    return particles.rows[row].at(
+        static_cast<std::size_t>(std::find(keys.begin(), keys.end(), key) - keys.begin()));
+  };
+  EXPECT_EQ(cell(0, "body"), Cell("charge"));
+  EXPECT_EQ(cell(particles.rows.size() - 1, "body"), Cell("base"));
+  EXPECT_EQ(cell(3, "r_mm"), Cell(1e3 * shot.r[3]));
+  EXPECT_EQ(cell(3, "half_length_x_mm"), Cell(1e3 * shot.half_length_x[3]));
+  EXPECT_EQ(cell(3, "pressure_MPa"), Cell(1e-6 * shot.pressure[3]));
+  EXPECT_EQ(cell(3, "deviator_rx_MPa"), Cell(1e-6 * shot.deviator_rx[3]));
+  EXPECT_EQ(cell(3, "burnt_share"), Cell()) << "nothing burns";
+  const auto skins = kind("histories").tables(drawn);
+  ASSERT_EQ(skins.size(), 3U);
+  EXPECT_EQ(skins[2].file, "histories_0.04cm.csv");
+  const surface::SkinHistory& skin = run.result.gaps[2].skin;
+  ASSERT_EQ(skins[2].table.rows.size(), skin.time.size());
+  EXPECT_EQ(skins[2].table.rows.back()[0], Cell(1e3 * skin.time.back()));
+  EXPECT_EQ(skins[2].table.rows.back().back(), Cell(skin.temperature.back()));
+  EXPECT_EQ(keys_of(skins[2].table)[1], run.result.mechanics.trace.stations[0].name + "_K");
+}
+
 }  // namespace
 }  // namespace launchsafe::report

@@ -1,28 +1,21 @@
-// A program that is called: where it runs, and what it leaves. That it is ended in time is tested where
+// A program that is called: what it is given, and what it leaves. That it is ended in time is tested where
 // pictures are drawn.
 #include "launchsafe/store/program.hpp"
 
-#include "temporary_folder.hpp"
-
 #include <gtest/gtest.h>
-
-#include <fstream>
 
 namespace launchsafe::store {
 namespace {
 
-class CalledProgram : public testing::TemporaryFolder {};
-
-TEST_F(CalledProgram, RunsInTheFolderItIsGiven) {
-  std::ofstream(folder() / "note") << "here\n";
-  const auto run = run_program("cat", {"note"}, "", {}, folder());
+TEST(CalledProgram, ReadsItsInputAndLeavesItsOutput) {
+  const auto run = run_program("cat", {}, "here\n");
   ASSERT_TRUE(run) << run.error().message;
   EXPECT_TRUE(run->succeeded);
   EXPECT_EQ(run->output, "here\n");
 }
 
-TEST_F(CalledProgram, ThatIsNotInstalledIsMissing) {
-  const auto run = run_program("launchsafe-no-such-program", {}, "", {}, folder());
+TEST(CalledProgram, ThatIsNotInstalledIsMissing) {
+  const auto run = run_program("launchsafe-no-such-program", {}, "");
   ASSERT_FALSE(run);
   EXPECT_EQ(run.error().kind, Error::Kind::missing);
 }

@@ -1,8 +1,10 @@
-// The pictures of one case: histories, profiles along the charge's bottom, and fields over the section.
+// The pictures of one case: histories, profiles along the charge's bottom, and fields over the section; and
+// the numbers of some of them as tables.
 #pragma once
 
 #include "launchsafe/report/cell_plot.hpp"
 #include "launchsafe/report/plot.hpp"
+#include "launchsafe/report/table.hpp"
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/scene.hpp"
 
@@ -32,6 +34,12 @@ struct CasePicture {
   std::optional<double> gap = {};   ///< m, of what belongs to one gap
 };
 
+/// What a kind of pictures shows, as numbers, and the name of their file: "field_10ms.csv".
+struct CaseTable {
+  std::string file;
+  Table table;
+};
+
 /// A kind of pictures.
 struct PictureKind {
   const char* word;   ///< by which it is asked for
@@ -40,6 +48,9 @@ struct PictureKind {
   std::string (*lacks)(const DrawnCase&);
   /// Only where nothing is lacking.
   std::vector<CasePicture> (*pictures)(const DrawnCase&);
+  /// Likewise; null where there are none. One of the pressures, of every gap's skin, or of every snapshot: a
+  /// row a particle.
+  std::vector<CaseTable> (*tables)(const DrawnCase&) = nullptr;
 };
 
 /// All of them, in the order in which they are drawn.

@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -26,12 +25,11 @@ struct ProgramOutput {
 /// Bytes that a program may write on stdout, and on stderr.
 inline constexpr std::int64_t most_program_output = 64 << 20;
 
-/// Runs a program (found in PATH, no shell) to its end with `input` on its stdin, in `folder` (empty: in
-/// ours). Input and output go through files in memory: no pipe can block or break. It ends with all that it
-/// started in its process group: when it exits, when a limit is reached, or when it writes more than
-/// `most_program_output`. Errors: missing, failed (it could not be started, or was ended).
+/// Runs a program (found in PATH, no shell) to its end with `input` on its stdin. Input and output go through
+/// files in memory: no pipe can block or break. It ends with all that it started in its process group: when
+/// it exits, when a limit is reached, or when it writes more than `most_program_output`. Errors: missing,
+/// failed (it could not be started, or was ended).
 Result<ProgramOutput> run_program(const std::string& program, const std::vector<std::string>& arguments,
-                                  const std::string& input, const ProgramLimits& limits = {},
-                                  const std::filesystem::path& folder = {});
+                                  const std::string& input, const ProgramLimits& limits = {});
 
 }  // namespace launchsafe::store

@@ -8,7 +8,6 @@
 #include "launchsafe/study/calibration_domain.hpp"
 #include "launchsafe/study/cited_limit.hpp"
 #include "launchsafe/study/model_form.hpp"
-#include "launchsafe/study/published_statement.hpp"
 
 #include <any>
 #include <cassert>
@@ -41,6 +40,10 @@ struct Axis {
   std::vector<double> values;  ///< SI, in the order written; none where there is a distribution
   std::optional<math::Distribution> distribution = {};  ///< SI, of a value that is not known exactly
 };
+
+/// What a study's published number is used for.
+enum class Use { held_out, selection, calibration };
+std::string to_string(Use use);
 
 /// A row of published results to compare with; what it does not say is NaN or empty.
 struct Reference {
@@ -78,8 +81,6 @@ struct Study {
   std::vector<CitedLimit> cited_limits;
   std::string
       references_file;  ///< path of a file with the references, from the study file's folder; or empty
-  std::vector<PublishedStatement> statements;
-  std::string statements_file;  ///< the same of a file with the statements
 
   // every kind that judges gaps
   std::vector<double> gaps;  ///< m; those of the scene where the file has none
