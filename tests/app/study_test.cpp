@@ -69,9 +69,7 @@ TEST_F(StudyProgram, FaultsOfStudyAndSceneEndItBeforeAnythingIsWritten) {
 // The gap stays cold under each of these; without their ranges all of them ended SAFE.
 TEST_F(StudyProgram, AnImplausibleValueIsNamedInsteadOfSafeUntilItIsAccepted) {
   const std::vector<std::pair<std::string, std::string>> edits{{"gap.exchange_time", "\"100 s\""},
-                                                               {"gap.skin_thickness", "\"1 cm\""},
-                                                               {"friction.closure", "\"none\""},
-                                                               {"charge.sliding_friction", "0"}};
+                                                               {"friction.closure", "\"none\""}};
   int number = 0;
   for (const auto& [key, value] : edits) {
     const std::string set = "[set]\n" + key + " = " + value + "\n";

@@ -148,32 +148,6 @@ TEST_F(CaseFile, ReplacesTheResultOfTheSameInput) {
   EXPECT_EQ(read_case_file(path())->result.mechanics.wall_time, 1234);
 }
 
-TEST_F(CaseFile, AFullDiskIsAnErrorAndLeavesNothing) {
-  // Large enough for the first block and some of the rest, too small for all.
-  EXPECT_TRUE(holds_under_file_size_limit(4096, [&] {
-    const MaybeError error = write_case_file(path(), sample_scene(), sample_case(), sample_manifest());
-    return error && error->kind == Error::Kind::write_failed;
-  }));
-  EXPECT_EQ(listing(), std::vector<std::string>{});
-}
-
-TEST_F(CaseFile, AFullDiskLeavesTheFileBeforeAsItWas) {
-  write_sample();
-  const std::string before = *read_file(path());
-  EXPECT_TRUE(holds_under_file_size_limit(4096, [&] {
-    return write_case_file(path(), sample_scene(), sample_case(), sample_manifest()).has_value();
-  }));
-  EXPECT_EQ(*read_file(path()), before);
-}
-
-TEST_F(CaseFile, AFolderThatIsNotThereIsAnError) {
-  const auto inside = folder() / "missing" / "case.h5";
-  const MaybeError error = write_case_file(inside, sample_scene(), sample_case(), sample_manifest());
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->kind, Error::Kind::write_failed);
-  EXPECT_FALSE(std::filesystem::exists(inside));
-}
-
 TEST_F(CaseFile, AFolderThatMayNotBeWrittenIsAnError) {
   using std::filesystem::perms;
   std::filesystem::permissions(
