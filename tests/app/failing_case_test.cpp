@@ -72,15 +72,6 @@ TEST_F(FailingCase, ARunawayIsGivenUpAndTriedAgainWithMoreTimeOnly) {
   EXPECT_EQ(done_cases("out").size(), 2u);
 }
 
-TEST_F(FailingCase, OneThatNeedsTooMuchMemoryFailsRatherThanSwaps) {
-  write("shell.toml", long_scene());
-  write_study("peak_pressure = \"50, 60 MPa\"");
-  const Outcome outcome = run({"study", "study.toml", "-o", "out", "--memory", "1MB"});
-  EXPECT_EQ(outcome.code, 3);
-  EXPECT_TRUE(outcome.says("memory")) << outcome.err;
-  EXPECT_TRUE(outcome.says("peak_pressure 60 MPa: ")) << outcome.err;
-}
-
 TEST_F(FailingCase, TwentyAreNamedAndTheRestCounted) {
   std::string pressures = "50";
   for (int i = 51; i < 75; ++i) pressures += ", " + std::to_string(i);

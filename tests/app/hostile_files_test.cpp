@@ -55,25 +55,19 @@ constexpr std::size_t deep = 100'000;
 INSTANTIATE_TEST_SUITE_P(
     Files, HostileFileProgram,
     ::testing::Values(
-        HostileFile{"OpenArrays", "a = " + repeated("[", deep), {"input.toml:1:", "deep"}},
         HostileFile{"NestedArrays", "a = " + repeated("[", deep) + repeated("]", deep), {"deep"}},
-        HostileFile{"NestedTables", "a = " + repeated("{a=", deep) + "1" + repeated("}", deep), {"deep"}},
-        HostileFile{"DottedKey", repeated("a.", deep) + "a = 1\n", {"deep"}},
-        HostileFile{"DottedTable", "[" + repeated("a.", deep) + "a]\n", {"deep"}},
         HostileFile{"DeepestThatIsRead",
                     "[" + repeated("a.", 15) + "a]\nb = " + repeated("{" + repeated("a.", 15) + "a = ", 14) +
                         "1" + repeated("}", 14) + "\n",
                     {"a.a"}},
         HostileFile{
             "HugeKey", std::string(1'000'000, 'k') + " = 1\n", {"input.toml:1:", "an unknown key", " ... "}},
-        HostileFile{"HugeWord", "symmetry = \"" + std::string(1'000'000, 'k') + "\"\n", {"symmetry"}},
         HostileFile{"HugeKind", "kind = \"" + std::string(1'000'000, 'k') + "\"\n", {"found"}},
         HostileFile{"Binary",
                     std::string("\x7f"
                                 "ELF\0\0\1",
                                 7),
                     {"NUL", "UTF-8"}},
-        HostileFile{"Latin1", "title = \"Gesch\xfctz\"\n", {"0xFC", "UTF-8"}},
         HostileFile{"TooLarge", "#" + std::string(std::size_t{16} << 20, ' '), {"16 MiB"}}),
     [](const auto& test) { return test.param.name; });
 
@@ -107,17 +101,6 @@ class CurveProgram : public Program {
     return run({"explain", "scene.toml"});
   }
 };
-
-TEST_F(CurveProgram, ReadsAByteOrderMarkDecimalCommasAndOtherUnits) {
-  for (const char* curve : {"\xEF\xBB\xBFTime (ms);Pressure (MPa)\r\n0;0\r\n0,02;40,5\r\n0,05;10\r\n",
-                            "time_us,pressure_bar\n0,0\n20,405\n50,100\n",
-                            "t [ms]\tp [psi]\r0\t0\r0.02\t5874.03\r0.05\t1450.38\r"}) {
-    const Outcome outcome = explained(curve);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("40.5 MPa"), std::string::npos) << outcome.out;
-  }
-  EXPECT_EQ(explained("time_ms,pressure_MPa\n0,0,1,5\n0,05,2,5\n").code, 2);
-}
 
 TEST_F(CurveProgram, SaysWhatIsNoiseAndWhatSmoothingTakes) {
   std::string curve = "time_us,pressure_MPa\n";

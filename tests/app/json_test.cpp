@@ -106,15 +106,6 @@ TEST_F(JsonProgram, VersionAndHelpAreObjects) {
   }
 }
 
-TEST_F(JsonProgram, FailedCasesStandBesideTheResults) {
-  const Outcome outcome = run({"study", "study.toml", "-o", "out", "--memory", "1B", "--json", "--quiet"});
-  EXPECT_EQ(outcome.code, 3) << outcome.err;
-  const auto object = object_of(outcome);
-  EXPECT_EQ(object["cases"].size(), 24u);
-  ASSERT_EQ(object["failures"].size(), 24u) << outcome.err;
-  EXPECT_NE(object["failures"][0]["reason"].get<std::string>().find("memory"), std::string::npos);
-}
-
 TEST_F(JsonProgram, AnInterruptionIsAnErrorOfOneObject) {
   write("long.toml", long_scene());
   start({"run", "long.toml", "--json", "--quiet"});

@@ -1,4 +1,4 @@
-// A study that was stopped, or met a full disk, a second process or a damaged file, goes on with what it has.
+// A study that was stopped, or met a full disk or a second process, goes on with what it has.
 #include "facts_in_text.hpp"
 #include "stored_study.hpp"
 
@@ -10,18 +10,6 @@ namespace {
 
 const std::vector<std::string> study_into_out{"study", "study.toml", "-o", "out", "--jobs", "2"};
 const std::vector<std::string> study_alone{"study", "study.toml", "-o", "alone", "--jobs", "2"};
-
-class ResumedStudy : public StoredStudy {};
-
-TEST_F(ResumedStudy, AReportThatWasTouchedIsWrittenAgain) {
-  ASSERT_EQ(run(study_into_out).code, 0);
-  const std::string page = read("out/report.md");
-  write("out/report.md", "mine");
-  std::filesystem::remove(folder() / "out/verdicts.csv");
-  EXPECT_EQ(run(study_into_out).code, 0);
-  EXPECT_EQ(read("out/report.md"), page);
-  EXPECT_TRUE(exists("out/verdicts.csv"));
-}
 
 class StoppedStudy : public StoredStudy, public ::testing::WithParamInterface<int> {};
 
@@ -89,6 +77,8 @@ TEST_F(FullDisk, ADiskWithoutSpaceEndsTheStudy) {
   EXPECT_EQ(::umount2(disk.c_str(), MNT_DETACH), 0);
 }
 
+class ResumedStudy : public StoredStudy {};
+
 TEST_F(ResumedStudy, ASecondProcessIsRefusedAndToldWhoIsAtWork) {
   write("shell.toml", brief_scene());
   start(study_into_out);
@@ -99,27 +89,6 @@ TEST_F(ResumedStudy, ASecondProcessIsRefusedAndToldWhoIsAtWork) {
   EXPECT_TRUE(second.says("process " + std::to_string(child()) + " ")) << second.err;
   EXPECT_EQ(wait().code, 0);
   EXPECT_EQ(done_cases("out").size(), 12u);
-}
-
-TEST_F(ResumedStudy, DamagedCasesAreSetAsideAndComputedAgain) {
-  ASSERT_EQ(run(study_alone).code, 0);
-  ASSERT_EQ(run(study_into_out).code, 0);
-  const auto cases = whole_cases("out");
-  ASSERT_EQ(cases.size(), 12u);
-  std::filesystem::resize_file(cases[2], 10'000);
-  {
-    std::fstream file(cases[7], std::ios::in | std::ios::out | std::ios::binary);
-    file.seekp(20'000);
-    file.put('?');
-  }
-  const Outcome again = run(study_into_out);
-  EXPECT_EQ(again.code, 0) << again.err;
-  EXPECT_TRUE(again.says("set aside")) << again.err;
-  EXPECT_TRUE(again.says("re-used 10 mechanical runs, ran 2")) << again.err;
-  for (const std::size_t each : {2u, 7u}) {
-    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(cases[each]).replace_extension(".damaged-1")));
-  }
-  expect_same_results("alone", "out");
 }
 
 }  // namespace

@@ -100,23 +100,6 @@ TEST_F(RunProgram, ADifferentInputIsRefusedAndTheResultLeftAsItWas) {
   EXPECT_EQ(read("out/shell.h5"), before);
 }
 
-TEST_F(RunProgram, AFileThatIsNoResultIsNotOverwritten) {
-  write("shell.toml", tiny_scene);
-  std::filesystem::create_directory(folder() / "out");
-  write("out/shell.h5", "notes");
-  EXPECT_EQ(run({"run", "shell.toml", "-o", "out"}).code, 2);
-  EXPECT_EQ(read("out/shell.h5"), "notes");
-}
-
-TEST_F(RunProgram, AnOutputThatIsAFileIsBadInput) {
-  write("shell.toml", tiny_scene);
-  write("out", "notes");
-  const Outcome outcome = run({"run", "shell.toml", "-o", "out"});
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
-  EXPECT_EQ(read("out"), "notes");
-}
-
 TEST_F(RunProgram, ARunPastItsEnergyBoundIsIndeterminateAndSaysWhen) {
   write("shell.toml", with(tiny_scene, "energy_drift_limit = 0.5", "energy_drift_limit = 1e-9"));
   const Outcome outcome = run({"run", "shell.toml", "-o", "out"});

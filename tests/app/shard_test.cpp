@@ -1,14 +1,13 @@
-// A study in shards, merged, is the study.
+// A study in shards: what merges to the whole, and what does not. Of every kind: kinds_battery_test.cpp.
 #include "stored_study.hpp"
 
 namespace launchsafe::app {
 namespace {
 
-class ShardedStudy : public StoredStudy, public ::testing::WithParamInterface<const char*> {
+class ShardedStudy : public StoredStudy {
  protected:
   void SetUp() override {
     StoredStudy::SetUp();
-    if (std::string(GetParam()) == "sensitivity") write("study.toml", sensitivity_study);
     alone_ = run({"study", "study.toml", "-o", "alone"});
   }
   Outcome run_shard(const std::string& shard, const std::string& output) {
@@ -25,7 +24,7 @@ class ShardedStudy : public StoredStudy, public ::testing::WithParamInterface<co
   Outcome alone_;
 };
 
-TEST_P(ShardedStudy, AtOnceInOneFolderMergesToTheWhole) {
+TEST_F(ShardedStudy, AtOnceInOneFolderMergesToTheWhole) {
   start({"study", "study.toml", "-o", "out", "--shard", "1/3"});
   EXPECT_EQ(run_beside({"study", "study.toml", "-o", "out", "--shard", "2/3"}).code, 0);
   EXPECT_EQ(run_beside({"study", "study.toml", "-o", "out", "--shard", "3/3"}).code, 0);
@@ -35,7 +34,7 @@ TEST_P(ShardedStudy, AtOnceInOneFolderMergesToTheWhole) {
   expect_same_results("alone", "out");
 }
 
-TEST_P(ShardedStudy, WithoutOneOfThemIsNotMerged) {
+TEST_F(ShardedStudy, WithoutOneOfThemIsNotMerged) {
   EXPECT_EQ(run_shard("1/3", "out").code, 0);
   EXPECT_EQ(run_shard("3/3", "out").code, 0);
   const Outcome merged = run({"merge", "study.toml", "-o", "out"});
@@ -46,18 +45,6 @@ TEST_P(ShardedStudy, WithoutOneOfThemIsNotMerged) {
   EXPECT_EQ(lines_with(merged.out, "missing: "), missing) << merged.out;
   EXPECT_FALSE(exists("out/report.md"));
 }
-
-TEST_P(ShardedStudy, GoesOnAsAWhole) {
-  EXPECT_EQ(run_shard("2/3", "out").code, 0);
-  const std::size_t kept = done_cases("out").size();
-  EXPECT_GT(kept, 0u);
-  const Outcome whole = run({"study", "study.toml", "-o", "out"});
-  EXPECT_TRUE(whole.says("re-used " + std::to_string(kept) + " ")) << whole.err;
-  expect_same_results("alone", "out");
-}
-
-INSTANTIATE_TEST_SUITE_P(Kinds, ShardedStudy, ::testing::Values("sweep", "sensitivity"),
-                         [](const auto& test) { return std::string(test.param); });
 
 class Merge : public StoredStudy {};
 
@@ -75,30 +62,6 @@ TEST_F(Merge, AFolderWithoutAStoreIsNamed) {
   const Outcome outcome = run({"merge", "study.toml", "-o", "out", "nowhere"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_TRUE(outcome.says("nowhere")) << outcome.err;
-}
-
-TEST_F(Merge, ResultsOfAnotherModelAreNotMixedIn) {
-  ASSERT_EQ(run({"study", "study.toml", "-o", "other"}).code, 0);
-  const std::filesystem::path path = whole_cases("other").front();
-  auto stored = store::read_case_file(path);
-  ASSERT_TRUE(stored);
-  std::filesystem::remove(path);
-  stored->manifest.model_version = 99;
-  ASSERT_FALSE(store::write_case_file(path, scene::Scene{}, stored->result, stored->manifest));
-  const Outcome outcome = run({"merge", "study.toml", "-o", "out", "other"});
-  EXPECT_EQ(outcome.code, 2) << outcome.err;
-  EXPECT_TRUE(outcome.says("model version 99")) << outcome.err;
-  EXPECT_TRUE(whole_cases("out").empty());
-}
-
-TEST_F(Merge, AWholeStudyAndAShardExcludeEachOther) {
-  write("shell.toml", brief_scene());
-  start({"study", "study.toml", "-o", "out", "--shard", "1/2"});
-  wait_for_a_case("out");
-  const Outcome whole = run_beside({"study", "study.toml", "-o", "out"});
-  EXPECT_EQ(whole.code, 2) << whole.err;
-  EXPECT_TRUE(whole.says("process " + std::to_string(child()) + " ")) << whole.err;
-  EXPECT_EQ(wait().code, 0);
 }
 
 }  // namespace
