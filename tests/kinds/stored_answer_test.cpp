@@ -1,22 +1,13 @@
-// Answers that somebody edited: what is read back is what was written, or nothing.
-#include "launchsafe/run/model_version.hpp"
-#include "launchsafe/store/sha256.hpp"
+// Answers that somebody edited: what is read back is what was written, or nothing. tests/fuzz/read_store.cpp
+// edits at random.
 #include "launchsafe/study/case_answer.hpp"
-#include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
 #include <functional>
-#include <limits>
 #include <map>
-
-#ifdef LAUNCHSAFE_HAVE_RAPIDCHECK
-#include <rapidcheck.h>
-#include <rapidcheck/gtest.h>
-#endif
 
 namespace {
 
@@ -124,83 +115,5 @@ TEST(StoredAnswer, AValidityWarningStaysOne) {
     EXPECT_EQ(read->verdicts[i].judgement.reason, answer.verdicts[i].judgement.reason) << i;
   }
 }
-
-#ifdef LAUNCHSAFE_HAVE_RAPIDCHECK
-
-const std::string stored_key(32, 'a');
-
-/// A folder with one stored answer.
-class AnswerFolder : public launchsafe::testing::TemporaryFolder {
- public:
-  AnswerFolder() { SetUp(); }
-  ~AnswerFolder() override { TearDown(); }
-  void TestBody() override {}
-
-  void store_answer() const {
-    auto store = store::CaseStore::open(folder(), {"", run::model_version, {}});
-    RC_ASSERT(static_cast<bool>(store));
-    (*store)->save_answer(stored_key, some_line());
-  }
-  void replace_answers(const std::string& text) const {
-    std::ofstream(folder() / "answers.jsonl", std::ios::binary) << text;
-  }
-  std::optional<std::string> answer() const {
-    auto store = store::CaseStore::open_to_read(folder(), run::model_version);
-    RC_ASSERT(static_cast<bool>(store));
-    return (*store)->answer(stored_key);
-  }
-};
-
-/// The line with the checksum that anybody can compute.
-std::string rehashed(const std::string& text) {
-  return stored_key + " " + store::sha256(text).substr(0, 16) + " " + text + "\n";
-}
-
-/// Another value in the place of a number, a word or a list somewhere in an answer.
-Json with_another_value(Json answer) {
-  Json* place = &answer;
-  while (place->is_structured() && !place->empty()) {
-    auto child = place->begin();
-    std::advance(child, *rc::gen::inRange<std::size_t>(0, place->size()));
-    place = &*child;
-    if (*rc::gen::inRange(0, 12) == 0) break;
-  }
-  *place = *rc::gen::element(Json(0), Json(1), Json(7), Json(-1), Json(1e-9), Json(300.5), Json(1e300),
-                             Json(nullptr), Json(""), Json(true), Json::array(), Json::object());
-  return answer;
-}
-
-RC_GTEST_PROP(StoredAnswerProperty, NoEditOfTheFileOfAnswersIsTakenForAnAnswer, ()) {
-  static const AnswerFolder folder;
-  static const bool stored = (folder.store_answer(), true);
-  RC_ASSERT(stored);
-  std::string file = rehashed(some_line());
-  if (*rc::gen::inRange(0, 2) == 0) {
-    for (int flips = *rc::gen::inRange(1, 4); flips > 0; --flips)
-      file[*rc::gen::inRange<std::size_t>(0, file.size())] = static_cast<char>(*rc::gen::inRange(0, 256));
-  } else {
-    file = rehashed(with_another_value(Json::parse(some_line())).dump());
-  }
-  if (*rc::gen::inRange(0, 4) == 0) file = rehashed(some_line()) + file;
-  folder.replace_answers(file);
-  const auto answer = folder.answer();
-  RC_ASSERT(!answer || *answer == some_line());
-}
-
-// Also without the journal no edit is read as a verdict that contradicts what it stands beside.
-RC_GTEST_PROP(StoredAnswerProperty, AnEditThatIsReadIsJudgedOnWhatItSays, ()) {
-  const auto read = accepted(with_another_value(Json::parse(some_line())).dump());
-  if (!read) return;
-  for (const GapVerdict& row : read->verdicts) {
-    if (row.judgement.verdict != Verdict::safe) continue;
-    RC_ASSERT(read->completed());
-    RC_ASSERT(!row.ignition);
-    RC_ASSERT(row.evidence.validity_warnings.empty());
-    RC_ASSERT(row.margin > row.uncertainty.total());
-    RC_ASSERT(row.margin == 519.0 - row.maximum.temperature);
-  }
-}
-
-#endif
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Records as text: what comes back, and what is refused.
+// Records as text: what comes back, and what is refused. tests/fuzz/read_accuracy.cpp edits at random.
 #include "study/made_record.hpp"
 
 #include <gtest/gtest.h>
