@@ -69,9 +69,8 @@ std::string two_digits(double value) { return value < 10.0 ? significant(value, 
 /// The basis of the air's heat.
 void say_air(const Subject& subject, SafetySection& section) {
   const Origin origin = subject.origin("verdicts");
-  const scene::AirModel air = subject.scene().surface.air_model;
-  if (air != scene::AirModel::reservoir) {
-    section.item(air == scene::AirModel::film ? "limits.air_film" : "limits.air_balance", {}, origin);
+  if (subject.scene().surface.air_model == scene::AirModel::film) {
+    section.item("limits.air_film", {}, origin);
     return;
   }
   const Row* most = nullptr;

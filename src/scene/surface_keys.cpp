@@ -22,12 +22,10 @@ std::vector<Key<Surface>> gap_keys() {
       always_plausible(
           word_key(
               "air", Standing::paper,
-              "Air that stays on its adiabat, air that loses what the skin gains, or a film that conducts "
-              "into charge and base, the optimistic bound; in the film no exchange, skin or air density "
-              "counts.",
-              {{"reservoir", AirModel::reservoir}, {"balance", AirModel::balance}, {"film", AirModel::film}},
-              &Surface::air_model),
-          "all are models of the air; constants are calibrated for one of them"),
+              "Air that stays on its adiabat, or a film that conducts into charge and base, the optimistic "
+              "bound; in the film no exchange, skin or air density counts.",
+              {{"reservoir", AirModel::reservoir}, {"film", AirModel::film}}, &Surface::air_model),
+          "both are models of the air; constants are calibrated for one of them"),
       plausibly(
           word_key("exchange", Standing::derived,
                    "Heat exchange as a rate, or the printed share in each time step, which depends on it.",

@@ -58,9 +58,6 @@ double per_step_rate(double ratio, double steps, double length);
 /// Area shares of the stations, summing to 1; equal shares where no station has an area.
 std::vector<double> area_shares(const trace::BottomTrace& trace);
 
-/// Integrates all stations with the air losing what the skins gain (AirModel::balance).
-SkinHistory integrate_balance(const SkinModel& model, const trace::BottomTrace& trace, double gap);
-
 /// Notes an ignition at `time` (s) if it is the first so far.
 void note_ignition(SkinHistory& history, const trace::BottomTrace& trace, std::size_t station, double time,
                    double chemical_share);

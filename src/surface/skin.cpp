@@ -61,8 +61,6 @@ materials::Law base_under_charge(const scene::Scene& scene) {
 }
 
 SkinHistory integrate(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
-  if (gap > 0.0 && model.surface.air_model == scene::AirModel::balance)
-    return detail::integrate_balance(model, trace, gap);
   if (gap > 0.0 && model.surface.air_model == scene::AirModel::film)
     return integrate_film(model, trace, gap).skin;
   return integrate_reservoir(model, trace, gap);

@@ -94,10 +94,6 @@ void assess_exchange(Bounds&, const SkinLaw&, double exchange_time, double step)
 /// The printed exchange: after n calls the distance to the air is (1 - kappa h)^n of the first one, whatever
 /// the step.
 void assess_printed_exchange(Bounds&, const SkinLaw&, double gap, double step);
-/// Air and skin in a closed gap: both go to the temperature of their mixture, at the sum of their rates.
-void assess_balance(Bounds&, const HistoryLaw&, double exchange_time);
-/// The same while the load rises, on the samples of a run against ten times as many.
-void assess_balance_under_load(Bounds&, const HistoryLaw&, double exchange_time);
 /// Inert charge, film of air and base under a load that rises linearly within `rise` (s) to `peak` (Pa).
 void assess_film(Bounds&, const HistoryLaw&, double gap, double rise, double peak);
 

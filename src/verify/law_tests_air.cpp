@@ -25,12 +25,6 @@ double exact_exchange(double rate, double air, double slope, double start, doubl
   return start - (air - start) * std::expm1(-x) + slope * followed;
 }
 
-/// A ring without area at the axis beside one that is the whole bottom.
-trace::BottomTrace two_rings(int intervals, const PressureOfInterval& pressure) {
-  return pressed_bottom({{"S1", 0.0, 0.0, 0.0, false}, {"S2", 0.0, 0.0, 0.01, false}}, intervals, duration,
-                        pressure);
-}
-
 /// A pressure that rises linearly within `rise` (s) from rest to `peak` (Pa) and then stays: its integral is
 /// exact.
 PressureOfInterval linear_rise(double rise, double peak) {
@@ -99,66 +93,6 @@ void assess_printed_exchange(Bounds& bounds, const SkinLaw& law, double wide, do
   }
 }
 
-void assess_balance(Bounds& bounds, const HistoryLaw& law, double exchange_time) {
-  surface::SkinModel model = inert_skin(exchange_time);
-  model.surface.air_model = scene::AirModel::balance;
-  const double pressure = 140e6, start = model.initial_temperature;
-  const double ratio = surface::heat_capacity_ratio(model, gap);
-  const double air = materials::adiabatic_temperature(model.surface.air, pressure);
-  const double mixture = (start + ratio * air) / (1.0 + ratio);
-  // kappa h/tau_ex for the skin and 1/tau_ex for the air.
-  const double rate = (1.0 + ratio) / exchange_time;
-  for (const int intervals : {1, 18, 900}) {
-    const trace::BottomTrace trace = two_rings(intervals, [&](double, double) {
-      return PressureSample{pressure, pressure};
-    });
-    const surface::SkinHistory history = law(model, trace, gap);
-    if (!is_complete(bounds, history, trace)) return;
-    const std::size_t stations = trace.stations.size();
-    for (std::size_t sample = 0; sample < trace.samples(); ++sample) {
-      const double exact = start - (mixture - start) * std::expm1(-rate * trace.time[sample]);
-      for (std::size_t station = 0; station < stations; ++station) {
-        const double skin = history.temperature[sample * stations + station];
-        bounds.at_most("distance from the exact exponential, K", std::abs(skin - exact), 1e-6);
-        bounds.never("the skin overshoots the air", skin > history.air_temperature[sample] + 1e-9);
-      }
-      const double skin = history.temperature[sample * stations + 1];
-      // Heat the air gave against heat the skin took, over all that it could give.
-      const double imbalance = ratio * (air - history.air_temperature[sample]) - (skin - start);
-      bounds.at_most("energy created or lost, share of the heat of the air",
-                     std::abs(imbalance) / (ratio * air), 1e-12);
-    }
-    bounds.at_most("energy residual that the history itself states", history.energy_residual, 1e-9);
-  }
-}
-
-void assess_balance_under_load(Bounds& bounds, const HistoryLaw& law, double exchange_time) {
-  constexpr double rise = 1.8e-3, low = 101325.0, high = 140e6;
-  // Linear in a tenth of the launch, then constant: its integral is exact.
-  const auto integral = [&](double t) {
-    const double rising = std::min(t, rise);
-    return low * t + (high - low) * (0.5 * rising * rising / rise + (t - rising));
-  };
-  const auto pressure = [&](double t) { return low + (high - low) * std::min(t, rise) / rise; };
-  surface::SkinModel model = inert_skin(exchange_time);
-  model.surface.air_model = scene::AirModel::balance;
-  std::array<double, 2> last{};
-  for (const std::size_t finer : {0U, 1U}) {
-    const trace::BottomTrace trace = two_rings(finer == 0 ? 900 : 9000, with_integral(pressure, integral));
-    const surface::SkinHistory history = law(model, trace, gap);
-    if (!is_complete(bounds, history, trace)) return;
-    for (std::size_t sample = 0; sample < trace.samples(); ++sample) {
-      const double skin = history.temperature[sample * trace.stations.size()];
-      bounds.at_most("skin hotter than the air that heats it, K",
-                     std::max(0.0, skin - history.air_temperature[sample]), 1e-6);
-    }
-    bounds.at_most("energy residual that the history itself states", history.energy_residual, 1e-9);
-    last[finer] = history.temperature.back();
-  }
-  bounds.at_most("skin on the samples of a run against ten times as many, K", std::abs(last[0] - last[1]),
-                 1e-2);
-}
-
 void assess_film(Bounds& bounds, const HistoryLaw& law, double wide, double rise, double peak) {
   const surface::SkinModel model = inert_film();
   const double start = model.initial_temperature;
@@ -217,20 +151,6 @@ LawTests exchange_tests() {
                      [exchange_time](Bounds& bounds) {
                        for (const double step : {1e-9, 1e-7, 1e-5, 1e-4, 1e-3})
                          assess_exchange(bounds, surface::advance_skin, exchange_time, step);
-                     }});
-    tests.push_back({group, name + ", balance, 1 to 900 intervals",
-                     "Air and skin go to the temperature of their mixture as the exact exponential says; no "
-                     "energy is made or lost.",
-                     [exchange_time](Bounds& bounds) {
-                       assess_balance(bounds, surface::integrate_skin, exchange_time);
-                     }});
-  }
-  for (const double exchange_time : {1e-9, 1e-7, 1e-5, 3e-4, 1.0}) {
-    tests.push_back({group, "tau_ex " + duration_text(exchange_time) + ", balance, load that rises in 1.8 ms",
-                     "The skin never passes the air; no energy is made or lost; a trace of 20 us is as good "
-                     "as one of 2 us, to 0.01 K.",
-                     [exchange_time](Bounds& bounds) {
-                       assess_balance_under_load(bounds, surface::integrate_skin, exchange_time);
                      }});
   }
   for (const double wide : {1e-9, gap, 5e-3, 0.2, 1.0}) {

@@ -142,7 +142,8 @@ TEST(Comparison, FaultsNameTheVariant) {
   EXPECT_NE(gaps.find("variant.set.gap.thickness: found gaps of a variant"), std::string::npos) << gaps;
   const std::string same = fault("\n[[variant]]\nname = \"a\"\n");
   EXPECT_NE(same.find("\"a\", which is the scene as it is"), std::string::npos) << same;
-  const std::string twice = fault(variant("a", "gap.air = \"film\"") + variant("a", "gap.air = \"balance\""));
+  const std::string twice =
+      fault(variant("a", "gap.air = \"film\"") + variant("a", "gap.exchange = \"per-step\""));
   EXPECT_NE(twice.find("variant.name: found \"a\" a second time"), std::string::npos) << twice;
   const std::string both =
       fault("peak_pressures = \"450, 496 MPa\"\n" + variant("a", "load.peak = \"500 MPa\""));

@@ -18,7 +18,7 @@ using namespace kinds;
 using testing::has_digits, testing::in_order;
 
 constexpr scene::AirModel reservoir = scene::AirModel::reservoir;
-constexpr scene::AirModel balance = scene::AirModel::balance;
+constexpr scene::AirModel film = scene::AirModel::film;
 
 /// An open gap (m) from which the skin took so much and could get so much, J/m2.
 AuditedGap taken(double gap, double energy, double supply) {
@@ -36,7 +36,7 @@ TEST(AirEnergyStatement, NamesTheGapWhereMostWasTakenAgainstItsSupply) {
 }
 
 TEST(AirEnergyStatement, SaysOtherwiseWhereNoMoreWasTakenThanCanBe) {
-  for (const scene::AirModel model : {reservoir, balance}) {
+  for (const scene::AirModel model : {reservoir, film}) {
     const std::string text = air_energy_statement(model, {taken(4e-4, 290, 925)});
     EXPECT_EQ(says(text, "reservoir"), model == reservoir) << text;
     EXPECT_TRUE(in_order(text, {"0.31 times", "0.04 cm", "impact"}));
@@ -45,7 +45,7 @@ TEST(AirEnergyStatement, SaysOtherwiseWhereNoMoreWasTakenThanCanBe) {
 }
 
 TEST(AirEnergyStatement, AnExcessOfConservingAirIsAnError) {
-  const std::string text = air_energy_statement(balance, {taken(4e-4, 1000, 925)});
+  const std::string text = air_energy_statement(film, {taken(4e-4, 1000, 925)});
   EXPECT_TRUE(says(text, "error")) << text;
   EXPECT_FALSE(says(text, "conservative")) << text;
 }
@@ -93,9 +93,9 @@ TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
   EXPECT_TRUE(says(to_csv(verdict_table(result)), "skin_took_kJ_per_m2,compression_supplies_kJ_per_m2"));
 }
 
-TEST(CriticalGapReport, WithBalancedAirTheSkinTakesNoMoreThanIsSupplied) {
+TEST(CriticalGapReport, UnderAFilmTheSkinTakesNoMoreThanIsSupplied) {
   const study::StudyFile file = study::study_of(
-      study::critical_text + "gaps = \"0, 0.03 cm\"\nconfirm = false\n[set]\ngap.air = \"balance\"\n");
+      study::critical_text + "gaps = \"0, 0.03 cm\"\nconfirm = false\n[set]\ngap.air = \"film\"\n");
   const auto json = json_of(kinds::run_critical_gap(file, study::synthetic_options()));
   ASSERT_EQ(json["verdicts"].size(), 2u);
   EXPECT_LE(json["verdicts"][1]["taken_over_supplied"].get<double>(), 1.0);

@@ -159,7 +159,6 @@ const std::map<std::string, Keys> scenes{
     {"cracks without friction", {{"charge.crack_friction", "false"}, {"charge.crack_radius", "\"300 um\""}}},
     {"inelastic closure", {{"friction.closure", "\"inelastic\""}}},
     {"no friction", {{"friction.closure", "\"none\""}}},
-    {"air as a balance", {{"gap.air", "\"balance\""}}},
     {"air as a film", {{"gap.air", "\"film\""}}},
     {"chamber pressure", {{"gap.pressure", "\"chamber\""}}},
     {"exchange per step", {{"gap.exchange", "\"per-step\""}, {"gap.exchange_time", "\"0.3 ms\""}}},

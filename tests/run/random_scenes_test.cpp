@@ -91,7 +91,7 @@ std::string random_air() {
       "gap.thickness = \"0, {} mm\"\ngap.air = {}\ngap.pressure = {}\ngap.exchange = {}\n"
       "gap.exchange_time = \"{} ms\"\ngap.air_temperature = \"{} K\"\nfriction.closure = {}\n"
       "friction.localisation = {}\nkinetics.set = {}\n",
-      between(0.01, 5), word({"reservoir", "balance", "film"}), word({"charge-bottom", "chamber"}),
+      between(0.01, 5), word({"reservoir", "film"}), word({"charge-bottom", "chamber"}),
       word({"rate", "per-step"}), between_ratios(1e-3, 10), between(220, 400),
       word({"total strain rate", "inelastic", "none"}), between(0, 1500), word({"comp-b", "printed"}));
 }

@@ -131,7 +131,7 @@ TEST(AccuracyRecord, IsForeignToAnotherShellOrClosure) {
       [](auto& s) { s.initial_temperature = 310.0; },
       [](auto& s) { s.barrel = scene::Barrel::none; },
       [](auto& s) { s.surface.friction = scene::FrictionClosure::inelastic; },
-      [](auto& s) { s.surface.air_model = scene::AirModel::balance; },
+      [](auto& s) { s.surface.air_model = scene::AirModel::film; },
       [](auto& s) { s.surface.air_pressure = scene::AirPressure::chamber; },
       [](auto& s) { s.surface.exchange = scene::Exchange::per_step; },
       [](auto& s) {

@@ -134,7 +134,7 @@ TEST(SkinHistory, NotANumberInTheTraceIsNoVerdict) {
     if (which == 0) trace.bottom_pressure[250] = std::nan("");
     if (which == 1) trace.mean_bottom_pressure[250] = std::nan("");
     if (which == 2) trace.friction[0][250 * 4 + 3] = std::nan("");
-    for (const auto air : {scene::AirModel::reservoir, scene::AirModel::balance, scene::AirModel::film}) {
+    for (const auto air : {scene::AirModel::reservoir, scene::AirModel::film}) {
       SkinModel model = plain_model();
       model.surface.air_model = air;
       const SkinHistory history = integrate_skin(model, trace, 3e-4);
@@ -155,7 +155,7 @@ TEST(SkinHistory, NoPressureAtAllLeavesAirAndSkinAsTheyWere) {
   trace::BottomTrace trace = launch(10, 1, 0.0);
   for (auto* pressures : {&trace.chamber_pressure, &trace.mean_chamber_pressure})
     std::fill(pressures->begin(), pressures->end(), 0.0);
-  for (const auto air : {scene::AirModel::reservoir, scene::AirModel::balance, scene::AirModel::film}) {
+  for (const auto air : {scene::AirModel::reservoir, scene::AirModel::film}) {
     SkinModel model = plain_model();
     model.kinetics.frequency = 0.0;
     model.surface.air_pressure = scene::AirPressure::chamber;
@@ -165,46 +165,6 @@ TEST(SkinHistory, NoPressureAtAllLeavesAirAndSkinAsTheyWere) {
       for (const double temperature : history.temperature) EXPECT_NEAR(temperature, 300.0, 1e-9);
       for (const double temperature : history.air_temperature) EXPECT_NEAR(temperature, 300.0, 1e-9);
     }
-  }
-}
-
-TEST(AirBalance, ConservesEnergyToRoundOff) {
-  for (const double exchange_time : {1e-9, 1e-6, 3.6e-4}) {
-    SkinModel model = plain_model();
-    model.surface.air_model = scene::AirModel::balance;
-    model.surface.exchange_time = exchange_time;
-    const trace::BottomTrace trace = launch(300, 5, friction_energy);
-    EXPECT_LE(integrate_skin(model, trace, 4e-4).energy_residual, 1e-9) << exchange_time;
-  }
-}
-
-TEST(AirBalance, NeverHeatsMoreThanTheReservoir) {
-  const trace::BottomTrace trace = launch(300, 3, friction_energy);
-  SkinModel model = plain_model();
-  const double reservoir = last(integrate_skin(model, trace, 3e-4), trace, 0);
-  model.surface.air_model = scene::AirModel::balance;
-  EXPECT_LT(last(integrate_skin(model, trace, 3e-4), trace, 0), reservoir);
-}
-
-TEST(AirBalance, ConvergesToItsFineSampling) {
-  SkinModel model = plain_model();
-  model.surface.air_model = scene::AirModel::balance;
-  const auto temperature = [&](int intervals) {
-    const trace::BottomTrace trace = launch(intervals, 1, friction_energy);
-    return last(integrate_skin(model, trace, 3e-4), trace, 0);
-  };
-  EXPECT_NEAR(temperature(900), temperature(7200), 1e-3);
-}
-
-TEST(AirBalance, StiffExchangeKeepsAirAndSkinTogether) {
-  SkinModel model = plain_model();
-  model.surface.air_model = scene::AirModel::balance;
-  model.surface.exchange_time = 1e-9;
-  model.surface.friction = scene::FrictionClosure::none;
-  const trace::BottomTrace trace = launch(300, 1, 0.0);
-  const SkinHistory history = integrate_skin(model, trace, 4e-4);
-  for (std::size_t sample = 0; sample < trace.samples(); ++sample) {
-    EXPECT_NEAR(history.air_temperature[sample], history.temperature[sample * 3 + 2], 1e-3);
   }
 }
 

@@ -146,22 +146,6 @@ TEST(BrokenLaw, ExchangeByExplicitSteps) {
   EXPECT_EQ(outcome_of(assess_printed_exchange, SkinLaw(euler_skin), 1.0, 1e-6), Outcome::wrong);
 }
 
-TEST(BrokenLaw, BalanceThatForgetsWhatTheAirLoses) {
-  const HistoryLaw reservoir = [](surface::SkinModel model, const trace::BottomTrace& trace, double gap) {
-    model.surface.air_model = scene::AirModel::reservoir;
-    return surface::integrate_skin(model, trace, gap);
-  };
-  for (const double exchange_time : {1e-9, 1e-3})
-    EXPECT_EQ(outcome_of(assess_balance, reservoir, exchange_time), Outcome::wrong);
-  const HistoryLaw shifted = [](const surface::SkinModel& model, const trace::BottomTrace& trace,
-                                double gap) {
-    surface::SkinHistory history = surface::integrate_skin(model, trace, gap);
-    history.temperature.back() += 100.0 / static_cast<double>(trace.samples());
-    return history;
-  };
-  EXPECT_EQ(outcome_of(assess_balance_under_load, shifted, 1e-5), Outcome::wrong);
-}
-
 TEST(BrokenLaw, FilmOfAirThatKeepsItsHeat) {
   const HistoryLaw reservoir = [](surface::SkinModel model, const trace::BottomTrace& trace, double gap) {
     model.surface.air_model = scene::AirModel::reservoir;
