@@ -53,9 +53,9 @@ bool is_bound(const CaseAnswer& answer) {
 }
 
 /// Whether an evaluation is a random sample of the inputs, rather than one made for differences: the blocks A
-/// and B of a Saltelli design, and every point of a Morris design.
+/// and B of a Saltelli design.
 bool samples_inputs(const Study& study, std::size_t evaluation) {
-  return !is_sobol(study) || evaluation % (study.axes.size() + 2) < 2;
+  return evaluation % (study.axes.size() + 2) < 2;
 }
 
 void summarise(const Study& study, OutputSensitivity& output) {
@@ -73,17 +73,9 @@ void summarise(const Study& study, OutputSensitivity& output) {
 
 void estimate(const Study& study, OutputSensitivity& output) {
   const SensitivitySettings& own = sensitivity_settings(study);
-  const auto resamples = static_cast<std::size_t>(own.resamples);
-  if (!is_sobol(study)) {
-    const auto design =
-        math::morris_design(static_cast<std::size_t>(own.trajectories), static_cast<std::size_t>(own.levels),
-                            study.axes.size(), own.seed);
-    output.morris = math::morris_effects(design, output.values, {own.confidence, resamples, own.seed});
-    return;
-  }
   math::SobolOptions options;
   options.level = own.confidence;
-  options.resamples = resamples;
+  options.resamples = static_cast<std::size_t>(own.resamples);
   options.seed = own.seed;
   output.sobol = math::sobol_indices(study.axes.size(), output.values, options);
   output.reason = output.sobol.reason;

@@ -12,10 +12,6 @@ namespace launchsafe::kinds {
 
 using namespace study;
 
-std::string to_string(SensitivityMethod method) {
-  return method == SensitivityMethod::sobol ? "sobol" : "morris";
-}
-
 namespace {
 
 using scene::Dimension, scene::SceneFile;
@@ -50,9 +46,7 @@ scene::Key<Study> one_gap_key() {
 std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
   return {
       scene::word_key<SensitivitySettings, SensitivityMethod>(
-          "method", scene::Standing::assumed, "Indices of Sobol, or the elementary effects of Morris.",
-          {{to_string(SensitivityMethod::sobol), SensitivityMethod::sobol},
-           {to_string(SensitivityMethod::morris), SensitivityMethod::morris}},
+          "method", scene::Standing::assumed, "Indices of Sobol.", {{"sobol", SensitivityMethod::sobol}},
           &SensitivitySettings::method),
       sensitivity_number("seed", Dimension::count, scene::between(0, largest_seed),
                          "Seed of the design and of the bootstrap.", &SensitivitySettings::seed),
@@ -60,11 +54,6 @@ std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
                          "Resamples of the bootstrap.", &SensitivitySettings::resamples),
       sensitivity_number("confidence", Dimension::number, scene::between(0.5, 0.999),
                          "Confidence of the intervals.", &SensitivitySettings::confidence),
-  };
-}
-
-std::vector<scene::Key<SensitivitySettings>> sobol_keys() {
-  return {
       scene::word_key<SensitivitySettings, math::Design>(
           "design", scene::Standing::assumed,
           "How the samples are laid out; a power of two of them is best "
@@ -77,31 +66,6 @@ std::vector<scene::Key<SensitivitySettings>> sobol_keys() {
                          "Samples N of the inputs, each (inputs + 2) mechanical runs.",
                          &SensitivitySettings::samples),
   };
-}
-
-std::vector<scene::Key<SensitivitySettings>> morris_keys() {
-  return {
-      sensitivity_number("trajectories", Dimension::count, scene::between(2, 1e6),
-                         "Trajectories through the inputs, each (inputs + 1) mechanical runs.",
-                         &SensitivitySettings::trajectories),
-      sensitivity_number("levels", Dimension::count, scene::between(2, 1000),
-                         "Levels of every input, an even number.", &SensitivitySettings::levels),
-  };
-}
-
-/// Keys of the other method, which would silently do nothing, and what the limits of single keys do not say.
-Fault check_method(const StudyFile& study) {
-  const SensitivitySettings& own = sensitivity_settings(study.study);
-  const bool sobol = own.method == SensitivityMethod::sobol;
-  for (const auto& other : sobol ? morris_keys() : sobol_keys()) {
-    if (!study.places.contains(other.name)) continue;
-    const SensitivityMethod wanted = sobol ? SensitivityMethod::morris : SensitivityMethod::sobol;
-    return fault_at(study, other.name, "a key of method \"" + to_string(wanted) + '"',
-                    "keys of method \"" + to_string(own.method) + '"');
-  }
-  if (own.levels % 2 == 0) return std::nullopt;
-  return fault_at(study, "levels", fmt::format("{}", own.levels), "an even number of levels",
-                  fmt::format("{}", own.levels + 1));
 }
 
 /// Values (SI) of the inputs at a point of the unit cube, in their order.
@@ -183,34 +147,7 @@ Fault make_saltelli(StudyFile& study) {
   return std::nullopt;
 }
 
-Fault make_morris(StudyFile& study) {
-  const Study& s = study.study;
-  const SensitivitySettings& own = sensitivity_settings(s);
-  const std::size_t trajectories = static_cast<std::size_t>(own.trajectories), inputs = s.axes.size();
-  const double count = static_cast<double>(trajectories) * static_cast<double>(inputs + 1);
-  if (Fault fault = check_count(study, "trajectories", count,
-                                fmt::format("{} trajectories x ({} inputs + 1)", trajectories, inputs)))
-    return fault;
-  study.cases.reserve(trajectories * (inputs + 1));
-  const auto levels = static_cast<std::size_t>(own.levels);
-  const math::MorrisDesign design = math::morris_design(trajectories, levels, inputs, own.seed);
-  DesignBuilder builder(study);
-  for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation) {
-    const std::size_t trajectory = evaluation / (inputs + 1), step = evaluation % (inputs + 1);
-    std::string label = fmt::format("trajectory {}, start", trajectory + 1);
-    const StudyCase* alike = nullptr;
-    if (step > 0) {
-      const std::size_t changed = design.changed[trajectory * inputs + step - 1];
-      label = fmt::format("trajectory {}, step {} ({})", trajectory + 1, step, s.axes[changed].name);
-      alike = &study.cases.back();
-    }
-    if (Fault fault = builder.add(std::move(label), design.point(evaluation), alike)) return fault;
-  }
-  return std::nullopt;
-}
-
 Fault read_sensitivity(const StudySource& source, StudyFile& study) {
-  if (Fault fault = check_method(study)) return fault;
   return read_inputs(source.root, study);
 }
 
@@ -220,8 +157,7 @@ Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
     return fault_at(study, "gap", fmt::format("no gap, and {} gaps in the scene", gaps.size()), "one gap",
                     fmt::format("gap = \"{}\"", scene::format_quantity(gaps.back(), Dimension::length)));
   }
-  const bool sobol = is_sobol(study.study);
-  return sobol ? make_saltelli(study) : make_morris(study);
+  return make_saltelli(study);
 }
 
 }  // namespace
@@ -233,9 +169,7 @@ Kind sensitivity_kind() {
                       judging_keys(),
                       calibration_record_keys(),
                       uncertainty_keys(),
-                      own_keys(sensitivity_keys()),
-                      own_keys(sobol_keys()),
-                      own_keys(morris_keys())}),
+                      own_keys(sensitivity_keys())}),
       .tables = {input_table()},
       .instead_of = {{"gaps", "gap"}},
       .read = read_sensitivity,

@@ -173,23 +173,18 @@ std::string suggested_range(const InputText& text) {
   return fmt::format("range = \"{}\"", range_text(lower, upper, text.key.dimension));
 }
 
-/// A normal without a range must in practice stay within the limits of its key, and a Morris design, whose
-/// points lie on the boundary, needs a boundary.
+/// A normal without a range must in practice stay within the limits of its key.
 Fault check_reach(const InputReader& reader) {
   const InputText& text = reader.text;
   if (text.kind != Distribution::Kind::normal || reader.given("range")) return std::nullopt;
   const double reach = deviations_within_limits * text.deviation;
   const double lower = text.mean - reach, upper = text.mean + reach;
-  if (!text.key.limits.contain(lower) || !text.key.limits.contain(upper)) {
-    return reader.fault(
-        "deviation",
-        fmt::format("values of {} within {:g} deviations, outside the limits of {}",
-                    range_text(lower, upper, text.key.dimension), deviations_within_limits, text.key.name),
-        "a range that cuts the normal off: " + scene::allowed_text(text.key), suggested_range(text));
-  }
-  if (is_sobol(reader.study.study)) return std::nullopt;
-  return reader.fault("distribution", "a normal without ends, while Morris' method steps from end to end",
-                      "a normal with a range", suggested_range(text));
+  if (text.key.limits.contain(lower) && text.key.limits.contain(upper)) return std::nullopt;
+  return reader.fault(
+      "deviation",
+      fmt::format("values of {} within {:g} deviations, outside the limits of {}",
+                  range_text(lower, upper, text.key.dimension), deviations_within_limits, text.key.name),
+      "a range that cuts the normal off: " + scene::allowed_text(text.key), suggested_range(text));
 }
 
 Fault check_distribution(const InputReader& reader) {

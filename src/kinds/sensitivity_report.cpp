@@ -35,8 +35,7 @@ std::string name_of(math::Design design) {
   return "a scrambled Sobol sequence";
 }
 
-std::string interval_text(const study::Study& study) {
-  const SensitivitySettings& own = sensitivity_settings(study);
+std::string interval_text(const SensitivitySettings& own) {
   return fmt::format("{}% intervals from a bootstrap of {} resamples, seed {}",
                      significant(100.0 * own.confidence, 6), own.resamples, own.seed);
 }
@@ -61,52 +60,31 @@ std::string at_gap(const study::Study& study, SensitivityOutput output) {
   return " at a gap of " + centimetres(study.gaps.front());
 }
 
-std::string reason_of(const SensitivityResult& result, const OutputSensitivity& output) {
+std::string reason_of(const OutputSensitivity& output) {
   if (!output.reason.empty()) return output.reason;
-  const std::vector<math::Estimate> importance = importance_of(result, output);
-  const bool any = std::any_of(importance.begin(), importance.end(),
-                               [](const math::Estimate& each) { return std::isfinite(each.value); });
+  const std::vector<math::InputIndices>& inputs = output.sobol.inputs;
+  const bool any = std::any_of(inputs.begin(), inputs.end(), [](const math::InputIndices& each) {
+    return std::isfinite(each.total.value);
+  });
   return any ? std::string{} : "too few evaluations have a number";
 }
 
-bool has_indices(const SensitivityResult& result, const OutputSensitivity& output) {
-  return reason_of(result, output).empty();
-}
-
-std::size_t size_of(const study::Study& study) {
-  const SensitivitySettings& own = sensitivity_settings(study);
-  return static_cast<std::size_t>(is_sobol(study) ? own.samples : own.trajectories);
-}
-
-std::string size_noun(const study::Study& study) { return is_sobol(study) ? "rows" : "trajectories"; }
+bool has_indices(const OutputSensitivity& output) { return reason_of(output).empty(); }
 
 std::string method_text(const SensitivityResult& result) {
-  const study::Study& study = result.study.study;
-  const SensitivitySettings& own = sensitivity_settings(study);
-  const std::size_t evaluations = result.answers.size();
-  if (is_sobol(study)) {
-    std::string text = fmt::format(
-        "Sobol indices (first order: Saltelli 2010, total order: Jansen 1999) from N = {} rows, {} "
-        "evaluations, on {}; {}.",
-        own.samples, evaluations, name_of(own.design), interval_text(study));
-    if (own.design == math::Design::scrambled_sobol && own.samples < 256)
-      text += " Of a Sobol sequence with fewer than 256 rows the intervals often miss weak inputs.";
-    return text;
-  }
-  return fmt::format(
-      "Elementary effects (Morris 1991) of N = {} trajectories on {} levels, {} evaluations; {}. An effect "
-      "is "
-      "the change of the output over the whole range of the input (between the ends of its distribution).",
-      own.trajectories, own.levels, evaluations, interval_text(study));
+  const SensitivitySettings& own = sensitivity_settings(result.study.study);
+  std::string text = fmt::format(
+      "Sobol indices (first order: Saltelli 2010, total order: Jansen 1999) from N = {} rows, {} "
+      "evaluations, on {}; {}.",
+      own.samples, result.answers.size(), name_of(own.design), interval_text(own));
+  if (own.design == math::Design::scrambled_sobol && own.samples < 256)
+    text += " Of a Sobol sequence with fewer than 256 rows the intervals often miss weak inputs.";
+  return text;
 }
 
-std::vector<math::Estimate> importance_of(const SensitivityResult& result, const OutputSensitivity& output) {
+std::vector<math::Estimate> importance_of(const OutputSensitivity& output) {
   std::vector<math::Estimate> importance;
-  if (is_sobol(result.study.study)) {
-    for (const math::InputIndices& each : output.sobol.inputs) importance.push_back(each.total);
-  } else {
-    for (const math::MorrisEffects& each : output.morris) importance.push_back(each.mu_star);
-  }
+  for (const math::InputIndices& each : output.sobol.inputs) importance.push_back(each.total);
   return importance;
 }
 
@@ -151,10 +129,10 @@ std::string joined(const std::vector<std::string>& names) {
   return fmt::format("{} and {}", fmt::join(first, ", "), names.back());
 }
 
-/// "0.52 [0.4, 0.63]", or "12 K [9, 15]".
-std::string estimate_text(const math::Estimate& estimate, double scale, const std::string& unit) {
-  return fmt::format("{}{} [{}, {}]", significant(scale * estimate.value, 3), unit.empty() ? "" : " " + unit,
-                     significant(scale * estimate.lower, 3), significant(scale * estimate.upper, 3));
+/// "0.52 [0.4, 0.63]".
+std::string estimate_text(const math::Estimate& estimate) {
+  return fmt::format("{} [{}, {}]", significant(estimate.value, 3), significant(estimate.lower, 3),
+                     significant(estimate.upper, 3));
 }
 
 /// What is said of one output.
@@ -163,21 +141,18 @@ class OutputAnswer {
   OutputAnswer(const SensitivityResult& result, const OutputSensitivity& output)
       : result_(result),
         output_(output),
-        sobol_(is_sobol(result.study.study)),
-        shown_(shown_output(output.output)),
         keys_(shown_axes(result.study.study)),
-        importance_(importance_of(result, output)) {
+        importance_(importance_of(output)) {
     importance_.resize(keys_.size(), {study::not_a_number, study::not_a_number, study::not_a_number});
   }
 
   std::string text() const {
-    std::string what = shown_.phrase;
+    std::string what = shown_output(output_.output).phrase;
     if (what.starts_with('t')) what.front() = 'T';
-    if (const std::string reason = reason_of(result_, output_); !reason.empty())
+    if (const std::string reason = reason_of(output_); !reason.empty())
       return fmt::format("{}: no indices, {}.", what, reason);
     const auto groups = ranked(importance_);
-    return fmt::format("{}: by {}, {}.{}{}", what, sobol_ ? "total order" : "mu*", ranking(groups),
-                       untold(groups), negligible());
+    return fmt::format("{}: by total order, {}.{}{}", what, ranking(groups), untold(groups), negligible());
   }
 
  private:
@@ -193,13 +168,11 @@ class OutputAnswer {
   }
 
   std::string named(std::size_t input) const {
-    return fmt::format("{} ({})", keys_[input].name,
-                       sobol_ ? estimate_text(importance_[input], 1.0, "")
-                              : estimate_text(importance_[input], shown_.scale, shown_.unit));
+    return fmt::format("{} ({})", keys_[input].name, estimate_text(importance_[input]));
   }
 
   std::string size() const {
-    return fmt::format("N = {} {}", size_of(result_.study.study), size_noun(result_.study.study));
+    return fmt::format("N = {} rows", sensitivity_settings(result_.study.study).samples);
   }
 
   /// What the intervals do not tell apart.
@@ -218,27 +191,19 @@ class OutputAnswer {
     return fmt::format(" {} do not tell {} apart.", size(), fmt::join(open, ", nor "));
   }
 
-  /// Inputs whose whole interval is small. For effects there is no such scale but the largest of them.
+  /// Inputs whose whole interval is small.
   std::string negligible() const {
-    double scale = 1.0;
-    if (!sobol_) {
-      scale = 0;
-      for (const math::Estimate& each : importance_)
-        if (std::isfinite(each.value)) scale = std::max(scale, each.value);
-    }
     std::vector<std::string> names;
     for (std::size_t i = 0; i < keys_.size(); ++i) {
-      if (importance_[i].upper < negligible_share * scale) names.push_back(keys_[i].name);
+      if (importance_[i].upper < negligible_share) names.push_back(keys_[i].name);
     }
     if (names.empty()) return {};
-    return fmt::format(" Below {}% of {}, and so without influence here: {}.", 100.0 * negligible_share,
-                       sobol_ ? "the variance" : "the largest effect", joined(names));
+    return fmt::format(" Below {}% of the variance, and so without influence here: {}.",
+                       100.0 * negligible_share, joined(names));
   }
 
   const SensitivityResult& result_;
   const OutputSensitivity& output_;
-  bool sobol_;
-  ShownOutput shown_;
   std::vector<ShownKey> keys_;
   std::vector<math::Estimate> importance_;
 };
@@ -257,9 +222,9 @@ std::string picture_name(const OutputSensitivity& output) {
 
 nlohmann::ordered_json method_json(const SensitivityResult& result) {
   const auto& settings = sensitivity_settings(result.study.study);
-  return {{"name", to_string(settings.method)},
+  return {{"name", "sobol"},
           {"text", method_text(result)},
-          {"N", size_of(result.study.study)},
+          {"N", settings.samples},
           {"evaluations", result.answers.size()},
           {"seed", settings.seed},
           {"resamples", settings.resamples},
@@ -291,7 +256,7 @@ Report report_of(const SensitivityResult& result) {
   report.items.push_back(ReportTable{output_table(result), "", "outputs", Shown::file});
   for (const OutputSensitivity& output : result.outputs) {
     report.items.push_back(ReportTable{.table = sensitivity_table(result, output), .shown = Shown::page});
-    if (has_indices(result, output))
+    if (has_indices(output))
       report.items.push_back(Picture{picture_name(output), sensitivity_plot(result, output),
                                      "sensitivity of " + shown_output(output.output).name});
   }

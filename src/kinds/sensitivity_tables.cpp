@@ -31,42 +31,17 @@ std::vector<Column> index_columns() {
           count_column("of", "of")};
 }
 
-/// `unit` is empty where it stands in a column of its own.
-std::vector<Column> effect_columns(const std::string& unit) {
-  const auto column = [&unit](std::string name, const std::string& key) {
-    return significant_column(std::move(name), unit, 4, unit.empty() ? key : key + "_" + unit);
-  };
-  return {column("mu", "mu"),
-          column("mu*", "mu_star"),
-          column("from", "mu_star_lower"),
-          column("to", "mu_star_upper"),
-          column("sigma", "sigma"),
-          count_column("effects used", "used"),
-          count_column("of", "of")};
-}
-
-void add_estimate(const math::Estimate& estimate, double scale, std::vector<Cell>& cells) {
+void add_estimate(const math::Estimate& estimate, std::vector<Cell>& cells) {
   for (const double value : {estimate.value, estimate.lower, estimate.upper})
-    cells.push_back(optional_number(scale * value));
+    cells.push_back(optional_number(value));
 }
 
 void add_index_cells(const OutputSensitivity& output, std::size_t input, std::vector<Cell>& cells) {
   const math::SobolIndices& indices = output.sobol;
-  add_estimate(indices.inputs[input].first, 1.0, cells);
-  add_estimate(indices.inputs[input].total, 1.0, cells);
+  add_estimate(indices.inputs[input].first, cells);
+  add_estimate(indices.inputs[input].total, cells);
   cells.emplace_back(static_cast<std::int64_t>(indices.rows_used));
   cells.emplace_back(static_cast<std::int64_t>(indices.rows_used + indices.rows_left_out));
-}
-
-void add_effect_cells(const SensitivityResult& result, const OutputSensitivity& output, std::size_t input,
-                      std::vector<Cell>& cells) {
-  const math::MorrisEffects& effects = output.morris[input];
-  const double scale = shown_output(output.output).scale;
-  cells.push_back(optional_number(scale * effects.mu));
-  add_estimate(effects.mu_star, scale, cells);
-  cells.push_back(optional_number(scale * effects.sigma));
-  cells.emplace_back(static_cast<std::int64_t>(effects.effects));
-  cells.emplace_back(static_cast<std::int64_t>(sensitivity_settings(result.study.study).trajectories));
 }
 
 /// Input and distribution, and the numbers where there are any.
@@ -75,14 +50,7 @@ std::vector<Cell> cells_of(const SensitivityResult& result, const OutputSensitiv
   const study::Axis& each = result.study.study.axes[input];
   const ShownKey key = shown(each);
   std::vector<Cell> cells{key.name, distribution_text(key, *each.distribution)};
-  if (!has_indices(result, output)) return cells;
-  const bool sobol = is_sobol(result.study.study);
-  if (input >= (sobol ? output.sobol.inputs.size() : output.morris.size())) return cells;
-  if (sobol) {
-    add_index_cells(output, input, cells);
-  } else {
-    add_effect_cells(result, output, input, cells);
-  }
+  if (has_indices(output) && input < output.sobol.inputs.size()) add_index_cells(output, input, cells);
   return cells;
 }
 
@@ -133,12 +101,12 @@ std::string sampling_note(const SensitivityResult& result, const OutputSensitivi
 
 std::vector<std::string> notes_of(const SensitivityResult& result, const OutputSensitivity& output) {
   std::vector<std::string> notes;
-  if (const std::string reason = reason_of(result, output); !reason.empty())
+  if (const std::string reason = reason_of(output); !reason.empty())
     notes.push_back("No indices: " + reason + ".");
   if (std::isfinite(output.mean)) notes.push_back(spread_note(output));
   if (output.missing > 0) notes.push_back(missing_note(output));
   notes.push_back(method_text(result));
-  if (has_indices(result, output)) notes.push_back(sampling_note(result, output));
+  if (has_indices(output)) notes.push_back(sampling_note(result, output));
   if (output.inert) notes.push_back(inert_note());
   std::erase(notes, "");
   return notes;
@@ -147,12 +115,11 @@ std::vector<std::string> notes_of(const SensitivityResult& result, const OutputS
 }  // namespace
 
 Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity& output) {
-  const bool sobol = is_sobol(result.study.study);
   const ShownOutput shown = shown_output(output.output);
   Table table;
   table.title = "Sensitivity of " + shown.phrase + at_gap(result.study.study, output.output);
   table.columns = {named_text("input", "input"), named_text("distribution", "distribution")};
-  append(table.columns, sobol ? index_columns() : effect_columns(shown.unit));
+  append(table.columns, index_columns());
   for (std::size_t i = 0; i < result.study.study.axes.size(); ++i)
     table.rows.push_back(cells_of(result, output, i));
   table.notes = notes_of(result, output);
@@ -160,16 +127,15 @@ Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity
 }
 
 Table sensitivity_table(const SensitivityResult& result) {
-  const bool sobol = is_sobol(result.study.study);
   Table table;
   table.title = "Sensitivity";
   table.columns = {named_text("output", "output"), named_text("unit", "unit"), quantity::reason(),
                    named_text("input", "input"), named_text("distribution", "distribution")};
-  append(table.columns, sobol ? index_columns() : effect_columns(""));
+  append(table.columns, index_columns());
   for (const OutputSensitivity& output : result.outputs) {
     const ShownOutput shown = shown_output(output.output);
     for (std::size_t i = 0; i < result.study.study.axes.size(); ++i) {
-      std::vector<Cell> cells{shown.key, sobol ? std::string{} : shown.unit, reason_of(result, output)};
+      std::vector<Cell> cells{shown.key, std::string{}, reason_of(output)};
       for (Cell& cell : cells_of(result, output, i)) cells.push_back(std::move(cell));
       table.rows.push_back(std::move(cells));
     }
@@ -193,7 +159,7 @@ Table output_table(const SensitivityResult& result) {
     table.rows.push_back({shown.key, shown.unit, optional_number(shown.scale * output.mean),
                           optional_number(shown.scale * output.deviation),
                           static_cast<std::int64_t>(output.missing), static_cast<std::int64_t>(output.bounds),
-                          reason_of(result, output)});
+                          reason_of(output)});
   }
   return table;
 }
@@ -266,45 +232,13 @@ Plot index_plot(const SensitivityResult& result, const OutputSensitivity& output
   return plot;
 }
 
-/// Up to where sigma is as large as mu*, the effects of an input change their size or sign.
-Series diagonal(double largest) {
-  Series line{"sigma = mu*", {0, largest}, {0, largest}, Style::dashed_line};
-  line.colour = 7;
-  return line;
-}
-
-Plot effect_plot(const SensitivityResult& result, const OutputSensitivity& output) {
-  const ShownOutput shown = shown_output(output.output);
-  const auto keys = shown_axes(result.study.study);
-  Plot plot;
-  plot.x.label = fmt::format("mu*, mean size of the effect [{}]", shown.unit);
-  plot.y.label = fmt::format("sigma, its standard deviation [{}]", shown.unit);
-  plot.height = 680;
-  double largest = 0;
-  for (std::size_t i = 0; i < std::min(keys.size(), output.morris.size()); ++i) {
-    const math::MorrisEffects& effects = output.morris[i];
-    math::Estimate mu_star = effects.mu_star;
-    for (double* part : {&mu_star.value, &mu_star.lower, &mu_star.upper}) *part *= shown.scale;
-    Series series{keys[i].name, {}, {}, Style::horizontal_bars};
-    series.colour = static_cast<int>(i);
-    // The mark moves on with every round of colours, so that no two inputs look alike.
-    series.mark = static_cast<Mark>((i + i / 8) % 8);
-    add_interval(series, mu_star.value, shown.scale * effects.sigma, mu_star);
-    if (std::isfinite(effects.sigma)) largest = std::max(largest, shown.scale * effects.sigma);
-    plot.series.push_back(std::move(series));
-  }
-  if (largest > 0) plot.series.push_back(diagonal(largest));
-  return plot;
-}
-
 }  // namespace
 
 Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output) {
   const study::Study& study = result.study.study;
-  const bool sobol = is_sobol(study);
-  Plot plot = sobol ? index_plot(result, output) : effect_plot(result, output);
+  Plot plot = index_plot(result, output);
   plot.title = fmt::format("Sensitivity of {}{}, N = {}", shown_output(output.output).phrase,
-                           at_gap(study, output.output), size_of(study));
+                           at_gap(study, output.output), sensitivity_settings(study).samples);
   return plot;
 }
 

@@ -22,20 +22,16 @@ ShownOutput shown_output(SensitivityOutput output);
 /// " at a gap of 0.02 cm", for outputs that belong to the study's gap.
 std::string at_gap(const study::Study& study, SensitivityOutput output);
 
-/// Whether an output has indices (or effects) that can be shown.
-bool has_indices(const SensitivityResult& result, const OutputSensitivity& output);
+/// Whether an output has indices that can be shown.
+bool has_indices(const OutputSensitivity& output);
 /// Why it has none; empty where it has.
-std::string reason_of(const SensitivityResult& result, const OutputSensitivity& output);
+std::string reason_of(const OutputSensitivity& output);
 
-/// N: rows of a Saltelli design, trajectories of a Morris design.
-std::size_t size_of(const study::Study& study);
-/// "rows" or "trajectories".
-std::string size_noun(const study::Study& study);
 /// Method, design, N, evaluations, seed and confidence in a sentence or two.
 std::string method_text(const SensitivityResult& result);
 
-/// What an input is ranked by: its total order, or mu*.
-std::vector<math::Estimate> importance_of(const SensitivityResult& result, const OutputSensitivity& output);
+/// What the inputs are ranked by: their total order.
+std::vector<math::Estimate> importance_of(const OutputSensitivity& output);
 
 /// Inputs by falling importance in groups: all intervals of a group lie above all of the following groups;
 /// within a group the intervals overlap, and its order means nothing.

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 namespace launchsafe::math {
 
@@ -200,77 +199,6 @@ std::string too_few_rows(std::size_t used, std::size_t left_out, std::size_t nee
          std::to_string(needed) + " are needed";
 }
 
-// --- elementary effects ---
-
-/// 0 .. count - 1 in random order (Fisher and Yates).
-std::vector<std::size_t> shuffled(std::size_t count, SplitMix64& random) {
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  for (std::size_t i = count; i > 1; --i) {
-    std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
-  }
-  return order;
-}
-
-void append_trajectory(MorrisDesign& design, SplitMix64& random) {
-  const auto half = static_cast<std::uint32_t>(design.levels / 2);
-  std::vector<std::uint32_t> level;  // of every input; its other end of the step is `half` away
-  for (std::size_t input = 0; input < design.inputs; ++input) {
-    const bool starts_above = random.below(2) == 1;
-    level.push_back(random.below(half) + (starts_above ? half : 0));
-  }
-  const auto append_point = [&] {
-    const double highest = static_cast<double>(design.levels - 1);
-    for (const std::uint32_t value : level) design.points.push_back(value / highest);
-  };
-  append_point();
-  for (const std::size_t input : shuffled(design.inputs, random)) {
-    level[input] = level[input] < half ? level[input] + half : level[input] - half;
-    design.changed.push_back(input);
-    append_point();
-  }
-}
-
-/// The finite elementary effects, by input.
-std::vector<std::vector<double>> finite_effects(const MorrisDesign& design,
-                                                const std::vector<double>& outputs) {
-  std::vector<std::vector<double>> effects(design.inputs);
-  for (std::size_t k = 0; k < design.changed.size(); ++k) {
-    const std::size_t input = design.changed[k];
-    const std::size_t before = design.index(k / design.inputs, k % design.inputs), after = before + 1;
-    const double change =
-        design.points[after * design.inputs + input] - design.points[before * design.inputs + input];
-    const double effect = (outputs[after] - outputs[before]) / change;
-    if (std::isfinite(effect)) effects[input].push_back(effect);
-  }
-  return effects;
-}
-
-/// Means of resamples of the values.
-std::vector<double> mean_replicates(const std::vector<double>& values, std::size_t resamples,
-                                    SplitMix64 random) {
-  std::vector<double> replicates;
-  for (std::size_t k = 0; k < resamples; ++k) {
-    const std::vector<double> counts = resampling_counts(values.size(), random);
-    const double sum = std::inner_product(values.begin(), values.end(), counts.begin(), 0.0);
-    replicates.push_back(sum / static_cast<double>(values.size()));
-  }
-  return replicates;
-}
-
-MorrisEffects statistics_of(const std::vector<double>& effects, const MorrisOptions& options,
-                            std::uint64_t seed) {
-  if (effects.empty()) return {not_a_number, no_estimate, not_a_number, 0};
-  const auto [mu, squares] = moments_of(effects);
-  const double freedom = static_cast<double>(effects.size() - 1);
-  const double sigma = freedom > 0.0 ? std::sqrt(squares / freedom) : not_a_number;
-  std::vector<double> sizes;
-  for (const double effect : effects) sizes.push_back(std::abs(effect));
-  const auto replicates = mean_replicates(sizes, options.resamples, SplitMix64(seed));
-  return {mu, with_interval(moments_of(sizes).mean, replicates, sizes.size(), options.level), sigma,
-          sizes.size()};
-}
-
 }  // namespace
 
 std::vector<double> SaltelliDesign::point(std::size_t block, std::size_t row) const {
@@ -314,33 +242,6 @@ SobolIndices sobol_indices(std::size_t inputs, const std::vector<double>& output
     result.reason = "the output does not vary";
   } else {
     result.inputs = estimated(rows, inputs, mean, *greatest - *least, options);
-  }
-  return result;
-}
-
-std::vector<double> MorrisDesign::point(std::size_t evaluation) const {
-  assert(evaluation < evaluations());
-  const auto start = points.begin() + static_cast<std::ptrdiff_t>(evaluation * inputs);
-  return {start, start + static_cast<std::ptrdiff_t>(inputs)};
-}
-
-MorrisDesign morris_design(std::size_t trajectories, std::size_t levels, std::size_t inputs,
-                           std::uint64_t seed) {
-  assert(levels >= 2 && levels % 2 == 0);
-  MorrisDesign design{trajectories, levels, inputs, {}, {}};
-  for (std::size_t k = 0; k < trajectories; ++k) {
-    SplitMix64 random(hashed(seed, k));
-    append_trajectory(design, random);
-  }
-  return design;
-}
-
-std::vector<MorrisEffects> morris_effects(const MorrisDesign& design, const std::vector<double>& outputs,
-                                          const MorrisOptions& options) {
-  assert(outputs.size() == design.evaluations());
-  std::vector<MorrisEffects> result;
-  for (const std::vector<double>& effects : finite_effects(design, outputs)) {
-    result.push_back(statistics_of(effects, options, hashed(options.seed, result.size())));
   }
   return result;
 }

@@ -167,12 +167,10 @@ inline kinds::SweepResult made_sweep(std::vector<double> more = {}, const std::s
 inline math::Estimate estimate(double value, double half) { return {value, value - half, value + half}; }
 
 /// Three inputs, 4 rows of a Saltelli design, the third evaluation failed.
-inline kinds::SensitivityResult made_sensitivity(kinds::SensitivityMethod method) {
+inline kinds::SensitivityResult made_sensitivity() {
   study::StudyFile file = bare_study(kinds::traits_of("sensitivity"), {2e-4});
-  study::settings_of<kinds::SensitivitySettings>(file.study).method = method;
   study::settings_of<kinds::SensitivitySettings>(file.study).samples = 4;
   study::settings_of<kinds::SensitivitySettings>(file.study).design = math::Design::scrambled_sobol;
-  study::settings_of<kinds::SensitivitySettings>(file.study).trajectories = 5;
   const auto input = [&](const std::string& name, const std::string& key, math::Distribution distribution) {
     return study::Axis{name, "input.key", axis(file, name, key, {}).key, {}, distribution};
   };
@@ -201,18 +199,11 @@ inline kinds::SensitivityResult made_sensitivity(kinds::SensitivityMethod method
     output.missing = 1;
     output.mean = is_gap ? 3.9e-4 : 470.0;
     output.deviation = is_gap ? 5e-6 : 12.0;
-    const double scale = is_gap ? 1e-4 : 40.0;
-    if (method == kinds::SensitivityMethod::sobol) {
-      output.sobol.rows_used = 3;
-      output.sobol.rows_left_out = 1;
-      output.sobol.inputs = {{estimate(0.6, 0.1), estimate(0.7, 0.1)},
-                             {estimate(0.2, 0.1), estimate(0.3, 0.1)},
-                             {estimate(0.0, 0.01), estimate(0.02, 0.01)}};
-    } else {
-      output.morris = {{scale, estimate(scale, 0.1 * scale), 0.2 * scale, 5},
-                       {-0.5 * scale, estimate(0.5 * scale, 0.1 * scale), 0.4 * scale, 5},
-                       {0.0, estimate(0.45 * scale, 0.1 * scale), 0.1 * scale, 4}};
-    }
+    output.sobol.rows_used = 3;
+    output.sobol.rows_left_out = 1;
+    output.sobol.inputs = {{estimate(0.6, 0.1), estimate(0.7, 0.1)},
+                           {estimate(0.2, 0.1), estimate(0.3, 0.1)},
+                           {estimate(0.0, 0.01), estimate(0.02, 0.01)}};
     result.outputs.push_back(std::move(output));
   }
   result.study = std::move(file);

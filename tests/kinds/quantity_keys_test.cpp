@@ -44,8 +44,7 @@ std::vector<report::Report> reports_of_all_kinds() {
                       study::constants_on_even_lattice),
       study::synthetic_options(2));
   return {report_of(made_sweep()),
-          report_of(made_sensitivity(SensitivityMethod::sobol)),
-          report_of(made_sensitivity(SensitivityMethod::morris)),
+          report_of(made_sensitivity()),
           report_of(critical),
           report_of(run_calibration(shipped, study::synthetic_options())),
           report_of(accuracy),

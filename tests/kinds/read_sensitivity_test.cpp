@@ -59,7 +59,6 @@ TEST(ReadSensitivity, ReadsInputsAndMethod) {
                                   crack + exponent + flaw);
   const Study& study = file.study;
   EXPECT_EQ(study.kind.name, kinds::traits_of("sensitivity").name);
-  EXPECT_EQ(study::settings_of<kinds::SensitivitySettings>(study).method, SensitivityMethod::sobol);
   EXPECT_EQ(study::settings_of<kinds::SensitivitySettings>(study).design, math::Design::latin_hypercube);
   EXPECT_EQ(study::settings_of<kinds::SensitivitySettings>(study).samples, 8);
   EXPECT_EQ(study::settings_of<kinds::SensitivitySettings>(study).seed, 7u);
@@ -84,7 +83,6 @@ TEST(ReadSensitivity, ReadsInputsAndMethod) {
 
 TEST(ReadSensitivity, HasDefaults) {
   const StudyFile file = study_of(sensitivity_start + crack);
-  EXPECT_EQ(study::settings_of<kinds::SensitivitySettings>(file.study).method, SensitivityMethod::sobol);
   EXPECT_EQ(study::settings_of<kinds::SensitivitySettings>(file.study).design, SensitivitySettings{}.design);
   EXPECT_EQ(file.cases.size(), 64u * 3u);
 }
@@ -131,23 +129,6 @@ TEST(ReadSensitivity, SobolCasesFollowTheDesign) {
   expect_scenes_of_coordinates(file);
 }
 
-TEST(ReadSensitivity, MorrisCasesFollowTheDesign) {
-  const StudyFile file = study_of(
-      sensitivity_start + "method = \"morris\"\ntrajectories = 5\nlevels = 6\nseed = 3\n" + crack + flaw);
-  const auto design = math::morris_design(5, 6, 2, 3);
-  ASSERT_EQ(file.cases.size(), design.evaluations());
-  for (std::size_t evaluation = 0; evaluation < file.cases.size(); ++evaluation) {
-    const auto point = design.point(evaluation);
-    for (std::size_t i = 0; i < 2; ++i) {
-      EXPECT_EQ(file.cases[evaluation].coordinates[i],
-                math::quantile(*file.study.axes[i].distribution, point[i]));
-    }
-  }
-  EXPECT_EQ(file.cases[3].label, "trajectory 2, start");
-  EXPECT_EQ(file.cases[4].label, "trajectory 2, step 1 (" + file.study.axes[design.changed[2]].name + ")");
-  expect_scenes_of_coordinates(file);
-}
-
 TEST(ReadSensitivity, TheGapIsTheScenesOnlyOne) {
   const std::string without = sensitivity_start.substr(0, sensitivity_start.find("gap = "));
   expect_error_in(without + crack, {0, "gap", "no gap, and 6 gaps in the scene", "one gap", "gap = \""});
@@ -164,7 +145,7 @@ TEST(ReadSensitivity, UncertainNumericsHaveNoStatedUncertainty) {
 }
 
 TEST(ReadSensitivity, FaultsOfKeysNameFileLineKeyFoundAndAllowed) {
-  expect_line_error("method = \"sobl\"", {4, "method", "\"sobl\"", "\"sobol\" or \"morris\"", "sobol"});
+  expect_line_error("method = \"sobl\"", {4, "method", "\"sobl\"", "\"sobol\"", "sobol"});
   expect_line_error("design = \"sobol\"", {4, "design", "\"sobol\"", "latin-hypercube"});
   expect_line_error("samples = 1", {4, "samples", "1", "2 to 1e+06"});
   expect_line_error("samples = 8.5", {4, "samples", "8.5"});
@@ -173,13 +154,6 @@ TEST(ReadSensitivity, FaultsOfKeysNameFileLineKeyFoundAndAllowed) {
   expect_line_error("resamples = 0", {4, "resamples", "0"});
   expect_line_error("confidence = 0.4", {4, "confidence", "0.4", "0.5 to 0.999"});
   expect_line_error("confidence = 1", {4, "confidence", "1"});
-  expect_line_error("trajectories = 4", {4, "trajectories", "method \"morris\"", "method \"sobol\""});
-  expect_line_error("levels = 4", {4, "levels", "method \"morris\"", "method \"sobol\""});
-  const std::string morris = "method = \"morris\"\n";
-  expect_line_error(morris + "levels = 5", {5, "levels", "5", "even", "6"});
-  expect_line_error(morris + "samples = 8", {5, "samples", "method \"sobol\"", "method \"morris\""});
-  expect_line_error(morris + "design = \"monte-carlo\"", {5, "design", "method \"sobol\""});
-  expect_line_error(morris + "trajectories = 600000", {5, "trajectories", "1200000 mechanical runs"});
   expect_line_error("gaps = \"1 mm\"", {4, "gaps", "kind \"critical-gap\"", "sensitivity", "gap"});
   expect_line_error("axes = { }", {4, "axes", "kind \"sweep\"", "sensitivity"});
   expect_line_error("reference = [{ gap = \"0 cm\" }]", {4, "reference", "\"sweep\"", "sensitivity"});
@@ -236,10 +210,6 @@ TEST(ReadSensitivity, FaultsOfNormalsAskForARange) {
       {8, "input.deviation", "within 4 deviations", "a range that cuts", "range = \"0 cm to 70 um\""});
   const std::string narrow = normal + "mean = \"30 um\"\ndeviation = \"5 um\"\n";
   EXPECT_TRUE(parse_here(sensitivity_start + input(narrow)));
-  expect_error_in(sensitivity_start + "method = \"morris\"\n" + input(narrow),
-                  {7, "input.distribution", "without ends", "with a range", "range = \"10 um to 50 um\""});
-  EXPECT_TRUE(
-      parse_here(sensitivity_start + "method = \"morris\"\n" + input(narrow + "range = \"10 to 50 um\"")));
   expect_input_error(narrow + "range = \"50 to 60 cm\"", {9, "input.range", "has no share", "near the mean"});
 }
 

@@ -89,22 +89,6 @@ TEST(Sensitivity, ThermalInputsNeedNoMechanicalRunsOfTheirOwn) {
   EXPECT_EQ(*counted.runs, 2 * 16);
 }
 
-TEST(Sensitivity, MorrisEffectsOfALinearMarginAreItsRanges) {
-  const StudyFile study =
-      study_of(linear_text("method = \"morris\"\ntrajectories = 8\nlevels = 4\nseed = 3\n"));
-  ASSERT_EQ(study.cases.size(), 8u * 4u);
-  Counted counted;
-  const SensitivityResult result = run_sensitivity(study, counted.options);
-  const OutputSensitivity& margin = output_of(result, SensitivityOutput::margin);
-  ASSERT_EQ(margin.morris.size(), 3u);
-  // At 455 K the reaction adds some millikelvin: (Q Z/c) exp(-21700/455) = 13 K/s.
-  EXPECT_NEAR(margin.morris[0].mu, -54.6353, 0.02);
-  EXPECT_NEAR(margin.morris[0].mu_star.value, 54.6353, 0.02);
-  EXPECT_NEAR(margin.morris[0].sigma, 0.0, 0.02);
-  EXPECT_NEAR(margin.morris[1].mu, 20.0, 1e-6);
-  EXPECT_NEAR(margin.morris[2].mu_star.value, 0.0, 1e-6);
-}
-
 TEST(Sensitivity, ABoundIsNoNumber) {
   // Up to 0.001 cm nothing ignites: every critical gap is a bound, which says nothing of what it depends on.
   std::string text = linear_text("method = \"sobol\"\nsamples = 16\n");

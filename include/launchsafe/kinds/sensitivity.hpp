@@ -16,18 +16,14 @@ namespace launchsafe::kinds {
 
 /// How a sensitivity study asks.
 enum class SensitivityMethod {
-  sobol,  ///< first- and total-order indices (Saltelli 2010, Jansen 1999): samples x (inputs + 2) evaluations
-  morris  ///< elementary effects (Morris 1991): trajectories x (inputs + 1) evaluations, a cheap first look
+  sobol  ///< first- and total-order indices (Saltelli 2010, Jansen 1999): samples x (inputs + 2) evaluations
 };
-std::string to_string(SensitivityMethod method);
 
 /// What a study file of this kind says besides; its inputs are Study::axes, with distributions.
 struct SensitivitySettings {
   SensitivityMethod method = SensitivityMethod::sobol;
   math::Design design = math::Design::latin_hypercube;
   int samples = 64;        ///< N: rows of the matrices A and B
-  int trajectories = 10;   ///< of Morris
-  int levels = 4;          ///< of Morris, even
   std::uint64_t seed = 1;  ///< of design and bootstrap
   int resamples = 1000;    ///< of the bootstrap
   double confidence = 0.95;
@@ -35,9 +31,6 @@ struct SensitivitySettings {
 
 inline const SensitivitySettings& sensitivity_settings(const study::Study& study) {
   return study::settings_of<SensitivitySettings>(study);
-}
-inline bool is_sobol(const study::Study& study) {
-  return sensitivity_settings(study).method == SensitivityMethod::sobol;
 }
 
 /// One output of a case as a number.
@@ -59,9 +52,8 @@ struct OutputSensitivity {
   std::size_t missing = 0;  ///< evaluations without a number: failed runs, or a critical gap that is a bound
   std::size_t bounds = 0;   ///< of these, critical gaps that are bounds
   double mean = study::not_a_number,
-         deviation = study::not_a_number;   ///< over the evaluations that sample the inputs
-  math::SobolIndices sobol;                 ///< for the method sobol
-  std::vector<math::MorrisEffects> morris;  ///< of every input, for the method morris
+         deviation = study::not_a_number;  ///< over the evaluations that sample the inputs
+  math::SobolIndices sobol;
   /// Why there are no indices; empty where there are. Rows with a missing number are left out; where a
   /// critical gap is a bound none are given, since leaving those rows out would bias the rest.
   std::string reason;
@@ -84,8 +76,8 @@ Kind sensitivity_kind();
 /// Which inputs matter, as far as the intervals tell them apart; what cannot be told; what failed.
 std::string answer(const SensitivityResult& result);
 
-/// A row for every input: its distribution, and indices (or elementary effects) with their intervals. Method,
-/// N, design, seed and confidence are in the notes; so is the reason where an output has no indices.
+/// A row for every input: its distribution, and indices with their intervals. Method, N, design, seed and
+/// confidence are in the notes; so is the reason where an output has no indices.
 report::Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity& output);
 /// All outputs below each other, for other programs.
 report::Table sensitivity_table(const SensitivityResult& result);
@@ -94,7 +86,7 @@ report::Table output_table(const SensitivityResult& result);
 /// A row for every evaluation: its inputs, outputs and failure.
 report::Table evaluation_table(const SensitivityResult& result);
 
-/// First and total order of every input with their intervals, or mu* against sigma.
+/// First and total order of every input with their intervals.
 report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output);
 
 /// The whole report. Nothing in it differs between two runs of a study: no times, rates, dates or hosts.

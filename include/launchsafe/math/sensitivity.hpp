@@ -1,6 +1,6 @@
-// Sensitivity of an output to uncertain inputs: variance-based (Sobol) indices on Saltelli's design, and
-// elementary effects (Morris). A design says at which points of the unit cube the caller evaluates the model,
-// in any order and wherever he likes; the estimates follow from the outputs, NaN where an evaluation failed.
+// Sensitivity of an output to uncertain inputs: variance-based (Sobol) indices on Saltelli's design. The
+// design says at which points of the unit cube the caller evaluates the model, in any order and wherever he
+// likes; the estimates follow from the outputs, NaN where an evaluation failed.
 #pragma once
 
 #include "launchsafe/math/sampling.hpp"
@@ -86,50 +86,5 @@ struct SobolIndices {
 /// time.
 SobolIndices sobol_indices(std::size_t inputs, const std::vector<double>& outputs,
                            const SobolOptions& options = {});
-
-/// Trajectories through a grid of the unit cube in which one input after the other moves by one step, up or
-/// down (Morris, Technometrics 33, 1991). The evaluations are numbered trajectory by trajectory.
-struct MorrisDesign {
-  std::size_t trajectories = 0;
-  std::size_t levels = 0;  ///< of the grid 0, 1/(levels - 1), ..., 1
-  std::size_t inputs = 0;
-  std::vector<double> points;        ///< in the unit cube with its boundary, by evaluation, then input
-  std::vector<std::size_t> changed;  ///< input that step k of trajectory t moves: changed[t*inputs + k]
-
-  /// Length of every step in unit-cube coordinates.
-  double step() const { return static_cast<double>(levels) / (2.0 * static_cast<double>(levels - 1)); }
-  std::size_t evaluations() const { return trajectories * (inputs + 1); }
-  /// Number of the evaluation after `steps` steps of a trajectory.
-  std::size_t index(std::size_t trajectory, std::size_t steps) const {
-    return trajectory * (inputs + 1) + steps;
-  }
-  std::vector<double> point(std::size_t evaluation) const;
-};
-
-/// `levels` must be even and at least 2. Start, directions and order are random, and every level is as likely
-/// as any other. Points lie on the boundary of the cube: a distribution that reaches to infinity must be cut
-/// off before it is used here.
-MorrisDesign morris_design(std::size_t trajectories, std::size_t levels, std::size_t inputs,
-                           std::uint64_t seed);
-
-struct MorrisOptions {
-  double level = 0.95;           ///< confidence of the interval, in (0, 1)
-  std::size_t resamples = 1000;  ///< of the bootstrap, at least 1
-  std::uint64_t seed = 0;        ///< of the bootstrap
-};
-
-/// Statistics of the elementary effects (f(after) - f(before))/(change of the input in the unit cube) of one
-/// input, in units of the output: the change over the whole range of an input that acts linearly.
-struct MorrisEffects {
-  double mu = 0;       ///< mean
-  Estimate mu_star{};  ///< mean of the absolute values; its interval needs six effects to reach its level
-  double sigma = 0;    ///< standard deviation; NaN with fewer than two effects
-  std::size_t effects = 0;  ///< that the statistics rest on; all NaN with none
-};
-
-/// Effects of every input from the outputs in the order of the design's evaluations. An output that is not
-/// finite takes away the one or two elementary effects that it is part of, and no more.
-std::vector<MorrisEffects> morris_effects(const MorrisDesign& design, const std::vector<double>& outputs,
-                                          const MorrisOptions& options = {});
 
 }  // namespace launchsafe::math
