@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what launchsafe needs to be built, tested and to draw its plots (Debian 12). Silent when nothing is missing.
+# Installs what launchsafe needs to be built, tested and to draw its plots (Debian 12), and packages that are named on the
+# command line. Silent when nothing is missing.
 set -euo pipefail
 
 packages=(
@@ -9,6 +10,7 @@ packages=(
   libgtest-dev libbenchmark-dev librapidcheck-dev clang libclang-rt-dev
   file # tells cpack what is a program
   gnuplot-nox librsvg2-bin
+  "$@"
 )
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -10,30 +10,34 @@ endif()
 # What the program says of itself.
 set(told_dir "${PROJECT_BINARY_DIR}/told")
 file(MAKE_DIRECTORY "${told_dir}")
-function(add_told_file name)
-  add_custom_command(OUTPUT "${told_dir}/${name}"
-    COMMAND sh -c "\"$0\" explain \"$@\" > \"${told_dir}/${name}\"" "$<TARGET_FILE:launchsafe>" ${ARGN}
+foreach(kind scene study references)
+  set(schema "${told_dir}/${kind}.schema.json")
+  add_custom_command(OUTPUT "${schema}"
+    COMMAND sh -c "\"$0\" explain --schema ${kind} > \"${schema}\"" "$<TARGET_FILE:launchsafe>"
     DEPENDS launchsafe
     VERBATIM)
-endfunction()
-add_told_file(launchsafe.1 --manual)
-add_told_file(launchsafe.bash --completion bash)
-add_told_file(scene.schema.json --schema scene)
-add_told_file(study.schema.json --schema study)
-add_told_file(references.schema.json --schema references)
-add_custom_command(OUTPUT "${told_dir}/launchsafe.1.gz"
-  COMMAND gzip --best --no-name --keep --force "${told_dir}/launchsafe.1"
-  DEPENDS "${told_dir}/launchsafe.1")
-add_custom_target(told ALL DEPENDS "${told_dir}/launchsafe.1.gz" "${told_dir}/launchsafe.bash"
-  "${told_dir}/scene.schema.json" "${told_dir}/study.schema.json" "${told_dir}/references.schema.json")
+  list(APPEND told_files "${schema}")
+endforeach()
+
+# The manual page, of what --help says.
+find_program(LAUNCHSAFE_HELP2MAN help2man)
+if(LAUNCHSAFE_HELP2MAN)
+  add_custom_command(OUTPUT "${told_dir}/launchsafe.1.gz"
+    COMMAND "${LAUNCHSAFE_HELP2MAN}" --no-info --version-string=${PROJECT_VERSION}
+      "--name=launch safety of explosive shells by the material point method" "--output=${told_dir}/launchsafe.1"
+      "$<TARGET_FILE:launchsafe>"
+    COMMAND gzip --best --no-name --force "${told_dir}/launchsafe.1"
+    DEPENDS launchsafe
+    VERBATIM)
+  install(FILES "${told_dir}/launchsafe.1.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program)
+  set(manual_page "${told_dir}/launchsafe.1.gz")
+else()
+  message(STATUS "help2man was not found: an installation will have no manual page")
+endif()
+add_custom_target(told ALL DEPENDS ${told_files} ${manual_page})
 
 set(data_dir "${CMAKE_INSTALL_DATADIR}/launchsafe")
-install(FILES "${told_dir}/launchsafe.1.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program)
-install(FILES "${told_dir}/launchsafe.bash" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
-  RENAME launchsafe COMPONENT program)
-install(FILES "${told_dir}/scene.schema.json" "${told_dir}/study.schema.json" "${told_dir}/references.schema.json"
-  DESTINATION "${data_dir}/schema"
-  COMPONENT program)
+install(FILES ${told_files} DESTINATION "${data_dir}/schema" COMPONENT program)
 # Studies rest on the records of others, which they name by their place beside them; pages link to each other likewise.
 install(DIRECTORY studies DESTINATION "${data_dir}" COMPONENT program
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.md" PATTERN "*.cpp")

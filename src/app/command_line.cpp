@@ -150,14 +150,8 @@ void add_explain(CLI::App& app, Parsed& parsed) {
                                         "Print the JSON schema of scene or study files, for editors")
                             ->check(CLI::IsMember({"scene", "study", "references"}))
                             ->type_name("scene|study|references");
-  CLI::Option* manual = command.add_flag("--manual", parsed.explain.manual, "Print the manual page, for man");
-  CLI::Option* completion = command
-                                .add_option("--completion", parsed.explain.completion,
-                                            "Print what makes a shell complete commands and options")
-                                ->check(CLI::IsMember({"bash"}))
-                                ->type_name("bash");
-  for (CLI::Option* option : {keys, materials, schema, manual, completion})
-    for (CLI::Option* other : {keys, materials, schema, manual, completion})
+  for (CLI::Option* option : {keys, materials, schema})
+    for (CLI::Option* other : {keys, materials, schema})
       if (other != option) option->excludes(other);
   add_place(command, "--grid", parsed.explain.picture, "FILE.svg", "file",
             "File to draw the half section of a scene and its grid to");
@@ -281,11 +275,11 @@ std::string contradiction(const VerifyArguments& verify) {
   return verify.output && !verify.error_against_time ? "verify: --output requires --error-against-time" : "";
 }
 std::string contradiction(const ExplainArguments& explain) {
-  const bool of_program = !explain.schema.empty() || explain.manual || !explain.completion.empty();
+  const bool of_program = !explain.schema.empty();
   const bool lists = explain.keys || explain.materials;
   if (!lists && of_program != explain.file.empty())
-    return "explain: allowed: a scene, study or file of materials, or one of --keys, --materials, --schema, "
-           "--manual and --completion";
+    return "explain: allowed: a scene, study or file of materials, or one of --keys, --materials and "
+           "--schema";
   if (explain.picture && (of_program || lists))
     return "explain: --grid draws the grid of a scene; allowed: with a scene file";
   return {};
@@ -316,27 +310,7 @@ void add_commands(CLI::App& app, Parsed& parsed) {
   add_report(app, parsed);
 }
 
-CommandDescription describe(const CLI::App& command) {
-  CommandDescription described{command.get_name(), command.get_description(), command.get_footer(), {}, {}};
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string type = option->get_type_name();  // "N:INT in [1 - 4096]" where there is a check
-    described.options.push_back({option->get_name(option->get_positional(), true),
-                                 type.substr(0, type.find(':')), option->get_description(),
-                                 option->get_positional()});
-  }
-  for (const CLI::App* subcommand : command.get_subcommands({}))
-    described.subcommands.push_back(describe(*subcommand));
-  return described;
-}
-
 }  // namespace
-
-CommandDescription describe_commands() {
-  CLI::App app(description, "launchsafe");
-  Parsed parsed;
-  add_commands(app, parsed);
-  return describe(app);
-}
 
 CommandLine parse_command_line(int argument_count, const char* const* arguments) {
   CLI::App app(description, "launchsafe");

@@ -69,8 +69,6 @@ struct ExplainArguments {
       file;  ///< scene or study; with `keys` or `materials` the beginning of names, or empty
   bool keys = false, materials = false;
   std::string schema;                            ///< "scene", "study" or "references"; empty: not asked for
-  bool manual = false;                           ///< the manual page
-  std::string completion;                        ///< "bash"; empty: not asked for
   std::optional<std::filesystem::path> picture;  ///< SVG file for the scene's grid; none: nothing is written
 };
 ExitCode perform(const ExplainArguments& arguments, Console& console);

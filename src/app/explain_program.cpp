@@ -1,14 +1,11 @@
-// What launchsafe explains of itself: the keys of its files, and what editors, man and shells take.
+// What launchsafe explains of itself: the keys of its files, and what editors take.
 #include "explain_program.hpp"
 
-#include "command_line.hpp"
-#include "command_manual.hpp"
 #include "explain_materials.hpp"
 #include "key_schema.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
-#include "launchsafe/version.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -133,13 +130,6 @@ ExitCode explain_keys(const std::string& word, Console& console) {
   return ExitCode::done;
 }
 
-/// A text that is printed as it is, or as a member of the JSON object.
-ExitCode print(const char* member, const std::string& text, Console& console) {
-  console.print_text(text);
-  console.print_json({{member, text}});
-  return ExitCode::done;
-}
-
 ExitCode explain_schema(const std::string& what, Console& console) {
   const nlohmann::ordered_json schema = what == "study"   ? study_schema()
                                         : what == "scene" ? scene_schema()
@@ -152,17 +142,12 @@ ExitCode explain_schema(const std::string& what, Console& console) {
 }  // namespace
 
 bool explains_program(const ExplainArguments& arguments) {
-  return arguments.keys || arguments.materials || arguments.manual || !arguments.schema.empty() ||
-         !arguments.completion.empty();
+  return arguments.keys || arguments.materials || !arguments.schema.empty();
 }
 
 ExitCode explain_program(const ExplainArguments& arguments, Console& console) {
   if (arguments.keys) return explain_keys(arguments.file.string(), console);
   if (arguments.materials) return explain_materials(arguments.file.string(), console);
-  if (arguments.manual)
-    return print("manual", manual_page(describe_commands(), std::string(version::number)), console);
-  if (!arguments.completion.empty())
-    return print("completion", bash_completion(describe_commands()), console);
   return explain_schema(arguments.schema, console);
 }
 

@@ -8,7 +8,7 @@ namespace launchsafe::app {
 
 /// Whether nothing is asked of a scene or a study.
 bool explains_program(const ExplainArguments& arguments);
-/// Prints keys, a schema, the manual page or a shell's completion.
+/// Prints keys, materials or a schema.
 ExitCode explain_program(const ExplainArguments& arguments, Console& console);
 
 }  // namespace launchsafe::app

@@ -1,7 +1,7 @@
 #!/bin/bash
 # The Debian package on a bare Debian: a clean root is made and the package installed there with what it depends on. A user
 # without rights outside his folder must get the first verdict within a minute, the same ones from every program of the
-# package, and what the walkthroughs print; manual page, completion and schemas must be there, and nothing be left after
+# package, and what the walkthroughs print; manual page and schemas must be there, and nothing be left after
 # removal. Root, and a network for the packages, are needed.
 #
 #     .ci/package && tests/app/deb.sh build/release/tests/app_tests build/package/launchsafe_*.deb
@@ -38,7 +38,7 @@ install_packages() {
 }
 
 say "a clean root"
-mmdebstrap --quiet --variant=minbase --include=bash-completion bookworm "$root" >"$folder/mmdebstrap.log" 2>&1 ||
+mmdebstrap --quiet --variant=minbase bookworm "$root" >"$folder/mmdebstrap.log" 2>&1 ||
   { tail -n 20 "$folder/mmdebstrap.log"; fail "no clean root"; }
 cp "$package" "$root/launchsafe.deb"
 cp /etc/resolv.conf "$root/etc/resolv.conf" 2>/dev/null || true
@@ -78,14 +78,11 @@ for file in $(cd "$root" && grep -rLE '^(\[\[)?reference\b' --include='*.toml' u
   as_user launchsafe explain "/$file" >/dev/null || fail "$file"
 done
 
-say "manual page, completion, schemas"
+say "manual page, schemas"
 install_packages gnuplot-nox man-db
 as_user man --warnings launchsafe >"$folder/manual" 2>"$folder/warnings" || fail "man launchsafe"
 [[ ! -s $folder/warnings ]] || fail "the manual page: $(cat "$folder/warnings")"
 grep -q 'launchsafe import-curve' "$folder/manual" || fail "the manual page lacks import-curve"
-# shellcheck disable=SC2016
-as_user bash -c '. /usr/share/bash-completion/completions/launchsafe; COMP_WORDS=(launchsafe st); COMP_CWORD=1; _launchsafe; [[ ${COMPREPLY[*]} == study ]]' ||
-  fail "no completion"
 for schema in scene study references; do
   cmp "$root/usr/share/launchsafe/schema/$schema.schema.json" <(as_user launchsafe explain --schema $schema) || fail "schema"
 done

@@ -1,4 +1,4 @@
-// What launchsafe explains of itself: keys, schemas, the manual page, completion.
+// What launchsafe explains of itself: keys and schemas.
 #include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "program.hpp"
@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
 
 namespace launchsafe::app {
@@ -72,33 +71,12 @@ TEST_F(ExplainedProgram, TellsAllStudiesInOneSchema) {
   });
 }
 
-TEST_F(ExplainedProgram, HasAManualPageOfAllCommandsAndOptions) {
-  const std::string page = run({"explain", "--manual"}).out;
-  EXPECT_TRUE(page.starts_with(".TH LAUNCHSAFE 1"));
-  for (const char* part : {"LAUNCHSAFE STUDY", "\\-\\-dry\\-run", "\\fISTUDY.toml\\fR", "Exit codes: 0 done"})
-    EXPECT_NE(page.find(part), std::string::npos) << part;
-}
-
-TEST_F(ExplainedProgram, CompletesCommandsOptionsAndChoicesInBash) {
-  write("completion.bash", run({"explain", "--completion", "bash"}).out);
-  const auto completed = [&](const std::string& words, int current) {
-    write("ask.bash", ". ./completion.bash\ncompopt() { :; }\nCOMP_WORDS=(" + words + ")\nCOMP_CWORD=" +
-                          std::to_string(current) + "\n_launchsafe\necho \"${COMPREPLY[*]}\" > answer\n");
-    EXPECT_EQ(std::system(("cd '" + folder().string() + "' && bash ask.bash").c_str()), 0);
-    return read("answer");
-  };
-  EXPECT_EQ(completed("launchsafe ex", 1), "explain\n");
-  EXPECT_EQ(completed("launchsafe study --dr", 2), "--dry-run\n");
-  EXPECT_EQ(completed("launchsafe explain --schema s", 3), "scene study\n");
-  EXPECT_EQ(completed("launchsafe run ask", 2), "ask.bash\n");
-}
-
 TEST_F(ExplainedProgram, IsAskedForOneThingAtATime) {
   for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{"explain", "--manual", "--keys"},
+       std::vector<std::vector<std::string>>{{"explain", "--schema", "scene", "--keys"},
                                              {"explain", "--schema", "recipe"},
-                                             {"explain", "--manual", "shell.toml"},
-                                             {"explain", "--manual", "--grid", "a.svg"}})
+                                             {"explain", "--schema", "scene", "shell.toml"},
+                                             {"explain", "--schema", "scene", "--grid", "a.svg"}})
     EXPECT_EQ(run(arguments).code, 2) << arguments[1];
 }
 
