@@ -1,10 +1,15 @@
-// Files that launchsafe init writes, as they are in the source. Names in double braces stand for values.
+// Files that launchsafe init and launchsafe emit write, as they are in the source. Names in double braces
+// stand for values; see filled_text.hpp.
 #pragma once
 
 namespace launchsafe::app {
 
 extern const char* const scene_template;
 extern const char* const study_template;
+/// Scripts for Slurm: an array of shards, the merge behind it, and what submits both.
+extern const char* const shard_template;
+extern const char* const merge_template;
+extern const char* const submit_template;
 /// The record of reports/calibrate_table8.
 extern const char* const shipped_calibration;
 

@@ -2,7 +2,6 @@
 #include "commands.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/study/forecast.hpp"
-#include "output_folder.hpp"
 #include "shell_words.hpp"
 #include "slurm_script.hpp"
 #include "study_folder.hpp"
@@ -95,37 +94,23 @@ SlurmStudy slurm_study(const EmitArguments& arguments, const study::StudyFile& f
   return study;
 }
 
-/// Why the scripts may not be written: something else is there.
-std::optional<std::string> obstacle_in(const path& folder, const std::vector<SlurmScript>& scripts) {
-  if (std::filesystem::is_symlink(folder))
-    return fmt::format("{} is a link, and nothing is written through one; move it away", folder.string());
-  for (const SlurmScript& script : scripts)
-    if (auto obstacle = obstacle_to_file(folder / script.name, script.text)) return obstacle;
-  return prepare_output_folder(folder);
-}
-
-store::MaybeError write_scripts(const path& folder, const std::vector<SlurmScript>& scripts) {
-  for (const SlurmScript& script : scripts)
-    if (auto error = write_where_absent(folder / script.name, script.text)) return error;
+/// Lets everybody start the script that submits the others.
+void make_executable(const path& script) {
   using std::filesystem::perms;
-  std::error_code failed;  // submit.sh can be given to a shell all the same
-  std::filesystem::permissions(folder / submit_name,
-                               perms::owner_exec | perms::group_exec | perms::others_exec,
+  std::error_code failed;  // it can be given to a shell all the same
+  std::filesystem::permissions(script, perms::owner_exec | perms::group_exec | perms::others_exec,
                                std::filesystem::perm_options::add, failed);
-  return {};
 }
 
 /// With the folder as the user named it.
-void print_scripts(const SlurmStudy& study, const path& folder, const std::vector<SlurmScript>& scripts,
-                   Console& console) {
+void print_scripts(const SlurmStudy& study, const path& folder, const NamedTexts& scripts, Console& console) {
   const SlurmRequest request = request_of(study);
   const std::string command = shell_command({"sh", (folder / submit_name).string()});
   std::string list;
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (const SlurmScript& script : scripts) {
-    const std::string name = (folder / script.name).string();
-    list += name + "\n";
-    files.push_back(name);
+  for (const auto& [name, text] : scripts) {
+    list += (folder / name).string() + "\n";
+    files.push_back((folder / name).string());
   }
   console.print_text(fmt::format(
       "{}\n{}; each asks for {}, {} MiB and {} min; the slowest is predicted to take {}\nto submit: {}\n",
@@ -160,9 +145,12 @@ ExitCode perform(const EmitArguments& arguments, Console& console) {
   study.memory = needs.memory;
 
   const path folder = slurm_folder(arguments.output);
-  const std::vector<SlurmScript> scripts = slurm_scripts(study);
-  if (const auto obstacle = obstacle_in(folder, scripts)) return console.refuse(*obstacle);
-  if (const auto error = write_scripts(folder, scripts)) return console.fail(error->message);
+  if (std::filesystem::is_symlink(folder))
+    return console.refuse(
+        fmt::format("{} is a link, and nothing is written through one; move it away", folder.string()));
+  const NamedTexts scripts = slurm_scripts(study);
+  if (const ExitCode code = write_where_absent(folder, scripts, console); code != ExitCode::done) return code;
+  make_executable(folder / submit_name);
   print_scripts(study, folder, scripts, console);
   if (needs.idle > 0)
     console.remark(fmt::format("{} of the {} shards will have nothing to do", needs.idle, study.shards));

@@ -125,16 +125,10 @@ ExitCode write(const ImportCurveArguments& arguments, const Import& import, cons
   std::filesystem::path picture = file;
   picture.replace_extension(".svg");
   const auto svg = report::to_svg(plot_of(arguments, import));
-  if (const auto obstacle = prepare_output_folder(folder)) return console.refuse(*obstacle);
-  if (const auto obstacle = obstacle_to_file(file, csv)) return console.refuse(*obstacle);
-  if (svg)
-    if (const auto obstacle = obstacle_to_file(picture, *svg)) return console.refuse(*obstacle);
-  if (const auto error = write_where_absent(file, csv)) return console.end_with(*error);
-  if (svg) {
-    if (const auto error = write_where_absent(picture, *svg)) return console.end_with(*error);
-  } else {
-    console.remark("no picture: " + svg.error().message);
-  }
+  NamedTexts texts{{file.filename(), csv}};
+  if (svg) texts.emplace_back(picture.filename(), *svg);
+  if (const ExitCode code = write_where_absent(folder, texts, console); code != ExitCode::done) return code;
+  if (!svg) console.remark("no picture: " + svg.error().message);
   console.print_text(fmt::format(
       "\nwrote {}{}\nnext: {}\n", file.string(), svg ? " and " + picture.string() : "",
       shell_command({"launchsafe", "init", "--calibre", "155 mm", "--curve", file.string(), "-o", "shell"})));

@@ -2,6 +2,7 @@
 #include "built_in_texts.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "filled_text.hpp"
 #include "key_schema.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
@@ -24,19 +25,7 @@ namespace launchsafe::app {
 
 namespace {
 
-using NamedText = std::pair<std::string, std::string>;
-
 constexpr double published_calibre = 0.155;  // m
-
-/// The template with every {{name}} replaced.
-std::string filled(std::string text, const std::vector<NamedText>& values) {
-  for (const auto& [name, value] : values) {
-    const std::string mark = "{{" + name + "}}";
-    for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size()))
-      text.replace(at, mark.size(), value);
-  }
-  return text;
-}
 
 /// A length of the published shell (mm), scaled and rounded to half a millimetre.
 std::string scaled_length(double published, double factor) {
@@ -69,25 +58,25 @@ std::string load_lines(const InitArguments& arguments, const std::optional<scene
       1e3 * factor * published.peak_time);
 }
 
-std::vector<NamedText> files_of(const InitArguments& arguments,
-                                const std::optional<scene::PressureCurve>& curve, const std::string& csv) {
+NamedTexts files_of(const InitArguments& arguments, const std::optional<scene::PressureCurve>& curve,
+                    const std::string& csv) {
   const double factor = arguments.calibre / published_calibre;
   const double duration = curve ? curve->time.back() : factor * scene::Load{}.duration;
   const std::string calibre = fmt::format("{:g} mm", 1e3 * arguments.calibre);
-  const std::vector<NamedText> values{{"calibre", calibre},
-                                      {"factor", fmt::format("{:.4g}", factor)},
-                                      {"charge_begin", scaled_length(118, factor)},
-                                      {"charge_end", scaled_length(678, factor)},
-                                      {"length", scaled_length(740, factor)},
-                                      {"bore", scaled_length(65, factor)},
-                                      {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
-                                      {"load", load_lines(arguments, curve)},
-                                      {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
-  std::vector<NamedText> files{{"scene.toml", filled(scene_template, values)},
-                               {"critical_gap.toml", filled(study_template, values)},
-                               {"calibration.json", shipped_calibration},
-                               {"scene.schema.json", scene_schema().dump(1) + "\n"},
-                               {"study.schema.json", study_schema().dump(1) + "\n"}};
+  const TextValues values{{"calibre", calibre},
+                          {"factor", fmt::format("{:.4g}", factor)},
+                          {"charge_begin", scaled_length(118, factor)},
+                          {"charge_end", scaled_length(678, factor)},
+                          {"length", scaled_length(740, factor)},
+                          {"bore", scaled_length(65, factor)},
+                          {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
+                          {"load", load_lines(arguments, curve)},
+                          {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
+  NamedTexts files{{"scene.toml", filled(scene_template, values)},
+                   {"critical_gap.toml", filled(study_template, values)},
+                   {"calibration.json", shipped_calibration},
+                   {"scene.schema.json", scene_schema().dump(1) + "\n"},
+                   {"study.schema.json", study_schema().dump(1) + "\n"}};
   if (curve) files.emplace_back("pressure.csv", csv);
   return files;
 }
@@ -112,14 +101,11 @@ ExitCode perform(const InitArguments& arguments, Console& console) {
     if (!read) return console.refuse(read.error());
     curve = std::move(*read);
   }
-  const std::vector<NamedText> files = files_of(arguments, curve, csv);
-  if (const auto obstacle = prepare_output_folder(arguments.output)) return console.refuse(*obstacle);
-  for (const auto& [name, text] : files)
-    if (const auto obstacle = obstacle_to_file(arguments.output / name, text))
-      return console.refuse(*obstacle);
+  const NamedTexts files = files_of(arguments, curve, csv);
+  if (const ExitCode code = write_where_absent(arguments.output, files, console); code != ExitCode::done)
+    return code;
   nlohmann::ordered_json written = nlohmann::ordered_json::array();
   for (const auto& [name, text] : files) {
-    if (const auto error = write_where_absent(arguments.output / name, text)) return console.end_with(*error);
     console.print_text(fmt::format("wrote {}\n", (arguments.output / name).string()));
     written.push_back((arguments.output / name).string());
   }

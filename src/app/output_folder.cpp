@@ -42,6 +42,15 @@ store::MaybeError write_where_absent(const std::filesystem::path& file, std::str
   return store::write_file_atomically(file, {content}, store::IfExists::refuse);
 }
 
+ExitCode write_where_absent(const std::filesystem::path& folder, const NamedTexts& texts, Console& console) {
+  if (const auto obstacle = prepare_output_folder(folder)) return console.refuse(*obstacle);
+  for (const auto& [name, text] : texts)
+    if (const auto obstacle = obstacle_to_file(folder / name, text)) return console.refuse(*obstacle);
+  for (const auto& [name, text] : texts)
+    if (const auto error = write_where_absent(folder / name, text)) return console.end_with(*error);
+  return ExitCode::done;
+}
+
 std::optional<std::string> obstacle_to_report(const std::filesystem::path& folder,
                                               const std::vector<std::string>& names) {
   for (const std::string& name : names)
@@ -49,8 +58,7 @@ std::optional<std::string> obstacle_to_report(const std::filesystem::path& folde
   return prepare_output_folder(folder);
 }
 
-store::MaybeError write_texts(const std::filesystem::path& folder,
-                              const std::vector<std::pair<std::string, std::string>>& texts,
+store::MaybeError write_texts(const std::filesystem::path& folder, const NamedTexts& texts,
                               report::WrittenFiles& written) {
   for (const auto& [name, text] : texts) {
     if (auto error = store::write_own_file(folder / name, {text})) return error;

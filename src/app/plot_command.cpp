@@ -170,18 +170,6 @@ std::filesystem::path folder_of(const PlotArguments& arguments) {
   return arguments.file.parent_path() / (arguments.file.stem().string() + "_pictures");
 }
 
-/// Writes all files, or none where one may not be written.
-ExitCode write_files(const std::vector<DrawnFile>& files, const std::filesystem::path& folder,
-                     Console& console) {
-  for (const DrawnFile& each : files)
-    if (const auto obstacle = obstacle_to_file(folder / each.name, each.text))
-      return console.refuse(*obstacle);
-  if (const auto obstacle = prepare_output_folder(folder)) return console.refuse(*obstacle);
-  for (const DrawnFile& each : files)
-    if (const auto error = write_where_absent(folder / each.name, each.text)) return console.end_with(*error);
-  return ExitCode::done;
-}
-
 std::string written_text(const std::vector<DrawnFile>& files, const std::filesystem::path& folder) {
   std::string text;
   for (const DrawnFile& each : files) text += (folder / each.name).string() + "\n";
@@ -236,7 +224,9 @@ ExitCode perform(const PlotArguments& arguments, Console& console) {
   const auto files = tables ? tabulate(drawn, *selection) : draw(drawn, *selection, console);
   if (!files) return end_of_drawing(files.error(), console);
   const std::filesystem::path folder = folder_of(arguments);
-  if (const ExitCode code = write_files(*files, folder, console); code != ExitCode::done) return code;
+  NamedTexts texts;
+  for (const DrawnFile& each : *files) texts.emplace_back(each.name, each.text);
+  if (const ExitCode code = write_where_absent(folder, texts, console); code != ExitCode::done) return code;
   for (const auto& [kind, why] : selection->left_out)
     console.remark(fmt::format("no {} of {}: {}", tables ? "table" : "picture", kind->word, why));
   console.print_text(written_text(*files, folder));

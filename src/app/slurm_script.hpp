@@ -2,6 +2,8 @@
 // both.
 #pragma once
 
+#include "output_folder.hpp"
+
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -39,14 +41,10 @@ std::string count_text(int count, std::string_view what);
 /// Why no script can be written; nothing when one can.
 std::optional<std::string> fault_of(const SlurmStudy& study);
 
-struct SlurmScript {
-  std::string name;  ///< of the file
-  std::string text;
-};
 /// Where the folder of a study's results keeps the scripts and the jobs' logs.
 std::filesystem::path slurm_folder(const std::filesystem::path& output);
 inline constexpr std::string_view submit_name = "submit.sh";
 /// shard.sbatch, merge.sbatch, submit.sh. The text depends on what is given alone.
-std::vector<SlurmScript> slurm_scripts(const SlurmStudy& study);
+NamedTexts slurm_scripts(const SlurmStudy& study);
 
 }  // namespace launchsafe::app
