@@ -12,7 +12,6 @@
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
-#include "signals.hpp"
 #include "update_rate.hpp"
 
 #include <fmt/format.h>
@@ -36,11 +35,6 @@ scene::InputContent content_of(const std::filesystem::path& path) {
   if (!text) return scene::InputContent::unknown;
   const auto table = scene::parse_toml(*text, path.string());
   return table ? scene::content_of(*table) : scene::InputContent::unknown;
-}
-
-ExitCode interrupted(Console& console) {
-  console.error("interrupted while measuring the speed of this machine; there is nothing to keep");
-  return ExitCode::interrupted;
 }
 
 std::string line_of(const scene::Implausible& value) {
@@ -112,16 +106,14 @@ ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
   for (const std::string& note : file->notes) console.remark(note);
   const std::string svg = arguments.picture ? report::section_svg(file->scene) : std::string{};
   if (const auto obstacle = obstacle_to_picture(arguments.picture, svg)) return console.refuse(*obstacle);
-  const double update_rate = measured_update_rate(file->scene);
-  if (stop_requested()) return interrupted(console);
+  const auto update_rate = measured_update_rate(file->scene, console);
+  if (!update_rate) return ExitCode::interrupted;
   if (arguments.picture) {
     if (const auto error = write_where_absent(*arguments.picture, svg)) return console.fail(error->message);
     console.remark(fmt::format("wrote {}", arguments.picture->string()));
   }
-  console.print_text(scene_text(file->scene, update_rate) + section_of(plausibility_lines(file->scene)));
-  nlohmann::ordered_json object = scene_json(file->scene, update_rate);
-  object["implausible"] = plausibility_json(file->scene);
-  console.print_json(object);
+  console.print_text(scene_text(file->scene, *update_rate) + section_of(plausibility_lines(file->scene)));
+  console.print_json(scene_json(file->scene, *update_rate));
   return ExitCode::done;
 }
 
@@ -129,9 +121,9 @@ ExitCode explain_study(const std::filesystem::path& path, Console& console) {
   const auto file = kinds::read_study(path);
   if (!file) return console.refuse(file.error());
   for (const std::string& note : file->scene.notes) console.remark(note);
-  const double update_rate = measured_update_rate(file->cases.front().scene.scene);
-  if (stop_requested()) return interrupted(console);
-  const study::Forecast forecast = study::forecast_study(*file, {}, update_rate);
+  const auto update_rate = measured_update_rate(file->cases.front().scene.scene, console);
+  if (!update_rate) return ExitCode::interrupted;
+  const study::Forecast forecast = study::forecast_study(*file, {}, *update_rate);
   const std::vector<std::string> lines = plausibility_lines(*file);
   console.print_text(forecast_text(*file, forecast, {}) + section_of(lines));
   nlohmann::ordered_json object = forecast_json(*file, forecast);

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace launchsafe::app {
@@ -34,83 +36,81 @@ const char* calibration_text(const NamedMaterial& material) {
                "accepts the calibration, or calibrates it";
 }
 
-std::string value_text(const std::string& key, const scene::Value& value) {
-  return scene::format_value(*scene::find_key(scene::scene_keys(), key), value);
-}
+/// The value of a key, which has a name of its own in a material.
+struct Number {
+  std::string key, name, value;
+};
 
-/// The sources of all `keys`: those without one are the user's word.
-std::vector<scene::Source> sources_of(std::vector<scene::Source> sources,
-                                      const std::vector<std::string>& keys) {
+/// A material or a contact as it is told.
+struct Told {
+  std::string name, title, what;
+  std::vector<scene::Source> sources;  ///< of all its keys
+  std::vector<Number> numbers;
+
+  const Number& number(const std::string& key) const {
+    return *std::find_if(numbers.begin(), numbers.end(), [&](const Number& each) { return each.key == key; });
+  }
+};
+
+/// What is told of a material or a contact, with the user's word as the source of keys that have no other.
+template <class Named>
+Told told(const Named& named, std::string what, std::vector<Number> numbers) {
+  Told told{named.name, named.title, std::move(what), named.sources, std::move(numbers)};
   scene::Source unsaid{{}, scene::Standing::input, "no source is given"};
-  for (const std::string& key : keys)
-    if (scene::source_of(sources, key) == nullptr) unsaid.keys.push_back(key);
-  if (!unsaid.keys.empty()) sources.push_back(std::move(unsaid));
-  return sources;
+  for (const Number& each : told.numbers)
+    if (scene::source_of(named.sources, each.key) == nullptr) unsaid.keys.push_back(each.key);
+  if (!unsaid.keys.empty()) told.sources.push_back(std::move(unsaid));
+  return told;
 }
 
-std::vector<scene::Source> sources_of(const NamedMaterial& material) {
-  std::vector<std::string> keys;
-  for (const auto& [key, given] : material.values) keys.push_back(key);
-  return sources_of(material.sources, keys);
+Told told(const NamedMaterial& material) {
+  std::vector<Number> numbers;
+  for (const auto& [key, given] : material.values)
+    numbers.push_back({key, scene::key_in_material(material.law, key),
+                       scene::format_value(*scene::find_key(scene::scene_keys(), key), given.value)});
+  return told(material, fmt::format("law {}; {}", material.law, calibration_text(material)),
+              std::move(numbers));
 }
 
-std::vector<scene::Source> sources_of(const scene::NamedContact& contact) {
-  std::vector<std::string> keys;
+Told told(const scene::NamedContact& contact) {
+  std::vector<Number> numbers;
   for (const auto& key : scene::interface_keys())
-    if (!key.is_written || key.is_written(contact.faces)) keys.push_back(key.name);
-  return sources_of(contact.sources, keys);
+    if (!key.is_written || key.is_written(contact.faces))
+      numbers.push_back({key.name, key.name, scene::format_value(key, key.get(contact.faces))});
+  return told(contact, "contact of an interface", std::move(numbers));
 }
 
-std::string text_of(const NamedMaterial& material) {
-  std::string text = fmt::format("{}: {}\n  law {}; {}\n", material.name, material.title, material.law,
-                                 calibration_text(material));
-  for (const scene::Source& source : sources_of(material)) {
+std::string text_of(const Told& told) {
+  std::string text = fmt::format("{}: {}\n  {}\n", told.name, told.title, told.what);
+  for (const scene::Source& source : told.sources) {
     text += fmt::format("  [{}] {}\n", scene::letter_of(source.standing), source.citation);
     for (const std::string& key : source.keys)
-      text += fmt::format("      {:<32}{}\n", scene::key_in_material(material.law, key),
-                          value_text(key, material.values.at(key).value));
+      text += fmt::format("      {:<32}{}\n", told.number(key).name, told.number(key).value);
   }
   return text;
 }
 
-nlohmann::ordered_json json_of(const NamedMaterial& material) {
+nlohmann::ordered_json numbers_json(const Told& told) {
   nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
-  for (const scene::Source& source : sources_of(material))
+  for (const scene::Source& source : told.sources)
     for (const std::string& key : source.keys)
-      numbers.push_back({{"key", scene::key_in_material(material.law, key)},
-                         {"value", value_text(key, material.values.at(key).value)},
+      numbers.push_back({{"key", told.number(key).name},
+                         {"value", told.number(key).value},
                          {"standing", scene::letter_of(source.standing)},
                          {"citation", source.citation}});
+  return numbers;
+}
+
+nlohmann::ordered_json json_of(const NamedMaterial& material) {
   return {{"name", material.name},
           {"title", material.title},
           {"law", material.law},
           {"calibrated", is_calibrated(material)},
-          {"numbers", numbers}};
-}
-
-std::string text_of(const scene::NamedContact& contact) {
-  std::string text = fmt::format("{}: {}\n  contact of an interface\n", contact.name, contact.title);
-  for (const scene::Source& source : sources_of(contact)) {
-    text += fmt::format("  [{}] {}\n", scene::letter_of(source.standing), source.citation);
-    for (const std::string& name : source.keys) {
-      const auto& key = *scene::find_key(scene::interface_keys(), name);
-      text += fmt::format("      {:<32}{}\n", name, scene::format_value(key, key.get(contact.faces)));
-    }
-  }
-  return text;
+          {"numbers", numbers_json(told(material))}};
 }
 
 nlohmann::ordered_json json_of(const scene::NamedContact& contact) {
-  nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
-  for (const scene::Source& source : sources_of(contact))
-    for (const std::string& name : source.keys) {
-      const auto& key = *scene::find_key(scene::interface_keys(), name);
-      numbers.push_back({{"key", name},
-                         {"value", scene::format_value(key, key.get(contact.faces))},
-                         {"standing", scene::letter_of(source.standing)},
-                         {"citation", source.citation}});
-    }
-  return {{"name", contact.name}, {"title", contact.title}, {"numbers", numbers}};
+  return {{"name", contact.name}, {"title", contact.title}, {"numbers", numbers_json(told(contact))}};
 }
 
 /// Prints those whose name begins with a word; false where none does.
@@ -120,7 +120,7 @@ bool print_materials(const scene::NamedMaterials& named, const std::string& word
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const auto& each : all) {
       if (!each.name.starts_with(word)) continue;
-      text += (text.empty() ? "" : "\n") + text_of(each);
+      text += (text.empty() ? "" : "\n") + text_of(told(each));
       list.push_back(json_of(each));
     }
     return list;

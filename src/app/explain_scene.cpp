@@ -217,7 +217,8 @@ nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate)
           {"predicted_time_of_a_coupled_run_s", update_rate > 0 && plan.coupling.in
                                                     ? nlohmann::ordered_json(plan.coupled_work / update_rate)
                                                     : nullptr},
-          {"refused", refusal ? nlohmann::ordered_json(refusal->message()) : nlohmann::ordered_json()}};
+          {"refused", refusal ? nlohmann::ordered_json(refusal->message()) : nlohmann::ordered_json()},
+          {"implausible", plausibility_json(scene)}};
 }
 
 }  // namespace launchsafe::app

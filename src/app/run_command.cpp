@@ -309,16 +309,11 @@ std::vector<std::string> missing_events(const scene::Scene& scene, const run::Ca
 
 /// What the scene would run, and at what cost.
 ExitCode dry_run(const scene::Scene& scene, const std::filesystem::path& target, Console& console) {
-  const double update_rate = measured_update_rate(scene);
-  if (stop_requested()) {
-    console.error("interrupted while measuring the speed of this machine; there is nothing to keep");
-    return ExitCode::interrupted;
-  }
+  const auto update_rate = measured_update_rate(scene, console);
+  if (!update_rate) return ExitCode::interrupted;
   if (!target.empty()) console.remark(fmt::format("would write {}", target.string()));
-  console.print_text(scene_text(scene, update_rate));
-  nlohmann::ordered_json object = scene_json(scene, update_rate);
-  object["implausible"] = plausibility_json(scene);
-  console.print_json(object);
+  console.print_text(scene_text(scene, *update_rate));
+  console.print_json(scene_json(scene, *update_rate));
   return ExitCode::done;
 }
 

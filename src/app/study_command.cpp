@@ -90,14 +90,11 @@ ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, 
   remark_obstacle(file, arguments, console);
   const auto store = store_for(arguments);
   if (!store) return console.fail(store.error().message);
-  const double update_rate =
-      knows_rate(store->get()) ? 0.0 : measured_update_rate(file.cases.front().scene.scene);
-  if (stop_requested()) {
-    console.error("interrupted while measuring the speed of this machine; there is nothing to keep");
-    return ExitCode::interrupted;
-  }
+  const std::optional<double> update_rate =
+      knows_rate(store->get()) ? 0.0 : measured_update_rate(file.cases.front().scene.scene, console);
+  if (!update_rate) return ExitCode::interrupted;
   const study::Forecast forecast =
-      study::forecast_study(file, options_of(arguments, arguments.jobs, store->get()), update_rate);
+      study::forecast_study(file, options_of(arguments, arguments.jobs, store->get()), *update_rate);
   if (*store) {
     for (const std::string& remark : (*store)->remarks()) console.remark(remark);
   }

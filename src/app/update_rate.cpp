@@ -30,7 +30,7 @@ scene::Scene measurable(scene::Scene scene) {
 
 using namespace std::chrono_literals;
 
-double measured_update_rate(const scene::Scene& scene) {
+std::optional<double> measured_update_rate(const scene::Scene& scene, Console& console) {
   std::atomic<bool> enough{false};
   const auto start = std::chrono::steady_clock::now();
   run::RunOptions options;
@@ -39,7 +39,10 @@ double measured_update_rate(const scene::Scene& scene) {
     if (std::chrono::steady_clock::now() - start > 300ms || stop_requested()) enough = true;
   };
   const double rate = run::run_mechanics(measurable(scene), options).update_rate();
-  if (stop_requested()) return 0.0;
+  if (stop_requested()) {
+    console.error("interrupted while measuring the speed of this machine; there is nothing to keep");
+    return std::nullopt;
+  }
   return rate > 0.0 ? rate : run::cautious_update_rate;  // where the run breaks at its first step
 }
 
