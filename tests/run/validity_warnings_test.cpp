@@ -135,121 +135,82 @@ TEST(ValidityWarnings, AMissingOrBrokenHistoryIsOne) {
   expect_one(validity_warnings(shipped_scene(), run), "not finite from sample 2");
 }
 
-/// A launch that is covered, or the word for what is not.
-struct LoadCase {
+/// A measured launch that is covered, or the word for what is not.
+struct Measured {
   const char* name;
-  std::function<void(scene::Load&)> change;
-  const char* said;  ///< empty: covered
+  std::vector<double> time, pressure;  ///< ms, MPa
+  const char* said;                    ///< empty: covered
+  bool rescaled = false;
 };
 
-void measured(scene::Load& load, std::vector<double> milliseconds, std::vector<double> megapascals) {
-  for (double& time : milliseconds) time *= 1e-3;
-  for (double& pressure : megapascals) pressure *= 1e6;
-  load.curve_time = std::move(milliseconds);
-  load.curve_pressure = std::move(megapascals);
+void expect_said(const std::function<void(scene::Load&)>& change, const std::string& said, const char* name) {
+  scene::Scene scene = shipped_scene();
+  change(scene.load);
+  const auto warnings = validity_warnings(scene, sound_run());
+  ASSERT_EQ(warnings.empty(), said.empty()) << name;
+  if (said.empty()) return;
+  EXPECT_NE(warnings.front().find(said), std::string::npos) << name << ": " << warnings.front();
 }
 
 TEST(ValidityWarnings, ALaunchThatIsNotSimulatedAsItIsStated) {
-  const std::vector<LoadCase> cases{
-      {"as shipped: ends at 18 % of its peak", [](auto&) {}, ""},
-      {"a late peak, passed", [](auto& load) { load.peak_time = 15e-3; }, ""},
-      {"analytic, cut off while it rises", [](auto& load) { load.duration = 9e-3; }, "not covered"},
-      {"analytic, cut off at its peak", [](auto& load) { load.duration = load.peak_time; }, "cut off"},
-      {"analytic, the peak long after the end", [](auto& load) { load.peak_time = 0.5; }, "not covered"},
-      {"measured, covered",
-       [](auto& load) {
-         measured(load, {0, 5, 9, 11, 13, 18}, {0.1, 20, 400, 496, 400, 80});
-       },
-       ""},
+  expect_said([](auto&) {}, "", "as shipped: ends at 18 % of its peak");
+  expect_said([](auto& load) { load.peak_time = 15e-3; }, "", "a late peak, passed");
+  expect_said([](auto& load) { load.duration = 9e-3; }, "not covered", "cut off while it rises");
+  expect_said([](auto& load) { load.duration = load.peak_time; }, "cut off", "cut off at its peak");
+  expect_said([](auto& load) { load.peak_time = 0.5; }, "not covered", "the peak long after the end");
+  const std::vector<Measured> launches{
+      {"measured, covered", {0, 5, 9, 11, 13, 18}, {0.1, 20, 400, 496, 400, 80}, ""},
       {"measured, with quiet after it",
-       [](auto& load) {
-         measured(load, {0, 5, 9, 11, 13, 17, 20, 50}, {0.1, 20, 400, 496, 400, 80, 2, 0.1});
-       },
+       {0, 5, 9, 11, 13, 17, 20, 50},
+       {0.1, 20, 400, 496, 400, 80, 2, 0.1},
        ""},
       {"measured, goes on after the end",
-       [](auto& load) {
-         measured(load, {0, 5, 9, 11, 18, 25}, {0.1, 20, 400, 496, 90, 30});
-       },
+       {0, 5, 9, 11, 18, 25},
+       {0.1, 20, 400, 496, 90, 30},
        "after the end"},
-      {"measured, 20 ms of quiet before it",
-       [](auto& load) {
-         measured(load, {0, 20, 25, 31, 38}, {0, 0, 20, 496, 80});
-       },
-       "not covered"},
-      {"the same, rescaled",
-       [](auto& load) {
-         measured(load, {0, 20, 25, 31, 38}, {0, 0, 20, 400, 80});
-         load.rescale_to_peak = true;
-       },
-       "not covered"},
+      {"measured, 20 ms of quiet before it", {0, 20, 25, 31, 38}, {0, 0, 20, 496, 80}, "not covered"},
+      {"the same, rescaled", {0, 20, 25, 31, 38}, {0, 0, 20, 400, 80}, "not covered", true},
       {"measured, its second and larger hump after the end",
-       [](auto& load) {
-         measured(load, {0, 5, 10, 15, 18, 25, 30}, {0, 50, 200, 50, 40, 450, 10});
-       },
+       {0, 5, 10, 15, 18, 25, 30},
+       {0, 50, 200, 50, 40, 450, 10},
        "44.4 % of its stated peak"},
       {"measured, ends as the second hump begins",
-       [](auto& load) {
-         measured(load, {0, 5, 8, 12, 16, 18}, {0, 100, 300, 50, 60, 140});
-       },
+       {0, 5, 8, 12, 16, 18},
+       {0, 100, 300, 50, 60, 140},
        "still rises"},
-      {"measured, cut at its peak",
-       [](auto& load) {
-         measured(load, {0, 5, 9, 18}, {0.1, 20, 100, 496});
-       },
-       "still rises"},
-      {"measured, a plateau to the end",
-       [](auto& load) {
-         measured(load, {0, 5, 11, 18}, {0.1, 400, 400, 400});
-       },
-       "cut off"},
+      {"measured, cut at its peak", {0, 5, 9, 18}, {0.1, 20, 100, 496}, "still rises"},
+      {"measured, a plateau to the end", {0, 5, 11, 18}, {0.1, 400, 400, 400}, "cut off"},
       {"measured, a gauge that saturates",
-       [](auto& load) {
-         measured(load, {0, 5, 7, 9, 11, 13, 15, 18}, {0, 60, 240, 250, 250, 250, 240, 70});
-       },
+       {0, 5, 7, 9, 11, 13, 15, 18},
+       {0, 60, 240, 250, 250, 250, 240, 70},
        "saturates"},
       {"measured, breaks off as it rises",
-       [](auto& load) {
-         measured(load, {0, 3, 5, 7, 9, 9.5, 18}, {0, 5, 60, 240, 390, 0, 0});
-       },
+       {0, 3, 5, 7, 9, 9.5, 18},
+       {0, 5, 60, 240, 390, 0, 0},
        "breaks off"},
-      {"measured, breaks off more slowly",
-       [](auto& load) {
-         measured(load, {0, 3, 5, 7, 9, 10, 18}, {0, 5, 60, 240, 390, 0, 0});
-       },
-       "breaks off"},
+      {"measured, breaks off more slowly", {0, 3, 5, 7, 9, 10, 18}, {0, 5, 60, 240, 390, 0, 0}, "breaks off"},
       {"measured, no point near the peak",
-       [](auto& load) {
-         measured(load, {0, 3, 6, 8.5, 13.5, 18}, {0, 5, 120, 380, 390, 70});
-       },
+       {0, 3, 6, 8.5, 13.5, 18},
+       {0, 5, 120, 380, 390, 70},
        "no point for"},
       {"measured, points between thousands read as decimals",
-       [](auto& load) {
-         measured(load, {0, 3, 3.5, 4, 6, 8, 10, 12, 12.5, 18},
-                  {1, 50, 68.7, 0.1, 0.3, 0.5, 0.3, 0.1, 68.6, 1});
-       },
+       {0, 3, 3.5, 4, 6, 8, 10, 12, 12.5, 18},
+       {1, 50, 68.7, 0.1, 0.3, 0.5, 0.3, 0.1, 68.6, 1},
        "misread numbers"},
-      {"measured, begins under load",
-       [](auto& load) {
-         measured(load, {0, 5, 11, 18}, {60, 300, 496, 80});
-       },
-       "begins with"},
+      {"measured, begins under load", {0, 5, 11, 18}, {60, 300, 496, 80}, "begins with"},
       {"measured, begins before the simulation",
-       [](auto& load) {
-         measured(load, {-6, -3, 0, 5, 11, 18}, {0, 60, 10, 300, 496, 80});
-       },
+       {-6, -3, 0, 5, 11, 18},
+       {0, 60, 10, 300, 496, 80},
        "before the start"},
   };
-  for (const LoadCase& each : cases) {
-    scene::Scene scene = shipped_scene();
-    each.change(scene.load);
-    const auto warnings = validity_warnings(scene, sound_run());
-    if (*each.said == '\0') {
-      EXPECT_TRUE(warnings.empty()) << each.name << ": " << warnings.front();
-      continue;
-    }
-    ASSERT_FALSE(warnings.empty()) << each.name;
-    EXPECT_NE(warnings.front().find(each.said), std::string::npos) << each.name << ": " << warnings.front();
-  }
+  for (const Measured& each : launches)
+    expect_said(
+        [&each](scene::Load& load) {
+          for (const double time : each.time) load.curve_time.push_back(1e-3 * time);
+          for (const double pressure : each.pressure) load.curve_pressure.push_back(1e6 * pressure);
+          load.rescale_to_peak = each.rescaled;
+        },
+        each.said, each.name);
 }
 
 TEST(ValidityWarnings, AFaceOfTheChargeThatNobodyLooksAt) {

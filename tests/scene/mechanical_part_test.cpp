@@ -9,7 +9,9 @@
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,12 @@ namespace launchsafe::scene {
 namespace {
 
 using KeyNames = std::vector<std::string>;
+
+/// The words of a text.
+KeyNames names_in(const std::string& text) {
+  std::istringstream words(text);
+  return {std::istream_iterator<std::string>(words), {}};
+}
 
 /// The list without some of its names.
 KeyNames without(KeyNames names, const KeyNames& kept) {
@@ -27,50 +35,20 @@ KeyNames without(KeyNames names, const KeyNames& kept) {
 }
 
 /// What a launch without snapshots, conduction and bulk reaction leaves out.
-const KeyNames most_dropped{"title",
-                            "coupling",
-                            "steel.conductivity",
-                            "steel.title",
-                            "charge.specific_heat",
-                            "charge.conductivity",
-                            "kinetics.set",
-                            "kinetics.heat_of_reaction",
-                            "kinetics.frequency",
-                            "kinetics.activation_temperature",
-                            "kinetics.ignition_temperature",
-                            "kinetics.burnt_temperature",
-                            "charge.title",
-                            "elastic.density",
-                            "elastic.bulk_modulus",
-                            "elastic.shear_modulus",
-                            "elastic.specific_heat",
-                            "elastic.conductivity",
-                            "elastic.title",
-                            "gap.thickness",
-                            "gap.pressure",
-                            "gap.air",
-                            "gap.exchange",
-                            "gap.skin_thickness",
-                            "gap.exchange_time",
-                            "gap.air_density",
-                            "gap.air_specific_heat",
-                            "gap.air_heat_ratio",
-                            "gap.air_temperature",
-                            "friction.closure",
-                            "friction.localisation",
-                            "physics.conduction_bound",
-                            "physics.reaction_bound",
-                            "combustion.release",
-                            "combustion.duration",
-                            "combustion.stop_pressure"};
+const KeyNames most_dropped = names_in(
+    "title coupling steel.conductivity steel.title charge.specific_heat charge.conductivity "
+    "kinetics.set kinetics.heat_of_reaction kinetics.frequency kinetics.activation_temperature "
+    "kinetics.ignition_temperature kinetics.burnt_temperature charge.title elastic.density "
+    "elastic.bulk_modulus elastic.shear_modulus elastic.specific_heat elastic.conductivity "
+    "elastic.title gap.thickness gap.pressure gap.air gap.exchange gap.skin_thickness "
+    "gap.exchange_time gap.air_density gap.air_specific_heat gap.air_heat_ratio "
+    "gap.air_temperature friction.closure friction.localisation physics.conduction_bound "
+    "physics.reaction_bound combustion.release combustion.duration combustion.stop_pressure");
 const KeyNames conductivities{"steel.conductivity", "charge.conductivity"};
 const KeyNames of_temperatures{"charge.specific_heat", "friction.closure"};
-const KeyNames of_reaction{"kinetics.set",
-                           "kinetics.heat_of_reaction",
-                           "kinetics.frequency",
-                           "kinetics.activation_temperature",
-                           "kinetics.ignition_temperature",
-                           "kinetics.burnt_temperature"};
+const KeyNames of_reaction = names_in(
+    "kinetics.set kinetics.heat_of_reaction kinetics.frequency kinetics.activation_temperature "
+    "kinetics.ignition_temperature kinetics.burnt_temperature");
 
 /// A key that is new among these is a decision: tests/run/mechanical_part_test.cpp shows whether it is right.
 TEST(MechanicalPart, LeavesOutTheseKeys) {
