@@ -64,7 +64,7 @@ struct Selection {
 
 /// Why nothing of a kind can be written; empty where it can.
 std::string obstacle_to_kind(const PictureKind& kind, const report::DrawnCase& drawn, bool as_tables) {
-  if (as_tables && !kind.tables) return "it is drawn only";
+  if (as_tables && !kind.tables) return "there are pictures of it alone";
   return kind.lacks(drawn);
 }
 
@@ -96,7 +96,8 @@ scene::Expected<Selection> named_kinds(const report::DrawnCase& drawn, const std
     if (std::find(words.begin(), words.end(), kind.word) == words.end()) continue;
     if (const std::string why = obstacle_to_kind(kind, drawn, as_tables); !why.empty())
       return option_fault("--what",
-                          fmt::format("\"{}\", which this case has no data for: {}", kind.word, why),
+                          fmt::format("\"{}\", which {} has no data for: {}", kind.word,
+                                      as_tables && !kind.tables ? "--csv" : "this case", why),
                           "what the case has data for; all of that without --what");
     selection.kinds.push_back(&kind);
   }

@@ -304,7 +304,8 @@ std::vector<CaseTable> history_tables(const DrawnCase& drawn) {
   for (const run::GapResult* gap : gaps_with_skin(drawn)) {
     Table table;
     table.columns = {{"time", "ms"}};
-    for (const trace::Station& station : stations) table.columns.push_back({station.name, "K"});
+    for (const trace::Station& station : stations)
+      table.columns.push_back({.name = station.name, .unit = "K", .key = station.name + "_K"});
     for (std::size_t sample = 0; sample < gap->skin.time.size(); ++sample) {
       std::vector<Cell>& row = table.rows.emplace_back(1, 1e3 * gap->skin.time[sample]);
       for (std::size_t i = 0; i < stations.size(); ++i)

@@ -114,7 +114,8 @@ TEST_F(Plotted, SaysWhatDrawsWhereThatIsNotInstalled) {
 
 TEST_F(Plotted, WritesNumbersAsTablesWithoutGnuplot) {
   before_start([] { ::setenv("PATH", "/nowhere", 1); });
-  expect_refused({"shell.h5", "-o", "out", "--csv", "--what", "air"}, "it is drawn only");
+  expect_refused({"shell.h5", "-o", "out", "--csv", "--what", "air"},
+                 "which --csv has no data for: there are pictures of it alone");
   const Outcome outcome = run({"plot", "shell.h5", "-o", "out", "--csv"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.out,
