@@ -250,10 +250,11 @@ void free_of_unit(Json& input) {
 Json with_other_tables(Json entry, const std::string& table, const Json& changes) {
   Json& properties = entry["properties"];
   if (table == "input") free_of_unit(entry);
-  if (table == "case") {
+  if (table == "group") {
     // Some cases are of values that are refused.
     for (const char* changed : {"set", "against"}) properties[changed] = {{"type", "object"}};
-    properties["expect"] = {{"description", "Outcomes that are expected: held, degraded or caught."}};
+    const Json one = entry;
+    properties["cases"] = array_of(one);
   }
   if (table == "variant") {
     properties["set"] = changes;

@@ -1,4 +1,4 @@
-// A study of kind stability as a file: its keys, and [[case]].
+// A study of kind stability as a file: its keys, and [[group]] with its cases.
 #include "launchsafe/kinds/stability.hpp"
 #include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"
@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 #include <utility>
 
 namespace launchsafe::kinds {
@@ -17,63 +16,60 @@ namespace launchsafe::kinds {
 using namespace study;
 namespace {
 
-using scene::Dimension, scene::InputError, scene::Key, scene::Place, scene::SceneFile, scene::Standing;
+using keys::words_key;
+using scene::Dimension, scene::Expected, scene::InputError, scene::Key, scene::SceneFile, scene::Standing;
 
-/// What may be expected: nobody expects a WRONG.
-constexpr std::array expectable{Outcome::held, Outcome::degraded, Outcome::caught};
+std::vector<std::string> names_of_invariants() {
+  std::vector<std::string> names;
+  for (const NamedInvariant& each : named_invariants()) names.push_back(each.name);
+  return names;
+}
 
-/// One [[case]] as read, without its tables of scene keys.
-struct StressCaseText {
-  std::string group, name, must_hold, scene, refused;
-  double numerical_uncertainty = not_a_number;  ///< K
-  double caught_within = 0;                     ///< steps
-};
-
-const std::vector<Key<StressCaseText>>& stress_case_keys() {
-  static const std::vector<Key<StressCaseText>> keys{
-      scene::required(scene::text_key<StressCaseText>("group", Standing::input, "What cases it belongs to.",
-                                                      "load", &StressCaseText::group)),
-      scene::required(scene::text_key<StressCaseText>("name", Standing::input,
-                                                      "What the case is, unique in its group.", "peak 10 MPa",
-                                                      &StressCaseText::name)),
-      scene::required(
-          scene::text_key<StressCaseText>("must_hold", Standing::input, "What must hold, a sentence.",
-                                          "T max as with half the time step", &StressCaseText::must_hold)),
-      scene::text_key<StressCaseText>("scene", Standing::input,
-                                      "Path of a scene of its own, from the study file's folder.",
-                                      "stability/thin_shell.toml", &StressCaseText::scene),
-      scene::text_key<StressCaseText>(
+/// Of a [[group]], which its cases take over, and of a case.
+const std::vector<Key<StressCase>>& case_keys() {
+  static const std::vector<Key<StressCase>> keys{
+      scene::required(scene::text_key("name", Standing::input,
+                                      "Of the group, or of a case of it, unique in the group.", "load",
+                                      &StressCase::name)),
+      scene::text_key("scene", Standing::input, "Path of a scene of its own, from the study file's folder.",
+                      "stability/thin_shell.toml", &StressCase::scene),
+      words_key("expect", Standing::input, "Outcomes that are expected; anything but WRONG if absent.",
+                {"held", "degraded", "caught"}, &StressCase::expected),
+      words_key("invariants", Standing::input, "What must hold; all if absent.", names_of_invariants(),
+                &StressCase::invariants),
+      scene::text_key(
           "refused", Standing::input,
           "What the reader must say of the scene: then the case is one of the reader, and nothing runs.",
-          "at least 0", &StressCaseText::refused),
-      scene::number_key<StressCaseText>(
-          "caught_within", Dimension::count, scene::between(0, 1e9), Standing::input,
-          "Steps within which a broken computation must be caught; 0: any number.",
-          &StressCaseText::caught_within),
-      scene::number_key<StressCaseText>(
-          "numerical_uncertainty", Dimension::temperature_difference, scene::between(0, 1000),
-          Standing::input,
-          "Uncertainty of the maximum temperature with these numerics; the study's if absent.",
-          &StressCaseText::numerical_uncertainty),
+          "at least 0", &StressCase::refused),
+      scene::number_key("caught_within", Dimension::count, scene::between(0, 1e9), Standing::input,
+                        "Steps within which a broken computation must be caught; 0: any number.",
+                        &StressCase::caught_within),
+      scene::number_key("numerical_uncertainty", Dimension::temperature_difference, scene::between(0, 1000),
+                        Standing::input,
+                        "Uncertainty of the maximum temperature with these numerics; the study's if absent.",
+                        &StressCase::numerical_uncertainty),
   };
   return keys;
 }
 
-/// One [[case]] while it is read.
+/// The scene keys of a table, and what it is called.
+struct Changes {
+  const toml::node* node = nullptr;
+  std::string name;
+};
+
+/// One case while it is read.
 struct CaseReader {
   StudyFile& study;
+  const StudySource& source;
+  const toml::table& group;
   const toml::table& table;
-  StressCaseText text;
-  std::map<std::string, Place> places;
+  StressCase launch;
 
-  Place place_of(const std::string& key) const {
-    const auto found = places.find(key);
-    return found == places.end() ? scene::place_of(table, study.file) : found->second;
-  }
-  InputError fault(const std::string& key, std::string found, std::string allowed,
-                   std::string suggestion = {}) const {
-    return scene::error_at(place_of(key), "case." + key, std::move(found), std::move(allowed),
-                           std::move(suggestion));
+  InputError fault(const std::string& key, std::string found, std::string allowed) const {
+    const toml::node* at = table.get(key);
+    return scene::error_at(scene::place_of(at ? *at : table, study.file), "group.cases." + key, found,
+                           allowed);
   }
 };
 
@@ -83,175 +79,152 @@ struct Changed {
   std::optional<InputError> refusal;
 };
 
-/// Changes a scene by a table of scene keys, `name` in the case. Unknown keys are faults in any case.
-scene::Expected<Changed> with_keys(const CaseReader& reader, const std::string& name,
-                                   const SceneFile& start) {
-  const toml::node* node = reader.table.get(name);
-  if (!node) return Changed{start, std::nullopt};
-  const toml::table* table = node->as_table();
-  if (!table) {
-    return scene::error_at(scene::place_of(*node, reader.study.file), "case." + name,
-                           scene::found_text(*node), "a table of scene keys, written { key = value, ... }");
+/// Changes a scene by tables of scene keys; a later one has the last word. Unknown keys are faults in any
+/// case.
+Expected<Changed> with_keys(const SceneFile& start, const std::vector<Changes>& all,
+                            const std::string& file) {
+  std::vector<Change> changes;
+  for (const auto& [node, name] : all) {
+    if (!node) continue;
+    if (!node->is_table())
+      return scene::error_at(scene::place_of(*node, file), name, scene::found_text(*node),
+                             "a table of scene keys, written { key = value, ... }");
+    for (const Leaf& leaf : leaves_as_written(*node->as_table())) {
+      const scene::Place place = scene::place_of(*leaf.node, file);
+      const auto key = scene::describe_key(start, leaf.name, place);
+      if (!key) return in_table(key.error(), name);
+      const auto value = scene::read_value(*leaf.node, *key, file);
+      if (!value) return Changed{start, in_table(value.error(), name)};
+      std::erase_if(changes, [&](const Change& change) { return change.key == leaf.name; });
+      changes.push_back(
+          {leaf.name, *value, scene::format_value(*key, *value), name + "." + leaf.name, place});
+    }
   }
   ChangedScene scene(start);
-  for (const Leaf& leaf : leaves_as_written(*table)) {
-    const Place place = scene::place_of(*leaf.node, reader.study.file);
-    const auto key = scene::describe_key(start, leaf.name, place);
-    if (!key) return in_table(key.error(), "case." + name);
-    const auto value = scene::read_value(*leaf.node, *key, reader.study.file);
-    if (!value) return Changed{start, in_table(value.error(), "case." + name)};
-    scene.apply(
-        {leaf.name, *value, scene::format_value(*key, *value), "case." + name + "." + leaf.name, place});
-  }
+  for (const Change& change : changes) scene.apply(change);
   if (!scene.complete()) return Changed{start, scene.error()};
   return Changed{scene.take(), std::nullopt};
 }
 
 /// The scene that a case starts from: the study's, or its own with the study's overrides.
-scene::Expected<SceneFile> starting_scene(const CaseReader& reader, const toml::table& root,
-                                          const std::filesystem::path& folder) {
-  if (reader.text.scene.empty()) return reader.study.scene;
-  const std::filesystem::path path = folder / reader.text.scene;
+Expected<SceneFile> starting_scene(const CaseReader& reader) {
+  if (reader.launch.scene.empty()) return reader.study.scene;
+  const std::filesystem::path path = reader.source.folder / reader.launch.scene;
   std::error_code status;
-  if (!std::filesystem::exists(path, status)) {
-    return reader.fault("scene", fmt::format("\"{}\", which does not exist", reader.text.scene),
+  if (!std::filesystem::exists(path, status))
+    return reader.fault("scene", fmt::format("\"{}\", which does not exist", reader.launch.scene),
                         "a scene file, by its path from the study file's folder");
-  }
   auto read = scene::read_scene(path);
-  if (!read || !root.contains("set")) return read;
-  const CaseReader whole{reader.study, root, {}, {}};
-  auto changed = with_keys(whole, "set", *read);
+  if (!read) return read;
+  auto changed = with_keys(*read, {{reader.source.root.get("set"), "set"}}, reader.study.file);
   if (!changed) return changed.error();
   if (changed->refusal) return *changed->refusal;
   return std::move(changed->scene);
 }
 
-scene::Expected<std::vector<Outcome>> read_expected(const CaseReader& reader) {
-  const toml::node* node = reader.table.get("expect");
-  std::vector<Outcome> expected;
-  if (!node) return expected;
-  const auto wrong = [&](const toml::node& at) {
-    return scene::error_at(scene::place_of(at, reader.study.file), "case.expect", scene::found_text(at),
-                           "\"held\", \"degraded\" or \"caught\", or an array of them");
-  };
-  const auto read_one = [&](const toml::node& word) {
-    const auto text = word.value_exact<std::string>();
-    const auto found = std::find_if(expectable.begin(), expectable.end(),
-                                    [&](Outcome each) { return text && to_string(each) == *text; });
-    if (found == expectable.end()) return false;
-    expected.push_back(*found);
-    return true;
-  };
-  const toml::array* array = node->as_array();
-  if (!array) return read_one(*node) ? scene::Expected<std::vector<Outcome>>(expected) : wrong(*node);
-  for (const toml::node& word : *array) {
-    if (!read_one(word)) return wrong(word);
-  }
-  return expected;
-}
-
 /// A mechanical run of a case. Its scene is checked for all that judging needs.
-scene::Expected<std::size_t> add_run(CaseReader& reader, const std::string& label, SceneFile scene) {
-  if (!scene::has_charge(scene.scene)) {
+Expected<std::size_t> add_run(const CaseReader& reader, const std::string& label, SceneFile scene) {
+  if (!scene::has_charge(scene.scene))
     return reader.fault("scene", "a scene without a charge", "a scene with a charge");
-  }
   StudyCase made = case_of(label, std::move(scene));
-  made.numerical_uncertainty = std::isfinite(reader.text.numerical_uncertainty)
-                                   ? reader.text.numerical_uncertainty
-                                   : reader.study.study.numerical_uncertainty;
+  const double own = reader.launch.numerical_uncertainty;
+  made.numerical_uncertainty = std::isfinite(own) ? own : reader.study.study.numerical_uncertainty;
   reader.study.cases.push_back(std::move(made));
   return reader.study.cases.size() - 1;
 }
 
 /// A case of the reader has no run.
-Fault read_refusal(const CaseReader& reader, const Changed& changed, StressCase& launch) {
-  for (const char* key : {"against", "expect", "caught_within"}) {
-    if (!reader.table.contains(key)) continue;
-    return scene::error_at(scene::place_of(*reader.table.get(key), reader.study.file),
-                           std::string("case.") + key, "a key of a case that runs",
-                           "refused alone: a case of the reader has no run");
+Fault read_refusal(CaseReader& reader, const std::optional<InputError>& refusal) {
+  for (const char* key : {"against", "expect", "invariants", "caught_within"}) {
+    if (reader.table.contains(key))
+      return reader.fault(key, "a key of a case that runs", "refused alone: a case of the reader has no run");
   }
-  launch.must_refuse = reader.text.refused;
-  launch.expected = {Outcome::caught};
-  if (changed.refusal) {
-    const InputError& error = *changed.refusal;
-    launch.refusal = fmt::format("{}: found {}; allowed: {}", error.key, error.found, error.allowed);
-  }
+  reader.launch.expected = {Outcome::caught};
+  if (refusal)
+    reader.launch.refusal =
+        fmt::format("{}: found {}; allowed: {}", refusal->key, refusal->found, refusal->allowed);
   return std::nullopt;
 }
 
-Fault read_runs(CaseReader& reader, Changed changed, StressCase& launch) {
+Fault read_runs(CaseReader& reader, Changed changed) {
   if (changed.refusal) return changed.refusal;
-  const bool own_gaps = changed.scene.scene.surface.gaps != reader.study.scene.scene.surface.gaps;
-  launch.gaps = own_gaps ? changed.scene.scene.surface.gaps : reader.study.study.gaps;
-  const std::string label = launch.group + ": " + launch.name;
+  StressCase& launch = reader.launch;
   const SceneFile scene = changed.scene;
-  launch.burns = changed.scene.scene.coupling == scene::Coupling::two_way;
-  if (launch.burns) changed.scene.scene.surface.gaps = launch.gaps;
-  const auto run = add_run(reader, label, std::move(changed.scene));
+  std::vector<double>& gaps = changed.scene.scene.surface.gaps;
+  launch.gaps = gaps != reader.study.scene.scene.surface.gaps ? gaps : reader.study.study.gaps;
+  if (scene.scene.coupling == scene::Coupling::two_way) gaps = launch.gaps;
+  const auto run = add_run(reader, launch.label(), std::move(changed.scene));
   if (!run) return run.error();
   launch.run = *run;
-  if (!reader.table.contains("against")) return std::nullopt;
-  auto other = with_keys(reader, "against", scene);
+  const toml::node* own = reader.table.get("against");
+  const toml::node* against = own ? own : reader.group.get("against");
+  if (!against || (against->is_table() && against->as_table()->empty())) return std::nullopt;
+  auto safe = with_keys(scene, {{against, own ? "group.cases.against" : "group.against"}}, reader.study.file);
+  if (!safe) return safe.error();
+  if (safe->refusal) return safe->refusal;
+  safe->scene.scene.coupling = scene::Coupling::one_way;  // a safe computation of the launch alone
+  const auto other = add_run(reader, launch.label() + ", against", std::move(safe->scene));
   if (!other) return other.error();
-  if (other->refusal) return other->refusal;
-  other->scene.scene.coupling = scene::Coupling::one_way;  // a safe computation of the launch alone
-  const auto against = add_run(reader, label + ", against", std::move(other->scene));
-  if (!against) return against.error();
-  launch.against = *against;
+  launch.against = *other;
   return std::nullopt;
 }
 
-Fault read_case(CaseReader& reader, const toml::table& root, const std::filesystem::path& folder) {
-  auto read = scene::read_table(reader.table, stress_case_keys(), {"set", "against", "expect"},
-                                reader.study.file, reader.text);
-  if (!read) return in_table(read.error(), "case");
-  reader.places = std::move(*read);
-  StressCase launch;
-  launch.group = reader.text.group;
-  launch.name = reader.text.name;
-  launch.must_hold = reader.text.must_hold;
-  launch.caught_within = static_cast<std::uint64_t>(reader.text.caught_within);
-  for (const StressCase& other : settings_of<StabilitySettings>(reader.study.study).cases) {
-    if (other.group != launch.group || other.name != launch.name) continue;
+Fault read_case(CaseReader reader) {
+  StressCase& launch = reader.launch;
+  launch.group = launch.name;
+  const auto read =
+      scene::read_table(reader.table, case_keys(), {"set", "against"}, reader.study.file, launch);
+  if (!read) return in_table(read.error(), "group.cases");
+  auto& cases = settings_of<StabilitySettings>(reader.study.study).cases;
+  if (std::any_of(cases.begin(), cases.end(),
+                  [&](const StressCase& other) { return other.label() == launch.label(); }))
     return reader.fault("name", fmt::format("\"{}\" a second time in \"{}\"", launch.name, launch.group),
                         "a name that no other case of the group has");
-  }
-  auto expected = read_expected(reader);
-  if (!expected) return expected.error();
-  launch.expected = std::move(*expected);
-  const auto start = starting_scene(reader, root, folder);
+  const auto start = starting_scene(reader);
   if (!start) return start.error();
-  auto changed = with_keys(reader, "set", *start);
+  auto changed = with_keys(
+      *start, {{reader.group.get("set"), "group.set"}, {reader.table.get("set"), "group.cases.set"}},
+      reader.study.file);
   if (!changed) return changed.error();
-  const bool refused = !reader.text.refused.empty();
-  if (Fault fault =
-          refused ? read_refusal(reader, *changed, launch) : read_runs(reader, std::move(*changed), launch))
+  if (Fault fault = launch.refused.empty() ? read_runs(reader, std::move(*changed))
+                                           : read_refusal(reader, changed->refusal))
     return fault;
-  settings_of<StabilitySettings>(reader.study.study).cases.push_back(std::move(launch));
+  cases.push_back(std::move(launch));
+  return std::nullopt;
+}
+
+Fault read_group(const toml::table& group, const StudySource& source, StudyFile& study) {
+  StressCase defaults;
+  const auto read = scene::read_table(group, case_keys(), {"set", "against", "cases"}, study.file, defaults);
+  if (!read) return in_table(read.error(), "group");
+  const toml::node* cases = group.get("cases");
+  if (!cases || !cases->is_array_of_tables())
+    return scene::error_at(scene::place_of(cases ? *cases : group, study.file), "group.cases",
+                           cases ? scene::found_text(*cases) : "nothing; the key is missing",
+                           "an array of tables, written [{ name = \"...\", set = { ... } }, ...]");
+  for (const toml::node& element : *cases->as_array())
+    if (Fault fault = read_case({study, source, group, *element.as_table(), defaults})) return fault;
   return std::nullopt;
 }
 
 Fault make_stability_cases(const StudySource& source, StudyFile& study) {
-  const toml::table& root = source.root;
   if (!std::isfinite(study.study.numerical_uncertainty)) {
     return fault_at(study, "numerical_uncertainty", "nothing; the key is missing",
-                    "the uncertainty that verdicts of the matrix are judged with: with a large one assumed "
+                    "the uncertainty that verdicts of the table are judged with: with a large one assumed "
                     "nothing could be WRONG");
   }
   study.uncertainty_source = "as the study states";
-  const toml::node* node = root.get("case");
-  const std::string allowed = "at least one table, written [[case]], that has a run";
+  const toml::node* node = source.root.get("group");
+  const std::string allowed = "at least one table, written [[group]], with a case that has a run";
   if (node && !node->is_array_of_tables())
-    return scene::error_at(scene::place_of(*node, study.file), "case", scene::found_text(*node), allowed);
+    return scene::error_at(scene::place_of(*node, study.file), "group", scene::found_text(*node), allowed);
   if (node) {
-    for (const toml::node& element : *node->as_array()) {
-      CaseReader reader{study, *element.as_table(), {}, {}};
-      if (Fault fault = read_case(reader, root, source.folder)) return fault;
-    }
+    for (const toml::node& element : *node->as_array())
+      if (Fault fault = read_group(*element.as_table(), source, study)) return fault;
   }
   if (study.cases.empty())
-    return scene::error_at(place_of_key(study, node ? "case" : "kind"), "case", "no case that runs", allowed);
+    return scene::error_at(place_of_key(study, node ? "group" : "kind"), "group", "no case that runs",
+                           allowed);
   return std::nullopt;
 }
 
@@ -261,32 +234,40 @@ Fault read_stability(const StudySource&, StudyFile&) { return std::nullopt; }
 /// A case that is WRONG is the worst outcome of a study. No case makes it indeterminate.
 std::vector<Failure> stability_failures(const StabilityResult& result) {
   std::vector<Failure> failures;
-  for (const StressCaseRow& row : result.rows) {
-    const std::string label = row.group + ": " + row.name;
-    if (!row.computed()) add_failure(failures, label, row.outcome, row.failure);
-    if (row.is_wrong()) add_failure(failures, label, row.outcome, "WRONG: " + row.finding.text);
-    if (row.computed() && !row.is_wrong() && !row.is_as_expected())
-      add_failure(failures, label, row.outcome,
-                  fmt::format("{}, which is not what the study expects: {}", to_string(row.finding.outcome),
-                              row.finding.text));
-  }
+  for (const StressCaseRow& row : result.rows)
+    if (!row.is_as_expected())
+      add_failure(failures, row.asked.label(), row.run.outcome,
+                  row.computed() ? fmt::format("{}, which is not what the study expects: {}",
+                                               to_string(row.finding.outcome), row.finding.text)
+                                 : row.run.failure);
   return failures;
 }
 
 }  // namespace
 
 std::string to_string(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::held:
-      return "held";
-    case Outcome::degraded:
-      return "degraded";
-    case Outcome::caught:
-      return "caught";
-    case Outcome::wrong:
-      break;
-  }
-  return "WRONG";
+  static constexpr std::array names{"held", "degraded", "caught", "WRONG"};
+  return names[static_cast<std::size_t>(outcome)];
+}
+
+const std::vector<NamedInvariant>& named_invariants() {
+  static const std::vector<NamedInvariant> all{
+      {"finite", "all numbers are finite"},
+      {"mass", "bodies keep theirs; no more burns than the charge has"},
+      {"momentum", "none relative to the co-moving frame, the load's impulse in the lab's"},
+      {"energy", "drifts within the scene's limit"},
+      {"dissipation", "never falls"},
+      {"friction-heat", "never falls"},
+      {"temperature", "no skin is colder than at first, no gas beyond its law"},
+      {"reaction-heat", "no more is released than what burnt has, and less than 1 % of it made or lost"},
+      {"same-temperature", "T max is that of the safe computation `against`"}};
+  return all;
+}
+
+std::vector<Invariant> all_invariants() {
+  std::vector<Invariant> all;
+  for (std::size_t i = 0; i < named_invariants().size(); ++i) all.push_back(static_cast<Invariant>(i));
+  return all;
 }
 
 Kind stability_kind() {
@@ -297,11 +278,11 @@ Kind stability_kind() {
                  .own_scenes = true,
                  .goes_through_ignition = true},
       .keys = joined({gaps_keys(), judging_keys()}),
-      .tables = {table_of("case", stress_case_keys())},
+      .tables = {table_of("group", case_keys())},
       .read = read_stability,
       .make_cases = make_stability_cases,
       .run = outcome_of<run_stability, stability_failures>,
-      .files = {{"stability.csv"}, {"launches.csv"}},
+      .files = {{"stability.csv"}, {"outcomes.svg"}},
   };
 }
 

@@ -1,4 +1,4 @@
-// The answer, the tables, the page and the files of a stability study.
+// The answer, the tables, the picture and the page of a stability study.
 #include "launchsafe/kinds/stability.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
 
 namespace launchsafe::kinds {
 
@@ -18,74 +20,87 @@ using namespace report;
 
 namespace {
 
-/// Letters of a finding on a terminal.
-constexpr std::size_t most_letters = 100;
-
-/// Cut between letters, never inside of one that takes several bytes.
-std::string shortened(const std::string& text) {
-  if (text.size() <= most_letters) return text;
-  std::size_t end = most_letters;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  return text.substr(0, end) + " ...";
-}
-
-std::string expected_text(const StressCaseRow& row) {
-  if (row.expected.empty()) return "not WRONG";
-  std::vector<std::string> names;
-  for (const Outcome each : row.expected) names.push_back(to_string(each));
-  return fmt::format("{}", fmt::join(names, " or "));
-}
-
-Cell count_cell(const StressCaseRow& row, std::uint64_t count) {
-  return row.ran ? Cell(static_cast<std::int64_t>(count)) : Cell();
-}
-
 /// "held", "degraded", "caught", "WRONG", or "not computed".
 std::string outcome_text(const StressCaseRow& row) {
   return row.computed() ? to_string(row.finding.outcome) : "not computed";
 }
 
 /// The finding, or why there is none.
-std::string finding_text(const StressCaseRow& row) { return row.computed() ? row.finding.text : row.failure; }
+std::string finding_text(const StressCaseRow& row) {
+  return row.computed() ? row.finding.text : row.run.failure;
+}
+
+/// The reason without the numbers behind it.
+std::string first_clause(const std::string& text) {
+  return text.substr(0, std::min(text.find(", "), text.find("; ")));
+}
+
+std::string expected_text(const StressCase& asked) {
+  std::vector<std::string> names;
+  for (const Outcome each : asked.expected) names.push_back(to_string(each));
+  return names.empty() ? "not WRONG" : fmt::format("{}", fmt::join(names, " or "));
+}
+
+std::string invariants_text(const StressCase& asked) {
+  std::vector<std::string> names;
+  for (const Invariant each : asked.invariants)
+    names.push_back(named_invariants()[static_cast<std::size_t>(each)].name);
+  return asked.invariants == all_invariants() ? "all" : fmt::format("{}", fmt::join(names, " "));
+}
+
+std::vector<Cell> case_cells(const StressCaseRow& row) {
+  const StressCase& asked = row.asked;
+  return {asked.group,
+          asked.name,
+          outcome_text(row),
+          expected_text(asked),
+          std::string(row.is_as_expected() ? "yes" : "no"),
+          invariants_text(asked),
+          finding_text(row)};
+}
+
+std::vector<Cell> gap_cells(const StressCaseRow& row, std::size_t i) {
+  const CaseAnswer& answer = row.run.answer;
+  const GapVerdict& gap = answer.verdicts[i];
+  const double against = i < row.heated_against.size() ? row.heated_against[i] : not_a_number;
+  return {run::to_string(answer.run.status),
+          optional_number(1e3 * row.run.end_time),
+          static_cast<std::int64_t>(answer.run.steps),
+          static_cast<std::int64_t>(answer.run.particles),
+          optional_number(answer.run.energy_drift),
+          in_centimetres(gap.gap),
+          optional_number(gap.maximum.temperature),
+          optional_number(answer.heated_temperature[i]),
+          optional_number(against),
+          optional_number(row.deviation(i)),
+          optional_number(gap.uncertainty.total()),
+          study::to_string(gap.judgement.verdict),
+          gap.judgement.reason,
+          run::to_string(answer.run.limiters)};
+}
 
 }  // namespace
+
+Table not_held_table(const StabilityResult& result) {
+  Table table;
+  table.title = "Not held";
+  table.columns = {quantity::case_name(), named_text("outcome", "outcome"), named_text("why", "why")};
+  for (const StressCaseRow& row : result.rows)
+    if (!row.is(Outcome::held))
+      table.rows.push_back({row.asked.label(), outcome_text(row), first_clause(finding_text(row))});
+  return table;
+}
 
 Table stability_table(const StabilityResult& result) {
   Table table;
   table.title = "Stress cases";
   table.columns = {named_text("group", "group"),
                    quantity::case_name(),
-                   named_text("must hold", "must_hold"),
                    named_text("outcome", "outcome"),
                    named_text("expected", "expected"),
+                   named_text("as expected", "as_expected"),
+                   named_text("invariants", "invariants"),
                    named_text("finding", "finding"),
-                   for_programs(named_text("as expected", "as_expected")),
-                   for_programs(named_text("violations", "violations")),
-                   for_programs(named_text("validity warnings", "validity_warnings"))};
-  for (const StressCaseRow& row : result.rows)
-    table.rows.push_back({row.group, row.name, row.must_hold, outcome_text(row), expected_text(row),
-                          finding_text(row), std::string(row.is_as_expected() ? "yes" : "no"),
-                          fmt::format("{}", fmt::join(row.violations, "; ")),
-                          fmt::format("{}", fmt::join(row.validity_warnings, "; "))});
-  return table;
-}
-
-Table stability_summary(const StabilityResult& result) {
-  Table table;
-  table.title = "Stress cases";
-  table.columns = {named_text("group", "group"), quantity::case_name(), named_text("outcome", "outcome"),
-                   named_text("finding", "finding")};
-  for (const StressCaseRow& row : result.rows)
-    table.rows.push_back({row.group, row.name, outcome_text(row), shortened(finding_text(row))});
-  return table;
-}
-
-Table launch_table(const StabilityResult& result) {
-  Table table;
-  table.title = "Launches";
-  table.columns = {named_text("group", "group"),
-                   quantity::case_name(),
-                   named_text("outcome", "outcome"),
                    quantity::status(),
                    number_column("until", "ms", 4, "end_time_ms"),
                    quantity::steps(),
@@ -93,95 +108,89 @@ Table launch_table(const StabilityResult& result) {
                    quantity::energy_drift(),
                    quantity::gap(),
                    quantity::temperature_max(),
-                   for_programs(quantity::temperature_max_inert()),
-                   for_programs(number_column("safe computation", "K", 1, "safe_computation_K")),
+                   quantity::temperature_max_inert(),
+                   number_column("safe computation", "K", 1, "safe_computation_K"),
                    number_column("against", "K", 1, "deviation_K"),
                    quantity::uncertainty(),
                    quantity::verdict(),
-                   for_programs(quantity::reason()),
+                   quantity::reason(),
                    quantity::limiters()};
   for (const StressCaseRow& row : result.rows) {
-    for (const StressCaseGap& gap : row.gaps)
-      table.rows.push_back(
-          {row.group, row.name, outcome_text(row), run::to_string(row.run.status),
-           optional_number(1e3 * row.end_time), count_cell(row, row.run.steps),
-           count_cell(row, row.run.particles), optional_number(row.run.energy_drift), in_centimetres(gap.gap),
-           optional_number(gap.temperature), optional_number(gap.heated), optional_number(gap.heated_against),
-           optional_number(gap.deviation()), optional_number(gap.uncertainty),
-           study::to_string(gap.judgement.verdict), gap.judgement.reason, run::to_string(row.run.limiters)});
+    const std::size_t gaps = row.computed() ? row.run.answer.verdicts.size() : 0;
+    for (std::size_t i = 0; i < std::max<std::size_t>(gaps, 1); ++i) {
+      std::vector<Cell> cells = case_cells(row);
+      if (i < gaps) std::ranges::copy(gap_cells(row, i), std::back_inserter(cells));
+      cells.resize(table.columns.size());
+      table.rows.push_back(std::move(cells));
+    }
   }
-  table.notes.emplace_back(
-      "Against: T max without reaction and trigger minus the same of the safe computation of the launch, "
-      "both up "
-      "to ignition.");
   return table;
 }
 
 namespace {
 
-std::string counts_text(const StabilityResult& result) {
-  return fmt::format("{}: {} held, {} degraded with a reason, {} caught, {} WRONG.",
-                     counted(result.rows.size(), "stress case"), result.count(Outcome::held),
-                     result.count(Outcome::degraded), result.count(Outcome::caught), result.wrong());
-}
-
-/// Rows of one sort by name and finding, a line each.
 template <class Belongs>
-std::string list_of(const StabilityResult& result, const std::string& heading, Belongs belongs) {
-  std::string text;
-  for (const StressCaseRow& row : result.rows) {
-    if (!belongs(row)) continue;
-    if (text.empty()) text = heading;
-    text += fmt::format("\n- {}: {}: {}", row.group, row.name, finding_text(row));
-  }
-  return text;
+std::size_t count(const StabilityResult& result, Belongs belongs) {
+  return static_cast<std::size_t>(std::count_if(result.rows.begin(), result.rows.end(), belongs));
 }
 
-std::string wrong_text(const StabilityResult& result) {
-  if (result.wrong() == 0) return result.failed() == 0 ? "No broken computation passes for a sound one." : "";
-  return list_of(result,
-                 fmt::format("WRONG: {} in which a broken computation gave a plausible verdict.",
-                             counted(result.wrong(), "case")),
-                 [](const StressCaseRow& row) { return row.is_wrong(); });
+std::size_t count_missing(const StabilityResult& result) {
+  return count(result, [](const StressCaseRow& row) { return !row.computed(); });
 }
 
+/// Every case that is WRONG, not as expected or not computed, a line each.
 std::string unexpected_text(const StabilityResult& result) {
-  return list_of(result, "Not as the study expects:", [](const StressCaseRow& row) {
-    return row.computed() && !row.is_wrong() && !row.is_as_expected();
-  });
+  std::string text;
+  for (const StressCaseRow& row : result.rows)
+    if (!row.is_as_expected())
+      text += fmt::format("\n- {}: {}: {}", row.asked.label(), outcome_text(row), finding_text(row));
+  return text.empty() ? text : "Not as the study expects:" + text;
 }
 
-std::string failed_text(const StabilityResult& result) {
-  return list_of(result, "Not computed:", [](const StressCaseRow& row) { return !row.computed(); });
+/// How many cases of every group came out how: a bar for every outcome, the first group on top.
+Plot outcome_plot(const StabilityResult& result) {
+  constexpr int green = 2, orange = 4, blue = 0, black = 6;
+  Plot plot;
+  plot.title = "Outcomes of the stress cases";
+  plot.x.label = "cases";
+  for (const auto& [outcome, colour] : {std::pair{Outcome::held, green},
+                                        {Outcome::degraded, orange},
+                                        {Outcome::caught, blue},
+                                        {Outcome::wrong, black}})
+    plot.series.push_back({to_string(outcome), {}, {}, Style::horizontal_bars, {}, {}, colour});
+  std::map<std::string, std::size_t> places;
+  for (const StressCaseRow& row : result.rows) {
+    const double at = -static_cast<double>(places.size());
+    if (places.try_emplace(row.asked.group, places.size()).second)
+      plot.y.tics.push_back({at, row.asked.group});
+  }
+  for (const auto& [group, place] : places) {
+    for (std::size_t i = 0; i < plot.series.size(); ++i) {
+      Series& series = plot.series[i];
+      const auto cases = static_cast<double>(count(result, [&](const StressCaseRow& row) {
+        return row.asked.group == group && row.is(static_cast<Outcome>(i));
+      }));
+      if (cases == 0.0) continue;
+      series.x.push_back(cases);
+      series.y.push_back(-static_cast<double>(place) + 0.3 - 0.2 * static_cast<double>(i));
+      series.lower.push_back(0.0);
+      series.upper.push_back(cases);
+    }
+  }
+  return plot;
 }
 
-std::string legend() {
-  return "- **held**: what must hold held.\n"
-         "- **degraded**: it did not, or a limiter acted or a validity warning holds, and the result says so "
-         "itself: "
-         "the verdict is indeterminate, or names the limiter.\n"
-         "- **caught**: the run was stopped and flagged, or the reader refused the scene.\n"
-         "- **WRONG**: an invariant is violated, or T max is further from a safe computation of the same "
-         "launch "
-         "than its stated uncertainty, and yet a verdict says SAFE or UNSAFE.\n\n"
-         "Invariants of every completed launch: all numbers finite; masses of the particles to 1e-12; "
-         "momentum "
-         "relative to the co-moving frame below 1e-6 of the load's impulse, or equal to it in the lab's "
-         "frame; "
-         "energy drift within the scene's limit; plastic, viscous and crack dissipation and friction heat "
-         "that "
-         "never fall; no skin colder than at first. Of a run through ignition that completed: finite "
-         "numbers; "
-         "energy made or lost in burning particles below 1 % of the heat of reaction of what burnt; energy "
-         "drift within the limit; no more burnt than the charge has, and no more heat than that of reaction; "
-         "gas within the temperatures of its law.\n";
-}
-
-std::string uncertainty_text(const study::Study& study) {
-  return fmt::format(
-      "Verdicts of the launches are judged with a numerical uncertainty of {} K unless their "
-      "case states its own; with a large one assumed, nothing could be WRONG.\n",
+std::string legend(const Study& study) {
+  std::string text = fmt::format(
+      "- **held**: what must hold held.\n"
+      "- **degraded**: it did not, a limiter acted or a validity warning holds, and the result says so.\n"
+      "- **caught**: the run was stopped, or the scene refused.\n"
+      "- **WRONG**: an invariant is violated, and yet a verdict says SAFE or UNSAFE.\n\n"
+      "Invariants, with an uncertainty of T max of {} K unless the case states its own:\n\n",
       significant(study.numerical_uncertainty, 3));
+  for (const NamedInvariant& each : named_invariants())
+    text += fmt::format("- `{}`: {}.\n", each.name, each.words);
+  return text;
 }
 
 nlohmann::ordered_json counts_json(const StabilityResult& result) {
@@ -189,17 +198,26 @@ nlohmann::ordered_json counts_json(const StabilityResult& result) {
           {"held", result.count(Outcome::held)},
           {"degraded", result.count(Outcome::degraded)},
           {"caught", result.count(Outcome::caught)},
-          {"WRONG", result.wrong()},
-          {"not_as_expected", result.unexpected()},
-          {"not_computed", result.failed()}};
+          {"WRONG", result.count(Outcome::wrong)},
+          {"not_as_expected", count(result,
+                                    [](const StressCaseRow& row) {
+                                      return row.computed() && !row.is(Outcome::wrong) &&
+                                             !row.is_as_expected();
+                                    })},
+          {"not_computed", count_missing(result)}};
 }
 
 }  // namespace
 
 std::string answer(const StabilityResult& result) {
-  std::vector<std::string> lines{counts_text(result), wrong_text(result), unexpected_text(result),
-                                 failed_text(result)};
-  if (result.interrupted) lines.emplace_back("The study was interrupted: some cases were not computed.");
+  const std::size_t wrong = result.count(Outcome::wrong);
+  std::vector<std::string> lines{
+      fmt::format("{}: {} held, {} degraded with a reason, {} caught, {} WRONG.",
+                  counted(result.rows.size(), "stress case"), result.count(Outcome::held),
+                  result.count(Outcome::degraded), result.count(Outcome::caught), wrong),
+      wrong + count_missing(result) == 0 ? "No broken computation passes for a sound one." : "",
+      unexpected_text(result),
+      result.interrupted ? "The study was interrupted: some cases were not computed." : ""};
   std::erase(lines, "");
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
@@ -207,12 +225,11 @@ std::string answer(const StabilityResult& result) {
 Report report_of(const StabilityResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
   report.items = {
-      ReportTable{.table = stability_summary(result), .shown = Shown::terminal},
-      ReportTable{stability_table(result), "stability.csv", "cases", Shown::page},
-      Statement{"## What the outcomes mean\n\n" + legend()},
-      Statement{uncertainty_text(result.study.study)},
-      ReportTable{launch_table(result), "launches.csv", "launches", Shown::page},
-      Statement{"## Setup\n\n" + setup_text(result.study)},
+      Picture{"outcomes.svg", outcome_plot(result), "How many cases of every group came out how"},
+      ReportTable{not_held_table(result)},
+      Statement{"All cases with their numbers: `stability.csv`.\n"},
+      ReportTable{stability_table(result), "stability.csv", "cases", Shown::file},
+      Statement{"## What the outcomes mean\n\n" + legend(result.study.study)},
   };
   report.json = study_json(result.study, report, {{"counts", counts_json(result)}});
   return report;

@@ -94,12 +94,9 @@ inline const std::string stability_study = R"(kind = "stability"
 scene = "shell.toml"
 numerical_uncertainty = "4 K"
 
-[[case]]
-group = "load"
-name = "as it is"
-must_hold = "T max as with half the time step"
-set = { load.peak = "50 MPa" }
-against = { numerics.time_step_factor = 0.25 }
+[[group]]
+name = "load"
+cases = [ { name = "as it is", set = { load.peak = "50 MPa" }, against = { numerics.time_step_factor = 0.25 } } ]
 )";
 
 /// A small study of every kind, by the name of the kind.

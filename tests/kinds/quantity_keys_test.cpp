@@ -19,13 +19,13 @@
 namespace launchsafe::kinds {
 namespace {
 
-/// A stress case with a gap, so that both tables of a stability study have rows.
+/// A stress case with a gap, so that the tables of a stability study have rows.
 StabilityResult stability_with_a_launch() {
   StabilityResult result;
   result.study = bare_study(traits_of("stability"), {2e-4});
   StressCaseRow row;
-  row.ran = true;
-  row.gaps.emplace_back();
+  row.run.answer.verdicts.resize(1);
+  row.run.answer.heated_temperature = {300.0};
   result.rows = {row};
   return result;
 }

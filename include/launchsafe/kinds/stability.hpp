@@ -1,4 +1,4 @@
-// The study of kind stability: a matrix of stress cases, and what became of each.
+// The study of kind stability: a table of stress cases, and what became of each.
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
@@ -24,22 +24,45 @@ std::string to_string(Outcome outcome);  ///< "held", "degraded", "caught", "WRO
 
 struct Finding {
   Outcome outcome = Outcome::wrong;
-  std::string text;  ///< the numbers behind it, or the reason
+  std::string text;  ///< the reason, then the numbers behind it
 };
 
-/// One [[case]] of a stability study: a launch that is extreme, or whose computation is, and what must hold.
+/// What a computation that completed must fulfil.
+enum class Invariant {
+  finite,
+  mass,
+  momentum,
+  energy,
+  dissipation,
+  friction_heat,
+  temperature,
+  reaction_heat,
+  same_temperature
+};
+struct NamedInvariant {
+  std::string name;   ///< in study files: "friction-heat"
+  std::string words;  ///< what it says, for people
+};
+const std::vector<NamedInvariant>& named_invariants();  ///< in the order of the enumeration
+std::vector<Invariant> all_invariants();
+
+/// One case of a stability study: a launch that is extreme, or whose computation is, and what must hold.
 struct StressCase {
   std::string group, name;
-  std::string must_hold;          ///< a sentence
+  std::string scene;              ///< path of its own, from the study file's folder; empty: the study's
+  std::string refused;            ///< a case of the reader: what it must say of the scene; else empty
+  std::string refusal;            ///< what the reader said; empty where it took the scene
   std::vector<Outcome> expected;  ///< acceptable ones; empty: anything but WRONG
+  std::vector<Invariant> invariants = all_invariants();
+  double numerical_uncertainty = study::not_a_number;  ///< K, of T max; NaN: the study's
   /// Steps within which a broken computation must be caught; 0: any number.
   std::uint64_t caught_within = 0;
   std::vector<double> gaps;            ///< m, to judge; all on one run
-  bool burns = false;                  ///< its coupling is two-way: every gap has a run through ignition too
   std::optional<std::size_t> run;      ///< of StudyFile::cases; none for a case of the reader
   std::optional<std::size_t> against;  ///< of StudyFile::cases: a safe computation of the same launch
-  std::string must_refuse;             ///< a case of the reader: what its message must say; else empty
-  std::string refusal;                 ///< what the reader said; empty where it took the scene
+
+  std::string label() const { return group + ": " + name; }
+  bool has(Invariant invariant) const;
 };
 
 /// What a study file of this kind says besides.
@@ -47,64 +70,44 @@ struct StabilitySettings {
   std::vector<StressCase> cases;  ///< in the order written; their runs are among the cases
 };
 
-/// What every computation that completed must fulfil, each as a sentence about how it does not; none for a
-/// sound one. Finite numbers, masses to round-off, the balance of momentum (in the co-moving frame none; in
-/// the lab's the impulse of the load), energy drift within the scene's limit, dissipation and friction heat
-/// that never fall, and no skin colder than charge and air were at first, whose pressure never falls below
-/// the initial one.
-std::vector<std::string> violations_of(const scene::Scene& scene, const run::MechanicsResult& mechanics,
-                                       const std::vector<double>& gaps);
-
-/// What a run through ignition of one gap (m) came to.
-struct Burn {
-  double gap = 0;
-  Finding finding;
+/// A run that completed; of one that went through an ignition, what burnt is judged alone.
+struct CompletedRun {
+  const scene::Scene& scene;
+  const run::MechanicsResult& mechanics;
+  const std::vector<double>& gaps;  ///< m
+  const run::CombustionHistory* combustion = nullptr;
 };
+/// How a run violates the invariants of its case, a sentence each; none for a sound one. All but the same
+/// temperature, which takes two runs.
+std::vector<std::string> violations_of(const CompletedRun& run, const StressCase& asked);
 
-/// Caught: it broke off, and says why. WRONG: it completed with numbers that are not finite, an energy
-/// residual above 1 % of the heat of reaction of what burnt, an energy drift past the scene's limit, more
-/// burnt than the charge has, heat released beyond that of reaction, or gas outside of the temperatures of
-/// its law. Degraded: nothing ignited, or a validity warning holds.
-Finding judge_burn(const scene::Scene& scene, double gap, const run::CaseResult& result);
-
-/// Of a launch and what its runs through ignition came to: WRONG before caught before degraded before held.
-Finding joined_finding(Finding launch, const std::vector<Burn>& burns);
-
-/// One gap of a stress case beside the safe computation of the same launch.
-struct StressCaseGap {
-  double gap = 0;                            ///< m
-  double temperature = study::not_a_number;  ///< K, T max over the stations
-  double heated = study::not_a_number;       ///< K, the same of a skin that neither reacts nor is triggered
-  double heated_against = study::not_a_number;  ///< K, of the safe computation; NaN without one
-  double ignition = study::not_a_number;        ///< K, ignition temperature
-  double uncertainty = study::not_a_number;     ///< K
-  study::Judgement judgement;
-  /// K, of `heated` from the safe computation, both up to ignition: beyond it they say the same. NaN without
-  /// a safe computation.
-  double deviation() const {
-    return (heated > ignition ? ignition : heated) - (heated_against > ignition ? ignition : heated_against);
-  }
-  bool deviates() const { return deviation() > uncertainty || deviation() < -uncertainty; }
-};
-
-/// A row of the matrix.
-struct StressCaseRow {
-  std::string group, name, must_hold;
-  Finding finding;
-  std::vector<Outcome> expected;                       ///< empty: anything but WRONG
-  study::RunOutcome outcome = study::RunOutcome::ran;  ///< of its run, or of that of the safe computation
-  std::string failure;                                 ///< why it was not computed at all; empty where it was
-  bool ran = false;                                    ///< a launch: the members below tell of its run
-  study::RunSummary run;
+/// What the run of a case says: all that judging needs, and no histories.
+struct StressRun {
+  study::RunOutcome outcome = study::RunOutcome::ran;
+  std::string failure;                    ///< why it was not run at all; then nothing else is known
+  std::string reason;                     ///< when and where it was stopped, if it was
   double end_time = study::not_a_number;  ///< s, reached
-  std::vector<std::string> violations;    ///< of invariants
+  double ignition_temperature = study::not_a_number;  ///< K
+  study::CaseAnswer answer;
+  std::vector<std::string> violations;  ///< of invariants
   std::vector<std::string> validity_warnings;
-  std::vector<StressCaseGap> gaps;
+  std::vector<Finding> burns;  ///< of the runs through ignition, by gap
+};
 
-  bool computed() const { return failure.empty(); }
-  bool is_wrong() const { return computed() && finding.outcome == Outcome::wrong; }
-  /// Neither WRONG nor other than what the study expects.
+/// A stress case and what became of it.
+struct StressCaseRow {
+  StressCase asked;
+  StressRun run;                       ///< of a case that runs
+  std::vector<double> heated_against;  ///< K, CaseAnswer::heated_temperature of a safe computation; else none
+  Finding finding;
+
+  bool computed() const { return run.failure.empty(); }
+  bool is(Outcome outcome) const { return computed() && finding.outcome == outcome; }
+  /// Computed, not WRONG, and what the study expects.
   bool is_as_expected() const;
+  /// K, from the safe computation at a gap, of a skin that neither reacts nor is triggered, both up to
+  /// ignition: beyond it they say the same. NaN without a safe computation.
+  double deviation(std::size_t gap) const;
 };
 
 struct StabilityResult {
@@ -113,13 +116,15 @@ struct StabilityResult {
   study::Timing timing;
   bool interrupted = false;
   std::size_t count(Outcome outcome) const;  ///< rows that were computed and came out so
-  std::size_t wrong() const { return count(Outcome::wrong); }
-  std::size_t unexpected() const;  ///< computed, not WRONG, and yet not what the study expects
-  std::size_t failed() const;      ///< not computed
 };
 
 /// Runs a study of kind stability. A case that breaks is its row. Apart from the timing the result depends on
-/// the study alone.
+/// the study alone. Of a launch and its runs through ignition the worst counts.
+///
+/// Caught: the reader refused the scene, or the run was stopped. WRONG: an invariant is violated, and yet a
+/// verdict says SAFE or UNSAFE, or the run went through an ignition. Degraded: the same with an indeterminate
+/// verdict; validity warnings, limiters, a temperature that is no number, nothing that ignited, a stop that
+/// came later than it must, or nothing left to compare with. Held: everything else.
 StabilityResult run_stability(const study::StudyFile& study, const study::StudyOptions& options = {});
 
 /// The row of the table of kinds.
@@ -128,12 +133,10 @@ Kind stability_kind();
 /// How many cases came out how; and every one that is WRONG, not as expected or not computed, by name.
 std::string answer(const StabilityResult& result);
 
-/// A row for every case: what must hold, what became of it, and why.
+/// A row for every case that is not held, with the reason in a few words.
+report::Table not_held_table(const StabilityResult& result);
+/// A row for every gap of every case: what must hold, what became of it, why, and the numbers behind it.
 report::Table stability_table(const StabilityResult& result);
-/// The same for a terminal: without what must hold, and long findings cut.
-report::Table stability_summary(const StabilityResult& result);
-/// A row for every gap of every launch that ran, with the numbers behind its outcome.
-report::Table launch_table(const StabilityResult& result);
 
 /// The whole report. Nothing in it differs between two runs of a study: no times, rates, dates or hosts.
 report::Report report_of(const StabilityResult& result);
