@@ -30,37 +30,33 @@ const AuditedGap* worst_of(const std::vector<AuditedGap>& gaps) {
   return worst;
 }
 
-std::string model_text(scene::AirModel model) {
-  if (model == scene::AirModel::reservoir)
-    return "The air is the published reservoir, which stays on its adiabat whatever the skin draws from it.";
-  return "The air loses what the skin gains.";
-}
-
-std::string excess_text(scene::AirModel model, const AuditedGap& worst) {
-  std::string text = fmt::format(
+std::string excess_text(const AuditedGap& worst) {
+  return fmt::format(
       "At {} the skin took {} times what compression can supply ({} against {}), so that energy is not "
-      "conserved. ",
+      "conserved. That is conservative as to the heat of the air. The critical gap is therefore calibrated, "
+      "and not derived from what the air can give.",
       place_of_gap(worst), significant(worst.air.ratio(), 2), kilojoules_per_area(worst.air.taken),
       kilojoules_per_area(worst.air.supplied));
-  if (model == scene::AirModel::reservoir)
-    return text +
-           "That is conservative as to the heat of the air. The critical gap is therefore calibrated, and "
-           "not "
-           "derived from what the air can give.";
-  return text + "That is an error of the computation.";
 }
 
 }  // namespace
 
 std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps) {
   const std::string impact = " A gap that closes by impact is not modelled.";
+  if (model == scene::AirModel::film)
+    return "The air is a film that conducts into charge and base, and gives no more than compression "
+           "supplies. What the skin took is told as of a skin of one temperature, and says nothing of a "
+           "film." +
+           impact;
+  const std::string reservoir =
+      "The air is the published reservoir, which stays on its adiabat whatever the skin draws from it. ";
   const AuditedGap* worst = worst_of(gaps);
   if (worst == nullptr)
-    return model_text(model) + " No gap with air in it was computed, to see how much the skin took." + impact;
-  if (worst->air.ratio() > 1.0) return model_text(model) + ' ' + excess_text(model, *worst) + impact;
+    return reservoir + "No gap with air in it was computed, to see how much the skin took." + impact;
+  if (worst->air.ratio() > 1.0) return reservoir + excess_text(*worst) + impact;
   return fmt::format(
-      "{} At no gap did the skin take more than compression can supply; the most was {} times that, at {}.{}",
-      model_text(model), significant(worst->air.ratio(), 2), place_of_gap(*worst), impact);
+      "{}At no gap did the skin take more than compression can supply; the most was {} times that, at {}.{}",
+      reservoir, significant(worst->air.ratio(), 2), place_of_gap(*worst), impact);
 }
 
 Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps) {

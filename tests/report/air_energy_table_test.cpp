@@ -18,7 +18,6 @@ using namespace kinds;
 using testing::has_digits, testing::in_order;
 
 constexpr scene::AirModel reservoir = scene::AirModel::reservoir;
-constexpr scene::AirModel film = scene::AirModel::film;
 
 /// An open gap (m) from which the skin took so much and could get so much, J/m2.
 AuditedGap taken(double gap, double energy, double supply) {
@@ -36,18 +35,16 @@ TEST(AirEnergyStatement, NamesTheGapWhereMostWasTakenAgainstItsSupply) {
 }
 
 TEST(AirEnergyStatement, SaysOtherwiseWhereNoMoreWasTakenThanCanBe) {
-  for (const scene::AirModel model : {reservoir, film}) {
-    const std::string text = air_energy_statement(model, {taken(4e-4, 290, 925)});
-    EXPECT_EQ(says(text, "reservoir"), model == reservoir) << text;
-    EXPECT_TRUE(in_order(text, {"0.31 times", "0.04 cm", "impact"}));
-    EXPECT_FALSE(says(text, "calibrated")) << text;
-  }
+  const std::string text = air_energy_statement(reservoir, {taken(4e-4, 290, 925)});
+  EXPECT_TRUE(in_order(text, {"reservoir", "0.31 times", "0.04 cm", "impact"}));
+  EXPECT_FALSE(says(text, "calibrated")) << text;
 }
 
-TEST(AirEnergyStatement, AnExcessOfConservingAirIsAnError) {
-  const std::string text = air_energy_statement(film, {taken(4e-4, 1000, 925)});
-  EXPECT_TRUE(says(text, "error")) << text;
-  EXPECT_FALSE(says(text, "conservative")) << text;
+// A film resolves the charge in depth: the heat of a skin of one temperature says nothing of it.
+TEST(AirEnergyStatement, OfAFilmComparesNothing) {
+  const std::string text = air_energy_statement(scene::AirModel::film, {taken(4e-4, 1000, 925)});
+  EXPECT_TRUE(in_order(text, {"film", "impact"}));
+  EXPECT_FALSE(has_digits(text)) << text;
 }
 
 TEST(AirEnergyStatement, WithoutAComputedGapClaimsNothing) {
@@ -91,14 +88,6 @@ TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
   EXPECT_NEAR(json["cited_limits"][0]["difference_cm"].get<double>(),
               100.0 * result.cases[0].critical.value - 0.038, 1e-12);
   EXPECT_TRUE(says(to_csv(verdict_table(result)), "skin_took_kJ_per_m2,compression_supplies_kJ_per_m2"));
-}
-
-TEST(CriticalGapReport, UnderAFilmTheSkinTakesNoMoreThanIsSupplied) {
-  const study::StudyFile file = study::study_of(
-      study::critical_text + "gaps = \"0, 0.03 cm\"\nconfirm = false\n[set]\ngap.air = \"film\"\n");
-  const auto json = json_of(kinds::run_critical_gap(file, study::synthetic_options()));
-  ASSERT_EQ(json["verdicts"].size(), 2u);
-  EXPECT_LE(json["verdicts"][1]["taken_over_supplied"].get<double>(), 1.0);
 }
 
 TEST(CriticalGapReport, WithoutCitedLimitsHasNoTableOfThem) {
