@@ -4,7 +4,7 @@
     python3 tests/publication/statements.py LAUNCHSAFE [-o DIR]
 
 runs the main job, and its scene for the temperatures over time; judges every row of statements.csv beside this file; and
-writes statements.md and statements.csv to DIR. Exit code 1 where an outcome is not the one that the row expects.
+writes statements.md to DIR. Exit code 1 where an outcome is not the one that the row expects.
 
 A tolerance is half the last printed digit; of the instants between slow and fast rise, which the text gives in steps of
 half a millisecond, half such a step. Used for "calibration": the load or a constant was fitted to the number; "selection":
@@ -166,7 +166,8 @@ def summary_of(judged):
         agree = [row["outcome"] == "agrees" for row in rows]
         held_out = [row["used_for"] == "held out" for row in rows]
         others = [row for row, agrees in zip(rows, agree) if not agrees]
-        worst = max(others, key=lambda row: float("inf") if row["difference"] is None else abs(row["difference"]), default=None)
+        worst = max(others, key=lambda row: abs(float("inf") if row["difference"] is None else row["difference"]),
+                    default=None)
         text = ""
         if worst:
             text = f"{worst['computed']} instead of {worst['published']}" if worst["difference"] is None else \
@@ -180,9 +181,10 @@ def page_of(judged, version):
     columns = ["source", "gap_cm", "quantity", "at", "published", "computed", "outcome", "used_for", "remark"]
     return "".join([
         "# What the publication says, line by line\n\nMade by `python3 tests/publication/statements.py launchsafe -o "
-        f"reports/publication` with {version}, from [the main job](../critical_gap_155mm/report.md) and its scene. \"Agrees\": "
-        "within the digits printed, or what a figure shows.\n\n",
-        markdown(["quantity", "statements", "agree", "held out", "of these agree", "largest difference"], summary_of(judged)),
+        f"reports/publication` with {version}, from [the main job](../critical_gap_155mm/report.md) and its scene. "
+        "\"Agrees\": within the digits printed, or what a figure shows.\n\n",
+        markdown(["quantity", "statements", "agree", "held out", "of these agree", "largest difference"],
+                 summary_of(judged)),
         "\n", markdown([name.replace("gap_cm", "gap [cm]").replace("_", " ") for name in columns],
                        ([row[name] for name in columns] for row in judged)),
         "\n", *(f"- {quantity}: {definition}\n" for quantity, (_, _, definition) in QUANTITIES.items())])
@@ -218,7 +220,8 @@ def main():
         if said["quantity"] != "not computed":
             found = judge_launch(said, launches[said["gap_cm"]]) if said["gap_cm"] else judge_case(said, main_job, pressure)
             computed, difference, outcome = outcome_of(said, found)
-        judged.append({**said, "at": circumstances(said), "computed": computed, "difference": difference, "outcome": outcome})
+        judged.append({**said, "at": circumstances(said), "computed": computed, "difference": difference,
+                       "outcome": outcome})
         if outcome.split(" by ")[0] != said["expected"]:
             unexpected += 1
             print(f"not as expected: {judged[-1]}")
@@ -228,10 +231,6 @@ def main():
         given.output.mkdir(parents=True, exist_ok=True)
         version = launchsafe("--version").splitlines()[0]
         (given.output / "statements.md").write_text(page_of(judged, version))
-        with open(given.output / "statements.csv", "w", newline="") as file:
-            table = csv.DictWriter(file, judged[0].keys(), lineterminator="\n")
-            table.writeheader()
-            table.writerows(judged)
     return 1 if unexpected or not judged else 0
 
 
