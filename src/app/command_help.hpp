@@ -68,9 +68,7 @@ The scripts are written to results/slurm. --memory is what each shard asks Slurm
 inline constexpr const char* verify_footer = R"(
 Examples:
   launchsafe verify                      every check
-  launchsafe verify --filter jwl         those with "jwl" in their name
-  launchsafe verify --error-against-time             error, order and processor time over step and mesh
-  launchsafe verify --error-against-time -o parts    parts/parts.md, .csv and .svg as well)";
+  launchsafe verify --filter jwl         those with "jwl" in their name)";
 
 inline constexpr const char* explain_footer = R"(
 Examples:

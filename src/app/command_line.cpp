@@ -116,14 +116,9 @@ void add_emit(CLI::App& app, Parsed& parsed) {
 
 void add_verify(CLI::App& app, Parsed& parsed) {
   CLI::App& command = add_command(app, parsed, parsed.verify, "verify",
-                                  "Compare the program with closed-form solutions", verify_footer);
+                                  "Test an installed program against known numbers", verify_footer);
   command.add_option("--filter", parsed.verify.filter, "Only checks with this in their name, case ignored")
       ->type_name("TEXT");
-  command.add_flag(
-      "--error-against-time", parsed.verify.error_against_time,
-      "Error against processor time of the parts with exact solutions, over step, tolerance and mesh");
-  add_folder(command, parsed.verify.output,
-             "Folder for parts.md, parts.csv and parts.svg of --error-against-time");
   add_output_options(command, parsed);
 }
 
@@ -270,9 +265,6 @@ bool asks_for_json(int argument_count, const char* const* arguments) {
 /// What the options of one command ask for makes no sense together.
 std::string contradiction(const StudyArguments& study) {
   return study.output.empty() && !study.dry_run ? "study: --output is required unless with --dry-run" : "";
-}
-std::string contradiction(const VerifyArguments& verify) {
-  return verify.output && !verify.error_against_time ? "verify: --output requires --error-against-time" : "";
 }
 std::string contradiction(const ExplainArguments& explain) {
   const bool of_program = !explain.schema.empty();

@@ -58,9 +58,7 @@ struct EmitArguments {
 ExitCode perform(const EmitArguments& arguments, Console& console);
 
 struct VerifyArguments {
-  std::string filter;                           ///< part of a check's group or name, case ignored
-  bool error_against_time = false;              ///< tabulate errors against processor time instead
-  std::optional<std::filesystem::path> output;  ///< folder of that table; none: nothing is written
+  std::string filter;  ///< part of a check's group or name, case ignored
 };
 ExitCode perform(const VerifyArguments& arguments, Console& console);
 

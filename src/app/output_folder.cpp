@@ -67,12 +67,4 @@ store::MaybeError write_texts(const std::filesystem::path& folder, const NamedTe
   return {};
 }
 
-ExitCode present_report(const store::Result<report::WrittenFiles>& written,
-                        const std::filesystem::path& folder, Console& console) {
-  if (!written) return console.fail(written.error().message);
-  for (const std::string& remark : written->remarks) console.remark(remark);
-  console.remark(fmt::format("wrote {} to {}", fmt::join(written->files, ", "), folder.string()));
-  return ExitCode::done;
-}
-
 }  // namespace launchsafe::app

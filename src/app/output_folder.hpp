@@ -41,8 +41,4 @@ std::optional<std::string> obstacle_to_report(const std::filesystem::path& folde
 store::MaybeError write_texts(const std::filesystem::path& folder, const NamedTexts& texts,
                               report::WrittenFiles& written);
 
-/// Says what a command's report is made of and what it lacks, or why there is none.
-ExitCode present_report(const store::Result<report::WrittenFiles>& written,
-                        const std::filesystem::path& folder, Console& console);
-
 }  // namespace launchsafe::app

@@ -1,10 +1,7 @@
-// launchsafe verify: numbers the program must reproduce.
-#include "verify_command.hpp"
-
-#include "launchsafe/report/number.hpp"
+// launchsafe verify: numbers that an installed program must reproduce.
+#include "commands.hpp"
 #include "launchsafe/report/table.hpp"
-#include "launchsafe/verify/check.hpp"
-#include "shell_words.hpp"
+#include "self_test.hpp"
 #include "signals.hpp"
 
 #include <fmt/format.h>
@@ -12,123 +9,86 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
-#include <cstdint>
-#include <cstdlib>
-#include <future>
+#include <cmath>
+#include <set>
 #include <utility>
 
 namespace launchsafe::app {
 namespace {
 
-using Checks = std::vector<verify::Check>;
+/// A number that was computed.
+struct Check {
+  SelfTest test;
+  double computed = 0;
 
-/// Relative measures carry no unit.
-std::string measure(double value, const verify::Check& check) {
-  const std::string number = report::significant(value, 3);
-  return check.absolute() && !check.unit.empty() ? number + " " + check.unit : number;
-}
+  double error() const { return std::abs(computed - test.expected); }
+  /// False for anything that is not a number.
+  bool pass() const { return error() <= test.tolerance; }
+};
 
-report::Table table_of(const Checks& checks, std::int64_t failed) {
+report::Table table_of(const std::vector<Check>& checks, std::size_t failed) {
+  const auto number = [](std::string name, int digits) {
+    return report::Column{
+        .name = std::move(name), .unit = "", .decimals = digits, .notation = report::Notation::significant};
+  };
   report::Table table;
-  table.columns = {report::text_column("check"),
-                   {.name = "computed", .unit = "", .decimals = 9, .notation = report::Notation::significant},
-                   {.name = "expected", .unit = "", .decimals = 9, .notation = report::Notation::significant},
-                   report::text_column("unit"),
-                   {.name = "error", .unit = ""},
-                   {.name = "tolerance", .unit = ""},
+  table.columns = {report::text_column("check"), number("computed", 9),  number("expected", 9),
+                   number("error", 3),           number("tolerance", 3), report::text_column("unit"),
                    report::text_column("result")};
-  for (const verify::Check& check : checks) {
-    table.rows.push_back({check.group + ": " + check.name, check.computed, check.expected, check.unit,
-                          measure(check.error(), check), measure(check.tolerance, check),
+  for (const Check& check : checks)
+    table.rows.push_back({check.test.group + ": " + check.test.name, check.computed, check.test.expected,
+                          check.error(), check.test.tolerance, check.test.unit,
                           std::string(check.pass() ? "pass" : "FAIL")});
-  }
-  table.notes.push_back(fmt::format("{} of {} checks pass. Errors without a unit are relative.",
-                                    static_cast<std::int64_t>(checks.size()) - failed, checks.size()));
+  table.notes = {fmt::format("{} of {} checks pass.", checks.size() - failed, checks.size())};
   return table;
 }
 
-nlohmann::ordered_json json_of(const Checks& checks, std::int64_t failed) {
+nlohmann::ordered_json json_of(const std::vector<Check>& checks, std::size_t failed) {
   nlohmann::ordered_json object{{"checks", nlohmann::ordered_json::array()}};
-  for (const verify::Check& check : checks) {
-    object["checks"].push_back({{"group", check.group},
-                                {"name", check.name},
+  for (const Check& check : checks)
+    object["checks"].push_back({{"group", check.test.group},
+                                {"name", check.test.name},
                                 {"computed", check.computed},
-                                {"expected", check.expected},
-                                {"unit", check.unit},
+                                {"expected", check.test.expected},
+                                {"unit", check.test.unit},
                                 {"error", check.error()},
-                                {"tolerance", check.tolerance},
-                                {"absolute", check.absolute()},
-                                {"source", check.source},
+                                {"tolerance", check.test.tolerance},
+                                {"source", check.test.source},
                                 {"pass", check.pass()}});
-  }
-  object["passed"] = static_cast<std::int64_t>(checks.size()) - failed;
+  object["passed"] = checks.size() - failed;
   object["failed"] = failed;
   return object;
 }
 
-ExitCode compare_with_expected(const VerifyArguments& arguments, Console& console) {
-  Checks checks;
-  std::vector<std::string> groups;
-  compute_unless_stopped(console, "check", [&](Progress& progress) {
-    for (const verify::Computation& computation : verify::computations()) {
-      if (stop_requested()) break;
-      progress.show("computing: " + computation.group);
-      groups.push_back(computation.group);
-      for (verify::Check& check : computation.run())
-        if (has_in_its_name(check.group + ": " + check.name, arguments.filter))
-          checks.push_back(std::move(check));
-    }
-  });
-  if (checks.empty()) return refuse_filter(arguments.filter, groups, console);
-  const std::int64_t failed =
-      std::count_if(checks.begin(), checks.end(), [](const verify::Check& check) { return !check.pass(); });
-  console.print_text(report::to_text(table_of(checks, failed)));
-  console.print_json(json_of(checks, failed));
-  return failed == 0 ? ExitCode::done : ExitCode::cases_failed;
+/// Whether the name has the filter in it, case ignored.
+bool has_in_its_name(const SelfTest& test, const std::string& filter) {
+  const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+  const std::string name = test.group + ": " + test.name;
+  return std::search(name.begin(), name.end(), filter.begin(), filter.end(), same) != name.end();
 }
 
 }  // namespace
 
-bool has_in_its_name(std::string_view name, std::string_view filter) {
-  const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
-  return std::search(name.begin(), name.end(), filter.begin(), filter.end(), same) != name.end();
-}
-
-ExitCode refuse_filter(const std::string& filter, const std::vector<std::string>& groups, Console& console) {
-  std::vector<std::string> once;
-  for (const std::string& group : groups)
-    if (std::find(once.begin(), once.end(), group) == once.end()) once.push_back(group);
-  return console.refuse(
-      fmt::format("--filter: found \"{}\", which no check has in its name; groups of checks: {}", filter,
-                  fmt::join(once, ", ")));
-}
-
-void compute_unless_stopped(Console& console, const char* lost,
-                            const std::function<void(Progress&)>& compute) {
-  Progress progress(progress_style(console.quiet()));
-  auto computed = std::async(std::launch::async, [&] { compute(progress); });
-  for (bool ready = false; !ready;) {
-    ready = computed.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready;
-    if (!stop_requested()) continue;
-    // Whatever is ready now may have been cut short by the same wish.
-    progress.clear();
-    console.error(fmt::format("interrupted; no {} was printed, and there is nothing to keep", lost));
-    // What is being computed cannot be stopped and would be waited for.
-    std::quick_exit(static_cast<int>(console.finish(ExitCode::interrupted)));
-  }
-  computed.get();
-}
-
-std::string verify_command(const char* form, const VerifyArguments& arguments) {
-  return std::string("launchsafe verify ") + form +
-         (arguments.filter.empty() ? "" : " --filter " + shell_quoted(arguments.filter)) +
-         (arguments.output ? " -o DIR" : "");
-}
-
 ExitCode perform(const VerifyArguments& arguments, Console& console) {
-  return arguments.error_against_time ? tabulate_errors(arguments, console)
-                                      : compare_with_expected(arguments, console);
+  std::vector<Check> checks;
+  std::set<std::string> groups;
+  for (const SelfTest& test : self_tests()) {
+    if (stop_requested()) {
+      console.error("interrupted; no check was printed, and there is nothing to keep");
+      return ExitCode::interrupted;
+    }
+    groups.insert(test.group);
+    if (has_in_its_name(test, arguments.filter)) checks.push_back({test, test.compute()});
+  }
+  if (checks.empty())
+    return console.refuse(
+        fmt::format("--filter: found \"{}\", which no check has in its name; groups of checks: {}",
+                    arguments.filter, fmt::join(groups, ", ")));
+  const auto failed = static_cast<std::size_t>(
+      std::count_if(checks.begin(), checks.end(), [](const Check& check) { return !check.pass(); }));
+  console.print_text(report::to_text(table_of(checks, failed)));
+  console.print_json(json_of(checks, failed));
+  return failed == 0 ? ExitCode::done : ExitCode::cases_failed;
 }
 
 }  // namespace launchsafe::app

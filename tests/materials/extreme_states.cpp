@@ -20,7 +20,7 @@ using namespace launchsafe::materials;
 using launchsafe::math::Pack;
 using launchsafe::test_support::first_of;
 
-const double nan = std::nan("");
+const double not_a_number = std::nan("");
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // ---- JWL ----
@@ -95,7 +95,7 @@ TEST(Jwl, TensionCutOffActsBeforeTheSoundSpeedCeasesToBeReal) {
 TEST(Jwl, VolumeThatIsNoneGivesNeitherPressureNorEnergy) {
   for (const JwlParameters& m : {unreacted_composition_b(), composition_b_products()})
     for (const auto law : {compressed<double>, compressed<Pack>})
-      for (const double v : {0.0, -0.0, -1e-310, -0.3, -5.0, nan}) {
+      for (const double v : {0.0, -0.0, -1e-310, -0.3, -5.0, not_a_number}) {
         const auto state = law(m, 1.0, 0.0, m.initial_energy, v);
         EXPECT_FALSE(std::isfinite(state.pressure) || std::isfinite(state.energy)) << v;
       }
@@ -159,7 +159,8 @@ TEST(MieGruneisen, IsValidUpToTheGuardAndNowhereElse) {
   const double bound = largest_compression(m);
   for (const double mu : {-1.0 + 1e-12, -0.5, 0.0, 0.5, bound})
     EXPECT_TRUE(mie_gruneisen_is_valid(m, mu)) << mu;
-  for (const double mu : {bound * (1.0 + 1e-12), 1.0 / 0.73, 2.0, 1e9, infinity, -1.0, -2.0, -infinity, nan})
+  for (const double mu :
+       {bound * (1.0 + 1e-12), 1.0 / 0.73, 2.0, 1e9, infinity, -1.0, -2.0, -infinity, not_a_number})
     EXPECT_FALSE(mie_gruneisen_is_valid(m, mu)) << mu;
 }
 
@@ -208,7 +209,7 @@ TEST(SecondVirial, IsTheIntegralOverTheLennardJonesPotential) {
                                  Quadrature::integrate(far, 0.0, 1.0, 15, 1e-12));
     EXPECT_NEAR(reduced_second_virial(t), exact, 1e-9 * (1.0 + std::abs(exact))) << t;
   }
-  for (const double t : {0.0, -1.0, nan}) EXPECT_TRUE(std::isnan(reduced_second_virial(t))) << t;
+  for (const double t : {0.0, -1.0, not_a_number}) EXPECT_TRUE(std::isnan(reduced_second_virial(t))) << t;
 }
 
 TEST(AirAdiabat, IsThePowerOfAnyRatioAboveOne) {
@@ -224,7 +225,7 @@ TEST(AirAdiabat, IsThePowerOfAnyRatioAboveOne) {
   // A gap that does not open keeps its air: above the adiabat, so on the safe side.
   for (const double ratio : {1.0, 1.0 - 1e-15, 0.5, 1e-5, 1e-310, 0.0, -1.0, -1e5})
     EXPECT_EQ(at(ratio), air.initial_temperature) << ratio;
-  EXPECT_TRUE(std::isnan(at(nan)));
+  EXPECT_TRUE(std::isnan(at(not_a_number)));
 }
 
 }  // namespace

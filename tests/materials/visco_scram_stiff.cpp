@@ -30,8 +30,8 @@ MaxwellSolid solid_with(double tau) {
   return solid;
 }
 
-ViscoScramDissipation<double> advance(const MaxwellSolid& solid, double dt, SolidState& state, double shear,
-                                      double pressure = 0.0) {
+ViscoScramDissipation<double> advance_solid(const MaxwellSolid& solid, double dt, SolidState& state,
+                                            double shear, double pressure = 0.0) {
   return visco_scram_update<double>(solid, relaxation(solid, dt), state, {0.0, 0.0, shear}, pressure);
 }
 
@@ -70,7 +70,7 @@ TEST_P(MaxwellElements, FollowARampAndItsRelaxationAndKeepTheLedger) {
               mean_response(load_time * solid.relaxation_rates[n]);
     SolidState state{};
     for (int k = 1; k <= all; ++k) {
-      const auto loss = advance(solid, dt, state, k <= loading ? rate * dt : 0.0);
+      const auto loss = advance_solid(solid, dt, state, k <= loading ? rate * dt : 0.0);
       ASSERT_GE(loss.viscous, -1e-13 * work);
       lost += loss.viscous;
       for (std::size_t n = 0; n < maxwell_elements; ++n) {
@@ -137,7 +137,7 @@ TEST(ViscoScramFrozenCrack, RelaxesBesideAnyShortElementAsTheEigenvectorsSay) {
           state.elements[n].rx = strain * exact.element_at_once(n);
         const double largest = strain * exact.stress(0.0);
         for (int k = 1; k <= 5; ++k) {
-          const auto loss = advance(solid, dt, state, 0.0);
+          const auto loss = advance_solid(solid, dt, state, 0.0);
           EXPECT_NEAR(total_deviator(state).rx, strain * exact.stress(k * dt), 5e-3 * largest);
           EXPECT_GE(loss.viscous, -1e-13 * largest * strain);
         }
@@ -163,7 +163,7 @@ SolidState held(const MaxwellSolid& solid, double stress, double pressure, doubl
   double lost = 0.0;
   for (int k = 0; k < steps; ++k) {
     const double before = state.crack_radius;
-    const auto loss = advance(solid, dt / steps, state, 0.0, pressure);
+    const auto loss = advance_solid(solid, dt / steps, state, 0.0, pressure);
     lost += loss.viscous + loss.crack;
     EXPECT_GE(state.crack_radius, before);
     EXPECT_LE(state.crack_radius, solid.largest_crack_radius);

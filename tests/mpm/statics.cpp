@@ -30,7 +30,7 @@ TwoTerms fit(const std::vector<double>& r, const std::vector<double>& y, F&& f, 
   return {(fy * gg - gy * fg) / determinant, (gy * ff - fy * fg) / determinant};
 }
 
-constexpr double bore = 0.065, outside = 0.0775;  // m
+constexpr double tube_bore = 0.065, tube_outside = 0.0775;  // m
 
 /// A tube under 100 MPa inside.
 struct Tube {
@@ -42,13 +42,13 @@ struct Tube {
 /// strain differs by a uniform axial strain only. The load is 0.1 MPa, where the laws are linear; results are
 /// scaled to 100 MPa. It is a suction, so that the outer face moves into its cell: beyond a grid line it
 /// would meet nodes of almost no mass, and the stress of the outermost particles would fall with time (an
-/// error of the first order in the cell size). For the same reason the bore lies inside a cell and the ends
-/// are left out.
+/// error of the first order in the cell size). For the same reason the bore lies inside a cell and the
+/// ends are left out.
 Tube relaxed_tube(scene::Formulation formulation, int radial_cells) {
   constexpr double pressure = -1e5, scale = 100e6 / pressure;
-  const double cell_size = outside / radial_cells;
-  scene::Scene ring = block("steel", 8.0 * cell_size, outside, cell_size, formulation);
-  ring.bodies[0].r_begin = bore;
+  const double cell_size = tube_outside / radial_cells;
+  scene::Scene ring = block("steel", 8.0 * cell_size, tube_outside, cell_size, formulation);
+  ring.bodies[0].r_begin = tube_bore;
   ring.frame = scene::Frame::lab;
   ring.barrel = scene::Barrel::none;
   ring.load = ramp(0.0, 1e-4);
@@ -77,8 +77,9 @@ Tube relaxed_tube(scene::Formulation formulation, int radial_cells) {
   const double axial_strain = length / (p.lattice.x_of(end) - p.lattice.x_of(begin)) - 1.0;
   const double bulk = bulk_modulus(ring.steel()), shear = ring.steel().strength.shear_modulus;
   const double poisson = (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear);
-  return {scale * (stress.a + stress.b / (bore * bore)), scale * (stress.a + stress.b / (outside * outside)),
-          scale * (motion.a * bore + motion.b / bore + poisson * axial_strain * bore)};
+  return {scale * (stress.a + stress.b / (tube_bore * tube_bore)),
+          scale * (stress.a + stress.b / (tube_outside * tube_outside)),
+          scale * (motion.a * tube_bore + motion.b / tube_bore + poisson * axial_strain * tube_bore)};
 }
 
 class Statics : public testing::TestWithParam<scene::Formulation> {};

@@ -11,8 +11,8 @@ namespace {
 using namespace launchsafe;
 using surface::SkinModel;
 
-constexpr double gap = 4e-4, duration = 18e-3;  // m, s
-constexpr double round_off = 2.3e-16;
+constexpr double exchange_gap = 4e-4, launch_time = 18e-3;  // m, s
+constexpr double unit_round_off = 2.3e-16;
 
 SkinModel inert_skin(double exchange_time) {
   SkinModel model;
@@ -35,23 +35,24 @@ class SkinExchange : public testing::TestWithParam<double> {};
 
 TEST_P(SkinExchange, FollowsTheExactExponentialAtAnyCallLength) {
   const SkinModel model = inert_skin(GetParam());
-  const double rate = surface::heat_capacity_ratio(model, gap) / model.surface.exchange_time, start = 300.0;
-  const struct { double begin, slope; } airs[] = {{1500.0, 0.0}, {300.0, 2000.0 / duration}, {250.0, 0.0}};
+  const double rate = surface::heat_capacity_ratio(model, exchange_gap) / model.surface.exchange_time;
+  const double start = 300.0;
+  const struct { double begin, slope; } airs[] = {{1500.0, 0.0}, {300.0, 2000.0 / launch_time}, {250.0, 0.0}};
   for (const auto& air : airs)
-    for (const double step : {1e-9, 1e-7, 1e-5, 1e-4, 1e-3, duration}) {
+    for (const double step : {1e-9, 1e-7, 1e-5, 1e-4, 1e-3, launch_time}) {
       SCOPED_TRACE(testing::Message() << "air from " << air.begin << " K, calls every " << step << " s");
       const bool heats = air.begin >= start;
-      const int calls = static_cast<int>(std::min(std::ceil(duration / step), 20000.0));
+      const int calls = static_cast<int>(std::min(std::ceil(launch_time / step), 20000.0));
       surface::SkinPoint point{start};
       for (int call = 1; call <= calls; ++call) {
         const double before = point.temperature, air_end = air.begin + air.slope * call * step;
-        point = surface::advance_skin(model, gap, point, step, air.begin + air.slope * (call - 1) * step,
-                                      air_end, 0.0);
+        point = surface::advance_skin(model, exchange_gap, point, step,
+                                      air.begin + air.slope * (call - 1) * step, air_end, 0.0);
         ASSERT_NEAR(point.temperature, exact_exchange(rate, air.begin, air.slope, start, call * step),
-                    1e-10 * air_end + round_off * start * call);
+                    1e-10 * air_end + unit_round_off * start * call);
         // It neither passes the air nor turns back.
         ASSERT_LE(heats ? point.temperature - air_end : air_end - point.temperature,
-                  4.0 * round_off * air_end);
+                  4.0 * unit_round_off * air_end);
         ASSERT_TRUE(heats ? point.temperature >= before : point.temperature <= before);
         ASSERT_FALSE(point.ignited);
       }
@@ -65,7 +66,7 @@ TEST(SkinExchangePerStep, LeavesAPowerOfTheDistanceWhateverTheStep) {
   SkinModel model = inert_skin(1.0);
   model.surface.exchange = scene::Exchange::per_step;
   const double start = 300.0, air = 1500.0;
-  for (const double wide : {1e-9, gap, 5e-3, 0.2, 1.0})
+  for (const double wide : {1e-9, exchange_gap, 5e-3, 0.2, 1.0})
     for (const double step : {1e-9, 1e-6, 1e-3}) {
       const double ratio = surface::heat_capacity_ratio(model, wide);
       surface::SkinPoint point{start};
@@ -76,7 +77,7 @@ TEST(SkinExchangePerStep, LeavesAPowerOfTheDistanceWhateverTheStep) {
           break;
         }
         ASSERT_NEAR(point.temperature, air - (air - start) * std::pow(1.0 - ratio, call), 1e-9) << wide;
-        ASSERT_LE(point.temperature, air * (1.0 + 4.0 * round_off)) << wide;
+        ASSERT_LE(point.temperature, air * (1.0 + 4.0 * unit_round_off)) << wide;
       }
     }
 }

@@ -111,7 +111,7 @@ class Simulation {
   /// Recomputes the nodal momenta and velocities from the particles, after a test has set their velocities.
   void reset_grid();
   /// Puts a steady pressure (Pa) on the inner radial face of a body (index into Scene::bodies) from now on.
-  /// Its work counts as external. No scene asks for it; the thick-walled tube of `launchsafe verify` does.
+  /// Its work counts as external. No scene asks for it; the thick-walled tube of the tests does.
   void apply_bore_pressure(int body, double pressure);
   /// Puts a steady body force, in m/s2 of the true mass, on a body (index into Scene::bodies) from now on;
   /// total-Lagrangian only. Its work counts as external. No scene asks for it; checks of contact do.

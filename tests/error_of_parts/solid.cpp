@@ -1,11 +1,10 @@
 // Visco-SCRAM: relaxation and loading without cracks, which it integrates exactly, and with growing cracks.
-#include "error_settings.hpp"
 #include "launchsafe/materials/visco_scram.hpp"
+#include "series.hpp"
 
 #include <cmath>
-#include <limits>
 
-namespace launchsafe::verify {
+namespace launchsafe::error_of_parts {
 namespace {
 
 using materials::ViscoScramParameters;
@@ -100,21 +99,17 @@ std::vector<ErrorSeries> solid_series() {
   // setting of it says how good the next one is.
   const Growth slow{200.0, 30e-6, crack_radius}, runaway{1000.0, 10e-6, shear_stress};
   return {{part, "stress relaxing, no cracks", "8 particles over 0.1 ms", exact, "", elements, exact_order,
-           1e-12, [] { return uncracked_settings(relaxation_error); }},
+           1e-12, uncracked_settings(relaxation_error)},
           {part, "stress loaded, no cracks", "8 particles over 0.1 ms at 100/s", exact, "", elements,
-           exact_order, 1e-12, [] { return uncracked_settings(loading_error); }},
+           exact_order, 1e-12, uncracked_settings(loading_error)},
           {part, "radius of slow cracks", "8 particles over 30 us at 200/s",
            "itself with 16384 steps (no exact solution)", "",
            "second order in the step, below about 0.5 us, where no step is divided", 2.0, 1e-11,
-           [=] {
-             return growth_settings(slow, {64, 128, 256, 512, 1024}, 16384);
-           }},
+           growth_settings(slow, {64, 128, 256, 512, 1024}, 16384)},
           {part, "stress, runaway cracks", "8 particles over 10 us at 1000/s",
            "itself with 131072 steps, good to 1e-6 (no exact solution)", "",
            "none: sub-steps, of at most a hundredth of the radius each, bound the error before the step does",
-           std::numeric_limits<double>::quiet_NaN(), 1e-11, [=] {
-             return growth_settings(runaway, {4, 16, 64, 256, 1024}, 131072);
-           }}};
+           no_order, 1e-11, growth_settings(runaway, {4, 16, 64, 256, 1024}, 131072)}};
 }
 
-}  // namespace launchsafe::verify
+}  // namespace launchsafe::error_of_parts

@@ -1,14 +1,16 @@
-// Shape functions: known fields on the grid, read by particles anywhere in it.
-#include "error_settings.hpp"
+// The mechanics: conduction, waves and free flight as tests/mpm has them, and shape functions, by which
+// particles anywhere in the grid read known fields.
 #include "launchsafe/mpm/transfer.hpp"
-#include "mechanics_scenes.hpp"
+#include "mpm/exact_solutions.hpp"
+#include "series.hpp"
 
 #include <cmath>
 #include <numbers>
 
-namespace launchsafe::verify {
+namespace launchsafe::error_of_parts {
 namespace {
 
+using namespace test_support;
 using math::Pack;
 
 constexpr double length = 0.16, radius = 0.02;  // m, of a block in plane strain
@@ -32,7 +34,7 @@ struct ReadError {
 };
 
 mpm::Grid grid_with(const Field& field, double cell) {
-  scene::Scene scene = mechanics::block("steel", length, radius, cell);
+  scene::Scene scene = block("steel", length, radius, cell);
   scene.symmetry = scene::Symmetry::plane_strain;
   mpm::Grid grid = mpm::make_grid(scene);
   for (int j = 0; j < grid.nodes_r; ++j) {
@@ -59,7 +61,7 @@ ReadError read_error(const Field& field, const mpm::Grid& grid) {
   const mpm::StencilContext context{grid, grid.origin_x, half_x, half_r, false};
   constexpr int width = static_cast<int>(math::pack_width);
   const int packs = static_cast<int>(std::lround(length / grid.dx)) / width;
-  mechanics::RelativeError value, slope;
+  RelativeError value, slope;
   for (int k = 0; k < particles / width; ++k) {
     const double begin = grid.dx * (width * (k % packs) + even_share(k / packs));
     const double r = half_r + (radius - 2.0 * half_r) * even_share(7 * k + 3);
@@ -86,21 +88,72 @@ ErrorSeries grid_series(const char* quantity, const char* reference, const char*
           theory,
           order,
           round_off,
-          [=] {
-            return settings_for({10e-3, 5e-3, 2.5e-3, 1.25e-3}, [=](double cell) {
-              return with_cell(cell,
-                               [=, grid = grid_with(field, cell)] { return read_error(field, grid).*error; });
+          settings_for({10e-3, 5e-3, 2.5e-3, 1.25e-3}, [=](double cell) {
+            return with_cell(cell,
+                             [=, grid = grid_with(field, cell)] { return read_error(field, grid).*error; });
+          })};
+}
+
+ErrorSeries wave_of(const char* quantity, double WaveError::*error) {
+  return {"bar wave",
+          quantity,
+          "a pulse over 0.9 m of a strip",
+          "d'Alembert, relative L2",
+          "",
+          "uGIMP on smooth fields and the leapfrog are of second order",
+          2.0,
+          1e-12,
+          settings_for({25, 50, 100, 200, 400}, [error](int cells) {
+            return with_cell(1.0 / cells, [=] {
+              return longitudinal_error(scene::Formulation::total_lagrangian, cells).*error;
             });
-          }};
+          })};
+}
+
+/// No length of a cell divides the block's 50 and 20 mm, so that particles cross cells at all times.
+ErrorSeries flight_of(const char* quantity, const char* reference, double FlightDrift::*drift) {
+  return {"free flight",
+          quantity,
+          "a block of 50 mm flies 0.1 m at 500 m/s",
+          reference,
+          "",
+          "exact at any mesh: a uniform velocity and a stress in balance",
+          exact_order,
+          1e-12,
+          settings_for({7.3e-3, 3.7e-3, 1.9e-3}, [drift](double cell) {
+            return with_cell(cell, [=] { return drift_in_flight(cell, 0.1).*drift; });
+          })};
 }
 
 }  // namespace
 
-std::vector<ErrorSeries> shape_series() {
+std::vector<ErrorSeries> mechanics_series() {
+  const std::string strip = "1 ms of a strip of 0.1 mm", half_space = "erfc of the half space, relative L2";
   const Field linear{linear_value, linear_slope}, wave{wave_value, wave_slope};
   const char* const reproduced = "exact at any mesh: linear fields are reproduced";
   const char* const sine = "the sine, root mean square";
   return {
+      {"conduction", "temperature, by step", strip + " in cells of 0.25 um", half_space, "",
+       "backward Euler is of first order", 1.0, 1e-12,
+       settings_for({5, 10, 20, 40, 80},
+                    [](int steps) {  // the cell leaves an error of 3e-5
+                      return with_steps(half_space_duration, steps,
+                                        [=] { return half_space_error(0.25e-6, steps); });
+                    })},
+      // With the square of the spacing the first-order error of the step falls as that of the spacing.
+      {"conduction", "temperature, by cell", strip + ", the step going with the square of the cell",
+       half_space, "", "finite volumes are of second order", 2.0, 1e-12,
+       settings_for({1, 2, 4, 8},
+                    [](int division) {
+                      const double cell = 8e-6 / division;
+                      return with_cell(cell,
+                                       [=] { return half_space_error(cell, 20 * division * division); });
+                    })},
+      wave_of("velocity", &WaveError::velocity),
+      wave_of("stress", &WaveError::stress),
+      flight_of("momentum", "kept", &FlightDrift::momentum),
+      flight_of("kinetic energy", "kept", &FlightDrift::kinetic),
+      flight_of("place of the centre of mass", "speed times time", &FlightDrift::place),
       grid_series("value of a linear field", "the field", reproduced, exact_order, 1e-13, linear,
                   &ReadError::value),
       grid_series("slope of a linear field", "the field", reproduced, exact_order, 1e-12, linear,
@@ -111,4 +164,4 @@ std::vector<ErrorSeries> shape_series() {
                   1.0, 1e-12, wave, &ReadError::slope)};
 }
 
-}  // namespace launchsafe::verify
+}  // namespace launchsafe::error_of_parts

@@ -1,7 +1,7 @@
 // The skin equation: thermal explosion and exchange with the air.
-#include "error_settings.hpp"
 #include "launchsafe/surface/skin.hpp"
-#include "skin_scenes.hpp"
+
+#include "series.hpp"
 
 #include <boost/math/special_functions/expint.hpp>
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-namespace launchsafe::verify {
+namespace launchsafe::error_of_parts {
 namespace {
 
 constexpr double initial = 700.0, exploded = 2000.0;  // K
@@ -93,7 +93,14 @@ struct Exchange {
   static constexpr double gap = 4e-4, duration = 18e-3, rise = 2000.0;  // m, s, K
 
   /// Stiffer than calibrated: the skin follows the air in 2.3 ms.
-  static surface::SkinModel model() { return inert_skin(3.6e-6); }
+  static surface::SkinModel model() {
+    surface::SkinModel model;
+    model.kinetics.frequency = 0.0;
+    model.kinetics.ignition_temperature = model.kinetics.burnt_temperature = 1e9;
+    model.surface.friction = scene::FrictionClosure::none;
+    model.surface.exchange_time = 3.6e-6;
+    return model;
+  }
   double air(double share) const { return 300.0 + rise * std::pow(share, exponent); }
 
   double computed(int calls) const {
@@ -124,12 +131,10 @@ ErrorSeries exchange_series(const char* quantity, double exponent, const char* t
           theory,
           order,
           1e-9,
-          [exponent] {
-            return settings_for({4, 16, 64, 256, 1024}, [exchange = Exchange{exponent}](int calls) {
-              return with_steps(Exchange::duration, calls,
-                                [=, exact = exchange.exact()] { return exchange.computed(calls) - exact; });
-            });
-          }};
+          settings_for({4, 16, 64, 256, 1024}, [exchange = Exchange{exponent}](int calls) {
+            return with_steps(Exchange::duration, calls,
+                              [=, exact = exchange.exact()] { return exchange.computed(calls) - exact; });
+          })};
 }
 
 }  // namespace
@@ -142,11 +147,11 @@ std::vector<ErrorSeries> skin_series() {
       {part, "induction time", fmt::format("{} to {:.0f} K", from, exploded), explosion, "",
        "the step control holds the error per step, of the embedded third order, to the tolerance: the "
        "error of the fourth-order result goes with it",
-       1.0, 2e-14, induction_settings},
+       1.0, 2e-14, induction_settings()},
       {part, "T before explosion, by tolerance", before, explosion, "K", "as the induction time", 1.0, 1e-11,
-       temperature_settings},
+       temperature_settings()},
       {part, "T before explosion, by step", before, explosion, "K", "exprb43 is of fourth order", 4.0, 1e-11,
-       step_settings},
+       step_settings()},
       exchange_series("T, air rising linearly", 1.0,
                       "exact at any step: exponential integrator, air linear over each step", exact_order),
       exchange_series("T, air rising as time squared", 2.0,
@@ -154,4 +159,4 @@ std::vector<ErrorSeries> skin_series() {
                       2.0)};
 }
 
-}  // namespace launchsafe::verify
+}  // namespace launchsafe::error_of_parts
