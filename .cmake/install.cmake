@@ -42,7 +42,7 @@ install(FILES ${told_files} DESTINATION "${data_dir}/schema" COMPONENT program)
 install(DIRECTORY studies DESTINATION "${data_dir}" COMPONENT program
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.md" PATTERN "*.cpp")
 install(DIRECTORY reports DESTINATION "${data_dir}" COMPONENT program
-  FILES_MATCHING PATTERN "calibration.json" PATTERN "accuracy.json" PATTERN "model_form.json"
+  FILES_MATCHING PATTERN "calibration.json" PATTERN "accuracy*.json" PATTERN "model_form.json"
   PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
 foreach(folder launchsafe launchsafe/mpm)
   install(FILES include/${folder}/README.md DESTINATION "${data_dir}/include/${folder}" COMPONENT program)

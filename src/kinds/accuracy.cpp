@@ -139,27 +139,33 @@ AccuracyMeasurement measure(const Study& study, const StudyCase& input, const Ca
 
 /// What was measured on the runs of all cases.
 void run_settings(AccuracyResult& result, const StudyOptions& options) {
-  const StudyFile& study = result.study;
-  result.answers.resize(study.cases.size());
-  result.measured.resize(study.cases.size());
-  run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
+  std::vector<std::pair<VariantAccuracy*, std::size_t>> places;  // of every case of the study
+  for (VariantAccuracy& variant : result.variants) {
+    variant.measured.resize(variant.study.cases.size());
+    for (std::size_t i = 0; i < variant.measured.size(); ++i) places.emplace_back(&variant, i);
+  }
+  result.answers.resize(places.size());
+  run_every_case(result.study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
     const FinishedRun& run = runs.front();
-    const StudyCase& input = study.cases[i];
+    const auto& [variant, place] = places[i];
+    const Study& study = variant->study.study;
+    const StudyCase& input = variant->study.cases[place];
     CaseAnswer& answer = result.answers[i];
+    AccuracyMeasurement& measured = variant->measured[place];
     if (!run.has_result()) {
-      answer = failed_answer(study.study, input, run.outcome, run.failure);
-      result.measured[i].failure = run.failure;
+      answer = failed_answer(study, input, run.outcome, run.failure);
+      measured.failure = run.failure;
       return;
     }
-    answer = answer_of(study.study, input, run.result.mechanics);
+    answer = answer_of(study, input, run.result.mechanics);
     answer.outcome = run.outcome;
-    result.measured[i] = measure(study.study, input, answer, run.result.mechanics);
+    measured = measure(study, input, answer, run.result.mechanics);
   });
 }
 
 /// A gap at which any sound setting of the same model ignites is compared by a skin that does not react:
 /// after ignition T max is that of the flame.
-std::vector<bool> inert_gaps(const AccuracyResult& result, const std::vector<bool>& other_model) {
+std::vector<bool> inert_gaps(const VariantAccuracy& result, const std::vector<bool>& other_model) {
   std::vector<bool> inert(result.study.study.gaps.size(), false);
   for (std::size_t i = 0; i < result.measured.size(); ++i) {
     const AccuracyMeasurement& measured = result.measured[i];
@@ -196,7 +202,7 @@ std::optional<RecordedSetting> recorded(const StudyCase& input, const AccuracyMe
   return setting;
 }
 
-AccuracyRecord record_of(const AccuracyResult& result, const std::vector<bool>& inert,
+AccuracyRecord record_of(const VariantAccuracy& result, const std::vector<bool>& inert,
                          const std::vector<bool>& other_model) {
   const scene::Scene& scene = result.study.scene.scene;
   AccuracyRecord record;
@@ -225,7 +231,7 @@ void add_inexactness(const AccuracyRecord& record, AccuracyReference& reference)
   reference.critical_gap.inexactness = recorded.critical_gap.inexactness;
 }
 
-void compare(AccuracyResult& result) {
+void compare(VariantAccuracy& result) {
   const StudyFile& study = result.study;
   const std::size_t meshes = accuracy_settings(study.study).reference_cell_sizes.size();
   for (std::size_t i = 0; i < meshes; ++i) {
@@ -286,16 +292,50 @@ void mark_front(std::vector<AccuracyRow>& rows) {
   }
 }
 
-bool AccuracyResult::any_indeterminate() const {
+bool VariantAccuracy::any_indeterminate() const {
   return !reference || std::any_of(reference->temperature.begin(), reference->temperature.end(),
                                    [](const ReferenceValue& value) { return !value.limit.justified; });
 }
 
+const AccuracyRow* VariantAccuracy::baseline() const {
+  const auto found = std::find_if(rows.begin(), rows.end(),
+                                  [](const AccuracyRow& row) { return row.baseline && row.sound(); });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+const AccuracyRow* VariantAccuracy::cheapest(double bound) const {
+  const AccuracyRow* best = nullptr;
+  for (const AccuracyRow& row : rows) {
+    if (!row.sound() || row.other_model || !(row.temperature_bound <= bound)) continue;
+    if (best == nullptr || row.measured.processor_time < best->measured.processor_time) best = &row;
+  }
+  return best;
+}
+
+double VariantAccuracy::reference_uncertainty() const {
+  double largest = reference ? 0.0 : not_a_number;
+  if (reference)
+    for (const ReferenceValue& value : reference->temperature)
+      largest = larger_bound(largest, value.limit.uncertainty + value.inexactness);
+  return largest;
+}
+
+bool AccuracyResult::any_indeterminate() const {
+  return std::any_of(variants.begin(), variants.end(),
+                     [](const VariantAccuracy& each) { return each.any_indeterminate(); });
+}
+
 AccuracyResult run_accuracy(const StudyFile& study, const StudyOptions& options) {
   return run_timed<AccuracyResult>(
-      study, options, [&](AccuracyResult& result) { run_settings(result, options); },
+      study, options,
       [&](AccuracyResult& result) {
-        if (options.shard.whole()) compare(result);
+        for (const AccuracyVariant& each : accuracy_settings(study.study).variants)
+          result.variants.push_back({each.name, each.study});
+        if (result.variants.empty()) result.variants.push_back({{}, study});
+        run_settings(result, options);
+      },
+      [&](AccuracyResult& result) {
+        if (options.shard.whole()) std::for_each(result.variants.begin(), result.variants.end(), compare);
       });
 }
 

@@ -2,16 +2,19 @@
 // both.
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 #include "study_outcome.hpp"
+#include "study_scene.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 #include <set>
+#include <utility>
 
 namespace launchsafe::kinds {
 
@@ -168,7 +171,7 @@ Fault read_settings(const toml::table& root, StudyFile& study) {
   return check_setting_count(study);
 }
 
-Fault make_accuracy_cases(const StudySource&, StudyFile& study) {
+Fault make_setting_cases(StudyFile& study) {
   AccuracyCaseMaker maker(study);
   const KeyDescription description = *scene::find_key(scene::scene_keys(), cell_size_key);
   for (const double size : accuracy_settings(study.study).reference_cell_sizes) {
@@ -183,6 +186,82 @@ Fault make_accuracy_cases(const StudySource&, StudyFile& study) {
   return std::nullopt;
 }
 
+// --- variants ---
+
+constexpr const char* variant_key = "variant";
+
+/// Moves the values of a table into another one, into tables of the same name there; whatever else has the
+/// name goes. Moved values still know their place in the file, copied ones do not.
+void move_into(toml::table& to, toml::table& from) {
+  for (auto&& [key, node] : from) {
+    toml::table* inner = to.get_as<toml::table>(key.str());
+    if (inner != nullptr && node.is_table())
+      move_into(*inner, *node.as_table());
+    else
+      to.insert_or_assign(key.str(), std::move(node));
+  }
+}
+
+/// The name of a variant, of which the name of a file is made.
+scene::Expected<std::string> name_of_variant(const toml::table& table, const StudyFile& study) {
+  constexpr const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-";
+  constexpr std::size_t longest = 64;
+  const toml::node* node = table.get("name");
+  const std::string name = node ? node->value_or(std::string{}) : std::string{};
+  const Place place = scene::place_of(node ? *node : table, study.file);
+  if (name.empty() || name.size() > longest || name.find_first_not_of(allowed) != std::string::npos) {
+    return scene::error_at(place, "variant.name", node ? scene::found_text(*node) : "no name",
+                           fmt::format("up to {} letters, digits, \"_\", \".\" and \"-\"", longest));
+  }
+  for (const AccuracyVariant& other : accuracy_settings(study.study).variants) {
+    if (other.name == name)
+      return scene::error_at(place, "variant.name", fmt::format("\"{}\" a second time", name),
+                             "a name that no other variant has");
+  }
+  return name;
+}
+
+/// What the file says of all variants, with what the variant of that number says otherwise in its place.
+Fault add_variant(const StudySource& source, std::size_t index, StudyFile& study) {
+  auto root = scene::parse_toml(source.text, study.file);
+  if (!root) return root.error();
+  toml::table own = std::move(*root->get_as<toml::array>(variant_key)->get_as<toml::table>(index));
+  root->erase(variant_key);
+  const auto name = name_of_variant(own, study);
+  if (!name) return name.error();
+  own.erase("name");
+  for (const char* common : {"kind", variant_key}) {
+    if (const toml::node* node = own.get(common))
+      return scene::error_at(scene::place_of(*node, study.file), fmt::format("variant.{}", common),
+                             scene::found_text(*node), "keys of a study that variants may have otherwise");
+  }
+  move_into(*root, own);
+  auto variant = read_study_table({*root, source.text, source.folder, source.tolerance}, study.file,
+                                  study.most_cases - std::min(study.most_cases, study.cases.size()));
+  if (!variant) return variant.error();
+  for (StudyCase each : variant->cases) {
+    each.label = *name + ": " + each.label;
+    study.cases.push_back(std::move(each));
+  }
+  study.records.insert(study.records.end(), variant->records.begin(), variant->records.end());
+  study.records.push_back(store::sha256(scene::to_toml(variant->scene.scene)));
+  accuracy_settings(study.study).variants.push_back({*name, std::move(*variant)});
+  return std::nullopt;
+}
+
+Fault make_accuracy_cases(const StudySource& source, StudyFile& study) {
+  const toml::node* node = source.root.get(variant_key);
+  if (node == nullptr) return make_setting_cases(study);
+  for (std::size_t i = 0; i < node->as_array()->size(); ++i) {
+    if (Fault fault = add_variant(source, i, study)) return fault;
+  }
+  // The first is the study's own.
+  const StudyFile& first = accuracy_settings(study.study).variants.front().study;
+  study.scene = first.scene;
+  study.overrides = first.overrides;
+  return std::nullopt;
+}
+
 std::vector<scene::Key<AccuracySettings>> accuracy_keys() {
   return {
       assumed_list("reference_cell_sizes", scene::Dimension::length, scene::between(1e-5, 1),
@@ -194,7 +273,13 @@ std::vector<scene::Key<AccuracySettings>> accuracy_keys() {
   };
 }
 
-Fault read_accuracy(const StudySource& source, StudyFile& study) { return read_settings(source.root, study); }
+Fault read_accuracy(const StudySource& source, StudyFile& study) {
+  const toml::node* node = source.root.get(variant_key);
+  if (node == nullptr) return read_settings(source.root, study);
+  if (node->is_array_of_tables()) return std::nullopt;
+  return scene::error_at(scene::place_of(*node, study.file), variant_key, scene::found_text(*node),
+                         "tables, each written [[variant]], with a name and what it has otherwise");
+}
 
 }  // namespace
 
@@ -202,19 +287,17 @@ Kind accuracy_kind() {
   return {
       .traits = {.name = "accuracy", .gaps_key = "gaps", .gives_verdicts = false},
       .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), own_keys(accuracy_keys())}),
-      .tables = {{"settings", {}}},
+      .tables = {{"settings", {}}, {variant_key, {}}},
       .read = read_accuracy,
       .make_cases = make_accuracy_cases,
       .run = outcome_of<run_accuracy, failures_of<AccuracyResult>>,
       .files = {{"accuracy.json"},
+                {"accuracy_", ".json"},
                 {"accuracy.csv"},
                 {"reference.csv"},
                 {"points.csv"},
-                {"times.csv"},
-                {"error_against_time.svg"},
-                {"error_against_mesh.svg"},
-                {"error_over_launch.svg"},
-                {"summary.md"}},
+                {"variants.csv"},
+                {"error_against_time.svg"}},
   };
 }
 

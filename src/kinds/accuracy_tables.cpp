@@ -45,34 +45,31 @@ std::string remark_of(const AccuracyRow& row) {
 }
 
 /// Whether a gap ignites on all reference meshes, so that times can be compared.
-bool has_ignition_time(const AccuracyResult& result, std::size_t gap) {
-  return result.reference && !result.reference->ignition_time[gap].values.empty();
+bool has_ignition_time(const VariantAccuracy& variant, std::size_t gap) {
+  return variant.reference && !variant.reference->ignition_time[gap].values.empty();
 }
 
 /// A table of quantities without rows: a column for every reference mesh, then what they tend to.
-Table quantity_table(const AccuracyResult& result, std::string title) {
+Table quantity_table(const VariantAccuracy& variant) {
   Table table;
-  table.title = std::move(title);
   table.columns = {text_column("quantity"), text_column("unit")};
-  for (const double size : accuracy_settings(result.study.study).reference_cell_sizes) {
-    const std::string name = fmt::format("{:.6g} mm", 1e3 * size);
-    table.columns.push_back(
-        significant_column(name, "", 7, "cells_" + fmt::format("{:.6g}", 1e3 * size) + "_mm"));
+  for (const double size : accuracy_settings(variant.study.study).reference_cell_sizes) {
+    const std::string cells = fmt::format("{:.6g}", 1e3 * size);
+    table.columns.push_back(significant_column(cells + " mm", "", 7, "cells_" + cells + "_mm"));
   }
-  table.columns.push_back(number_column("order", "", 2, "order"));
-  table.columns.push_back(significant_column("extrapolated", "", 7, "extrapolated"));
-  table.columns.push_back(significant_column("uncertainty", "", 2, "uncertainty"));
-  table.columns.push_back(named_text("by", "method"));
+  append(table.columns,
+         {number_column("order", "", 2, "order"), significant_column("extrapolated", "", 7, "extrapolated"),
+          significant_column("uncertainty", "", 2, "uncertainty"), named_text("by", "method")});
   return table;
 }
 
 }  // namespace
 
-Table reference_table(const AccuracyResult& result) {
-  Table table = quantity_table(result, "What the reference meshes tend to");
-  const study::Study& study = result.study.study;
-  if (!result.reference) return table;
-  const AccuracyReference& reference = *result.reference;
+Table reference_table(const VariantAccuracy& variant) {
+  Table table = quantity_table(variant);
+  const study::Study& study = variant.study.study;
+  if (!variant.reference) return table;
+  const AccuracyReference& reference = *variant.reference;
   for (std::size_t gap = 0; gap < study.gaps.size(); ++gap) {
     const std::string at = " at " + gap_text(study.gaps[gap]) + " cm";
     add_quantity(table, (reference.inert[gap] ? "T max without reaction" : "T max") + at, "K", 1.0,
@@ -87,36 +84,29 @@ Table reference_table(const AccuracyResult& result) {
                              1e3 * accuracy_settings(study).times[i], gap_text(study.gaps.front())),
                  "K", 1.0, reference.at_times[i]);
   }
-  table.notes.push_back(
-      "The uncertainty is the half width about the value of the finest mesh, a grid convergence index: of "
-      "made "
-      "series it holds the limit of smooth ones always, of those with 2 % noise in their errors in nine of "
-      "ten "
-      "or more, of noisier ones in eight of ten or more.");
   return table;
 }
 
-Table point_table(const AccuracyResult& result) {
-  Table table = quantity_table(result, "T max of the stations, without reaction");
-  if (!result.reference) return table;
-  const AccuracyMeasurement& finest = result.rows.front().measured;
+Table point_table(const VariantAccuracy& variant) {
+  Table table = quantity_table(variant);
+  if (!variant.reference) return table;
+  const AccuracyMeasurement& finest = variant.rows.front().measured;
   for (std::size_t i = 0; i < finest.points.size(); ++i) {
     add_quantity(
-        table, fmt::format("{}, gap {} cm", finest.points[i].name, gap_text(result.study.study.gaps.front())),
-        "K", 1.0, result.reference->points[i]);
+        table,
+        fmt::format("{}, gap {} cm", finest.points[i].name, gap_text(variant.study.study.gaps.front())), "K",
+        1.0, variant.reference->points[i]);
   }
-  table.notes.push_back(
-      "T max of a study is that of the hottest station. In the corner of charge, wall and base stresses of "
-      "the "
-      "model are singular; the station there averages over them, and converges slowest.");
   return table;
 }
 
-Table setting_table(const AccuracyResult& result) {
+Table setting_table(const VariantAccuracy& variant) {
   Table table;
   table.title = "Error against run time";
-  const study::Study& study = result.study.study;
+  const study::Study& study = variant.study.study;
+  const std::vector<double>& times = accuracy_settings(study).times;
   table.columns = {named_text("setting", "setting"),
+                   significant_column("cell", "mm", 3, "cell_mm"),
                    number_column("processor time", "s", 1, "processor_time_s"),
                    number_column("wall time", "s", 1, "wall_time_s"),
                    significant_column("particle steps", "", 3, "particle_steps"),
@@ -131,15 +121,20 @@ Table setting_table(const AccuracyResult& result) {
                          number_column("p(t)", "%", 2, "bottom_pressure_error_percent"),
                          number_column("p peak", "%", 2, "bottom_pressure_peak_error_percent")});
   for (std::size_t gap = 0; gap < study.gaps.size(); ++gap) {
-    if (has_ignition_time(result, gap))
+    if (has_ignition_time(variant, gap))
       table.columns.push_back(number_column("ignition at " + gap_text(study.gaps[gap]) + " cm", "ms", 3,
                                             "ignition_time_error_" + gap_text(study.gaps[gap]) + "_cm_ms"));
   }
+  for (const double time : times) {
+    const std::string at = fmt::format("{:.6g}", 1e3 * time);
+    table.columns.push_back(
+        for_programs(number_column("T error at " + at + " ms", "K", 2, "temperature_error_" + at + "_ms_K")));
+  }
   table.columns.push_back(quantity::energy_drift());
   table.columns.push_back(named_text("remark", "remark"));
-  for (const AccuracyRow& row : result.rows) {
+  for (const AccuracyRow& row : variant.rows) {
     const AccuracyMeasurement& m = row.measured;
-    std::vector<Cell> cells{result.study.cases[row.index].label, optional_number(m.processor_time),
+    std::vector<Cell> cells{variant.label_of(row),        1e3 * m.cell,     optional_number(m.processor_time),
                             optional_number(m.wall_time), m.particle_steps, m.memory / 1e6};
     for (std::size_t gap = 0; gap < study.gaps.size(); ++gap)
       cells.push_back(row.computed() ? optional_number(row.temperature_error[gap]) : Cell());
@@ -148,9 +143,11 @@ Table setting_table(const AccuracyResult& result) {
           100.0 * row.critical_gap_bound, 100.0 * row.pressure_error, 100.0 * row.peak_pressure_error})
       cells.push_back(row.computed() ? optional_number(value) : Cell());
     for (std::size_t gap = 0; gap < study.gaps.size(); ++gap) {
-      if (has_ignition_time(result, gap))
+      if (has_ignition_time(variant, gap))
         cells.push_back(row.computed() ? optional_number(1e3 * row.ignition_time_error[gap]) : Cell());
     }
+    for (std::size_t i = 0; i < times.size(); ++i)
+      cells.push_back(row.computed() ? optional_number(row.error_at_times[i]) : Cell());
     cells.push_back(optional_number(m.energy_drift));
     cells.emplace_back(remark_of(row));
     table.rows.push_back(std::move(cells));
@@ -163,26 +160,70 @@ Table setting_table(const AccuracyResult& result) {
   return table;
 }
 
-Table time_table(const AccuracyResult& result) {
+Table variant_table(const AccuracyResult& result) {
   Table table;
-  const study::Study& study = result.study.study;
-  table.title = fmt::format("Error of the highest temperature against time, without reaction, gap {} cm",
-                            study.gaps.empty() ? "" : gap_text(study.gaps.front()));
-  table.columns = {named_text("setting", "setting")};
-  for (const double time : accuracy_settings(study).times) {
-    table.columns.push_back(number_column(fmt::format("{:.6g} ms", 1e3 * time), "K", 2,
-                                          fmt::format("temperature_error_{:.6g}_ms_K", 1e3 * time)));
+  table.title = "How wrong each variant is with its own setting";
+  table.columns = {named_text("variant", "variant"),
+                   number_column("T bound", "K", 2, "temperature_bound_K"),
+                   number_column("T distance", "K", 2, "temperature_distance_K"),
+                   quantity::critical_gap(),
+                   significant_column("its bound", "cm", 2, "critical_gap_bound_cm"),
+                   number_column("reference uncertain by", "K", 2, "reference_uncertainty_K"),
+                   number_column("processor time", "s", 1, "processor_time_s"),
+                   named_text("cheapest with half the bound", "half_bound_setting"),
+                   number_column("its time", "s", 1, "half_bound_processor_time_s"),
+                   named_text("most distant setting", "most_distant_setting"),
+                   number_column("its distance", "K", 2, "most_distant_K")};
+  for (const VariantAccuracy& variant : result.variants) {
+    std::vector<Cell>& cells = table.rows.emplace_back();
+    const AccuracyRow* own = variant.baseline();
+    const std::string reason =
+        variant.reference ? "its own setting did not run soundly" : variant.no_reference;
+    cells.emplace_back(own != nullptr ? variant.name : variant.name + ": " + reason);
+    if (own == nullptr) continue;
+    for (const double value :
+         {own->temperature_bound, own->largest_temperature_error, 100.0 * own->measured.critical.value,
+          100.0 * own->critical_gap_bound, variant.reference_uncertainty(), own->measured.processor_time})
+      cells.push_back(optional_number(value));
+    const AccuracyRow* half = variant.cheapest(0.5 * own->temperature_bound);
+    cells.emplace_back(half ? variant.label_of(*half) : "none here");
+    cells.push_back(half ? Cell(half->measured.processor_time) : Cell());
+    const AccuracyRow* worst = own;
+    for (const AccuracyRow& row : variant.rows)
+      if (!row.other_model && row.largest_temperature_error > worst->largest_temperature_error) worst = &row;
+    cells.emplace_back(variant.label_of(*worst));
+    cells.emplace_back(worst->largest_temperature_error);
   }
-  table.columns.push_back(named_text("remark", "remark"));
-  if (accuracy_settings(study).times.empty()) return table;
-  for (const AccuracyRow& row : result.rows) {
-    std::vector<Cell> cells{result.study.cases[row.index].label};
-    for (std::size_t i = 0; i < accuracy_settings(study).times.size(); ++i)
-      cells.push_back(row.computed() ? optional_number(row.error_at_times[i]) : Cell());
-    cells.emplace_back(remark_of(row));
-    table.rows.push_back(std::move(cells));
-  }
+  table.notes.push_back(
+      "A bound is the distance from the finest grid and the uncertainty of the reference, the largest over "
+      "the gaps; a distance is that from the limit of the grids, or from the finest where no limit is "
+      "justified, and of settings with a validity warning too.");
   return table;
+}
+
+Table over_variants(const AccuracyResult& result, Table (*table_of)(const VariantAccuracy& variant)) {
+  if (result.variants.size() == 1) return table_of(result.variants.front());
+  Table all;
+  all.columns = {named_text("variant", "variant")};
+  std::vector<std::string> keys{"variant"};
+  for (const VariantAccuracy& variant : result.variants) {
+    const Table own = table_of(variant);
+    const std::vector<std::string> own_keys = keys_of(own);
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < own_keys.size(); ++i) {
+      const auto same = std::find(keys.begin(), keys.end(), own_keys[i]);
+      places.push_back(static_cast<std::size_t>(same - keys.begin()));
+      if (same != keys.end()) continue;
+      keys.push_back(own_keys[i]);
+      all.columns.push_back(own.columns[i]);
+    }
+    for (const std::vector<Cell>& row : own.rows) {
+      std::vector<Cell>& cells = all.rows.emplace_back(all.columns.size());
+      cells.front() = variant.name;
+      for (std::size_t i = 0; i < row.size(); ++i) cells[places[i]] = row[i];
+    }
+  }
+  return all;
 }
 
 }  // namespace launchsafe::kinds

@@ -141,27 +141,32 @@ InputError unnumbered(InputError error, const std::string& file) {
 
 }  // namespace
 
-scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& path,
-                                       const StudyRequest& request) {
-  const auto table = scene::parse_toml(text, path.string());
-  if (!table) return table.error();
-  const StudySource source{*table, path.parent_path(), request.tolerance};
+scene::Expected<StudyFile> read_study_table(const StudySource& source, const std::string& file,
+                                            std::size_t most_cases) {
   StudyFile study;
-  study.file = path.string();
-  study.most_cases = request.most_cases;
-  if (Fault fault = scene::check_content(*table, study.file, scene::InputContent::study)) return *fault;
-  const auto kind = read_kind(*table, study.file);
+  study.file = file;
+  study.most_cases = most_cases;
+  if (Fault fault = scene::check_content(source.root, study.file, scene::InputContent::study)) return *fault;
+  const auto kind = read_kind(source.root, study.file);
   if (!kind) return kind.error();
-  if (Fault fault = check_kind(*table, **kind, study.file)) return *fault;
+  if (Fault fault = check_kind(source.root, **kind, study.file)) return *fault;
   const StudyKeys keys = joined({common_keys(), (*kind)->keys});
-  if (Fault fault = read_keys(*table, **kind, keys, study)) return *fault;
+  if (Fault fault = read_keys(source.root, **kind, keys, study)) return *fault;
   std::optional<AccuracyRecord> record;
-  if (Fault fault = settle_scene(source, {{"set", table->get("set")}}, study, record))
+  if (Fault fault = settle_scene(source, {{"set", source.root.get("set")}}, study, record))
     return unnumbered(*fault, study.file);
   if (Fault fault = settle_cases(source, **kind, keys, study)) return unnumbered(*fault, study.file);
   if (!study.study.kind.own_scenes) settle_uncertainty(study, record);
   if (study.study.title.empty()) study.study.title = study.scene.scene.title;
   return study;
+}
+
+scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& path,
+                                       const StudyRequest& request) {
+  const auto table = scene::parse_toml(text, path.string());
+  if (!table) return table.error();
+  return read_study_table({*table, text, path.parent_path(), request.tolerance}, path.string(),
+                          request.most_cases);
 }
 
 scene::Expected<StudyFile> read_study(const std::filesystem::path& file, const StudyRequest& request) {

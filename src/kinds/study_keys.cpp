@@ -205,7 +205,7 @@ StudyKeys uncertainty_keys() {
           "Path of the record of an accuracy study, accuracy.json, from the study file's folder; it gives "
           "the "
           "numerical uncertainty of every setting in it.",
-          "../reports/accuracy_155mm/accuracy.json", &Study::accuracy),
+          "../reports/accuracy/accuracy_155mm.json", &Study::accuracy),
       study_number(
           "setting_tolerance", Dimension::temperature_difference, above_to(0, 1000),
           "Replaces the scene's numerics by the cheapest setting of the record that knows the maximum "

@@ -17,6 +17,11 @@ struct OverrideTable {
   const toml::node* node = nullptr;
 };
 
+/// Reads and validates a study and its scene from its table; `file` is named in errors. A study with more
+/// cases is refused. Nothing is computed.
+scene::Expected<study::StudyFile> read_study_table(const StudySource& source, const std::string& file,
+                                                   std::size_t most_cases);
+
 /// Reads the scene that the study names, then the overrides, in their order, then the constants of a
 /// calibration, then the numerics that a tolerance (K, of T max) picks from an accuracy record. `record`
 /// becomes that of the study, if it names one.

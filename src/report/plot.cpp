@@ -149,17 +149,22 @@ std::string subtitle_command(const Plot& plot) {
       quoted(plot.subtitle));
 }
 
-std::string page_commands(const Plot& plot) {
+std::string page_commands(int width, int height) {
   return fmt::format(
-             "set encoding utf8\n"
-             "set terminal svg size {},{} noenhanced font 'sans-serif,14' background rgb '#ffffff' rounded\n"
+      "set encoding utf8\n"
+      "set terminal svg size {},{} noenhanced font 'sans-serif,14' background rgb '#ffffff' rounded\n",
+      width, height);
+}
+
+std::string frame_commands(const Plot& plot) {
+  return fmt::format(
              "set border 3 linewidth 1 linecolor rgb '#444444'\n"
              "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
              "set grid linewidth 0.7 dashtype 1 linecolor rgb '#dddddd'\n"
              "set autoscale fix\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
              "set x2range [0:1]\nset y2range [0:1]\n"
              "set title {} font ',16'{}\n",
-             plot.width, plot.height, quoted(plot.title), plot.subtitle.empty() ? "" : " offset 0, 0.4") +
+             quoted(plot.title), plot.subtitle.empty() ? "" : " offset 0, 0.4") +
          subtitle_command(plot) + legend_command(plot);
 }
 
@@ -179,6 +184,9 @@ std::string axis_commands(const std::string& name, const PlotAxis& axis) {
 
 /// Why a plot cannot be drawn; empty where it can.
 std::string unfit(const Plot& plot) {
+  for (const Plot& panel : plot.panels)
+    if (std::string why = unfit(panel); !why.empty()) return panel.title + ": " + why;
+  if (!plot.panels.empty()) return {};
   for (const PlotAxis* axis : {&plot.x, &plot.y}) {
     const bool fits = drawable(axis->minimum.value_or(1.0), axis->scale) &&
                       drawable(axis->maximum.value_or(1.0), axis->scale);
@@ -196,10 +204,8 @@ std::string unfit(const Plot& plot) {
   return has_points ? "" : "it has no points";
 }
 
-}  // namespace
-
-std::string to_gnuplot(const Plot& plot) {
-  std::string text = page_commands(plot);
+std::string drawing_commands(const Plot& plot) {
+  std::string text = frame_commands(plot);
   Commands commands;
   if (plot.map) {
     MapCommands map = map_commands(plot);
@@ -211,6 +217,29 @@ std::string to_gnuplot(const Plot& plot) {
   add_series(plot, commands);
   add_lines(plot, commands);
   return text + commands.data + fmt::format("plot {}\n", fmt::join(commands.plots, ", \\\n     "));
+}
+
+/// Two panels a row, each in a place as large as the largest of them.
+std::string panel_commands(const Plot& plot) {
+  constexpr int columns = 2, title_height = 40;
+  const int rows = (static_cast<int>(plot.panels.size()) + columns - 1) / columns;
+  int width = 0, height = 0;
+  for (const Plot& panel : plot.panels) {
+    width = std::max(width, panel.width);
+    height = std::max(height, panel.height);
+  }
+  std::string text =
+      page_commands(columns * width, rows * height + title_height) +
+      fmt::format("set multiplot layout {},{} title {} font ',18'\n", rows, columns, quoted(plot.title));
+  for (const Plot& panel : plot.panels) text += "reset\n" + drawing_commands(panel);
+  return text + "unset multiplot\n";
+}
+
+}  // namespace
+
+std::string to_gnuplot(const Plot& plot) {
+  if (!plot.panels.empty()) return panel_commands(plot);
+  return page_commands(plot.width, plot.height) + drawing_commands(plot);
 }
 
 store::Result<std::string> to_svg(const Plot& plot, const std::string& program, const DrawingLimits& limits) {

@@ -72,30 +72,42 @@ void say_gap_shares(const Subject& subject, const JudgedCase& each, SafetySectio
 
 // --- numerics ---
 
-void say_accuracy(const StudyEvidence* accuracy, SafetySection& section) {
+/// The rows of one variant of an accuracy study.
+std::vector<const Row*> rows_of_variant(const StudyEvidence& accuracy, const std::string& table,
+                                        const std::string& variant) {
+  std::vector<const Row*> rows;
+  for (const Row& row : accuracy.rows(table))
+    if (text_of(row, "variant") == variant) rows.push_back(&row);
+  return rows;
+}
+
+/// Of several variants the one whose record the main study took speaks, else the first.
+void say_accuracy(const StudyEvidence& main, const StudyEvidence* accuracy, SafetySection& section) {
   if (accuracy == nullptr || !accuracy->finished()) {
     section.say("budget.no_accuracy");
     return;
   }
-  const Row* own = nullptr;
-  for (const Row& row : accuracy->rows("settings"))
-    if (text_of(row, "remark").find("the scene as it is") != std::string::npos) own = &row;
-  if (own != nullptr) {
-    const double bound = number_of(*own, "temperature_bound_K"),
-                 gap = number_of(*own, "critical_gap_bound_cm");
+  const Row* taken = setting_taken_by(main, *accuracy);
+  if (taken == nullptr && !accuracy->rows("settings").empty()) taken = &accuracy->rows("settings").front();
+  const std::string variant = taken != nullptr ? text_of(*taken, "variant") : "";
+  for (const Row* row : rows_of_variant(*accuracy, "settings", variant)) {
+    if (text_of(*row, "remark").find("the scene as it is") == std::string::npos) continue;
+    const double bound = number_of(*row, "temperature_bound_K"),
+                 gap = number_of(*row, "critical_gap_bound_cm");
+    const std::string setting = (variant.empty() ? "" : variant + ": ") + text_of(*row, "setting");
     section.say("budget.accuracy",
-                {{"setting", text_of(*own, "setting")},
+                {{"setting", setting},
                  {"bound", part(uncertain_text(bound) + " K", bound, "K")},
                  {"gap", part(uncertain_text(gap) + " cm", gap, "cm")}},
-                origin_of(*accuracy, "settings", text_of(*own, "setting")));
+                origin_of(*accuracy, "settings", setting));
   }
   Table table;
   std::vector<std::string> meshes;
   table.columns = {named_text("quantity", "quantity"), named_text("unit", "unit")};
-  const Row& rows = accuracy->rows("reference");
+  const std::vector<const Row*> rows = rows_of_variant(*accuracy, "reference", variant);
   if (rows.empty()) return;
-  for (const auto& [key, value] : rows.front().items())
-    if (key.starts_with("cells_")) meshes.push_back(key);
+  for (const auto& [key, value] : rows.front()->items())
+    if (key.starts_with("cells_") && !value.is_null()) meshes.push_back(key);
   std::sort(meshes.begin(), meshes.end(), [](const std::string& a, const std::string& b) {
     return std::strtod(a.c_str() + 6, nullptr) < std::strtod(b.c_str() + 6, nullptr);
   });
@@ -106,7 +118,7 @@ void say_accuracy(const StudyEvidence* accuracy, SafetySection& section) {
   }
   append(table.columns, {significant_column("uncertainty of the limit", "", 2, "uncertainty"),
                          named_text("method", "method")});
-  for (const Row& row : rows) append_row(row, table);
+  for (const Row* row : rows) append_row(*row, table);
   section.blocks.push_back(SaidTable{"meshes", std::move(table), origin_of(*accuracy, "reference")});
 }
 
@@ -297,7 +309,7 @@ SafetySection budget_section(const Subject& subject) {
   } else {
     section.say("budget.none");
   }
-  say_accuracy(subject.evidence.find("accuracy"), section);
+  say_accuracy(subject.study, subject.evidence.find("accuracy"), section);
   say_sensitivity(subject.evidence.find("sensitivity"), section);
   say_models(subject, section);
   return section;

@@ -85,6 +85,14 @@ Origin origin_of(const StudyEvidence& study, std::string of, std::string setting
   return {study.label, std::move(of), std::move(setting)};
 }
 
+const Row* setting_taken_by(const StudyEvidence& main, const StudyEvidence& accuracy) {
+  for (const Row& row : accuracy.rows("settings")) {
+    const std::string line = fmt::format("\n{} at a rise of ", number_of(row, "temperature_bound_K"));
+    if (main.record.manifest.input_text.find(line) != std::string::npos) return &row;
+  }
+  return nullptr;
+}
+
 Origin Subject::origin(std::string of, std::string setting) const {
   return origin_of(study, std::move(of), std::move(setting));
 }

@@ -59,6 +59,9 @@ void append_row(const Row& row, Table& table);
 
 Subject subject_of(const SafetyEvidence& evidence, const std::optional<GapCriterion>& criterion);
 Origin origin_of(const StudyEvidence& study, std::string of, std::string setting = {});
+/// The setting of an accuracy study whose uncertainty stands in the main study's input; nullptr where the
+/// main study took no record of it.
+const Row* setting_taken_by(const StudyEvidence& main, const StudyEvidence& accuracy);
 
 bool is_value(const Row& critical);
 /// cm: the critical gap with its uncertainty as printed; what moves towards ignition alone lowers it alone.

@@ -67,13 +67,10 @@ Table left_out_table(const scene::Scene& scene) {
 /// Whether the main study took the record that a comparison or an accuracy study wrote: by its digest, or by
 /// an uncertainty that stands in the main study's input.
 std::string record_text(const StudyEvidence& main, const StudyEvidence& study) {
-  const std::string& input = main.record.manifest.input_text;
-  const auto holds = [&](const std::string& text) { return input.find(text) != std::string::npos; };
-  bool used = false;
+  bool used = setting_taken_by(main, study) != nullptr;
   for (const store::WrittenFile& file : study.record.files)
-    if (file.name == "model_form.json") used = used || holds(file.sha256);
-  for (const Row& row : study.rows("settings"))
-    used = used || holds(fmt::format("\n{} at a rise of ", number_of(row, "temperature_bound_K")));
+    if (file.name == "model_form.json")
+      used = used || main.record.manifest.input_text.find(file.sha256) != std::string::npos;
   const bool has_record = study.kind == "comparison" || study.kind == "accuracy";
   return !has_record || !study.finished() ? "" : used ? "yes" : "no";
 }

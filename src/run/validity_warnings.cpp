@@ -21,7 +21,7 @@ using Warnings = std::vector<std::string>;
 constexpr double largest_scaled_share = 0.03;
 
 /// What scaled inertia does to a charge that slides is known to some kelvin up to here, one at a time. On the
-/// 155 mm shell (reports/accuracy_155mm and those of other interfaces) T max changes by up to 3.7 K with a
+/// 155 mm shell (reports/accuracy, other interfaces too) T max changes by up to 3.7 K with a
 /// scaling of 16, by up to 25 K with 100, and with steel four times as heavy by up to 0.5 K.
 constexpr double largest_scaling_when_sliding = 16.0, largest_steel_inertia_when_sliding = 4.0;
 

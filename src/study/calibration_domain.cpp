@@ -57,7 +57,7 @@ constexpr std::array special_keys{
     NamedRole{"kinetics.activation_temperature", Role::hot_below},
     NamedRole{"kinetics.ignition_temperature", Role::hot_below},
     NamedRole{"numerics.energy_drift_limit", Role::none},
-    NamedRole{"numerics.time_step_factor", Role::none}  // moves T max by less than 0.1 K (reports/accuracy_155mm)
+    NamedRole{"numerics.time_step_factor", Role::none}  // moves T max by less than 0.1 K (reports/accuracy)
 };
 // clang-format on
 

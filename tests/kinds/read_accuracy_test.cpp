@@ -1,3 +1,4 @@
+#include "launchsafe/kinds/accuracy.hpp"
 #include "study/read_error.hpp"
 
 #include <gtest/gtest.h>
@@ -67,6 +68,53 @@ TEST(ReadAccuracy, RefusesSettingsThatMeanNothing) {
   refuse("[settings]\nnumerics.cell_size = \"5 mm\"\n", {4, "settings", "a table", "[[settings]]"});
   expect_error_in("kind = \"sweep\"\nscene = \"scene_155mm.toml\"\n" + meshes,
                   {3, "reference_cell_sizes", "kind \"accuracy\""});
+}
+
+TEST(ReadAccuracy, AVariantIsTheStudyWithWhatItSaysOtherwise) {
+  const StudyFile study =
+      study_of(accuracy_start + meshes +
+               "title = \"all\"\n[set]\nload.peak = \"400 MPa\"\n"
+               "numerics.time_step_factor = 0.5\n[[settings]]\nnumerics.inertial_scaling = 4\n"
+               "[[variant]]\nname = \"a\"\n"
+               "[[variant]]\nname = \"b_0.1\"\ntitle = \"second\"\n"
+               "reference_cell_sizes = \"0.834, 1.25, 2.5 mm\"\n"
+               "set = { load.peak = \"300 MPa\" }\n"
+               "[[variant.settings]]\nnumerics.cell_size = \"5 mm\"\n");
+  const auto& variants = settings_of<AccuracySettings>(study.study).variants;
+  ASSERT_EQ(variants.size(), 2u);
+  const scene::Scene &first = variants[0].study.scene.scene, &second = variants[1].study.scene.scene;
+  EXPECT_EQ(first.load.peak, 400e6);
+  EXPECT_EQ(second.load.peak, 300e6);
+  EXPECT_EQ(second.numerics.time_step_factor, 0.5) << "of [set] for all";
+  EXPECT_EQ(study.scene.scene.load.peak, 400e6) << "the first is the study's own";
+  EXPECT_EQ(variants[0].study.study.title, "all");
+  EXPECT_EQ(variants[1].study.study.title, "second");
+  std::vector<std::string> labels;
+  for (const StudyCase& each : study.cases) labels.push_back(each.label);
+  EXPECT_EQ(labels, (std::vector<std::string>{"a: cell_size 0.417 mm", "a: cell_size 0.625 mm",
+                                              "a: cell_size 0.125 cm", "a: inertial_scaling 4",
+                                              "b_0.1: cell_size 0.834 mm", "b_0.1: cell_size 0.125 cm",
+                                              "b_0.1: cell_size 0.25 cm", "b_0.1: cell_size 0.5 cm"}));
+}
+
+TEST(ReadAccuracy, RefusesVariantsThatCannotBeToldApartOrMeanNothing) {
+  const auto refuse = [](const std::string& variants, const ExpectedError& expected) {
+    expect_error_in(accuracy_start + meshes + variants, expected);
+  };
+  refuse("[[variant]]\ntitle = \"a\"\n", {4, "variant.name", "no name", "letters"});
+  refuse("[[variant]]\nname = \"a/b\"\n", {5, "variant.name", "a/b", "letters"});
+  refuse("[[variant]]\nname = \"a\"\n[[variant]]\nname = \"a\"\n",
+         {7, "variant.name", "a second time", "no other"});
+  refuse("[[variant]]\nname = \"a\"\nkind = \"sweep\"\n", {6, "variant.kind", "sweep", "otherwise"});
+  refuse("[[variant]]\nname = \"a\"\n[[variant.variant]]\nname = \"b\"\n",
+         {6, "variant.variant", "", "otherwise"});
+  refuse("variant = []\n", {4, "variant", "", "[[variant]]"});
+  // Faults within are named as in a study, at their line.
+  refuse("[[variant]]\nname = \"a\"\nset = { load.peek = \"1 GPa\" }\n",
+         {6, "set.load.peek", "unknown", "", "load.peak"});
+  refuse("[[variant]]\nname = \"a\"\n[[variant.settings]]\nnumerics.cell_size = \"5 kg\"\n",
+         {7, "settings.numerics.cell_size", "5 kg"});
+  refuse("[[variant]]\nname = \"a\"\naccuracy = \"x.json\"\n", {6, "accuracy", "a key of kind"});
 }
 
 }  // namespace

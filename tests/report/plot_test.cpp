@@ -91,6 +91,23 @@ TEST_F(DrawnPlot, LinesAcrossItAreInTheLegend) {
     EXPECT_NE(svg->find(text), std::string::npos) << text << ": the axes reach the lines";
 }
 
+TEST_F(DrawnPlot, PanelsAreOnOnePictureEachWithItsOwnAxes) {
+  Plot plot;
+  plot.title = "both";
+  plot.panels = {sample(), sample(), sample()};
+  plot.panels[1].title = "second";
+  plot.panels[1].y.scale = Scale::logarithmic;
+  plot.panels[2].title = "third";
+  const auto svg = to_svg(plot);
+  ASSERT_TRUE(svg) << svg.error().message;
+  for (const char* text : {">both<", ">second<", ">third<"})
+    EXPECT_NE(svg->find(text), std::string::npos) << text;
+  EXPECT_NE(svg->find("width=\"1600\" height=\"1160\""), std::string::npos)
+      << "two rows of two panels of 800 by 560, and 40 for the title";
+  plot.panels[1].series.clear();
+  EXPECT_FALSE(to_svg(plot));
+}
+
 TEST_F(DrawnPlot, ASinglePointIsEnough) {
   Plot plot = sample();
   plot.series = {{"one", {0.0}, {300.0}, Style::points}};

@@ -80,8 +80,8 @@ TEST_F(SafetyReport, ACriterionIsNamedWithItsSourceAndWhatItAllows) {
 }
 
 TEST_F(SafetyReport, TheJsonNamesTheOriginOfEveryBlock) {
-  const auto json = nlohmann::json::parse(
-      file_of({shipped("critical_gap_155mm"), shipped("accuracy_155mm")}, "report.json"));
+  const auto json =
+      nlohmann::json::parse(file_of({shipped("critical_gap_155mm"), shipped("accuracy")}, "report.json"));
   EXPECT_EQ(json["format"], "launchsafe safety report 1");
   EXPECT_EQ(json["answer"]["largest_safe_gap_cm"], 0.02);
   EXPECT_TRUE(json["answer"]["recommended_gap_cm"].is_null());
@@ -124,7 +124,7 @@ TEST_F(SafetyReport, AnEditedFileIsRefused) {
   const path study = copy_of("critical_gap_155mm");
   replace_in(study / "study.json", "INDETERMINATE", "SAFE");
   EXPECT_TRUE(has(fault_of({study}), "study.json: this is not what the study wrote")) << fault_of({study});
-  const path other = copy_of("accuracy_155mm");
+  const path other = copy_of("accuracy");
   std::filesystem::remove(other / "accuracy.csv");
   EXPECT_TRUE(has(fault_of({other}), "accuracy.csv")) << fault_of({other});
 }
@@ -308,12 +308,12 @@ TEST_F(SafetyReport, AnotherModelVersionIsRefused) {
 }
 
 TEST_F(SafetyReport, TwoStudiesOfAKindAreRefused) {
-  EXPECT_TRUE(has(fault_of({shipped("accuracy_155mm"), shipped("accuracy_bonded")}),
-                  "both are studies of kind accuracy"));
+  EXPECT_TRUE(has(fault_of({shipped("sweep_pressure_defect"), shipped("defects")}),
+                  "both are studies of kind sweep"));
 }
 
 TEST_F(SafetyReport, StudiesOfDifferentShellsAreRefusedByName) {
-  const path study = copy_of("accuracy_155mm");
+  const path study = copy_of("accuracy");
   // The manifest's input with its checksum, as a study of another shell would have written it.
   auto manifest = nlohmann::ordered_json::parse(read(study / "manifest.json"));
   std::string input = manifest["input"];

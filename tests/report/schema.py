@@ -94,7 +94,7 @@ def main():
             if study.exists():
                 by_kind.setdefault(json.loads(study.read_text())["kind"], manifest.parent)
         main_job = source / "reports/critical_gap_155mm"
-        by_kind["critical-gap"], by_kind["accuracy"] = main_job, source / "reports/accuracy_155mm"
+        by_kind["critical-gap"], by_kind["accuracy"] = main_job, source / "reports/accuracy"
         together = [by_kind[kind] for kind in ("critical-gap", "accuracy", "sweep", "sensitivity", "stability")]
         reports = {kind: [study] for kind, study in by_kind.items()}
         reports["several kinds"] = together

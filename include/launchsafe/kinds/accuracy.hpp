@@ -23,11 +23,19 @@ struct SettingsAxis {
   std::vector<scene::Value> values;
 };
 
+/// One [[variant]] of a study file: what the file says of all, and what the variant says otherwise, as a
+/// study of its own.
+struct AccuracyVariant {
+  std::string name;
+  study::StudyFile study;
+};
+
 /// What a study file of this kind says besides.
 struct AccuracySettings {
   std::vector<double> reference_cell_sizes;         ///< m, finest first once read; at least three
   std::vector<std::vector<SettingsAxis>> settings;  ///< every combination within each
   std::vector<double> times;                        ///< s, at which temperatures are compared too
+  std::vector<AccuracyVariant> variants;            ///< none for a file that is one study by itself
 };
 
 inline AccuracySettings& accuracy_settings(study::Study& study) {
@@ -104,18 +112,32 @@ struct AccuracyRow {
   bool sound() const { return computed() && measured.validity_warnings.empty(); }
 };
 
+/// What came of one variant, or of a study without variants, whose only one has no name.
+struct VariantAccuracy {
+  std::string name;
+  study::StudyFile study;
+  std::vector<AccuracyMeasurement> measured = {};   ///< one for each of its cases
+  std::optional<AccuracyReference> reference = {};  ///< none where a reference mesh failed
+  std::string no_reference = {};                    ///< why there is none
+  std::vector<AccuracyRow> rows = {};               ///< in the order of the cases; none without a reference
+  study::AccuracyRecord record = {};                ///< for the studies that use these settings
+  bool any_indeterminate()
+      const;  ///< there is no reference, or no extrapolation of a temperature is justified
+  const std::string& label_of(const AccuracyRow& row) const { return study.cases[row.index].label; }
+  const AccuracyRow* baseline() const;  ///< that of the scene as it is; nullptr where it did not run soundly
+  /// The cheapest sound setting whose bound of T max is at most so large (K), or nullptr.
+  const AccuracyRow* cheapest(double bound) const;
+  /// K, by which the reference of T max itself may be off: the largest over the gaps; NaN where not known.
+  double reference_uncertainty() const;
+};
+
 struct AccuracyResult {
   study::StudyFile study;
   std::vector<study::CaseAnswer> answers;  ///< one for each of StudyFile::cases
-  std::vector<AccuracyMeasurement> measured;
-  std::optional<AccuracyReference> reference;  ///< none where a reference mesh failed
-  std::string no_reference;                    ///< why there is none
-  std::vector<AccuracyRow> rows;               ///< in the order of the cases; none without a reference
-  study::AccuracyRecord record;                ///< for the studies that use these settings
+  std::vector<VariantAccuracy> variants;   ///< at least one; their cases follow each other
   study::Timing timing;
   bool interrupted = false;
-  bool any_indeterminate()
-      const;  ///< there is no reference, or no extrapolation of a temperature is justified
+  bool any_indeterminate() const;  ///< of any variant
 };
 
 /// Marks the rows that are no worse than all cheaper ones; of sound rows of the same model alone.
@@ -131,28 +153,26 @@ AccuracyResult run_accuracy(const study::StudyFile& study, const study::StudyOpt
 /// The row of the table of kinds.
 Kind accuracy_kind();
 
-/// The answer in a few lines: how wrong the scene's own setting is, what the cheapest good settings are.
+/// The answer in a few lines: how wrong the own setting of the first variant is, what the cheapest good
+/// settings are.
 std::string answer(const AccuracyResult& result);
 
-/// A row for every compared quantity: its values on the reference meshes, order, limit and uncertainty.
-report::Table reference_table(const AccuracyResult& result);
+/// A row for every variant: how wrong its own setting is, and why believe it.
+report::Table variant_table(const AccuracyResult& result);
 /// A row for every setting: cost and errors.
-report::Table setting_table(const AccuracyResult& result);
-/// A row for every setting: error of the temperature at Study::times; without rows where there are none.
-report::Table time_table(const AccuracyResult& result);
-
+report::Table setting_table(const VariantAccuracy& variant);
+/// A row for every compared quantity: its values on the reference meshes, order, limit and uncertainty.
+report::Table reference_table(const VariantAccuracy& variant);
 /// A row for every station: T max on the reference meshes, order, limit, uncertainty.
-report::Table point_table(const AccuracyResult& result);
+report::Table point_table(const VariantAccuracy& variant);
+/// A table of all variants, each row behind the name of its variant; that of a study without variants as it
+/// is.
+report::Table over_variants(const AccuracyResult& result,
+                            report::Table (*table_of)(const VariantAccuracy& variant));
 
 /// Error of T max against processor time: bound and distance, and the front of the settings that no other one
 /// beats, which alone are named.
-report::Plot error_plot(const AccuracyResult& result);
-/// The same against the cell size, with a line through settings that differ in their mesh alone.
-report::Plot mesh_plot(const AccuracyResult& result);
-/// Bound of the error at Study::times; for a study with a reference and times.
-report::Plot launch_plot(const AccuracyResult& result);
-/// One screen: how wrong is the critical gap, why believe it, what would it cost to halve the error.
-std::string summary(const AccuracyResult& result);
+report::Plot error_plot(const VariantAccuracy& variant);
 
 /// The whole report, with what is printed on a terminal and every file.
 report::Report report_of(const AccuracyResult& result);

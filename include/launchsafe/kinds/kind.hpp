@@ -47,6 +47,7 @@ struct FileName {
 /// A study file as text.
 struct StudySource {
   const toml::table& root;
+  std::string_view text;            ///< that the table was made of
   std::filesystem::path folder;     ///< of the file, from which paths in it start
   std::optional<double> tolerance;  ///< K, of T max: asked for on the command line
 };

@@ -104,6 +104,8 @@ struct Plot {
   int width = 800, height = 560;  ///< pixels
   std::string subtitle = {};      ///< small, below the title
   std::vector<Band> vertical_bands = {};
+  /// Pictures side by side, row by row, each as large as it says; of the plot itself only the title is drawn.
+  std::vector<Plot> panels = {};
 };
 
 /// The commands and data that `to_svg` gives to gnuplot.
