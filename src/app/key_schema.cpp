@@ -260,7 +260,8 @@ Json with_other_tables(Json entry, const std::string& table, const Json& changes
     properties["set"] = changes;
     properties["accept"] = array_of(schema_of_table("accept", scene::describe_keys()));
   }
-  return table == "axes" || table == "settings" ? free_table(std::move(entry)) : entry;
+  const bool free = table == "axes" || table == "settings" || table == "variant";
+  return free ? free_table(std::move(entry)) : entry;
 }
 
 }  // namespace
