@@ -194,7 +194,7 @@ TEST(Accuracy, VariantsAreWhatStudiesOfTheirOwnAre) {
   std::string alone = accuracy_text;
   alone.replace(alone.find("gaps"), alone.find("reference_cell_sizes") - alone.find("gaps"), other);
   const std::size_t settings = alone.find("settings");
-  alone.replace(settings, alone.find("]\n", alone.find("inelastic")) + 4 - settings,
+  alone.replace(settings, alone.find("]\n", alone.find("inelastic")) + 2 - settings,
                 "settings = [ { numerics.cell_size = \"5 mm\" } ]\n");
   EXPECT_EQ(to_json_text(result.variants[1].record), to_json_text(result_of(converging, alone).record));
 }
