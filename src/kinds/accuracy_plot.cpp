@@ -85,7 +85,7 @@ Plot error_plot(const VariantAccuracy& variant) {
   const double uncertainty = variant.reference_uncertainty();
   if (std::isfinite(uncertainty) && uncertainty > 0)
     plot.horizontal_lines = {
-        {uncertainty, fmt::format("uncertainty of the reference: {} K", significant(uncertainty, 2))}};
+        {uncertainty, fmt::format("reference uncertain by {} K", significant(uncertainty, 2))}};
   return plot;
 }
 

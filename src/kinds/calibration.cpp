@@ -2,6 +2,7 @@
 
 #include "calibration_load.hpp"
 #include "launchsafe/store/manifest.hpp"
+#include "launchsafe/study/run_cases.hpp"
 
 #include <fmt/format.h>
 
