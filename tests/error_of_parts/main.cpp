@@ -185,11 +185,12 @@ bool write_report(const std::vector<MeasuredSeries>& measured, const std::filesy
       "# {}\n\nMade by `build/release/tests/error_of_parts reports/error_of_parts`. Times are of the machine "
       "that ran it.\n\n",
       errors_title);
-  if (const auto error = report::write_svg(plot_of(measured), folder / "parts.svg")) {
-    fmt::print(stderr, "no picture: {}\n", error->message);
-  } else {
+  if (const auto svg = report::to_svg(plot_of(measured))) {
+    std::ofstream(folder / "parts.svg") << *svg;
     page += "![Error against processor time](parts.svg)\n\n";
     series.notes.push_back("The picture leaves out what is exact at every setting.");
+  } else {
+    fmt::print(stderr, "no picture: {}\n", svg.error().message);
   }
   page += report::to_markdown(settings) + "\n" + report::to_markdown(series);
   std::ofstream(folder / "parts.csv", std::ios::binary) << report::to_csv(settings);
