@@ -18,7 +18,8 @@ struct AuditedGap {
 };
 
 /// What the audit says of temperatures and critical gaps, as a short paragraph: at the gap where the skin
-/// took most against its supply, whether that is more than compression can supply, and what follows.
+/// took most against its supply, whether that is more than compression can supply, and what follows. Of a
+/// film, which has no skin of one temperature, nothing is compared.
 std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps);
 
 /// A row for every gap: taken by the skin, supplied by compression, their ratio; under it the statement.

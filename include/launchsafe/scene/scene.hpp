@@ -28,7 +28,7 @@ enum class FrictionClosure { total_strain_rate, inelastic, none };
 /// The word of a closure in scene files and reports: "total strain rate", "inelastic" or "none".
 std::string_view word_of(FrictionClosure closure);
 enum class AirPressure { charge_bottom, chamber };
-enum class AirModel { reservoir, balance, film };
+enum class AirModel { reservoir, film };
 enum class Exchange { rate, per_step };
 
 /// What bodies are made of: a law with its parameters, under the name that bodies refer to it by.
