@@ -62,8 +62,8 @@ Plot error_plot(const VariantAccuracy& variant) {
   plot.title = variant.name.empty() ? "Error of T max against processor time" : variant.name;
   plot.x = {"processor time of a run [s]", Scale::logarithmic};
   plot.y = {bounded ? "error of T max [K]" : "distance of T max from the reference [K]", Scale::logarithmic};
-  plot.width = variant.name.empty() ? 1100 : 760;
-  plot.height = variant.name.empty() ? 640 : 520;
+  plot.width = 1100;
+  plot.height = 640;
   plot.subtitle = bounded ? "marks: bound of the error; bars: down to the distance from the reference"
                           : "no bound of the error is known: the reference itself may be off";
   Series meshes = bars("reference meshes", grey, Mark::open_square);
