@@ -1,17 +1,23 @@
 #!/usr/bin/env bash
-# Installs what launchsafe needs to be built, tested and to draw its plots (Debian 12), and packages that are named on the
-# command line. Silent when nothing is missing.
+# Installs what launchsafe needs to be built and to draw its plots (Debian 12); with --tests or --package also what its
+# tests need, or its Debian package. Silent when nothing is missing.
 set -euo pipefail
 
 packages=(
-  build-essential g++ cmake ninja-build pkg-config
+  g++ cmake ninja-build
   libeigen3-dev libboost-dev libtbb-dev libhdf5-dev libssl-dev libcli11-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev
   libkainjow-mustache-dev
-  libgtest-dev libbenchmark-dev librapidcheck-dev clang libclang-rt-dev
-  file # tells cpack what is a program
-  gnuplot-nox librsvg2-bin
-  "$@"
+  gnuplot-nox
 )
+case "${1:-}" in
+  "") ;;
+  --tests) packages+=(libgtest-dev libbenchmark-dev librapidcheck-dev) ;;
+  --package) packages+=(file help2man) ;; # file tells cpack what is a program
+  *)
+    echo "setup.sh: unknown option $1; there are --tests and --package" >&2
+    exit 2
+    ;;
+esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "setup.sh: this is no Debian system; install what matches these Debian packages: ${packages[*]}" >&2
