@@ -63,7 +63,7 @@ TEST_F(ExplainedProgram, TellsAllStudiesInOneSchema) {
   const Json schema = Json::parse(run({"explain", "--schema", "study"}).out);
   EXPECT_EQ(schema["required"], Json({"kind", "scene"}));
   EXPECT_FALSE(schema["additionalProperties"]);
-  for (const char* table : {"set", "axes", "input", "variant", "case", "settings", "reference"})
+  for (const char* table : {"set", "axes", "input", "variant", "group", "settings", "reference"})
     EXPECT_TRUE(schema["properties"].contains(table)) << table;
   for_each_key(schema, "", [&](const std::string& name, const Json& key) {
     for (const char* part : {"description", "unit", "range", "example"})
