@@ -14,11 +14,25 @@ namespace launchsafe::kinds {
 using namespace study;
 namespace {
 
-using Sentences = std::vector<std::string>;
+/// What a run says by itself: all that judging needs, and no histories.
+struct StressRun {
+  CaseAnswer answer;
+  double end_time = not_a_number;              ///< s, reached
+  double ignition_temperature = not_a_number;  ///< K
+  Sentences violations;                        ///< of invariants
+  Sentences reserves;                          ///< what the result says against itself
+  std::vector<Finding> findings;  ///< of a launch that was stopped, or of the runs through ignition by gap
+};
 
 std::string joined_text(const Sentences& parts) { return fmt::format("{}", fmt::join(parts, "; ")); }
 
-// --- findings ---
+void append(Sentences& to, const Sentences& more) { to.insert(to.end(), more.begin(), more.end()); }
+
+bool was_computed(const CaseAnswer& answer) {
+  return answer.outcome == RunOutcome::ran || answer.outcome == RunOutcome::reused;
+}
+
+// --- of a run by itself ---
 
 Finding judge_reader(const StressCase& asked) {
   if (asked.refusal.empty())
@@ -28,53 +42,13 @@ Finding judge_reader(const StressCase& asked) {
   return {Outcome::caught, fmt::format("refused: \"{}\"; {}", asked.refused, asked.refusal)};
 }
 
-Finding judge_stopped(const StressCase& asked, const StressRun& run) {
-  const std::uint64_t steps = run.answer.run.steps;
-  const std::string text = fmt::format("{} after {} steps{}", run::to_string(run.answer.run.status), steps,
-                                       run.reason.empty() ? "" : ", " + run.reason);
-  if (asked.caught_within == 0 || steps <= asked.caught_within) return {Outcome::caught, text};
+Finding judge_stopped(const StressCase& asked, const run::MechanicsResult& mechanics) {
+  const std::string text =
+      fmt::format("{} after {} steps{}", run::to_string(mechanics.status), mechanics.steps,
+                  mechanics.reason.empty() ? "" : ", " + mechanics.reason);
+  if (asked.caught_within == 0 || mechanics.steps <= asked.caught_within) return {Outcome::caught, text};
   return {Outcome::degraded,
           fmt::format("caught late, {} steps were allowed: {}", asked.caught_within, text)};
-}
-
-bool deviates(const StressCaseRow& row, std::size_t gap) {
-  return row.asked.has(Invariant::same_temperature) &&
-         std::abs(row.deviation(gap)) > row.run.answer.verdicts[gap].uncertainty.total();
-}
-
-std::string gap_text(const StressCaseRow& row, std::size_t i) {
-  const GapVerdict& gap = row.run.answer.verdicts[i];
-  std::string text = fmt::format("{:.6g} cm: T max {:.1f} K, {}", 100.0 * gap.gap, gap.maximum.temperature,
-                                 to_string(gap.judgement.verdict));
-  if (std::isfinite(row.deviation(i)))
-    text += fmt::format(", {:+.2g} K against the safe computation, uncertainty {:.2g} K", row.deviation(i),
-                        gap.uncertainty.total());
-  return text;
-}
-
-/// Of the launch up to ignition. `compared`: there is nothing to compare with, or it completed.
-Finding judge_launch(const StressCaseRow& row, bool compared) {
-  const CaseAnswer& answer = row.run.answer;
-  if (!answer.completed()) return judge_stopped(row.asked, row.run);
-  Sentences faults = row.run.violations, reserves = row.run.validity_warnings, numbers;
-  if (const std::string limited = run::to_string(answer.run.limiters); !limited.empty())
-    reserves.push_back("limiters acted: " + limited);
-  bool wrong = false;
-  for (std::size_t i = 0; i < answer.verdicts.size(); ++i) {
-    const GapVerdict& gap = answer.verdicts[i];
-    const bool off = deviates(row, i);
-    if (off)
-      faults.push_back(fmt::format("off the safe computation by {:.3g} K, more than {:.3g} K",
-                                   std::abs(row.deviation(i)), gap.uncertainty.total()));
-    if (!std::isfinite(gap.maximum.temperature)) reserves.emplace_back("a temperature is not a number");
-    if (gap.judgement.verdict != Verdict::indeterminate && (off || !row.run.violations.empty())) wrong = true;
-    numbers.push_back(gap_text(row, i));
-  }
-  if (!compared) reserves.emplace_back("the safe computation is not there to compare with");
-  const bool sound = faults.empty() && reserves.empty();
-  faults.insert(faults.end(), reserves.begin(), reserves.end());
-  faults.insert(faults.end(), numbers.begin(), numbers.end());
-  return {wrong ? Outcome::wrong : sound ? Outcome::held : Outcome::degraded, joined_text(faults)};
 }
 
 std::string numbers_of(const run::CombustionHistory& c) {
@@ -103,118 +77,142 @@ Finding judge_burn(const StressCase& asked, const scene::Scene& scene, double ga
   return {outcome, head + joined_text(all)};
 }
 
+Sentences reserves_of(const scene::Scene& scene, const run::MechanicsResult& mechanics,
+                      const CaseAnswer& answer) {
+  Sentences reserves = run::validity_warnings(scene, mechanics);
+  if (const std::string limited = run::to_string(mechanics.limiters); !limited.empty())
+    reserves.push_back("limiters acted: " + limited);
+  for (const GapVerdict& gap : answer.verdicts)
+    if (!std::isfinite(gap.maximum.temperature)) reserves.emplace_back("a temperature is not a number");
+  return reserves;
+}
+
+/// The case that asked for a run of the study, by itself or as its safe computation.
+const StressCase& case_of_run(const StudyFile& study, std::size_t index) {
+  return *std::ranges::find_if(
+      settings_of<StabilitySettings>(study.study).cases,
+      [index](const StressCase& each) { return each.run == index || each.against == index; });
+}
+
+/// `runs`: the launch, then those through the ignition of gaps. How far one came that was cut off depends on
+/// the machine, and says nothing of the computation: that leaves the case without a finding.
+StressRun run_from(const StudyFile& study, std::size_t index, const std::vector<FinishedRun>& runs) {
+  StressRun run;
+  // After a launch that was stopped no other is begun.
+  const std::size_t begun = runs.front().failure.empty() ? runs.size() : 1;
+  for (std::size_t i = 0; i < begun; ++i) {
+    if (runs[i].has_result() && !was_cut_off(runs[i])) continue;
+    run.answer.failure = (i == 0 ? "" : "through ignition: ") + runs[i].failure;
+    run.answer.outcome = runs[i].outcome;
+    return run;
+  }
+  const StressCase& asked = case_of_run(study, index);
+  const scene::Scene& scene = study.cases[index].scene.scene;
+  const run::MechanicsResult& mechanics = runs.front().result.mechanics;
+  Study judged = study.study;
+  judged.gaps = asked.gaps;
+  run.answer = answer_of(judged, study.cases[index], mechanics);
+  run.answer.outcome = runs.front().outcome;
+  run.end_time = mechanics.end_time;
+  run.ignition_temperature = scene.charge().kinetics.ignition_temperature;
+  if (!run.answer.completed()) {
+    run.findings = {judge_stopped(asked, mechanics)};
+    return run;
+  }
+  run.violations = violations_of({scene, mechanics, asked.gaps}, asked);
+  run.reserves = reserves_of(scene, mechanics, run.answer);
+  for (std::size_t i = 1; i < begun; ++i)
+    run.findings.push_back(judge_burn(asked, scene, scene.surface.gaps[i - 1], runs[i].result));
+  return run;
+}
+
+// --- of a case ---
+
+/// Of a launch that completed. `compared`: there is nothing to compare with, or it completed.
+Finding judge_launch(const StressCaseRow& row, const StressRun& run, bool compared) {
+  Sentences faults = run.violations, numbers;
+  bool wrong = false;
+  for (std::size_t i = 0; i < row.answer.verdicts.size(); ++i) {
+    const GapVerdict& gap = row.answer.verdicts[i];
+    const double deviation = row.deviations.empty() ? not_a_number : row.deviations[i];
+    const double uncertainty = gap.uncertainty.total();
+    const bool off = row.asked.has("same-temperature") && std::abs(deviation) > uncertainty;
+    if (off)
+      faults.push_back(fmt::format("off the safe computation by {:.3g} K, more than {:.3g} K",
+                                   std::abs(deviation), uncertainty));
+    if (gap.judgement.verdict != Verdict::indeterminate && (off || !run.violations.empty())) wrong = true;
+    numbers.push_back(fmt::format("{:.6g} cm: T max {:.1f} K, {}", 100.0 * gap.gap, gap.maximum.temperature,
+                                  to_string(gap.judgement.verdict)));
+    if (std::isfinite(deviation))
+      numbers.back() += fmt::format(", {:+.2g} K against the safe computation, uncertainty {:.2g} K",
+                                    deviation, uncertainty);
+  }
+  append(faults, run.reserves);
+  if (!compared) faults.emplace_back("the safe computation is not there to compare with");
+  const Outcome outcome = wrong ? Outcome::wrong : faults.empty() ? Outcome::held : Outcome::degraded;
+  append(faults, numbers);
+  return {outcome, joined_text(faults)};
+}
+
 /// The worst first: the enumeration is in that order.
 Finding worst_of(std::vector<Finding> findings) {
-  std::stable_sort(findings.begin(), findings.end(),
-                   [](const Finding& a, const Finding& b) { return a.outcome > b.outcome; });
+  std::ranges::stable_sort(findings, std::ranges::greater{}, &Finding::outcome);
   Sentences texts;
   for (const Finding& each : findings) texts.push_back(each.text);
   return {findings.front().outcome, joined_text(texts)};
 }
 
-// --- runs ---
-
-/// The case that asked for a run of the study, by itself or as its safe computation.
-const StressCase& case_of_run(const StudyFile& study, std::size_t index) {
-  const auto& cases = settings_of<StabilitySettings>(study.study).cases;
-  return *std::find_if(cases.begin(), cases.end(), [index](const StressCase& each) {
-    return each.run == index || each.against == index;
-  });
-}
-
-StressRun run_from(const StudyFile& study, std::size_t index, const run::MechanicsResult& mechanics) {
-  const StudyCase& input = study.cases[index];
-  const StressCase& asked = case_of_run(study, index);
-  StressRun run;
-  run.reason = mechanics.reason;
-  run.end_time = mechanics.end_time;
-  run.ignition_temperature = input.scene.scene.charge().kinetics.ignition_temperature;
-  if (mechanics.status == run::RunStatus::interrupted || mechanics.status == run::RunStatus::timed_out) {
-    // How far it came depends on the machine, and says nothing of the computation.
-    run.failure = failure_of(mechanics);
-    return run;
-  }
-  Study judged = study.study;
-  judged.gaps = asked.gaps;
-  run.answer = answer_of(judged, input, mechanics);
-  if (mechanics.status != run::RunStatus::completed) return run;
-  run.violations = violations_of({input.scene.scene, mechanics, asked.gaps}, asked);
-  run.validity_warnings = run::validity_warnings(input.scene.scene, mechanics);
-  return run;
-}
-
-/// A run through ignition that did not come to its end by itself leaves the case without a finding.
-void add_burns(const StudyFile& study, std::size_t index, const std::vector<FinishedRun>& runs,
-               StressRun& run) {
-  const scene::Scene& scene = study.cases[index].scene.scene;
-  if (!run.failure.empty() || !run.answer.completed()) return;
-  for (std::size_t i = 1; i < runs.size(); ++i) {
-    if (!runs[i].has_result() || was_cut_off(runs[i])) {
-      run.failure = "through ignition: " + runs[i].failure;
-      run.outcome = runs[i].outcome;
-      return;
-    }
-    run.burns.push_back(
-        judge_burn(case_of_run(study, index), scene, scene.surface.gaps[i - 1], runs[i].result));
-  }
-}
-
 /// `against`: the safe computation; nullptr without one.
 StressCaseRow judge(const StressCase& asked, const StressRun& run, const StressRun* against) {
-  StressCaseRow row{asked, run, {}, {}};
-  if (!asked.run) {
-    row.finding = judge_reader(asked);
-    return row;
-  }
-  if (row.computed() && against != nullptr) {
-    row.run.failure = against->failure;
-    row.run.outcome = against->outcome;
-    row.heated_against = against->answer.heated_temperature;
-  }
+  StressCaseRow row{asked, run.answer, run.end_time, {}, {}, {}};
+  if (against != nullptr && row.computed() && !was_computed(against->answer)) row.answer = against->answer;
   if (!row.computed()) return row;
-  std::vector<Finding> findings{judge_launch(row, against == nullptr || against->answer.completed())};
-  findings.insert(findings.end(), run.burns.begin(), run.burns.end());
+  if (against != nullptr) {
+    row.heated_against = against->answer.heated_temperature;
+    for (std::size_t i = 0; i < row.heated_against.size(); ++i)
+      row.deviations.push_back(std::min(run.answer.heated_temperature[i], run.ignition_temperature) -
+                               std::min(row.heated_against[i], run.ignition_temperature));
+  }
+  std::vector<Finding> findings = run.findings;
+  if (run.answer.completed())
+    findings.insert(findings.begin(),
+                    judge_launch(row, run, against == nullptr || against->answer.completed()));
   row.finding = worst_of(std::move(findings));
   return row;
 }
 
 }  // namespace
 
-bool StressCase::has(Invariant invariant) const {
-  return std::find(invariants.begin(), invariants.end(), invariant) != invariants.end();
+bool StressCase::has(std::string_view invariant) const {
+  return std::ranges::any_of(invariants,
+                             [invariant](std::size_t i) { return all_invariants()[i].name == invariant; });
 }
+
+bool StressCaseRow::computed() const { return was_computed(answer); }
 
 bool StressCaseRow::is_as_expected() const {
   if (!computed() || is(Outcome::wrong)) return false;
-  const std::vector<Outcome>& expected = asked.expected;
-  return expected.empty() || std::find(expected.begin(), expected.end(), finding.outcome) != expected.end();
-}
-
-double StressCaseRow::deviation(std::size_t gap) const {
-  if (gap >= heated_against.size()) return not_a_number;
-  return std::min(run.answer.heated_temperature[gap], run.ignition_temperature) -
-         std::min(heated_against[gap], run.ignition_temperature);
+  return asked.expected.empty() || std::ranges::count(asked.expected, finding.outcome) > 0;
 }
 
 std::size_t StabilityResult::count(Outcome outcome) const {
-  return static_cast<std::size_t>(std::count_if(
-      rows.begin(), rows.end(), [outcome](const StressCaseRow& row) { return row.is(outcome); }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(rows, [outcome](const StressCaseRow& row) { return row.is(outcome); }));
 }
 
 StabilityResult run_stability(const StudyFile& study, const StudyOptions& options) {
   const auto compute = [&](StabilityResult& result) {
     std::vector<StressRun> runs(study.cases.size());
     run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
-      if (finished.front().has_result())
-        runs[i] = run_from(study, i, finished.front().result.mechanics);
-      else
-        runs[i].failure = finished.front().failure;
-      runs[i].outcome = finished.front().outcome;
-      add_burns(study, i, finished, runs[i]);
+      runs[i] = run_from(study, i, finished);
     });
-    for (const StressCase& asked : settings_of<StabilitySettings>(study.study).cases)
-      result.rows.push_back(judge(asked, asked.run ? runs[*asked.run] : StressRun{},
-                                  asked.against ? &runs[*asked.against] : nullptr));
+    for (const StressCase& asked : settings_of<StabilitySettings>(study.study).cases) {
+      if (asked.run)
+        result.rows.push_back(
+            judge(asked, runs[*asked.run], asked.against ? &runs[*asked.against] : nullptr));
+      else
+        result.rows.push_back({asked, {}, not_a_number, {}, {}, judge_reader(asked)});
+    }
   };
   return run_timed<StabilityResult>(study, options, compute, [](StabilityResult&) {});
 }

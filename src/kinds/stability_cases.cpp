@@ -19,9 +19,9 @@ namespace {
 using keys::words_key;
 using scene::Dimension, scene::Expected, scene::InputError, scene::Key, scene::SceneFile, scene::Standing;
 
-std::vector<std::string> names_of_invariants() {
-  std::vector<std::string> names;
-  for (const NamedInvariant& each : named_invariants()) names.push_back(each.name);
+Sentences names_of_invariants() {
+  Sentences names;
+  for (const Invariant& each : all_invariants()) names.push_back(each.name);
   return names;
 }
 
@@ -76,7 +76,7 @@ struct CaseReader {
 /// A scene with keys of its own, or why it cannot have them.
 struct Changed {
   SceneFile scene;
-  std::optional<InputError> refusal;
+  Fault refusal;
 };
 
 /// Changes a scene by tables of scene keys; a later one has the last word. Unknown keys are faults in any
@@ -123,18 +123,20 @@ Expected<SceneFile> starting_scene(const CaseReader& reader) {
 }
 
 /// A mechanical run of a case. Its scene is checked for all that judging needs.
-Expected<std::size_t> add_run(const CaseReader& reader, const std::string& label, SceneFile scene) {
+Fault add_run(const CaseReader& reader, const std::string& label, SceneFile scene,
+              std::optional<std::size_t>& run) {
   if (!scene::has_charge(scene.scene))
     return reader.fault("scene", "a scene without a charge", "a scene with a charge");
   StudyCase made = case_of(label, std::move(scene));
   const double own = reader.launch.numerical_uncertainty;
   made.numerical_uncertainty = std::isfinite(own) ? own : reader.study.study.numerical_uncertainty;
+  run = reader.study.cases.size();
   reader.study.cases.push_back(std::move(made));
-  return reader.study.cases.size() - 1;
+  return std::nullopt;
 }
 
 /// A case of the reader has no run.
-Fault read_refusal(CaseReader& reader, const std::optional<InputError>& refusal) {
+Fault read_refusal(CaseReader& reader, const Fault& refusal) {
   for (const char* key : {"against", "expect", "invariants", "caught_within"}) {
     if (reader.table.contains(key))
       return reader.fault(key, "a key of a case that runs", "refused alone: a case of the reader has no run");
@@ -146,51 +148,44 @@ Fault read_refusal(CaseReader& reader, const std::optional<InputError>& refusal)
   return std::nullopt;
 }
 
-Fault read_runs(CaseReader& reader, Changed changed) {
-  if (changed.refusal) return changed.refusal;
+Fault read_runs(CaseReader& reader, const SceneFile& scene) {
+  const StudyFile& study = reader.study;
   StressCase& launch = reader.launch;
-  const SceneFile scene = changed.scene;
-  std::vector<double>& gaps = changed.scene.scene.surface.gaps;
-  launch.gaps = gaps != reader.study.scene.scene.surface.gaps ? gaps : reader.study.study.gaps;
-  if (scene.scene.coupling == scene::Coupling::two_way) gaps = launch.gaps;
-  const auto run = add_run(reader, launch.label(), std::move(changed.scene));
-  if (!run) return run.error();
-  launch.run = *run;
-  const toml::node* own = reader.table.get("against");
-  const toml::node* against = own ? own : reader.group.get("against");
+  SceneFile own = scene;
+  std::vector<double>& gaps = own.scene.surface.gaps;
+  launch.gaps = gaps != study.scene.scene.surface.gaps ? gaps : study.study.gaps;
+  if (own.scene.coupling == scene::Coupling::two_way) gaps = launch.gaps;
+  if (Fault fault = add_run(reader, launch.label(), std::move(own), launch.run)) return fault;
+  const bool of_case = reader.table.contains("against");
+  const toml::node* against = (of_case ? reader.table : reader.group).get("against");
   if (!against || (against->is_table() && against->as_table()->empty())) return std::nullopt;
-  auto safe = with_keys(scene, {{against, own ? "group.cases.against" : "group.against"}}, reader.study.file);
+  auto safe = with_keys(scene, {{against, of_case ? "group.cases.against" : "group.against"}}, study.file);
   if (!safe) return safe.error();
   if (safe->refusal) return safe->refusal;
   safe->scene.scene.coupling = scene::Coupling::one_way;  // a safe computation of the launch alone
-  const auto other = add_run(reader, launch.label() + ", against", std::move(safe->scene));
-  if (!other) return other.error();
-  launch.against = *other;
-  return std::nullopt;
+  return add_run(reader, launch.label() + ", against", std::move(safe->scene), launch.against);
 }
 
 Fault read_case(CaseReader reader) {
   StressCase& launch = reader.launch;
   launch.group = launch.name;
-  const auto read =
-      scene::read_table(reader.table, case_keys(), {"set", "against"}, reader.study.file, launch);
+  const std::string& file = reader.study.file;
+  const auto read = scene::read_table(reader.table, case_keys(), {"set", "against"}, file, launch);
   if (!read) return in_table(read.error(), "group.cases");
   auto& cases = settings_of<StabilitySettings>(reader.study.study).cases;
-  if (std::any_of(cases.begin(), cases.end(),
-                  [&](const StressCase& other) { return other.label() == launch.label(); }))
+  if (std::ranges::count(cases, launch.label(), &StressCase::label) > 0)
     return reader.fault("name", fmt::format("\"{}\" a second time in \"{}\"", launch.name, launch.group),
                         "a name that no other case of the group has");
   const auto start = starting_scene(reader);
   if (!start) return start.error();
-  auto changed = with_keys(
-      *start, {{reader.group.get("set"), "group.set"}, {reader.table.get("set"), "group.cases.set"}},
-      reader.study.file);
+  const auto changed = with_keys(
+      *start, {{reader.group.get("set"), "group.set"}, {reader.table.get("set"), "group.cases.set"}}, file);
   if (!changed) return changed.error();
-  if (Fault fault = launch.refused.empty() ? read_runs(reader, std::move(*changed))
-                                           : read_refusal(reader, changed->refusal))
-    return fault;
-  cases.push_back(std::move(launch));
-  return std::nullopt;
+  const bool runs = launch.refused.empty();
+  if (runs && changed->refusal) return changed->refusal;
+  Fault fault = runs ? read_runs(reader, changed->scene) : read_refusal(reader, changed->refusal);
+  if (!fault) cases.push_back(std::move(launch));
+  return fault;
 }
 
 Fault read_group(const toml::table& group, const StudySource& source, StudyFile& study) {
@@ -222,24 +217,20 @@ Fault make_stability_cases(const StudySource& source, StudyFile& study) {
     for (const toml::node& element : *node->as_array())
       if (Fault fault = read_group(*element.as_table(), source, study)) return fault;
   }
-  if (study.cases.empty())
-    return scene::error_at(place_of_key(study, node ? "group" : "kind"), "group", "no case that runs",
-                           allowed);
-  return std::nullopt;
+  if (!study.cases.empty()) return std::nullopt;
+  return scene::error_at(place_of_key(study, node ? "group" : "kind"), "group", "no case that runs", allowed);
 }
-
-/// It varies nothing but what its cases say.
-Fault read_stability(const StudySource&, StudyFile&) { return std::nullopt; }
 
 /// A case that is WRONG is the worst outcome of a study. No case makes it indeterminate.
 std::vector<Failure> stability_failures(const StabilityResult& result) {
   std::vector<Failure> failures;
-  for (const StressCaseRow& row : result.rows)
-    if (!row.is_as_expected())
-      add_failure(failures, row.asked.label(), row.run.outcome,
-                  row.computed() ? fmt::format("{}, which is not what the study expects: {}",
-                                               to_string(row.finding.outcome), row.finding.text)
-                                 : row.run.failure);
+  for (const StressCaseRow& row : result.rows) {
+    if (row.is_as_expected()) continue;
+    const std::string unexpected = fmt::format("{}, which is not what the study expects: {}",
+                                               to_string(row.finding.outcome), row.finding.text);
+    add_failure(failures, row.asked.label(), row.answer.outcome,
+                row.computed() ? unexpected : row.answer.failure);
+  }
   return failures;
 }
 
@@ -248,26 +239,6 @@ std::vector<Failure> stability_failures(const StabilityResult& result) {
 std::string to_string(Outcome outcome) {
   static constexpr std::array names{"held", "degraded", "caught", "WRONG"};
   return names[static_cast<std::size_t>(outcome)];
-}
-
-const std::vector<NamedInvariant>& named_invariants() {
-  static const std::vector<NamedInvariant> all{
-      {"finite", "all numbers are finite"},
-      {"mass", "bodies keep theirs; no more burns than the charge has"},
-      {"momentum", "none relative to the co-moving frame, the load's impulse in the lab's"},
-      {"energy", "drifts within the scene's limit"},
-      {"dissipation", "never falls"},
-      {"friction-heat", "never falls"},
-      {"temperature", "no skin is colder than at first, no gas beyond its law"},
-      {"reaction-heat", "no more is released than what burnt has, and less than 1 % of it made or lost"},
-      {"same-temperature", "T max is that of the safe computation `against`"}};
-  return all;
-}
-
-std::vector<Invariant> all_invariants() {
-  std::vector<Invariant> all;
-  for (std::size_t i = 0; i < named_invariants().size(); ++i) all.push_back(static_cast<Invariant>(i));
-  return all;
 }
 
 Kind stability_kind() {
@@ -279,7 +250,7 @@ Kind stability_kind() {
                  .goes_through_ignition = true},
       .keys = joined({gaps_keys(), judging_keys()}),
       .tables = {table_of("group", case_keys())},
-      .read = read_stability,
+      .read = [](const StudySource&, StudyFile&) -> Fault { return std::nullopt; },
       .make_cases = make_stability_cases,
       .run = outcome_of<run_stability, stability_failures>,
       .files = {{"stability.csv"}, {"outcomes.svg"}},

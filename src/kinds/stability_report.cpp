@@ -27,7 +27,7 @@ std::string outcome_text(const StressCaseRow& row) {
 
 /// The finding, or why there is none.
 std::string finding_text(const StressCaseRow& row) {
-  return row.computed() ? row.finding.text : row.run.failure;
+  return row.computed() ? row.finding.text : row.answer.failure;
 }
 
 /// The reason without the numbers behind it.
@@ -36,47 +36,141 @@ std::string first_clause(const std::string& text) {
 }
 
 std::string expected_text(const StressCase& asked) {
-  std::vector<std::string> names;
+  Sentences names;
   for (const Outcome each : asked.expected) names.push_back(to_string(each));
   return names.empty() ? "not WRONG" : fmt::format("{}", fmt::join(names, " or "));
 }
 
 std::string invariants_text(const StressCase& asked) {
-  std::vector<std::string> names;
-  for (const Invariant each : asked.invariants)
-    names.push_back(named_invariants()[static_cast<std::size_t>(each)].name);
-  return asked.invariants == all_invariants() ? "all" : fmt::format("{}", fmt::join(names, " "));
+  Sentences names;
+  for (const std::size_t place : asked.invariants) names.push_back(all_invariants()[place].name);
+  return names.size() == all_invariants().size() ? "all" : fmt::format("{}", fmt::join(names, " "));
 }
 
-std::vector<Cell> case_cells(const StressCaseRow& row) {
-  const StressCase& asked = row.asked;
-  return {asked.group,
-          asked.name,
-          outcome_text(row),
-          expected_text(asked),
-          std::string(row.is_as_expected() ? "yes" : "no"),
-          invariants_text(asked),
-          finding_text(row)};
+struct ColumnAndCell {
+  Column column;
+  Cell cell;
+};
+
+/// What there is to say of a case, and of one of its gaps, which may have none of the numbers.
+std::vector<ColumnAndCell> cells_of(const StressCaseRow& row, std::size_t i) {
+  const CaseAnswer& answer = row.answer;
+  const GapVerdict gap = i < answer.verdicts.size() ? answer.verdicts[i] : GapVerdict{};
+  const auto of_gap = [i](const std::vector<double>& values) {
+    return i < values.size() ? optional_number(values[i]) : Cell();
+  };
+  return {{named_text("group", "group"), row.asked.group},
+          {quantity::case_name(), row.asked.name},
+          {named_text("outcome", "outcome"), outcome_text(row)},
+          {named_text("expected", "expected"), expected_text(row.asked)},
+          {named_text("as expected", "as_expected"), std::string(row.is_as_expected() ? "yes" : "no")},
+          {named_text("invariants", "invariants"), invariants_text(row.asked)},
+          {named_text("finding", "finding"), finding_text(row)},
+          {quantity::status(), run::to_string(answer.run.status)},
+          {number_column("until", "ms", 4, "end_time_ms"), optional_number(1e3 * row.end_time)},
+          {quantity::steps(), static_cast<std::int64_t>(answer.run.steps)},
+          {quantity::particles(), static_cast<std::int64_t>(answer.run.particles)},
+          {quantity::energy_drift(), optional_number(answer.run.energy_drift)},
+          {quantity::gap(), in_centimetres(gap.gap)},
+          {quantity::temperature_max(), optional_number(gap.maximum.temperature)},
+          {quantity::temperature_max_inert(), of_gap(answer.heated_temperature)},
+          {number_column("safe computation", "K", 1, "safe_computation_K"), of_gap(row.heated_against)},
+          {number_column("against", "K", 1, "deviation_K"), of_gap(row.deviations)},
+          {quantity::uncertainty(), optional_number(gap.uncertainty.total())},
+          {quantity::verdict(), study::to_string(gap.judgement.verdict)},
+          {quantity::reason(), gap.judgement.reason},
+          {quantity::limiters(), run::to_string(answer.run.limiters)}};
+}
+/// So many of them are of the case; a row without a gap has no others.
+constexpr std::size_t cells_of_case = 7;
+
+Table stability_table(const StabilityResult& result) {
+  Table table;
+  table.title = "Stress cases";
+  for (const ColumnAndCell& each : cells_of({}, 0)) table.columns.push_back(each.column);
+  for (const StressCaseRow& row : result.rows) {
+    const std::size_t gaps = row.computed() ? row.answer.verdicts.size() : 0;
+    for (std::size_t i = 0; i < std::max<std::size_t>(gaps, 1); ++i) {
+      std::vector<Cell>& cells = table.rows.emplace_back();
+      for (ColumnAndCell& each : cells_of(row, i)) cells.push_back(std::move(each.cell));
+      if (gaps == 0) cells.resize(cells_of_case);
+      cells.resize(table.columns.size());
+    }
+  }
+  return table;
 }
 
-std::vector<Cell> gap_cells(const StressCaseRow& row, std::size_t i) {
-  const CaseAnswer& answer = row.run.answer;
-  const GapVerdict& gap = answer.verdicts[i];
-  const double against = i < row.heated_against.size() ? row.heated_against[i] : not_a_number;
-  return {run::to_string(answer.run.status),
-          optional_number(1e3 * row.run.end_time),
-          static_cast<std::int64_t>(answer.run.steps),
-          static_cast<std::int64_t>(answer.run.particles),
-          optional_number(answer.run.energy_drift),
-          in_centimetres(gap.gap),
-          optional_number(gap.maximum.temperature),
-          optional_number(answer.heated_temperature[i]),
-          optional_number(against),
-          optional_number(row.deviation(i)),
-          optional_number(gap.uncertainty.total()),
-          study::to_string(gap.judgement.verdict),
-          gap.judgement.reason,
-          run::to_string(answer.run.limiters)};
+/// How many rows that is true of.
+template <class Belongs>
+std::size_t count(const StabilityResult& result, Belongs belongs) {
+  return static_cast<std::size_t>(std::ranges::count_if(result.rows, belongs));
+}
+
+std::size_t count_missing(const StabilityResult& result) {
+  return result.rows.size() - count(result, &StressCaseRow::computed);
+}
+
+/// Every case that is WRONG, not as expected or not computed, a line each.
+std::string unexpected_text(const StabilityResult& result) {
+  std::string text;
+  for (const StressCaseRow& row : result.rows)
+    if (!row.is_as_expected())
+      text += fmt::format("\n- {}: {}: {}", row.asked.label(), outcome_text(row), finding_text(row));
+  return text.empty() ? text : "Not as the study expects:" + text;
+}
+
+constexpr Outcome all_outcomes[] = {Outcome::held, Outcome::degraded, Outcome::caught, Outcome::wrong};
+
+/// How many cases of every group came out how: a bar for every outcome, the first group on top.
+Plot outcome_plot(const StabilityResult& result) {
+  constexpr int green = 2, orange = 4, blue = 0, black = 6;
+  constexpr int colours[] = {green, orange, blue, black};
+  Plot plot;
+  plot.title = "Outcomes of the stress cases";
+  plot.x.label = "cases";
+  std::map<std::string, double> places;
+  for (const StressCaseRow& row : result.rows) {
+    const double at = -static_cast<double>(places.size());
+    if (places.try_emplace(row.asked.group, at).second) plot.y.tics.push_back({at, row.asked.group});
+  }
+  for (std::size_t i = 0; i < std::size(all_outcomes); ++i) {
+    Series series{to_string(all_outcomes[i]), {}, {}, Style::horizontal_bars, {}, {}, colours[i]};
+    for (const auto& [group, place] : places) {
+      const auto cases = static_cast<double>(count(result, [&](const StressCaseRow& row) {
+        return row.asked.group == group && row.is(all_outcomes[i]);
+      }));
+      if (cases == 0.0) continue;
+      series.x.push_back(cases);
+      series.y.push_back(place + 0.3 - 0.2 * static_cast<double>(i));
+      series.lower.push_back(0.0);
+      series.upper.push_back(cases);
+    }
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+std::string legend(const Study& study) {
+  std::string text = fmt::format(
+      "- **held**: what must hold held.\n"
+      "- **degraded**: it did not, a limiter acted or a validity warning holds, and the result says so.\n"
+      "- **caught**: the run was stopped, or the scene refused.\n"
+      "- **WRONG**: an invariant is violated, and yet a verdict says SAFE or UNSAFE.\n\n"
+      "Invariants, with an uncertainty of T max of {} K unless the case states its own:\n\n",
+      significant(study.numerical_uncertainty, 3));
+  for (const Invariant& each : all_invariants()) text += fmt::format("- `{}`: {}.\n", each.name, each.words);
+  return text;
+}
+
+nlohmann::ordered_json counts_json(const StabilityResult& result) {
+  nlohmann::ordered_json counts;
+  counts["cases"] = result.rows.size();
+  for (const Outcome outcome : all_outcomes) counts[to_string(outcome)] = result.count(outcome);
+  const std::size_t missing = count_missing(result);
+  counts["not_as_expected"] = result.rows.size() - count(result, &StressCaseRow::is_as_expected) -
+                              result.count(Outcome::wrong) - missing;
+  counts["not_computed"] = missing;
+  return counts;
 }
 
 }  // namespace
@@ -90,124 +184,6 @@ Table not_held_table(const StabilityResult& result) {
       table.rows.push_back({row.asked.label(), outcome_text(row), first_clause(finding_text(row))});
   return table;
 }
-
-Table stability_table(const StabilityResult& result) {
-  Table table;
-  table.title = "Stress cases";
-  table.columns = {named_text("group", "group"),
-                   quantity::case_name(),
-                   named_text("outcome", "outcome"),
-                   named_text("expected", "expected"),
-                   named_text("as expected", "as_expected"),
-                   named_text("invariants", "invariants"),
-                   named_text("finding", "finding"),
-                   quantity::status(),
-                   number_column("until", "ms", 4, "end_time_ms"),
-                   quantity::steps(),
-                   quantity::particles(),
-                   quantity::energy_drift(),
-                   quantity::gap(),
-                   quantity::temperature_max(),
-                   quantity::temperature_max_inert(),
-                   number_column("safe computation", "K", 1, "safe_computation_K"),
-                   number_column("against", "K", 1, "deviation_K"),
-                   quantity::uncertainty(),
-                   quantity::verdict(),
-                   quantity::reason(),
-                   quantity::limiters()};
-  for (const StressCaseRow& row : result.rows) {
-    const std::size_t gaps = row.computed() ? row.run.answer.verdicts.size() : 0;
-    for (std::size_t i = 0; i < std::max<std::size_t>(gaps, 1); ++i) {
-      std::vector<Cell> cells = case_cells(row);
-      if (i < gaps) std::ranges::copy(gap_cells(row, i), std::back_inserter(cells));
-      cells.resize(table.columns.size());
-      table.rows.push_back(std::move(cells));
-    }
-  }
-  return table;
-}
-
-namespace {
-
-template <class Belongs>
-std::size_t count(const StabilityResult& result, Belongs belongs) {
-  return static_cast<std::size_t>(std::count_if(result.rows.begin(), result.rows.end(), belongs));
-}
-
-std::size_t count_missing(const StabilityResult& result) {
-  return count(result, [](const StressCaseRow& row) { return !row.computed(); });
-}
-
-/// Every case that is WRONG, not as expected or not computed, a line each.
-std::string unexpected_text(const StabilityResult& result) {
-  std::string text;
-  for (const StressCaseRow& row : result.rows)
-    if (!row.is_as_expected())
-      text += fmt::format("\n- {}: {}: {}", row.asked.label(), outcome_text(row), finding_text(row));
-  return text.empty() ? text : "Not as the study expects:" + text;
-}
-
-/// How many cases of every group came out how: a bar for every outcome, the first group on top.
-Plot outcome_plot(const StabilityResult& result) {
-  constexpr int green = 2, orange = 4, blue = 0, black = 6;
-  Plot plot;
-  plot.title = "Outcomes of the stress cases";
-  plot.x.label = "cases";
-  for (const auto& [outcome, colour] : {std::pair{Outcome::held, green},
-                                        {Outcome::degraded, orange},
-                                        {Outcome::caught, blue},
-                                        {Outcome::wrong, black}})
-    plot.series.push_back({to_string(outcome), {}, {}, Style::horizontal_bars, {}, {}, colour});
-  std::map<std::string, std::size_t> places;
-  for (const StressCaseRow& row : result.rows) {
-    const double at = -static_cast<double>(places.size());
-    if (places.try_emplace(row.asked.group, places.size()).second)
-      plot.y.tics.push_back({at, row.asked.group});
-  }
-  for (const auto& [group, place] : places) {
-    for (std::size_t i = 0; i < plot.series.size(); ++i) {
-      Series& series = plot.series[i];
-      const auto cases = static_cast<double>(count(result, [&](const StressCaseRow& row) {
-        return row.asked.group == group && row.is(static_cast<Outcome>(i));
-      }));
-      if (cases == 0.0) continue;
-      series.x.push_back(cases);
-      series.y.push_back(-static_cast<double>(place) + 0.3 - 0.2 * static_cast<double>(i));
-      series.lower.push_back(0.0);
-      series.upper.push_back(cases);
-    }
-  }
-  return plot;
-}
-
-std::string legend(const Study& study) {
-  std::string text = fmt::format(
-      "- **held**: what must hold held.\n"
-      "- **degraded**: it did not, a limiter acted or a validity warning holds, and the result says so.\n"
-      "- **caught**: the run was stopped, or the scene refused.\n"
-      "- **WRONG**: an invariant is violated, and yet a verdict says SAFE or UNSAFE.\n\n"
-      "Invariants, with an uncertainty of T max of {} K unless the case states its own:\n\n",
-      significant(study.numerical_uncertainty, 3));
-  for (const NamedInvariant& each : named_invariants())
-    text += fmt::format("- `{}`: {}.\n", each.name, each.words);
-  return text;
-}
-
-nlohmann::ordered_json counts_json(const StabilityResult& result) {
-  return {{"cases", result.rows.size()},
-          {"held", result.count(Outcome::held)},
-          {"degraded", result.count(Outcome::degraded)},
-          {"caught", result.count(Outcome::caught)},
-          {"WRONG", result.count(Outcome::wrong)},
-          {"not_as_expected", count(result,
-                                    [](const StressCaseRow& row) {
-                                      return row.computed() && !row.is(Outcome::wrong) &&
-                                             !row.is_as_expected();
-                                    })},
-          {"not_computed", count_missing(result)}};
-}
-
-}  // namespace
 
 std::string answer(const StabilityResult& result) {
   const std::size_t wrong = result.count(Outcome::wrong);

@@ -24,8 +24,8 @@ StabilityResult stability_with_a_launch() {
   StabilityResult result;
   result.study = bare_study(traits_of("stability"), {2e-4});
   StressCaseRow row;
-  row.run.answer.verdicts.resize(1);
-  row.run.answer.heated_temperature = {300.0};
+  row.answer.verdicts.resize(1);
+  row.answer.heated_temperature = {300.0};
   result.rows = {row};
   return result;
 }

@@ -34,12 +34,12 @@ TEST(ReadStability, ACaseAddsToWhatItsGroupSetsAndReplacesWhatElseItSays) {
   const StressCase &high = cases_of(study)[0], &other = cases_of(study)[1];
   EXPECT_EQ(high.label(), "load: high");
   EXPECT_EQ(high.expected, (std::vector{Outcome::held, Outcome::caught}));
-  EXPECT_EQ(high.invariants, all_invariants());
+  EXPECT_EQ(high.invariants, places_of_all_invariants());
   EXPECT_EQ(high.run, 0u);
   EXPECT_EQ(high.against, 1u);
   EXPECT_EQ(high.gaps, study.study.gaps);
   EXPECT_EQ(other.expected, (std::vector{Outcome::held}));
-  EXPECT_EQ(other.invariants, (std::vector{Invariant::mass, Invariant::same_temperature}));
+  EXPECT_EQ(other.invariants, (std::vector<std::size_t>{1, 8})) << "mass, same-temperature";
   EXPECT_EQ(other.caught_within, 500u);
   EXPECT_EQ(other.run, 2u);
   EXPECT_FALSE(other.against);

@@ -57,7 +57,7 @@ TEST(StabilityMatrix, HasNoCaseThatIsWrongOrUnexpected) {
   const StabilityResult result = result_of(read_study(studies_folder / "stability" / "smoke.toml"));
   for (const StressCaseRow& row : result.rows)
     EXPECT_TRUE(row.is_as_expected()) << row.asked.label() << ": " << to_string(row.finding.outcome) << ", "
-                                      << row.finding.text << row.run.failure;
+                                      << row.finding.text << row.answer.failure;
   for (const auto outcome : {Outcome::held, Outcome::degraded, Outcome::caught})
     EXPECT_GT(result.count(outcome), 0u) << to_string(outcome);
 }
@@ -78,7 +78,7 @@ TEST(StabilityMatrix, CopiedForAnotherShellItComputesThatShell) {
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(result.rows[i].asked.name, names[i]);
     EXPECT_TRUE(result.rows[i].is_as_expected()) << result.rows[i].finding.text;
-    if (i < 3) EXPECT_EQ(result.rows[i].run.answer.run.particles, 24u);
+    if (i < 3) EXPECT_EQ(result.rows[i].answer.run.particles, 24u);
   }
 }
 

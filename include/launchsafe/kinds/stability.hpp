@@ -9,11 +9,12 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace launchsafe::kinds {
 
-/// What became of a stress case.
+/// What became of a stress case, the worst last.
 enum class Outcome {
   held,      ///< what must hold held
   degraded,  ///< it did not, or not fully, and the result says so itself
@@ -22,52 +23,11 @@ enum class Outcome {
 };
 std::string to_string(Outcome outcome);  ///< "held", "degraded", "caught", "WRONG"
 
+using Sentences = std::vector<std::string>;
+
 struct Finding {
   Outcome outcome = Outcome::wrong;
   std::string text;  ///< the reason, then the numbers behind it
-};
-
-/// What a computation that completed must fulfil.
-enum class Invariant {
-  finite,
-  mass,
-  momentum,
-  energy,
-  dissipation,
-  friction_heat,
-  temperature,
-  reaction_heat,
-  same_temperature
-};
-struct NamedInvariant {
-  std::string name;   ///< in study files: "friction-heat"
-  std::string words;  ///< what it says, for people
-};
-const std::vector<NamedInvariant>& named_invariants();  ///< in the order of the enumeration
-std::vector<Invariant> all_invariants();
-
-/// One case of a stability study: a launch that is extreme, or whose computation is, and what must hold.
-struct StressCase {
-  std::string group, name;
-  std::string scene;              ///< path of its own, from the study file's folder; empty: the study's
-  std::string refused;            ///< a case of the reader: what it must say of the scene; else empty
-  std::string refusal;            ///< what the reader said; empty where it took the scene
-  std::vector<Outcome> expected;  ///< acceptable ones; empty: anything but WRONG
-  std::vector<Invariant> invariants = all_invariants();
-  double numerical_uncertainty = study::not_a_number;  ///< K, of T max; NaN: the study's
-  /// Steps within which a broken computation must be caught; 0: any number.
-  std::uint64_t caught_within = 0;
-  std::vector<double> gaps;            ///< m, to judge; all on one run
-  std::optional<std::size_t> run;      ///< of StudyFile::cases; none for a case of the reader
-  std::optional<std::size_t> against;  ///< of StudyFile::cases: a safe computation of the same launch
-
-  std::string label() const { return group + ": " + name; }
-  bool has(Invariant invariant) const;
-};
-
-/// What a study file of this kind says besides.
-struct StabilitySettings {
-  std::vector<StressCase> cases;  ///< in the order written; their runs are among the cases
 };
 
 /// A run that completed; of one that went through an ignition, what burnt is judged alone.
@@ -77,37 +37,60 @@ struct CompletedRun {
   const std::vector<double>& gaps;  ///< m
   const run::CombustionHistory* combustion = nullptr;
 };
+
+/// What a computation that completed must fulfil.
+struct Invariant {
+  std::string name;   ///< in study files: "friction-heat"
+  std::string words;  ///< what it says, for people
+  /// Adds how a launch, or what burnt, violates it, a sentence each; not checked where there is no function.
+  void (*of_launch)(const CompletedRun& run, Sentences& violations) = nullptr;
+  void (*of_burn)(const CompletedRun& run, Sentences& violations) = nullptr;
+};
+const std::vector<Invariant>& all_invariants();
+std::vector<std::size_t> places_of_all_invariants();  ///< 0, 1, ...
+
+/// One case of a stability study: a launch that is extreme, or whose computation is, and what must hold.
+struct StressCase {
+  std::string group, name;
+  std::string scene;              ///< path of its own, from the study file's folder; empty: the study's
+  std::string refused;            ///< a case of the reader: what it must say of the scene; else empty
+  std::string refusal;            ///< what the reader said; empty where it took the scene
+  std::vector<Outcome> expected;  ///< acceptable ones; empty: anything but WRONG
+  std::vector<std::size_t> invariants = places_of_all_invariants();  ///< of all_invariants()
+  double numerical_uncertainty = study::not_a_number;                ///< K, of T max; NaN: the study's
+  /// Steps within which a broken computation must be caught; 0: any number.
+  std::uint64_t caught_within = 0;
+  std::vector<double> gaps;            ///< m, to judge; all on one run
+  std::optional<std::size_t> run;      ///< of StudyFile::cases; none for a case of the reader
+  std::optional<std::size_t> against;  ///< of StudyFile::cases: a safe computation of the same launch
+
+  std::string label() const { return group + ": " + name; }
+  bool has(std::string_view invariant) const;
+};
+
+/// What a study file of this kind says besides.
+struct StabilitySettings {
+  std::vector<StressCase> cases;  ///< in the order written; their runs are among the cases
+};
+
 /// How a run violates the invariants of its case, a sentence each; none for a sound one. All but the same
 /// temperature, which takes two runs.
-std::vector<std::string> violations_of(const CompletedRun& run, const StressCase& asked);
-
-/// What the run of a case says: all that judging needs, and no histories.
-struct StressRun {
-  study::RunOutcome outcome = study::RunOutcome::ran;
-  std::string failure;                    ///< why it was not run at all; then nothing else is known
-  std::string reason;                     ///< when and where it was stopped, if it was
-  double end_time = study::not_a_number;  ///< s, reached
-  double ignition_temperature = study::not_a_number;  ///< K
-  study::CaseAnswer answer;
-  std::vector<std::string> violations;  ///< of invariants
-  std::vector<std::string> validity_warnings;
-  std::vector<Finding> burns;  ///< of the runs through ignition, by gap
-};
+Sentences violations_of(const CompletedRun& run, const StressCase& asked);
 
 /// A stress case and what became of it.
 struct StressCaseRow {
   StressCase asked;
-  StressRun run;                       ///< of a case that runs
-  std::vector<double> heated_against;  ///< K, CaseAnswer::heated_temperature of a safe computation; else none
+  study::CaseAnswer answer;               ///< of a case that runs, or why it was not computed
+  double end_time = study::not_a_number;  ///< s, reached
+  /// By gap, K; none without a safe computation: CaseAnswer::heated_temperature of that, and how far the case
+  /// is off it, both up to ignition: beyond it they say the same.
+  std::vector<double> heated_against, deviations;
   Finding finding;
 
-  bool computed() const { return run.failure.empty(); }
+  bool computed() const;
   bool is(Outcome outcome) const { return computed() && finding.outcome == outcome; }
   /// Computed, not WRONG, and what the study expects.
   bool is_as_expected() const;
-  /// K, from the safe computation at a gap, of a skin that neither reacts nor is triggered, both up to
-  /// ignition: beyond it they say the same. NaN without a safe computation.
-  double deviation(std::size_t gap) const;
 };
 
 struct StabilityResult {
@@ -135,10 +118,10 @@ std::string answer(const StabilityResult& result);
 
 /// A row for every case that is not held, with the reason in a few words.
 report::Table not_held_table(const StabilityResult& result);
-/// A row for every gap of every case: what must hold, what became of it, why, and the numbers behind it.
-report::Table stability_table(const StabilityResult& result);
 
-/// The whole report. Nothing in it differs between two runs of a study: no times, rates, dates or hosts.
+/// The whole report; its file stability.csv has a row for every gap of every case: what must hold, what
+/// became of it, why, and the numbers behind it. Nothing in it differs between two runs of a study: no times,
+/// rates, dates or hosts.
 report::Report report_of(const StabilityResult& result);
 
 }  // namespace launchsafe::kinds
