@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace launchsafe::kinds {
 
@@ -25,8 +27,6 @@ struct StressRun {
 };
 
 std::string joined_text(const Sentences& parts) { return fmt::format("{}", fmt::join(parts, "; ")); }
-
-void append(Sentences& to, const Sentences& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 bool was_computed(const CaseAnswer& answer) {
   return answer.outcome == RunOutcome::ran || answer.outcome == RunOutcome::reused;
@@ -147,10 +147,10 @@ Finding judge_launch(const StressCaseRow& row, const StressRun& run, bool compar
       numbers.back() += fmt::format(", {:+.2g} K against the safe computation, uncertainty {:.2g} K",
                                     deviation, uncertainty);
   }
-  append(faults, run.reserves);
+  faults.insert(faults.end(), run.reserves.begin(), run.reserves.end());
   if (!compared) faults.emplace_back("the safe computation is not there to compare with");
   const Outcome outcome = wrong ? Outcome::wrong : faults.empty() ? Outcome::held : Outcome::degraded;
-  append(faults, numbers);
+  faults.insert(faults.end(), numbers.begin(), numbers.end());
   return {outcome, joined_text(faults)};
 }
 

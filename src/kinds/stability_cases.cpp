@@ -4,11 +4,13 @@
 #include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 #include "study_outcome.hpp"
+#include "study_scene.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace launchsafe::kinds {
@@ -52,12 +54,6 @@ const std::vector<Key<StressCase>>& case_keys() {
   return keys;
 }
 
-/// The scene keys of a table, and what it is called.
-struct Changes {
-  const toml::node* node = nullptr;
-  std::string name;
-};
-
 /// One case while it is read.
 struct CaseReader {
   StudyFile& study;
@@ -81,10 +77,10 @@ struct Changed {
 
 /// Changes a scene by tables of scene keys; a later one has the last word. Unknown keys are faults in any
 /// case.
-Expected<Changed> with_keys(const SceneFile& start, const std::vector<Changes>& all,
+Expected<Changed> with_keys(const SceneFile& start, const std::vector<OverrideTable>& all,
                             const std::string& file) {
   std::vector<Change> changes;
-  for (const auto& [node, name] : all) {
+  for (const auto& [name, node] : all) {
     if (!node) continue;
     if (!node->is_table())
       return scene::error_at(scene::place_of(*node, file), name, scene::found_text(*node),
@@ -116,7 +112,7 @@ Expected<SceneFile> starting_scene(const CaseReader& reader) {
                         "a scene file, by its path from the study file's folder");
   auto read = scene::read_scene(path);
   if (!read) return read;
-  auto changed = with_keys(*read, {{reader.source.root.get("set"), "set"}}, reader.study.file);
+  auto changed = with_keys(*read, {{"set", reader.source.root.get("set")}}, reader.study.file);
   if (!changed) return changed.error();
   if (changed->refusal) return *changed->refusal;
   return std::move(changed->scene);
@@ -159,7 +155,7 @@ Fault read_runs(CaseReader& reader, const SceneFile& scene) {
   const bool of_case = reader.table.contains("against");
   const toml::node* against = (of_case ? reader.table : reader.group).get("against");
   if (!against || (against->is_table() && against->as_table()->empty())) return std::nullopt;
-  auto safe = with_keys(scene, {{against, of_case ? "group.cases.against" : "group.against"}}, study.file);
+  auto safe = with_keys(scene, {{of_case ? "group.cases.against" : "group.against", against}}, study.file);
   if (!safe) return safe.error();
   if (safe->refusal) return safe->refusal;
   safe->scene.scene.coupling = scene::Coupling::one_way;  // a safe computation of the launch alone
@@ -179,7 +175,7 @@ Fault read_case(CaseReader reader) {
   const auto start = starting_scene(reader);
   if (!start) return start.error();
   const auto changed = with_keys(
-      *start, {{reader.group.get("set"), "group.set"}, {reader.table.get("set"), "group.cases.set"}}, file);
+      *start, {{"group.set", reader.group.get("set")}, {"group.cases.set", reader.table.get("set")}}, file);
   if (!changed) return changed.error();
   const bool runs = launch.refused.empty();
   if (runs && changed->refusal) return changed->refusal;

@@ -113,26 +113,24 @@ void check_momentum(const CompletedRun& run, Sentences& violations) {
           largest, impulse.value);
 }
 
-void check_drift(const CompletedRun& run, double drift, Sentences& violations) {
-  const double limit = run.scene.numerics.energy_drift_limit;
-  require(drift <= limit, violations, "the energy drifts by {:.3g} %, more than {:.3g} %", 100.0 * drift,
-          100.0 * limit);
-}
-
 double largest_energy(const std::vector<MonitorSample>& monitor) {
   double largest = 0;
   for (const MonitorSample& sample : monitor) largest = std::max(largest, sample.energy.scale());
   return largest;
 }
 
-/// Against the largest energy of the run, or the least one that balances are judged on.
+/// Against the largest energy of the run, or the least one that balances are judged on. With what burnt the
+/// run itself has the drift.
 void check_energy(const CompletedRun& run, Sentences& violations) {
   const std::vector<MonitorSample>& monitor = run.mechanics.monitor;
   double drift = 0;
   for (const MonitorSample& sample : monitor)
     drift = std::max(drift, std::abs(sample.energy.drift()) * sample.energy.scale());
-  check_drift(run, drift / std::max(run::least_judged_energy(run.scene), largest_energy(monitor)),
-              violations);
+  drift /= std::max(run::least_judged_energy(run.scene), largest_energy(monitor));
+  if (run.combustion) drift = run.combustion->energy_drift;
+  const double limit = run.scene.numerics.energy_drift_limit;
+  require(drift <= limit, violations, "the energy drifts by {:.3g} %, more than {:.3g} %", 100.0 * drift,
+          100.0 * limit);
 }
 
 void check_dissipation(const CompletedRun& run, Sentences& violations) {
@@ -201,10 +199,6 @@ void check_burnt_mass(const CompletedRun& run, Sentences& violations) {
   require(std::ranges::is_sorted(burnt), violations, "the burnt mass falls");
 }
 
-void check_burning_energy(const CompletedRun& run, Sentences& violations) {
-  check_drift(run, run.combustion->energy_drift, violations);
-}
-
 void check_gas(const CompletedRun& run, Sentences& violations) {
   const auto [coldest, hottest] = std::ranges::minmax_element(run.combustion->gas_temperature);
   require(*coldest >= ProductGas::lowest_temperature && *hottest <= ProductGas::highest_temperature,
@@ -227,7 +221,7 @@ const std::vector<Invariant>& all_invariants() {
       {"finite", "all numbers are finite", check_finite, check_finite_burn},
       {"mass", "bodies keep theirs; no more burns than the charge has", check_masses, check_burnt_mass},
       {"momentum", "none relative to the co-moving frame, the load's impulse in the lab's", check_momentum},
-      {"energy", "drifts within the scene's limit", check_energy, check_burning_energy},
+      {"energy", "drifts within the scene's limit", check_energy, check_energy},
       {"dissipation", "never falls", check_dissipation},
       {"friction-heat", "never falls", check_friction},
       {"temperature", "no skin is colder than at first, no gas beyond its law", check_skin, check_gas},

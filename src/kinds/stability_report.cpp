@@ -53,7 +53,7 @@ struct ColumnAndCell {
 };
 
 /// What there is to say of a case, and of one of its gaps, which may have none of the numbers.
-std::vector<ColumnAndCell> cells_of(const StressCaseRow& row, std::size_t i) {
+std::vector<ColumnAndCell> stress_cells(const StressCaseRow& row, std::size_t i) {
   const CaseAnswer& answer = row.answer;
   const GapVerdict gap = i < answer.verdicts.size() ? answer.verdicts[i] : GapVerdict{};
   const auto of_gap = [i](const std::vector<double>& values) {
@@ -84,15 +84,16 @@ std::vector<ColumnAndCell> cells_of(const StressCaseRow& row, std::size_t i) {
 /// So many of them are of the case; a row without a gap has no others.
 constexpr std::size_t cells_of_case = 7;
 
+/// A row for every gap of every case: what must hold, what became of it, why, and the numbers behind it.
 Table stability_table(const StabilityResult& result) {
   Table table;
   table.title = "Stress cases";
-  for (const ColumnAndCell& each : cells_of({}, 0)) table.columns.push_back(each.column);
+  for (const ColumnAndCell& each : stress_cells({}, 0)) table.columns.push_back(each.column);
   for (const StressCaseRow& row : result.rows) {
     const std::size_t gaps = row.computed() ? row.answer.verdicts.size() : 0;
     for (std::size_t i = 0; i < std::max<std::size_t>(gaps, 1); ++i) {
       std::vector<Cell>& cells = table.rows.emplace_back();
-      for (ColumnAndCell& each : cells_of(row, i)) cells.push_back(std::move(each.cell));
+      for (ColumnAndCell& each : stress_cells(row, i)) cells.push_back(std::move(each.cell));
       if (gaps == 0) cells.resize(cells_of_case);
       cells.resize(table.columns.size());
     }
@@ -173,8 +174,7 @@ nlohmann::ordered_json counts_json(const StabilityResult& result) {
   return counts;
 }
 
-}  // namespace
-
+/// A row for every case that is not held, with the reason in a few words.
 Table not_held_table(const StabilityResult& result) {
   Table table;
   table.title = "Not held";
@@ -184,6 +184,8 @@ Table not_held_table(const StabilityResult& result) {
       table.rows.push_back({row.asked.label(), outcome_text(row), first_clause(finding_text(row))});
   return table;
 }
+
+}  // namespace
 
 std::string answer(const StabilityResult& result) {
   const std::size_t wrong = result.count(Outcome::wrong);

@@ -51,7 +51,7 @@ run::CaseResult sound_burn(const scene::Scene& scene) {
   run::CaseResult result;
   result.mechanics = sound_mechanics(scene);
   result.gaps.resize(1);
-  CombustionHistory c;
+  CombustionHistory& c = result.gaps[0].combustion.emplace();
   c.time = {17.7e-3, 18.7e-3};
   c.burnt_mass = {0.0, 1e-3};
   c.burnt_depth = {0.0, 1e-4};
@@ -61,7 +61,6 @@ run::CaseResult sound_burn(const scene::Scene& scene) {
   c.released = {0.0, 500.0};
   c.kept_back = {0.0, 5320.0};
   c.brought = {0.0, 300.0};
-  result.gaps[0].combustion = c;
   return result;
 }
 
@@ -90,7 +89,7 @@ struct Made {
 
 /// A study of made cases, whose runs are told apart by their time step factors. `coupled`: it is the runs
 /// through ignition that are broken.
-StabilityResult result_of(const std::vector<Made>& all, bool coupled) {
+StabilityResult run_made(const std::vector<Made>& all, bool coupled) {
   std::string cases;
   std::map<double, const Made*> runs, safe_runs;
   for (const Made& made : all) {
@@ -120,7 +119,7 @@ StabilityResult result_of(const std::vector<Made>& all, bool coupled) {
 }
 
 void expect_as_made(const std::vector<Made>& all, bool coupled = false) {
-  const StabilityResult result = result_of(all, coupled);
+  const StabilityResult result = run_made(all, coupled);
   ASSERT_EQ(result.rows.size(), all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const StressCaseRow& row = result.rows[i];

@@ -116,9 +116,6 @@ Kind stability_kind();
 /// How many cases came out how; and every one that is WRONG, not as expected or not computed, by name.
 std::string answer(const StabilityResult& result);
 
-/// A row for every case that is not held, with the reason in a few words.
-report::Table not_held_table(const StabilityResult& result);
-
 /// The whole report; its file stability.csv has a row for every gap of every case: what must hold, what
 /// became of it, why, and the numbers behind it. Nothing in it differs between two runs of a study: no times,
 /// rates, dates or hosts.
