@@ -128,15 +128,5 @@ TEST_F(Plotted, WritesNumbersAsTablesWithoutGnuplot) {
   EXPECT_EQ(json["tables"][0]["file"], "out/pressure.csv");
 }
 
-TEST_F(Plotted, DrawsProfilesAtAnyTimeOfTheRun) {
-  if (!can_draw()) GTEST_SKIP() << "gnuplot is not installed";
-  const Outcome outcome =
-      run({"plot", "shell.h5", "-o", "out", "--what", "profile", "--times", "0.03, 0.04 ms"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  const std::string svg = read("out/profile_0.01cm.svg");
-  EXPECT_NE(svg.find(">0.03 ms<"), std::string::npos);
-  EXPECT_NE(svg.find(">0.04 ms<"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace launchsafe::app

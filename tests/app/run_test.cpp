@@ -122,14 +122,5 @@ TEST_F(RunProgram, ExplainSaysWhatIsInAndWhatItCosts) {
   EXPECT_EQ(nlohmann::json::parse(run({"explain", "shell.toml", "--json"}).out)["particles"]["charge"], 18);
 }
 
-TEST_F(RunProgram, ExplainListsEveryKeyWithItsStanding) {
-  const Outcome outcome = run({"explain", "--keys"});
-  EXPECT_EQ(outcome.code, 0);
-  EXPECT_NE(outcome.out.find("\ncharge.crack_radius\n"), std::string::npos);
-  EXPECT_NE(outcome.out.find("default: 30 um  [P]"), std::string::npos) << outcome.out;
-  const auto keys = nlohmann::json::parse(run({"explain", "--keys", "--json"}).out)["keys"];
-  EXPECT_GT(keys.size(), 50u);
-}
-
 }  // namespace
 }  // namespace launchsafe::app

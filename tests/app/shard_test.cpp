@@ -46,23 +46,5 @@ TEST_F(ShardedStudy, WithoutOneOfThemIsNotMerged) {
   EXPECT_FALSE(exists("out/report.md"));
 }
 
-class Merge : public StoredStudy {};
-
-TEST_F(Merge, SenselessShardsAreBadUsage) {
-  for (const char* shard : {"0/3", "4/3", "3", "1/", "one/three", "1/0"}) {
-    const Outcome outcome = run({"study", "study.toml", "-o", "out", "--shard", shard});
-    EXPECT_EQ(outcome.code, 2) << shard;
-    EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
-    EXPECT_TRUE(outcome.says("i/N")) << outcome.err;
-  }
-  EXPECT_FALSE(exists("out"));
-}
-
-TEST_F(Merge, AFolderWithoutAStoreIsNamed) {
-  const Outcome outcome = run({"merge", "study.toml", "-o", "out", "nowhere"});
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_TRUE(outcome.says("nowhere")) << outcome.err;
-}
-
 }  // namespace
 }  // namespace launchsafe::app

@@ -23,16 +23,9 @@ class StudyProgram : public Program {
   }
 };
 
-TEST_F(StudyProgram, JsonHoldsGapVerdictsFitAndTiming) {
+TEST_F(StudyProgram, NotesItsJobsInTheManifest) {
   const Outcome outcome = run({"study", "study.toml", "-o", "out", "--jobs", "2", "--json", "--quiet"});
-  EXPECT_TRUE(outcome.code == 0 || outcome.code == 4) << outcome.code << outcome.err;
-  const auto object = nlohmann::json::parse(outcome.out);
-  for (const char* key : {"critical_gap_cm", "critical_gap_lower_cm", "critical_gap_upper_cm"}) {
-    EXPECT_TRUE(object["critical_gap"].contains(key)) << key;
-  }
-  EXPECT_EQ(object["verdicts"].size(), 3u);
-  EXPECT_TRUE(object.contains("fit"));
-  EXPECT_TRUE(object.contains("timing"));
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["verdicts"].size(), 3u) << outcome.err;
   EXPECT_EQ(nlohmann::json::parse(read("out/manifest.json"))["threads"], 2);
   EXPECT_TRUE(exists("out/verdicts.csv"));
 }
@@ -41,26 +34,6 @@ TEST_F(StudyProgram, ARemarkMakesNoOtherStudy) {
   const int code = run({"study", "study.toml", "-o", "out"}).code;
   write("study.toml", "# a remark\n" + small_study);
   EXPECT_EQ(run({"study", "study.toml", "-o", "out"}).code, code);
-}
-
-// The gap stays cold under each of these; without their ranges all of them ended SAFE.
-TEST_F(StudyProgram, AnImplausibleValueIsNamedInsteadOfSafeUntilItIsAccepted) {
-  const std::vector<std::pair<std::string, std::string>> edits{{"gap.exchange_time", "\"100 s\""},
-                                                               {"friction.closure", "\"none\""}};
-  int number = 0;
-  for (const auto& [key, value] : edits) {
-    const std::string set = "[set]\n" + key + " = " + value + "\n";
-    const std::string folder = "out" + std::to_string(++number);
-    write("study.toml", small_study + set);
-    EXPECT_EQ(run({"study", "study.toml", "-o", folder}).code, 4) << key;
-    EXPECT_EQ(read(folder + "/verdicts.csv").find("SAFE"), std::string::npos) << key;
-    EXPECT_NE(read(folder + "/verdicts.csv").find(key + " = "), std::string::npos) << key;
-    write("study.toml",
-          small_study + "accept = [{ key = \"" + key + "\", because = \"it is a test\" }]\n" + set);
-    EXPECT_EQ(run({"study", "study.toml", "-o", folder, "--update"}).code, 0) << key;
-    EXPECT_NE(read(folder + "/verdicts.csv").find("SAFE"), std::string::npos) << key;
-    EXPECT_NE(read(folder + "/verdicts.csv").find("because it is a test"), std::string::npos) << key;
-  }
 }
 
 TEST_F(StudyProgram, ExplainCountsItsRuns) {

@@ -49,26 +49,20 @@ double least_processor_time(const std::function<void()>& work) {
   constexpr int batches = 3;
   long repetitions = 1;
   double batch = time_of(work, repetitions);
-  while (batch < shortest_batch) {
-    const double growth = batch > 0.0 ? std::clamp(1.2 * shortest_batch / batch, 2.0, 100.0) : 100.0;
-    repetitions = std::lround(std::ceil(growth * static_cast<double>(repetitions)));
-    batch = time_of(work, repetitions);
-  }
+  while (batch < shortest_batch) batch = time_of(work, repetitions *= 2);
   for (int k = 1; k < batches; ++k) batch = std::min(batch, time_of(work, repetitions));
   return batch / static_cast<double>(repetitions);
 }
 
 MeasuredSeries measured(const ErrorSeries& series) {
   MeasuredSeries result{series, {}};
+  double size = series.settings.front().size, error = error_of_parts::no_order;  // of the setting before
   for (const error_of_parts::Setting& setting : series.settings) {
     Measured row{setting.text, setting.size};
     row.processor_time = least_processor_time([&] { row.error = std::abs(setting.work()); });
-    row.order = error_of_parts::no_order;
-    if (!result.settings.empty()) {
-      const Measured& coarse = result.settings.back();
-      row.order =
-          error_of_parts::order_between(coarse.size, coarse.error, row.size, row.error, series.round_off);
-    }
+    row.order = error_of_parts::order_between(size, error, row.size, row.error, series.round_off);
+    size = row.size;
+    error = row.error;
     result.settings.push_back(std::move(row));
   }
   return result;
@@ -79,10 +73,6 @@ report::Cell expected_order(const ErrorSeries& series) {
   if (std::isnan(series.order)) return std::string("none");
   if (std::isinf(series.order)) return std::string("exact");
   return report::significant(series.order, 3);
-}
-
-report::Cell order_cell(double order) {
-  return std::isnan(order) ? report::Cell{} : report::Cell{report::fixed(order, 2)};
 }
 
 std::string amount(double value, const std::string& unit) {
@@ -113,10 +103,11 @@ report::Table settings_table(const std::vector<MeasuredSeries>& measured) {
   for (const MeasuredSeries& each : measured)
     for (const Measured& row : each.settings) {
       const ErrorSeries& series = each.series;
-      table.rows.push_back({series.part, series.quantity, row.text, row.size,
-                            amount(row.error, series.error_unit), row.error, series.error_unit,
-                            order_cell(row.order), row.order, series.order, row.processor_time, series.work,
-                            series.reference});
+      table.rows.push_back(
+          {series.part, series.quantity, row.text, row.size, amount(row.error, series.error_unit), row.error,
+           series.error_unit,
+           std::isnan(row.order) ? report::Cell{} : report::Cell{report::fixed(row.order, 2)}, row.order,
+           series.order, row.processor_time, series.work, series.reference});
     }
   table.notes = {
       "Errors without a unit are relative. The order is that of the error in the step, cell or tolerance, "

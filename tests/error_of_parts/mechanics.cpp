@@ -21,12 +21,11 @@ struct Field {
   double (*slope)(double x, double r);
 };
 
-double linear_value(double x, double r) { return 3.0 + 20.0 * x - 70.0 * r; }
-double linear_slope(double, double) { return 20.0; }
-
 constexpr double wave_number = 2.0 * std::numbers::pi / length;
-double wave_value(double x, double) { return std::sin(wave_number * x); }
-double wave_slope(double x, double) { return wave_number * std::cos(wave_number * x); }
+const Field linear{[](double x, double r) { return 3.0 + 20.0 * x - 70.0 * r; },
+                   [](double, double) { return 20.0; }};
+const Field wave{[](double x, double) { return std::sin(wave_number * x); },
+                 [](double x, double) { return wave_number * std::cos(wave_number * x); }};
 
 /// Errors of what the particles read, root mean square, over that of the exact value.
 struct ReadError {
@@ -80,77 +79,61 @@ ReadError read_error(const Field& field, const mpm::Grid& grid) {
 
 ErrorSeries grid_series(const char* quantity, const char* reference, const char* theory, double order,
                         double round_off, const Field& field, double ReadError::*error) {
-  return {"shape functions",
-          quantity,
-          "4096 particles read the grid",
-          reference,
-          "",
-          theory,
-          order,
-          round_off,
-          settings_for({10e-3, 5e-3, 2.5e-3, 1.25e-3}, [=](double cell) {
-            return with_cell(cell,
-                             [=, grid = grid_with(field, cell)] { return read_error(field, grid).*error; });
-          })};
+  const auto settings = settings_for({10e-3, 5e-3, 2.5e-3, 1.25e-3}, [=](double cell) {
+    return with_cell(cell, [=, grid = grid_with(field, cell)] { return read_error(field, grid).*error; });
+  });
+  return {"shape functions", quantity, "4096 particles read the grid", reference, "", theory, order,
+          round_off,         settings};
 }
 
-ErrorSeries wave_of(const char* quantity, double WaveError::*error) {
-  return {"bar wave",
-          quantity,
-          "a pulse over 0.9 m of a strip",
-          "d'Alembert, relative L2",
-          "",
-          "uGIMP on smooth fields and the leapfrog are of second order",
-          2.0,
-          1e-12,
-          settings_for({25, 50, 100, 200, 400}, [error](int cells) {
-            return with_cell(1.0 / cells, [=] {
-              return longitudinal_error(scene::Formulation::total_lagrangian, cells).*error;
-            });
-          })};
+std::vector<Setting> wave_settings(double WaveError::*error) {
+  return settings_for({25, 50, 100, 200, 400}, [error](int cells) {
+    return with_cell(1.0 / cells,
+                     [=] { return longitudinal_error(scene::Formulation::total_lagrangian, cells).*error; });
+  });
 }
 
 /// No length of a cell divides the block's 50 and 20 mm, so that particles cross cells at all times.
 ErrorSeries flight_of(const char* quantity, const char* reference, double FlightDrift::*drift) {
-  return {"free flight",
-          quantity,
-          "a block of 50 mm flies 0.1 m at 500 m/s",
-          reference,
-          "",
-          "exact at any mesh: a uniform velocity and a stress in balance",
-          exact_order,
-          1e-12,
-          settings_for({7.3e-3, 3.7e-3, 1.9e-3}, [drift](double cell) {
-            return with_cell(cell, [=] { return drift_in_flight(cell, 0.1).*drift; });
-          })};
+  const auto settings = settings_for({7.3e-3, 3.7e-3, 1.9e-3}, [drift](double cell) {
+    return with_cell(cell, [=] { return drift_in_flight(cell, 0.1).*drift; });
+  });
+  return {"free flight", quantity, "a block of 50 mm flies 0.1 m at 500 m/s",
+          reference,     "",       "exact at any mesh: a uniform velocity and a stress in balance",
+          exact_order,   1e-12,    settings};
+}
+
+std::vector<Setting> conduction_by_step() {  // the cell leaves an error of 3e-5
+  return settings_for({5, 10, 20, 40, 80}, [](int steps) {
+    return with_steps(half_space_duration, steps, [=] { return half_space_error(0.25e-6, steps); });
+  });
+}
+
+/// With the square of the spacing the first-order error of the step falls as that of the spacing.
+std::vector<Setting> conduction_by_cell() {
+  return settings_for({1, 2, 4, 8}, [](int division) {
+    const double cell = 8e-6 / division;
+    return with_cell(cell, [=] { return half_space_error(cell, 20 * division * division); });
+  });
 }
 
 }  // namespace
 
 std::vector<ErrorSeries> mechanics_series() {
   const std::string strip = "1 ms of a strip of 0.1 mm", half_space = "erfc of the half space, relative L2";
-  const Field linear{linear_value, linear_slope}, wave{wave_value, wave_slope};
+  const char* const pulse = "a pulse over 0.9 m of a strip";
+  const char* const leapfrog = "uGIMP on smooth fields and the leapfrog are of second order";
   const char* const reproduced = "exact at any mesh: linear fields are reproduced";
   const char* const sine = "the sine, root mean square";
   return {
       {"conduction", "temperature, by step", strip + " in cells of 0.25 um", half_space, "",
-       "backward Euler is of first order", 1.0, 1e-12,
-       settings_for({5, 10, 20, 40, 80},
-                    [](int steps) {  // the cell leaves an error of 3e-5
-                      return with_steps(half_space_duration, steps,
-                                        [=] { return half_space_error(0.25e-6, steps); });
-                    })},
-      // With the square of the spacing the first-order error of the step falls as that of the spacing.
+       "backward Euler is of first order", 1.0, 1e-12, conduction_by_step()},
       {"conduction", "temperature, by cell", strip + ", the step going with the square of the cell",
-       half_space, "", "finite volumes are of second order", 2.0, 1e-12,
-       settings_for({1, 2, 4, 8},
-                    [](int division) {
-                      const double cell = 8e-6 / division;
-                      return with_cell(cell,
-                                       [=] { return half_space_error(cell, 20 * division * division); });
-                    })},
-      wave_of("velocity", &WaveError::velocity),
-      wave_of("stress", &WaveError::stress),
+       half_space, "", "finite volumes are of second order", 2.0, 1e-12, conduction_by_cell()},
+      {"bar wave", "velocity", pulse, "d'Alembert, relative L2", "", leapfrog, 2.0, 1e-12,
+       wave_settings(&WaveError::velocity)},
+      {"bar wave", "stress", pulse, "d'Alembert, relative L2", "", leapfrog, 2.0, 1e-12,
+       wave_settings(&WaveError::stress)},
       flight_of("momentum", "kept", &FlightDrift::momentum),
       flight_of("kinetic energy", "kept", &FlightDrift::kinetic),
       flight_of("place of the centre of mass", "speed times time", &FlightDrift::place),

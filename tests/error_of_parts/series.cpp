@@ -22,12 +22,10 @@ double order_between(double coarse_size, double coarse_error, double fine_size, 
 
 Setting with_steps(double duration, int steps, std::function<double()> work) {
   const double step = duration / steps;
-  const auto text = [&] {
-    if (step < 0.999e-6) return fmt::format("step {:.3g} ns", 1e9 * step);
-    if (step < 0.999e-3) return fmt::format("step {:.3g} us", 1e6 * step);
-    return fmt::format("step {:.3g} ms", 1e3 * step);
-  };
-  return {text(), step, std::move(work)};
+  const auto [per_second, unit] = step < 0.999e-6   ? std::pair{1e9, "ns"}
+                                  : step < 0.999e-3 ? std::pair{1e6, "us"}
+                                                    : std::pair{1e3, "ms"};
+  return {fmt::format("step {:.3g} {}", per_second * step, unit), step, std::move(work)};
 }
 
 Setting with_cell(double cell, std::function<double()> work) {

@@ -122,19 +122,12 @@ struct Exchange {
   }
 };
 
-ErrorSeries exchange_series(const char* quantity, double exponent, const char* theory, double order) {
-  return {"exchange with the air",
-          quantity,
-          "one skin point over 18 ms",
-          "exact solution",
-          "K",
-          theory,
-          order,
-          1e-9,
-          settings_for({4, 16, 64, 256, 1024}, [exchange = Exchange{exponent}](int calls) {
-            return with_steps(Exchange::duration, calls,
-                              [=, exact = exchange.exact()] { return exchange.computed(calls) - exact; });
-          })};
+/// Under air whose rise goes with this power of the time.
+std::vector<Setting> exchange_settings(double exponent) {
+  return settings_for({4, 16, 64, 256, 1024}, [exchange = Exchange{exponent}](int calls) {
+    return with_steps(Exchange::duration, calls,
+                      [=, exact = exchange.exact()] { return exchange.computed(calls) - exact; });
+  });
 }
 
 }  // namespace
@@ -142,21 +135,21 @@ ErrorSeries exchange_series(const char* quantity, double exponent, const char* t
 std::vector<ErrorSeries> skin_series() {
   const std::string part = "skin equation", explosion = "closed form of the zero-order induction";
   const std::string from = fmt::format("one skin point, from {:.0f} K", initial);
-  const std::string before = from + " to 0.9 of the induction time";
-  return {
-      {part, "induction time", fmt::format("{} to {:.0f} K", from, exploded), explosion, "",
-       "the step control holds the error per step, of the embedded third order, to the tolerance: the "
-       "error of the fourth-order result goes with it",
-       1.0, 2e-14, induction_settings()},
-      {part, "T before explosion, by tolerance", before, explosion, "K", "as the induction time", 1.0, 1e-11,
-       temperature_settings()},
-      {part, "T before explosion, by step", before, explosion, "K", "exprb43 is of fourth order", 4.0, 1e-11,
-       step_settings()},
-      exchange_series("T, air rising linearly", 1.0,
-                      "exact at any step: exponential integrator, air linear over each step", exact_order),
-      exchange_series("T, air rising as time squared", 2.0,
-                      "the air's temperature is taken as linear over each step, which is of second order",
-                      2.0)};
+  const std::string before = from + " to 0.9 of the induction time", launch = "one skin point over 18 ms";
+  return {{part, "induction time", fmt::format("{} to {:.0f} K", from, exploded), explosion, "",
+           "the step control holds the error per step, of the embedded third order, to the tolerance: the "
+           "error of the fourth-order result goes with it",
+           1.0, 2e-14, induction_settings()},
+          {part, "T before explosion, by tolerance", before, explosion, "K", "as the induction time", 1.0,
+           1e-11, temperature_settings()},
+          {part, "T before explosion, by step", before, explosion, "K", "exprb43 is of fourth order", 4.0,
+           1e-11, step_settings()},
+          {"exchange with the air", "T, air rising linearly", launch, "exact solution", "K",
+           "exact at any step: exponential integrator, air linear over each step", exact_order, 1e-9,
+           exchange_settings(1.0)},
+          {"exchange with the air", "T, air rising as time squared", launch, "exact solution", "K",
+           "the air's temperature is taken as linear over each step, which is of second order", 2.0, 1e-9,
+           exchange_settings(2.0)}};
 }
 
 }  // namespace launchsafe::error_of_parts

@@ -225,8 +225,4 @@ TEST(ReadSensitivity, TheAnalyticLoadIsNotUncertainUnderAMeasuredCurve) {
                   {5, "input.key", "which a measured curve does not have"});
 }
 
-TEST(ReadSensitivity, TenThousandEvaluationsAreRead) {
-  EXPECT_EQ(study_of(sensitivity_start + "samples = 2048\n" + crack + exponent + flaw).cases.size(), 10240u);
-}
-
 }  // namespace

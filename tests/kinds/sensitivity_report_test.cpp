@@ -158,13 +158,5 @@ TEST(SensitivityReport, WritesItsFilesTheSameEveryTime) {
     EXPECT_EQ(content_of(folder.path / "first" / name), content_of(folder.path / "second" / name)) << name;
 }
 
-TEST(SensitivityReport, ThePageSaysWhatWasVaried) {
-  const SensitivityResult result = made_sensitivity();
-  const std::string page = to_markdown(report_of(result));
-  EXPECT_NE(page.find("`load.peak` is varied: uniform from 400 to 600 MPa"), std::string::npos);
-  EXPECT_NE(page.find("![sensitivity of T max](sensitivity_temperature_max.svg)"), std::string::npos);
-  EXPECT_NE(page.find("launchsafe study studies/made.toml -o DIR"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace launchsafe::kinds

@@ -89,7 +89,8 @@ TEST(CriticalGapReport, SeveralCasesHaveNoSingleCriticalGap) {
 TEST(CriticalGapReport, ThePageNamesHeldOutRowsAndNoPathOfThisMachine) {
   const std::string page = report::to_markdown(kinds::report_of(one_case()));
   EXPECT_NE(page.find("held out"), std::string::npos);
-  EXPECT_EQ(page.find(LAUNCHSAFE_SOURCE_DIR), std::string::npos);
+  for (const std::string& text : {page, json_of(one_case()).dump()})
+    EXPECT_EQ(text.find(LAUNCHSAFE_SOURCE_DIR), std::string::npos);
 }
 
 TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
@@ -180,23 +181,6 @@ TEST(CriticalGapReport, SixCasesHaveTheirCriticalGapsInAPictureOfTheirOwn) {
   EXPECT_EQ(unknown->y, std::vector<double>{5.0}) << "the second from the top";
   EXPECT_NE(report::to_markdown(kinds::report_of(result)).find("critical_gaps.svg"), std::string::npos);
   EXPECT_EQ(report::to_markdown(kinds::report_of(one_case())).find("critical_gaps.svg"), std::string::npos);
-}
-
-TEST(CriticalGapReport, WritesItsFiles) {
-  const Folder folder;
-  const CriticalGapResult result = one_case();
-  const auto written = report::write_report(kinds::report_of(result), folder.path);
-  ASSERT_TRUE(written) << written.error().message;
-  for (const char* name : {"verdicts.csv", "verdicts.md", "study.json", "report.md"})
-    EXPECT_TRUE(std::filesystem::exists(folder.path / name)) << name;
-  for (const std::string& name : written->files)
-    EXPECT_TRUE(std::filesystem::exists(folder.path / name)) << name;
-  EXPECT_EQ(written->files, (std::vector<std::string>{"verdicts.csv", "verdicts.md", "temperature.svg",
-                                                      "report.md", "study.json"}))
-      << "runs are stored once, in the store";
-  EXPECT_EQ(content_of(folder.path / "study.json").find(LAUNCHSAFE_SOURCE_DIR), std::string::npos);
-  EXPECT_TRUE(report::write_report(kinds::report_of(result), folder.path))
-      << "the same study may be written again";
 }
 
 TEST(CalibrationReport, SaysWhatTheEvidenceSupports) {

@@ -307,18 +307,6 @@ TEST(Extrapolation, HalfWidthHoldsTheLimitBetweenRatiosThatDiffer) {
 
 #ifdef LAUNCHSAFE_HAVE_RAPIDCHECK
 
-RC_GTEST_PROP(ExtrapolationProperty, HalfWidthHoldsTheLimitOfAnyPowerLaw, ()) {
-  const double order = *rc::gen::inRange(70, 251) / 100.0;
-  const double limit = *rc::gen::inRange(-1000, 1001) / 10.0;
-  const double factor = *rc::gen::element(-1.0, 1.0) * *rc::gen::inRange(1, 1000) / 100.0;
-  const auto steps =
-      *rc::gen::container<std::vector<int>>(*rc::gen::inRange<std::size_t>(2, 7), rc::gen::inRange(110, 250));
-  Values sizes{1.0};
-  for (const int step : steps) sizes.push_back(sizes.back() * step / 100.0);
-  const Values values = power_law(sizes, limit, factor, order);
-  RC_ASSERT(holds(math::extrapolate(values, sizes), values.front(), limit));
-}
-
 RC_GTEST_PROP(ExtrapolationProperty, AnyNumbersGiveAHalfWidthAboveZeroAndAReasonOrAnOrder, ()) {
   const auto raw = *rc::gen::nonEmpty<std::vector<int>>(rc::gen::arbitrary<std::vector<int>>());
   Values values;

@@ -50,17 +50,6 @@ TEST(AxialWeights, AreThePublishedBranches) {
   }
 }
 
-TEST(AxialWeights, SumToOneAndReproduceALinearField) {
-  for (const Case& c : cases(-10.0)) {
-    const double x = c.position - c.first_node;
-    const auto w = mpm::axial_weights(x, c.half, c.cell);
-    EXPECT_NEAR(w.value[0] + w.value[1] + w.value[2], 1.0, round_off);
-    EXPECT_NEAR((w.gradient[0] + w.gradient[1] + w.gradient[2]) * c.cell, 0.0, round_off);
-    EXPECT_NEAR((w.value[1] + 2.0 * w.value[2]) * c.cell, x, round_off * c.cell);
-    EXPECT_NEAR((w.gradient[1] + 2.0 * w.gradient[2]) * c.cell, 1.0, round_off);
-  }
-}
-
 TEST(RadialWeights, AreThePublishedBranches) {
   for (const Case& c : cases(1.0)) {
     const auto weights =
@@ -122,45 +111,6 @@ TEST(RadialWeights, OfAParticleCutAtTheAxisAreItsQuadrature) {
         EXPECT_NEAR(weights.hoop[k] * cell, means.hoop * cell, 1e-11);
       }
     }
-}
-
-TEST(RadialWeights, SumToOneAndKeepTheHoopRateOfAUniformExpansion) {
-  for (const Case& c : cases(0.0)) {
-    const auto interval = mpm::cut_at_axis(c.position, c.half);
-    const double first = c.cell * std::floor((interval.centre - interval.half) / c.cell);
-    const auto w = mpm::axisymmetric_weights(interval, first, c.cell);
-    double value = 0.0, gradient = 0.0, rate_rr = 0.0, rate_tt = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      const double node = first + k * c.cell;  // v_r = r
-      value += w.value[k];
-      gradient += w.gradient[k] * c.cell;
-      rate_rr += w.gradient[k] * node;
-      rate_tt += w.hoop[k] * node;
-    }
-    EXPECT_NEAR(value, 1.0, round_off);
-    EXPECT_NEAR(gradient, 0.0, 10 * round_off);
-    EXPECT_NEAR(rate_rr, 1.0, 100 * round_off);
-    EXPECT_NEAR(rate_tt, 1.0, 100 * round_off);
-  }
-}
-
-TEST(ShapeFunctions, GiveThePackWhatTheyGiveADouble) {
-  const auto all = cases(1.0);
-  for (std::size_t start = 0; start + math::pack_width <= 200; start += math::pack_width) {
-    const double cell = 2e-3, half = 0.25 * cell, first = 8.0 * cell;
-    math::Pack r(0.0);
-    for (std::size_t lane = 0; lane < math::pack_width; ++lane)
-      r.set(lane, first + half + cell * std::fmod(1e3 * all[start + lane].position, 1.0));
-    const auto packed = mpm::axisymmetric_weights(mpm::cut_at_axis(r, half), math::Pack(first), cell);
-    for (std::size_t lane = 0; lane < math::pack_width; ++lane) {
-      const auto single = mpm::axisymmetric_weights(mpm::cut_at_axis(r[lane], half), first, cell);
-      for (int k = 0; k < 3; ++k) {
-        EXPECT_NEAR(packed.value[k][lane], single.value[k], round_off);
-        EXPECT_NEAR(packed.gradient[k][lane] * cell, single.gradient[k] * cell, round_off);
-        EXPECT_NEAR(packed.hoop[k][lane] * cell, single.hoop[k] * cell, round_off);
-      }
-    }
-  }
 }
 
 }  // namespace

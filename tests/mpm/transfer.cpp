@@ -148,25 +148,6 @@ TEST_P(Transfer, ScattersWhatAScalarReferenceScatters) {
   }
 }
 
-TEST_P(Transfer, ScatterConservesMassAndMomentum) {
-  double mass = 0.0, momentum = 0.0;
-  for (int trial = 0; trial < 10; ++trial) {
-    place();
-    const Pack none(0.0);
-    const mpm::ParticleToGrid p{eight(1, 2), eight(-1, 1), none, none, none, none, none, none};
-    mpm::particle_to_grid(grid_, mpm::stencil_of(context(), x_, r_), p, everyone);
-    mass += sum(p.mass);
-    momentum += sum(p.mass * p.velocity_x);
-  }
-  double nodal_mass = 0.0, nodal_momentum = 0.0;
-  for (std::size_t n = 0; n < grid_.nodes(); ++n) {
-    nodal_mass += grid_.mass[n];
-    nodal_momentum += grid_.momentum_x[n];
-  }
-  EXPECT_NEAR(nodal_mass, mass, 1e-13 * mass);
-  EXPECT_NEAR(nodal_momentum, momentum, 1e-13 * mass);
-}
-
 TEST_P(Transfer, ReadsALinearFieldExactly) {
   // v_x = 3 + 40 x + 50 r, v_r = 70 r + 20 x r.
   fill(grid_.velocity_x, [](double x, double r) { return 3.0 + 40.0 * x + 50.0 * r; });

@@ -168,14 +168,6 @@ TEST_F(DrawnMap, HasColourBarNumbersAndLegend) {
     EXPECT_NE(svg->find(text), std::string::npos) << text;
 }
 
-TEST_F(DrawnMap, IsTheSameEveryTime) {
-  for (const Plot& plot : {plane(), plane(40, 30)}) {
-    const auto first = to_svg(plot), second = to_svg(plot);
-    ASSERT_TRUE(first && second);
-    EXPECT_EQ(*first, *second);
-  }
-}
-
 TEST_F(DrawnMap, WorksWithoutAnyValue) {
   for (Plot plot : {plane(), plane(40, 30)}) {
     plot.map->values.assign(plot.map->values.size(), missing);

@@ -307,11 +307,6 @@ TEST_F(SafetyReport, AnotherModelVersionIsRefused) {
   EXPECT_TRUE(has(fault_of({study}), "of model version 5, this program is of 6")) << fault_of({study});
 }
 
-TEST_F(SafetyReport, TwoStudiesOfAKindAreRefused) {
-  EXPECT_TRUE(has(fault_of({shipped("sweep_pressure_defect"), shipped("defects")}),
-                  "both are studies of kind sweep"));
-}
-
 TEST_F(SafetyReport, StudiesOfDifferentShellsAreRefusedByName) {
   const path study = copy_of("accuracy");
   // The manifest's input with its checksum, as a study of another shell would have written it.

@@ -34,8 +34,8 @@
 namespace launchsafe::run {
 namespace {
 
-/// What model_numbers.csv was for every version, by `digest_of`. That of version 6 is without the numbers of
-/// an air that left the program; the others are as they were.
+/// What `text_of` the numbers was for every version, by `digest_of`. That of version 6 is without the numbers
+/// of an air that left the program; the others are as they were.
 const std::map<int, std::uint64_t> digests{{1, 0xcf8fc17d687d3b02U}, {2, 0x112296e02854258eU},
                                            {3, 0x877cf8e49058e86aU}, {4, 0x4aba6e72ec35a753U},
                                            {5, 0x7d5a120e32c22987U}, {6, 0x505b6901eec626c1U}};
@@ -237,39 +237,59 @@ Numbers computed() {
 
 // --- the file ---
 
+const std::string version_line = fmt::format("# numbers of model version {}\n", model_version);
+
+/// A line for each number: what digests are made of.
 std::string text_of(const Numbers& numbers) {
-  std::string text = fmt::format("# numbers of model version {}\n", model_version);
+  std::string text = version_line;
   for (const Number& number : numbers) text += fmt::format("\"{}\",{}\n", number.name, number.value);
   return text;
 }
 
-std::string stored_text() {
+/// The file: a line for all numbers whose names begin alike, up to their last colon.
+std::string table_of(const Numbers& numbers) {
+  std::string text = version_line, line_subject = "none yet";
+  for (const Number& number : numbers) {
+    const std::size_t colon = number.name.rfind(": ");
+    const bool alone = colon == std::string::npos;
+    const std::string subject = alone ? "" : number.name.substr(0, colon);
+    if (subject != line_subject) text += (&number == &numbers.front() ? "" : "\n") + subject;
+    line_subject = subject;
+    text += fmt::format(";{};{}", alone ? number.name : number.name.substr(colon + 2), number.value);
+  }
+  return text + '\n';
+}
+
+std::string stored_table() {
   std::ifstream file(numbers_file, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
 Numbers stored_numbers() {
   Numbers numbers;
-  std::istringstream lines(stored_text());
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t comma = line.rfind("\",");
-    if (line.starts_with("\"") && comma != std::string::npos)
-      numbers.push_back({line.substr(1, comma - 1), std::strtod(line.c_str() + comma + 2, nullptr), 0.0});
+  std::istringstream lines(stored_table());
+  std::string line, subject, name, value;
+  std::getline(lines, line);  // the version
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    std::getline(fields, subject, ';');
+    if (!subject.empty()) subject += ": ";
+    while (std::getline(fields, name, ';') && std::getline(fields, value, ';'))
+      numbers.push_back({subject + name, std::strtod(value.c_str(), nullptr), 0.0});
   }
   return numbers;
 }
 
 TEST(ModelVersion, NamesTheNumbersThatAreStored) {
-  const std::string text = stored_text();
-  EXPECT_TRUE(text.starts_with(fmt::format("# numbers of model version {}\n", model_version)));
+  EXPECT_TRUE(stored_table().starts_with(version_line));
   ASSERT_EQ(digests.rbegin()->first, model_version) << "a version needs a line in `digests`";
-  EXPECT_EQ(digests.rbegin()->second, digest_of(text))
+  EXPECT_EQ(digests.rbegin()->second, digest_of(text_of(stored_numbers())))
       << "the numbers of a version do not change: raise model_version instead";
 }
 
 TEST(ModelVersion, BelongsToTheseNumbers) {
   const Numbers now = computed(), stored = stored_numbers();
-  if (const char* file = std::getenv("LAUNCHSAFE_MODEL_NUMBERS")) std::ofstream(file) << text_of(now);
+  if (const char* file = std::getenv("LAUNCHSAFE_MODEL_NUMBERS")) std::ofstream(file) << table_of(now);
   ASSERT_EQ(now.size(), stored.size());
   // Compilers and processors round differently; a change of the model moves more than this.
   constexpr double share = 1e-6;

@@ -67,15 +67,5 @@ TEST(FuzzedInput, ACurveOfNothingCannotBeRescaled) {
   }
 }
 
-// A scene, or its curve, from a file that never ends.
-TEST(FuzzedInput, DevicesAreNoFiles) {
-  const auto text = read_text_file("/dev/zero");
-  ASSERT_FALSE(text);
-  EXPECT_EQ(text.error().found, "a device");
-  const auto curve = parse_scene(with(small_scene, "[load]", "[load]\ncurve = \"/dev/zero\""), "shell.toml");
-  ASSERT_FALSE(curve);
-  EXPECT_EQ(curve.error().found, "a device");
-}
-
 }  // namespace
 }  // namespace launchsafe::scene

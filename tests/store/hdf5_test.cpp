@@ -105,15 +105,6 @@ TEST(Hdf5, PrintsNothingOnErrorsInAnyThread) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(Hdf5, TheSameContentGivesTheSameBytes) {
-  const auto content = [](Hdf5Writer& writer) {
-    writer.group("group", "a group", [&] {
-      writer.array("values", std::vector<double>{1, 2}, {"m", "values"});
-    });
-  };
-  EXPECT_EQ(written(content), written(content));
-}
-
 TEST(Hdf5, FilesOpenAtTheSameTimeAreNotMixedUp) {
   const std::string one = written([](Hdf5Writer& writer) { writer.value("number", 1.0, {"1", "one"}); });
   const std::string two = written([](Hdf5Writer& writer) { writer.value("number", 2.0, {"1", "two"}); });

@@ -127,27 +127,4 @@ INSTANTIATE_TEST_SUITE_P(Kinetics, ThermalExplosion,
                                          Explosive{"WeakUnderFriction", 2.17e4, 2.01e18, true, true, 1e5}),
                          [](const auto& test) { return test.param.name; });
 
-TEST(SkinIgnition, TakesTheStatedInductionTimes) {
-  // Quadrature of dT/(Q Z/c exp(-27000 K/T)) to 2000 K; from there to the trigger it takes 1e-13 s.
-  SkinModel model;
-  model.kinetics.activation_temperature = 2.7e4;
-  model.kinetics.ignition_temperature = 1e9;
-  model.kinetics.burnt_temperature = 2e9;
-  const struct {
-    double from, step, expected;
-  } cases[] = {{600.0, 1e-5, 7.425578e-2}, {600.0, 1e-3, 7.425578e-2}, {650.0, 1e-7, 2.746044e-3},
-               {650.0, 1e-5, 2.746044e-3}, {650.0, 1e-3, 2.746044e-3}, {700.0, 1e-7, 1.645534e-4},
-               {700.0, 1e-5, 1.645534e-4}, {700.0, 1e-3, 1.645534e-4}, {750.0, 1e-9, 1.449736e-5},
-               {750.0, 1e-7, 1.449736e-5}, {750.0, 1e-5, 1.449736e-5}, {750.0, 1e-3, 1.449736e-5}};
-  for (const auto& each : cases) {
-    surface::SkinPoint point{each.from};
-    double begin = 0.0;
-    for (; !point.ignited && begin < 2.0 * each.expected; begin += each.step)
-      point = surface::advance_skin(model, 0.0, point, each.step, 300.0, 300.0, 0.0);
-    EXPECT_NEAR((begin - each.step + point.ignition_time) / each.expected, 1.0, 1e-6)
-        << each.from << ' ' << each.step;
-    EXPECT_TRUE(point.ignited) << each.from;
-  }
-}
-
 }  // namespace

@@ -85,14 +85,6 @@ TEST(SkinIgnition, WeakReactionHeatsInPartInsteadOfIgniting) {
   EXPECT_NEAR(point.ignition_time, 209.0 / 5e4, 1e-11);
 }
 
-TEST(SkinPerStep, OneCallIsOnePrintedStep) {
-  SkinModel model = without_reaction();
-  model.surface.exchange = scene::Exchange::per_step;
-  const double gap = 4e-4, ratio = heat_capacity_ratio(model, gap);
-  const SkinPoint point = advance_skin(model, gap, {300.0}, 1e-7, 1500.0, 1500.0, 0.0);
-  EXPECT_NEAR(point.temperature, 300.0 + ratio * 1200.0, 1e-10);  // Eq. 42
-}
-
 TEST(SkinFailure, NextToAbsoluteZeroItIsStillATemperature) {
   // 1/T^2 is infinite there and the rate 0; their product must not stop the integration.
   const SkinModel model = plain_model();
