@@ -22,10 +22,10 @@ struct Field {
 };
 
 constexpr double wave_number = 2.0 * std::numbers::pi / length;
-const Field linear{[](double x, double r) { return 3.0 + 20.0 * x - 70.0 * r; },
-                   [](double, double) { return 20.0; }};
-const Field wave{[](double x, double) { return std::sin(wave_number * x); },
-                 [](double x, double) { return wave_number * std::cos(wave_number * x); }};
+constexpr Field linear{[](double x, double r) { return 3.0 + 20.0 * x - 70.0 * r; },
+                       [](double, double) { return 20.0; }};
+constexpr Field wave{[](double x, double) { return std::sin(wave_number * x); },
+                     [](double x, double) { return wave_number * std::cos(wave_number * x); }};
 
 /// Errors of what the particles read, root mean square, over that of the exact value.
 struct ReadError {

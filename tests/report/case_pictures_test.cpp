@@ -68,24 +68,6 @@ const Plot& plot_of(const std::vector<CasePicture>& drawn, const std::string& fi
   return none;
 }
 
-/// The lines of a data block in gnuplot's commands.
-std::vector<std::string> block(const std::string& commands, const std::string& name) {
-  const std::string begin = "$" + name + " << END_OF_DATA\n";
-  const std::size_t at = commands.find(begin);
-  if (at == std::string::npos) return {};
-  std::istringstream text(commands.substr(
-      at + begin.size(), commands.find("END_OF_DATA", at + begin.size()) - at - begin.size()));
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(text, line);) lines.push_back(line);
-  return lines;
-}
-
-std::size_t count_of(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
-
 TEST(CasePictures, OfFieldsAreNamedByFieldAndTheTimesThatWereAskedFor) {
   const RunScene run(cased_charge());
   const auto names = files(pictures(run.drawn(), "fields"));
@@ -107,7 +89,7 @@ TEST(CasePictures, OfFieldsShowEveryCellOnBothSidesOfTheAxis) {
     const std::string commands = to_gnuplot(std::get<CellPlot>(picture.plot));
     std::size_t cells = 0, below_axis = 0;
     for (const char* name : {"whole_cells0", "whole_cells1", "whole_grey"})
-      for (const std::string& line : block(commands, name)) {
+      for (const std::string& line : block_of(commands, name)) {
         double x = 0, r = 0;
         std::istringstream(line) >> x >> r;
         ++cells;
@@ -138,7 +120,7 @@ TEST(CasePictures, OfFieldsHaveOneOutlineForEveryBodyWhichAtRestIsItsRectangle) 
   }
   const std::string commands = to_gnuplot(plot);
   EXPECT_EQ(count_of(commands, "$whole_outline"), 2 * run.scene.bodies.size()) << "data and plot";
-  const auto charge = block(commands, "whole_outline0"), wall = block(commands, "whole_outline1");
+  const auto charge = block_of(commands, "whole_outline0"), wall = block_of(commands, "whole_outline1");
   EXPECT_EQ(std::count(charge.begin(), charge.end(), ""), 0) << "one line around both halves";
   EXPECT_EQ(std::count(wall.begin(), wall.end(), ""), 1) << "a line on each side of the axis";
   EXPECT_EQ(charge.front(), charge.back());

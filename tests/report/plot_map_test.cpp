@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -29,19 +28,6 @@ Plot plane(int columns = 4, int rows = 3) {
   map.label = "z [m]";
   plot.map = std::move(map);
   return plot;
-}
-
-/// The lines of a block of data in gnuplot's text.
-std::vector<std::string> block_of(const std::string& gnuplot, const std::string& name) {
-  std::istringstream lines(gnuplot);
-  std::vector<std::string> block;
-  bool inside = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (inside && line == "END_OF_DATA") break;
-    if (inside) block.push_back(line);
-    if (line == "$" + name + " << END_OF_DATA") inside = true;
-  }
-  return block;
 }
 
 TEST(PlotMap, EveryValueHasACellHalfWayToItsNeighbours) {

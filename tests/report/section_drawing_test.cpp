@@ -2,6 +2,7 @@
 
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/read_scene.hpp"
+#include "report/gnuplot.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,12 +21,6 @@ scene::Scene scene_of(const char* file) {
 
 /// A shell so stout that it is drawn once.
 scene::Scene stout_scene() { return scene_of("stability/small_shell.toml"); }
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
 
 struct Rectangle {
   double x, y, width, height;
@@ -63,8 +58,8 @@ TEST(SectionDrawing, HasOneLineForEveryLineOfTheGrid) {
     scene.numerics.formulation = formulation;
     const scene::GridLines lines = scene::lines_at_rest(scene);
     const std::string svg = section_svg(scene);
-    EXPECT_EQ(count(svg, "class=\"x\""), lines.x.size());
-    EXPECT_EQ(count(svg, "class=\"r\""), lines.r.size());
+    EXPECT_EQ(count_of(svg, "class=\"x\""), lines.x.size());
+    EXPECT_EQ(count_of(svg, "class=\"r\""), lines.r.size());
   }
 }
 
@@ -89,25 +84,25 @@ TEST(SectionDrawing, NamesBodiesPointsAxesAndTheAxisOfSymmetry) {
   for (const char* part :
        {">a small shell<", ">nose (steel)<", ">charge<", ">wall (steel)<", ">base (steel)<", ">G1<", ">G2<",
         ">G3<", ">x [mm]<", ">r [mm]<", ">axis of symmetry<", ">40<", ">20<"})
-    EXPECT_EQ(count(svg, part) > 0, true) << part;
-  EXPECT_EQ(count(svg, "class=\"symmetry\""), 1u);
+    EXPECT_EQ(count_of(svg, part) > 0, true) << part;
+  EXPECT_EQ(count_of(svg, "class=\"symmetry\""), 1u);
   scene.symmetry = scene::Symmetry::plane_strain;
-  EXPECT_EQ(count(section_svg(scene), ">plane of symmetry<"), 1u);
+  EXPECT_EQ(count_of(section_svg(scene), ">plane of symmetry<"), 1u);
 }
 
 TEST(SectionDrawing, EnlargesTheBottomOfASlenderShell) {
   const scene::Scene scene = scene_of("scene_155mm.toml");
   const std::string svg = section_svg(scene);
-  EXPECT_EQ(count(svg, "enlarged 3 times"), 1u);
-  EXPECT_EQ(count(svg, "class=\"window\""), 1u);
+  EXPECT_EQ(count_of(svg, "enlarged 3 times"), 1u);
+  EXPECT_EQ(count_of(svg, "class=\"window\""), 1u);
   const std::vector<Rectangle> bodies = bodies_in(svg);
   ASSERT_EQ(bodies.size(), 2 * scene.bodies.size());
   EXPECT_GT(bodies[5].height, 2 * bodies[1].height);
   // Every point once with its name, and once as a dot in the whole; one more dot in the legend.
   const std::size_t points = scene.output.observation_points.size();
   EXPECT_EQ(names_in(svg).size(), points);
-  EXPECT_EQ(count(svg, "<circle"), 2 * points + 1);
-  EXPECT_EQ(count(section_svg(stout_scene()), "class=\"window\""), 0u);
+  EXPECT_EQ(count_of(svg, "<circle"), 2 * points + 1);
+  EXPECT_EQ(count_of(section_svg(stout_scene()), "class=\"window\""), 0u);
 }
 
 TEST(SectionDrawing, NamesOfPointsThatLieCloseDoNotOverlap) {
@@ -121,7 +116,7 @@ TEST(SectionDrawing, NamesOfPointsThatLieCloseDoNotOverlap) {
   for (std::size_t i = 0; i < names.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       EXPECT_GT(std::abs(names[i].y - names[k].y), 12.0) << i << " and " << k;
-  EXPECT_EQ(count(svg, "want of room"), 0u);
+  EXPECT_EQ(count_of(svg, "want of room"), 0u);
 }
 
 TEST(SectionDrawing, CountsThePointsWhoseNamesHaveNoRoom) {
@@ -130,8 +125,8 @@ TEST(SectionDrawing, CountsThePointsWhoseNamesHaveNoRoom) {
   const std::string svg = section_svg(scene);
   const std::size_t named = names_in(svg).size();
   EXPECT_LT(named, 200u);
-  EXPECT_EQ(count(svg, "want of room: " + std::to_string(200 - named) + " observation points"), 1u);
-  EXPECT_EQ(count(svg, "<circle"), 201u) << "all are marked";
+  EXPECT_EQ(count_of(svg, "want of room: " + std::to_string(200 - named) + " observation points"), 1u);
+  EXPECT_EQ(count_of(svg, "<circle"), 201u) << "all are marked";
 }
 
 TEST(SectionDrawing, TextIsNeverMarkup) {
@@ -139,9 +134,9 @@ TEST(SectionDrawing, TextIsNeverMarkup) {
   scene.title = "<script>alert(\"1\")</script> & \n more";
   scene.output.observation_points[0].name = "G<1>";
   const std::string svg = section_svg(scene);
-  EXPECT_EQ(count(svg, "<script"), 0u);
-  EXPECT_EQ(count(svg, "&#60;script&#62;alert(&#34;1&#34;)&#60;/script&#62; &#38;   more"), 1u);
-  EXPECT_EQ(count(svg, ">G&#60;1&#62;<"), 1u);
+  EXPECT_EQ(count_of(svg, "<script"), 0u);
+  EXPECT_EQ(count_of(svg, "&#60;script&#62;alert(&#34;1&#34;)&#60;/script&#62; &#38;   more"), 1u);
+  EXPECT_EQ(count_of(svg, ">G&#60;1&#62;<"), 1u);
 }
 
 TEST(SectionDrawing, TakesShellsOfAnyShape) {
@@ -150,7 +145,7 @@ TEST(SectionDrawing, TakesShellsOfAnyShape) {
   for (const auto& [length, radius] : {std::pair{1e-3, 1.0}, std::pair{10.0, 1e-3}, std::pair{0.1, 0.1}}) {
     scene.bodies = {{"bar", "steel", 0.0, length, 0.0, radius}};
     const std::string svg = section_svg(scene);
-    EXPECT_EQ(count(svg, "nan") + count(svg, "inf"), 0u);
+    EXPECT_EQ(count_of(svg, "nan") + count_of(svg, "inf"), 0u);
     EXPECT_TRUE(svg.ends_with("</svg>\n"));
     const Rectangle bar = bodies_in(svg).front();
     EXPECT_LT(bar.x + bar.width, 1400.0);

@@ -223,9 +223,11 @@ run::CaseResult sample_with_events() {
 }
 
 TEST_F(CaseFile, KeepsCellsEventsBottomsFacesAndWhatBurns) {
-  for (const run::CaseResult& sample : {sample_with_cells(), sample_with_events()}) {
-    ASSERT_FALSE(write_case_file(path(), sample_scene(), sample, sample_manifest()));
-    const Result<StoredCase> stored = read_case_file(path());
+  const std::pair<const char*, run::CaseResult> samples[] = {{"cells.h5", sample_with_cells()},
+                                                             {"events.h5", sample_with_events()}};
+  for (const auto& [name, sample] : samples) {
+    ASSERT_FALSE(write_case_file(folder() / name, sample_scene(), sample, sample_manifest()));
+    const Result<StoredCase> stored = read_case_file(folder() / name);
     ASSERT_TRUE(stored) << stored.error().message;
     expect_same(sample, stored->result);
   }
