@@ -116,22 +116,5 @@ TEST(Hdf5, FilesOpenAtTheSameTimeAreNotMixedUp) {
   EXPECT_EQ(from_second, 2);
 }
 
-TEST(Hdf5, ThreadsCanWriteAtTheSameTime) {
-  const auto write_many = [] {
-    for (int i = 0; i < 20; ++i) {
-      Hdf5Writer writer;
-      writer.array("values", std::vector<double>(1000, i), {"m", "values"});
-      const Result<std::string> image = writer.finish();
-      ASSERT_TRUE(image);
-      std::vector<double> values;
-      Hdf5Reader(*image).array("values", values);
-      ASSERT_EQ(values, std::vector<double>(1000, i));
-    }
-  };
-  std::thread other(write_many);
-  write_many();
-  other.join();
-}
-
 }  // namespace
 }  // namespace launchsafe::store

@@ -239,16 +239,6 @@ TEST(Film, WarmsTheSurfaceAsATrialDid) {
   EXPECT_NEAR(film_peak(inert_film(), trace, 4e-3) - 300.0, 44.0, 4.0);
 }
 
-TEST(Film, IsTheLowerBoundBesideTheReservoir) {
-  const trace::BottomTrace trace = film_launch(300, 1.1e6);
-  SkinModel reservoir = inert_film();
-  reservoir.surface.air_model = scene::AirModel::reservoir;
-  for (const double gap : {1e-6, 1e-4, 4e-4}) {
-    EXPECT_LT(film_peak(inert_film(), trace, gap),
-              maximum_at_stations(integrate_skin(reservoir, trace, gap), trace).temperature);
-  }
-}
-
 TEST(Film, WithoutGapIsFrictionAlone) {
   const trace::BottomTrace trace = film_launch(100, 1.1e6);
   SkinModel reservoir = film_model();
