@@ -154,7 +154,12 @@ Fault read_runs(CaseReader& reader, const SceneFile& scene) {
   if (Fault fault = add_run(reader, launch.label(), std::move(own), launch.run)) return fault;
   const bool of_case = reader.table.contains("against");
   const toml::node* against = (of_case ? reader.table : reader.group).get("against");
-  if (!against || (against->is_table() && against->as_table()->empty())) return std::nullopt;
+  if (!against || (against->is_table() && against->as_table()->empty())) {
+    if (launch.invariants == places_of_all_invariants() || !launch.has("same-temperature"))
+      return std::nullopt;
+    return reader.fault("invariants", "same-temperature, without a safe computation to compare with",
+                        "same-temperature beside keys of `against`");
+  }
   auto safe = with_keys(scene, {{of_case ? "group.cases.against" : "group.against", against}}, study.file);
   if (!safe) return safe.error();
   if (safe->refusal) return safe->refusal;
@@ -172,6 +177,8 @@ Fault read_case(CaseReader reader) {
   if (std::ranges::count(cases, launch.label(), &StressCase::label) > 0)
     return reader.fault("name", fmt::format("\"{}\" a second time in \"{}\"", launch.name, launch.group),
                         "a name that no other case of the group has");
+  if (launch.invariants.empty())
+    return reader.fault("invariants", "none, so that nothing could be WRONG", "at least one; all if absent");
   const auto start = starting_scene(reader);
   if (!start) return start.error();
   const auto changed = with_keys(

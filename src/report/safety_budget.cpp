@@ -81,14 +81,18 @@ std::vector<const Row*> rows_of_variant(const StudyEvidence& accuracy, const std
   return rows;
 }
 
-/// Of several variants the one whose record the main study took speaks, else the first.
+/// Of several variants the one speaks whose record the main study took, or none.
 void say_accuracy(const StudyEvidence& main, const StudyEvidence* accuracy, SafetySection& section) {
   if (accuracy == nullptr || !accuracy->finished()) {
     section.say("budget.no_accuracy");
     return;
   }
   const Row* taken = setting_taken_by(main, *accuracy);
-  if (taken == nullptr && !accuracy->rows("settings").empty()) taken = &accuracy->rows("settings").front();
+  const Row& settings = accuracy->rows("settings");
+  if (taken == nullptr && !settings.empty() && !text_of(settings.front(), "variant").empty()) {
+    section.say("budget.no_variant", {}, origin_of(*accuracy, "settings"));
+    return;
+  }
   const std::string variant = taken != nullptr ? text_of(*taken, "variant") : "";
   for (const Row* row : rows_of_variant(*accuracy, "settings", variant)) {
     if (text_of(*row, "remark").find("the scene as it is") == std::string::npos) continue;

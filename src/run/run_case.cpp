@@ -191,8 +191,8 @@ CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions
   }
   CaseResult result;
   if (scene.surface.air_model != scene::AirModel::reservoir) {
-    // The air's balance couples all stations, and a film has a profile of its own at each: they are
-    // integrated on a trace with a sample every few steps.
+    // A film has a profile of its own at each station: they are integrated on a trace with a sample every few
+    // steps.
     scene::Scene fine = scene;
     fine.output.trace_interval = 8.0 * mpm::Simulation(scene).stable_time_step();
     result.mechanics = run_mechanics(fine, options);

@@ -11,7 +11,7 @@ using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 
 /// The group starts at line 4, its own keys at line 6.
-const std::string head =
+const std::string stability_start =
     "kind = \"stability\"\nscene = \"stability/small_shell.toml\"\nnumerical_uncertainty = \"4 K\"\n"
     "[[group]]\nname = \"load\"\n";
 
@@ -23,12 +23,12 @@ const std::vector<StressCase>& cases_of(const StudyFile& study) {
 
 TEST(ReadStability, ACaseAddsToWhatItsGroupSetsAndReplacesWhatElseItSays) {
   const StudyFile study = study_of(
-      head +
+      stability_start +
       "set = { load.peak = \"1 GPa\", numerics.time_step_factor = 0.6 }\n"
       "against = { numerics.time_step_factor = 0.1 }\nexpect = \"held, caught\"\n"
       "caught_within = 500\nnumerical_uncertainty = \"9 K\"\ncases = [ { name = \"high\" },\n"
       "{ name = \"other\", set = { load.peak = \"2 GPa\", gap.thickness = \"0, 1 mm\" }, against = {}, "
-      "expect = \"held\", invariants = \"mass, same-temperature\", numerical_uncertainty = \"3 K\" } ]\n"
+      "expect = \"held\", invariants = \"mass, energy\", numerical_uncertainty = \"3 K\" } ]\n"
       "[set]\ngap.exchange_time = \"0.01 ms\"\n");
   ASSERT_EQ(cases_of(study).size(), 2u);
   const StressCase &high = cases_of(study)[0], &other = cases_of(study)[1];
@@ -39,7 +39,7 @@ TEST(ReadStability, ACaseAddsToWhatItsGroupSetsAndReplacesWhatElseItSays) {
   EXPECT_EQ(high.against, 1u);
   EXPECT_EQ(high.gaps, study.study.gaps);
   EXPECT_EQ(other.expected, (std::vector{Outcome::held}));
-  EXPECT_EQ(other.invariants, (std::vector<std::size_t>{1, 8})) << "mass, same-temperature";
+  EXPECT_EQ(other.invariants, (std::vector<std::size_t>{1, 3})) << "mass, energy";
   EXPECT_EQ(other.caught_within, 500u);
   EXPECT_EQ(other.run, 2u);
   EXPECT_FALSE(other.against);
@@ -58,7 +58,7 @@ TEST(ReadStability, ACaseAddsToWhatItsGroupSetsAndReplacesWhatElseItSays) {
 
 TEST(ReadStability, ACaseMayHaveASceneOfItsOwnAndTheStudysUncertainty) {
   const StudyFile study =
-      study_of(head + cases("scene = \"scene_155mm.toml\", set = { load.peak = \"1 GPa\" }") +
+      study_of(stability_start + cases("scene = \"scene_155mm.toml\", set = { load.peak = \"1 GPa\" }") +
                "[set]\nnumerics.inertial_scaling = 16\n");
   ASSERT_EQ(study.cases.size(), 1u);
   EXPECT_EQ(study.cases[0].scene.scene.load.duration, 18e-3);
@@ -72,7 +72,7 @@ TEST(ReadStability, WhatTheReaderRefusesIsACaseWithoutARun) {
       "refused = \"to 2\"\ncases = [ { name = \"too long\", set = { numerics.time_step_factor = 3 } },\n"
       "{ name = \"fine\", set = { numerics.time_step_factor = 1 } } ]\n";
   const StudyFile study =
-      study_of(head + refused + "[[group]]\nname = \"run\"\n" + cases("expect = \"held\""));
+      study_of(stability_start + refused + "[[group]]\nname = \"run\"\n" + cases("expect = \"held\""));
   ASSERT_EQ(cases_of(study).size(), 3u);
   EXPECT_EQ(study.cases.size(), 1u);
   EXPECT_FALSE(cases_of(study)[0].run);
@@ -80,12 +80,12 @@ TEST(ReadStability, WhatTheReaderRefusesIsACaseWithoutARun) {
       << cases_of(study)[0].refusal;
   EXPECT_TRUE(cases_of(study)[1].refusal.empty());
   // Alone they are no study: something has to run.
-  expect_error_in(head + refused, {4, "group", "no case that runs", "[[group]]"});
+  expect_error_in(stability_start + refused, {4, "group", "no case that runs", "[[group]]"});
 }
 
 TEST(ReadStability, FaultsNameTheTableTheKeyAndTheLine) {
   const auto expect = [](const std::string& keys, const ExpectedError& error) {
-    expect_error_in(head + cases(keys), error);
+    expect_error_in(stability_start + cases(keys), error);
   };
   expect("set = { load.peek = \"1 GPa\" }", {6, "group.cases.set.load.peek", "unknown key", "", "load.peak"});
   expect("set = { load.peak = \"1 mm\" }", {6, "group.cases.set.load.peak", "a length"});
@@ -94,14 +94,17 @@ TEST(ReadStability, FaultsNameTheTableTheKeyAndTheLine) {
   expect("set = 3", {6, "group.cases.set", "3", "a table of scene keys"});
   expect("expect = \"WRONG\"", {6, "group.cases.expect", "\"WRONG\"", "\"held\""});
   expect("invariants = \"weight\"", {6, "group.cases.invariants", "\"weight\"", "\"mass\""});
+  expect("invariants = \"\"", {6, "group.cases.invariants", "none", "at least one"});
+  expect("invariants = \"mass, same-temperature\"",
+         {6, "group.cases.invariants", "without a safe computation", "against"});
   expect("scene = \"nowhere.toml\"", {6, "group.cases.scene", "does not exist"});
   expect("sets = { }", {6, "group.cases.sets", "unknown key", "", "set"});
   expect("refused = \"x\", expect = \"caught\"", {6, "group.cases.expect", "a case that runs"});
   expect("set = { } }, { name = \"high\"", {6, "group.cases.name", "\"high\" a second time"});
-  expect_error_in(head + "against = { load.peak = 3 }\n" + cases("expect = \"held\""),
+  expect_error_in(stability_start + "against = { load.peak = 3 }\n" + cases("expect = \"held\""),
                   {6, "group.against.load.peak", "without a unit"});
-  expect_error_in(head + "cases = 3\n", {6, "group.cases", "3", "an array of tables"});
-  expect_error_in(head, {4, "group.cases", "missing", "an array of tables"});
+  expect_error_in(stability_start + "cases = 3\n", {6, "group.cases", "3", "an array of tables"});
+  expect_error_in(stability_start, {4, "group.cases", "missing", "an array of tables"});
   expect_error_in("kind = \"stability\"\nscene = \"scene_155mm.toml\"\n",
                   {0, "numerical_uncertainty", "missing", "WRONG"});
   expect_error_in("kind = \"sweep\"\nscene = \"scene_155mm.toml\"\n[[group]]\nname = \"load\"\n",
