@@ -163,7 +163,7 @@ double energy_imbalance() {
     const mpm::EnergyTotals& e = simulation.energy();
     const double stored = e.kinetic + e.internal, left = stored + e.damping - e.external - e.body_force;
     // Written so that NaN stays.
-    largest = std::abs(left) <= largest ? largest : std::abs(left);
+    if (!std::isnan(largest) && !(std::abs(left) <= largest)) largest = std::abs(left);
     scale = std::max(scale, stored);
   });
   return largest / scale;
