@@ -13,13 +13,13 @@ using namespace launchsafe::materials;
 using launchsafe::math::Deviator;
 namespace math = launchsafe::math;
 
-constexpr double strain_rate = 2000.0, duration = 1e-5;  // 1/s, s
+constexpr double strain_rate = 2000.0, path_time = 1e-5;  // 1/s, s
 constexpr double stress_scale = 1e9;                     // Pa
 
-/// Calls step(middle of the step as a share of the duration, its length in s) for the whole path.
+/// Calls step(middle of the step as a share of its time, its length in s) for the whole path.
 template <class Step>
 void drive(int steps, Step&& step) {
-  for (int k = 0; k < steps; ++k) step((k + 0.5) / steps, duration / steps);
+  for (int k = 0; k < steps; ++k) step((k + 0.5) / steps, path_time / steps);
 }
 
 Deviator<double> stress_after(int steps) {
