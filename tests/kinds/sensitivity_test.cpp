@@ -61,8 +61,8 @@ void expect_holds(const math::Estimate& estimate, double expected, const std::st
 // 116.1 K at localisation 1700: slope 0.0682941 K; ranges of 800 and of 20 K: variances (54.6353^2 and
 // 20^2)/12.
 TEST(Sensitivity, IndicesOfALinearMarginAreItsSharesOfTheVariance) {
-  const StudyFile study = study_of(linear_text("method = \"sobol\"\nsamples = 64\nseed = 7\n"));
-  ASSERT_EQ(study.cases.size(), 64u * 5u);
+  const StudyFile study = study_of(linear_text("method = \"sobol\"\nsamples = 256\nseed = 7\n"));
+  ASSERT_EQ(study.cases.size(), 256u * 5u);
   Counted counted;
   const SensitivityResult result = run_sensitivity(study, counted.options);
   const OutputSensitivity& margin = output_of(result, SensitivityOutput::margin);
