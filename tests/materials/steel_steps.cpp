@@ -14,7 +14,7 @@ using launchsafe::math::Deviator;
 namespace math = launchsafe::math;
 
 constexpr double strain_rate = 2000.0, path_time = 1e-5;  // 1/s, s
-constexpr double stress_scale = 1e9;                     // Pa
+constexpr double stress_scale = 1e9;                      // Pa
 
 /// Calls step(middle of the step as a share of its time, its length in s) for the whole path.
 template <class Step>
