@@ -185,4 +185,36 @@ TEST(ViscoScram, NotANumberComesOutAsNotANumber) {
   EXPECT_TRUE(std::isnan(math::von_mises(total_deviator(state))));
 }
 
+TEST(ViscoScramFrozenCrack, ShortRelaxationTakesFewSubSteps) {
+  // tau = 1 ps in a step of 0.1 ms: 1e8 relaxation times, for which sub-steps of a share of tau would take
+  // longer than a test may. What relaxes so fast is gone after the step, and the rest is as if it had never
+  // been there.
+  for (const double q : {0.5, 27.0, 1000.0}) {
+    ViscoScramParameters m = frozen(q), without = m;
+    m.relaxation_rates[4] = 1e12;
+    without.shear_moduli[4] = 0.0;
+    without.relaxation_rates[4] = 0.0;
+    const double strain = 1e-3, dt = 1e-4;
+    const FrozenSystem whole(m, q);
+    ViscoScramState<double> state = cracked(m, q);
+    const Eigen::VectorXd sudden = whole.loading * strain;
+    for (std::size_t n = 0; n < maxwell_elements; ++n)
+      state.elements[n].rx = 1e9 * sudden(static_cast<int>(n));
+    const auto lost = visco_scram_update<double>(m, relaxation(m, dt), state, {}, 0.0);
+    EXPECT_GE(lost.viscous, 0.0);
+    // The other four with the same crack strain q S/(2 G): q' = q (G - G_5)/G of their own modulus.
+    const double reduced = q * without.shear_modulus() / m.shear_modulus();
+    Eigen::MatrixXd left = Eigen::MatrixXd::Identity(4, 4), rates = Eigen::MatrixXd::Zero(4, 4);
+    Eigen::VectorXd moduli(4);
+    for (int n = 0; n < 4; ++n) {
+      moduli(n) = without.shear_moduli[static_cast<std::size_t>(n)] / 1e9;
+      rates(n, n) = without.relaxation_rates[static_cast<std::size_t>(n)];
+    }
+    left += reduced / moduli.sum() * moduli * Eigen::RowVectorXd::Ones(4);
+    const Eigen::MatrixXd propagator = (-left.inverse() * rates * dt).exp();
+    const double exact = 1e9 * (propagator * (left.inverse() * (2.0 * strain * moduli))).sum();
+    EXPECT_NEAR(total_deviator(state).rx / exact, 1.0, 1e-3) << q;
+  }
+}
+
 }  // namespace

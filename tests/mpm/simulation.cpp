@@ -125,4 +125,30 @@ TEST(Simulation, InertialScalingLengthensTheStepByItsRoot) {
   EXPECT_NEAR(mpm::Simulation(shell).stable_time_step(), 4.0 * plain, 1e-12 * plain);
 }
 
+TEST(Simulation, RigidAccelerationIsPressureTimesAreaOverMass) {
+  // Model section 1: 496 MPa on the 155 mm shell.
+  const scene::Scene shell = test_support::shell_155();
+  const mpm::Simulation still(shell);
+  EXPECT_NEAR(still.frame_acceleration(shell.load.peak_time), 1.46479e5, 0.5);
+}
+
+TEST(Simulation, GainsTheImpulseOfThePressureInTheLabFrame) {
+  scene::Scene shell = test_support::shell_155(5e-3);
+  shell.frame = scene::Frame::lab;
+  shell.load = test_support::steady_pressure(100e6);
+  mpm::Simulation simulation(shell);
+  while (simulation.time() < 1e-3) simulation.step(simulation.stable_time_step());
+  const double impulse = 100e6 * scene::base_area(shell) * simulation.time();
+  EXPECT_NEAR(2.0 * std::numbers::pi * simulation.axial_momentum() / -impulse, 1.0, 1e-10);
+}
+
+TEST(Simulation, IsBitwiseRepeatable) {
+  const auto run = [] {
+    mpm::Simulation simulation(test_support::shell_155(5e-3));
+    for (int step = 0; step < 200; ++step) simulation.step(simulation.stable_time_step());
+    return simulation.bodies_of<materials::Charge>()[0].get().particles.x;
+  };
+  EXPECT_EQ(run(), run());
+}
+
 }  // namespace
