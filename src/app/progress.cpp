@@ -30,17 +30,23 @@ ProgressStyle progress_style(bool quiet) {
   return ::isatty(STDERR_FILENO) == 1 && !dumb ? ProgressStyle::terminal : ProgressStyle::plain;
 }
 
+Progress::Progress(ProgressStyle style)
+    : style_(style), pause_(10s), last_(std::chrono::steady_clock::now()) {
+  if (style != ProgressStyle::terminal) return;
+  pause_ = 200ms;
+  last_ -= pause_;
+}
+
 Progress::~Progress() { clear(); }
 
 void Progress::show(const std::string& line) {
   if (style_ == ProgressStyle::none) return;
   const std::lock_guard lock(mutex_);
   const auto now = std::chrono::steady_clock::now();
-  const bool terminal = style_ == ProgressStyle::terminal;
-  if (now - last_ < (terminal ? 200ms : 10s)) return;
+  if (now - last_ < pause_) return;
   last_ = now;
-  shown_ = terminal;
-  const std::string text = terminal ? fmt::format("\r{}\x1b[K", fitted(line)) : line + "\n";
+  shown_ = style_ == ProgressStyle::terminal;
+  const std::string text = shown_ ? fmt::format("\r{}\x1b[K", fitted(line)) : line + "\n";
   write_or_drop(STDERR_FILENO, text);
 }
 

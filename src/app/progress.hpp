@@ -16,14 +16,14 @@ ProgressStyle progress_style(bool quiet);
 /// Any thread may report.
 class Progress {
  public:
-  explicit Progress(ProgressStyle style) : style_(style) {}
+  explicit Progress(ProgressStyle style);
   /// Removes the line from the terminal.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows the line, unless the last one is too fresh: a fifth of a second on a terminal, ten seconds
-  /// elsewhere.
+  /// Shows the line, unless the last one is too fresh: a fifth of a second on a terminal, where the first is
+  /// shown at once; ten seconds elsewhere, from the beginning on.
   void show(const std::string& line);
   /// Removes the line until the next one is shown, so that other words do not run into it.
   void clear();
@@ -33,7 +33,8 @@ class Progress {
 
   ProgressStyle style_;
   std::mutex mutex_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::duration pause_;
+  std::chrono::steady_clock::time_point last_;
   bool shown_ = false;
 };
 
