@@ -33,14 +33,9 @@ double centre_of_mass(const mpm::Simulation& simulation) {
 /// Steel that fills a barrel and is squeezed by it alone: sigma_rr = sigma_tt = -1.5 p, sigma_xx = 0. Its
 /// particles still tile the body. Returns p (Pa).
 double squeeze_radially(mpm::Simulation& simulation) {
-  constexpr double mu = 1e-3;
-  const double pressure = materials::mie_gruneisen_pressure(simulation.scene().steel().eos, mu, 0.0);
+  const double pressure = compress(simulation, 1e-3);
   for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) {
-    mpm::ParticleFields& p = body.particles;
-    for (std::size_t i = 0; i < p.mass.size(); ++i) {
-      p.volume_ratio[i] /= 1.0 + mu;
-      p.mass[i] *= 1.0 + mu;
-      p.pressure[i] = pressure;
+    for (std::size_t i = 0; i < body.particles.mass.size(); ++i) {
       body[materials::Steel::stress_xx][i] = pressure;
       body[materials::Steel::stress_rr][i] = -0.5 * pressure;
     }
@@ -89,6 +84,20 @@ scene::Load pulse(double peak, double peak_time) {
 
 double bulk_modulus(const scene::Steel& steel) {
   return steel.eos.density * steel.eos.sound_speed * steel.eos.sound_speed;
+}
+
+double compress(mpm::Simulation& simulation, double mu) {
+  const double pressure = materials::mie_gruneisen_pressure(simulation.scene().steel().eos, mu, 0.0);
+  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) {
+    mpm::ParticleFields& p = body.particles;
+    for (std::size_t i = 0; i < p.mass.size(); ++i) {
+      p.volume_ratio[i] /= 1.0 + mu;
+      p.mass[i] *= 1.0 + mu;
+      p.pressure[i] = pressure;
+    }
+  }
+  simulation.reset_grid();
+  return pressure;
 }
 
 double run_to(mpm::Simulation& simulation, double end) {

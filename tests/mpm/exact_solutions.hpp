@@ -24,6 +24,9 @@ scene::Load pulse(double peak, double peak_time);
 /// Of steel at rest, Pa.
 double bulk_modulus(const scene::Steel& steel);
 
+/// All steel under one hydrostatic pressure, compressed by `mu` (relative), at rest, with particles that
+/// still tile the body. Returns the pressure (Pa).
+double compress(mpm::Simulation& simulation, double mu);
 /// Runs to `end` (s) in equal steps no longer than the stable one at rest; returns the step (s).
 double run_to(mpm::Simulation& simulation, double end);
 /// Speed (m/s) towards the nose of a pulse between two times (s) at which it is whole and inside: of the

@@ -2,6 +2,7 @@
 #include "launchsafe/mpm/simulation.hpp"
 
 #include "launchsafe/materials/mie_gruneisen.hpp"
+#include "exact_solutions.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -9,23 +10,6 @@
 namespace {
 
 using namespace launchsafe;
-
-/// All steel under one hydrostatic pressure, at rest, with particles that still tile the body. Returns the
-/// pressure.
-double compress(mpm::Simulation& simulation, double mu) {
-  const auto& eos = simulation.scene().steel().eos;
-  const double pressure = materials::mie_gruneisen_pressure(eos, mu, 0.0);
-  for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) {
-    mpm::ParticleFields& p = body.particles;
-    for (std::size_t i = 0; i < p.mass.size(); ++i) {
-      p.volume_ratio[i] /= 1.0 + mu;
-      p.mass[i] *= 1.0 + mu;
-      p.pressure[i] = pressure;
-    }
-  }
-  simulation.reset_grid();
-  return pressure;
-}
 
 /// Scenes whose meshes do and do not divide their lengths, on the even background grid.
 std::vector<scene::Scene> patches() {
@@ -52,7 +36,7 @@ TEST(PatchTest, PressureOnTheBaseBalancesUniformStress) {
     scene::Scene loaded = bar;
     loaded.load = test_support::steady_pressure(materials::mie_gruneisen_pressure(bar.steel().eos, mu, 0.0));
     mpm::Simulation simulation(loaded);
-    compress(simulation, mu);
+    test_support::compress(simulation, mu);
     const double dt = 1e-12;
     simulation.step(dt);  // gives the grid the stress
     const mpm::Grid& grid = simulation.updated_lagrangian()->grid();
@@ -86,7 +70,7 @@ TEST(PatchTest, PressureInTheBoreBalancesUniformStress) {
       const double mu = 1e-3;
       ring.load = test_support::steady_pressure(materials::mie_gruneisen_pressure(ring.steel().eos, mu, 0.0));
       mpm::Simulation simulation(ring);
-      simulation.apply_bore_pressure(0, compress(simulation, mu));
+      simulation.apply_bore_pressure(0, test_support::compress(simulation, mu));
       const double dt = 1e-12;
       simulation.step(dt);
       simulation.step(dt);
