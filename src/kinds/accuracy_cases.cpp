@@ -25,13 +25,9 @@ using scene::KeyDescription, scene::KeyKind, scene::Place, scene::Value;
 constexpr std::size_t least_reference_meshes = 3;
 constexpr const char* cell_size_key = "numerics.cell_size";
 
-std::string key_in_block(std::size_t block, const std::string& key) {
-  return fmt::format("settings.{}.{}", block, key);
-}
-
 Fault read_axis(const Leaf& leaf, std::size_t block, StudyFile& study) {
   const Place place = scene::place_of(*leaf.node, study.file);
-  const std::string key = key_in_block(block, leaf.name);
+  const std::string key = fmt::format("settings.{}.{}", block, leaf.name);
   study.places[key] = place;
   if (leaf.name == "gap.thickness") {
     return fault_at(study, key, "gap.thickness as a setting",
@@ -41,7 +37,9 @@ Fault read_axis(const Leaf& leaf, std::size_t block, StudyFile& study) {
   if (!description) return in_table(description.error(), "settings");
   const auto values = scene::read_values(*leaf.node, *description, study.file);
   if (!values) return in_table(values.error(), "settings");
-  accuracy_settings(study.study).settings[block].push_back({*description, *values});
+  SettingsAxis& axis = accuracy_settings(study.study).settings[block].emplace_back();
+  for (const Value& value : *values)
+    axis.push_back({leaf.name, value, scene::format_value(*description, value), key, place});
   return std::nullopt;
 }
 
@@ -97,45 +95,32 @@ std::string label_of(const std::vector<Change>& changes) {
     const std::string name = change.key.substr(change.key.rfind('.') + 1);
     label += fmt::format("{}{} {}", label.empty() ? "" : ", ", name, change.text);
   }
-  return label;
+  return label.empty() ? "as in the scene" : label;
 }
 
-/// Makes cases of valid scenes, each once.
-class AccuracyCaseMaker {
- public:
-  explicit AccuracyCaseMaker(StudyFile& study) : study_(study) {}
+/// The scenes of the cases so far.
+using KnownScenes = std::set<std::string>;
 
-  Fault add(std::string label, const std::vector<Change>& changes) {
-    ChangedScene scene(study_.scene);
-    for (const Change& change : changes) scene.apply(change);
-    if (!scene.complete()) return scene.error();
-    if (!known_.insert(scene::to_toml(scene.scene().scene)).second) return std::nullopt;
-    StudyCase made = case_of(std::move(label), scene.take());
-    made.own_conditions = true;
-    study_.cases.push_back(std::move(made));
-    return std::nullopt;
-  }
-
- private:
-  StudyFile& study_;
-  std::set<std::string> known_;
-};
-
-Change change_of(const StudyFile& study, const KeyDescription& key, const Value& value,
-                 const std::string& study_key) {
-  return {key.name, value, scene::format_value(key, value), study_key, place_of_key(study, study_key)};
+/// Makes a case of a valid scene, unless it is known.
+Fault add_case(StudyFile& study, const std::vector<Change>& changes, KnownScenes& known) {
+  ChangedScene scene(study.scene);
+  for (const Change& change : changes) scene.apply(change);
+  if (!scene.complete()) return scene.error();
+  if (!known.insert(scene::to_toml(scene.scene().scene)).second) return std::nullopt;
+  study.cases.push_back(case_of(label_of(changes), scene.take()));
+  study.cases.back().own_conditions = true;
+  return std::nullopt;
 }
 
 /// Every combination of the values of a block, the last key fastest.
-Fault add_block(const StudyFile& study, std::size_t block, std::vector<Change> changes,
-                AccuracyCaseMaker& maker) {
-  const std::vector<SettingsAxis>& axes = accuracy_settings(study.study).settings[block];
-  if (changes.size() == axes.size()) return maker.add(label_of(changes), changes);
+Fault add_block(StudyFile& study, const std::vector<SettingsAxis>& axes, std::vector<Change> changes,
+                KnownScenes& known) {
+  if (changes.size() == axes.size()) return add_case(study, changes, known);
   const SettingsAxis& axis = axes[changes.size()];
-  for (const Value& value : axis.values) {
-    std::vector<Change> more = changes;
-    more.push_back(change_of(study, axis.key, value, key_in_block(block, axis.key.name)));
-    if (Fault fault = add_block(study, block, std::move(more), maker)) return fault;
+  changes.emplace_back();
+  for (const Change& change : axis) {
+    changes.back() = change;
+    if (Fault fault = add_block(study, axes, changes, known)) return fault;
   }
   return std::nullopt;
 }
@@ -144,7 +129,7 @@ Fault check_setting_count(const StudyFile& study) {
   double count = 1.0;
   for (const auto& block : accuracy_settings(study.study).settings) {
     double product = 1.0;
-    for (const SettingsAxis& axis : block) product *= static_cast<double>(axis.values.size());
+    for (const SettingsAxis& axis : block) product *= static_cast<double>(axis.size());
     count += product;
   }
   if (count <= static_cast<double>(study.most_cases)) return std::nullopt;
@@ -171,16 +156,18 @@ Fault read_settings(const toml::table& root, StudyFile& study) {
 }
 
 Fault make_setting_cases(StudyFile& study) {
-  AccuracyCaseMaker maker(study);
+  const AccuracySettings settings = accuracy_settings(study.study);
   const KeyDescription description = *scene::find_key(scene::scene_keys(), cell_size_key);
-  for (const double size : accuracy_settings(study.study).reference_cell_sizes) {
-    const Change change = change_of(study, description, size, "reference_cell_sizes");
-    if (Fault fault = maker.add(label_of({change}), {change})) return fault;
+  KnownScenes known;
+  for (const double size : settings.reference_cell_sizes) {
+    const Change change{cell_size_key, size, scene::format_value(description, size), "reference_cell_sizes",
+                        place_of_key(study, "reference_cell_sizes")};
+    if (Fault fault = add_case(study, {change}, known)) return fault;
   }
   if (Fault fault = check_reference_grids(study)) return fault;
-  if (Fault fault = maker.add("as in the scene", {})) return fault;
-  for (std::size_t block = 0; block < accuracy_settings(study.study).settings.size(); ++block) {
-    if (Fault fault = add_block(study, block, {}, maker)) return fault;
+  if (Fault fault = add_case(study, {}, known)) return fault;
+  for (const std::vector<SettingsAxis>& block : settings.settings) {
+    if (Fault fault = add_block(study, block, {}, known)) return fault;
   }
   return std::nullopt;
 }
@@ -272,6 +259,15 @@ std::vector<scene::Key<AccuracySettings>> accuracy_keys() {
   };
 }
 
+std::vector<Failure> accuracy_failures(const AccuracyResult& result) {
+  std::vector<Failure> failures;
+  auto input = result.study.cases.begin();
+  for (const VariantAccuracy& variant : result.variants)
+    for (const AccuracyRow& row : variant.rows)
+      add_failure(failures, (input++)->label, row.answer.outcome, row.answer.failure);
+  return failures;
+}
+
 Fault read_accuracy(const StudySource& source, StudyFile& study) {
   const toml::node* node = source.root.get(variant_key);
   if (node == nullptr) return read_settings(source.root, study);
@@ -289,7 +285,7 @@ Kind accuracy_kind() {
       .tables = {{"settings", {}}, {variant_key, {}}},
       .read = read_accuracy,
       .make_cases = make_accuracy_cases,
-      .run = outcome_of<run_accuracy, failures_of<AccuracyResult>>,
+      .run = outcome_of<run_accuracy, accuracy_failures>,
       .files = {{"accuracy.json"},
                 {"accuracy_", ".json"},
                 {"accuracy.csv"},

@@ -1,4 +1,4 @@
-// The answer, the pages and the files of an accuracy study.
+// The answer, the picture, the page and the files of an accuracy study.
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
@@ -46,11 +46,11 @@ std::string wrongness(const VariantAccuracy& variant, const AccuracyRow& own) {
   std::string text = fmt::format(
       "With the setting of the scene, T max is off by at most about {} over the compared gaps; its "
       "distance from {} is {}.",
-      kelvin(own.temperature_bound), limit_text(variant.any_indeterminate()),
+      kelvin(own.setting.temperature_bound), limit_text(variant.any_indeterminate()),
       kelvin(own.largest_temperature_error));
-  if (std::isfinite(own.critical_gap_bound)) {
+  if (std::isfinite(own.setting.critical_gap_bound)) {
     text += fmt::format(" Its critical gap, {}, is off by at most about {}; {} is {} ({} {}).",
-                        in_cm(own.measured.critical.value, 4), in_cm(own.critical_gap_bound, 2),
+                        in_cm(own.setting.critical_gap, 4), in_cm(own.setting.critical_gap_bound, 2),
                         limit_text(!variant.reference->critical_gap.limit.justified),
                         in_cm(variant.reference->critical_gap.limit.value, 4),
                         own.critical_gap_error > 0 ? "smaller by" : "larger by",
@@ -70,7 +70,7 @@ std::string belief(const VariantAccuracy& variant) {
   for (const AccuracyRow& row : variant.rows) {
     if (!row.sound()) continue;
     ++sound;
-    drift = std::max(drift, row.measured.energy_drift);
+    drift = std::max(drift, row.answer.run.energy_drift);
   }
   std::string text = fmt::format(
       "The reference is what {} grids tend to, all of which run along the charge. For T max that limit is "
@@ -90,14 +90,14 @@ std::string belief(const VariantAccuracy& variant) {
 
 std::string halving(const VariantAccuracy& variant, const AccuracyRow& own) {
   if (!variant.record.unvaried.empty()) return "No error is known that could be halved.";
-  const double half = 0.5 * own.temperature_bound;
-  if (const AccuracyRow* row = variant.cheapest(half)) {
+  const double half = 0.5 * own.setting.temperature_bound;
+  if (const RecordedSetting* setting = cheapest_within(variant.record, half)) {
     return fmt::format(
         "The cheapest setting here with half the bound is {}: {} for {} s of processor time a run, {} "
         "times the {} s of the scene's setting.",
-        variant.label_of(*row), kelvin(row->temperature_bound), significant(row->measured.processor_time, 3),
-        significant(row->measured.processor_time / own.measured.processor_time, 2),
-        significant(own.measured.processor_time, 3));
+        setting->label, kelvin(setting->temperature_bound), significant(setting->processor_time, 3),
+        significant(setting->processor_time / own.setting.processor_time, 2),
+        significant(own.setting.processor_time, 3));
   }
   return fmt::format(
       "No setting here halves the bound: {} of it are the uncertainty of the reference itself, which "
@@ -108,15 +108,42 @@ std::string halving(const VariantAccuracy& variant, const AccuracyRow& own) {
 
 std::string cheapest_text(const VariantAccuracy& variant) {
   std::string text;
-  const AccuracyRow* last = nullptr;
+  const RecordedSetting* last = nullptr;
   for (const double tolerance : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
-    const AccuracyRow* row = variant.cheapest(tolerance);
-    if (row == nullptr || row == last) continue;
-    last = row;
-    text += fmt::format("- T max within {:g} K: {} ({}, {} s)\n", tolerance, variant.label_of(*row),
-                        kelvin(row->temperature_bound), significant(row->measured.processor_time, 3));
+    const RecordedSetting* setting = cheapest_within(variant.record, tolerance);
+    if (setting == nullptr || setting == last) continue;
+    last = setting;
+    text += fmt::format("- T max within {:g} K: {} ({}, {} s)\n", tolerance, setting->label,
+                        kelvin(setting->temperature_bound), significant(setting->processor_time, 3));
   }
   return text;
+}
+
+constexpr int grey = 7;
+
+/// Marks at the bounds, with bars down to the distances.
+Series bars(std::string label, int colour, Mark mark, const std::vector<const AccuracyRow*>& rows) {
+  Series series{std::move(label), {}, {}, Style::vertical_bars};
+  series.colour = colour;
+  series.mark = mark;
+  for (const AccuracyRow* row : rows) {
+    series.x.push_back(row->setting.processor_time);
+    series.y.push_back(row->error_to_go_by());
+    series.lower.push_back(row->largest_temperature_error);
+  }
+  series.upper = series.y;
+  return series;
+}
+
+/// The best error for every cost, from cheap to costly.
+Series front_of(std::vector<const AccuracyRow*> rows) {
+  std::ranges::sort(rows, {}, [](const AccuracyRow* row) {
+    return std::pair(row->setting.processor_time, row->error_to_go_by());
+  });
+  const Series marks = bars({}, grey, {}, rows);
+  Series front{"Pareto front", marks.x, marks.y, Style::steps};
+  front.colour = grey;
+  return front;
 }
 
 /// A panel for every variant.
@@ -129,6 +156,43 @@ Plot picture_of(const std::vector<const VariantAccuracy*>& variants) {
 }
 
 }  // namespace
+
+Plot error_plot(const VariantAccuracy& variant) {
+  const bool bounded = variant.record.unvaried.empty();
+  Plot plot;
+  plot.title = variant.name.empty() ? "Error of T max against processor time" : variant.name;
+  plot.x = {"processor time of a run [s]", Scale::logarithmic};
+  plot.y = {bounded ? "error of T max [K]" : "distance of T max from the reference [K]", Scale::logarithmic};
+  plot.width = 1100;
+  plot.height = 640;
+  plot.subtitle = bounded ? "marks: bound of the error; bars: down to the distance from the reference"
+                          : "no bound of the error is known: the reference itself may be off";
+  std::vector<const AccuracyRow*> front, meshes, settings;
+  std::vector<Series> best;
+  for (const AccuracyRow& row : variant.rows) {
+    if (!row.computed() || row.other_model) continue;
+    if (row.on_front) front.push_back(&row);
+    if (row.on_front || row.baseline) {
+      // A name of its own in the legend, where no label covers others. None of the first 56 looks like
+      // another one.
+      const int n = static_cast<int>(best.size());
+      const auto mark = static_cast<Mark>((n % grey + n / grey) % 8);
+      best.push_back(bars(row.baseline ? "as in the scene" : row.setting.label, n % grey, mark, {&row}));
+    } else if (!row.setting.reference) {
+      settings.push_back(&row);
+    }
+    if (row.setting.reference) meshes.push_back(&row);
+  }
+  plot.series = {front_of(front), bars("other settings", grey, Mark::circle, settings),
+                 bars("reference meshes", grey, Mark::open_square, meshes)};
+  plot.series.insert(plot.series.end(), best.begin(), best.end());
+  std::erase_if(plot.series, [](const Series& each) { return each.x.empty(); });
+  const double uncertainty = variant.reference_uncertainty();
+  if (std::isfinite(uncertainty) && uncertainty > 0)
+    plot.horizontal_lines = {
+        {uncertainty, fmt::format("reference uncertain by {} K", significant(uncertainty, 2))}};
+  return plot;
+}
 
 std::string answer(const AccuracyResult& result) {
   const VariantAccuracy& first = result.variants.front();
@@ -156,11 +220,9 @@ Report report_of(const AccuracyResult& result) {
     report.items.push_back(Picture{"error_against_time.svg", picture_of(drawn), "error against run time"});
   if (several) report.items.push_back(ReportTable{variant_table(result), "variants.csv", "variants"});
   const Shown settings = several ? Shown::file : Shown::page_and_terminal;
-  for (ReportTable table :
-       {ReportTable{over_variants(result, setting_table), "accuracy.csv", "settings", settings},
-        ReportTable{over_variants(result, reference_table), "reference.csv", "reference", Shown::file},
-        ReportTable{over_variants(result, point_table), "points.csv", "points", Shown::file}})
-    report.items.push_back(std::move(table));
+  report.items.push_back(ReportTable{setting_table(result), "accuracy.csv", "settings", settings});
+  report.items.push_back(ReportTable{reference_table(result), "reference.csv", "reference", Shown::file});
+  report.items.push_back(ReportTable{point_table(result), "points.csv", "points", Shown::file});
   report.items.push_back(Statement{
       "In files: cost and errors of every setting, over the launch too (`accuracy.csv`), what the grids "
       "tend to (`reference.csv`), and T max of the stations (`points.csv`).\n"});

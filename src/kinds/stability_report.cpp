@@ -47,55 +47,45 @@ std::string invariants_text(const StressCase& asked) {
   return names.size() == all_invariants().size() ? "all" : fmt::format("{}", fmt::join(names, " "));
 }
 
-struct ColumnAndCell {
-  Column column;
-  Cell cell;
-};
-
-/// What there is to say of a case, and of one of its gaps, which may have none of the numbers.
-std::vector<ColumnAndCell> stress_cells(const StressCaseRow& row, std::size_t i) {
+/// What there is to say of a case and of one of its gaps, which may have none of the numbers.
+std::vector<Field> stress_fields(const StressCaseRow& row, std::size_t i) {
   const CaseAnswer& answer = row.answer;
   const GapVerdict gap = i < answer.verdicts.size() ? answer.verdicts[i] : GapVerdict{};
-  const auto of_gap = [i](const std::vector<double>& values) {
-    return i < values.size() ? optional_number(values[i]) : Cell();
-  };
   return {{named_text("group", "group"), row.asked.group},
           {quantity::case_name(), row.asked.name},
           {named_text("outcome", "outcome"), outcome_text(row)},
           {named_text("expected", "expected"), expected_text(row.asked)},
-          {named_text("as expected", "as_expected"), std::string(row.is_as_expected() ? "yes" : "no")},
+          {named_text("as expected", "as_expected"), row.is_as_expected() ? "yes" : "no"},
           {named_text("invariants", "invariants"), invariants_text(row.asked)},
           {named_text("finding", "finding"), finding_text(row)},
           {quantity::status(), run::to_string(answer.run.status)},
-          {number_column("until", "ms", 4, "end_time_ms"), optional_number(1e3 * row.end_time)},
-          {quantity::steps(), static_cast<std::int64_t>(answer.run.steps)},
-          {quantity::particles(), static_cast<std::int64_t>(answer.run.particles)},
-          {quantity::energy_drift(), optional_number(answer.run.energy_drift)},
+          {number_column("until", "ms", 4, "end_time_ms"), 1e3 * row.end_time},
+          {quantity::steps(), Cell(static_cast<std::int64_t>(answer.run.steps))},
+          {quantity::particles(), Cell(static_cast<std::int64_t>(answer.run.particles))},
+          {quantity::energy_drift(), answer.run.energy_drift},
           {quantity::gap(), in_centimetres(gap.gap)},
-          {quantity::temperature_max(), optional_number(gap.maximum.temperature)},
-          {quantity::temperature_max_inert(), of_gap(answer.heated_temperature)},
-          {number_column("safe computation", "K", 1, "safe_computation_K"), of_gap(row.heated_against)},
-          {number_column("against", "K", 1, "deviation_K"), of_gap(row.deviations)},
-          {quantity::uncertainty(), optional_number(gap.uncertainty.total())},
+          {quantity::temperature_max(), gap.maximum.temperature},
+          {quantity::temperature_max_inert(), number_at(answer.heated_temperature, i)},
+          {number_column("safe computation", "K", 1, "safe_computation_K"), number_at(row.heated_against, i)},
+          {number_column("against", "K", 1, "deviation_K"), number_at(row.deviations, i)},
+          {quantity::uncertainty(), gap.uncertainty.total()},
           {quantity::verdict(), study::to_string(gap.judgement.verdict)},
           {quantity::reason(), gap.judgement.reason},
           {quantity::limiters(), run::to_string(answer.run.limiters)}};
 }
 /// So many of them are of the case; a row without a gap has no others.
-constexpr std::size_t cells_of_case = 7;
+constexpr std::size_t fields_of_case = 7;
 
 /// A row for every gap of every case: what must hold, what became of it, why, and the numbers behind it.
 Table stability_table(const StabilityResult& result) {
   Table table;
   table.title = "Stress cases";
-  for (const ColumnAndCell& each : stress_cells({}, 0)) table.columns.push_back(each.column);
   for (const StressCaseRow& row : result.rows) {
     const std::size_t gaps = row.computed() ? row.answer.verdicts.size() : 0;
     for (std::size_t i = 0; i < std::max<std::size_t>(gaps, 1); ++i) {
-      std::vector<Cell>& cells = table.rows.emplace_back();
-      for (ColumnAndCell& each : stress_cells(row, i)) cells.push_back(std::move(each.cell));
-      if (gaps == 0) cells.resize(cells_of_case);
-      cells.resize(table.columns.size());
+      std::vector<Field> fields = stress_fields(row, i);
+      for (std::size_t k = fields_of_case; gaps == 0 && k < fields.size(); ++k) fields[k].cell = {};
+      add_row(table, std::move(fields));
     }
   }
   return table;
@@ -130,23 +120,23 @@ Plot outcome_plot(const StabilityResult& result) {
   plot.title = "Outcomes of the stress cases";
   plot.x.label = "cases";
   std::map<std::string, double> places;
+  std::map<std::pair<Outcome, std::string>, double> cases;
   for (const StressCaseRow& row : result.rows) {
     const double at = -static_cast<double>(places.size());
     if (places.try_emplace(row.asked.group, at).second) plot.y.tics.push_back({at, row.asked.group});
+    if (row.computed()) ++cases[{row.finding.outcome, row.asked.group}];
   }
-  for (std::size_t i = 0; i < std::size(all_outcomes); ++i) {
-    Series series{to_string(all_outcomes[i]), {}, {}, Style::horizontal_bars, {}, {}, colours[i]};
-    for (const auto& [group, place] : places) {
-      const auto cases = static_cast<double>(count(result, [&](const StressCaseRow& row) {
-        return row.asked.group == group && row.is(all_outcomes[i]);
-      }));
-      if (cases == 0.0) continue;
-      series.x.push_back(cases);
-      series.y.push_back(place + 0.3 - 0.2 * static_cast<double>(i));
-      series.lower.push_back(0.0);
-      series.upper.push_back(cases);
-    }
-    plot.series.push_back(std::move(series));
+  for (const Outcome outcome : all_outcomes) {
+    const auto i = static_cast<std::size_t>(outcome);
+    plot.series.push_back({to_string(outcome), {}, {}, Style::horizontal_bars, {}, {}, colours[i]});
+  }
+  for (const auto& [which, count] : cases) {
+    const auto i = static_cast<std::size_t>(which.first);
+    Series& series = plot.series[i];
+    series.x.push_back(count);
+    series.y.push_back(places[which.second] + 0.3 - 0.2 * static_cast<double>(i));
+    series.lower.push_back(0.0);
+    series.upper.push_back(count);
   }
   return plot;
 }

@@ -1,6 +1,7 @@
 // Accuracy records as JSON, written and read with distrust.
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
+#include "launchsafe/study/changed_scene.hpp"
 #include "launchsafe/study/record_reader.hpp"
 
 #include <fmt/format.h>
@@ -27,12 +28,8 @@ constexpr double widest_gap = 0.01;             ///< m, as in studies
 
 ordered_json json_of(const Setting& setting) {
   ordered_json object = ordered_json::object();
-  for (const auto& [key, value] : setting) {
-    if (const auto* number = std::get_if<double>(&value)) object[key] = *number;
-    if (const auto* flag = std::get_if<bool>(&value)) object[key] = *flag;
-    if (const auto* word = std::get_if<std::string>(&value)) object[key] = *word;
-    if (const auto* places = std::get_if<std::vector<double>>(&value)) object[key] = *places;
-  }
+  for (const auto& entry : setting)
+    std::visit([&](const auto& value) { object[entry.first] = value; }, entry.second);
   return object;
 }
 
@@ -149,7 +146,7 @@ void check_settings(const AccuracyRecord& record, RecordReader& reader) {
 /// Equal but for round-off; two that are not known are equal.
 bool same_bound(double a, double b) {
   if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
-  return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
+  return same_number(a, b);
 }
 
 void check_bounds(const AccuracyRecord& record, RecordReader& reader) {

@@ -2,6 +2,7 @@
 
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/study/changed_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -70,17 +71,6 @@ Role role_of(std::string_view key) {
   for (const std::string_view table : {"output.", "physics.", "combustion."})
     if (key.starts_with(table)) return Role::none;
   return Role::model;
-}
-
-bool same_number(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
-
-bool same_constant(const Value& a, const Value& b) {
-  if (a.index() != b.index()) return false;
-  if (const auto* number = std::get_if<double>(&a)) return same_number(*number, std::get<double>(b));
-  const auto* list = std::get_if<std::vector<double>>(&a);
-  if (list == nullptr) return a == b;
-  const auto& other = std::get<std::vector<double>>(b);
-  return std::equal(list->begin(), list->end(), other.begin(), other.end(), same_number);
 }
 
 /// m; much less than any tolerance of a drawing.
@@ -206,7 +196,7 @@ CalibrationDistance distance_to_calibration(const Scene& scene, const Calibratio
   if (!shells_agree) distance.unknown.emplace_back("another shell");
   for (const auto& key : scene::scene_keys()) {
     const Value value = key.get(scene), wanted = key.get(calibrated);
-    if (!same_constant(value, wanted)) add_difference(distance, key.name, value, wanted);
+    if (!same_value(value, wanted)) add_difference(distance, key.name, value, wanted);
   }
   summarise_explosive(distance, scene, calibrated);
   add_other_interfaces(distance, scene, calibrated, shells_agree);

@@ -2,9 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace launchsafe::study {
+
+bool same_number(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+bool same_value(const scene::Value& a, const scene::Value& b) {
+  if (a.index() != b.index()) return false;
+  if (const auto* number = std::get_if<double>(&a)) return same_number(*number, std::get<double>(b));
+  const auto* list = std::get_if<std::vector<double>>(&a);
+  if (list == nullptr) return a == b;
+  const auto& other = std::get<std::vector<double>>(b);
+  return std::equal(list->begin(), list->end(), other.begin(), other.end(), same_number);
+}
 
 void ChangedScene::apply(const Change& change) {
   if (auto error = try_to(change)) {

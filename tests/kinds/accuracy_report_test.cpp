@@ -49,7 +49,7 @@ const report::Cell& cell_of(const report::Table& table, std::size_t row, const s
 }
 
 TEST(AccuracyReport, HasARowForEverySettingWithItsErrorAndCost) {
-  const report::Table table = kinds::setting_table(made_accuracy().variants.front());
+  const report::Table table = kinds::setting_table(made_accuracy());
   ASSERT_EQ(table.rows.size(), 4u);
   EXPECT_NEAR(std::get<double>(cell_of(table, 2, "temperature_error_0_cm_K")), 2.0, 0.05);
   EXPECT_NEAR(std::get<double>(cell_of(table, 2, "cell_mm")), 2.5, 0.1);
@@ -60,7 +60,7 @@ TEST(AccuracyReport, HasARowForEverySettingWithItsErrorAndCost) {
 }
 
 TEST(AccuracyReport, SaysWhatTheMeshesTendTo) {
-  const report::Table table = kinds::reference_table(made_accuracy().variants.front());
+  const report::Table table = kinds::reference_table(made_accuracy());
   EXPECT_EQ(std::get<std::string>(cell_of(table, 0, "quantity")), "T max at 0 cm");
   EXPECT_NEAR(std::get<double>(cell_of(table, 0, "order")), 1.5, 0.02);
   EXPECT_NEAR(std::get<double>(cell_of(table, 0, "extrapolated")), 416.1, 0.03);
@@ -69,7 +69,7 @@ TEST(AccuracyReport, SaysWhatTheMeshesTendTo) {
 TEST(AccuracyReport, WithoutAReferenceThereIsNoRecordAndTheReasonIsSaid) {
   const AccuracyResult result = made_accuracy(true);
   EXPECT_NE(kinds::answer(result).find("non-finite"), std::string::npos);
-  EXPECT_TRUE(kinds::setting_table(result.variants.front()).rows.empty());
+  EXPECT_TRUE(kinds::setting_table(result).rows.empty());
   EXPECT_TRUE(report::json_of(result)["reference"].empty());
   EXPECT_TRUE(kinds::report_of(result).files.empty());
 }
@@ -111,13 +111,13 @@ TEST(AccuracyReport, OfVariantsHasOneTableOnePictureAndARecordEach) {
   ASSERT_EQ(summary.rows.size(), 2u);
   EXPECT_EQ(std::get<std::string>(cell_of(summary, 1, "variant")), "one_gap");
   const AccuracyRow& own = *result.variants[1].baseline();
-  EXPECT_EQ(std::get<double>(cell_of(summary, 1, "temperature_bound_K")), own.temperature_bound);
+  EXPECT_EQ(std::get<double>(cell_of(summary, 1, "temperature_bound_K")), own.setting.temperature_bound);
   EXPECT_EQ(std::get<std::string>(cell_of(summary, 1, "half_bound_setting")), "cell_size 0.125 cm")
       << "an error of 0.7 K and a reference known to 0.3 K, instead of 2 K";
 }
 
 TEST(AccuracyReport, RowsOfAllVariantsStandUnderTheKeysThatEachHas) {
-  const report::Table table = kinds::over_variants(made_variants(), kinds::setting_table);
+  const report::Table table = kinds::setting_table(made_variants());
   ASSERT_EQ(table.rows.size(), 8u);
   EXPECT_EQ(std::get<std::string>(cell_of(table, 3, "variant")), "own");
   EXPECT_EQ(std::get<std::string>(cell_of(table, 4, "variant")), "one_gap");
@@ -134,11 +134,11 @@ TEST(AccuracyReport, ThePictureShowsBoundsAndNamesTheFrontAlone) {
   const AccuracyRow& row = result.rows[2];
   ASSERT_TRUE(row.baseline);
   EXPECT_EQ(own->style, report::Style::vertical_bars);
-  EXPECT_EQ(own->y.front(), row.temperature_bound) << "the mark";
-  EXPECT_EQ(own->upper.front(), row.temperature_bound);
+  EXPECT_EQ(own->y.front(), row.setting.temperature_bound) << "the mark";
+  EXPECT_EQ(own->upper.front(), row.setting.temperature_bound);
   EXPECT_EQ(own->lower.front(), row.largest_temperature_error) << "the bar goes down to the distance";
   for (const AccuracyRow& each : result.rows) {
-    const std::string& label = result.label_of(each);
+    const std::string& label = each.setting.label;
     if (!each.on_front) {
       EXPECT_EQ(series_named(plot, label), nullptr) << label;
     }
@@ -151,7 +151,7 @@ TEST(AccuracyReport, ThePictureShowsBoundsAndNamesTheFrontAlone) {
 TEST(AccuracyReport, WithoutABoundThePictureSaysSo) {
   VariantAccuracy result = made_accuracy().variants.front();
   result.record.unvaried = {"numerics.growth_x"};
-  for (AccuracyRow& row : result.rows) row.temperature_bound = not_a_number;
+  for (AccuracyRow& row : result.rows) row.setting.temperature_bound = not_a_number;
   const report::Plot plot = kinds::error_plot(result);
   EXPECT_NE(plot.subtitle.find("no bound"), std::string::npos);
   const report::Series* own = series_named(plot, "as in the scene");

@@ -93,7 +93,7 @@ TEST(AccuracyRecord, WhatASharedKeyChangesIsAddedWhereASettingTells) {
 TEST(AccuracyRecord, EveryKeyOfASettingIsKnownToVanishSomehow) {
   for (const auto& [key, value] : setting_of(own_scene())) {
     const Exactness exactness = exactness_of(key);
-    EXPECT_TRUE(exactness.kind != Exactness::Kind::at_a_value || exactness.value) << key;
+    EXPECT_TRUE(exactness.vanishes || exactness.value) << key;
     EXPECT_TRUE(!exactness.value || exactness.value->index() == value.index()) << key;
   }
   EXPECT_FALSE(exactness_of("numerics.of_tomorrow").value) << "a key is not exact until somebody says where";

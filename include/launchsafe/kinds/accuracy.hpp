@@ -5,6 +5,7 @@
 #include "launchsafe/report/report.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/changed_scene.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/reference_value.hpp"
@@ -17,11 +18,8 @@
 
 namespace launchsafe::kinds {
 
-/// A scene key with the values that it takes in one [[settings]].
-struct SettingsAxis {
-  scene::KeyDescription key;
-  std::vector<scene::Value> values;
-};
+/// What one [[settings]] does to one scene key, a change for every value.
+using SettingsAxis = std::vector<study::Change>;
 
 /// One [[variant]] of a study file: what the file says of all, and what the variant says otherwise, as a
 /// study of its own.
@@ -51,90 +49,72 @@ struct PressureTrace {
   std::vector<double> pressure;  ///< Pa
 };
 
-/// What one case came to, without judging it.
-struct AccuracyMeasurement {
-  std::string failure;  ///< why there are no numbers; empty for a completed run
-  /// Why its numbers are no basis for a verdict (see run::validity_warnings); empty for a sound run.
-  std::string validity_warnings;
-  double cell = 0;                    ///< m, sqrt(dx dr) of the fitted grid
-  double processor_time = 0;          ///< s; the wall time where the run did not note it
-  double wall_time = 0;               ///< s
-  double particle_steps = 0;          ///< particles times steps
-  double memory = 0;                  ///< bytes of particles, grid and histories, as planned
-  double energy_drift = 0;            ///< largest, share of the largest energy
-  std::vector<double> temperature;    ///< K, T max at the observation points for every gap
-  std::vector<double> heated;         ///< K, the same of a skin that does not react
-  std::vector<bool> ignites;          ///< for every gap
-  std::vector<double> ignition_time;  ///< s, for every gap; NaN where it does not ignite
-  std::vector<double>
-      at_times;  ///< K, highest observation point at Study::times, first gap, without reaction
-  std::vector<study::StationTemperature> points;  ///< first gap, of a skin that does not react
-  study::CriticalGap critical;                    ///< at the observation points
-  double peak_pressure = 0;                       ///< Pa, largest of the bottom pressure
-  PressureTrace bottom;
-};
-
+/// What the reference meshes tend to.
 struct AccuracyReference {
   std::vector<study::ReferenceValue> temperature;  ///< K, for every gap
+  study::ReferenceValue critical_gap;              ///< m; no values where a mesh has none
   std::vector<bool> inert;              ///< for every gap: of a skin that does not react, since one ignites
-  study::ReferenceValue critical_gap;   ///< m; no values where a mesh has none
   study::ReferenceValue peak_pressure;  ///< Pa
-  std::vector<study::ReferenceValue>
-      ignition_time;                            ///< s, for every gap; no values where a mesh does not ignite
-  std::vector<study::ReferenceValue> at_times;  ///< K
-  std::vector<study::ReferenceValue> points;    ///< K, of every observation point
-  PressureTrace bottom;                         ///< of the finest mesh
+  std::vector<study::ReferenceValue> ignition_time;  ///< s, for every gap; no values where a mesh is safe
+  std::vector<study::ReferenceValue> at_times;       ///< K
+  std::vector<study::ReferenceValue> points;         ///< K, of every observation point
+  PressureTrace bottom;                              ///< of the finest mesh
 };
 
-/// One setting against the reference. Errors are signed: this minus the extrapolated value; NaN where one of
-/// them is none.
+/// One setting: what its run came to, and how far that is from the reference. Errors are signed: this minus
+/// the extrapolated value; NaN where one of them is none.
 struct AccuracyRow {
-  std::size_t index = 0;     ///< of StudyFile::cases
-  bool reference = false;    ///< one of the reference meshes
-  bool baseline = false;     ///< the scene as it is
-  bool other_model = false;  ///< differs in more than a setting: its difference is no numerical error
-  AccuracyMeasurement measured;
-  std::vector<double> temperature_error;    ///< K, for every gap
-  double largest_temperature_error = 0;     ///< K, absolute
-  double temperature_bound = 0;             ///< K, largest over the gaps (see bound_against)
-  double critical_gap_error = 0;            ///< m
-  double critical_gap_bound = 0;            ///< m
-  double pressure_error = 0;                ///< relative L2 over the launch, against the finest mesh
-  double peak_pressure_error = 0;           ///< relative
-  std::vector<double> ignition_time_error;  ///< s, for every gap
-  std::vector<double> error_at_times;       ///< K
-  bool on_front = false;                    ///< no other setting is both cheaper and less wrong
+  study::CaseAnswer answer;       ///< or why there are no numbers
+  std::string validity_warnings;  ///< why its numbers are no basis for a verdict; empty for a sound run
+  double wall_time = 0;           ///< s
+  double particle_steps = 0;      ///< particles times steps
+  double memory = 0;              ///< bytes of particles, grid and histories, as planned
+  /// K, highest observation point at AccuracySettings::times, first gap, without reaction.
+  std::vector<double> at_times;
+  std::vector<study::StationTemperature> points;  ///< first gap, of a skin that does not react
+  double peak_pressure = 0;                       ///< Pa, largest of the bottom pressure
+  PressureTrace bottom;
+  /// Its cost and, of T max and the critical gap, what is compared and the bounds of the error. The processor
+  /// time is the wall time where the run did not note it.
+  study::RecordedSetting setting;
+
+  // found by comparing
+  bool baseline = false;                                   ///< the scene as it is
+  bool other_model = false;                                ///< its difference is no numerical error
+  std::vector<double> temperature_error;                   ///< K, for every gap
+  double largest_temperature_error = study::not_a_number;  ///< K, absolute
+  double critical_gap_error = study::not_a_number;         ///< m
+  double pressure_error = study::not_a_number;             ///< relative L2, against the finest mesh
+  double peak_pressure_error = study::not_a_number;        ///< relative
+  std::vector<double> ignition_time_error;                 ///< s, for every gap
+  std::vector<double> error_at_times;                      ///< K
+  bool on_front = false;  ///< no other setting is both cheaper and less wrong
   /// K, by how much T max may be off; its distance from the reference alone where no bound is known.
   double error_to_go_by() const {
-    return std::isfinite(temperature_bound) ? temperature_bound : largest_temperature_error;
+    return std::isfinite(setting.temperature_bound) ? setting.temperature_bound : largest_temperature_error;
   }
-  bool computed() const { return measured.failure.empty(); }
-  bool sound() const { return computed() && measured.validity_warnings.empty(); }
+  bool computed() const { return answer.completed(); }
+  bool sound() const { return computed() && validity_warnings.empty(); }
 };
 
 /// What came of one variant, or of a study without variants, whose only one has no name.
 struct VariantAccuracy {
   std::string name;
   study::StudyFile study;
-  std::vector<AccuracyMeasurement> measured = {};   ///< one for each of its cases
+  std::vector<AccuracyRow> rows = {};               ///< one for each of its cases
   std::optional<AccuracyReference> reference = {};  ///< none where a reference mesh failed
   std::string no_reference = {};                    ///< why there is none
-  std::vector<AccuracyRow> rows = {};               ///< in the order of the cases; none without a reference
   study::AccuracyRecord record = {};                ///< for the studies that use these settings
-  bool any_indeterminate()
-      const;  ///< there is no reference, or no extrapolation of a temperature is justified
-  const std::string& label_of(const AccuracyRow& row) const { return study.cases[row.index].label; }
+  /// There is no reference, or no extrapolation of a temperature is justified.
+  bool any_indeterminate() const;
   const AccuracyRow* baseline() const;  ///< that of the scene as it is; nullptr where it did not run soundly
-  /// The cheapest sound setting whose bound of T max is at most so large (K), or nullptr.
-  const AccuracyRow* cheapest(double bound) const;
   /// K, by which the reference of T max itself may be off: the largest over the gaps; NaN where not known.
   double reference_uncertainty() const;
 };
 
 struct AccuracyResult {
   study::StudyFile study;
-  std::vector<study::CaseAnswer> answers;  ///< one for each of StudyFile::cases
-  std::vector<VariantAccuracy> variants;   ///< at least one; their cases follow each other
+  std::vector<VariantAccuracy> variants;  ///< at least one; their cases follow each other
   study::Timing timing;
   bool interrupted = false;
   bool any_indeterminate() const;  ///< of any variant
@@ -159,16 +139,13 @@ std::string answer(const AccuracyResult& result);
 
 /// A row for every variant: how wrong its own setting is, and why believe it.
 report::Table variant_table(const AccuracyResult& result);
-/// A row for every setting: cost and errors.
-report::Table setting_table(const VariantAccuracy& variant);
+/// A row for every setting: cost and errors. Like those that follow of all variants that have a reference,
+/// with their names in front where there are several.
+report::Table setting_table(const AccuracyResult& result);
 /// A row for every compared quantity: its values on the reference meshes, order, limit and uncertainty.
-report::Table reference_table(const VariantAccuracy& variant);
-/// A row for every station: T max on the reference meshes, order, limit, uncertainty.
-report::Table point_table(const VariantAccuracy& variant);
-/// A table of all variants, each row behind the name of its variant; that of a study without variants as it
-/// is.
-report::Table over_variants(const AccuracyResult& result,
-                            report::Table (*table_of)(const VariantAccuracy& variant));
+report::Table reference_table(const AccuracyResult& result);
+/// The same for every station: T max.
+report::Table point_table(const AccuracyResult& result);
 
 /// Error of T max against processor time: bound and distance, and the front of the settings that no other one
 /// beats, which alone are named.

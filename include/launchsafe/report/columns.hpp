@@ -3,8 +3,11 @@
 
 #include "launchsafe/report/table.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -49,12 +52,42 @@ inline Column for_people(Column column) {
   return column;
 }
 
-/// Puts columns behind others.
-inline void append(std::vector<Column>& columns, std::vector<Column> more) {
-  for (Column& column : more) columns.push_back(std::move(column));
+/// Puts columns, or fields, behind others.
+template <class Part>
+void append(std::vector<Part>& parts, std::vector<std::type_identity_t<Part>> more) {
+  for (Part& part : more) parts.push_back(std::move(part));
 }
 
 /// Nothing for a number that is not there; other than NaN in a result that should have one.
 inline Cell optional_number(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
+
+/// The same of the i-th number of a list, in units per SI unit; nothing beyond its end.
+inline Cell number_at(const std::vector<double>& values, std::size_t i, double scale = 1.0) {
+  return i < values.size() ? optional_number(scale * values[i]) : Cell();
+}
+
+/// What a row has in a column: tables say both at once.
+struct Field {
+  Field(Column shown, Cell value) : column(std::move(shown)), cell(std::move(value)) {}
+  /// Nothing for a number that is not there.
+  Field(Column shown, double value) : column(std::move(shown)), cell(optional_number(value)) {}
+
+  Column column;
+  Cell cell;
+};
+
+/// Adds a row. A field stands under the column of its key, which is added where there is none yet.
+inline void add_row(Table& table, std::vector<Field> fields) {
+  std::vector<Cell>& cells = table.rows.emplace_back(table.columns.size());
+  for (Field& field : fields) {
+    const auto same = std::ranges::find(table.columns, field.column.key, &Column::key);
+    const auto place = static_cast<std::size_t>(same - table.columns.begin());
+    if (same == table.columns.end()) {
+      table.columns.push_back(std::move(field.column));
+      cells.emplace_back();
+    }
+    cells[place] = std::move(field.cell);
+  }
+}
 
 }  // namespace launchsafe::report

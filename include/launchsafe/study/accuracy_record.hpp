@@ -23,21 +23,12 @@ bool belongs_to_setting(const std::string& key);
 /// Equal but for the round-off of units.
 bool same_setting(const Setting& a, const Setting& b);
 
-/// What makes the error of a key of a setting go away.
+/// Whether the limit of the reference meshes is free of the error of a key of a setting, or may be off where
+/// they have another value than the exact one.
 struct Exactness {
-  /// with_the_cell: the limit of the reference meshes is free of it, as what it stands for shrinks with the
-  /// cells: the cells, the particles, which are a share of one, and the time step, a share of the time that
-  /// sound takes through one, the stiffness against hourglassing, which acts on what smooth fields lose as
-  /// the square of the cell, and the formulation, as both have one limit. in_each_case: it is measured in
-  /// every case, as its sampling error. at_a_value: a value of the key is exact, and the limit of meshes with
-  /// another one is off.
-  enum class Kind { with_the_cell, in_each_case, at_a_value };
-  Kind kind = Kind::at_a_value;
-  std::optional<scene::Value> value;  ///< of at_a_value; none where no value is known to be exact
+  bool vanishes = false;              ///< the limit is free of it, or it is measured in every case
+  std::optional<scene::Value> value;  ///< the exact one; none where no value is known to be exact
 };
-/// inertial_scaling and steel_inertia are exact at 1, and so is the growth of the cells, since those far away
-/// stay as large as they may where the smallest are refined; damping_time and pic_fraction at 0, the frame
-/// where it moves along.
 Exactness exactness_of(const std::string& key);
 
 /// One setting that ran soundly: its outcome, how good it thus is, and what it costs.
@@ -51,8 +42,10 @@ struct RecordedSetting {
   double processor_time = 0;                                       ///< s
 
   // found by `find_bounds`
-  double temperature_bound = 0;   ///< K, of T max, the largest over the gaps; NaN where it is not known
-  double critical_gap_bound = 0;  ///< m, likewise; NaN also where there is no critical gap
+  /// K, of T max, the largest over the gaps; NaN where it is not known.
+  double temperature_bound = std::numeric_limits<double>::quiet_NaN();
+  /// m, likewise; NaN also where there is no critical gap.
+  double critical_gap_bound = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A recorded accuracy study: its launch, and what every sound setting gave. All bounds follow from that.
@@ -88,6 +81,8 @@ struct RecordedReference {
   ReferenceValue critical_gap;              ///< m; without values where a mesh has none
 };
 RecordedReference reference_of(const AccuracyRecord& record);
+/// Finds the bounds of one setting, also of one that is not in the record.
+void find_bounds(const RecordedReference& reference, RecordedSetting& setting);
 
 /// K; skins of explosives stay below. A setting that gives more is not recorded.
 inline constexpr double highest_recorded_temperature = 5000.0;

@@ -9,6 +9,11 @@
 
 namespace launchsafe::study {
 
+/// Equal but for the round-off of units.
+bool same_number(double a, double b);
+/// Likewise; numbers of lists too.
+bool same_value(const scene::Value& a, const scene::Value& b);
+
 /// A scene key with a new value.
 struct Change {
   std::string key;  ///< of the scene
