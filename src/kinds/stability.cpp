@@ -19,11 +19,10 @@ namespace {
 /// What a run says by itself: all that judging needs, and no histories.
 struct StressRun {
   CaseAnswer answer;
-  double end_time = not_a_number;              ///< s, reached
-  double ignition_temperature = not_a_number;  ///< K
-  Sentences violations;                        ///< of invariants
-  Sentences reserves;                          ///< what the result says against itself
-  std::vector<Finding> findings;  ///< of a launch that was stopped, or of the runs through ignition by gap
+  double end_time = not_a_number;  ///< s, reached
+  Sentences violations;            ///< of invariants
+  Sentences reserves;              ///< what the result says against itself
+  std::vector<Finding> findings;   ///< of a launch that was stopped, or of the runs through ignition by gap
 };
 
 std::string joined_text(const Sentences& parts) { return fmt::format("{}", fmt::join(parts, "; ")); }
@@ -114,7 +113,6 @@ StressRun run_from(const StudyFile& study, std::size_t index, const std::vector<
   run.answer = answer_of(judged, study.cases[index], mechanics);
   run.answer.outcome = runs.front().outcome;
   run.end_time = mechanics.end_time;
-  run.ignition_temperature = scene.charge().kinetics.ignition_temperature;
   if (!run.answer.completed()) {
     run.findings = {judge_stopped(asked, mechanics)};
     return run;
@@ -131,12 +129,15 @@ StressRun run_from(const StudyFile& study, std::size_t index, const std::vector<
 /// Of a launch that completed. `compared`: there is nothing to compare with, or it completed.
 Finding judge_launch(const StressCaseRow& row, const StressRun& run, bool compared) {
   Sentences faults = run.violations, numbers;
+  const bool checked = compared && !row.deviations.empty() && row.asked.has("same-temperature");
   bool wrong = false;
   for (std::size_t i = 0; i < row.answer.verdicts.size(); ++i) {
     const GapVerdict& gap = row.answer.verdicts[i];
     const double deviation = row.deviations.empty() ? not_a_number : row.deviations[i];
     const double uncertainty = gap.uncertainty.total();
-    const bool off = row.asked.has("same-temperature") && std::abs(deviation) > uncertainty;
+    const bool off = checked && std::abs(deviation) > uncertainty;
+    if (checked && std::isnan(row.heated_against[i]))
+      faults.emplace_back("a temperature to compare with is not a number");
     if (off)
       faults.push_back(fmt::format("off the safe computation by {:.3g} K, more than {:.3g} K",
                                    std::abs(deviation), uncertainty));
@@ -162,16 +163,17 @@ Finding worst_of(std::vector<Finding> findings) {
   return {findings.front().outcome, joined_text(texts)};
 }
 
-/// `against`: the safe computation; nullptr without one.
-StressCaseRow judge(const StressCase& asked, const StressRun& run, const StressRun* against) {
+/// `against`: the safe computation; nullptr without one. Both ignite at `ignition_temperature`, K.
+StressCaseRow judge(const StressCase& asked, const StressRun& run, const StressRun* against,
+                    double ignition_temperature) {
   StressCaseRow row{asked, run.answer, run.end_time, {}, {}, {}};
   if (against != nullptr && row.computed() && !was_computed(against->answer)) row.answer = against->answer;
   if (!row.computed()) return row;
   if (against != nullptr) {
     row.heated_against = against->answer.heated_temperature;
     for (std::size_t i = 0; i < row.heated_against.size(); ++i)
-      row.deviations.push_back(std::min(run.answer.heated_temperature[i], run.ignition_temperature) -
-                               std::min(row.heated_against[i], run.ignition_temperature));
+      row.deviations.push_back(std::min(run.answer.heated_temperature[i], ignition_temperature) -
+                               std::min(row.heated_against[i], ignition_temperature));
   }
   std::vector<Finding> findings = run.findings;
   if (run.answer.completed())
@@ -209,7 +211,8 @@ StabilityResult run_stability(const StudyFile& study, const StudyOptions& option
     for (const StressCase& asked : settings_of<StabilitySettings>(study.study).cases) {
       if (asked.run)
         result.rows.push_back(
-            judge(asked, runs[*asked.run], asked.against ? &runs[*asked.against] : nullptr));
+            judge(asked, runs[*asked.run], asked.against ? &runs[*asked.against] : nullptr,
+                  study.cases[*asked.run].scene.scene.charge().kinetics.ignition_temperature));
       else
         result.rows.push_back({asked, {}, not_a_number, {}, {}, judge_reader(asked)});
     }

@@ -102,20 +102,12 @@ Expected<Changed> with_keys(const SceneFile& start, const std::vector<OverrideTa
   return Changed{scene.take(), std::nullopt};
 }
 
-/// The scene that a case starts from: the study's, or its own with the study's overrides.
+/// The scene that a case starts from: the study's, or its own, which has none of the study's overrides yet.
 Expected<SceneFile> starting_scene(const CaseReader& reader) {
   if (reader.launch.scene.empty()) return reader.study.scene;
-  const std::filesystem::path path = reader.source.folder / reader.launch.scene;
-  std::error_code status;
-  if (!std::filesystem::exists(path, status))
-    return reader.fault("scene", fmt::format("\"{}\", which does not exist", reader.launch.scene),
-                        "a scene file, by its path from the study file's folder");
-  auto read = scene::read_scene(path);
-  if (!read) return read;
-  auto changed = with_keys(*read, {{"set", reader.source.root.get("set")}}, reader.study.file);
-  if (!changed) return changed.error();
-  if (changed->refusal) return *changed->refusal;
-  return std::move(changed->scene);
+  const toml::node* at = reader.table.get("scene");
+  return read_named_scene(reader.launch.scene, reader.source.folder, "group.cases.scene",
+                          scene::place_of(at ? *at : reader.table, reader.study.file));
 }
 
 /// A mechanical run of a case. Its scene is checked for all that judging needs.
@@ -147,6 +139,11 @@ Fault read_refusal(CaseReader& reader, const Fault& refusal) {
 Fault read_runs(CaseReader& reader, const SceneFile& scene) {
   const StudyFile& study = reader.study;
   StressCase& launch = reader.launch;
+  const bool own_bound = reader.table.contains("caught_within") || !reader.table.contains("expect");
+  if (own_bound && launch.caught_within > 0 && std::ranges::count(launch.expected, Outcome::caught) == 0)
+    return reader.fault("caught_within",
+                        fmt::format("{} of a case that need not be caught", launch.caught_within),
+                        "caught_within beside `expect` with \"caught\"");
   SceneFile own = scene;
   std::vector<double>& gaps = own.scene.surface.gaps;
   launch.gaps = gaps != study.scene.scene.surface.gaps ? gaps : study.study.gaps;
@@ -181,8 +178,12 @@ Fault read_case(CaseReader reader) {
     return reader.fault("invariants", "none, so that nothing could be WRONG", "at least one; all if absent");
   const auto start = starting_scene(reader);
   if (!start) return start.error();
-  const auto changed = with_keys(
-      *start, {{"group.set", reader.group.get("set")}, {"group.cases.set", reader.table.get("set")}}, file);
+  const toml::node* of_study = launch.scene.empty() ? nullptr : reader.source.root.get("set");
+  const auto changed = with_keys(*start,
+                                 {{"set", of_study},
+                                  {"group.set", reader.group.get("set")},
+                                  {"group.cases.set", reader.table.get("set")}},
+                                 file);
   if (!changed) return changed.error();
   const bool runs = launch.refused.empty();
   if (runs && changed->refusal) return changed->refusal;

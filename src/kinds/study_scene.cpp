@@ -21,40 +21,16 @@ namespace {
 
 using scene::Dimension, scene::Place;
 
-Fault read_scene_of(StudyFile& study, const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / study.study.scene;
-  std::error_code status;
-  if (!std::filesystem::exists(path, status)) {
-    const auto missing = scene::read_text_file(path);
-    return scene::error_at(place_of_key(study, "scene"), "scene",
-                           fmt::format("\"{}\", which does not exist", study.study.scene),
-                           "a scene file, by its path from the study file's folder",
-                           missing ? std::string{} : missing.error().suggestion);
-  }
-  auto read = scene::read_scene(path);
-  if (!read) return read.error();
-  study.scene = std::move(*read);
-  return std::nullopt;
-}
-
-/// One override of a table, and those of the tables in it.
-Fault apply_override(const toml::node& node, const std::string& name, const std::string& table_name,
-                     StudyFile& study, ChangedScene& scene) {
-  const Place place = scene::place_of(node, study.file);
-  if (const toml::table* table = node.as_table()) {
-    for (const auto& [key, inner] : *table) {
-      const std::string dotted = name.empty() ? std::string(key.str()) : name + "." + std::string(key.str());
-      if (Fault fault = apply_override(inner, dotted, table_name, study, scene)) return fault;
-    }
-    return std::nullopt;
-  }
-  const auto key = scene::describe_key(study.scene, name, place);
+/// One override of a table.
+Fault apply_override(const Leaf& leaf, const std::string& table_name, StudyFile& study, ChangedScene& scene) {
+  const Place place = scene::place_of(*leaf.node, study.file);
+  const auto key = scene::describe_key(study.scene, leaf.name, place);
   if (!key) return in_table(key.error(), table_name);
-  const auto value = scene::read_value(node, *key, study.file);
+  const auto value = scene::read_value(*leaf.node, *key, study.file);
   if (!value) return in_table(value.error(), table_name);
-  if (auto note = scene::note_on_former_word(node, *key, place)) scene.note(std::move(*note));
-  study.overrides[name] = scene::format_value(*key, *value);
-  scene.apply({name, *value, study.overrides[name], table_name + "." + name, place});
+  if (auto note = scene::note_on_former_word(*leaf.node, *key, place)) scene.note(std::move(*note));
+  study.overrides[leaf.name] = scene::format_value(*key, *value);
+  scene.apply({leaf.name, *value, study.overrides[leaf.name], table_name + "." + leaf.name, place});
   return std::nullopt;
 }
 
@@ -66,7 +42,8 @@ Fault apply_overrides(const OverrideTable& overrides, StudyFile& study) {
                            fmt::format("a table, written [{}], of scene keys", overrides.name));
   }
   ChangedScene scene(study.scene);
-  if (Fault fault = apply_override(*overrides.node, "", overrides.name, study, scene)) return fault;
+  for (const Leaf& leaf : leaves_as_written(*overrides.node->as_table()))
+    if (Fault fault = apply_override(leaf, overrides.name, study, scene)) return fault;
   if (!scene.complete()) return scene.error();
   study.scene = scene.take();
   return std::nullopt;
@@ -103,9 +80,23 @@ Fault check_scene(const StudyFile& study) {
 
 }  // namespace
 
+scene::Expected<scene::SceneFile> read_named_scene(const std::string& name,
+                                                   const std::filesystem::path& folder,
+                                                   const std::string& key, const Place& place) {
+  const std::filesystem::path path = folder / name;
+  std::error_code status;
+  if (std::filesystem::exists(path, status)) return scene::read_scene(path);
+  const auto missing = scene::read_text_file(path);
+  return scene::error_at(place, key, fmt::format("\"{}\", which does not exist", name),
+                         "a scene file, by its path from the study file's folder",
+                         missing ? std::string{} : missing.error().suggestion);
+}
+
 Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides, StudyFile& study,
                    std::optional<AccuracyRecord>& record) {
-  if (Fault fault = read_scene_of(study, source.folder)) return fault;
+  auto scene = read_named_scene(study.study.scene, source.folder, "scene", place_of_key(study, "scene"));
+  if (!scene) return scene.error();
+  study.scene = std::move(*scene);
   for (const OverrideTable& each : overrides) {
     if (Fault fault = apply_overrides(each, study)) return fault;
   }

@@ -99,6 +99,7 @@ TEST(ReadStability, FaultsNameTheTableTheKeyAndTheLine) {
          {6, "group.cases.invariants", "without a safe computation", "against"});
   expect("scene = \"nowhere.toml\"", {6, "group.cases.scene", "does not exist"});
   expect("sets = { }", {6, "group.cases.sets", "unknown key", "", "set"});
+  expect("caught_within = 9, expect = \"held\"", {6, "group.cases.caught_within", "9", "\"caught\""});
   expect("refused = \"x\", expect = \"caught\"", {6, "group.cases.expect", "a case that runs"});
   expect("set = { } }, { name = \"high\"", {6, "group.cases.name", "\"high\" a second time"});
   expect_error_in(stability_start + "against = { load.peak = 3 }\n" + cases("expect = \"held\""),

@@ -162,6 +162,11 @@ TEST(Stability, ATemperatureOffTheSafeComputationIsWrongUpToIgnition) {
       {.outcome = Outcome::wrong, .part = off, .kelvin = 75.0, .safe_kelvin = 80.0},
       {.outcome = Outcome::wrong, .part = off, .kelvin = 85.0, .safe_kelvin = 80.0},
       {.outcome = Outcome::wrong, .part = "UNSAFE", .kelvin = 300.0, .safe_kelvin = 80.0},
+      // Nothing is within 3 K of no number.
+      {.outcome = Outcome::degraded,
+       .part = "a temperature to compare with is not a number",
+       .kelvin = 80.0,
+       .safe_kelvin = std::numeric_limits<double>::infinity()},
       // Beyond ignition two computations say the same, however hot the skin would get.
       {.part = "UNSAFE", .kelvin = 700.0, .safe_kelvin = 900.0},
       // 5 K off, and without a history, which makes the verdict indeterminate.
@@ -185,8 +190,9 @@ TEST(Stability, WhatSaysSoItselfIsDegradedAndWhatStopsIsCaught) {
        [](auto& m, auto&) { m.limiters.tension_cutoff = 7; }},
       {Outcome::degraded, "not finite", [](auto& m, auto&) { m.trace.mean_bottom_pressure[100] = none; }},
       {Outcome::caught, "energy drift after 640 steps, at t = 1 ms", stop},
-      {Outcome::caught, "640 steps", stop, ", caught_within = 640"},
-      {Outcome::degraded, "caught late, 100 steps", stop, ", caught_within = 100"},
+      {Outcome::caught, "640 steps", stop, ", expect = \"caught\", caught_within = 640"},
+      {Outcome::degraded, "caught late, 100 steps", stop,
+       ", expect = \"caught, degraded\", caught_within = 100"},
   });
 }
 
