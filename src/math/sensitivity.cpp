@@ -104,7 +104,7 @@ struct Sums {
 /// The contributions of all rows, one row after the other, for outputs counted from `origin` in units of
 /// `unit`.
 std::vector<double> contributions_of(const std::vector<double>& rows, std::size_t inputs, double origin,
-                                     double unit, SobolOptions::FirstOrder first_order) {
+                                     double unit) {
   std::vector<double> contributions;
   contributions.reserve(rows.size() / (inputs + 2) * Sums::width(inputs));
   for (std::size_t k = 0; k < rows.size(); k += inputs + 2) {
@@ -114,9 +114,7 @@ std::vector<double> contributions_of(const std::vector<double>& rows, std::size_
     for (std::size_t i = 0; i < inputs; ++i) {
       const double f_ab = (rows[k + SaltelliDesign::block_ab(i)] - origin) / unit;
       const double difference = f_ab - f_a;
-      const double first =
-          first_order == SobolOptions::FirstOrder::saltelli ? f_b * difference : (f_b - f_ab) * (f_b - f_ab);
-      contributions.insert(contributions.end(), {first, difference, difference * difference});
+      contributions.insert(contributions.end(), {f_b * difference, difference, difference * difference});
     }
   }
   return contributions;
@@ -144,19 +142,14 @@ double variance_of(const std::vector<double>& sums, double rows) {
 }
 
 /// First-order indices of all inputs, then total-order ones.
-std::vector<double> indices_of(const std::vector<double>& sums, double rows,
-                               SobolOptions::FirstOrder first_order) {
+std::vector<double> indices_of(const std::vector<double>& sums, double rows) {
   const std::size_t inputs = (sums.size() - 2) / 3;
   const double mean = sums[Sums::output] / (2.0 * rows), variance = variance_of(sums, rows);
   std::vector<double> indices(2 * inputs);
   for (std::size_t i = 0; i < inputs; ++i) {
-    if (first_order == SobolOptions::FirstOrder::saltelli) {
-      // f_B counts from the mean of the rows at hand, in a resample not the origin: worth a point of coverage
-      // with 16 rows.
-      indices[i] = (sums[Sums::first(i)] - mean * sums[Sums::difference(i)]) / (rows * variance);
-    } else {
-      indices[i] = 1.0 - sums[Sums::first(i)] / (2.0 * rows * variance);
-    }
+    // f_B counts from the mean of the rows at hand, in a resample not the origin: worth a point of coverage
+    // with 16 rows.
+    indices[i] = (sums[Sums::first(i)] - mean * sums[Sums::difference(i)]) / (rows * variance);
     indices[inputs + i] = sums[Sums::total(i)] / (2.0 * rows * variance);
   }
   return indices;
@@ -171,7 +164,7 @@ std::vector<std::vector<double>> index_replicates(const std::vector<double>& con
   for (std::size_t k = 0; k < options.resamples; ++k) {
     const std::vector<double> sums = summed(contributions, resampling_counts(rows, random));
     if (!(variance_of(sums, count) > 1e-12 * variance)) continue;
-    const std::vector<double> indices = indices_of(sums, count, options.first_order);
+    const std::vector<double> indices = indices_of(sums, count);
     for (std::size_t i = 0; i < indices.size(); ++i) replicates[i].push_back(indices[i]);
   }
   return replicates;
@@ -182,9 +175,9 @@ std::vector<InputIndices> estimated(const std::vector<double>& rows, std::size_t
                                     double unit, const SobolOptions& options) {
   const std::size_t size = rows.size() / (inputs + 2);
   const double count = static_cast<double>(size);
-  const auto contributions = contributions_of(rows, inputs, origin, unit, options.first_order);
+  const auto contributions = contributions_of(rows, inputs, origin, unit);
   const auto sums = summed(contributions, std::vector<double>(size, 1.0));
-  const auto indices = indices_of(sums, count, options.first_order);
+  const auto indices = indices_of(sums, count);
   const auto replicates = index_replicates(contributions, size, variance_of(sums, count), options);
   const auto estimate = [&](std::size_t k) {
     return with_interval(indices[k], replicates[k], size, options.level);

@@ -48,12 +48,6 @@ struct SaltelliDesign {
 SaltelliDesign saltelli_design(Design design, std::size_t rows, std::size_t inputs, std::uint64_t seed);
 
 struct SobolOptions {
-  enum class FirstOrder {
-    saltelli,  ///< mean of f_B (f_AB - f_A): exact zero for an input without effect, best for weak inputs
-    jansen     ///< variance - mean of (f_B - f_AB)^2/2: best for an input that carries most of the variance
-  };
-
-  FirstOrder first_order = FirstOrder::saltelli;
   double level = 0.95;            ///< confidence of the intervals, in (0, 1)
   std::size_t resamples = 1000;   ///< of the bootstrap, at least 1
   std::uint64_t seed = 0;         ///< of the bootstrap
@@ -75,7 +69,7 @@ struct SobolIndices {
   std::string reason;                ///< why there are no indices; empty where there are
 };
 
-/// First-order (Saltelli 2010 or Jansen 1999) and total-order (Jansen 1999) indices from the outputs in the
+/// First-order (Saltelli 2010) and total-order (Jansen 1999) indices from the outputs in the
 /// order of the design's evaluations, any number of whole rows. A row in which an output is not finite is
 /// left out whole: where failures depend on the inputs, the indices are those of the inputs that do not fail.
 /// The intervals come from a bootstrap over the rows. For test functions (Ishigami's, Sobol's G, a linear
