@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace launchsafe::kinds {
@@ -73,20 +74,20 @@ CalibrationRow row_of(const StudyFile& study, const CalibrationRun& run, Frictio
     row.calibrated = calibrate(model, run.mechanics.trace, targets);
     row.failure = row.calibrated.failure;
     if (!row.failure.empty()) return row;
-    model.surface.localisation = row.calibrated.constants.localisation;
-    model.surface.exchange_time = row.calibrated.constants.exchange_time;
-    model.kinetics.ignition_temperature = row.calibrated.constants.ignition_temperature;
+    row.calibrated.constants.put_into(model.surface, model.kinetics);
   }
   predict(study.study, model, run.mechanics.trace, row);
   return row;
 }
 
-const CalibrationRow* find_row(const CalibrationResult& result, double cell_size, FrictionClosure closure,
-                               const std::string& kinetics) {
-  for (const CalibrationRow& row : result.rows) {
-    if (row.cell_size == cell_size && row.closure == closure && row.kinetics == kinetics) return &row;
-  }
-  return nullptr;
+/// The place of the row of a mesh that was run, of a closure and a kinetics that were calibrated with.
+std::size_t row_place(const CalibrationResult& result, double cell_size, FrictionClosure closure,
+                      const std::string& kinetics) {
+  const auto found = std::find_if(result.rows.begin(), result.rows.end(), [&](const CalibrationRow& row) {
+    return row.cell_size == cell_size && row.closure == closure && row.kinetics == kinetics;
+  });
+  assert(found != result.rows.end());
+  return static_cast<std::size_t>(found - result.rows.begin());
 }
 
 /// Finest and coarsest mesh that were run, m.
@@ -105,15 +106,12 @@ void compare_meshes(CalibrationResult& result, const std::vector<NamedKinetics>&
   for (const NamedKinetics& set : kinetics) {
     for (const FrictionClosure closure : closures_of(result.study)) {
       if (closure == FrictionClosure::none) continue;
-      const CalibrationRow* fine = find_row(result, finest, closure, set.name);
-      const CalibrationRow* coarse = find_row(result, coarsest, closure, set.name);
-      Convergence convergence{closure, set.name};
-      if (fine && coarse) {
-        const Constants &a = fine->calibrated.constants, &b = coarse->calibrated.constants;
-        convergence.localisation_change = (a.localisation - b.localisation) / a.localisation;
-        convergence.exchange_time_change = (a.exchange_time - b.exchange_time) / a.exchange_time;
-      }
-      result.convergence.push_back(convergence);
+      const auto constants_on = [&](double mesh) {
+        return result.rows[row_place(result, mesh, closure, set.name)].calibrated.constants;
+      };
+      const Constants a = constants_on(finest), b = constants_on(coarsest);
+      result.convergence.push_back({closure, set.name, (a.localisation - b.localisation) / a.localisation,
+                                    (a.exchange_time - b.exchange_time) / a.exchange_time});
     }
   }
 }
@@ -144,34 +142,32 @@ FrictionClosure study_closure(const CalibrationResult& result) {
 
 /// Of a study that fits the load there is one closure alone.
 void recommend_own(CalibrationResult& result, const std::string& kinetics, double mesh) {
-  const CalibrationRow* own = find_row(result, mesh, study_closure(result), kinetics);
-  if (own == nullptr || !own->failure.empty()) {
-    result.recommendation.reason =
-        "no constants are recommended: " + (own == nullptr ? std::string("no run was made") : own->failure);
+  const std::size_t place = row_place(result, mesh, study_closure(result), kinetics);
+  const CalibrationRow& own = result.rows[place];
+  if (!own.failure.empty()) {
+    result.recommendation.reason = "no constants are recommended: " + own.failure;
     return;
   }
-  result.recommendation.row = static_cast<std::size_t>(own - result.rows.data());
-  result.recommendation.reason =
-      fmt::format("The load and the constants of closure \"{}\" were fitted on cells of {:.6g} mm.",
-                  to_string(own->closure), 1e3 * mesh);
+  result.recommendation = {
+      place, fmt::format("The load and the constants of closure \"{}\" were fitted on cells of {:.6g} mm.",
+                         to_string(own.closure), 1e3 * mesh)};
 }
 
 /// What the hold-outs and the meshes say of the two closures with the scene's own kinetics.
 void recommend(CalibrationResult& result) {
   const std::string kinetics = result.study.scene.scene.charge().kinetics.name;
   const double finest = mesh_range(result).first, mesh = recommended_mesh(result);
-  const CalibrationRow* total = find_row(result, finest, FrictionClosure::total_strain_rate, kinetics);
-  const CalibrationRow* inelastic = find_row(result, finest, FrictionClosure::inelastic, kinetics);
-  const auto usable = [](const CalibrationRow* row) { return row && std::isfinite(row->root_mean_square); };
+  if (result.load) return recommend_own(result, kinetics, mesh);
+  const auto row_of_closure = [&](FrictionClosure closure) {
+    return &result.rows[row_place(result, finest, closure, kinetics)];
+  };
+  const CalibrationRow* total = row_of_closure(FrictionClosure::total_strain_rate);
+  const CalibrationRow* inelastic = row_of_closure(FrictionClosure::inelastic);
   Recommendation& said = result.recommendation;
-  if (result.load) {
-    recommend_own(result, kinetics, mesh);
-    return;
-  }
-  if (!usable(total) || !usable(inelastic)) {
+  if (!std::isfinite(total->root_mean_square) || !std::isfinite(inelastic->root_mean_square)) {
     said.reason =
-        "no closure is recommended: not both could be calibrated on the finest mesh and compared with "
-        "rows that are held out";
+        "no closure is recommended: not both could be calibrated on the finest mesh and compared with rows "
+        "that are held out";
     return;
   }
   const double gain = std::abs(total->root_mean_square - inelastic->root_mean_square);
@@ -204,16 +200,15 @@ void recommend(CalibrationResult& result) {
   } else {
     said.reason += " With one mesh nothing is known about convergence.";
   }
-  const CalibrationRow* chosen = find_row(result, mesh, better->closure, kinetics);
-  if (chosen && chosen->failure.empty()) said.row = static_cast<std::size_t>(chosen - result.rows.data());
+  const std::size_t chosen = row_place(result, mesh, better->closure, kinetics);
+  if (result.rows[chosen].failure.empty()) said.row = chosen;
 }
 
 /// End temperature (K) of every station without a gap, with constants.
 std::vector<double> end_temperatures(const CalibrationRun& run, const CalibrationRow& constants) {
   surface::SkinModel model = surface::skin_model(run.input.scene.scene);
   model.surface.friction = constants.closure;
-  model.surface.localisation = constants.calibrated.constants.localisation;
-  model.kinetics.ignition_temperature = constants.calibrated.constants.ignition_temperature;
+  constants.calibrated.constants.put_into(model.surface, model.kinetics);
   const trace::BottomTrace& trace = run.mechanics.trace;
   const auto history = surface::integrate_skin(model, trace, 0.0);
   std::vector<double> temperatures;
@@ -247,8 +242,8 @@ const CalibrationRun* neighbour(const CalibrationResult& result, double mesh, bo
 }
 
 void compare_stations(CalibrationResult& result) {
-  if (!result.recommendation.row) return;
-  const CalibrationRow& row = result.rows[*result.recommendation.row];
+  if (!result.recommended()) return;
+  const CalibrationRow& row = *result.recommended();
   const auto own = std::find_if(result.runs.begin(), result.runs.end(),
                                 [&](const auto& run) { return run.input.cell_size == row.cell_size; });
   const auto temperatures = end_temperatures(*own, row);
@@ -265,9 +260,9 @@ void calibrate_study(CalibrationResult& result, const StudyOptions& options) {
   const scene::Scene& scene = study.scene.scene;
   result.in_scene = {scene.surface.localisation, scene.surface.exchange_time,
                      scene.charge().kinetics.ignition_temperature};
-  const auto targets = calibration_targets(study);
-  if (targets && !settings_of<CalibrationSettings>(study.study).fast_rise.empty())
-    result.load = fit_load(study, *targets, options, result.timing);
+  const CalibrationTargets targets = *calibration_targets(study);  // reading refuses a study without them
+  if (!settings_of<CalibrationSettings>(study.study).fast_rise.empty())
+    result.load = fit_load(study, targets, options, result.timing);
   for (const StudyCase& input : study.cases) {
     CalibrationRun run;
     run.input = input;
@@ -280,12 +275,12 @@ void calibrate_study(CalibrationResult& result, const StudyOptions& options) {
   for (const CalibrationRun& run : result.runs) {
     for (const NamedKinetics& set : kinetics) {
       for (const FrictionClosure closure : closures_of(study)) {
-        if (targets) result.rows.push_back(row_of(study, run, closure, set, *targets));
+        result.rows.push_back(row_of(study, run, closure, set, targets));
       }
     }
   }
   compare_meshes(result, kinetics);
-  if (!result.rows.empty()) recommend(result);
+  recommend(result);
   if (result.load && !result.load->failure.empty())
     result.recommendation.reason = "no load is recommended: " + result.load->failure;
   compare_stations(result);

@@ -101,13 +101,8 @@ std::vector<scene::Key<CalibrationSettings>> calibration_keys() {
 
 Fault read_calibration(const StudySource& source, StudyFile& study) {
   if (Fault fault = read_references(source, study)) return fault;
-  const std::vector<double>& meshes = settings_of<CalibrationSettings>(study.study).meshes;
-  if (!meshes.empty()) {
-    auto axis = axis_over(study, "numerics.cell_size", "meshes", meshes);
-    if (!axis) return axis.error();
-    study.study.axes.push_back(std::move(*axis));
-  }
-  return std::nullopt;
+  const auto& own = settings_of<CalibrationSettings>(study.study);
+  return add_axis(study, "numerics.cell_size", "meshes", own.meshes);
 }
 
 std::string mesh_label(const StudyCase& made, const std::string&) {

@@ -74,11 +74,14 @@ CalibratedConstants failed(CalibratedConstants result, std::string why) {
 /// Alternates the two fits until both rows are met; empty when they are.
 std::string fit_both(surface::SkinModel& model, const trace::BottomTrace& trace,
                      const CalibrationTargets& targets, CalibratedConstants& result) {
+  const auto misfit = [&](const Reference& row) {
+    return maximum_at(model, trace, row.gap) - row.maximum_temperature;
+  };
   for (int round = 0; round < most_rounds; ++round) {
     const auto localisation = positive_root(
         [&](double value) {
           model.surface.localisation = value;
-          return maximum_at(model, trace, targets.zero_gap.gap) - targets.zero_gap.maximum_temperature;
+          return misfit(targets.zero_gap);
         },
         model.surface.localisation > 0 ? model.surface.localisation : 100.0);
     if (!localisation) {
@@ -89,7 +92,7 @@ std::string fit_both(surface::SkinModel& model, const trace::BottomTrace& trace,
     const auto exchange_time = positive_root(
         [&](double value) {
           model.surface.exchange_time = value;
-          return maximum_at(model, trace, targets.wide_gap.gap) - targets.wide_gap.maximum_temperature;
+          return misfit(targets.wide_gap);
         },
         model.surface.exchange_time);
     if (!exchange_time) {
@@ -97,10 +100,8 @@ std::string fit_both(surface::SkinModel& model, const trace::BottomTrace& trace,
                          100.0 * targets.wide_gap.gap);
     }
     model.surface.exchange_time = *exchange_time;
-    result.zero_gap_misfit =
-        maximum_at(model, trace, targets.zero_gap.gap) - targets.zero_gap.maximum_temperature;
-    result.wide_gap_misfit =
-        maximum_at(model, trace, targets.wide_gap.gap) - targets.wide_gap.maximum_temperature;
+    result.zero_gap_misfit = misfit(targets.zero_gap);
+    result.wide_gap_misfit = misfit(targets.wide_gap);
     if (std::abs(result.zero_gap_misfit) <= tightness && std::abs(result.wide_gap_misfit) <= tightness)
       return {};
   }
@@ -235,6 +236,12 @@ void add_selection(CalibrationRow& row) {
 }
 
 }  // namespace
+
+void Constants::put_into(scene::Surface& surface, materials::KineticsParameters& kinetics) const {
+  surface.localisation = localisation;
+  surface.exchange_time = exchange_time;
+  kinetics.ignition_temperature = ignition_temperature;
+}
 
 CalibratedConstants calibrate(const surface::SkinModel& given, const trace::BottomTrace& trace,
                               const CalibrationTargets& targets) {

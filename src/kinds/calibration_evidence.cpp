@@ -54,9 +54,7 @@ scene::Scene calibrated_scene(const CalibrationResult& result, const Calibration
                                 [&](const auto& each) { return each.input.cell_size == row.cell_size; });
   scene::Scene scene = run->input.scene.scene;
   scene.surface.friction = row.closure;
-  scene.surface.localisation = row.calibrated.constants.localisation;
-  scene.surface.exchange_time = row.calibrated.constants.exchange_time;
-  scene.charge().kinetics.ignition_temperature = row.calibrated.constants.ignition_temperature;
+  row.calibrated.constants.put_into(scene.surface, scene.charge().kinetics);
   scene.accepted.clear();
   return scene;
 }
@@ -76,7 +74,7 @@ std::optional<CalibrationRecord> record_of(const CalibrationResult& result) {
     record.calibration = {result.study.scene.scene, no_evidence};
     return record;
   }
-  const CalibrationRow& row = result.rows[*result.recommendation.row];
+  const CalibrationRow& row = *result.recommended();
   record.calibration.scene = calibrated_scene(result, row);
   CalibrationEvidence& evidence = record.calibration.evidence;
   evidence.friction_rise =

@@ -82,9 +82,7 @@ class LoadTrial {
     surface::SkinModel model = surface::skin_model(scene);
     const CalibratedConstants fitted = calibrate(model, trace, targets_);
     if (!fitted.failure.empty()) return fail(fitted.failure);
-    model.surface.localisation = fitted.constants.localisation;
-    model.surface.exchange_time = fitted.constants.exchange_time;
-    model.kinetics.ignition_temperature = fitted.constants.ignition_temperature;
+    fitted.constants.put_into(model.surface, model.kinetics);
     const auto history = surface::integrate_skin(model, trace, targets_.zero_gap.gap);
     const double early = surface::maximum_at_time(history, trace, study_.study.early_time).temperature;
     result.early_misfit = early - targets_.zero_gap.early_temperature;

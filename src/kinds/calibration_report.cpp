@@ -28,11 +28,9 @@ std::string remark_of(const CalibrationRow& row) {
 /// Whether the calibrated ignition temperature lies in the published bracket.
 std::string bracket_check(const study::Study& study, const CalibrationRow& row) {
   const double value = row.calibrated.constants.ignition_temperature;
-  if (!std::isfinite(value) || !std::isfinite(settings_of<CalibrationSettings>(study).ignition_lowest))
-    return {};
-  const bool inside = value >= settings_of<CalibrationSettings>(study).ignition_lowest &&
-                      value <= settings_of<CalibrationSettings>(study).ignition_highest;
-  return inside ? "inside" : "outside";
+  const auto& own = settings_of<CalibrationSettings>(study);
+  if (!std::isfinite(value) || !std::isfinite(own.ignition_lowest)) return {};
+  return value >= own.ignition_lowest && value <= own.ignition_highest ? "inside" : "outside";
 }
 
 /// Constants and what they miss, of every mesh, closure and kinetics: what is printed on stdout.
@@ -67,9 +65,8 @@ Table calibration_table(const CalibrationResult& result) {
                           optional_number(row.selection_root_mean_square), remark_of(row)});
   }
   table.notes.push_back(
-      "RMS: over the temperature hold-outs, predicted minus published. T1 is the middle between "
-      "the untriggered T max of the largest published gap that is safe and of the smallest that "
-      "ignites.");
+      "RMS: over the temperature hold-outs, predicted minus published. T1 is the middle between the "
+      "untriggered T max of the largest published gap that is safe and of the smallest that ignites.");
   return table;
 }
 
@@ -103,28 +100,26 @@ Table hold_out_table(const CalibrationResult& result, const CalibrationRow& row)
 /// rows without any.
 Table selection_table(const CalibrationResult& result) {
   Table table;
-  if (!result.recommendation.row) return table;
-  const CalibrationRow& row = result.rows[*result.recommendation.row];
+  const CalibrationRow* row = result.recommended();
+  if (!row) return table;
   table.title = "Differences that choose among models";
   table.columns = {text_column("quantity"),
                    number_column("computed - published", "K", 2, "computed_minus_published_K")};
-  for (const SelectionMisfit& each : row.selection)
+  for (const SelectionMisfit& each : row->selection)
     table.rows.push_back({each.quantity, optional_number(each.misfit)});
   table.notes.push_back(
       fmt::format("Their root mean square is {} K. A spread is the root mean square over the gaps; a hottest "
-                  "place is the "
-                  "temperature of the published place minus the highest.",
-                  significant(row.selection_root_mean_square, 4)));
+                  "place is the temperature of the published place minus the highest.",
+                  significant(row->selection_root_mean_square, 4)));
   return table;
 }
 
 /// What the constants do from mesh to mesh.
 Table convergence_table(const CalibrationResult& result) {
-  Table table;
-  table.title = "From the coarsest to the finest mesh";
-  table.columns = {quantity::closure(), quantity::kinetics(),
-                   number_column("localisation", "%", 1, "localisation_change_percent"),
-                   number_column("exchange time", "%", 1, "exchange_time_change_percent")};
+  Table table{"From the coarsest to the finest mesh",
+              {quantity::closure(), quantity::kinetics(),
+               number_column("localisation", "%", 1, "localisation_change_percent"),
+               number_column("exchange time", "%", 1, "exchange_time_change_percent")}};
   for (const Convergence& each : result.convergence) {
     table.rows.push_back({study::to_string(each.closure), each.kinetics,
                           optional_number(100.0 * each.localisation_change),
@@ -141,10 +136,8 @@ std::string load_and_stations_text(const CalibrationResult& result) {
     const std::vector<double>& rise = settings_of<CalibrationSettings>(result.study.study).fast_rise;
     text += fmt::format(
         "Under the fitted load, its peak at {} ms with an exponent of {}, temperatures without a gap rise "
-        "fast "
-        "from {:.2f} to {:.2f} ms (published: {} to {} ms; the time between is fitted), and the highest at "
-        "{} "
-        "ms is {:+.3f} K off the published one.\n",
+        "fast from {:.2f} to {:.2f} ms (published: {} to {} ms; the time between is fitted), and the highest "
+        "at {} ms is {:+.3f} K off the published one.\n",
         significant(1e3 * load.peak_time, 6), significant(load.exponent, 6), 1e3 * load.turning.fast,
         1e3 * load.turning.slow, significant(1e3 * rise[0], 4), significant(1e3 * rise[1], 4),
         significant(1e3 * result.study.study.early_time, 4), load.early_misfit);
@@ -242,8 +235,8 @@ Table all_hold_outs(const CalibrationResult& result) {
 
 Table constants_table(const CalibrationResult& result) {
   Table table;
-  if (!result.recommendation.row) return table;
-  const CalibrationRow& row = result.rows[*result.recommendation.row];
+  if (!result.recommended()) return table;
+  const CalibrationRow& row = *result.recommended();
   const Constants &fitted = row.calibrated.constants, &now = result.in_scene;
   const std::string closure_now = study::to_string(result.study.scene.scene.surface.friction);
   table.title = "Constants the scene should hold";
@@ -269,13 +262,12 @@ Table constants_table(const CalibrationResult& result) {
 
 std::string answer(const CalibrationResult& result) {
   std::string text = result.recommendation.reason;
-  if (result.recommendation.row) {
-    const CalibrationRow& row = result.rows[*result.recommendation.row];
-    const Constants& fitted = row.calibrated.constants;
+  if (const CalibrationRow* row = result.recommended()) {
+    const Constants& fitted = row->calibrated.constants;
     text += fmt::format(
         " The scene should hold \"{}\": at {} mm, localisation {}, exchange time {} ms, ignition "
         "temperature {} K.",
-        study::to_string(row.closure), significant(1e3 * row.cell_size, 6),
+        study::to_string(row->closure), significant(1e3 * row->cell_size, 6),
         significant(fitted.localisation, 6), significant(1e3 * fitted.exchange_time, 6),
         significant(fitted.ignition_temperature, 6));
   }

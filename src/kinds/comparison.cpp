@@ -10,22 +10,12 @@ namespace launchsafe::kinds {
 
 using namespace study;
 
-std::size_t ComparisonResult::counterpart(std::size_t index) const {
-  return index - variants()[cases[index].variant].first;
-}
-
 bool ComparisonResult::any_indeterminate() const {
   return std::any_of(cases.begin(), cases.end(),
                      [](const ComparedCase& each) { return is_indeterminate(each.answer); });
 }
 
 namespace {
-
-std::size_t variant_of(const std::vector<Variant>& variants, std::size_t index) {
-  const auto next = std::upper_bound(variants.begin(), variants.end(), index,
-                                     [](std::size_t i, const Variant& each) { return i < each.first; });
-  return static_cast<std::size_t>(next - variants.begin()) - 1;
-}
 
 void judge(const Variant& variant, const StudyCase& input, std::vector<FinishedRun>& runs, ComparedCase& of) {
   of.answer = answer_from(variant.judged, input, runs);
@@ -46,10 +36,9 @@ ComparisonResult run_comparison(const StudyFile& study, const StudyOptions& opti
       study, options,
       [&](ComparisonResult& result) {
         result.cases.resize(study.cases.size());
-        for (std::size_t i = 0; i < study.cases.size(); ++i)
-          result.cases[i].variant = variant_of(result.variants(), i);
         run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
           ComparedCase& of = result.cases[i];
+          of.variant = i / result.cases_per_variant();
           judge(result.variants()[of.variant], study.cases[i], runs, of);
         });
       },

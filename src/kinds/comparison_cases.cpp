@@ -36,9 +36,8 @@ std::vector<scene::Key<VariantText>> variant_keys() {
       scene::text_key<VariantText>(
           "calibration", Standing::input,
           "Path of the record of its own calibration, from the study file's folder; the study's if absent, "
-          "or "
-          "where the record found no constants. Its scene keys are in the table set, and what it accepts in "
-          "accept.",
+          "or where the record found no constants. Its scene keys are in the table set, and what it accepts "
+          "in accept.",
           "../reports/calibrate_table8/calibration.json", &VariantText::calibration),
   };
 }
@@ -58,25 +57,16 @@ std::vector<scene::Key<ComparisonSettings>> comparison_keys() {
 }
 
 Fault read_comparison(const StudySource&, StudyFile& study) {
-  const std::vector<double>& peaks = settings_of<ComparisonSettings>(study.study).peak_pressures;
-  if (peaks.empty()) return std::nullopt;
-  auto axis = axis_over(study, "peak_pressure", "peak_pressures", peaks);
-  if (!axis) return axis.error();
-  study.study.axes.push_back(std::move(*axis));
-  return std::nullopt;
+  const auto& own = settings_of<ComparisonSettings>(study.study);
+  return add_axis(study, "peak_pressure", "peak_pressures", own.peak_pressures);
 }
 
 /// The record of a calibration, with or without constants.
 scene::Expected<CalibrationRecord> read_calibration_record(const StudyFile& study, const StudySource& source,
                                                            const std::string& name, const std::string& key) {
-  const std::string file = (source.folder / name).string();
-  const auto text = scene::read_text_file(file);
-  if (!text) {
-    return fault_at(study, key, fmt::format("\"{}\", which cannot be read", name),
-                    "the calibration.json of a calibration, by its path from the study file's folder",
-                    text.error().suggestion);
-  }
-  return parse_calibration_record(*text, file);
+  const auto text = read_named_file(study, source.folder, key, name, "the calibration.json of a calibration");
+  if (!text) return text.error();
+  return parse_calibration_record(*text, (source.folder / name).string());
 }
 
 /// Makes the cases of one variant after another.
@@ -207,7 +197,6 @@ class VariantMaker {
     if (!variants().empty() && variant.changes.empty())
       return fault_at(study_, "variant", fmt::format("\"{}\", which is the scene as it is", variant.name),
                       "a variant with set or calibration");
-    variant.first = study_.cases.size();
     variant.scene = own.scene.scene;
     for (StudyCase& each : own.cases) {
       each.label = variant.name + ": " + each.label;
@@ -244,18 +233,13 @@ class VariantMaker {
 };
 
 Fault make_comparison_cases(const StudySource& source, StudyFile& study) {
-  const toml::node* node = source.root.get("variant");
-  const std::string allowed = "at least one table, written [[variant]], with a name and what it changes";
-  if (!node || (node->is_array() && node->as_array()->empty()))
-    return scene::error_at(place_of_key(study, node ? "variant" : "kind"), "variant", "no variant", allowed);
-  if (!node->is_array_of_tables())
-    return scene::error_at(scene::place_of(*node, study.file), "variant", scene::found_text(*node), allowed);
+  const auto tables = some_tables_of(source.root, "variant", study, "with a name and what it changes");
+  if (!tables) return tables.error();
   VariantMaker maker(source, study);
   if (Fault fault = maker.add_scene_itself()) return fault;
   std::size_t index = 0;
-  for (const toml::node& element : *node->as_array()) {
-    if (Fault fault = maker.add_variant(*element.as_table(), fmt::format("variant.{}", index++)))
-      return fault;
+  for (const toml::table* table : *tables) {
+    if (Fault fault = maker.add_variant(*table, fmt::format("variant.{}", index++))) return fault;
   }
   return std::nullopt;
 }

@@ -4,14 +4,12 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/model_form.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <list>
 #include <numeric>
 #include <optional>
 
@@ -24,9 +22,9 @@ namespace {
 
 /// The models with their critical gaps, and the record made of them.
 struct ModelForm {
-  std::list<CriticalGapCurve> curves;   ///< the entries point to them
   std::vector<ModelFormEntry> entries;  ///< the default first
   ModelFormRecord record;
+  double largest_gap;  ///< m, where the searches ended
 };
 
 std::string megapascals(double pressure) { return significant(1e-6 * pressure, 6); }
@@ -69,17 +67,15 @@ std::string counts_for(const ModelFormRecord& record, const study::ModelAlternat
 }
 
 Table model_form_table(const ModelForm& form) {
-  Table table;
-  table.title = "Critical gap [cm] by model and peak pressure";
-  table.columns = {text_column("model"), text_column("what it is")};
+  Table table{"Critical gap [cm] by model and peak pressure",
+              {text_column("model"), text_column("what it is")}};
   for (const double pressure : form.record.peak_pressures)
     table.columns.push_back(
         named_text(megapascals(pressure) + " MPa", "critical_gap_at_" + megapascals(pressure) + "_MPa"));
   table.columns.push_back(text_column("counts as"));
   for (const ModelFormEntry& each : form.entries) {
-    std::vector<Cell> cells{each.name, each.curve->title};
-    for (const study::GapOrBound gap : each.curve->critical_gap)
-      cells.emplace_back(gap_text(gap, each.curve->largest_gap));
+    std::vector<Cell> cells{each.name, each.title};
+    for (const study::GapOrBound gap : each.critical_gap) cells.emplace_back(gap_text(gap, form.largest_gap));
     cells.emplace_back(counts_for(form.record, alternative_of(form.record, each.name)));
     table.rows.push_back(std::move(cells));
   }
@@ -140,47 +136,24 @@ Plot model_form_plot(const ModelForm& form) {
     series.mark = static_cast<Mark>(plot.series.size() % marks);
     const study::ModelAlternative* alternative = alternative_of(form.record, each.name);
     if (alternative != nullptr && !alternative->not_counted.empty()) series.style = Style::dashed_line;
-    for (std::size_t i = 0; i < each.curve->critical_gap.size(); ++i) {
-      if (!std::isfinite(each.curve->critical_gap[i])) continue;
-      series.x.push_back(1e-6 * each.curve->peak_pressures[i]);
-      series.y.push_back(100.0 * each.curve->critical_gap[i]);
+    for (std::size_t i = 0; i < each.critical_gap.size(); ++i) {
+      if (!std::isfinite(each.critical_gap[i])) continue;
+      series.x.push_back(1e-6 * form.record.peak_pressures[i]);
+      series.y.push_back(100.0 * each.critical_gap[i]);
     }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
   return plot;
 }
 
-GapOrBound gap_or_bound(const CriticalGap& gap) {
-  switch (gap.kind) {
-    case CriticalGapKind::value:
-      return gap.value;
-    case CriticalGapKind::all_safe:
-      return no_ignition;
-    case CriticalGapKind::all_ignite:
-      return 0.0;
-    case CriticalGapKind::indeterminate:
-      return not_a_number;
-  }
-  return not_a_number;
-}
-
-/// The critical gaps of a variant over the peak pressure, which increases.
-CriticalGapCurve curve_of(const ComparisonResult& result, const Variant& variant) {
-  CriticalGapCurve curve;
-  curve.title = variant.description;
-  curve.model_version = run::model_version;
-  curve.scene = variant.scene;
-  curve.largest_gap = variant.judged.largest_gap;
-  const std::size_t count = variant.judged.axes.front().values.size();
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), variant.first);
+/// The cases of the scene as it is, by increasing peak pressure; those of the variants follow in the same
+/// order.
+std::vector<std::size_t> by_peak_pressure(const ComparisonResult& result) {
+  std::vector<std::size_t> order(result.cases_per_variant());
+  std::iota(order.begin(), order.end(), std::size_t{0});
   const auto peak = [&](std::size_t i) { return result.study.cases[i].peak_pressure; };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return peak(a) < peak(b); });
-  for (const std::size_t i : order) {
-    curve.peak_pressures.push_back(peak(i));
-    curve.critical_gap.push_back(gap_or_bound(result.cases[i].answer.critical));
-  }
-  return curve;
+  return order;
 }
 
 /// Whether the variants are models that were calibrated: all, or there is nothing to say of models.
@@ -193,24 +166,26 @@ bool is_of_models(const ComparisonResult& result) {
 
 constexpr const char* meaning =
     "## Other models\n\nWhere every model is calibrated on the same published rows, all agree at the "
-    "calibration's "
-    "own pressure; what differs is how the critical gap moves. A model that ignites at smaller gaps than the "
-    "default "
-    "is a share of the uncertainty of every SAFE. One that ignites at larger gaps alone weakens no SAFE, and "
-    "an "
-    "UNSAFE names it where it would not ignite. One without a calibration or without a limit of meshes "
-    "enters no "
-    "share, and is named beside every verdict that it could change.\n";
+    "calibration's own pressure; what differs is how the critical gap moves. A model that ignites at smaller "
+    "gaps than the default is a share of the uncertainty of every SAFE. One that ignites at larger gaps "
+    "alone weakens no SAFE, and an UNSAFE names it where it would not ignite. One without a calibration or "
+    "without a limit of meshes enters no share, and is named beside every verdict that it could change.\n";
 
 /// Of a comparison over peak pressures whose variants all name the record of a calibration; or why there is
 /// none, a clause. The comparison has to live as long as what is made of it.
 std::optional<ModelForm> model_form_of(const ComparisonResult& result, std::string& reason) {
-  ModelForm form;
+  ModelForm form{{}, {}, result.study.study.largest_gap};
+  const std::vector<std::size_t> order = by_peak_pressure(result);
   for (const Variant& each : result.variants()) {
-    form.curves.push_back(curve_of(result, each));
-    form.entries.push_back({each.name, &*each.calibration, &form.curves.back()});
+    const std::size_t first = form.entries.size() * result.cases_per_variant();
+    ModelFormEntry& entry = form.entries.emplace_back();
+    entry = {each.name, each.description, &*each.calibration, each.scene, {}};
+    for (const std::size_t i : order)
+      entry.critical_gap.push_back(gap_or_bound(result.cases[first + i].answer.critical));
   }
-  ModelFormOrError made = make_model_form(form.entries);
+  std::vector<double> pressures;
+  for (const std::size_t i : order) pressures.push_back(result.study.cases[i].peak_pressure);
+  ModelFormOrError made = make_model_form(form.entries, std::move(pressures));
   reason = std::move(made.error);
   if (!made.record) return std::nullopt;
   form.record = std::move(*made.record);

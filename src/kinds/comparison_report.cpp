@@ -1,4 +1,5 @@
 // The answer, the tables and the page of a comparison.
+#include "answer_tables.hpp"
 #include "comparison_model_form.hpp"
 #include "launchsafe/kinds/comparison.hpp"
 #include "launchsafe/report/columns.hpp"
@@ -20,24 +21,17 @@ using namespace report;
 
 namespace {
 
-/// Gaps in the matrix on the page.
-constexpr std::size_t most_gaps = 30;
-
 /// Variant, and peak pressure where there are several.
-Table table_by_variant(std::string title, const ComparisonResult& result) {
-  Table table;
-  table.title = std::move(title);
-  table.columns = {named_text("variant", "variant")};
-  for (const ShownKey& key : shown_axes(result.study.study)) table.columns.push_back(key.column());
-  return table;
-}
-
-std::vector<Cell> place_cells(const ComparisonResult& result, std::size_t index) {
-  std::vector<Cell> cells{result.variants()[result.cases[index].variant].name};
+PlacedAnswers answers_of(const ComparisonResult& result) {
   const std::vector<ShownKey> keys = shown_axes(result.study.study);
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    cells.emplace_back(keys[i].value(result.study.cases[index].coordinates[i]));
-  return cells;
+  PlacedAnswers placed{{named_text("variant", "variant")}, {}};
+  for (const ShownKey& key : keys) placed.columns.push_back(key.column());
+  for (std::size_t i = 0; i < result.cases.size(); ++i) {
+    std::vector<Cell> cells = axis_cells(keys, result.study.cases[i]);
+    cells.insert(cells.begin(), result.variants()[result.cases[i].variant].name);
+    placed.rows.push_back({std::move(cells), &result.cases[i].answer});
+  }
+  return placed;
 }
 
 double hottest(const ComparedCase& each) {
@@ -89,7 +83,8 @@ std::string largest_shift_text(const ComparisonResult& result) {
 
 /// A row for every case: critical gap, hottest temperature, both less those of the scene as it is, and cost.
 Table comparison_table(const ComparisonResult& result) {
-  Table table = table_by_variant("Variants side by side", result);
+  const PlacedAnswers answers = answers_of(result);
+  Table table = answers.table("Variants side by side");
   append(table.columns, critical_gap_columns());
   append(table.columns,
          {significant_column("less that of the scene", "cm", 3, "critical_gap_difference_cm"),
@@ -100,7 +95,7 @@ Table comparison_table(const ComparisonResult& result) {
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const ComparedCase& each = result.cases[i];
     const ComparedCase& own = result.cases[result.counterpart(i)];
-    std::vector<Cell> cells = place_cells(result, i);
+    std::vector<Cell>& cells = table.rows.emplace_back(answers.rows[i].place);
     add_critical_gap_cells(each.answer.critical, cells);
     cells.push_back(each.variant == 0 ? Cell() : optional_number(100.0 * shift_of(result, i)));
     cells.push_back(optional_number(hottest(each)));
@@ -110,7 +105,6 @@ Table comparison_table(const ComparisonResult& result) {
     cells.emplace_back(static_cast<std::int64_t>(each.answer.run.steps));
     cells.push_back(optional_number(each.answer.run.energy_drift));
     cells.emplace_back(each.answer.completed() ? each.answer.critical.reason : each.answer.failure);
-    table.rows.push_back(std::move(cells));
   }
   table.notes.emplace_back(
       "T max without reaction: over stations and gaps. Only a critical gap that is a value has a "
@@ -118,45 +112,10 @@ Table comparison_table(const ComparisonResult& result) {
   return table;
 }
 
-/// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
-Table verdict_matrix(const ComparisonResult& result) {
-  Table table = table_by_variant("Verdicts by gap", result);
-  const std::vector<double>& gaps = result.study.study.gaps;
-  for (const double gap : gaps)
-    table.columns.push_back(named_text(centimetres(gap), fmt::format("gap_{:.6g}_cm", in_centimetres(gap))));
-  for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    std::vector<Cell> cells = place_cells(result, i);
-    for (const GapVerdict& row : result.cases[i].answer.verdicts) {
-      const Verdict verdict = row.judgement.verdict;
-      cells.emplace_back(verdict == Verdict::indeterminate ? "INDET." : study::to_string(verdict));
-    }
-    table.rows.push_back(std::move(cells));
-  }
-  table.notes.emplace_back("INDET.: indeterminate; verdicts.csv has the reasons.");
-  return table;
-}
-
-/// A row for every gap of every case, for other programs.
-Table verdict_table(const ComparisonResult& result) {
-  Table table = table_by_variant("Verdicts", result);
-  append(table.columns, {quantity::gap()});
-  append(table.columns, verdict_columns(result.study.study));
-  for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    const CaseAnswer& answer = result.cases[i].answer;
-    for (std::size_t gap = 0; gap < answer.verdicts.size(); ++gap) {
-      std::vector<Cell> cells = place_cells(result, i);
-      cells.emplace_back(in_centimetres(answer.verdicts[gap].gap));
-      const bool heated = gap < answer.heated_temperature.size();
-      add_verdict_cells(answer.verdicts[gap], heated ? answer.heated_temperature[gap] : not_a_number, cells);
-      table.rows.push_back(std::move(cells));
-    }
-  }
-  return table;
-}
-
 /// A row for every station of every gap and case.
 Table station_table(const ComparisonResult& result) {
-  Table table = table_by_variant("T max of every station, without reaction", result);
+  const PlacedAnswers answers = answers_of(result);
+  Table table = answers.table("T max of every station, without reaction");
   append(table.columns,
          {quantity::gap(), named_text("station", "station"), quantity::temperature_max_inert()});
   const std::vector<double>& gaps = result.study.study.gaps;
@@ -164,11 +123,8 @@ Table station_table(const ComparisonResult& result) {
     const auto& stations = result.cases[i].stations;
     for (std::size_t gap = 0; gap < stations.size(); ++gap) {
       for (const StationTemperature& each : stations[gap]) {
-        std::vector<Cell> cells = place_cells(result, i);
-        cells.emplace_back(in_centimetres(gaps[gap]));
-        cells.emplace_back(each.name);
-        cells.emplace_back(each.temperature);
-        table.rows.push_back(std::move(cells));
+        std::vector<Cell>& cells = table.rows.emplace_back(answers.rows[i].place);
+        cells.insert(cells.end(), {in_centimetres(gaps[gap]), each.name, each.temperature});
       }
     }
   }
@@ -179,32 +135,27 @@ Table station_table(const ComparisonResult& result) {
 Table stations_side_by_side(const ComparisonResult& result) {
   const std::vector<double>& gaps = result.study.study.gaps;
   const auto gap = static_cast<std::size_t>(std::max_element(gaps.begin(), gaps.end()) - gaps.begin());
-  Table table;
-  table.title = "T max [K] by station at " + centimetres(gaps[gap]) + ", without reaction";
-  table.columns = {named_text("station", "station")};
-  std::vector<std::string> names;
-  for (const ComparedCase& each : result.cases) {
+  Table table{"T max [K] by station at " + centimetres(gaps[gap]) + ", without reaction",
+              {named_text("station", "station")}};
+  const auto row_of = [&table](const std::string& station) -> std::vector<Cell>& {
+    const auto found = std::find_if(table.rows.begin(), table.rows.end(),
+                                    [&](const auto& row) { return row.front() == Cell(station); });
+    return found == table.rows.end() ? table.rows.emplace_back(std::vector<Cell>{station}) : *found;
+  };
+  for (std::size_t i = 0; i < result.cases.size(); ++i) {
+    const ComparedCase& each = result.cases[i];
+    // Peak pressures are compared in the files; here the first one of every variant.
+    const bool shown = result.counterpart(i) == 0;
+    const std::string& variant = result.variants()[each.variant].name;
+    if (shown) table.columns.push_back(number_column(variant, "", 1, variant));
     if (each.stations.empty()) continue;
     for (const StationTemperature& station : each.stations[gap]) {
-      if (std::find(names.begin(), names.end(), station.name) == names.end()) names.push_back(station.name);
+      std::vector<Cell>& row = row_of(station.name);
+      row.resize(table.columns.size());
+      if (shown) row.back() = station.temperature;
     }
   }
-  for (const std::string& name : names) table.rows.push_back({name});
-  for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    // Peak pressures are compared in the files; here the first one of every variant.
-    if (result.counterpart(i) != 0) continue;
-    const ComparedCase& each = result.cases[i];
-    const std::string& variant = result.variants()[each.variant].name;
-    table.columns.push_back(number_column(variant, "", 1, variant));
-    for (std::size_t row = 0; row < names.size(); ++row) {
-      Cell cell;
-      for (const StationTemperature& station :
-           each.stations.empty() ? std::vector<StationTemperature>{} : each.stations[gap]) {
-        if (station.name == names[row]) cell = station.temperature;
-      }
-      table.rows[row].push_back(std::move(cell));
-    }
-  }
+  for (std::vector<Cell>& row : table.rows) row.resize(table.columns.size());
   if (!result.study.study.axes.empty())
     table.notes.emplace_back("Under the first peak pressure; stations.csv has the others.");
   return table;
@@ -220,19 +171,21 @@ std::string answer(const ComparisonResult& result) {
     lines.push_back(fmt::format("{}: critical gap {}.", result.study.cases[i].label,
                                 reads_as(result.cases[i].answer.critical)));
   lines.push_back(largest_shift_text(result));
-  for (std::string& note : mesh_notes(result.study)) lines.push_back(std::move(note));
-  if (result.interrupted)
-    lines.emplace_back("The study was interrupted: cases without a run are indeterminate.");
-  return fmt::format("{}", fmt::join(lines, "\n"));
+  return answer_of(std::move(lines), result.study, result.interrupted ? interrupted_note : "");
 }
 
 Report report_of(const ComparisonResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
-  report.items = {ReportTable{comparison_table(result), "comparison.csv", "cases"},
-                  ReportTable{verdict_table(result), "verdicts.csv", "verdicts", Shown::file},
-                  ReportTable{station_table(result), "stations.csv", "stations", Shown::file}};
-  if (result.study.study.gaps.size() <= most_gaps)
-    report.items.push_back(ReportTable{.table = verdict_matrix(result), .rest = "verdicts.csv"});
+  const study::Study& study = result.study.study;
+  report.items = {
+      ReportTable{comparison_table(result), "comparison.csv", "cases"},
+      ReportTable{verdict_table(study, answers_of(result)), "verdicts.csv", "verdicts", Shown::file},
+      ReportTable{station_table(result), "stations.csv", "stations", Shown::file}};
+  if (study.gaps.size() <= most_gaps) {
+    Table matrix = verdict_matrix(study, answers_of(result));
+    matrix.notes.emplace_back(indeterminate_note);
+    report.items.push_back(ReportTable{.table = std::move(matrix), .rest = "verdicts.csv"});
+  }
   report.items.push_back(
       ReportTable{.table = stations_side_by_side(result), .shown = Shown::page, .rest = "stations.csv"});
   add_model_form(result, report);

@@ -25,22 +25,12 @@ bool CriticalGapResult::any_indeterminate() const {
 
 namespace {
 
-/// A case without a run: rows without numbers, and the reason.
-void give_up(const Study& study, CaseOutcome& outcome, const FinishedRun& run) {
-  // Whatever was left half done is thrown away.
-  const CaseOutcome broken = std::move(outcome);
-  outcome = CaseOutcome{};
-  outcome.input = broken.input;
-  outcome.hash = broken.hash;
-  outcome.outcome = run.outcome;
-  outcome.failure = run.failure;
-  find_critical_gaps(study, outcome);
-  evaluate_gaps(study, outcome);
-}
-
-/// Judges the gaps of one case on its runs: the mechanics, and those under a raised load where there are.
-void judge(const Study& study, CaseOutcome& outcome, std::vector<FinishedRun> runs) {
-  if (const FinishedRun* run = run_without_result(runs)) return give_up(study, outcome, *run);
+/// One case on its runs: the mechanics, and those under a raised load where there are.
+CaseOutcome judged(const Study& study, const StudyCase& input, std::vector<FinishedRun> runs) {
+  if (const FinishedRun* run = run_without_result(runs))
+    return without_result(study, input, run->outcome, run->failure);
+  CaseOutcome outcome;
+  outcome.input = input;
   outcome.outcome = runs.front().outcome;
   outcome.failure = runs.front().failure;
   outcome.result.mechanics = std::move(runs.front().result.mechanics);
@@ -49,9 +39,9 @@ void judge(const Study& study, CaseOutcome& outcome, std::vector<FinishedRun> ru
     outcome.raised->monitor.clear();
     outcome.raised->snapshots.clear();
   }
-  find_critical_gaps(study, outcome);
-  evaluate_gaps(study, outcome);
+  evaluate(study, outcome);
   evaluate_film(study, outcome);
+  return outcome;
 }
 
 Confirmation expectation(double gap, bool ignition) {
@@ -65,7 +55,6 @@ void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confi
   confirmation.ran = true;
   confirmation.outcome = run.outcome;
   confirmation.failure = run.failure;
-  confirmation.wall_time = run.result.mechanics.wall_time;
   const std::vector<run::GapResult>& gaps = run.result.gaps;
   if (!gaps.empty()) confirmation.combustion = gaps.front().combustion;
   // What breaks off by itself after it has ignited has ignited. How far a run that was cut off came depends
@@ -112,23 +101,22 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
 }  // namespace
 
 CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& options) {
+  const bool confirm = settings_of<CriticalGapSettings>(study.study).confirm;
   return run_timed<CriticalGapResult>(
       study, options,
       [&](CriticalGapResult& result) {
         ProgressTracker tracker(options.progress);
-        for (const StudyCase& input : study.cases) result.cases.emplace_back().input = input;
+        result.cases.resize(study.cases.size());
         std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
-        if (settings_of<CriticalGapSettings>(study.study).confirm)
-          for (CaseRuns& each : runs) each.runs.front().checkpoints = true;
+        for (CaseRuns& each : runs) each.runs.front().checkpoints = confirm;
         run_cases(runs, options, tracker, result.timing,
                   [&](std::size_t i, std::vector<FinishedRun>& finished) {
                     for (const std::size_t member : runs[i].members) {
+                      result.cases[member] = judged(study.study, study.cases[member], finished);
                       result.cases[member].hash = runs[i].runs.front().hash;
-                      judge(study.study, result.cases[member], finished);
                     }
                   });
-        if (settings_of<CriticalGapSettings>(study.study).confirm)
-          run_confirmations(result, options, tracker);
+        if (confirm) run_confirmations(result, options, tracker);
         for (CaseOutcome& outcome : result.cases) {
           apply_confirmations(study.study, outcome);
           conclude(study.study, outcome);

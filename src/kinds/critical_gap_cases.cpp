@@ -37,16 +37,9 @@ Fault read_critical_gap(const StudySource& source, StudyFile& study) {
   if (Fault fault = read_references(source, study)) return fault;
   if (Fault fault = read_cited_limits(source.root, study)) return fault;
   const CriticalGapSettings& own = settings_of<CriticalGapSettings>(study.study);
-  const std::vector<std::tuple<const char*, const char*, const std::vector<double>*>> lists{
-      {"peak_pressure", "peak_pressures", &own.peak_pressures},
-      {"crack_radius", "crack_radii", &own.crack_radii},
-      {"flaw_size", "flaw_sizes", &own.flaw_sizes}};
-  for (const auto& [name, study_key, values] : lists) {
-    if (values->empty()) continue;
-    auto axis = axis_over(study, name, study_key, *values);
-    if (!axis) return axis.error();
-    study.study.axes.push_back(std::move(*axis));
-  }
+  if (Fault fault = add_axis(study, "peak_pressure", "peak_pressures", own.peak_pressures)) return fault;
+  if (Fault fault = add_axis(study, "crack_radius", "crack_radii", own.crack_radii)) return fault;
+  if (Fault fault = add_axis(study, "flaw_size", "flaw_sizes", own.flaw_sizes)) return fault;
   study.confirmations_per_case = own.confirm ? 2 : 0;
   return std::nullopt;
 }

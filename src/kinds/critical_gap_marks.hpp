@@ -13,6 +13,14 @@ namespace launchsafe::kinds {
 /// What the marks of every kind mean, in the order of CriticalGapKind.
 std::array<std::string, 4> kind_labels(const std::vector<const study::CriticalGap*>& gaps);
 
+/// The critical gaps of outcomes or answers, in their order.
+template <class Case>
+std::vector<const study::CriticalGap*> critical_gaps_of(const std::vector<Case>& cases) {
+  std::vector<const study::CriticalGap*> gaps;
+  for (const Case& each : cases) gaps.push_back(&each.critical);
+  return gaps;
+}
+
 /// The kind as it is drawn: a value that is not finite is none.
 study::CriticalGapKind drawn_kind(const study::CriticalGap& gap);
 

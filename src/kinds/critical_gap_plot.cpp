@@ -161,9 +161,7 @@ Plot critical_gaps_plot(const CriticalGapResult& result) {
   plot.x.label = "critical gap [cm]";
   plot.x.minimum = 0.0;
   const std::size_t count = result.cases.size();
-  std::vector<const CriticalGap*> gaps;
-  for (const CaseOutcome& outcome : result.cases) gaps.push_back(&outcome.critical);
-  GapMarks marks(gaps, Style::horizontal_bars);
+  GapMarks marks(critical_gaps_of(result.cases), Style::horizontal_bars);
   for (std::size_t i = 0; i < count; ++i) {
     const auto line = static_cast<double>(count - i);
     plot.y.tics.push_back({line, result.cases[i].input.label});

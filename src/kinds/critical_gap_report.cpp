@@ -73,8 +73,7 @@ std::string undecided_row(const study::GapVerdict& row) {
   const double allowed = allowed_share(row, largest.size);
   return fmt::format(
       "{}: a margin of {} K against shares of {} K (computation), {} K (fit), {} K (inputs) and {} K (model "
-      "form). "
-      "The largest is that of {}; {} would reduce it, {}.\n",
+      "form). The largest is that of {}; {} would reduce it, {}.\n",
       centimetres(row.gap), significant(row.margin, 3), significant(u.computed(), 2), significant(u.fit, 2),
       significant(u.inputs(), 2), significant(u.model_form, 2), largest.share, largest.how,
       std::isfinite(allowed) ? fmt::format("and below {} K the row is decided", significant(allowed, 3))

@@ -1,5 +1,5 @@
 // The tables of a critical-gap study.
-#include "launchsafe/kinds/calibration.hpp"
+#include "critical_gap_marks.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/report/air_energy_table.hpp"
 #include "launchsafe/report/combustion_table.hpp"
@@ -71,10 +71,8 @@ std::vector<Cell> comparison_cells(const GapVerdict& row, const study::Reference
 }  // namespace
 
 Table verdict_table(const CriticalGapResult& result) {
-  Table table;
-  table.title = "Verdicts";
-  table.columns = {quantity::gap(), quantity::peak_pressure(), quantity::crack_radius(),
-                   quantity::flaw_size()};
+  Table table{"Verdicts",
+              {quantity::gap(), quantity::peak_pressure(), quantity::crack_radius(), quantity::flaw_size()}};
   append(table.columns, verdict_columns(result.study.study));
   for (const CaseOutcome& outcome : result.cases) {
     for (const GapVerdict& row : outcome.verdicts) {
@@ -110,8 +108,7 @@ Table comparison_table(const CriticalGapResult& result) {
   if (!(worst <= calibration_slack)) {
     table.notes.push_back(fmt::format(
         "The scene's constants do not meet the calibrated rows ({}): they belong to other settings, and no "
-        "row here "
-        "counts as calibrated.",
+        "row here counts as calibrated.",
         std::isfinite(worst) ? fmt::format("computed - published: {:.1f} K", worst)
                              : std::string("one of them ignites")));
   }
@@ -119,8 +116,7 @@ Table comparison_table(const CriticalGapResult& result) {
     table.notes.push_back(
         "After ignition T max is that of the burning skin; it is not compared. Whether and when the largest "
         "published gap that is safe and the smallest that ignites do so is calibrated: the ignition "
-        "temperature "
-        "was set between them.");
+        "temperature was set between them.");
   }
   return table;
 }
@@ -163,9 +159,7 @@ void add_critical_share_cells(const CaseOutcome& outcome, std::vector<Cell>& cel
 }  // namespace
 
 Table critical_gap_table(const CriticalGapResult& result) {
-  Table table;
-  table.title = "Critical gap";
-  table.columns = {quantity::case_name()};
+  Table table{"Critical gap", {quantity::case_name()}};
   append(table.columns, critical_gap_columns());
   append(table.columns, critical_share_columns());
   append(table.columns,
@@ -230,11 +224,10 @@ Table air_energy_table(const CriticalGapResult& result) {
 }
 
 Table air_model_table(const CriticalGapResult& result) {
-  Table table;
-  table.title = "Under both models of the air";
-  table.columns = {quantity::case_name(), quantity::gap(),
-                   number_column("T max, reservoir", "K", 1, "temperature_max_reservoir_K"),
-                   number_column("T max, film", "K", 1, "temperature_max_film_K")};
+  Table table{"Under both models of the air",
+              {quantity::case_name(), quantity::gap(),
+               number_column("T max, reservoir", "K", 1, "temperature_max_reservoir_K"),
+               number_column("T max, film", "K", 1, "temperature_max_film_K")}};
   for (const CaseOutcome& outcome : result.cases) {
     if (!outcome.film) continue;
     for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) {
@@ -249,8 +242,7 @@ Table air_model_table(const CriticalGapResult& result) {
   if (!table.rows.empty()) {
     table.notes.push_back(
         "The film conserves energy and conducts into charge and base: an optimistic bound, on which no "
-        "verdict "
-        "rests. Its temperature is that of the charge's surface, which the base cools.");
+        "verdict rests. Its temperature is that of the charge's surface, which the base cools.");
   }
   return table;
 }
@@ -304,9 +296,7 @@ Table run_table(const CriticalGapResult& result) {
 }
 
 Table cited_limit_table(const CriticalGapResult& result) {
-  std::vector<const CriticalGap*> critical;
-  for (const CaseOutcome& outcome : result.cases) critical.push_back(&outcome.critical);
-  return report::cited_limit_table(result.study, critical);
+  return report::cited_limit_table(result.study, critical_gaps_of(result.cases));
 }
 
 }  // namespace launchsafe::kinds

@@ -13,25 +13,13 @@ namespace launchsafe::kinds {
 using namespace study;
 using namespace report;
 
-std::string to_string(SensitivityOutput output) {
-  switch (output) {
-    case SensitivityOutput::maximum_temperature:
-      return "temperature_max";
-    case SensitivityOutput::critical_gap:
-      return "critical_gap";
-    case SensitivityOutput::margin:
-      return "margin";
-  }
-  return "";
-}
-
 bool SensitivityResult::any_indeterminate() const {
   return std::any_of(outputs.begin(), outputs.end(), [](const auto& each) { return !each.reason.empty(); });
 }
 
 namespace {
 
-double value_of(const OutputSensitivity& of, const CaseAnswer& answer, const StudyCase& input) {
+double number_of(const OutputSensitivity& of, const CaseAnswer& answer, const StudyCase& input) {
   if (!answer.completed()) return not_a_number;
   if (of.output == SensitivityOutput::critical_gap) return answer.critical.value;
   const double temperature =
@@ -87,7 +75,7 @@ OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOut
   output.inert = which != SensitivityOutput::critical_gap && any_ignites(result);
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const CaseAnswer& answer = result.answers[i];
-    output.values.push_back(value_of(output, answer, result.study.cases[i]));
+    output.values.push_back(number_of(output, answer, result.study.cases[i]));
     if (std::isfinite(output.values.back())) continue;
     ++output.missing;
     if (which == SensitivityOutput::critical_gap && is_bound(answer)) ++output.bounds;

@@ -45,9 +45,10 @@ scene::Key<Study> one_gap_key() {
 
 std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
   return {
-      scene::word_key<SensitivitySettings, SensitivityMethod>(
-          "method", scene::Standing::assumed, "Indices of Sobol.", {{"sobol", SensitivityMethod::sobol}},
-          &SensitivitySettings::method),
+      // There is one method; study files may name it.
+      {{.name = "method", .kind = scene::KeyKind::word, .words = {"sobol"}, .sentence = "Indices of Sobol."},
+       [](SensitivitySettings&, const scene::Value&) {},
+       [](const SensitivitySettings&) { return scene::Value(std::string("sobol")); }},
       sensitivity_number("seed", Dimension::count, scene::between(0, largest_seed),
                          "Seed of the design and of the bootstrap.", &SensitivitySettings::seed),
       sensitivity_number("resamples", Dimension::count, scene::between(100, 1e6),
@@ -56,8 +57,7 @@ std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
                          "Confidence of the intervals.", &SensitivitySettings::confidence),
       scene::word_key<SensitivitySettings, math::Design>(
           "design", scene::Standing::assumed,
-          "How the samples are laid out; a power of two of them is best "
-          "for scrambled-sobol.",
+          "How the samples are laid out; a power of two of them is best for scrambled-sobol.",
           {{"scrambled-sobol", math::Design::scrambled_sobol},
            {"latin-hypercube", math::Design::latin_hypercube},
            {"monte-carlo", math::Design::monte_carlo}},
@@ -147,10 +147,6 @@ Fault make_saltelli(StudyFile& study) {
   return std::nullopt;
 }
 
-Fault read_sensitivity(const StudySource& source, StudyFile& study) {
-  return read_inputs(source.root, study);
-}
-
 Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
   const std::vector<double>& gaps = study.study.gaps;
   if (gaps.size() != 1) {
@@ -172,7 +168,7 @@ Kind sensitivity_kind() {
                       own_keys(sensitivity_keys())}),
       .tables = {input_table()},
       .instead_of = {{"gaps", "gap"}},
-      .read = read_sensitivity,
+      .read = read_inputs,
       .make_cases = make_sensitivity_cases,
       .run = outcome_of<run_sensitivity, failures_of<SensitivityResult>>,
       .files = {{"sensitivity.csv"}, {"evaluations.csv"}, {"sensitivity_", ".svg"}},

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -23,68 +24,50 @@ using scene::Dimension, scene::InputError, scene::KeyDescription, scene::KeyKind
 /// Deviations of a normal that is not cut off which must lie within the limits of its key.
 constexpr double deviations_within_limits = 4.0;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// One [[input]] as read.
 struct InputText {
   std::string name;
   KeyDescription key;  ///< of the scene
-  Distribution::Kind kind = Distribution::Kind::uniform;
-  double lower = -std::numeric_limits<double>::infinity();  ///< SI, as all of these
-  double upper = std::numeric_limits<double>::infinity();
-  double mean = not_a_number;
-  double deviation = not_a_number;
-  Distribution distribution() const;
+  /// SI; what is not given is infinite or NaN.
+  Distribution distribution{Distribution::Kind::uniform, -infinity, infinity, not_a_number, not_a_number};
 };
 
 std::string to_string(math::Distribution::Kind kind) {
-  switch (kind) {
-    case math::Distribution::Kind::uniform:
-      return "uniform";
-    case math::Distribution::Kind::log_uniform:
-      return "log-uniform";
-    case math::Distribution::Kind::normal:
-      return "normal";
-  }
-  return {};
+  constexpr std::array words{"uniform", "log-uniform", "normal"};
+  return words.at(static_cast<std::size_t>(kind));
 }
 
-std::vector<scene::Key<InputText>> input_keys(const scene::KeyDescription& scene_key) {
-  using Kind = math::Distribution::Kind;
+std::vector<scene::Key<Distribution>> distribution_keys(const KeyDescription& scene_key) {
+  using Kind = Distribution::Kind;
   const Dimension dimension = scene_key.dimension;
   return {
-      scene::required(scene::text_key<InputText>(
-          "key", scene::Standing::input,
-          "What is uncertain: peak_pressure, crack_radius, flaw_size, or a scene key that takes one number.",
-          "peak_pressure", &InputText::name)),
-      scene::required(scene::word_key<InputText, Kind>("distribution", scene::Standing::input,
-                                                       "How its values are distributed.",
-                                                       {{to_string(Kind::uniform), Kind::uniform},
-                                                        {to_string(Kind::log_uniform), Kind::log_uniform},
-                                                        {to_string(Kind::normal), Kind::normal}},
-                                                       &InputText::kind)),
-      scene::range_key<InputText>(
-          "range", dimension, scene_key.limits, scene::Standing::input,
-          "Least and greatest value, in a unit of the key; of a normal, where it is cut off.",
-          &InputText::lower, &InputText::upper),
-      scene::number_key<InputText>("mean", dimension, scene::any_number(), scene::Standing::input,
-                                   "Mean of a normal before it is cut off, in a unit of the key.",
-                                   &InputText::mean),
-      scene::number_key<InputText>(
-          "deviation", scene::difference_of(dimension), scene::above(0), scene::Standing::input,
-          "Standard deviation of a normal before it is cut off, in a unit of the key.",
-          &InputText::deviation),
+      scene::required(scene::word_key("distribution", scene::Standing::input,
+                                      "How its values are distributed.",
+                                      {{to_string(Kind::uniform), Kind::uniform},
+                                       {to_string(Kind::log_uniform), Kind::log_uniform},
+                                       {to_string(Kind::normal), Kind::normal}},
+                                      &Distribution::kind)),
+      scene::range_key("range", dimension, scene_key.limits, scene::Standing::input,
+                       "Least and greatest value, in a unit of the key; of a normal, where it is cut off.",
+                       &Distribution::lower, &Distribution::upper),
+      scene::number_key("mean", dimension, scene::any_number(), scene::Standing::input,
+                        "Mean of a normal before it is cut off, in a unit of the key.",
+                        &Distribution::centre),
+      scene::number_key("deviation", scene::difference_of(dimension), scene::above(0), scene::Standing::input,
+                        "Standard deviation of a normal before it is cut off, in a unit of the key.",
+                        &Distribution::deviation),
   };
 }
 
-Distribution InputText::distribution() const {
-  switch (kind) {
-    case Distribution::Kind::uniform:
-      return Distribution::uniform(lower, upper);
-    case Distribution::Kind::log_uniform:
-      return Distribution::log_uniform(lower, upper);
-    case Distribution::Kind::normal:
-      break;
-  }
-  return Distribution::normal(mean, deviation, lower, upper);
+std::vector<scene::Key<InputText>> input_keys(const KeyDescription& scene_key) {
+  return keys::joined<InputText>(
+      {{scene::required(scene::text_key<InputText>(
+           "key", scene::Standing::input,
+           "What is uncertain: peak_pressure, crack_radius, flaw_size, or a scene key that takes one number.",
+           "peak_pressure", &InputText::name))},
+       keys::keys_of_part("", &InputText::distribution, distribution_keys(scene_key))});
 }
 
 /// One [[input]] while it is read.
@@ -128,32 +111,21 @@ scene::Expected<KeyDescription> read_scene_key(InputReader& reader, std::string&
   return key;
 }
 
-Fault check_conflicts(const InputReader& reader, const KeyDescription& key) {
-  if (reader.study.overrides.contains(key.name)) {
-    return reader.fault("key", key.name + ", which [set] or the calibration fixes",
-                        fmt::format("{} either as an input, or in [set] or a calibration", key.name));
-  }
-  for (const Axis& other : reader.study.study.axes) {
-    if (other.key.name != key.name) continue;
-    return reader.fault("key", fmt::format("{} a second time, after {}", key.name, other.name),
-                        "each scene key once");
-  }
-  return std::nullopt;
-}
-
 /// Keys that the distribution needs, and those that would silently do nothing.
 Fault check_given(const InputReader& reader) {
-  const bool normal = reader.text.kind == Distribution::Kind::normal;
+  const bool normal = reader.text.distribution.kind == Distribution::Kind::normal;
   const auto missing = [&](const char* key) {
-    return reader.fault(key, fmt::format("nothing; a {} input needs it", to_string(reader.text.kind)),
+    return reader.fault(key,
+                        fmt::format("nothing; a {} input needs it", to_string(reader.text.distribution.kind)),
                         scene::allowed_text(*scene::find_key(input_keys(reader.text.key), key)));
   };
   if (!normal && !reader.given("range")) return missing("range");
   for (const char* key : {"mean", "deviation"}) {
     if (normal && !reader.given(key)) return missing(key);
     if (!normal && reader.given(key)) {
-      return reader.fault(key, "a key of distribution \"normal\"",
-                          fmt::format("range alone for distribution \"{}\"", to_string(reader.text.kind)));
+      return reader.fault(
+          key, "a key of distribution \"normal\"",
+          fmt::format("range alone for distribution \"{}\"", to_string(reader.text.distribution.kind)));
     }
   }
   return std::nullopt;
@@ -166,9 +138,9 @@ std::string range_text(double lower, double upper, Dimension dimension) {
 
 /// The range to write for a normal that needs one; empty where the limits leave none.
 std::string suggested_range(const InputText& text) {
-  const double reach = deviations_within_limits * text.deviation;
-  const double lower = std::max(text.mean - reach, text.key.limits.lowest);
-  const double upper = std::min(text.mean + reach, text.key.limits.highest);
+  const double reach = deviations_within_limits * text.distribution.deviation;
+  const double lower = std::max(text.distribution.centre - reach, text.key.limits.lowest);
+  const double upper = std::min(text.distribution.centre + reach, text.key.limits.highest);
   if (!(lower < upper) || !text.key.limits.contain(lower) || !text.key.limits.contain(upper)) return {};
   return fmt::format("range = \"{}\"", range_text(lower, upper, text.key.dimension));
 }
@@ -176,9 +148,9 @@ std::string suggested_range(const InputText& text) {
 /// A normal without a range must in practice stay within the limits of its key.
 Fault check_reach(const InputReader& reader) {
   const InputText& text = reader.text;
-  if (text.kind != Distribution::Kind::normal || reader.given("range")) return std::nullopt;
-  const double reach = deviations_within_limits * text.deviation;
-  const double lower = text.mean - reach, upper = text.mean + reach;
+  if (text.distribution.kind != Distribution::Kind::normal || reader.given("range")) return std::nullopt;
+  const double reach = deviations_within_limits * text.distribution.deviation;
+  const double lower = text.distribution.centre - reach, upper = text.distribution.centre + reach;
   if (text.key.limits.contain(lower) && text.key.limits.contain(upper)) return std::nullopt;
   return reader.fault(
       "deviation",
@@ -189,20 +161,22 @@ Fault check_reach(const InputReader& reader) {
 
 Fault check_distribution(const InputReader& reader) {
   const InputText& text = reader.text;
-  if (text.kind == Distribution::Kind::log_uniform && !(text.lower > 0.0)) {
-    return reader.fault("range",
-                        fmt::format("{}, whose lower end has no logarithm",
-                                    range_text(text.lower, text.upper, text.key.dimension)),
-                        "a range above 0 for distribution \"log-uniform\"");
+  if (text.distribution.kind == Distribution::Kind::log_uniform && !(text.distribution.lower > 0.0)) {
+    return reader.fault(
+        "range",
+        fmt::format("{}, whose lower end has no logarithm",
+                    range_text(text.distribution.lower, text.distribution.upper, text.key.dimension)),
+        "a range above 0 for distribution \"log-uniform\"");
   }
   if (Fault fault = check_reach(reader)) return fault;
-  if (math::is_valid(text.distribution())) return std::nullopt;
+  if (math::is_valid(text.distribution)) return std::nullopt;
   return reader.fault(
       "range",
-      fmt::format("{}, where a normal of mean {} and deviation {} has no share",
-                  range_text(text.lower, text.upper, text.key.dimension),
-                  scene::format_quantity(text.mean, text.key.dimension),
-                  scene::format_quantity(text.deviation, scene::difference_of(text.key.dimension))),
+      fmt::format(
+          "{}, where a normal of mean {} and deviation {} has no share",
+          range_text(text.distribution.lower, text.distribution.upper, text.key.dimension),
+          scene::format_quantity(text.distribution.centre, text.key.dimension),
+          scene::format_quantity(text.distribution.deviation, scene::difference_of(text.key.dimension))),
       "a range near the mean");
 }
 
@@ -216,11 +190,12 @@ Fault read_input(InputReader& reader) {
   reader.places = std::move(*read);
   for (const auto& [given, place] : reader.places)
     reader.study.places[fmt::format("input.{}.{}", reader.index, given)] = place;
-  if (Fault fault = check_conflicts(reader, *key)) return fault;
+  if (Fault fault = check_free(reader.study, key->name, "as an input", reader.place_of("key"), "input.key"))
+    return fault;
   if (Fault fault = check_given(reader)) return fault;
   if (Fault fault = check_distribution(reader)) return fault;
   reader.study.study.axes.push_back(
-      {std::move(name), fmt::format("input.{}.key", reader.index), *key, {}, reader.text.distribution()});
+      {std::move(name), fmt::format("input.{}.key", reader.index), *key, {}, reader.text.distribution});
   return std::nullopt;
 }
 
@@ -228,16 +203,12 @@ Fault read_input(InputReader& reader) {
 
 StudyTable input_table() { return table_of("input", input_keys({})); }
 
-Fault read_inputs(const toml::table& root, StudyFile& study) {
-  const toml::node* node = root.get("input");
-  const std::string allowed = "at least one table, written [[input]], with key and distribution";
-  if (!node || (node->is_array() && node->as_array()->empty()))
-    return scene::error_at(place_of_key(study, node ? "input" : "kind"), "input", "no input", allowed);
-  if (!node->is_array_of_tables())
-    return scene::error_at(scene::place_of(*node, study.file), "input", scene::found_text(*node), allowed);
+Fault read_inputs(const StudySource& source, StudyFile& study) {
+  const auto tables = some_tables_of(source.root, "input", study, "with key and distribution");
+  if (!tables) return tables.error();
   std::size_t index = 0;
-  for (const toml::node& element : *node->as_array()) {
-    InputReader reader{study, *element.as_table(), index++, {}, {}};
+  for (const toml::table* table : *tables) {
+    InputReader reader{study, *table, index++, {}, {}};
     if (Fault fault = read_input(reader)) return fault;
   }
   return std::nullopt;

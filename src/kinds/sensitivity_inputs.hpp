@@ -9,6 +9,6 @@ namespace launchsafe::kinds {
 StudyTable input_table();
 
 /// Reads [[input]] into Study::axes, each with its distribution. Needs the study's scene and overrides.
-study::Fault read_inputs(const toml::table& root, study::StudyFile& study);
+study::Fault read_inputs(const StudySource& source, study::StudyFile& study);
 
 }  // namespace launchsafe::kinds

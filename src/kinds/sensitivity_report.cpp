@@ -1,4 +1,5 @@
 // The answer, the page and the files of a sensitivity study.
+#include "answer_tables.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
@@ -6,12 +7,12 @@
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "sensitivity_text.hpp"
-#include "sweep_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -23,16 +24,9 @@ using namespace report;
 
 namespace {
 
-std::string name_of(math::Design design) {
-  switch (design) {
-    case math::Design::monte_carlo:
-      return "independent random points";
-    case math::Design::latin_hypercube:
-      return "a Latin hypercube";
-    case math::Design::scrambled_sobol:
-      break;
-  }
-  return "a scrambled Sobol sequence";
+std::string text_of(math::Design design) {
+  constexpr std::array names{"independent random points", "a Latin hypercube", "a scrambled Sobol sequence"};
+  return names.at(static_cast<std::size_t>(design));
 }
 
 std::string interval_text(const SensitivitySettings& own) {
@@ -42,78 +36,33 @@ std::string interval_text(const SensitivitySettings& own) {
 
 }  // namespace
 
-ShownOutput shown_output(SensitivityOutput output) {
-  const std::string key = to_string(output);
-  switch (output) {
-    case SensitivityOutput::maximum_temperature:
-      return {"T max", "T max", key, "K", 1.0};
-    case SensitivityOutput::critical_gap:
-      return {"critical gap", "the critical gap", key, "cm", 100.0};
-    case SensitivityOutput::margin:
-      break;
-  }
-  return {"margin", "the margin", key, "K", 1.0};
+const ShownOutput& shown_output(SensitivityOutput output) {
+  static const std::array<ShownOutput, 3> all{
+      {{"T max", "T max", "temperature_max", "K", 1.0},
+       {"critical gap", "the critical gap", "critical_gap", "cm", 100.0},
+       {"margin", "the margin", "margin", "K", 1.0}}};
+  return all.at(static_cast<std::size_t>(output));
 }
 
 std::string at_gap(const study::Study& study, SensitivityOutput output) {
-  if (output == SensitivityOutput::critical_gap || study.gaps.empty()) return {};
+  if (output == SensitivityOutput::critical_gap) return {};
   return " at a gap of " + centimetres(study.gaps.front());
 }
 
-std::string reason_of(const OutputSensitivity& output) {
-  if (!output.reason.empty()) return output.reason;
-  const std::vector<math::InputIndices>& inputs = output.sobol.inputs;
-  const bool any = std::any_of(inputs.begin(), inputs.end(), [](const math::InputIndices& each) {
-    return std::isfinite(each.total.value);
-  });
-  return any ? std::string{} : "too few evaluations have a number";
+std::string estimate_text(const math::Estimate& estimate) {
+  return fmt::format("{} [{}, {}]", significant(estimate.value, 3), significant(estimate.lower, 3),
+                     significant(estimate.upper, 3));
 }
-
-bool has_indices(const OutputSensitivity& output) { return reason_of(output).empty(); }
 
 std::string method_text(const SensitivityResult& result) {
   const SensitivitySettings& own = sensitivity_settings(result.study.study);
   std::string text = fmt::format(
       "Sobol indices (first order: Saltelli 2010, total order: Jansen 1999) from N = {} rows, {} "
       "evaluations, on {}; {}.",
-      own.samples, result.answers.size(), name_of(own.design), interval_text(own));
+      own.samples, result.answers.size(), text_of(own.design), interval_text(own));
   if (own.design == math::Design::scrambled_sobol && own.samples < 256)
     text += " Of a Sobol sequence with fewer than 256 rows the intervals often miss weak inputs.";
   return text;
-}
-
-std::vector<math::Estimate> importance_of(const OutputSensitivity& output) {
-  std::vector<math::Estimate> importance;
-  for (const math::InputIndices& each : output.sobol.inputs) importance.push_back(each.total);
-  return importance;
-}
-
-std::vector<std::vector<std::size_t>> ranked(const std::vector<math::Estimate>& importance) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  std::vector<std::size_t> order(importance.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  // What has no value goes last; where an interval is missing nothing can be told apart.
-  const auto value = [&](std::size_t i) {
-    return std::isfinite(importance[i].value) ? importance[i].value : -infinite;
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return value(a) > value(b); });
-  const auto lower = [&](std::size_t i) {
-    return std::isfinite(importance[i].lower) ? importance[i].lower : -infinite;
-  };
-  std::vector<double> highest_behind(order.size() + 1, -infinite);
-  for (std::size_t k = order.size(); k-- > 0;) {
-    const double upper = importance[order[k]].upper;
-    highest_behind[k] = std::max(highest_behind[k + 1], std::isfinite(upper) ? upper : infinite);
-  }
-  std::vector<std::vector<std::size_t>> groups;
-  double lowest_before = infinite;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k == 0 || lowest_before > highest_behind[k]) groups.emplace_back();
-    groups.back().push_back(order[k]);
-    lowest_before = std::min(lowest_before, lower(order[k]));
-  }
-  return groups;
 }
 
 namespace {
@@ -129,35 +78,55 @@ std::string joined(const std::vector<std::string>& names) {
   return fmt::format("{} and {}", fmt::join(first, ", "), names.back());
 }
 
-/// "0.52 [0.4, 0.63]".
-std::string estimate_text(const math::Estimate& estimate) {
-  return fmt::format("{} [{}, {}]", significant(estimate.value, 3), significant(estimate.lower, 3),
-                     significant(estimate.upper, 3));
+using Groups = std::vector<std::vector<std::size_t>>;
+
+/// Inputs by falling total order in groups: all intervals of a group lie above all of the following groups;
+/// within a group the intervals overlap, and its order means nothing.
+Groups ranked(const std::vector<math::InputIndices>& inputs) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  std::vector<std::size_t> order(inputs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  // What has no value goes last; where an interval is missing nothing can be told apart.
+  const auto value = [&](std::size_t i) {
+    return std::isfinite(inputs[i].total.value) ? inputs[i].total.value : -infinite;
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return value(a) > value(b); });
+  const auto lower = [&](std::size_t i) {
+    return std::isfinite(inputs[i].total.lower) ? inputs[i].total.lower : -infinite;
+  };
+  std::vector<double> highest_behind(order.size() + 1, -infinite);
+  for (std::size_t k = order.size(); k-- > 0;) {
+    const double upper = inputs[order[k]].total.upper;
+    highest_behind[k] = std::max(highest_behind[k + 1], std::isfinite(upper) ? upper : infinite);
+  }
+  Groups groups;
+  double lowest_before = infinite;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k == 0 || lowest_before > highest_behind[k]) groups.emplace_back();
+    groups.back().push_back(order[k]);
+    lowest_before = std::min(lowest_before, lower(order[k]));
+  }
+  return groups;
 }
 
 /// What is said of one output.
 class OutputAnswer {
  public:
   OutputAnswer(const SensitivityResult& result, const OutputSensitivity& output)
-      : result_(result),
-        output_(output),
-        keys_(shown_axes(result.study.study)),
-        importance_(importance_of(output)) {
-    importance_.resize(keys_.size(), {study::not_a_number, study::not_a_number, study::not_a_number});
-  }
+      : result_(result), output_(output), keys_(shown_axes(result.study.study)) {}
 
   std::string text() const {
     std::string what = shown_output(output_.output).phrase;
     if (what.starts_with('t')) what.front() = 'T';
-    if (const std::string reason = reason_of(output_); !reason.empty())
-      return fmt::format("{}: no indices, {}.", what, reason);
-    const auto groups = ranked(importance_);
+    if (!output_.reason.empty()) return fmt::format("{}: no indices, {}.", what, output_.reason);
+    const Groups groups = ranked(output_.sobol.inputs);
     return fmt::format("{}: by total order, {}.{}{}", what, ranking(groups), untold(groups), negligible());
   }
 
  private:
   /// "A (0.6 [0.5, 0.7]), then B (...) and C (...)".
-  std::string ranking(const std::vector<std::vector<std::size_t>>& groups) const {
+  std::string ranking(const Groups& groups) const {
     std::string text;
     for (const auto& group : groups) {
       std::vector<std::string> names;
@@ -168,7 +137,7 @@ class OutputAnswer {
   }
 
   std::string named(std::size_t input) const {
-    return fmt::format("{} ({})", keys_[input].name, estimate_text(importance_[input]));
+    return fmt::format("{} ({})", keys_[input].name, estimate_text(output_.sobol.inputs[input].total));
   }
 
   std::string size() const {
@@ -176,7 +145,7 @@ class OutputAnswer {
   }
 
   /// What the intervals do not tell apart.
-  std::string untold(const std::vector<std::vector<std::size_t>>& groups) const {
+  std::string untold(const Groups& groups) const {
     if (groups.size() == 1 && keys_.size() > 1) {
       return fmt::format(" {} are too few to tell which matters more: the intervals overlap.", size());
     }
@@ -195,7 +164,7 @@ class OutputAnswer {
   std::string negligible() const {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < keys_.size(); ++i) {
-      if (importance_[i].upper < negligible_share) names.push_back(keys_[i].name);
+      if (output_.sobol.inputs[i].total.upper < negligible_share) names.push_back(keys_[i].name);
     }
     if (names.empty()) return {};
     return fmt::format(" Below {}% of the variance, and so without influence here: {}.",
@@ -205,7 +174,6 @@ class OutputAnswer {
   const SensitivityResult& result_;
   const OutputSensitivity& output_;
   std::vector<ShownKey> keys_;
-  std::vector<math::Estimate> importance_;
 };
 
 std::string share_failed(const SensitivityResult& result) {
@@ -231,10 +199,6 @@ nlohmann::ordered_json method_json(const SensitivityResult& result) {
           {"confidence", settings.confidence}};
 }
 
-nlohmann::ordered_json gap_json(const study::Study& study) {
-  return study.gaps.empty() ? nlohmann::ordered_json(nullptr) : number(in_centimetres(study.gaps.front()));
-}
-
 }  // namespace
 
 std::string answer(const SensitivityResult& result) {
@@ -243,10 +207,7 @@ std::string answer(const SensitivityResult& result) {
   if (result.outputs.empty()) lines.emplace_back("There are no indices: the study did not come to its end.");
   lines.push_back(share_failed(result));
   lines.push_back(limited_text(counts_of(result.answers), "evaluation"));
-  for (std::string& note : mesh_notes(result.study)) lines.push_back(std::move(note));
-  if (result.interrupted) lines.emplace_back("The study was interrupted.");
-  std::erase(lines, "");
-  return fmt::format("{}", fmt::join(lines, "\n"));
+  return answer_of(std::move(lines), result.study, result.interrupted ? "The study was interrupted." : "");
 }
 
 Report report_of(const SensitivityResult& result) {
@@ -256,7 +217,7 @@ Report report_of(const SensitivityResult& result) {
   report.items.push_back(ReportTable{output_table(result), "", "outputs", Shown::file});
   for (const OutputSensitivity& output : result.outputs) {
     report.items.push_back(ReportTable{.table = sensitivity_table(result, output), .shown = Shown::page});
-    if (has_indices(output))
+    if (output.reason.empty())
       report.items.push_back(Picture{picture_name(output), sensitivity_plot(result, output),
                                      "sensitivity of " + shown_output(output.output).name});
   }
@@ -269,7 +230,7 @@ Report report_of(const SensitivityResult& result) {
                                      most_evaluation_rows});
   report.json = study_json(result.study, report,
                            {{"method", method_json(result)},
-                            {"gap_cm", gap_json(result.study.study)},
+                            {"gap_cm", number(in_centimetres(result.study.study.gaps.front()))},
                             {"inputs", axes_json(result.study.study)},
                             {"failed", counts_of(result.answers).failed},
                             {"notes", mesh_notes(result.study)}});

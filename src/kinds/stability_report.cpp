@@ -1,10 +1,10 @@
 // The answer, the tables, the picture and the page of a stability study.
+#include "answer_tables.hpp"
 #include "launchsafe/kinds/stability.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "sweep_text.hpp"
 
 #include <fmt/format.h>
 

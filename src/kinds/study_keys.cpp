@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 
 namespace launchsafe::kinds {
 
@@ -45,28 +44,14 @@ Key<Study> kind_key() {
   return key;
 }
 
-StudyKeys make_common_keys() {
-  return {
-      kind_key(),
-      scene::text_key<Study>("title", Standing::input,
-                             "What this study is, for reports; the scene's title where there is none.",
-                             "Critical gap of the 155 mm shell", &Study::title),
-      scene::required(scene::text_key<Study>("scene", Standing::input,
-                                             "Path of the scene from the study file's folder.",
-                                             "scene_155mm.toml", &Study::scene)),
-      study_number("early_time", Dimension::time, above_to(0, 1),
-                   "An instant at which temperatures are listed and compared too.", &Study::early_time),
-  };
-}
-
 Key<Reference> reference_number(std::string name, Dimension dimension, std::string sentence,
                                 double Reference::*member) {
   return scene::number_key<Reference>(std::move(name), dimension, at_least(0), Standing::paper,
                                       std::move(sentence), member);
 }
 
-std::vector<Key<Reference>> make_published_row_keys() {
-  return {
+const std::vector<Key<Reference>>& published_row_keys() {
+  static const std::vector<Key<Reference>> keys{
       scene::required(reference_number("gap", Dimension::length, "Gap of a published row.", &Reference::gap)),
       reference_number("maximum_temperature", Dimension::temperature, "Its highest temperature.",
                        &Reference::maximum_temperature),
@@ -95,23 +80,15 @@ std::vector<Key<Reference>> make_published_row_keys() {
           "True where its temperature at early_time, spreads and places were used to choose among models.",
           &Reference::selection),
   };
-}
-
-const std::vector<Key<Reference>>& published_row_keys() {
-  static const std::vector<Key<Reference>> keys = make_published_row_keys();
   return keys;
 }
 
 Fault read_reference_tables(const toml::table& root, const std::string& file, StudyFile& study) {
-  const toml::node* node = root.get("reference");
-  if (!node || (node->is_array() && node->as_array()->empty())) return std::nullopt;
-  if (!node->is_array_of_tables()) {
-    return scene::error_at(scene::place_of(*node, file), "reference", scene::found_text(*node),
-                           "tables, each written [[reference]]");
-  }
-  for (const toml::node& element : *node->as_array()) {
+  const auto tables = tables_of(root, "reference", file);
+  if (!tables) return tables.error();
+  for (const toml::table* table : *tables) {
     Reference reference;
-    auto read = scene::read_table(*element.as_table(), published_row_keys(), {}, file, reference);
+    auto read = scene::read_table(*table, published_row_keys(), {}, file, reference);
     if (!read) return in_table(read.error(), "reference");
     const std::size_t index = study.study.references.size();
     for (auto& [key, place] : *read) study.places[fmt::format("reference.{}.{}", index, key)] = place;
@@ -127,14 +104,10 @@ Fault read_shared_references(const StudySource& source, StudyFile& study) {
   if (name.empty()) return std::nullopt;
   if (source.root.contains(table_name))
     return fault_at(study, key, fmt::format("a file of references beside {}", tables), "one of both");
-  const std::string file = (source.folder / name).string();
-  const auto text = scene::read_text_file(file);
-  if (!text) {
-    return fault_at(study, key, fmt::format("\"{}\", which cannot be read", name),
-                    fmt::format("a file with {}, by its path from the study file's folder", tables),
-                    text.error().suggestion);
-  }
+  const auto text = read_named_file(study, source.folder, key, name, fmt::format("a file with {}", tables));
+  if (!text) return text.error();
   study.records.push_back(store::sha256(*text));
+  const std::string file = (source.folder / name).string();
   const auto table = scene::parse_toml(*text, file);
   if (!table) return table.error();
   for (const auto& [each, node] : *table) {
@@ -167,7 +140,17 @@ Fault check_references(const StudyFile& study) {
 }  // namespace
 
 const StudyKeys& common_keys() {
-  static const StudyKeys keys = make_common_keys();
+  static const StudyKeys keys{
+      kind_key(),
+      scene::text_key<Study>("title", Standing::input,
+                             "What this study is, for reports; the scene's title where there is none.",
+                             "Critical gap of the 155 mm shell", &Study::title),
+      scene::required(scene::text_key<Study>("scene", Standing::input,
+                                             "Path of the scene from the study file's folder.",
+                                             "scene_155mm.toml", &Study::scene)),
+      study_number("early_time", Dimension::time, above_to(0, 1),
+                   "An instant at which temperatures are listed and compared too.", &Study::early_time),
+  };
   return keys;
 }
 
@@ -203,8 +186,7 @@ StudyKeys uncertainty_keys() {
       scene::text_key<Study>(
           "accuracy", Standing::input,
           "Path of the record of an accuracy study, accuracy.json, from the study file's folder; it gives "
-          "the "
-          "numerical uncertainty of every setting in it.",
+          "the numerical uncertainty of every setting in it.",
           "../reports/accuracy/accuracy_155mm.json", &Study::accuracy),
       study_number(
           "setting_tolerance", Dimension::temperature_difference, above_to(0, 1000),
@@ -226,8 +208,7 @@ StudyKeys uncertainty_keys() {
       scene::text_key<Study>(
           "model_form", Standing::input,
           "Path of the record of other models, model_form.json, from the study file's folder; it says how "
-          "far "
-          "they move the critical gap towards ignition.",
+          "far they move the critical gap towards ignition.",
           "../reports/model_form/model_form.json", &Study::model_form_record),
       stated_uncertainty(
           "model_form_uncertainty",
@@ -251,12 +232,6 @@ StudyKeys reference_keys() {
           "reference_line.intercept", Dimension::temperature, at_least(0), Standing::paper,
           "Its value at gap 0.", [](auto& s) -> auto& { return s.reference_line.intercept; }),
   };
-}
-
-StudyKeys joined(std::vector<StudyKeys> lists) {
-  StudyKeys result;
-  for (StudyKeys& list : lists) std::move(list.begin(), list.end(), std::back_inserter(result));
-  return result;
 }
 
 std::string default_text(const scene::KeyDescription& key, const scene::Value& value) {

@@ -33,8 +33,7 @@ scene::Key<Settings> assumed_list(std::string name, scene::Dimension dimension, 
                                    std::move(sentence), member);
 }
 
-/// Lists one behind the other.
-StudyKeys joined(std::vector<StudyKeys> lists);
+using keys::joined;
 
 /// The settings of a kind as keys of the study that holds them.
 template <class Settings>

@@ -1,5 +1,6 @@
-// A study of kind sweep as a file: its axes, and the cases that follow.
+// A study of kind sweep: its axes as read from a file, the cases that follow, and its run.
 #include "launchsafe/kinds/sweep.hpp"
+#include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/study/cited_limits.hpp"
 #include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"
@@ -7,6 +8,8 @@
 #include "study_outcome.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace launchsafe::kinds {
 
@@ -29,20 +32,6 @@ Fault read_gap_axis(const toml::node& node, StudyFile& study) {
   return check_twice(study, key, description.dimension, study.study.gaps);
 }
 
-/// A scene key that varies and also stands in [set], or that varies twice.
-Fault check_conflicts(const StudyFile& study, const std::string& key, const Axis& axis) {
-  if (study.overrides.contains(axis.key.name)) {
-    return fault_at(study, key, axis.key.name + ", which [set] or the calibration fixes",
-                    fmt::format("{} either in [axes], or in [set] or a calibration", axis.key.name));
-  }
-  for (const Axis& other : study.study.axes) {
-    if (other.key.name != axis.key.name) continue;
-    return fault_at(study, key, fmt::format("{} a second time, after {}", axis.key.name, other.name),
-                    "each scene key once");
-  }
-  return std::nullopt;
-}
-
 Fault read_axis(const Leaf& leaf, StudyFile& study) {
   const Place place = scene::place_of(*leaf.node, study.file);
   const std::string key = "axes." + leaf.name;
@@ -54,8 +43,8 @@ Fault read_axis(const Leaf& leaf, StudyFile& study) {
   }
   const auto description = varied_key(study, leaf.name, key, place, {std::string(gap_axis)});
   if (!description) return description.error();
+  if (Fault fault = check_free(study, description->name, "in [axes]", place, key)) return fault;
   Axis axis{leaf.name, key, *description, {}};
-  if (Fault fault = check_conflicts(study, key, axis)) return fault;
   KeyDescription as_written = *description;
   as_written.name = key;
   const auto values = scene::read_values(*leaf.node, as_written, study.file);
@@ -119,6 +108,14 @@ Fault make_sweep_cases(const StudySource&, StudyFile& study) {
 }
 
 }  // namespace
+
+bool SweepResult::any_indeterminate() const {
+  return std::any_of(answers.begin(), answers.end(), is_indeterminate<CaseAnswer>);
+}
+
+SweepResult run_sweep(const StudyFile& study, const StudyOptions& options) {
+  return run_answering<SweepResult>(study, options, [](SweepResult&) {});
+}
 
 Kind sweep_kind() {
   return {

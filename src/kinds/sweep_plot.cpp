@@ -1,10 +1,10 @@
 // The pictures of a sweep: the critical gap over one or two axes.
+#include "answer_tables.hpp"
 #include "critical_gap_marks.hpp"
 #include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
-#include "sweep_text.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +19,8 @@ using namespace report;
 namespace {
 
 constexpr std::size_t most_maps = 9;
+/// What the pictures show, for who cannot see them.
+constexpr const char* picture_text = "critical gap";
 
 /// An axis of the sweep with its values in the unit shown, ascending, each once.
 struct SweptAxis {
@@ -76,12 +78,6 @@ std::string title_of(const char* quantity, const std::vector<SweptAxis>& axes,
   return quantity + fixed;
 }
 
-std::vector<const CriticalGap*> critical_gaps_of(const SweepResult& result) {
-  std::vector<const CriticalGap*> gaps;
-  for (const CaseAnswer& answer : result.answers) gaps.push_back(&answer.critical);
-  return gaps;
-}
-
 double value_in_cm(const CaseAnswer& answer) { return 100.0 * value_of(answer.critical); }
 
 // --- maps ---
@@ -134,7 +130,7 @@ Plot empty_map(const SweepResult& result, const std::vector<SweptAxis>& axes, co
     const double uncertainty = 100.0 * answer.critical.uncertainty;
     if (std::isfinite(uncertainty)) map.least_step = std::max(map.least_step, uncertainty);
   }
-  auto labels = kind_labels(critical_gaps_of(result));
+  auto labels = kind_labels(critical_gaps_of(result.answers));
   labels[static_cast<std::size_t>(CriticalGapKind::value)] = quantity.without_value;
   constexpr std::array<Hatching, 4> hatchings{Hatching::rising, Hatching::dense, Hatching::falling,
                                               Hatching::crossed};
@@ -149,7 +145,7 @@ std::vector<Plot> maps_of(const SweepResult& result, const std::vector<SweptAxis
                           const SweptAxis& y, const MappedQuantity& quantity) {
   std::vector<std::vector<double>> combinations;
   std::vector<Plot> plots;
-  for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) {
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const study::StudyCase& input = result.study.cases[i];
     if (input.coordinates.size() < axes.size()) continue;
     std::vector<double> others = input.coordinates;
@@ -175,7 +171,7 @@ std::vector<Plot> maps_of(const SweepResult& result, const std::vector<SweptAxis
 void add_maps(std::vector<Plot> plots, const MappedQuantity& quantity, SweepPictures& made) {
   for (std::size_t i = 0; i < std::min(plots.size(), most_maps); ++i) {
     made.pictures.push_back({fmt::format("{}{}.svg", quantity.file, i == 0 ? "" : fmt::format("_{}", i + 1)),
-                             std::move(plots[i])});
+                             std::move(plots[i]), picture_text});
   }
 }
 
@@ -187,8 +183,8 @@ Plot curve_of(const SweepResult& result, const std::vector<SweptAxis>& axes, con
   plot.y.label = "critical gap [cm]";
   Series line{"", axis.values, std::vector<double>(axis.values.size(), study::not_a_number), Style::line};
   line.colour = 0;
-  GapMarks marks(critical_gaps_of(result), Style::vertical_bars);
-  for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) {
+  GapMarks marks(critical_gaps_of(result.answers), Style::vertical_bars);
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const study::StudyCase& input = result.study.cases[i];
     if (input.coordinates.size() < axes.size()) continue;
     if (plot.title.empty()) plot.title = title_of(critical_gap.title, axes, {axis.index}, input);
@@ -211,7 +207,8 @@ SweepPictures pictures(const SweepResult& result) {
     if (axis.values.size() > 1) several.push_back(&axis);
   }
   if (several.empty() || result.answers.empty()) return {};
-  if (several.size() == 1) return {{{"critical_gap.svg", curve_of(result, axes, *several.front())}}, {}};
+  if (several.size() == 1)
+    return {{{"critical_gap.svg", curve_of(result, axes, *several.front()), picture_text}}, {}};
   SweepPictures made;
   for (const MappedQuantity* quantity : {&critical_gap, &safe_gap}) {
     std::vector<Plot> maps = maps_of(result, axes, *several[0], *several[1], *quantity);

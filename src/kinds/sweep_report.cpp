@@ -1,10 +1,10 @@
 // The answer, the page and the files of a sweep.
+#include "answer_tables.hpp"
 #include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/report/measured.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
-#include "sweep_text.hpp"
 
 #include <fmt/format.h>
 
@@ -20,8 +20,6 @@ namespace {
 
 /// Rows of a table on the page; the files have all.
 constexpr std::size_t most_rows = 200;
-/// Gaps in the matrix on the page.
-constexpr std::size_t most_gaps = 30;
 
 /// "6 gaps from 0 to 0.04 cm".
 std::string gaps_text(const std::vector<double>& gaps) {
@@ -90,24 +88,20 @@ std::vector<std::size_t> without_safe_gap(const SweepResult& result) {
   return cases;
 }
 
-std::string case_name(const SweepResult& result, const std::vector<ShownKey>& keys, std::size_t i) {
-  return i < result.study.cases.size() ? name_of(keys, result.study.cases[i]) : std::string{};
-}
-
 std::string smallest_text(const SweepResult& result, const std::vector<ShownKey>& keys) {
   std::string text;
   if (const auto best = smallest(result)) {
     const study::CriticalGap& gap = result.answers[*best].critical;
     const auto known = measured_gap(100.0 * gap.value, 100.0 * gap.uncertainty, not_a_number);
     text = fmt::format("The smallest value is {}, at {}.", known ? known->text("cm") : centimetres(gap.value),
-                       case_name(result, keys, *best));
+                       name_of(keys, result.study.cases[*best]));
   }
   const std::vector<std::size_t> none = without_safe_gap(result);
   if (none.empty()) return text;
   const std::string others =
       none.size() > 1 ? " and " + counted(none.size() - 1, "other case") : std::string{};
   return text + fmt::format("{}No gap is safe at {}{}.", text.empty() ? "" : " ",
-                            case_name(result, keys, none.front()), others);
+                            name_of(keys, result.study.cases[none.front()]), others);
 }
 
 std::string failures_text(const SweepResult& result, const std::vector<ShownKey>& keys, std::size_t failed) {
@@ -119,8 +113,7 @@ std::string failures_text(const SweepResult& result, const std::vector<ShownKey>
 std::string uncertainty_text(const study::StudyFile& study) {
   return uncertainty_remark(study) +
          " Verdicts and critical gaps rest on the traces of the mechanical runs; no coupled runs confirm "
-         "them "
-         "(those of a study of kind critical-gap do).\n";
+         "them (those of a study of kind critical-gap do).\n";
 }
 
 /// The verdicts as a matrix, or where they are.
@@ -148,19 +141,12 @@ nlohmann::ordered_json counts_json(const SweepCounts& counts) {
 std::string answer(const SweepResult& result) {
   const auto keys = shown_axes(result.study.study);
   const SweepCounts counts = counts_of(result.answers);
-  std::vector<std::string> lines{
-      extent_text(result, keys),
-      kinds_text(result, counts),
-      smallest_text(result, keys),
-      fmt::format("Verdicts: {} SAFE, {} UNSAFE, {} INDETERMINATE.", counts.verdicts.at(Verdict::safe),
-                  counts.verdicts.at(Verdict::unsafe), counts.verdicts.at(Verdict::indeterminate)),
-      failures_text(result, keys, counts.failed),
-      limited_text(counts, "case")};
-  for (std::string& note : mesh_notes(result.study)) lines.push_back(std::move(note));
-  if (result.interrupted)
-    lines.emplace_back("The study was interrupted: cases without a run are indeterminate.");
-  std::erase(lines, "");
-  return fmt::format("{}", fmt::join(lines, "\n"));
+  return answer_of(
+      {extent_text(result, keys), kinds_text(result, counts), smallest_text(result, keys),
+       fmt::format("Verdicts: {} SAFE, {} UNSAFE, {} INDETERMINATE.", counts.verdicts.at(Verdict::safe),
+                   counts.verdicts.at(Verdict::unsafe), counts.verdicts.at(Verdict::indeterminate)),
+       failures_text(result, keys, counts.failed), limited_text(counts, "case")},
+      result.study, result.interrupted ? interrupted_note : "");
 }
 
 Report report_of(const SweepResult& result) {
@@ -173,8 +159,7 @@ Report report_of(const SweepResult& result) {
                   ReportTable{verdict_table(result), "verdicts.csv", "verdicts", Shown::file},
                   ReportTable{cited_limit_table(result), "", "cited_limits"}};
   SweepPictures drawn = pictures(result);
-  for (SweepPicture& each : drawn.pictures)
-    report.items.push_back(Picture{std::move(each.file), std::move(each.plot), "critical gap"});
+  for (Picture& each : drawn.pictures) report.items.push_back(std::move(each));
   report.remarks = std::move(drawn.remarks);
   report.items.push_back(ReportTable{axis_effect_table(result), "", "axis_effects", Shown::page});
   report.items.push_back(matrix_item(result));

@@ -1,4 +1,6 @@
 // The tables of a sweep.
+#include "answer_tables.hpp"
+#include "critical_gap_marks.hpp"
 #include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/report/air_energy_table.hpp"
 #include "launchsafe/report/columns.hpp"
@@ -6,7 +8,6 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
-#include "sweep_text.hpp"
 
 #include <fmt/format.h>
 
@@ -21,25 +22,13 @@ using namespace report;
 
 namespace {
 
-/// The columns of the axes, and room for others behind them.
-std::vector<Column> axis_columns(const std::vector<ShownKey>& keys) {
-  std::vector<Column> columns;
-  for (const ShownKey& key : keys) columns.push_back(key.column());
-  return columns;
-}
-
-std::vector<Cell> axis_cells(const std::vector<ShownKey>& keys, const study::StudyCase& input) {
-  std::vector<Cell> cells(keys.size());
-  for (std::size_t i = 0; i < std::min(keys.size(), input.coordinates.size()); ++i)
-    cells[i] = keys[i].value(input.coordinates[i]);
-  return cells;
-}
-
-/// Calls with every case and its answer.
-template <class Function>
-void for_each_case(const SweepResult& result, Function function) {
-  const std::size_t cases = std::min(result.study.cases.size(), result.answers.size());
-  for (std::size_t i = 0; i < cases; ++i) function(result.study.cases[i], result.answers[i]);
+PlacedAnswers answers_of(const SweepResult& result) {
+  const auto keys = shown_axes(result.study.study);
+  PlacedAnswers placed;
+  for (const ShownKey& key : keys) placed.columns.push_back(key.column());
+  for (std::size_t i = 0; i < result.answers.size(); ++i)
+    placed.rows.push_back({axis_cells(keys, result.study.cases[i]), &result.answers[i]});
+  return placed;
 }
 
 /// Places of the smallest and largest gap among those judged; one of them where they are the same.
@@ -69,29 +58,17 @@ void add_run_cells(const CaseAnswer& answer, std::vector<Cell>& cells) {
   cells.emplace_back(answer.completed() ? answer.critical.reason : answer.failure);
 }
 
-std::string verdict_mark(study::Verdict verdict) {
-  return verdict == study::Verdict::indeterminate ? "INDET." : study::to_string(verdict);
-}
-
 /// What the audit of the air says of the gap where most was taken; there may be millions of others.
 std::string air_energy_note(const SweepResult& result, const std::vector<ShownKey>& keys) {
   std::vector<AuditedGap> worst;
-  for_each_case(result, [&](const study::StudyCase& input, const CaseAnswer& answer) {
-    for (const study::GapVerdict& row : answer.verdicts) {
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    for (const study::GapVerdict& row : result.answers[i].verdicts) {
       if (!std::isfinite(row.air.ratio())) continue;
       if (worst.empty() || row.air.ratio() > worst.front().air.ratio())
-        worst = {{name_of(keys, input), row.gap, row.air}};
+        worst = {{name_of(keys, result.study.cases[i]), row.gap, row.air}};
     }
-  });
+  }
   return air_energy_statement(result.study.scene.scene.surface.air_model, worst);
-}
-
-/// A table whose rows begin with the values of the axes.
-Table table_by_axes(std::string title, const std::vector<ShownKey>& keys) {
-  Table table;
-  table.title = std::move(title);
-  table.columns = axis_columns(keys);
-  return table;
 }
 
 }  // namespace
@@ -99,22 +76,22 @@ Table table_by_axes(std::string title, const std::vector<ShownKey>& keys) {
 Table critical_gap_table(const SweepResult& result) {
   const auto keys = shown_axes(result.study.study);
   const std::vector<double>& gaps = result.study.study.gaps;
-  Table table = table_by_axes("Critical gaps", keys);
+  const PlacedAnswers answers = answers_of(result);
+  Table table = answers.table("Critical gaps");
   append(table.columns, critical_gap_columns());
   append(table.columns, outer_gap_columns(gaps));
   append(table.columns,
          {quantity::status(), quantity::energy_drift(), for_programs(quantity::steps()),
           for_programs(quantity::particles()), quantity::limiters(), named_text("remark", "reason")});
-  for_each_case(result, [&](const study::StudyCase& input, const CaseAnswer& answer) {
-    std::vector<Cell> cells = axis_cells(keys, input);
-    add_critical_gap_cells(answer.critical, cells);
-    for (const std::size_t place : outer_gaps(gaps))
-      cells.push_back(place < answer.verdicts.size()
-                          ? optional_number(answer.verdicts[place].maximum.temperature)
+  for (const auto& [place, answer] : answers.rows) {
+    std::vector<Cell>& cells = table.rows.emplace_back(place);
+    add_critical_gap_cells(answer->critical, cells);
+    for (const std::size_t gap : outer_gaps(gaps))
+      cells.push_back(gap < answer->verdicts.size()
+                          ? optional_number(answer->verdicts[gap].maximum.temperature)
                           : Cell());
-    add_run_cells(answer, cells);
-    table.rows.push_back(std::move(cells));
-  });
+    add_run_cells(*answer, cells);
+  }
   table.notes.emplace_back(
       "Only a critical gap of kind value is a number. T max of a gap that ignites is that of the burning "
       "skin.");
@@ -123,51 +100,21 @@ Table critical_gap_table(const SweepResult& result) {
 }
 
 Table verdict_table(const SweepResult& result) {
-  const auto keys = shown_axes(result.study.study);
-  Table table;
-  table.title = "Verdicts";
-  table.columns = axis_columns(keys);
-  append(table.columns, {quantity::gap()});
-  append(table.columns, verdict_columns(result.study.study));
-  for_each_case(result, [&](const study::StudyCase& input, const CaseAnswer& answer) {
-    const std::vector<Cell> place = axis_cells(keys, input);
-    for (std::size_t i = 0; i < answer.verdicts.size(); ++i) {
-      std::vector<Cell>& cells = table.rows.emplace_back();
-      cells.reserve(table.columns.size());
-      cells.insert(cells.end(), place.begin(), place.end());
-      cells.emplace_back(in_centimetres(answer.verdicts[i].gap));
-      const bool known = i < answer.heated_temperature.size();
-      add_verdict_cells(answer.verdicts[i], known ? answer.heated_temperature[i] : study::not_a_number,
-                        cells);
-    }
-  });
+  Table table = verdict_table(result.study.study, answers_of(result));
   table.notes = mesh_notes(result.study);
   table.notes.push_back(station_note(result.study));
   return table;
 }
 
 Table verdict_matrix(const SweepResult& result) {
-  const auto keys = shown_axes(result.study.study);
-  const std::vector<double>& gaps = result.study.study.gaps;
-  Table table = table_by_axes("Verdicts by gap", keys);
-  for (const double gap : gaps) {
-    table.columns.push_back(named_text(centimetres(gap), fmt::format("gap_{:.6g}_cm", in_centimetres(gap))));
-  }
-  for_each_case(result, [&](const study::StudyCase& input, const CaseAnswer& answer) {
-    std::vector<Cell> cells = axis_cells(keys, input);
-    for (std::size_t i = 0; i < std::min(gaps.size(), answer.verdicts.size()); ++i)
-      cells.emplace_back(verdict_mark(answer.verdicts[i].judgement.verdict));
-    table.rows.push_back(std::move(cells));
-  });
+  Table table = verdict_matrix(result.study.study, answers_of(result));
   if (counts_of(result.answers).verdicts.at(Verdict::indeterminate) > 0)
-    table.notes.emplace_back("INDET.: indeterminate; verdicts.csv has the reasons.");
+    table.notes.emplace_back(indeterminate_note);
   return table;
 }
 
 Table cited_limit_table(const SweepResult& result) {
-  std::vector<const CriticalGap*> critical;
-  for (const CaseAnswer& answer : result.answers) critical.push_back(&answer.critical);
-  return report::cited_limit_table(result.study, critical);
+  return report::cited_limit_table(result.study, critical_gaps_of(result.answers));
 }
 
 namespace {
@@ -204,7 +151,7 @@ template <class Counts>
 Effect effect_of(const SweepResult& result, std::size_t axis, Counts counts) {
   std::map<std::vector<double>, Line> lines;
   Range extent;
-  for (std::size_t i = 0; i < std::min(result.study.cases.size(), result.answers.size()); ++i) {
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const study::StudyCase& input = result.study.cases[i];
     const study::CaseAnswer& answer = result.answers[i];
     if (input.coordinates.size() <= axis || !answer.completed() || !counts(input)) continue;
@@ -247,8 +194,7 @@ std::string crack_note(const SweepResult& result, const Effect& below) {
   const bool rubs = result.study.scene.scene.charge().strength.face_friction > 0.0;
   return fmt::format(
       "Below the flaw size the crack radius is all but dead: T max moves by {} K at most, critical gaps by "
-      "{} cm. "
-      "The strain that cracks add goes with the cube of crack radius over flaw size{}.",
+      "{} cm. The strain that cracks add goes with the cube of crack radius over flaw size{}.",
       significant(below.temperature, 2), significant(100.0 * below.critical, 2),
       rubs && !friction_varies
           ? ", and friction between closed crack faces keeps them from growing under the pressure of a launch"
@@ -258,11 +204,10 @@ std::string crack_note(const SweepResult& result, const Effect& below) {
 }  // namespace
 
 Table axis_effect_table(const SweepResult& result) {
-  Table table;
-  table.title = "What each axis changes";
-  table.columns = {text_column("axis"), text_column("from"), text_column("to"),
-                   significant_column("T max by at most", "K", 3, "temperature_max_change_K"),
-                   significant_column("critical gap by at most", "cm", 3, "critical_gap_change_cm")};
+  Table table{"What each axis changes",
+              {text_column("axis"), text_column("from"), text_column("to"),
+               significant_column("T max by at most", "K", 3, "temperature_max_change_K"),
+               significant_column("critical gap by at most", "cm", 3, "critical_gap_change_cm")}};
   const auto keys = shown_axes(result.study.study);
   for (std::size_t axis = 0; axis < keys.size(); ++axis) {
     add_row(table, keys[axis], keys[axis].name,
@@ -275,8 +220,7 @@ Table axis_effect_table(const SweepResult& result) {
   if (!table.rows.empty()) {
     table.notes.push_back(
         "Changes over the whole axis with all other values the same: of T max at gaps where nothing ignites, "
-        "and "
-        "of critical gaps that are values.");
+        "and of critical gaps that are values.");
   }
   return table;
 }

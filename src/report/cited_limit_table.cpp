@@ -1,6 +1,7 @@
 // Limits of the gap from the literature beside the critical gaps of a study.
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "launchsafe/study/cited_limits.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "launchsafe/study/answer_cases.hpp"
 
-#include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/version.hpp"
 
 #include <fmt/format.h>
@@ -35,16 +35,6 @@ std::string analysis_text(const Study& study) {
   return text;
 }
 
-/// References are not stored: they are the study's.
-void attach_references(const StudyFile& study, const StudyCase& input, CaseAnswer& answer) {
-  if (!input.own_conditions) return;
-  for (GapVerdict& row : answer.verdicts) {
-    for (const Reference& reference : study.study.references) {
-      if (std::abs(reference.gap - row.gap) <= 1e-9) row.reference = reference;
-    }
-  }
-}
-
 /// The stored answer to a case, if it is there and can be one. What is not is drawn again from the mechanics.
 std::optional<CaseAnswer> stored_answer(const StudyFile& study, std::size_t index, const std::string& key,
                                         const StudyOptions& options) {
@@ -53,7 +43,8 @@ std::optional<CaseAnswer> stored_answer(const StudyFile& study, std::size_t inde
   if (!line) return std::nullopt;
   auto answer = answer_from_json(*line);
   if (!answer || !fits(*answer, study.study, study.cases[index])) return std::nullopt;
-  attach_references(study, study.cases[index], *answer);
+  // References are not stored: they are the study's.
+  attach_references(study.study, study.cases[index], answer->verdicts);
   return answer;
 }
 
@@ -129,7 +120,6 @@ class AnswerRunner {
     if (!judged || was_cut_off(runs.front())) return answer;
     if (options_.store != nullptr && std::none_of(runs.begin(), runs.end(), was_cut_off))
       options_.store->save_answer(keys_[index], to_json_line(answer));
-    attach_references(study_, input, answer);
     return answer;
   }
 

@@ -48,14 +48,8 @@ int limited(int cores, double quota, double period) {
 /// cpu.max of one control group (version 2): "max 100000" or "200000 100000".
 int limited_by_file(int cores, const fs::path& file) {
   std::ifstream stream(file);
-  std::string quota;
-  double period = 0;
-  if (!(stream >> quota >> period) || quota == "max") return cores;
-  try {
-    return limited(cores, std::stod(quota), period);
-  } catch (const std::exception&) {
-    return cores;
-  }
+  double quota = 0, period = 0;
+  return stream >> quota >> period ? limited(cores, quota, period) : cores;
 }
 
 int limited_by_version_1(int cores, const fs::path& folder) {
@@ -84,6 +78,12 @@ double machine_memory() {
   return unlimited;
 }
 
+/// What a limit (bytes) leaves beside what is used by the number in a file, of which `given_up` may go.
+double left_of(double limit, const fs::path& used_file, double given_up) {
+  const double used = number_in(used_file);
+  return std::max(0.0, limit - (used == unlimited ? 0.0 : used) + given_up);
+}
+
 /// What the limit of one control group (version 2) leaves. Its file cache is given up under pressure.
 double left_in_group(const fs::path& group) {
   const double limit = number_in(group / "memory.max");
@@ -94,16 +94,13 @@ double left_in_group(const fs::path& group) {
   for (double value = 0; stream >> name >> value;) {
     if (name == "inactive_file" || name == "active_file") cache += value;
   }
-  const double used = number_in(group / "memory.current");
-  return std::max(0.0, limit - (used == unlimited ? 0.0 : used) + cache);
+  return left_of(limit, group / "memory.current", cache);
 }
 
 /// The same for version 1, whose limit is a huge number where there is none.
 double left_in_version_1(const fs::path& group) {
   const double limit = number_in(group / "memory.limit_in_bytes");
-  if (!(limit < 1e15)) return unlimited;
-  const double used = number_in(group / "memory.usage_in_bytes");
-  return std::max(0.0, limit - (used == unlimited ? 0.0 : used));
+  return limit < 1e15 ? left_of(limit, group / "memory.usage_in_bytes", 0.0) : unlimited;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -14,17 +15,13 @@ CriticalGap::CriticalGap()
     : value(std::numeric_limits<double>::quiet_NaN()), lower(value), upper(value), uncertainty(value) {}
 
 std::string to_string(CriticalGapKind kind) {
-  switch (kind) {
-    case CriticalGapKind::value:
-      return "value";
-    case CriticalGapKind::all_safe:
-      return "all-safe";
-    case CriticalGapKind::all_ignite:
-      return "all-ignite";
-    case CriticalGapKind::indeterminate:
-      return "indeterminate";
-  }
-  return "indeterminate";
+  constexpr std::array words{"value", "all-safe", "all-ignite", "indeterminate"};
+  return words.at(static_cast<std::size_t>(kind));
+}
+
+GapOrBound gap_or_bound(const CriticalGap& gap) {
+  const std::array<GapOrBound, 4> gaps{gap.value, no_ignition, 0.0, std::numeric_limits<double>::quiet_NaN()};
+  return gaps.at(static_cast<std::size_t>(gap.kind));
 }
 
 namespace {

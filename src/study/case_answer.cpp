@@ -64,8 +64,7 @@ CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::Mech
   outcome.result.mechanics = mechanics;
   outcome.failure = failure_of(mechanics);
   outcome.raised = raised;
-  find_critical_gaps(study, outcome);
-  evaluate_gaps(study, outcome);
+  evaluate(study, outcome);
   apply_confirmations(study, outcome);
   conclude(study, outcome);
   CaseAnswer answer = without_histories(outcome);
@@ -77,12 +76,7 @@ CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::Mech
 }
 
 CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome of_run, std::string failure) {
-  CaseOutcome outcome;
-  outcome.outcome = of_run;
-  outcome.input = input;
-  outcome.failure = std::move(failure);
-  find_critical_gaps(study, outcome);
-  evaluate_gaps(study, outcome);
+  CaseOutcome outcome = without_result(study, input, of_run, std::move(failure));
   conclude(study, outcome);
   CaseAnswer answer = without_histories(outcome);
   answer.heated_temperature.assign(study.gaps.size(), not_a_number);

@@ -30,8 +30,7 @@ std::string calibration_warning(const Study& study, const StudyCase& input) {
   if (unknown.empty()) return {};
   return fmt::format(
       "extrapolated: the constants were calibrated on another launch ({}), and nothing says how wrong they "
-      "are here "
-      "(accept = [{{ key = \"{}\", because = \"...\" }}] takes them)",
+      "are here (accept = [{{ key = \"{}\", because = \"...\" }}] takes them)",
       fmt::join(unknown, ", "), scene::foreign_calibration);
 }
 
@@ -44,7 +43,7 @@ double ratio_to_calibration(const Study& study, const StudyCase& input) {
 /// What is not plausible of a case and of what its study states, where that gives verdicts. No stress case of
 /// a stability study may pass because its input is called implausible.
 std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCase& input) {
-  if (!gives_verdicts(study)) return {};
+  if (!study.kind.gives_verdicts) return {};
   std::vector<scene::Implausible> values = study.implausible;
   for (scene::Implausible& each : scene::implausible_values(input.scene.scene))
     values.push_back(std::move(each));
@@ -62,10 +61,8 @@ std::string names_of(const ModelFormRecord& record, bool counted) {
 
 }  // namespace
 
-bool gives_verdicts(const Study& study) { return study.kind.gives_verdicts; }
-
 bool propagates_spread(const Study& study) {
-  return gives_verdicts(study) && !std::isfinite(study.input_uncertainty);
+  return study.kind.gives_verdicts && !std::isfinite(study.input_uncertainty);
 }
 
 std::string label_of_raised(const StudyCase& input) {
@@ -84,7 +81,7 @@ scene::Scene with_raised_load(const scene::Scene& scene) {
 }
 
 double fit_share(const Study& study, const CalibrationDistance& distance, const Rises& rises) {
-  if (!gives_verdicts(study)) return 0.0;
+  if (!study.kind.gives_verdicts) return 0.0;
   const CalibrationEvidence& evidence = study.calibration.evidence;
   double fit = std::isfinite(study.fit_uncertainty) ? study.fit_uncertainty : evidence.largest_misfit;
   if (distance.other_load_shape) fit = std::max(fit, evidence.largest_misfit);
@@ -101,7 +98,7 @@ double stated_input_share(const Study& study, const StudyCase& input) {
 }
 
 std::optional<double> stated_model_form_share(const Study& study, const StudyCase& input) {
-  if (!gives_verdicts(study)) return 0.0;
+  if (!study.kind.gives_verdicts) return 0.0;
   const bool stated = std::isfinite(study.model_form_uncertainty);
   if (study.model_form && std::isfinite(model_form_shift(*study.model_form, input.scene.scene).gap))
     return std::nullopt;
@@ -129,7 +126,7 @@ LoadCurveErrors load_curve_errors(const scene::Load& load) {
 
 std::vector<std::string> input_validity_warnings(const Study& study, const StudyCase& input) {
   std::vector<std::string> warnings;
-  if (!gives_verdicts(study)) return warnings;
+  if (!study.kind.gives_verdicts) return warnings;
   for (const scene::Implausible& each : implausible_in(study, input)) {
     if (!each.accepted()) warnings.push_back(scene::validity_warning(each));
   }
@@ -148,7 +145,7 @@ std::string optimistic_text(const scene::Scene& scene) {
 }
 
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap) {
-  if (!gives_verdicts(study)) return {};
+  if (!study.kind.gives_verdicts) return {};
   const CalibrationDistance distance = distance_to_calibration(input.scene.scene, study.calibration);
   std::vector<std::string> beyond;
   for (const std::string& each : distance.unknown) {
@@ -170,8 +167,7 @@ std::string fit_uncertainty_text(const Study& study) {
                                ? fmt::format("{:.3g} K, as the study states", study.fit_uncertainty)
                                : fmt::format(
                                      "{:.3g} K, as the study states none: the largest misfit of the "
-                                     "published temperatures that nothing "
-                                     "was fitted to",
+                                     "published temperatures that nothing was fitted to",
                                      evidence.largest_misfit);
   const std::string rows = fmt::format(
       "for the rows that the constants were fitted to, where friction heats by {:.4g} K and the air by "
@@ -179,10 +175,8 @@ std::string fit_uncertainty_text(const Study& study) {
       evidence.friction_rise, evidence.air_rise);
   return fmt::format(
       "{}, {}; their relative errors are carried to a case's own heating by friction and air. Under another "
-      "load "
-      "shape it is at least {:.3g} K, and with other numerics {:.3g} K for the mesh error that the constants "
-      "absorbed "
-      "come in.",
+      "load shape it is at least {:.3g} K, and with other numerics {:.3g} K for the mesh error that the "
+      "constants absorbed come in.",
       base, rows, evidence.largest_misfit, assumed_numerical_uncertainty);
 }
 
@@ -204,10 +198,8 @@ std::string model_form_uncertainty_text(const StudyFile& study) {
   }
   std::string text = fmt::format(
       "what a gap thicker by as much as the smallest critical gap of another model is below that of the "
-      "default "
-      "changes, by the record `{}` of {} and, counting for nothing, {}; models that only move away from "
-      "ignition "
-      "take nothing from a margin",
+      "default changes, by the record `{}` of {} and, counting for nothing, {}; models that only move away "
+      "from ignition take nothing from a margin",
       s.model_form_record, names_of(*s.model_form, true), names_of(*s.model_form, false));
   if (outside > 0)
     text += fmt::format("; where it does not speak of a case ({} of {}: {}) {}", outside, study.cases.size(),
@@ -224,8 +216,7 @@ std::string input_uncertainty_text(const Study& study) {
                 study.input_uncertainty, heat_exponent)
           : fmt::format(
                 "the study states none, so that an assumed spread is propagated: the load {:.3g} % higher, "
-                "by "
-                "a run of its own, and the initial temperature {:.3g} K higher, both together",
+                "by a run of its own, and the initial temperature {:.3g} K higher, both together",
                 100.0 * assumed_load_spread, assumed_temperature_spread);
   return spread + ". The noise of a measured curve and what smoothing took from its peak come on top.";
 }

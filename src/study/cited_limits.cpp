@@ -1,18 +1,14 @@
 #include "launchsafe/study/cited_limits.hpp"
 
-#include "launchsafe/study/bracket.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 namespace launchsafe::study {
-namespace {
 
-using scene::Dimension, scene::Key;
-using Standing = scene::Standing;
+using scene::Dimension, scene::Key, scene::Standing;
 
-std::vector<Key<CitedLimit>> make_cited_limit_keys() {
-  return {
+const std::vector<Key<CitedLimit>>& cited_limit_keys() {
+  static const std::vector<Key<CitedLimit>> keys{
       scene::required(scene::number_key<CitedLimit>(
           "gap", Dimension::length, scene::above(0), Standing::literature, "Largest gap that others allow.",
           [](auto& l) -> auto& { return l.gap; })),
@@ -24,25 +20,15 @@ std::vector<Key<CitedLimit>> make_cited_limit_keys() {
           "source", Standing::literature, "Who found it, and how.", "firing tests of 1998, table 3",
           [](auto& l) -> auto& { return l.source; })),
   };
-}
-
-}  // namespace
-
-const std::vector<Key<CitedLimit>>& cited_limit_keys() {
-  static const std::vector<Key<CitedLimit>> keys = make_cited_limit_keys();
   return keys;
 }
 
 Fault read_cited_limits(const toml::table& root, StudyFile& study) {
-  const toml::node* node = root.get("cited_limit");
-  if (!node || (node->is_array() && node->as_array()->empty())) return std::nullopt;
-  if (!node->is_array_of_tables()) {
-    return scene::error_at(scene::place_of(*node, study.file), "cited_limit", scene::found_text(*node),
-                           "tables, each written [[cited_limit]]");
-  }
-  for (const toml::node& element : *node->as_array()) {
+  const auto tables = tables_of(root, "cited_limit", study.file);
+  if (!tables) return tables.error();
+  for (const toml::table* table : *tables) {
     CitedLimit limit;
-    auto read = scene::read_table(*element.as_table(), cited_limit_keys(), {}, study.file, limit);
+    auto read = scene::read_table(*table, cited_limit_keys(), {}, study.file, limit);
     if (!read) return in_table(read.error(), "cited_limit");
     study.study.cited_limits.push_back(std::move(limit));
   }
@@ -79,17 +65,7 @@ std::vector<std::size_t> with_own_defect(const StudyFile& study, std::vector<std
 
 /// m, in which the cases at one pressure are ordered: the smallest that the critical gap may be.
 double smallest_of(const CriticalGap& critical) {
-  switch (critical.kind) {
-    case CriticalGapKind::value:
-      return critical.value;
-    case CriticalGapKind::all_ignite:
-      return 0.0;
-    case CriticalGapKind::indeterminate:
-      return -1.0;
-    case CriticalGapKind::all_safe:
-      break;
-  }
-  return std::numeric_limits<double>::infinity();
+  return critical.kind == CriticalGapKind::indeterminate ? -1.0 : gap_or_bound(critical);
 }
 
 LimitComparison compare(const StudyFile& study, const std::vector<const CriticalGap*>& critical,

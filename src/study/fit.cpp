@@ -26,7 +26,7 @@ std::optional<GapFit> fit_gaps(const std::vector<double>& gaps, const std::vecto
   for (const double gap : gaps) gaps_cm.push_back(100.0 * gap);
   const auto fitted = math::fit_line(gaps_cm, temperatures);
   if (!fitted) return std::nullopt;
-  GapFit fit{gaps, temperatures, *fitted, {}, {}, {}};
+  GapFit fit{gaps, *fitted, {}, {}, {}};
   const double slope = fitted->coefficients[1];
   fit.ordinary = line_through(fitted->coefficients[0], slope, gaps_cm, temperatures);
   for (std::size_t i = 0; i < gaps.size(); ++i) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -37,13 +38,6 @@ double integration_error(const surface::SkinModel& model, const BottomTrace& tra
   wide.relative_tolerance *= 10.0;
   const auto maximum = surface::maximum_at_stations(surface::integrate_skin(wide, trace, gap.gap), trace);
   return std::abs(maximum.temperature - gap.at_stations.temperature);
-}
-
-const Reference* reference_for(const Study& study, double gap) {
-  for (const Reference& reference : study.references) {
-    if (std::abs(reference.gap - gap) <= 1e-9) return &reference;
-  }
-  return nullptr;
 }
 
 /// T max (K) over the stations of a skin that air and friction heat and that neither reacts nor is
@@ -213,6 +207,16 @@ std::string validity_warnings_of(const Study& study, const CaseOutcome& outcome)
 
 }  // namespace
 
+void attach_references(const Study& study, const StudyCase& input, std::vector<GapVerdict>& rows) {
+  if (!input.own_conditions) return;
+  for (GapVerdict& row : rows) {
+    const auto found = std::find_if(
+        study.references.begin(), study.references.end(),
+        [&row](const Reference& reference) { return std::abs(reference.gap - row.gap) <= 1e-9; });
+    if (found != study.references.end()) row.reference = *found;
+  }
+}
+
 GapState state_of(const surface::SkinHistory& history) {
   const bool finite = std::all_of(history.temperature.begin(), history.temperature.end(),
                                   [](double temperature) { return std::isfinite(temperature); });
@@ -248,6 +252,8 @@ std::vector<StationTemperature> station_temperatures(const surface::SkinHistory&
   return stations;
 }
 
+namespace {
+
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
   const std::string warnings = validity_warnings_of(study, outcome);
   if (!outcome.completed() || !warnings.empty()) {
@@ -275,9 +281,25 @@ void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
           run::evaluate_gap(outcome.input.scene.scene, outcome.result.mechanics.trace, gap));
       outcome.verdicts.push_back(row_of(study, outcome, ground, outcome.result.gaps.back()));
     }
-    const Reference* reference = outcome.input.own_conditions ? reference_for(study, gap) : nullptr;
-    if (reference != nullptr) outcome.verdicts.back().reference = *reference;
   }
+  attach_references(study, outcome.input, outcome.verdicts);
+}
+
+}  // namespace
+
+void evaluate(const Study& study, CaseOutcome& outcome) {
+  find_critical_gaps(study, outcome);
+  evaluate_gaps(study, outcome);
+}
+
+CaseOutcome without_result(const Study& study, const StudyCase& input, RunOutcome of_run,
+                           std::string failure) {
+  CaseOutcome outcome;
+  outcome.input = input;
+  outcome.outcome = of_run;
+  outcome.failure = std::move(failure);
+  evaluate(study, outcome);
+  return outcome;
 }
 
 void apply_confirmations(const Study& study, CaseOutcome& outcome) {

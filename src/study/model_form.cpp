@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -27,13 +28,10 @@ std::string why_not_counted(const CalibrationRecord& calibration) {
 
 ModelFormOrError refused(std::string error) { return {std::nullopt, std::move(error)}; }
 
-/// Why a curve is not that of the calibrated model; empty where it is.
+/// Why a scene is not that of the calibrated model; empty where it is.
 std::string why_another(const ModelFormEntry& entry) {
-  if (entry.calibration->model_version != entry.curve->model_version)
-    return "its calibration and its sweep are of different model versions";
   if (!entry.calibration->failure.empty()) return {};
-  const CalibrationDistance distance =
-      distance_to_calibration(entry.curve->scene, entry.calibration->calibration);
+  const CalibrationDistance distance = distance_to_calibration(entry.scene, entry.calibration->calibration);
   if (distance.inside()) return {};
   return fmt::format("its sweep is not of the calibrated launch ({}{}{})", fmt::join(distance.unknown, ", "),
                      distance.unknown.empty() || distance.carried.empty() ? "" : ", ",
@@ -60,7 +58,7 @@ bool is_calibrated(const std::string& difference) {
 /// Why a model is no alternative to the default: a copy of it, or a model of another launch, or one that was
 /// calibrated on other published rows, or without a finer mesh to compare with.
 std::string why_no_alternative(const ModelFormEntry& own, const ModelFormEntry& other) {
-  const CalibrationDistance distance = distance_to_calibration(other.curve->scene, {own.curve->scene, {}});
+  const CalibrationDistance distance = distance_to_calibration(other.scene, {own.scene, {}});
   std::vector<std::string> differences = distance.unknown;
   differences.insert(differences.end(), distance.carried.begin(), distance.carried.end());
   std::erase_if(differences, is_calibrated);
@@ -72,17 +70,6 @@ std::string why_no_alternative(const ModelFormEntry& own, const ModelFormEntry& 
   if (other.calibration->failure.empty() && !std::isfinite(other.calibration->stations.finer))
     return "its calibration has no finer mesh to compare stations with (meshes)";
   return {};
-}
-
-/// Whether a search met no ignition before it came to where the default ignites: how the models compare is
-/// not known.
-bool ended_too_early(const CriticalGapCurve& own, const CriticalGapCurve& other) {
-  for (std::size_t i = 0; i < own.critical_gap.size(); ++i) {
-    const GapOrBound gap = own.critical_gap[i];
-    const double reached = gap == no_ignition ? own.largest_gap : gap;
-    if (other.critical_gap[i] == no_ignition && !(other.largest_gap >= reached)) return true;
-  }
-  return false;
 }
 
 /// The recorded pressures around a peak: their indices, equal where it is one of them.
@@ -153,14 +140,15 @@ std::string names_where(const ModelFormRecord& record, const scene::Scene& scene
 
 }  // namespace
 
-ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries) {
+ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries,
+                                 std::vector<double> peak_pressures) {
   if (entries.size() < 2) return refused("a record needs the default model and at least one alternative");
   const ModelFormEntry& own = entries.front();
   ModelFormRecord record;
-  record.model_version = own.curve->model_version;
-  record.scene = own.curve->scene;
-  record.peak_pressures = own.curve->peak_pressures;
-  record.critical_gap = own.curve->critical_gap;
+  record.model_version = run::model_version;
+  record.scene = own.scene;
+  record.peak_pressures = std::move(peak_pressures);
+  record.critical_gap = own.critical_gap;
   if (!std::isfinite(own.calibration->stations.finer))
     return refused(own.name +
                    " cannot be the default: its calibration has no finer mesh to compare stations with");
@@ -169,20 +157,11 @@ ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries) {
   for (const ModelFormEntry& each : entries) {
     if (const std::string reason = why_another(each); !reason.empty())
       return refused(fmt::format("{}: {}", each.name, reason));
-    if (each.curve->peak_pressures != record.peak_pressures ||
-        each.curve->model_version != record.model_version)
-      return refused(
-          fmt::format("{}: other peak pressures, or another model version, than {}", each.name, own.name));
     if (&each == &own) continue;
     if (const std::string reason = why_no_alternative(own, each); !reason.empty())
       return refused(fmt::format("{}: {}", each.name, reason));
-    if (ended_too_early(*own.curve, *each.curve)) {
-      return refused(
-          fmt::format("{}: its search ended at {:.4g} cm, before {} ignites; largest_gap is too small",
-                      each.name, 100.0 * each.curve->largest_gap, own.name));
-    }
-    ModelAlternative alternative{each.name, each.curve->title, why_not_counted(*each.calibration),
-                                 each.curve->critical_gap};
+    ModelAlternative alternative{each.name, each.title, why_not_counted(*each.calibration),
+                                 each.critical_gap};
     const auto unknown = [](double gap) { return std::isnan(gap); };
     if (alternative.not_counted.empty() &&
         std::any_of(alternative.critical_gap.begin(), alternative.critical_gap.end(), unknown))

@@ -16,23 +16,9 @@ using scene::InputError, scene::KeyDescription, scene::KeyKind, scene::Place;
 
 /// What a key takes, for a message.
 std::string_view kind_text(KeyKind kind) {
-  switch (kind) {
-    case KeyKind::flag:
-      return "true or false";
-    case KeyKind::word:
-      return "a word";
-    case KeyKind::words:
-      return "words";
-    case KeyKind::text:
-      return "a text";
-    case KeyKind::list:
-      return "a list";
-    case KeyKind::range:
-      return "a range";
-    case KeyKind::number:
-      break;
-  }
-  return "a number";
+  constexpr std::array<std::string_view, 7> texts{"a number", "true or false", "a word", "words",
+                                                  "a text",   "a list",        "a range"};
+  return texts.at(static_cast<std::size_t>(kind));
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -132,12 +118,29 @@ Fault check_load_axes(const StudyFile& study) {
   return std::nullopt;
 }
 
-scene::Expected<Axis> axis_over(const StudyFile& study, const std::string& name, const std::string& study_key,
-                                std::vector<double> values) {
+Fault add_axis(StudyFile& study, const std::string& name, const std::string& study_key,
+               std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
   auto key = varied_key(study, name, study_key, place_of_key(study, study_key));
   if (!key) return key.error();
-  if (Fault fault = check_twice(study, study_key, key->dimension, values)) return *fault;
-  return Axis{name, study_key, std::move(*key), std::move(values)};
+  if (Fault fault = check_twice(study, study_key, key->dimension, values)) return fault;
+  study.study.axes.push_back({name, study_key, std::move(*key), std::move(values)});
+  return std::nullopt;
+}
+
+Fault check_free(const StudyFile& study, const std::string& scene_key, const std::string& here,
+                 const Place& place, const std::string& faulty_key) {
+  if (study.overrides.contains(scene_key)) {
+    return scene::error_at(place, faulty_key, scene_key + ", which [set] or the calibration fixes",
+                           fmt::format("{} either {}, or in [set] or a calibration", scene_key, here));
+  }
+  for (const Axis& other : study.study.axes) {
+    if (other.key.name != scene_key) continue;
+    return scene::error_at(place, faulty_key,
+                           fmt::format("{} a second time, after {}", scene_key, other.name),
+                           "each scene key once");
+  }
+  return std::nullopt;
 }
 
 Fault check_twice(const StudyFile& study, const std::string& key, scene::Dimension dimension,

@@ -68,14 +68,10 @@ template <class Record>
 scene::Expected<Record> read_named(StudyFile& study, const std::filesystem::path& folder, const char* key,
                                    const std::string& name, const std::string& wanted,
                                    scene::Expected<Record> (*parse)(const std::string&, const std::string&)) {
-  const std::string file = (folder / name).string();
-  const auto text = scene::read_text_file(file);
-  if (!text) {
-    return fault_at(study, key, fmt::format("\"{}\", which cannot be read", name),
-                    wanted + ", by its path from the study file's folder", text.error().suggestion);
-  }
+  const auto text = read_named_file(study, folder, key, name, wanted);
+  if (!text) return text.error();
   study.records.push_back(store::sha256(*text));
-  return parse(*text, file);
+  return parse(*text, (folder / name).string());
 }
 
 }  // namespace

@@ -1,19 +1,14 @@
 #include "launchsafe/study/study_file.hpp"
 
+#include <array>
+
 namespace launchsafe::study {
 
 std::string to_string(scene::FrictionClosure closure) { return std::string(scene::word_of(closure)); }
 
 std::string to_string(Use use) {
-  switch (use) {
-    case Use::held_out:
-      return "held out";
-    case Use::selection:
-      return "selection";
-    case Use::calibration:
-      return "calibration";
-  }
-  return "held out";
+  constexpr std::array words{"held out", "selection", "calibration"};
+  return words.at(static_cast<std::size_t>(use));
 }
 
 }  // namespace launchsafe::study

@@ -134,12 +134,9 @@ scene::Expected<std::optional<AccuracyRecord>> read_record(const StudyFile& stud
     return fault_at(study, "numerical_uncertainty", "a stated uncertainty beside an accuracy record",
                     "either numerical_uncertainty or accuracy");
   }
-  const auto text = scene::read_text_file(folder / name);
-  if (!text) {
-    return fault_at(study, "accuracy", fmt::format("\"{}\", which cannot be read", name),
-                    "the accuracy.json of an accuracy study, by its path from the study file's folder",
-                    text.error().suggestion);
-  }
+  const auto text =
+      read_named_file(study, folder, "accuracy", name, "the accuracy.json of an accuracy study");
+  if (!text) return text.error();
   auto record = parse_accuracy_record(*text, (folder / name).string());
   if (!record) return record.error();
   return std::optional<AccuracyRecord>(std::move(*record));

@@ -2,20 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 namespace launchsafe::study {
 
 std::string to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::safe:
-      return "SAFE";
-    case Verdict::unsafe:
-      return "UNSAFE";
-    case Verdict::indeterminate:
-      return "INDETERMINATE";
-  }
-  return "INDETERMINATE";
+  constexpr std::array words{"SAFE", "UNSAFE", "INDETERMINATE"};
+  return words.at(static_cast<std::size_t>(verdict));
 }
 
 namespace {

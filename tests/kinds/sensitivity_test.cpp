@@ -58,7 +58,7 @@ const OutputSensitivity& output_of(const SensitivityResult& result, SensitivityO
   for (const OutputSensitivity& each : result.outputs) {
     if (each.output == which) return each;
   }
-  ADD_FAILURE() << to_string(which);
+  ADD_FAILURE() << static_cast<int>(which);
   return result.outputs.front();
 }
 

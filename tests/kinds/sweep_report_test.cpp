@@ -225,7 +225,7 @@ TEST(SweepPictures, TwoAxesMakeAMapOfTheGapAndOneLessItsUncertainty) {
   ASSERT_EQ(map.uncertainty.size(), map.values.size());
   EXPECT_NEAR(map.uncertainty[2 * 6 + 3], 0.0004, 1e-12);
   EXPECT_TRUE(made.pictures[1].plot.map->uncertainty.empty()) << "an end of the interval has none";
-  for (const SweepPicture& each : made.pictures)
+  for (const report::Picture& each : made.pictures)
     EXPECT_NEAR(each.plot.map->least_step, 0.0004, 1e-12) << "contour lines are no finer";
 }
 

@@ -1,4 +1,6 @@
 // [[cited_limit]]: how it is read, and which case stands beside it.
+#include "launchsafe/study/cited_limits.hpp"
+
 #include "launchsafe/study/gap_verdict.hpp"
 #include "study/read_error.hpp"
 

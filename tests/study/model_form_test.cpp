@@ -20,9 +20,10 @@ using namespace launchsafe::study;
 /// Calibrations and sweeps of some models of the synthetic launch, the default first.
 struct MadeModels {
   std::list<CalibrationRecord> calibrations;
-  std::list<CriticalGapCurve> curves;
   std::vector<ModelFormEntry> entries;
+  std::vector<double> pressures{450e6, 500e6, 550e6};
 
+  ModelFormOrError form() const { return make_model_form(entries, pressures); }
   void add(const std::string& name, std::vector<GapOrBound> gaps, double change,
            const std::string& failure = {}) {
     scene::Scene scene = study_of(critical_text + synthetic_constants).scene.scene;
@@ -35,9 +36,7 @@ struct MadeModels {
     calibration.calibration.scene = scene;
     calibration.stations = {change, change};
     calibrations.push_back(calibration);
-    curves.push_back(
-        {"the model " + name, run::model_version, scene, {450e6, 500e6, 550e6}, std::move(gaps), 3e-3});
-    entries.push_back({name, &calibrations.back(), &curves.back()});
+    entries.push_back({name, "the model " + name, &calibrations.back(), scene, std::move(gaps)});
   }
 };
 
@@ -55,7 +54,7 @@ MadeModels made_models() {
 
 ModelFormRecord made_record() {
   const MadeModels made = made_models();
-  auto form = make_model_form(made.entries);
+  auto form = made.form();
   EXPECT_TRUE(form.record) << form.error;
   return form.record.value_or(ModelFormRecord{});
 }
@@ -76,8 +75,8 @@ TEST(ModelForm, ShiftIsTheLargestTowardsIgnitionOfModelsThatCount) {
 
 TEST(ModelForm, IsNotKnownFarFromEveryRecordedPressure) {
   MadeModels made = made_models();
-  for (CriticalGapCurve& each : made.curves) each.peak_pressures = {400e6, 500e6, 700e6};
-  const auto form = make_model_form(made.entries);
+  made.pressures = {400e6, 500e6, 700e6};
+  const auto form = made.form();
   ASSERT_TRUE(form.record) << form.error;
   EXPECT_TRUE(std::isfinite(model_form_shift(*form.record, at_pressure(500e6)).gap));
   EXPECT_TRUE(std::isnan(model_form_shift(*form.record, at_pressure(520e6)).gap));
@@ -85,8 +84,8 @@ TEST(ModelForm, IsNotKnownFarFromEveryRecordedPressure) {
 
 TEST(ModelForm, IsNotKnownBesideAPressureAtWhichTheDefaultIgnitesWithoutAGap) {
   MadeModels made = made_models();
-  for (CriticalGapCurve& each : made.curves) each.critical_gap[2] = 0.0;
-  const auto form = make_model_form(made.entries);
+  for (ModelFormEntry& each : made.entries) each.critical_gap[2] = 0.0;
+  const auto form = made.form();
   ASSERT_TRUE(form.record) << form.error;
   EXPECT_TRUE(std::isnan(model_form_shift(*form.record, at_pressure(525e6)).gap));
   EXPECT_TRUE(std::isnan(model_form_shift(*form.record, at_pressure(550e6)).gap));
@@ -96,25 +95,25 @@ TEST(ModelForm, IsNotKnownWhereNoAlternativeCounts) {
   MadeModels made;
   made.add("own", {5e-4, 4e-4, 3e-4}, 0.5);
   made.add("rough", {1e-4, 1e-4, 1e-4}, 9.0);
-  const auto form = make_model_form(made.entries);
+  const auto form = made.form();
   ASSERT_TRUE(form.record) << form.error;
   EXPECT_TRUE(std::isnan(model_form_shift(*form.record, at_pressure(500e6)).gap));
 }
 
 TEST(ModelForm, RefusesACopyOfTheDefault) {
   MadeModels made = made_models();
-  made.curves.back().scene = made.curves.front().scene;
+  made.entries.back().scene = made.entries.front().scene;
   made.calibrations.back() = made.calibrations.front();
-  const auto form = make_model_form(made.entries);
+  const auto form = made.form();
   EXPECT_FALSE(form.record);
   EXPECT_NE(form.error.find("same model"), std::string::npos) << form.error;
 }
 
 TEST(ModelForm, RefusesAModelOfAnotherLaunch) {
   MadeModels made = made_models();
-  made.curves.back().scene.initial_temperature -= 20.0;
+  made.entries.back().scene.initial_temperature -= 20.0;
   made.calibrations.back().calibration.scene.initial_temperature -= 20.0;
-  const auto form = make_model_form(made.entries);
+  const auto form = made.form();
   EXPECT_FALSE(form.record);
   EXPECT_NE(form.error.find("initial temperature"), std::string::npos) << form.error;
 }
@@ -122,7 +121,7 @@ TEST(ModelForm, RefusesAModelOfAnotherLaunch) {
 TEST(ModelForm, RefusesAModelCalibratedOnOtherRows) {
   MadeModels made = made_models();
   made.calibrations.back().references_digest = "other";
-  const auto form = make_model_form(made.entries);
+  const auto form = made.form();
   EXPECT_FALSE(form.record);
   EXPECT_NE(form.error.find("published rows"), std::string::npos) << form.error;
 }
@@ -131,7 +130,7 @@ TEST(ModelForm, RefusesAModelWhoseStationsWereComparedWithNoFinerMesh) {
   MadeModels made = made_models();
   made.calibrations.front().stations = {0.5, 0.5};
   std::next(made.calibrations.begin())->stations = {not_a_number, 0.5};
-  const auto form = make_model_form(made.entries);
+  const auto form = made.form();
   EXPECT_FALSE(form.record);
   EXPECT_NE(form.error.find("finer mesh"), std::string::npos) << form.error;
 }
@@ -153,8 +152,8 @@ TEST(ModelForm, SaysNothingOfAnotherLaunchOrPressure) {
 
 TEST(ModelForm, IsNotKnownWhereTheDefaultHasABoundAlone) {
   MadeModels made = made_models();
-  made.curves.front().critical_gap[1] = no_ignition;
-  const auto form = make_model_form(made.entries);
+  made.entries.front().critical_gap[1] = no_ignition;
+  const auto form = made.form();
   ASSERT_TRUE(form.record) << form.error;
   EXPECT_TRUE(std::isnan(model_form_shift(*form.record, at_pressure(500e6)).gap));
 }
@@ -170,23 +169,15 @@ TEST(ModelForm, NamesModelsThatCouldChangeAVerdict) {
 TEST(ModelForm, RefusesADefaultThatHasNoLimitOfMeshes) {
   MadeModels made = made_models();
   made.calibrations.front().stations = {9.0, 9.0};
-  EXPECT_FALSE(make_model_form(made.entries).record);
-}
-
-TEST(ModelForm, RefusesASearchThatEndedBeforeTheDefaultIgnites) {
-  MadeModels made = made_models();
-  made.curves.back().largest_gap = 4.5e-4;  // the default ignites from 5e-4 m on at 450 MPa
-  const auto form = make_model_form(made.entries);
-  EXPECT_FALSE(form.record);
-  EXPECT_NE(form.error.find("largest_gap"), std::string::npos) << form.error;
+  EXPECT_FALSE(made.form().record);
 }
 
 TEST(ModelForm, RefusesASweepOfAnotherLaunchThanTheCalibration) {
   MadeModels made = made_models();
-  made.curves.back().scene = made.curves.front().scene;
-  auto second = std::next(made.curves.begin());
+  made.entries.back().scene = made.entries.front().scene;
+  auto second = std::next(made.entries.begin());
   second->scene.interfaces.clear();
-  const auto form = make_model_form(made.entries);
+  const auto form = made.form();
   EXPECT_FALSE(form.record);
   EXPECT_NE(form.error.find("early"), std::string::npos) << form.error;
 }

@@ -32,6 +32,8 @@ struct Constants {
   double localisation = study::not_a_number;
   double exchange_time = study::not_a_number;         ///< s
   double ignition_temperature = study::not_a_number;  ///< K
+  /// Puts them into a scene or a model of its skin.
+  void put_into(scene::Surface& surface, materials::KineticsParameters& kinetics) const;
 };
 
 /// The gaps and temperatures that constants are fitted to (model section 8): nothing else is.
@@ -147,6 +149,10 @@ struct CalibrationResult {
   Constants in_scene;  ///< what the scene file holds now
   study::Timing timing;
   bool interrupted = false;
+  /// The recommended row; nullptr without one.
+  const CalibrationRow* recommended() const {
+    return recommendation.row ? &rows[*recommendation.row] : nullptr;
+  }
 };
 
 /// Runs a study of kind calibration: one mechanical run a mesh, some more to fit the load, everything else on

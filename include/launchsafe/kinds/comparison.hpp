@@ -20,7 +20,6 @@ struct Variant {
       {};                    ///< "numerics.cell_size = 2.5 mm": what it has otherwise than the scene
   scene::Scene scene = {};   ///< that its cases start from
   study::Study judged = {};  ///< the study with the constants of this variant
-  std::size_t first = 0;     ///< of its cases, which follow each other in StudyFile::cases
   std::optional<study::CalibrationRecord> calibration = {};  ///< of the record that it names, or the study
 };
 
@@ -50,8 +49,10 @@ struct ComparisonResult {
   const std::vector<Variant>& variants() const {
     return study::settings_of<ComparisonSettings>(study.study).variants;
   }
+  /// The cases of a variant follow each other in the order of the peak pressures.
+  std::size_t cases_per_variant() const { return study.cases.size() / variants().size(); }
   /// The case of the scene as it is under the same pressure.
-  std::size_t counterpart(std::size_t index) const;
+  std::size_t counterpart(std::size_t index) const { return index % cases_per_variant(); }
   bool any_indeterminate() const;  ///< a verdict or a critical gap is
 };
 

@@ -14,14 +14,9 @@
 
 namespace launchsafe::kinds {
 
-/// How a sensitivity study asks.
-enum class SensitivityMethod {
-  sobol  ///< first- and total-order indices (Saltelli 2010, Jansen 1999): samples x (inputs + 2) evaluations
-};
-
-/// What a study file of this kind says besides; its inputs are Study::axes, with distributions.
+/// What a study file of this kind says besides; its inputs are Study::axes, with distributions. The indices
+/// are of first and total order (Saltelli 2010, Jansen 1999): samples x (inputs + 2) evaluations.
 struct SensitivitySettings {
-  SensitivityMethod method = SensitivityMethod::sobol;
   math::Design design = math::Design::latin_hypercube;
   int samples = 64;        ///< N: rows of the matrices A and B
   std::uint64_t seed = 1;  ///< of design and bootstrap
@@ -39,7 +34,6 @@ enum class SensitivityOutput {
   critical_gap,         ///< m
   margin                ///< K, ignition temperature minus that maximum temperature
 };
-std::string to_string(SensitivityOutput output);  ///< "temperature_max", "critical_gap", "margin"
 
 /// What an output depends on.
 struct OutputSensitivity {
@@ -53,7 +47,7 @@ struct OutputSensitivity {
   std::size_t bounds = 0;   ///< of these, critical gaps that are bounds
   double mean = study::not_a_number,
          deviation = study::not_a_number;  ///< over the evaluations that sample the inputs
-  math::SobolIndices sobol;
+  math::SobolIndices sobol;                ///< where there are indices, of every input
   /// Why there are no indices; empty where there are. Rows with a missing number are left out; where a
   /// critical gap is a bound none are given, since leaving those rows out would bias the rest.
   std::string reason;

@@ -43,16 +43,10 @@ report::Table verdict_table(const SweepResult& result);
 /// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
 report::Table verdict_matrix(const SweepResult& result);
 
-/// A picture and the name of its file.
-struct SweepPicture {
-  std::string file;
-  report::Plot plot;
-};
-
 /// Critical gap over the axes that have several values: a curve over one, or maps over the first two, one for
 /// each combination of the others, and then the same less its uncertainty.
 struct SweepPictures {
-  std::vector<SweepPicture> pictures;
+  std::vector<report::Picture> pictures;
   std::vector<std::string> remarks;  ///< combinations that have no picture
 };
 SweepPictures pictures(const SweepResult& result);

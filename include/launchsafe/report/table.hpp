@@ -37,8 +37,8 @@ using Cell = std::variant<std::monostate, std::string, double, std::int64_t>;
 struct Table {
   std::string title;
   std::vector<Column> columns;
-  std::vector<std::vector<Cell>> rows;  ///< a row may be short: the rest is empty
-  std::vector<std::string> notes = {};  ///< sentences under the table; in text and Markdown only
+  std::vector<std::vector<Cell>> rows = {};  ///< a row may be short: the rest is empty
+  std::vector<std::string> notes = {};       ///< sentences under the table; in text and Markdown only
 };
 
 /// A cell as people read it.

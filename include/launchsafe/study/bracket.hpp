@@ -5,6 +5,7 @@
 #include "launchsafe/trace/bottom_trace.hpp"
 
 #include <functional>
+#include <limits>
 #include <string>
 
 namespace launchsafe::study {
@@ -27,6 +28,12 @@ struct CriticalGap {
   std::string reason;  ///< why it is a bound or indeterminate, or what is to be known about the value
   CriticalGap();
 };
+
+/// One critical gap: metres; 0 where it ignites without a gap, infinite where nothing ignites up to the end
+/// of the search, NaN where it is not known.
+using GapOrBound = double;
+inline constexpr GapOrBound no_ignition = std::numeric_limits<double>::infinity();
+GapOrBound gap_or_bound(const CriticalGap& gap);
 
 /// What a gap (m) does.
 enum class GapState { safe, ignites, undefined };

@@ -21,10 +21,6 @@ inline constexpr double assumed_temperature_spread = 12.0;  ///< K
 /// the 155 mm shell yields, with its power of 3.6 (17 K of 116 K for 4 %). Rounded up.
 inline constexpr double heat_exponent = 4.0;
 
-/// Whether a kind of study says which gaps are safe. A stability study judges the computation alone, and the
-/// others compare numbers.
-bool gives_verdicts(const Study& study);
-
 /// Whether the uncertainty of the inputs is found by propagating the assumed spread, which takes a run with a
 /// raised load beside every case: where verdicts are given and the study states none.
 bool propagates_spread(const Study& study);
@@ -47,12 +43,13 @@ struct Rises {
 /// have another mesh error than the constants absorbed: both add to it. 0 for a study without verdicts.
 double fit_share(const Study& study, const CalibrationDistance& distance, const Rises& rises);
 
-/// K, as a study states it for its own scene; it grows with the pressure as the heat does.
 /// What the study states of the model form, or assumes where its record does not speak of a case, K.
 /// Nothing where the record does: it gives a shift of the gap.
 std::optional<double> stated_model_form_share(const Study& study, const StudyCase& input);
 /// The models that could change the verdict on a gap (m) that ignites or not, for people; empty for none.
 std::string model_form_text(const Study& study, const StudyCase& input, double gap, bool ignites);
+
+/// K, as a study states it for its own scene; it grows with the pressure as the heat does.
 double stated_input_share(const Study& study, const StudyCase& input);
 
 /// What the measured curve of a load may have wrong, as shares of the rises; 0 for an analytic load.

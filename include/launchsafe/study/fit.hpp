@@ -19,7 +19,6 @@ struct Line {
 
 struct GapFit {
   std::vector<double> gaps;          ///< m
-  std::vector<double> temperatures;  ///< K
   math::LeastSquares least_squares;  ///< coefficients: intercept (K), slope (K/cm)
   Line ordinary;                     ///< the same as a line
   std::optional<Line> mixed;  ///< slope of least squares through the zero-gap row; only where there is one

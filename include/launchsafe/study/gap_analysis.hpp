@@ -23,11 +23,15 @@ GapState state_of(const surface::SkinHistory& history);
 /// m, where the search for the critical gap ends: beyond all gaps of the study.
 double largest_gap(const Study& study);
 
-/// The critical gap, by the hottest station; indeterminate for a failed run.
-void find_critical_gaps(const Study& study, CaseOutcome& outcome);
+/// Puts the study's published rows beside those of a case under the study's own conditions.
+void attach_references(const Study& study, const StudyCase& input, std::vector<GapVerdict>& rows);
 
-/// The gaps of the study on the trace: skin histories and the rows without verdict.
-void evaluate_gaps(const Study& study, CaseOutcome& outcome);
+/// A case on its mechanics: the critical gap, by the hottest station and indeterminate for a failed run; then
+/// the gaps of the study on the trace, skin histories and the rows without verdict.
+void evaluate(const Study& study, CaseOutcome& outcome);
+/// That of a case without a result: rows without numbers, and the reason.
+CaseOutcome without_result(const Study& study, const StudyCase& input, RunOutcome of_run,
+                           std::string failure);
 
 /// The gaps of the study and the critical gap with air as a film, on the same trace.
 void evaluate_film(const Study& study, CaseOutcome& outcome);

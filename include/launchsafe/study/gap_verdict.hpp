@@ -62,7 +62,6 @@ struct Confirmation {
   bool ignited = false;
   double maximum_temperature = not_a_number;         ///< K, of the hottest station
   double difference = not_a_number;                  ///< K, coupled minus traced; NaN where either ignited
-  double wall_time = 0;                              ///< s
   RunOutcome outcome = RunOutcome::ran;              ///< of its run
   std::string failure;                               ///< why it did not complete
   std::optional<run::CombustionHistory> combustion;  ///< of one that ignited, with two-way coupling

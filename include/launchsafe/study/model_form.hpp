@@ -3,9 +3,9 @@
 #pragma once
 
 #include "launchsafe/scene/read_scene.hpp"
+#include "launchsafe/study/bracket.hpp"
 #include "launchsafe/study/calibration_domain.hpp"
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,21 +13,6 @@
 namespace launchsafe::study {
 
 struct CalibrationRecord;
-
-/// One critical gap: metres; 0 where it ignites without a gap, infinite where nothing ignites up to the end
-/// of the search, NaN where it is not known.
-using GapOrBound = double;
-inline constexpr GapOrBound no_ignition = std::numeric_limits<double>::infinity();
-
-/// The critical gaps of one model over the peak pressure.
-struct CriticalGapCurve {
-  std::string title;
-  int model_version = 0;
-  scene::Scene scene;                    ///< of the model
-  std::vector<double> peak_pressures;    ///< Pa, increasing
-  std::vector<GapOrBound> critical_gap;  ///< m, for every pressure
-  double largest_gap = 0;                ///< m, where the searches ended
-};
 
 /// A model beside the default one.
 struct ModelAlternative {
@@ -47,18 +32,20 @@ struct ModelFormRecord {
 
 /// What a model needs to stand in a record.
 struct ModelFormEntry {
-  std::string name;
+  std::string name, title;
   const CalibrationRecord* calibration = nullptr;
-  const CriticalGapCurve* curve = nullptr;
+  scene::Scene scene;                    ///< of the model
+  std::vector<GapOrBound> critical_gap;  ///< m, for every pressure
 };
-/// The first entry is the default. Errors (a text): other pressures; a default without constants; a curve
-/// that is not of its calibration; an alternative that is the default itself, or a model of another launch or
-/// of other published rows; stations that were compared with no finer mesh; a search that ended too early.
+/// Of models at the same peak pressures (Pa, increasing), the default first. Errors (a text): a default
+/// without constants; a scene that is not of its calibration; an alternative that is the default itself, or a
+/// model of another launch or of other published rows; stations that were compared with no finer mesh.
 struct ModelFormOrError {
   std::optional<ModelFormRecord> record;
   std::string error;
 };
-ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries);
+ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries,
+                                 std::vector<double> peak_pressures);
 
 std::string to_json_text(const ModelFormRecord& record);
 /// Refuses an edited record and one of another model version. `file` is named in errors.

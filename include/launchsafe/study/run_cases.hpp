@@ -51,7 +51,6 @@ struct FinishedRun {
   RunOutcome outcome = RunOutcome::failed;
   std::string failure;     ///< why it is no basis for a verdict; empty for a completed run
   run::CaseResult result;  ///< no gaps for the mechanics alone; empty unless the run began or was stored
-  bool reused() const { return outcome == RunOutcome::reused; }
   /// Whether there is a result, if perhaps of a run that broke off or ended by itself before its time.
   bool has_result() const;
 };

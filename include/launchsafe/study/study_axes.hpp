@@ -32,9 +32,15 @@ scene::Expected<scene::KeyDescription> varied_key(const StudyFile& study, const 
 /// The value of a scene key that takes one number, SI.
 double number_in(const scene::SceneFile& file, const std::string& key);
 
-/// An axis over those values (SI) of a key, by its short or full name. A fault where one stands twice.
-scene::Expected<Axis> axis_over(const StudyFile& study, const std::string& name, const std::string& study_key,
-                                std::vector<double> values);
+/// Adds an axis over those values (SI) of a key, by its short or full name; none where there are no values. A
+/// fault where one stands twice.
+Fault add_axis(StudyFile& study, const std::string& name, const std::string& study_key,
+               std::vector<double> values);
+
+/// A scene key that is to vary and is fixed elsewhere, or varies already. `here`: "in [axes]", where it was
+/// asked for, at a place under a name.
+Fault check_free(const StudyFile& study, const std::string& scene_key, const std::string& here,
+                 const scene::Place& place, const std::string& faulty_key);
 
 /// Axes that cannot have an effect: those of the analytic load under a measured curve.
 Fault check_load_axes(const StudyFile& study);

@@ -1,11 +1,13 @@
-// What is wrong with a study, and where.
+// What is wrong with a study and where, and what it reads besides its keys.
 #pragma once
 
 #include "launchsafe/study/study_file.hpp"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace launchsafe::study {
 
@@ -28,5 +30,20 @@ inline scene::InputError in_table(scene::InputError error, const std::string& ta
   error.key = table + "." + error.key;
   return error;
 }
+
+/// The tables [[name]] of a study file or of a file that it names; none where there are none. A kind that
+/// needs at least one says what stands in it: "with a name".
+scene::Expected<std::vector<const toml::table*>> tables_of(const toml::table& root, const std::string& name,
+                                                           const std::string& file);
+scene::Expected<std::vector<const toml::table*>> some_tables_of(const toml::table& root,
+                                                                const std::string& name,
+                                                                const StudyFile& study,
+                                                                const std::string& content);
+
+/// The text of the file that a key names by its path from the study file's folder; `wanted` says which file
+/// that should be.
+scene::Expected<std::string> read_named_file(const StudyFile& study, const std::filesystem::path& folder,
+                                             const std::string& key, const std::string& name,
+                                             const std::string& wanted);
 
 }  // namespace launchsafe::study

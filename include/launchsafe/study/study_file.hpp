@@ -6,7 +6,6 @@
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/calibration_domain.hpp"
-#include "launchsafe/study/cited_limit.hpp"
 #include "launchsafe/study/model_form.hpp"
 
 #include <any>
@@ -26,9 +25,11 @@ inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 struct KindTraits {
   std::string name;      ///< as in `kind = "critical-gap"`
   std::string gaps_key;  ///< where a study file has the gaps to judge; empty for a kind that judges none
-  bool gives_verdicts = true;  ///< SAFE or UNSAFE, for which the uncertainty of fit, inputs and model counts
-  bool keeps_answers = false;  ///< what is concluded of a case is stored beside its runs
-  bool own_scenes = false;     ///< cases may bring scenes and uncertainties of their own
+  /// SAFE or UNSAFE, for which the uncertainty of fit, inputs and model counts. A stability study judges the
+  /// computation alone, and the others compare numbers.
+  bool gives_verdicts = true;
+  bool keeps_answers = false;          ///< what is concluded of a case is stored beside its runs
+  bool own_scenes = false;             ///< cases may bring scenes and uncertainties of their own
   bool goes_through_ignition = false;  ///< gaps of cases with two-way coupling are run through ignition too
 };
 
@@ -67,6 +68,13 @@ struct ReferenceLine {
   double slope = not_a_number;
   double intercept = not_a_number;
   bool given() const { return slope == slope && intercept == intercept; }
+};
+
+/// A limit of the gap as cited: a [[cited_limit]].
+struct CitedLimit {
+  double gap = not_a_number;            ///< m, > 0
+  double peak_pressure = not_a_number;  ///< Pa; NaN where none was stated
+  std::string source;                   ///< who found what, and how
 };
 
 /// What a study file says, in SI.

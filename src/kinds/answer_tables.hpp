@@ -1,8 +1,9 @@
-// What the tables and the page of a sweep share.
+// What the tables and pages of studies share that answer all their cases.
 #pragma once
 
-#include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/report/shown_key.hpp"
+#include "launchsafe/report/table.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 #include <cstddef>
 #include <map>
@@ -41,5 +42,37 @@ std::string limited_text(const SweepCounts& counts, const std::string& noun);
 
 /// "1 case", "3 cases".
 std::string counted(std::size_t count, const std::string& noun);
+
+/// The lines of an answer below each other, and what every answer about verdicts must say; empty ones are
+/// left out. `interrupted`: what is said last of a study that was.
+std::string answer_of(std::vector<std::string> lines, const study::StudyFile& study,
+                      const std::string& interrupted);
+
+inline constexpr const char* interrupted_note =
+    "The study was interrupted: cases without a run are indeterminate.";
+
+/// The values of the axes of a case, as cells.
+std::vector<report::Cell> axis_cells(const std::vector<report::ShownKey>& keys,
+                                     const study::StudyCase& input);
+
+/// The answers of a study, each with the cells that its rows begin with, under columns of their own.
+struct PlacedAnswers {
+  struct Row {
+    std::vector<report::Cell> place;
+    const study::CaseAnswer* answer;
+  };
+  std::vector<report::Column> columns;
+  std::vector<Row> rows;
+  report::Table table(std::string title) const;  ///< with the columns of the places and without rows
+};
+
+/// A row for every gap of every case, for other programs.
+report::Table verdict_table(const study::Study& study, const PlacedAnswers& answers);
+/// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
+report::Table verdict_matrix(const study::Study& study, const PlacedAnswers& answers);
+/// Columns of a matrix on the page.
+inline constexpr std::size_t most_gaps = 30;
+/// What the matrix calls INDET.
+inline constexpr const char* indeterminate_note = "INDET.: indeterminate; verdicts.csv has the reasons.";
 
 }  // namespace launchsafe::kinds
