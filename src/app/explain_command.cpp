@@ -1,6 +1,5 @@
 // launchsafe explain: what would be computed, and at what cost.
 #include "commands.hpp"
-#include "explain_materials.hpp"
 #include "explain_program.hpp"
 #include "explain_scene.hpp"
 #include "forecast_text.hpp"
@@ -21,7 +20,6 @@
 #include <algorithm>
 #include <map>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <vector>
 

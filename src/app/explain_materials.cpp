@@ -1,7 +1,7 @@
-#include "explain_materials.hpp"
-
+// launchsafe explain of materials: every number and where it comes from.
+#include "explain_program.hpp"
 #include "launchsafe/scene/interfaces.hpp"
-#include "launchsafe/scene/material_file.hpp"
+#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/calibration_domain.hpp"
 
@@ -135,7 +135,8 @@ bool print_materials(const scene::NamedMaterials& named, const std::string& word
 }  // namespace
 
 ExitCode explain_materials(const std::string& word, Console& console) {
-  if (print_materials(scene::shipped_named_materials(), word, console)) return ExitCode::done;
+  if (print_materials({scene::shipped_materials(), scene::shipped_contacts()}, word, console))
+    return ExitCode::done;
   return console.refuse(
       fmt::format("explain --materials: found \"{}\", with which no shipped material or contact begins; "
                   "allowed: the beginning of a name, such as comp-b",

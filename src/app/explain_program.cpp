@@ -1,7 +1,6 @@
 // What launchsafe explains of itself: the keys of its files, and what editors take.
 #include "explain_program.hpp"
 
-#include "explain_materials.hpp"
 #include "key_schema.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/scene/plausibility.hpp"

@@ -1,4 +1,4 @@
-// launchsafe explain without a scene or study: what the program says of itself.
+// launchsafe explain without a scene or study: what the program says of itself, and of materials.
 #pragma once
 
 #include "commands.hpp"
@@ -10,5 +10,11 @@ namespace launchsafe::app {
 bool explains_program(const ExplainArguments& arguments);
 /// Prints keys, materials or a schema.
 ExitCode explain_program(const ExplainArguments& arguments, Console& console);
+
+/// Prints the shipped materials whose name begins with a word, every number and where it comes from; all for
+/// an empty one.
+ExitCode explain_materials(const std::string& word, Console& console);
+/// Prints the materials of a file.
+ExitCode explain_material_file(const std::filesystem::path& file, Console& console);
 
 }  // namespace launchsafe::app

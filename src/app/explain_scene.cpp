@@ -1,6 +1,6 @@
 #include "explain_scene.hpp"
 
-#include "launchsafe/report/table.hpp"
+#include "launchsafe/report/columns.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/scene/grid_intervals.hpp"
 #include "launchsafe/scene/interfaces.hpp"
@@ -17,13 +17,7 @@
 namespace launchsafe::app {
 namespace {
 
-using report::Notation, report::text_column;
-
-report::Column lengths(const char* name, int digits) {
-  return {.name = name, .unit = "mm", .decimals = digits, .notation = Notation::significant};
-}
-
-report::Column counts(const char* name) { return {.name = name, .unit = {}}; }
+using report::count_column, report::significant_column, report::text_column;
 
 /// The first of them where they are many.
 std::string list_of(const std::vector<std::string>& names) {
@@ -36,11 +30,13 @@ std::string list_of(const std::vector<std::string>& names) {
 }
 
 report::Table interval_table(const scene::Scene& scene) {
-  report::Table table{.title = {},
-                      .columns = {text_column("along"), lengths("from", 7), lengths("to", 7), counts("cells"),
-                                  lengths("smallest", 4), lengths("largest", 4),
-                                  text_column("edge before, of"), text_column("edge behind, of")},
-                      .rows = {}};
+  report::Table table{
+      .title = {},
+      .columns = {text_column("along"), significant_column("from", "mm", 7, {}),
+                  significant_column("to", "mm", 7, {}), count_column("cells", {}),
+                  significant_column("smallest", "mm", 4, {}), significant_column("largest", "mm", 4, {}),
+                  text_column("edge before, of"), text_column("edge behind, of")},
+      .rows = {}};
   const scene::GridIntervals intervals = scene::grid_intervals(scene);
   const auto add = [&table](const char* direction, const std::vector<scene::GridInterval>& all) {
     for (const scene::GridInterval& each : all)
@@ -56,10 +52,11 @@ report::Table interval_table(const scene::Scene& scene) {
 }
 
 report::Table body_table(const scene::Scene& scene) {
-  report::Table table{.title = {},
-                      .columns = {text_column("body"), counts("cells in x"), counts("in r"), counts("cells"),
-                                  counts("particles")},
-                      .rows = {}};
+  report::Table table{
+      .title = {},
+      .columns = {text_column("body"), count_column("cells in x", {}), count_column("in r", {}),
+                  count_column("cells", {}), count_column("particles", {})},
+      .rows = {}};
   const auto add = [&table](const std::string& name, const scene::CellRange& cells, std::int64_t particles) {
     table.rows.push_back(
         {name, std::int64_t{cells.nx}, std::int64_t{cells.nr}, std::int64_t{cells.nx} * cells.nr, particles});
@@ -119,26 +116,17 @@ nlohmann::ordered_json grid_json(const scene::Scene& scene) {
           {"bodies", bodies}};
 }
 
-nlohmann::ordered_json term_json(const scene::Term& term) {
-  return {{"in", term.in},
-          {"forced", term.forced},
-          {"reason", term.reason},
-          {"value", term.value},
-          {"bound", term.bound}};
-}
-
 nlohmann::ordered_json physics_json(const scene::Plan& plan) {
-  return {{"surface", term_json(plan.surface)},
-          {"air", term_json(plan.air)},
-          {"friction_heat", term_json(plan.friction_heat)},
-          {"cracks", term_json(plan.cracks)},
-          {"crack_growth", term_json(plan.crack_growth)},
-          {"crack_friction", term_json(plan.crack_friction)},
-          {"conduction", term_json(plan.conduction)},
-          {"bulk_reaction", term_json(plan.bulk_reaction)},
-          {"inertial_scaling", term_json(plan.inertial_scaling)},
-          {"coupling", term_json(plan.coupling)},
-          {"snapshots", term_json(plan.snapshots)}};
+  nlohmann::ordered_json json;
+  for (const scene::NamedTerm& each : scene::plan_terms) {
+    const scene::Term& term = plan.*each.term;
+    json[std::string(each.member)] = {{"in", term.in},
+                                      {"forced", term.forced},
+                                      {"reason", term.reason},
+                                      {"value", term.value},
+                                      {"bound", term.bound}};
+  }
+  return json;
 }
 
 nlohmann::ordered_json particles_json(const scene::Plan& plan) {

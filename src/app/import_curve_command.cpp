@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,11 +50,6 @@ std::string what_was_done(const ImportCurveArguments& arguments, const Import& i
     text += fmt::format("below 0  {} points, {} at most, set to 0\n", cleaned.points_below_zero,
                         pressure_text(-cleaned.lowest));
   return text;
-}
-
-/// How much of the load is noise, and what the scene may do about it.
-std::string noise_text(const Import& import) {
-  return fmt::format("noise    {}\n", scene::measured_load_text(import.load));
 }
 
 /// The same import into a file.
@@ -126,7 +120,7 @@ ExitCode write(const ImportCurveArguments& arguments, const Import& import, cons
   picture.replace_extension(".svg");
   const auto svg = report::to_svg(plot_of(arguments, import));
   NamedTexts texts{{file.filename(), csv}};
-  if (svg) texts.emplace_back(picture.filename(), *svg);
+  if (svg) texts.push_back({picture.filename(), *svg});
   if (const ExitCode code = write_where_absent(folder, texts, console); code != ExitCode::done) return code;
   if (!svg) console.remark("no picture: " + svg.error().message);
   console.print_text(fmt::format(
@@ -141,7 +135,7 @@ ExitCode write(const ImportCurveArguments& arguments, const Import& import, cons
 ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
   const auto text = scene::read_text_file(arguments.record, scene::largest_curve);
   if (!text) return console.refuse(text.error());
-  auto record = scene::parse_gauge_record(*text, arguments.record.string(), {arguments.pressure});
+  auto record = scene::parse_gauge_record(*text, arguments.record.string(), arguments.pressure);
   if (!record) return console.refuse(record.error());
   auto cleaned = scene::clean(*record, {arguments.offset, arguments.trigger}, arguments.record.string());
   if (!cleaned) return console.refuse(cleaned.error());
@@ -150,7 +144,7 @@ ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
   const std::string done =
       fmt::format("{}, SHA-256 {}\n", arguments.record.filename().string(), store::sha256(*text)) +
       what_was_done(arguments, import);
-  console.print_text(done + noise_text(import));
+  console.print_text(fmt::format("{}noise    {}\n", done, scene::measured_load_text(import.load)));
   console.print_json(json_of(import));
   if (arguments.output) return write(arguments, import, done, console);
   console.print_text(fmt::format("\nnext: {}\n", shell_command(command_that_writes(arguments))));

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -111,28 +110,6 @@ Json type_of(const KeyDescription& key) {
   return {};
 }
 
-/// A value as it is written in a file.
-std::string example_for(const KeyDescription& key) {
-  const auto units = scene::units_of(key.dimension);
-  const std::string unit = units.empty() ? "" : " " + units.front();
-  switch (key.kind) {
-    case KeyKind::flag:
-      return "true";
-    case KeyKind::word:
-    case KeyKind::words:
-      return fmt::format("\"{}\"", key.words.front());
-    case KeyKind::text:
-      return fmt::format("\"{}\"", key.example);
-    case KeyKind::list:
-      return fmt::format("\"0, 1.5, 2{}\"", unit);
-    case KeyKind::range:
-      return fmt::format("\"0 to 2.5{}\"", unit);
-    case KeyKind::number:
-      return std::string(scene::example_of(key.dimension));
-  }
-  return {};
-}
-
 Json schema_of(const scene::DocumentedKey& documented) {
   const KeyDescription& key = documented.description;
   const bool has_default = !key.required && !documented.default_text.empty();
@@ -143,7 +120,7 @@ Json schema_of(const scene::DocumentedKey& documented) {
   const std::string_view unit = scene::si_unit_of(key.dimension);
   schema["unit"] = unit.empty() ? "none" : unit;
   schema["range"] = scene::allowed_text(key);
-  schema["example"] = example_for(key);
+  schema["example"] = scene::example_of(key);
   return schema;
 }
 
@@ -163,8 +140,14 @@ void put(Json& table, const std::string& name, const scene::DocumentedKey& key, 
   if (may_require && key.description.required) table["required"].push_back(name);
 }
 
-bool takes_tables(const std::string& name, const std::set<std::string>& tables) {
-  return tables.contains(name.substr(0, name.find('.')));
+/// The keys that are in none of these tables.
+Json schema_without(const std::set<std::string>& tables, const std::vector<scene::DocumentedKey>& keys,
+                    bool may_require) {
+  Json schema = table_schema();
+  for (const scene::DocumentedKey& key : keys)
+    if (const std::string& name = key.description.name; !tables.contains(name.substr(0, name.find('.'))))
+      put(schema, name, key, may_require);
+  return schema;
 }
 
 /// The keys of one table, without its name before them.
@@ -218,9 +201,7 @@ Json material_schema(const std::vector<scene::DocumentedKey>& keys, bool may_req
 /// All that one value of a scene is changed by: the keys of the scene, of its bodies and of its interfaces.
 Json changes_schema() {
   const std::vector<scene::DocumentedKey> keys = scene::describe_keys();
-  Json schema = table_schema();
-  for (const scene::DocumentedKey& key : keys)
-    if (!takes_tables(key.description.name, scene_tables())) put(schema, key.description.name, key, false);
+  Json schema = schema_without(scene_tables(), keys, false);
   schema["properties"]["body"] = named(schema_of_table("body", keys, false));
   schema["properties"]["interface"] = named(schema_of_table("interface.NAME", keys, false));
   schema["properties"]["material"] = material_schema(keys, false);
@@ -268,9 +249,7 @@ Json with_other_tables(Json entry, const std::string& table, const Json& changes
 
 nlohmann::ordered_json scene_schema() {
   const std::vector<scene::DocumentedKey> keys = scene::describe_keys();
-  Json schema = table_schema();
-  for (const scene::DocumentedKey& key : keys)
-    if (!takes_tables(key.description.name, scene_tables())) put(schema, key.description.name, key, true);
+  Json schema = schema_without(scene_tables(), keys, true);
   for (const char* table : {"body", "observation_point", "accept", "source"})
     schema["properties"][table] = array_of(schema_of_table(table, keys));
   Json faces = schema_of_table("interface.NAME", keys, false);
@@ -287,9 +266,7 @@ nlohmann::ordered_json study_schema() {
   std::set<std::string> tables{"accept", "settings"};
   for (const kinds::Kind& kind : kinds::kinds())
     for (const kinds::StudyTable& table : kind.tables) tables.insert(table.name);
-  Json schema = table_schema();
-  for (const scene::DocumentedKey& key : keys)
-    if (!takes_tables(key.description.name, tables)) put(schema, key.description.name, key, true);
+  Json schema = schema_without(tables, keys, true);
   const Json changes = changes_schema();
   for (const std::string& table : tables) {
     Json entry = with_other_tables(schema_of_table(table, keys), table, changes);

@@ -129,9 +129,11 @@ DerivedQuantity quantity(std::string name, Dimension dimension, std::string sent
           std::move(value)};
 }
 
-std::vector<DerivedQuantity> of_load() {
-  const Limits gun = between(10e6, 1e9);
-  return {
+}  // namespace
+
+const std::vector<DerivedQuantity>& derived_quantities() {
+  static const Limits gun = between(10e6, 1e9);
+  static const std::vector<DerivedQuantity> quantities{
       quantity("load.measured_peak", Dimension::pressure,
                "Largest pressure of a measured curve as it was measured, wherever in time it lies.", gun,
                "a mortar has 10 MPa, and no gun tube bears 1 GPa", peak_of_curve),
@@ -144,11 +146,6 @@ std::vector<DerivedQuantity> of_load() {
       quantity("load.launch_speed", Dimension::speed,
                "Speed at the end of the load, of the projectile as one rigid body.", between(50, 2.5e3),
                "mortars launch with 70 m/s, tank guns with 1.8 km/s", launch_speed),
-  };
-}
-
-std::vector<DerivedQuantity> of_materials() {
-  return {
       quantity("steel.poisson_ratio", Dimension::number,
                "Poisson's ratio, from density, c0 and shear modulus.", between(0.24, 0.35),
                "steels have 0.27 to 0.30", poisson_ratio_of_steel),
@@ -164,11 +161,6 @@ std::vector<DerivedQuantity> of_materials() {
                "Temperature at which self-heating runs away within a second, from Q, Z, E/R and specific "
                "heat.",
                between(400, 700), "explosives do so between 450 and 650 K", of_charge(explosion_temperature)),
-  };
-}
-
-std::vector<DerivedQuantity> of_gap_and_shell() {
-  return {
       quantity("gap.air_warmth", Dimension::temperature_difference,
                "Temperature of the air before launch over that of the shell around it.", between(-5, 5),
                "air in a narrow gap has the temperature of its walls", of_charge(warmth_of_air)),
@@ -184,19 +176,6 @@ std::vector<DerivedQuantity> of_gap_and_shell() {
       quantity("shell.radius", Dimension::length, "Largest radius of all bodies.", between(0.005, 0.25),
                "calibres go from machine cannons to 46 cm", radius_of_shell),
   };
-}
-
-std::vector<DerivedQuantity> all_quantities() {
-  std::vector<DerivedQuantity> all;
-  for (auto part : {of_load(), of_materials(), of_gap_and_shell()})
-    std::move(part.begin(), part.end(), std::back_inserter(all));
-  return all;
-}
-
-}  // namespace
-
-const std::vector<DerivedQuantity>& derived_quantities() {
-  static const std::vector<DerivedQuantity> quantities = all_quantities();
   return quantities;
 }
 

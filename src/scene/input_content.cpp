@@ -38,11 +38,7 @@ std::optional<InputError> check_content(const toml::table& root, const std::stri
                                         InputContent wanted) {
   const InputContent content = content_of(root);
   if (content == wanted || content == InputContent::unknown) return std::nullopt;
-  InputError error;
-  error.file = file;
-  error.found = wording_of(content).found;
-  error.allowed = wording_of(wanted).allowed;
-  return error;
+  return error_at({file}, {}, wording_of(content).found, wording_of(wanted).allowed);
 }
 
 }  // namespace launchsafe::scene

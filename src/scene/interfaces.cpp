@@ -91,16 +91,6 @@ Expected<const NamedContact*> contact_of(const toml::table& table, const std::st
                   nearest_of(std::get<std::string>(*name), names));
 }
 
-/// Keys of which a contact may give the condition.
-const std::vector<Key<Interface>>& keys_beside_a_contact() {
-  static const std::vector<Key<Interface>> keys = [] {
-    std::vector<Key<Interface>> all = interface_keys();
-    for (Key<Interface>& key : all) key.required = false;
-    return all;
-  }();
-  return keys;
-}
-
 /// One table [interface.NAME].
 Expected<Interface> read_interface(const std::string& body, const toml::table& table, const std::string& file,
                                    const std::vector<NamedContact>& contacts, std::vector<Source>& sources,
@@ -110,7 +100,9 @@ Expected<Interface> read_interface(const std::string& body, const toml::table& t
   Interface faces;
   if (*contact != nullptr) faces = (*contact)->faces;
   faces.body = body;
-  const auto& keys = *contact != nullptr ? keys_beside_a_contact() : interface_keys();
+  std::vector<Key<Interface>> keys = interface_keys();
+  if (*contact != nullptr)
+    for (Key<Interface>& key : keys) key.required = false;  // the contact gives the condition
   const auto read = read_table(table, keys, {"contact"}, file, faces);
   if (!read) return read.error();
   std::vector<Source> of_contact = *contact != nullptr ? (*contact)->sources : std::vector<Source>{};
@@ -124,6 +116,17 @@ Expected<Interface> read_interface(const std::string& body, const toml::table& t
     sources.push_back(std::move(source));
   }
   return faces;
+}
+
+/// Whether two bodies share more than an edge of their surfaces.
+bool share_a_face(const Scene& scene, const Body& a, const Body& b) {
+  const double tolerance = length_tolerance(scene);
+  const auto meet = [&](double end, double begin) { return std::abs(end - begin) <= tolerance; };
+  const double common_x = std::min(a.x_end, b.x_end) - std::max(a.x_begin, b.x_begin);
+  const double common_r = std::min(a.r_end, b.r_end) - std::max(a.r_begin, b.r_begin);
+  const bool ends = meet(a.x_end, b.x_begin) || meet(b.x_end, a.x_begin);
+  const bool sides = meet(a.r_end, b.r_begin) || meet(b.r_end, a.r_begin);
+  return (ends && common_r > tolerance) || (sides && common_x > tolerance);
 }
 
 }  // namespace
@@ -155,16 +158,6 @@ const std::vector<Key<Interface>>& interface_keys() {
   return keys;
 }
 
-bool share_a_face(const Scene& scene, const Body& a, const Body& b) {
-  const double tolerance = length_tolerance(scene);
-  const auto meet = [&](double end, double begin) { return std::abs(end - begin) <= tolerance; };
-  const double common_x = std::min(a.x_end, b.x_end) - std::max(a.x_begin, b.x_begin);
-  const double common_r = std::min(a.r_end, b.r_end) - std::max(a.r_begin, b.r_begin);
-  const bool ends = meet(a.x_end, b.x_begin) || meet(b.x_end, a.x_begin);
-  const bool sides = meet(a.r_end, b.r_begin) || meet(b.r_end, a.r_begin);
-  return (ends && common_r > tolerance) || (sides && common_x > tolerance);
-}
-
 std::vector<std::string> bodies_at_the_charge(const Scene& scene) {
   std::vector<std::string> names;
   for (const Body& body : scene.bodies) {
@@ -181,27 +174,16 @@ Expected<ReadInterfaces> read_interfaces(const toml::table& root, const std::str
                                          const std::vector<NamedContact>& contacts,
                                          std::map<std::string, Place>& places) {
   ReadInterfaces read;
-  const toml::node* node = root.get("interface");
-  if (node == nullptr) return read;
-  const auto no_table = [&](const toml::node& found, const std::string& key) {
-    return error_at(
-        place_of(found, file), key, found_text(found),
-        "tables, each written [interface.NAME] with the name of the body that touches the charge");
-  };
-  if (!node->is_table()) return no_table(*node, "interface");
-  for (const auto& [name, inner] : *node->as_table()) {
-    const std::string table = "interface." + std::string(name.str());
-    if (!inner.is_table()) return no_table(inner, table);
-    places[table] = place_of(inner, file);
-    auto faces =
-        read_interface(std::string(name.str()), *inner.as_table(), file, contacts, read.sources, places);
-    if (!faces) {
-      InputError error = faces.error();
-      error.key = table + "." + error.key;
-      return error;
-    }
+  const auto add = [&](const std::string& body, const toml::table& table) -> std::optional<InputError> {
+    const std::string name = "interface." + body;
+    places[name] = place_of(table, file);
+    auto faces = read_interface(body, table, file, contacts, read.sources, places);
+    if (!faces) return within(name, faces.error());
     read.interfaces.push_back(std::move(*faces));
-  }
+    return std::nullopt;
+  };
+  if (auto error = visit_tables(root, "interface", "of the body that touches the charge", file, add))
+    return *error;
   return read;
 }
 

@@ -62,6 +62,25 @@ std::string_view meaning_of(Standing standing) {
   return meanings[static_cast<std::size_t>(standing)];
 }
 
+std::string example_of(const KeyDescription& key) {
+  switch (key.kind) {
+    case KeyKind::flag:
+      return "true";
+    case KeyKind::word:
+    case KeyKind::words:
+      return fmt::format("\"{}\"", key.words.front());
+    case KeyKind::text:
+      return fmt::format("\"{}\"", key.example);
+    case KeyKind::list:
+      return fmt::format("\"0, 1.5, 2{}\"", first_unit(key.dimension));
+    case KeyKind::range:
+      return fmt::format("\"0 to 2.5{}\"", first_unit(key.dimension));
+    case KeyKind::number:
+      return std::string(example_of(key.dimension));
+  }
+  return {};
+}
+
 std::string allowed_text(const KeyDescription& key) {
   const std::string_view name = name_of(key.dimension);
   const std::string range = limits_text(key.limits, key.dimension);
@@ -75,21 +94,20 @@ std::string allowed_text(const KeyDescription& key) {
       return "any of " + quoted_list(key.words) + ", with commas between";
     case KeyKind::text:
       return key.example.empty() ? "a text in quotation marks"
-                                 : fmt::format("a text in quotation marks, such as \"{}\"", key.example);
+                                 : "a text in quotation marks, such as " + example_of(key);
     case KeyKind::number: {
-      std::string text = fmt::format("a {}{}, such as {}", name, limits, example_of(key.dimension));
+      std::string text = fmt::format("a {}{}, such as {}", name, limits, example_of(key));
       const auto units = units_of(key.dimension);
       if (!units.empty()) text += fmt::format(" (units: {})", fmt::join(units, ", "));
       return text;
     }
     case KeyKind::range:
-      return fmt::format("a range, lower end first, of a {}{}, such as \"0 to 2.5{}\"", name, limits,
-                         first_unit(key.dimension));
+      return fmt::format("a range, lower end first, of a {}{}, such as {}", name, limits, example_of(key));
     case KeyKind::list:
       return fmt::format(
-          "a list of {}, each a {}{}, such as \"0, 1.5, 2{}\"",
+          "a list of {}, each a {}{}, such as {}",
           key.list_length > 0 ? fmt::format("{} values", key.list_length) : "one or more values", name,
-          limits, first_unit(key.dimension));
+          limits, example_of(key));
   }
   return {};
 }

@@ -1,9 +1,13 @@
-#include "launchsafe/scene/material_file.hpp"
-
+// Files of materials and contacts, and those that ship.
 #include "built_in_materials.hpp"
 #include "launchsafe/scene/input_content.hpp"
+#include "launchsafe/scene/named_material.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 
 namespace launchsafe::scene {
 namespace {
@@ -11,6 +15,23 @@ namespace {
 bool is_shipped(const std::string& text) {
   const std::vector<BuiltInText>& texts = built_in_materials();
   return std::any_of(texts.begin(), texts.end(), [&](const BuiltInText& each) { return each.text == text; });
+}
+
+/// What `read(table, file, those of the files before)` finds in all of them. A fault is one of the program
+/// itself, which tests find.
+template <class Named, class Read>
+std::vector<Named> read_built_in(Read&& read) {
+  std::vector<Named> all;
+  for (const BuiltInText& each : built_in_materials()) {
+    const auto table = parse_toml(each.text, each.file);
+    auto named = table ? read(*table, each.file, all) : Expected<std::vector<Named>>(table.error());
+    if (!named) {
+      fmt::print(stderr, "{}\n", named.error().message());
+      std::abort();
+    }
+    all.insert(all.end(), named->begin(), named->end());
+  }
+  return all;
 }
 
 /// Those of the shipped ones that the file names.
@@ -30,7 +51,15 @@ std::optional<InputError> check_material_tables(const toml::table& root, const s
   return std::nullopt;
 }
 
-NamedMaterials shipped_named_materials() { return {shipped_materials(), shipped_contacts()}; }
+const std::vector<NamedMaterial>& shipped_materials() {
+  static const std::vector<NamedMaterial> all = read_built_in<NamedMaterial>(read_materials);
+  return all;
+}
+
+const std::vector<NamedContact>& shipped_contacts() {
+  static const std::vector<NamedContact> all = read_built_in<NamedContact>(read_contacts);
+  return all;
+}
 
 Expected<NamedMaterials> read_material_file(const std::filesystem::path& file) {
   const auto text = read_text_file(file);

@@ -1,6 +1,4 @@
-#include "launchsafe/scene/named_contact.hpp"
-
-#include "built_in_materials.hpp"
+// The contacts of a file: how bodies hold the charge.
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/named_material.hpp"
 
@@ -17,20 +15,11 @@ Expected<NamedContact> read_contact(const std::string& name, const toml::table& 
                                     const std::string& file) {
   NamedContact contact;
   contact.name = name;
-  std::vector<const KeyDescription*> described = descriptions_of(contact_keys());
-  const std::size_t own = described.size();
-  for (const KeyDescription* key : descriptions_of(interface_keys())) described.push_back(key);
-  const auto read = read_described(table, described, {"source"}, file);
-  if (!read) return read.error();
+  const auto places = read_table(table, contact_keys(), {"source"}, file, contact);
+  if (!places) return places.error();
   std::vector<std::string> given;
-  for (const auto& [index, value] : read->values) {
-    if (index < own) {
-      contact_keys()[index].set(contact, value);
-    } else {
-      interface_keys()[index - own].set(contact.faces, value);
-      given.push_back(described[index]->name);
-    }
-  }
+  for (const Key<Interface>& key : interface_keys())
+    if (places->contains(key.name)) given.push_back(key.name);
   auto sources = read_sources(table, given, file);
   if (!sources) return sources.error();
   contact.sources = std::move(*sources);
@@ -40,10 +29,11 @@ Expected<NamedContact> read_contact(const std::string& name, const toml::table& 
 }  // namespace
 
 const std::vector<Key<NamedContact>>& contact_keys() {
-  static const std::vector<Key<NamedContact>> keys{
-      always_plausible(text_key("title", Standing::input, "What the contact is, for reports.", "smooth faces",
-                                &NamedContact::title),
-                       "it is for people")};
+  static const std::vector<Key<NamedContact>> keys =
+      keys::joined({{always_plausible(text_key("title", Standing::input, "What the contact is, for reports.",
+                                               "smooth faces", &NamedContact::title),
+                                      "it is for people")},
+                    keys::keys_of_part("", &NamedContact::faces, interface_keys())});
   return keys;
 }
 
@@ -58,35 +48,19 @@ const KeyDescription& contact_of_interface_key() {
   return key;
 }
 
-const std::vector<NamedContact>& shipped_contacts() {
-  static const std::vector<NamedContact> all = read_built_in<NamedContact>(read_contacts);
-  return all;
-}
-
 Expected<std::vector<NamedContact>> read_contacts(const toml::table& root, const std::string& file,
                                                   const std::vector<NamedContact>& known) {
   std::vector<NamedContact> contacts;
-  const toml::node* node = root.get("contact");
-  if (node == nullptr) return contacts;
-  const auto no_table = [&](const toml::node& found, const std::string& key) {
-    return error_at(place_of(found, file), key, found_text(found),
-                    "tables, each written [contact.NAME] with the name that interfaces refer to");
-  };
-  if (!node->is_table()) return no_table(*node, "contact");
-  for (const auto& [name, inner] : *node->as_table()) {
-    const std::string text(name.str());
-    if (!inner.is_table()) return no_table(inner, "contact." + text);
-    if (std::any_of(known.begin(), known.end(), [&](const NamedContact& each) { return each.name == text; }))
-      return error_at(place_of(inner, file), "contact", fmt::format("a contact called \"{}\"", text),
+  const auto read = [&](const std::string& name, const toml::table& table) -> std::optional<InputError> {
+    if (std::any_of(known.begin(), known.end(), [&](const NamedContact& each) { return each.name == name; }))
+      return error_at(place_of(table, file), "contact", fmt::format("a contact called \"{}\"", name),
                       "a name that no other contact has");
-    auto contact = read_contact(text, *inner.as_table(), file);
-    if (!contact) {
-      InputError error = contact.error();
-      error.key = "contact." + text + "." + error.key;
-      return error;
-    }
+    auto contact = read_contact(name, table, file);
+    if (!contact) return within("contact." + name, contact.error());
     contacts.push_back(std::move(*contact));
-  }
+    return std::nullopt;
+  };
+  if (auto error = visit_tables(root, "contact", "that interfaces refer to", file, read)) return *error;
   return contacts;
 }
 

@@ -1,7 +1,5 @@
 #include "launchsafe/scene/named_material.hpp"
 
-#include "built_in_materials.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,11 +32,6 @@ std::vector<LawKey> keys_of_law_in_material(const std::string& law) {
     }
   });
   return keys;
-}
-
-InputError in_material(InputError error, const std::string& name) {
-  error.key = "material." + name + "." + error.key;
-  return error;
 }
 
 const NamedMaterial* find_named(const std::vector<NamedMaterial>& materials, const std::string& name) {
@@ -228,29 +221,17 @@ std::string key_in_material(std::string_view law, std::string_view scene_key) {
   return std::string(own ? scene_key.substr(law.size() + 1) : scene_key);
 }
 
-const std::vector<NamedMaterial>& shipped_materials() {
-  static const std::vector<NamedMaterial> all = read_built_in<NamedMaterial>(read_materials);
-  return all;
-}
-
 Expected<std::vector<NamedMaterial>> read_materials(const toml::table& root, const std::string& file,
                                                     const std::vector<NamedMaterial>& known) {
   std::vector<NamedMaterial> materials;
-  const toml::node* node = root.get("material");
-  if (node == nullptr) return materials;
-  const auto no_table = [&](const toml::node& found, const std::string& key) {
-    return error_at(place_of(found, file), key, found_text(found),
-                    "tables, each written [material.NAME] with the name that bodies refer to");
-  };
-  if (!node->is_table()) return no_table(*node, "material");
-  for (const auto& [name, inner] : *node->as_table()) {
-    const std::string text(name.str());
-    if (!inner.is_table()) return no_table(inner, "material." + text);
-    if (auto error = check_name(inner, text, file, known)) return *error;
-    auto material = read_material(text, *inner.as_table(), file);
-    if (!material) return in_material(material.error(), text);
+  const auto read = [&](const std::string& name, const toml::table& table) -> std::optional<InputError> {
+    if (auto error = check_name(table, name, file, known)) return error;
+    auto material = read_material(name, table, file);
+    if (!material) return within("material." + name, material.error());
     materials.push_back(std::move(*material));
-  }
+    return std::nullopt;
+  };
+  if (auto error = visit_tables(root, "material", "that bodies refer to", file, read)) return *error;
   if (auto error = Completion(materials, known).all()) return *error;
   return materials;
 }

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 namespace launchsafe::scene {
 namespace {
@@ -54,25 +53,11 @@ std::string load_text(const Scene& scene) {
   return text;
 }
 
-std::string term_text(std::string_view name, const Term& term) {
-  return row(name, fmt::format("{:<4}{}", term.in ? "in" : "out", term.reason));
-}
-
 std::string physics_text(const Plan& plan) {
   std::string text = "Physics\n";
-  for (const auto& [name, term] :
-       {std::pair<std::string_view, const Term*>{"skin of the bottom", &plan.surface},
-        {"air in the gap", &plan.air},
-        {"friction heat", &plan.friction_heat},
-        {"cracks", &plan.cracks},
-        {"crack growth", &plan.crack_growth},
-        {"crack friction", &plan.crack_friction},
-        {"heat conduction", &plan.conduction},
-        {"bulk reaction", &plan.bulk_reaction},
-        {"inertial scaling", &plan.inertial_scaling},
-        {"coupling", &plan.coupling},
-        {"snapshots", &plan.snapshots}}) {
-    text += term_text(name, *term);
+  for (const NamedTerm& each : plan_terms) {
+    const Term& term = plan.*each.term;
+    text += row(each.title, fmt::format("{:<4}{}", term.in ? "in" : "out", term.reason));
   }
   return text;
 }

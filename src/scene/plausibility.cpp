@@ -47,32 +47,30 @@ class Judge {
   std::vector<Implausible> found_;
 };
 
-void judge_bodies(const Scene& scene, Judge& judge) {
-  for (const Body& body : scene.bodies) {
+/// A key of a table, its name in the whole scene, and its value if the scene has one.
+using VisitKey = std::function<void(const KeyDescription&, const std::string&, const std::optional<Value>&)>;
+
+/// Extents of bodies, what holds the charge, and materials beside those that the keys of the laws speak of.
+void visit_keys_of_tables(const Scene& scene, const VisitKey& visit) {
+  for (const Body& body : scene.bodies)
     for (const Key<Body>& key : body_keys())
-      judge.key(key, fmt::format("body.{}.{}", body.name, key.name), key.get(body));
-  }
-}
-
-void judge_interfaces(const Scene& scene, Judge& judge) {
+      if (key.kind == KeyKind::range)
+        visit(key, fmt::format("body.{}.{}", body.name, key.name), key.get(body));
   for (const Interface& faces : scene.interfaces)
-    for (const Key<Interface>& key : interface_keys())
-      if (!key.is_written || key.is_written(faces))
-        judge.key(key, fmt::format("interface.{}.{}", faces.body, key.name), key.get(faces));
-}
-
-/// Materials beside those that the keys of the laws speak of.
-void judge_materials(const Scene& scene, Judge& judge) {
-  for (const Material& material : used_materials(scene)) {
+    for (const Key<Interface>& key : interface_keys()) {
+      const bool is_written = !key.is_written || key.is_written(faces);
+      visit(key, fmt::format("interface.{}.{}", faces.body, key.name),
+            is_written ? std::optional(key.get(faces)) : std::nullopt);
+    }
+  for (const Material& material : used_materials(scene))
     std::visit(
         [&]<class Law>(const Law& law) {
           if (material.name == scene.material<Law>().name) return;
           for (const Key<Law>& key : Law::parameters())
-            judge.key(key, fmt::format("material.{}.{}", material.name, key_in_material(Law::name, key.name)),
-                      key.get(law));
+            visit(key, fmt::format("material.{}.{}", material.name, key_in_material(Law::name, key.name)),
+                  key.get(law));
         },
         material.law);
-  }
 }
 
 /// Physics that the plan would have in.
@@ -132,9 +130,9 @@ std::vector<Implausible> implausible_values(const Scene& scene) {
   }
   judge_crack_bound(scene, judge);
   judge_switches(scene, judge);
-  judge_bodies(scene, judge);
-  judge_interfaces(scene, judge);
-  judge_materials(scene, judge);
+  visit_keys_of_tables(scene, [&](const auto& key, const std::string& name, const auto& value) {
+    if (value) judge.key(key, name, *value);
+  });
   for (const DerivedQuantity& quantity : derived_quantities()) {
     if (const auto value = quantity.value(scene))
       judge.key(quantity.description, quantity.description.name, Value(*value));
@@ -145,22 +143,8 @@ std::vector<Implausible> implausible_values(const Scene& scene) {
 std::vector<std::string> acceptable_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const Key<Scene>& key : scene_keys()) names.push_back(key.name);
-  for (const Body& body : scene.bodies) {
-    names.push_back(fmt::format("body.{}.x", body.name));
-    names.push_back(fmt::format("body.{}.r", body.name));
-  }
-  for (const Interface& faces : scene.interfaces)
-    for (const Key<Interface>& key : interface_keys())
-      names.push_back(fmt::format("interface.{}.{}", faces.body, key.name));
-  for (const Material& material : scene.materials)
-    std::visit(
-        [&]<class Law>(const Law&) {
-          if (material.name == scene.material<Law>().name) return;
-          for (const Key<Law>& key : Law::parameters())
-            names.push_back(
-                fmt::format("material.{}.{}", material.name, key_in_material(Law::name, key.name)));
-        },
-        material.law);
+  visit_keys_of_tables(scene,
+                       [&](const auto&, const std::string& name, const auto&) { names.push_back(name); });
   for (const DerivedQuantity& quantity : derived_quantities()) names.push_back(quantity.description.name);
   names.emplace_back(foreign_calibration);
   return names;

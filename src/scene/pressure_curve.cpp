@@ -1,6 +1,5 @@
 #include "launchsafe/scene/pressure_curve.hpp"
 
-#include "csv_line.hpp"
 #include "input_text.hpp"
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
@@ -14,6 +13,71 @@
 
 namespace launchsafe::scene {
 namespace {
+
+/// A cell that begins with a quotation mark; what follows it stays in `rest`.
+std::optional<std::string> take_quoted(std::string_view& rest) {
+  std::string cell;
+  rest.remove_prefix(1);
+  for (;;) {
+    const std::size_t mark = rest.find('"');
+    if (mark == std::string_view::npos) return std::nullopt;
+    cell += rest.substr(0, mark);
+    rest.remove_prefix(mark + 1);
+    if (!rest.starts_with('"')) return std::string(without_blanks_around(cell));
+    cell += '"';
+    rest.remove_prefix(1);
+  }
+}
+
+/// Like `without_blanks_around`, but a tab that separates cells stays.
+std::string_view without_blanks_before(std::string_view text, char separator) {
+  while (!text.empty() && text[0] != separator && (text[0] == ' ' || text[0] == '\t')) text.remove_prefix(1);
+  return text;
+}
+
+/// The next line of a text, which is shortened by it; lines end with LF, CRLF or CR.
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+  const std::string_view line = text.substr(0, end);
+  const std::string_view rest = text.substr(end);
+  text.remove_prefix(end + (rest.starts_with("\r\n") ? 2 : std::min<std::size_t>(rest.size(), 1)));
+  return line;
+}
+
+/// The first of semicolon, tab and comma that separates cells of this header, outside of quotation marks; a
+/// comma if none does.
+char separator_of(std::string_view header) {
+  std::string outside;
+  bool quoted = false;
+  for (const char c : header) {
+    if (c == '"') quoted = !quoted;
+    if (!quoted) outside += c;
+  }
+  for (const char separator : {';', '\t'})
+    if (outside.find(separator) != std::string::npos) return separator;
+  return ',';
+}
+
+/// The cells of a line without blanks around them and without their quotation marks; a doubled quotation mark
+/// in these is one. Nothing where a quotation mark is not closed, or closed before the end of its cell.
+std::optional<std::vector<std::string>> cells_of(std::string_view line, char separator) {
+  std::vector<std::string> cells;
+  for (;;) {
+    line = without_blanks_before(line, separator);
+    if (line.starts_with('"')) {
+      auto cell = take_quoted(line);
+      line = without_blanks_before(line, separator);
+      if (!cell || (!line.empty() && line[0] != separator)) return std::nullopt;
+      cells.push_back(std::move(*cell));
+    } else {
+      const std::size_t end = std::min(line.find(separator), line.size());
+      cells.emplace_back(without_blanks_around(line.substr(0, end)));
+      line.remove_prefix(end);
+    }
+    if (line.empty()) return cells;
+    line.remove_prefix(1);
+  }
+}
 
 constexpr std::string_view allowed_header =
     "a header that names quantities and units, such as time_ms,pressure_MPa or \"Time (ms);Pressure (bar)\"";
@@ -109,14 +173,14 @@ Expected<Header> read_gauge_header(const std::vector<std::string>& cells, const 
   return header;
 }
 
-Expected<Header> read_header(std::string_view line, const Place& place, const GaugeColumns* gauge) {
+Expected<Header> read_header(std::string_view line, const Place& place, const std::string* gauge) {
   const auto wrong = [&] { return error_at(place, {}, fmt::format("\"{}\"", line), allowed_header); };
   Header header;
   const char separator = separator_of(line);
   const auto cells = cells_of(line, separator);
   if (!cells || cells->size() < 2 || (cells->size() > 2 && gauge == nullptr)) return wrong();
   if (gauge != nullptr) {
-    auto read = read_gauge_header(*cells, place, gauge->pressure);
+    auto read = read_gauge_header(*cells, place, *gauge);
     if (!read) return read.error();
     header = std::move(*read);
   } else {
@@ -263,8 +327,8 @@ std::optional<InputError> check_text(std::string_view text, const std::string& f
   return check_encoding(text, file);
 }
 
-/// `gauge`: the columns of a gauge's record; none for a curve that is a load.
-Expected<PressureCurve> parse(const std::string& text, const std::string& file, const GaugeColumns* gauge) {
+/// `gauge`: the pressure's column in a gauge's record; none for a curve that is a load.
+Expected<PressureCurve> parse(const std::string& text, const std::string& file, const std::string* gauge) {
   if (auto error = check_text(text, file)) return *error;
   std::string_view rest = text;
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -308,8 +372,8 @@ Expected<PressureCurve> parse_pressure_curve(const std::string& text, const std:
 }
 
 Expected<PressureCurve> parse_gauge_record(const std::string& text, const std::string& file,
-                                           const GaugeColumns& columns) {
-  return parse(text, file, &columns);
+                                           const std::string& column) {
+  return parse(text, file, &column);
 }
 
 }  // namespace launchsafe::scene

@@ -3,7 +3,6 @@
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/input_content.hpp"
 #include "launchsafe/scene/interfaces.hpp"
-#include "launchsafe/scene/material_file.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "use_materials.hpp"
@@ -42,9 +41,8 @@ std::optional<InputError> read_curve_file(SceneFile& file) {
   std::error_code status;
   if (!std::filesystem::exists(path, status)) {
     const auto missing = read_text_file(path);
-    const auto given = file.given.find("load.curve");
-    const Place place = given == file.given.end() ? Place{file.file} : given->second.place;
-    return error_at(place, "load.curve", fmt::format("\"{}\", which does not exist", load.curve_file),
+    return error_at(place_of_key(file, "load.curve"), "load.curve",
+                    fmt::format("\"{}\", which does not exist", load.curve_file),
                     "a CSV file, by its path from the scene file's folder",
                     missing ? std::string{} : missing.error().suggestion);
   }
@@ -195,6 +193,13 @@ std::optional<InputError> read_own_materials(const toml::table& table, SceneFile
 }
 
 }  // namespace
+
+Place place_of_key(const SceneFile& file, const std::string& key) {
+  const auto given = file.given.find(key);
+  if (given != file.given.end()) return given->second.place;
+  const auto place = file.places.find(key);
+  return place != file.places.end() ? place->second : Place{file.file};
+}
 
 Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& path) {
   const auto table = parse_toml(text, path.string());

@@ -2,10 +2,8 @@
 
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/interfaces.hpp"
-#include "launchsafe/scene/named_contact.hpp"
 #include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
-#include "surface_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -372,7 +370,6 @@ std::vector<DocumentedKey> describe_keys() {
   document(documented, material_keys(), "material.NAME.");
   document(documented, source_keys(), "material.NAME.source.");
   document(documented, contact_keys(), "contact.NAME.");
-  document(documented, interface_keys(), "contact.NAME.");
   document(documented, source_keys(), "contact.NAME.source.");
   return documented;
 }

@@ -1,4 +1,5 @@
-#include "surface_keys.hpp"
+// The keys of the charge's bottom.
+#include "launchsafe/scene/scene_keys.hpp"
 
 #include <algorithm>
 #include <string>

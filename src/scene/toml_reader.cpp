@@ -337,6 +337,29 @@ std::optional<std::string> note_on_former_word(const toml::node& node, const Key
   return std::nullopt;
 }
 
+InputError within(const std::string& table, InputError error) {
+  error.key = table + "." + error.key;
+  return error;
+}
+
+std::optional<InputError> visit_tables(const toml::table& root, const std::string& table,
+                                       std::string_view meaning, const std::string& file,
+                                       const VisitTable& visit) {
+  const toml::node* node = root.get(table);
+  if (node == nullptr) return std::nullopt;
+  const auto no_table = [&](const toml::node& found, const std::string& key) {
+    return error_at(place_of(found, file), key, found_text(found),
+                    fmt::format("tables, each written [{}.NAME] with the name {}", table, meaning));
+  };
+  if (!node->is_table()) return no_table(*node, table);
+  for (const auto& [name, inner] : *node->as_table()) {
+    const std::string text(name.str());
+    if (!inner.is_table()) return no_table(inner, table + "." + text);
+    if (auto error = visit(text, *inner.as_table())) return error;
+  }
+  return std::nullopt;
+}
+
 Expected<ReadValues> read_described(const toml::table& table, const std::vector<const KeyDescription*>& keys,
                                     const std::vector<std::string>& elsewhere, const std::string& file) {
   std::vector<Leaf> leaves;

@@ -24,9 +24,8 @@ InputError unknown_material(const SceneFile& file, const std::string& body, cons
   for (const NamedMaterial& each : file.materials) names.push_back(each.name);
   for (const NamedMaterial& each : shipped_materials()) names.push_back(each.name);
   const std::string key = "body." + body + ".material";
-  const auto place = file.places.find(key);
   const std::string nearest = nearest_of(name, names);
-  return error_at(place == file.places.end() ? Place{file.file} : place->second, key,
+  return error_at(place_of_key(file, key), key,
                   fmt::format("\"{}\", a material that is nowhere described", name),
                   quoted_list(names) + "; or one that a table [material.NAME] describes",
                   nearest.empty() ? nearest : "\"" + nearest + "\"");
@@ -91,8 +90,7 @@ std::optional<InputError> check_one_explosive(const SceneFile& file, const Scene
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     if (file.body_materials[i] != names[1]) continue;
     const std::string key = "body." + scene.bodies[i].name + ".material";
-    const auto place = file.places.find(key);
-    return error_at(place == file.places.end() ? Place{file.file} : place->second, key,
+    return error_at(place_of_key(file, key), key,
                     fmt::format("\"{}\" beside \"{}\", two explosives", names[1], names[0]),
                     "one explosive in a scene, whose skin is followed");
   }

@@ -22,14 +22,6 @@ std::string range_text(double begin, double end) {
                      in_unit(end, Dimension::length, "cm"));
 }
 
-/// Where the user gave a key; the file as a whole if it is a default.
-Place place_of_key(const SceneFile& file, const std::string& key) {
-  const auto given = file.given.find(key);
-  if (given != file.given.end()) return given->second.place;
-  const auto place = file.places.find(key);
-  return place != file.places.end() ? place->second : Place{file.file};
-}
-
 InputError fault_at(const SceneFile& file, const std::string& key, std::string found, std::string allowed,
                     std::string suggestion = {}) {
   return error_at(place_of_key(file, key), key, std::move(found), std::move(allowed), std::move(suggestion));

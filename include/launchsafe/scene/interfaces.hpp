@@ -1,7 +1,7 @@
 // The tables [interface.NAME] of a scene file: how the body of that name and the charge hold each other.
 #pragma once
 
-#include "launchsafe/scene/named_contact.hpp"
+#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
@@ -17,8 +17,6 @@ struct SceneFile;
 /// Keys of one [interface.NAME].
 const std::vector<Key<Interface>>& interface_keys();
 
-/// Whether two bodies share more than an edge of their surfaces.
-bool share_a_face(const Scene& scene, const Body& a, const Body& b);
 /// Names of the bodies, no charges themselves, that touch a charge.
 std::vector<std::string> bodies_at_the_charge(const Scene& scene);
 

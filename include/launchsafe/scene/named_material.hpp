@@ -1,11 +1,13 @@
-// Materials as data: [material.NAME] in a scene or in a file of materials, and those that ship with the
-// program. Each number may say where it comes from.
+// Materials, and how bodies hold the charge, as data: [material.NAME] and [contact.NAME] in a scene or in a
+// file of materials, and those that ship with the program. Each number may say where it comes from.
 #pragma once
 
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,15 +32,32 @@ struct NamedMaterial {
   std::vector<Source> sources;          ///< of these keys
 };
 
+/// A contact whose name interfaces refer to.
+struct NamedContact {
+  std::string name;
+  std::string title;            ///< for people
+  Interface faces;              ///< without a body
+  std::vector<Source> sources;  ///< of its keys
+};
+
+struct NamedMaterials {
+  std::vector<NamedMaterial> materials;
+  std::vector<NamedContact> contacts;
+};
+
 /// The key of a scene that names a file of materials and contacts.
 const KeyDescription& material_file_key();
 /// What [material.NAME] says beside the numbers of its law.
 const std::vector<Key<NamedMaterial>>& material_keys();
+/// Keys of one [contact.NAME], and that of an interface which names a contact.
+const std::vector<Key<NamedContact>>& contact_keys();
+const KeyDescription& contact_of_interface_key();
 /// A number's key as a material has it: "density" for "charge.density"; others keep their table.
 std::string key_in_material(std::string_view law, std::string_view scene_key);
 
-/// The materials that the program brings along, by name; texts in studies/materials.
+/// The materials and contacts that the program brings along, by name; texts in studies/materials.
 const std::vector<NamedMaterial>& shipped_materials();
+const std::vector<NamedContact>& shipped_contacts();
 
 /// The tables [material.NAME] of a file; none if it has none. `known`: materials of other files, which these
 /// may be like, and whose names they must not take. Faults: a name that is taken, an unknown law or key, a
@@ -46,6 +65,18 @@ const std::vector<NamedMaterial>& shipped_materials();
 /// sources.
 Expected<std::vector<NamedMaterial>> read_materials(const toml::table& root, const std::string& file,
                                                     const std::vector<NamedMaterial>& known);
+
+/// The tables [contact.NAME] of a file; none if it has none. `known`: contacts of other files, whose names
+/// these must not take. Faults: a name that is taken, a key that does not exist, a value out of range, those
+/// of sources.
+Expected<std::vector<NamedContact>> read_contacts(const toml::table& root, const std::string& file,
+                                                  const std::vector<NamedContact>& known);
+
+/// The first key of a file of materials that is no table of it.
+std::optional<InputError> check_material_tables(const toml::table& root, const std::string& file);
+/// What a file of materials has. A shipped file gives what it ships; others must not take its names. Faults:
+/// those of `read_materials` and `read_contacts`, a key beside the tables, a scene or a study.
+Expected<NamedMaterials> read_material_file(const std::filesystem::path& file);
 
 /// Keys of [[source]], and of the sources of a material.
 const std::vector<Key<Source>>& source_keys();

@@ -4,8 +4,10 @@
 
 #include "launchsafe/scene/scene.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace launchsafe::scene {
@@ -53,6 +55,25 @@ struct Plan {
   double coupled_work = 0;
   double memory = 0;  ///< bytes of particles and grid, estimated
 };
+
+/// A term under the names that people and programs read, in the order in which they do.
+struct NamedTerm {
+  std::string_view title, member;
+  Term Plan::*term;
+};
+inline constexpr std::array<NamedTerm, 11> plan_terms{{
+    {"skin of the bottom", "surface", &Plan::surface},
+    {"air in the gap", "air", &Plan::air},
+    {"friction heat", "friction_heat", &Plan::friction_heat},
+    {"cracks", "cracks", &Plan::cracks},
+    {"crack growth", "crack_growth", &Plan::crack_growth},
+    {"crack friction", "crack_friction", &Plan::crack_friction},
+    {"heat conduction", "conduction", &Plan::conduction},
+    {"bulk reaction", "bulk_reaction", &Plan::bulk_reaction},
+    {"inertial scaling", "inertial_scaling", &Plan::inertial_scaling},
+    {"coupling", "coupling", &Plan::coupling},
+    {"snapshots", "snapshots", &Plan::snapshots},
+}};
 
 /// Into so many parts checkpoints divide a launch (total-Lagrangian; other formulations have none).
 inline constexpr double parts_of_launch = 16.0;

@@ -32,14 +32,10 @@ Expected<PressureCurve> read_pressure_curve(const std::filesystem::path& file);
 /// The same from text; `file` is only named in errors.
 Expected<PressureCurve> parse_pressure_curve(const std::string& text, const std::string& file);
 
-/// Which columns of a gauge's record are meant.
-struct GaugeColumns {
-  std::string pressure;  ///< name in the header without its unit; empty: the only one that is a pressure
-};
-
 /// Like `parse_pressure_curve`, of a record as a gauge writes it: further columns are left out, and pressures
-/// may be negative, down to -`largest_load`.
+/// may be negative, down to -`largest_load`. `column`: name of the pressure's column in the header without
+/// its unit; empty: the only one that is a pressure.
 Expected<PressureCurve> parse_gauge_record(const std::string& text, const std::string& file,
-                                           const GaugeColumns& columns);
+                                           const std::string& column);
 
 }  // namespace launchsafe::scene

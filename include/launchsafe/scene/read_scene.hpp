@@ -28,6 +28,9 @@ struct SceneFile {
   std::vector<std::string> notes;           ///< on words of earlier versions, a line each
 };
 
+/// Where the user gave a key; the file as a whole if it is a default.
+Place place_of_key(const SceneFile& file, const std::string& key);
+
 /// Reads and validates a scene file; its curve file is read too. Nothing is computed. Never throws.
 Expected<SceneFile> read_scene(const std::filesystem::path& file);
 /// The same from text; `file` is named in errors, and relative paths start from its folder.

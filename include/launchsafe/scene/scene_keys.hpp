@@ -13,6 +13,8 @@ namespace launchsafe::scene {
 
 /// Keys of the scene itself, in the order in which they are applied.
 const std::vector<Key<Scene>>& scene_keys();
+/// Those of the charge's bottom among them: gap and air, friction and stations.
+std::vector<Key<Scene>> surface_keys();
 /// Keys of one [[body]].
 const std::vector<Key<Body>>& body_keys();
 /// Keys of one [[observation_point]].

@@ -39,6 +39,8 @@ std::string_view letter_of(Standing standing);
 /// "stated in the paper", "literature", ...
 std::string_view meaning_of(Standing standing);
 
+/// A value as it is written in a file: `"2.5 mm"`, `"0 to 2.5 cm"`, `true`.
+std::string example_of(const KeyDescription& key);
 /// "a length, more than 0 cm, such as ...": for messages and the key listing.
 std::string allowed_text(const KeyDescription& key);
 /// "0.05 ms to 2 ms, because ...": what is plausible of a key; "any" where all that is allowed is.
@@ -98,6 +100,18 @@ std::optional<std::string> note_on_former_word(const toml::node& node, const Key
 Expected<ReadValues> read_described(const toml::table& table, const std::vector<const KeyDescription*>& keys,
                                     const std::vector<std::string>& elsewhere, const std::string& file);
 
+/// The fault of a key within a table, whose name comes before the key's.
+InputError within(const std::string& table, InputError error);
+
+/// What one of several tables [table.NAME] says; a fault, if there is one.
+using VisitTable =
+    std::function<std::optional<InputError>(const std::string& name, const toml::table& content)>;
+/// Visits all [table.NAME] of a file in the order of their names, until one has a fault. Anything but a table
+/// is one too: `meaning` tells what NAME is the name of.
+std::optional<InputError> visit_tables(const toml::table& root, const std::string& table,
+                                       std::string_view meaning, const std::string& file,
+                                       const VisitTable& visit);
+
 template <class Owner>
 std::vector<const KeyDescription*> descriptions_of(const std::vector<Key<Owner>>& keys) {
   std::vector<const KeyDescription*> result;
@@ -138,11 +152,7 @@ Expected<std::vector<ReadOwner<Owner>>> read_tables(const toml::table& root, con
   for (const toml::node& element : *node->as_array()) {
     Owner owner;
     auto places = read_table(*element.as_table(), keys, {}, file, owner);
-    if (!places) {
-      InputError error = places.error();
-      error.key = name + "." + error.key;
-      return error;
-    }
+    if (!places) return within(name, places.error());
     owners.push_back({std::move(owner), std::move(*places)});
   }
   return owners;
