@@ -7,65 +7,58 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <memory>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace launchsafe::app {
 
 namespace {
 
-/// Everything the options write to while CLI11 parses.
-struct Parsed {
-  CommandLine line;
-  RunArguments run;
-  StudyArguments study;
-  MergeArguments merge;
-  EmitArguments emit;
-  VerifyArguments verify;
-  ExplainArguments explain;
-  PlotArguments plot;
-  InitArguments init;
-  ImportCurveArguments import_curve;
-  ReportArguments report;
-};
-
-/// A subcommand whose arguments become the request.
+/// A subcommand and what its options write to while CLI11 parses, which becomes the request.
 template <class Arguments>
-CLI::App& add_command(CLI::App& app, Parsed& parsed, const Arguments& arguments, const char* name,
-                      const char* meaning, const char* examples) {
+std::pair<CLI::App&, Arguments&> add_command(CLI::App& app, CommandLine& line, const char* name,
+                                             const char* meaning, const char* examples) {
   CLI::App& command = *app.add_subcommand(name, meaning);
   command.footer(examples);
-  command.callback([&parsed, &arguments, name] {
-    parsed.line.request = arguments;
-    parsed.line.command = name;
+  const auto arguments = std::make_shared<Arguments>();
+  command.callback([&line, arguments, name] {
+    line.request = *arguments;
+    line.command = name;
   });
-  return command;
+  return {command, *arguments};
 }
 
-/// Last in every command's help.
-void add_output_options(CLI::App& command, Parsed& parsed) {
-  command.add_flag("--json", parsed.line.json, "Print one JSON object on stdout instead of text");
-  command.add_flag("-q,--quiet", parsed.line.quiet, "No progress and no remarks on stderr; errors remain");
+/// What must be given.
+template <class Value>
+CLI::Option* add_required(CLI::App& command, const char* name, Value& value, const char* type,
+                          const char* meaning) {
+  return command.add_option(name, value, meaning)->required()->type_name(type);
 }
 
-void add_run(CLI::App& app, Parsed& parsed) {
-  CLI::App& command =
-      add_command(app, parsed, parsed.run, "run",
-                  "Run one case: a scene in, temperatures of the charge bottom out", run_footer);
-  command.add_option("scene", parsed.run.scene, "Scene file")->required()->type_name("SCENE.toml");
-  add_folder(command, parsed.run.output, "Folder to write the HDF5 case file to");
-  add_longest_run(command, parsed.run.longest_run);
-  command.add_flag("--dry-run", parsed.run.dry_run, "Say what would be run and at what cost; write nothing");
-  add_output_options(command, parsed);
+/// What may be given.
+template <class Value>
+CLI::Option* add_optional(CLI::App& command, const char* name, Value& value, const char* type,
+                          const char* meaning) {
+  return command.add_option(name, value, meaning)->type_name(type);
 }
 
-void add_study(CLI::App& app, Parsed& parsed) {
-  StudyArguments& study = parsed.study;
-  CLI::App& command = add_command(app, parsed, study, "study",
-                                  "Run a study: many cases, a verdict for every gap", study_footer);
-  command.add_option("study", study.study, "Study file")->required()->type_name("STUDY.toml");
-  add_folder(command, study.output, "Folder for cases, tables and report; what is stored there is used again")
-      ->type_name("DIR");
+void add_run(CLI::App& app, CommandLine& line) {
+  auto [command, run] = add_command<RunArguments>(
+      app, line, "run", "Run one case: a scene in, temperatures of the charge bottom out", run_footer);
+  add_required(command, "scene", run.scene, "SCENE.toml", "Scene file");
+  add_folder(command, run.output, "Folder to write the HDF5 case file to");
+  add_longest_run(command, run.longest_run);
+  command.add_flag("--dry-run", run.dry_run, "Say what would be run and at what cost; write nothing");
+}
+
+void add_study(CLI::App& app, CommandLine& line) {
+  auto [command, study] = add_command<StudyArguments>(
+      app, line, "study", "Run a study: many cases, a verdict for every gap", study_footer);
+  add_required(command, "study", study.study, "STUDY.toml", "Study file");
+  add_folder(command, study.output,
+             "Folder for cases, tables and report; what is stored there is used again");
   add_jobs(command, study.jobs, "Cases at a time; as many as there are processors unless given");
   add_limits(command, study.memory, study.time_limit);
   add_longest_run(command, study.longest_run);
@@ -74,147 +67,119 @@ void add_study(CLI::App& app, Parsed& parsed) {
   command.add_flag("--dry-run", study.dry_run, "Say what would be run and at what cost; write nothing");
   command.add_flag("--explain", study.explain, "Say of every mechanical run why it runs or is used again");
   add_update(command, study.update);
-  add_output_options(command, parsed);
 }
 
-void add_merge(CLI::App& app, Parsed& parsed) {
-  MergeArguments& merge = parsed.merge;
-  CLI::App& command = add_command(app, parsed, merge, "merge",
-                                  "Make one report of the shards of a study; runs nothing", merge_footer);
-  command.add_option("study", merge.study, "Study file")->required()->type_name("STUDY.toml");
+void add_merge(CLI::App& app, CommandLine& line) {
+  auto [command, merge] = add_command<MergeArguments>(
+      app, line, "merge", "Make one report of the shards of a study; runs nothing", merge_footer);
+  add_required(command, "study", merge.study, "STUDY.toml", "Study file");
   add_folder(command, merge.output, "Folder for cases, tables and report")->required();
-  command.add_option("folder", merge.folders, "Folders of shards; none where they all used DIR")
-      ->type_name("FOLDER...");
+  add_optional(command, "folder", merge.folders, "FOLDER...",
+               "Folders of shards; none where they all used DIR");
   add_update(command, merge.update);
   add_tolerance(command, merge.tolerance);
   add_jobs(command, merge.jobs, "Threads that judge gaps; as many as there are processors unless given");
-  add_output_options(command, parsed);
 }
 
-void add_emit(CLI::App& app, Parsed& parsed) {
-  EmitArguments& emit = parsed.emit;
-  CLI::App& command = add_command(
-      app, parsed, emit, "emit", "Write batch scripts that run a study on a cluster, in shards", emit_footer);
-  command.add_option("engine", emit.engine, "What the scripts are for: slurm")
-      ->required()
-      ->check(CLI::IsMember({"slurm"}))
-      ->type_name("slurm");
-  command.add_option("study", emit.study, "Study file")->required()->type_name("STUDY.toml");
+void add_emit(CLI::App& app, CommandLine& line) {
+  auto [command, emit] = add_command<EmitArguments>(
+      app, line, "emit", "Write batch scripts that run a study on a cluster, in shards", emit_footer);
+  add_required(command, "engine", emit.engine, "slurm", "What the scripts are for: slurm")
+      ->check(CLI::IsMember({"slurm"}));
+  add_required(command, "study", emit.study, "STUDY.toml", "Study file");
   add_folder(command, emit.output, "Folder for cases, tables and report, seen by all nodes")->required();
   constexpr int most_shards = 10000;
-  command.add_option("--shards", emit.shards, "Number of shards")
-      ->required()
-      ->check(CLI::Range(1, most_shards))
-      ->type_name("N");
+  add_required(command, "--shards", emit.shards, "N", "Number of shards")->check(CLI::Range(1, most_shards));
   add_jobs(command, emit.jobs, "Cases at a time, and processors, of every shard");
   add_limits(command, emit.memory, emit.time_limit);
-  command.add_option("--sbatch", emit.sbatch, "A further #SBATCH option, such as --sbatch=--partition=long")
-      ->allow_extra_args(false)
-      ->type_name("TEXT");
-  add_output_options(command, parsed);
+  add_optional(command, "--sbatch", emit.sbatch, "TEXT",
+               "A further #SBATCH option, such as --sbatch=--partition=long")
+      ->allow_extra_args(false);
 }
 
-void add_verify(CLI::App& app, Parsed& parsed) {
-  CLI::App& command = add_command(app, parsed, parsed.verify, "verify",
-                                  "Test an installed program against known numbers", verify_footer);
-  command.add_option("--filter", parsed.verify.filter, "Only checks with this in their name, case ignored")
-      ->type_name("TEXT");
-  add_output_options(command, parsed);
+void add_verify(CLI::App& app, CommandLine& line) {
+  auto [command, verify] = add_command<VerifyArguments>(
+      app, line, "verify", "Test an installed program against known numbers", verify_footer);
+  add_optional(command, "--filter", verify.filter, "TEXT",
+               "Only checks with this in their name, case ignored");
 }
 
-void add_explain(CLI::App& app, Parsed& parsed) {
-  CLI::App& command = add_command(
-      app, parsed, parsed.explain, "explain",
-      "Say what a scene or a study will compute, what it leaves out, and the cost", explain_footer);
-  command
-      .add_option(
-          "file", parsed.explain.file,
-          "Scene, study or file of materials; with --keys or --materials the beginning of names, such as "
-          "load")
-      ->type_name("SCENE.toml|STUDY.toml|MATERIALS.toml");
-  CLI::Option* keys = command.add_flag("--keys", parsed.explain.keys,
+void add_explain(CLI::App& app, CommandLine& line) {
+  auto [command, explain] = add_command<ExplainArguments>(
+      app, line, "explain", "Say what a scene or a study will compute, what it leaves out, and the cost",
+      explain_footer);
+  add_optional(
+      command, "file", explain.file, "SCENE.toml|STUDY.toml|MATERIALS.toml",
+      "Scene, study or file of materials; with --keys or --materials the beginning of names, such as "
+      "load");
+  CLI::Option* keys = command.add_flag("--keys", explain.keys,
                                        "List the keys of scene and study files, or those whose name begins "
                                        "with the word given in the place of a "
                                        "file: unit, range, default, standing, meaning");
   CLI::Option* materials =
-      command.add_flag("--materials", parsed.explain.materials,
+      command.add_flag("--materials", explain.materials,
                        "List the materials that ship, or those whose name begins with the "
                        "word given in the place of a file: every number and its source");
   CLI::Option* schema = command
-                            .add_option("--schema", parsed.explain.schema,
+                            .add_option("--schema", explain.schema,
                                         "Print the JSON schema of scene or study files, for editors")
                             ->check(CLI::IsMember({"scene", "study", "references"}))
                             ->type_name("scene|study|references");
   for (CLI::Option* option : {keys, materials, schema})
     for (CLI::Option* other : {keys, materials, schema})
       if (other != option) option->excludes(other);
-  add_place(command, "--grid", parsed.explain.picture, "FILE.svg", "file",
+  add_place(command, "--grid", explain.picture, "FILE.svg", "file",
             "File to draw the half section of a scene and its grid to");
-  add_output_options(command, parsed);
 }
 
-void add_plot(CLI::App& app, Parsed& parsed) {
-  CLI::App& command =
-      add_command(app, parsed, parsed.plot, "plot",
-                  "Draw a case: histories, profiles, and fields over the section", plot_footer);
-  command.add_option("case", parsed.plot.file, "Case file")->required()->type_name("CASE.h5");
-  add_folder(command, parsed.plot.output,
-             "Folder for the pictures; CASE_pictures beside the file unless given");
-  command
-      .add_option("--what", parsed.plot.what,
-                  "pressure, fields, histories, profile, air, energy, combustion; all that the case has data "
-                  "for unless given")
-      ->type_name("LIST");
-  command
-      .add_option("--times", parsed.plot.times,
-                  "Times of fields, which must be snapshots, and of profiles, such as \"8, 10 ms\"")
-      ->type_name("LIST");
-  command.add_flag("--csv", parsed.plot.tables,
+void add_plot(CLI::App& app, CommandLine& line) {
+  auto [command, plot] = add_command<PlotArguments>(
+      app, line, "plot", "Draw a case: histories, profiles, and fields over the section", plot_footer);
+  add_required(command, "case", plot.file, "CASE.h5", "Case file");
+  add_folder(command, plot.output, "Folder for the pictures; CASE_pictures beside the file unless given");
+  add_optional(
+      command, "--what", plot.what, "LIST",
+      "pressure, fields, histories, profile, air, energy, combustion; all that the case has data for "
+      "unless given");
+  add_optional(command, "--times", plot.times, "LIST",
+               "Times of fields, which must be snapshots, and of profiles, such as \"8, 10 ms\"");
+  command.add_flag("--csv", plot.tables,
                    "Their numbers instead of pictures: pressure, fields and histories, as CSV files");
-  add_output_options(command, parsed);
 }
 
-void add_init(CLI::App& app, Parsed& parsed) {
-  InitArguments& init = parsed.init;
-  CLI::App& command =
-      add_command(app, parsed, init, "init", "Write a scene and a study of a shell of your own to start from",
-                  init_footer);
-  const auto read_calibre = [&init](const std::string& text) {
+void add_init(CLI::App& app, CommandLine& line) {
+  auto [command, init] = add_command<InitArguments>(
+      app, line, "init", "Write a scene and a study of a shell of your own to start from", init_footer);
+  const auto read_calibre = [&calibre = init.calibre](const std::string& text) {
     constexpr double smallest = 0.02, largest = 0.5;
-    const auto calibre = parse_positive<scene::Dimension::length>(text);
-    if (!calibre || *calibre < smallest || *calibre > largest)
+    const auto given = parse_positive<scene::Dimension::length>(text);
+    if (!given || *given < smallest || *given > largest)
       throw CLI::ValidationError(
           "--calibre", fmt::format("found \"{}\"; allowed: 20 mm to 50 cm, such as \"105 mm\"", text));
-    init.calibre = *calibre;
+    calibre = *given;
   };
   command.add_option_function<std::string>("--calibre", read_calibre, "Calibre, such as \"105 mm\"")
       ->required()
       ->type_name("LENGTH");
-  CLI::Option* curve = command
-                           .add_option("--curve", init.curve,
-                                       "Measured pressure that scenes take, such as import-curve writes")
-                           ->type_name("FILE.csv");
+  CLI::Option* curve = add_optional(command, "--curve", init.curve, "FILE.csv",
+                                    "Measured pressure that scenes take, such as import-curve writes");
   add_amount(command, "--peak", init.peak, parse_positive<scene::Dimension::pressure>,
              "a pressure such as 380MPa", "PRESSURE",
              "Peak chamber pressure, where there is no measured curve");
   command.get_option("--peak")->excludes(curve);
   add_folder(command, init.output, "Folder for the files")->required();
-  add_output_options(command, parsed);
 }
 
-void add_import_curve(CLI::App& app, Parsed& parsed) {
-  ImportCurveArguments& import = parsed.import_curve;
-  CLI::App& command =
-      add_command(app, parsed, import, "import-curve",
-                  "Clean the record of a pressure gauge: offset, trigger, units, noise", import_curve_footer);
-  command
-      .add_option("record", import.record, "Record of a gauge, with a header that names quantities and units")
-      ->required()
-      ->type_name("RECORD.csv");
+void add_import_curve(CLI::App& app, CommandLine& line) {
+  auto [command, import] = add_command<ImportCurveArguments>(
+      app, line, "import-curve", "Clean the record of a pressure gauge: offset, trigger, units, noise",
+      import_curve_footer);
+  add_required(command, "record", import.record, "RECORD.csv",
+               "Record of a gauge, with a header that names quantities and units");
   add_place(command, "-o,--output", import.output, "FILE.csv", "file",
             "File for the curve, with a picture beside it; nothing is written unless given");
-  command.add_option("--pressure", import.pressure, "Name of the pressure's column, where there are several")
-      ->type_name("COLUMN");
+  add_optional(command, "--pressure", import.pressure, "COLUMN",
+               "Name of the pressure's column, where there are several");
   add_amount(command, "--offset", import.offset, parse_scene_quantity<scene::Dimension::pressure>,
              "a pressure such as \"0.3 MPa\"", "PRESSURE",
              "What the gauge shows before the launch; the median of the points before the rise unless given");
@@ -222,28 +187,21 @@ void add_import_curve(CLI::App& app, Parsed& parsed) {
       command, "--trigger", import.trigger, parse_positive<scene::Dimension::pressure>,
       "a pressure such as \"5 MPa\"", "PRESSURE",
       "Pressure at which the launch begins; 1 % of the peak, or five deviations of noise, unless given");
-  add_output_options(command, parsed);
 }
 
-void add_report(CLI::App& app, Parsed& parsed) {
-  ReportArguments& report = parsed.report;
-  CLI::App& command = add_command(app, parsed, report, "report",
-                                  "Make the safety report of studies that were run", report_footer);
-  command.add_option("study", report.studies, "Folders of studies, at most one of each kind")
-      ->required()
-      ->type_name("STUDY_DIR...");
+void add_report(CLI::App& app, CommandLine& line) {
+  auto [command, report] = add_command<ReportArguments>(
+      app, line, "report", "Make the safety report of studies that were run", report_footer);
+  add_required(command, "study", report.studies, "STUDY_DIR...",
+               "Folders of studies, at most one of each kind");
   add_folder(command, report.output, "Folder for report.html, report.md, report.json and the figures")
       ->required();
-  command
-      .add_option("--criterion", report.criterion,
-                  "What a gap must meet to be recommended, besides SAFE: \"margin >= 2 uncertainty\"")
-      ->type_name("TEXT");
-  command
-      .add_option("--criterion-source", report.criterion_source, "Who asks for that, as the report is to say")
-      ->type_name("TEXT");
+  add_optional(command, "--criterion", report.criterion, "TEXT",
+               "What a gap must meet to be recommended, besides SAFE: \"margin >= 2 uncertainty\"");
+  add_optional(command, "--criterion-source", report.criterion_source, "TEXT",
+               "Who asks for that, as the report is to say");
   add_place(command, "--templates", report.templates, "DIR", "folder",
             "Folder of templates in place of those built in: letterhead, language");
-  add_output_options(command, parsed);
 }
 
 std::string text_of_success(const CLI::App& app, const CLI::Success& success) {
@@ -286,31 +244,25 @@ std::string contradiction(const Other&) {
   return {};
 }
 
-void add_commands(CLI::App& app, Parsed& parsed) {
+void add_commands(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.footer(footer);
   app.set_version_flag("--version", "", "Version, commit, compiler, flags and libraries");
-  add_run(app, parsed);
-  add_study(app, parsed);
-  add_merge(app, parsed);
-  add_emit(app, parsed);
-  add_verify(app, parsed);
-  add_explain(app, parsed);
-  add_plot(app, parsed);
-  add_init(app, parsed);
-  add_import_curve(app, parsed);
-  add_report(app, parsed);
+  for (const auto add : {add_run, add_study, add_merge, add_emit, add_verify, add_explain, add_plot, add_init,
+                         add_import_curve, add_report})
+    add(app, line);
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    command->add_flag("--json", line.json, "Print one JSON object on stdout instead of text");
+    command->add_flag("-q,--quiet", line.quiet, "No progress and no remarks on stderr; errors remain");
+  }
 }
 
 }  // namespace
 
 CommandLine parse_command_line(int argument_count, const char* const* arguments) {
   CLI::App app(description, "launchsafe");
-  Parsed parsed;
-  add_commands(app, parsed);
-  parsed.study.command = parsed.merge.command = shell_command({arguments, arguments + argument_count});
-
-  CommandLine& line = parsed.line;
+  CommandLine line;
+  add_commands(app, line);
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::Success& success) {
@@ -323,8 +275,13 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     line.json = asks_for_json(argument_count, arguments);
     return line;
   }
-  const std::string fault =
-      std::visit([](const auto& request) { return contradiction(request); }, line.request);
+  const std::string fault = std::visit(
+      [&](auto& request) {
+        if constexpr (requires { request.command; })
+          request.command = shell_command({arguments, arguments + argument_count});
+        return contradiction(request);
+      },
+      line.request);
   if (!fault.empty()) line.request = UsageError{fault};
   return line;
 }
