@@ -15,17 +15,17 @@ namespace {
 
 constexpr std::size_t most_failures_named = 20;
 
+/// True from the moment that a JSON object is promised until it is about to be written: whoever ends the
+/// program early has to write one.
 std::atomic<bool>& owed() {
   static constinit std::atomic<bool> flag{false};
   return flag;
 }
 
-nlohmann::ordered_json text_or_null(const std::string& text) {
-  return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
-}
-
-nlohmann::ordered_json number_or_null(int number) {
-  return number > 0 ? nlohmann::ordered_json(number) : nlohmann::ordered_json();
+/// Null for an empty text, and for 0.
+template <class Part>
+nlohmann::ordered_json or_null(const Part& part) {
+  return part == Part{} ? nlohmann::ordered_json() : nlohmann::ordered_json(part);
 }
 
 void say(std::string_view text) { write_or_drop(STDERR_FILENO, text); }
@@ -58,16 +58,6 @@ void Console::error(const std::string& message) { add_error(message, {}); }
 
 void Console::error(const scene::InputError& error) { add_error(error.message(), error); }
 
-ExitCode Console::refuse(const std::string& message) {
-  error(message);
-  return ExitCode::bad_input;
-}
-
-ExitCode Console::refuse(const scene::InputError& fault) {
-  error(fault);
-  return ExitCode::bad_input;
-}
-
 ExitCode Console::fail(const std::string& message) {
   error(message);
   return ExitCode::failed;
@@ -89,13 +79,13 @@ void Console::add_error(const std::string& message, const scene::InputError& par
     return;
   }
   (*object_)["error"] = {{"message", message},
-                         {"file", text_or_null(parts.file)},
-                         {"line", number_or_null(parts.line)},
-                         {"column", number_or_null(parts.column)},
-                         {"key", text_or_null(parts.key)},
-                         {"found", text_or_null(parts.found)},
-                         {"allowed", text_or_null(parts.allowed)},
-                         {"suggestion", text_or_null(parts.suggestion)}};
+                         {"file", or_null(parts.file)},
+                         {"line", or_null(parts.line)},
+                         {"column", or_null(parts.column)},
+                         {"key", or_null(parts.key)},
+                         {"found", or_null(parts.found)},
+                         {"allowed", or_null(parts.allowed)},
+                         {"suggestion", or_null(parts.suggestion)}};
 }
 
 void Console::failures(const std::vector<kinds::Failure>& failures) {
@@ -128,8 +118,6 @@ void Console::write_result(std::string_view text) {
   const int error = write_all(STDOUT_FILENO, text);
   output_lost_ = output_lost_ || (error != 0 && error != EPIPE);
 }
-
-bool json_is_owed() { return owed(); }
 
 ExitCode fail_at_once(const char* message) {
   for (const char* part : {"launchsafe: ", message, "\n"}) say(part);

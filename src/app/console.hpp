@@ -46,8 +46,11 @@ class Console {
   void error(const std::string& message);
   void error(const scene::InputError& error);
   /// `error` as the end of the command: of an input that is wrong, or of a machine that fails.
-  ExitCode refuse(const std::string& message);
-  ExitCode refuse(const scene::InputError& fault);
+  template <class Fault>
+  ExitCode refuse(const Fault& fault) {
+    error(fault);
+    return ExitCode::bad_input;
+  }
   ExitCode fail(const std::string& message);
   /// What kept a result from being stored: a folder that is wrong, or a machine that fails.
   ExitCode end_with(const store::Error& error);
@@ -68,10 +71,6 @@ class Console {
   void write_result(std::string_view text);
   void add_error(const std::string& message, const scene::InputError& parts);
 };
-
-/// True from the moment that a JSON object is promised until it is about to be written: whoever ends the
-/// program early has to write one.
-bool json_is_owed();
 
 /// For the end that nothing else could be made of: one line on stderr, the JSON object where it is owed.
 /// Allocates nothing, never throws.

@@ -1,6 +1,7 @@
 // launchsafe emit: scripts that run a study elsewhere.
 #include "commands.hpp"
 #include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/report/number.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "shell_words.hpp"
 #include "slurm_script.hpp"
@@ -18,13 +19,6 @@ namespace launchsafe::app {
 namespace {
 
 using std::filesystem::path;
-
-/// What the most demanding of a study's shards takes.
-struct ShardNeeds {
-  double time = 0;       ///< s of wall time
-  double memory = 0;     ///< bytes
-  std::size_t idle = 0;  ///< shards that have nothing to do
-};
 
 /// Wall time of runs that start on the next free core, the longest first.
 double time_on(const std::vector<double>& times, int cores) {
@@ -76,22 +70,15 @@ path absolute_path(const path& given) {
 }
 
 /// What the scripts need to know; the predictions come on top.
-SlurmStudy slurm_study(const EmitArguments& arguments, const study::StudyFile& file) {
+SlurmStudy slurm_study(EmitArguments asked, const study::StudyFile& file) {
   std::error_code failed;
-  SlurmStudy study;
-  study.program = std::filesystem::read_symlink("/proc/self/exe", failed);
-  study.study = absolute_path(arguments.study);
-  study.output = absolute_path(arguments.output);
-  study.cases = file.cases.size();
-  study.shards = arguments.shards;
-  study.jobs = std::max(1, arguments.jobs);
+  asked.study = absolute_path(asked.study);
+  asked.output = absolute_path(asked.output);
+  asked.jobs = std::max(1, asked.jobs);
   // No measurement, as the machine that submits is not the one that computes, and scripts stay what they
   // were.
-  study.update_rate = run::cautious_update_rate;
-  study.memory_limit = arguments.memory;
-  study.time_limit = arguments.time_limit;
-  study.sbatch = arguments.sbatch;
-  return study;
+  return {std::move(asked), std::filesystem::read_symlink("/proc/self/exe", failed), file.cases.size(),
+          run::cautious_update_rate};
 }
 
 /// Lets everybody start the script that submits the others.
@@ -106,24 +93,20 @@ void make_executable(const path& script) {
 void print_scripts(const SlurmStudy& study, const path& folder, const NamedTexts& scripts, Console& console) {
   const SlurmRequest request = request_of(study);
   const std::string command = shell_command({"sh", (folder / submit_name).string()});
-  std::string list;
-  nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (const auto& [name, text] : scripts) {
-    list += (folder / name).string() + "\n";
-    files.push_back((folder / name).string());
-  }
+  const std::vector<std::string> files = places_of(folder, scripts);
   console.print_text(fmt::format(
-      "{}\n{}; each asks for {}, {} MiB and {} min; the slowest is predicted to take {}\nto submit: {}\n",
-      list, count_text(study.shards, "shard"), count_text(study.jobs, "core"), request.mebibytes,
-      request.minutes, predicted_time(study), command));
+      "{}\n\n{}; each asks for {}, {} MiB and {} min; the slowest is predicted to take {}\nto submit: {}\n",
+      fmt::join(files, "\n"), report::counted(study.asked.shards, "shard"),
+      report::counted(study.asked.jobs, "core"), request.mebibytes, request.minutes, predicted_time(study),
+      command));
   console.print_json({{"files", files},
                       {"submit", command},
-                      {"shards", study.shards},
-                      {"jobs", study.jobs},
+                      {"shards", study.asked.shards},
+                      {"jobs", study.asked.jobs},
                       {"memory_MiB", request.mebibytes},
                       {"time_s", 60 * request.minutes},
-                      {"predicted_time_s", study.time},
-                      {"predicted_memory_bytes", study.memory}});
+                      {"predicted_time_s", study.needs.time},
+                      {"predicted_memory_bytes", study.needs.memory}});
 }
 
 }  // namespace
@@ -134,15 +117,14 @@ ExitCode perform(const EmitArguments& arguments, Console& console) {
   if (const auto error = study::all_out_of_reach(*file, {})) return console.refuse(*error);
   SlurmStudy study = slurm_study(arguments, *file);
   if (const auto fault = fault_of(study)) return console.refuse(*fault);
-  const store::Manifest manifest = study_manifest(*file, study.jobs);
-  if (const auto obstacle = obstacle_in_folder(study.output, kinds::kind_of(file->study), manifest, false))
+  const store::Manifest manifest = study_manifest(*file, study.asked.jobs);
+  if (const auto obstacle =
+          obstacle_in_folder(study.asked.output, kinds::kind_of(file->study), manifest, false))
     return console.refuse(*obstacle);
   study::StudyOptions options;
-  options.jobs = study.jobs;
-  const ShardNeeds needs =
-      needs_of(study::forecast_study(*file, options, study.update_rate), study.shards, study.jobs);
-  study.time = needs.time;
-  study.memory = needs.memory;
+  options.jobs = study.asked.jobs;
+  study.needs = needs_of(study::forecast_study(*file, options, study.update_rate), study.asked.shards,
+                         study.asked.jobs);
 
   const path folder = slurm_folder(arguments.output);
   if (std::filesystem::is_symlink(folder))
@@ -152,8 +134,9 @@ ExitCode perform(const EmitArguments& arguments, Console& console) {
   if (const ExitCode code = write_where_absent(folder, scripts, console); code != ExitCode::done) return code;
   make_executable(folder / submit_name);
   print_scripts(study, folder, scripts, console);
-  if (needs.idle > 0)
-    console.remark(fmt::format("{} of the {} shards will have nothing to do", needs.idle, study.shards));
+  if (study.needs.idle > 0)
+    console.remark(
+        fmt::format("{} of the {} shards will have nothing to do", study.needs.idle, study.asked.shards));
   return ExitCode::done;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "commands.hpp"
-#include "console.hpp"
 
 namespace launchsafe::app {
 

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cstdint>
 #include <map>
+#include <utility>
 
 namespace launchsafe::app {
 namespace {
@@ -55,8 +55,7 @@ Totals totals_of(const Forecast& forecast) {
 
 std::string runs_text(const Forecast& forecast) {
   const Totals totals = totals_of(forecast);
-  std::string text =
-      fmt::format("{} for {} case{}", forecast.runs.size(), totals.cases, totals.cases == 1 ? "" : "s");
+  std::string text = fmt::format("{} for {}", forecast.runs.size(), report::counted(totals.cases, "case"));
   if (totals.refused > 0) text += fmt::format("; {} refused", totals.refused);
   if (totals.stored > 0 || totals.refused > 0)
     text += fmt::format("; {} stored, {} to run", totals.stored, totals.to_run);
@@ -68,7 +67,7 @@ std::string confirmation_text(const scene::Scene& scene, const Forecast& forecas
   std::string text;
   if (scene.surface.air_model == scene::AirModel::reservoir)
     text += fmt::format(": from checkpoints of the launch and, after ignition, {} through combustion",
-                        scene::format_quantity(scene.combustion.duration, scene::Dimension::time));
+                        scene::time_text(scene.combustion.duration));
   if (forecast.confirmation_time > 0.0)
     text += fmt::format("; about {} of the time", report::duration(forecast.confirmation_time));
   return text;
@@ -78,10 +77,11 @@ std::string time_text(const Forecast& forecast, const std::filesystem::path& fol
   const Totals totals = totals_of(forecast);
   if (totals.refused > 0 && totals.to_run == 0) return "none: nothing is left that may run";
   if (totals.stored == forecast.runs.size()) return "next to none: every mechanical run is stored";
-  const std::string origin = forecast.learned_from == 0
-                                 ? "measured now"
-                                 : fmt::format("learned from {} run{} in {}", forecast.learned_from,
-                                               forecast.learned_from == 1 ? "" : "s", folder.string());
+  const std::string origin =
+      forecast.learned_from == 0
+          ? "measured now"
+          : fmt::format("learned from {} in {}", report::counted(forecast.learned_from, "run"),
+                        folder.string());
   return fmt::format("about {} at {:.3g} particle updates per second on a core, {}",
                      report::duration(forecast.time), forecast.update_rate, origin);
 }
@@ -132,22 +132,14 @@ nlohmann::ordered_json forecast_json(const study::StudyFile& file, const Forecas
 
 std::vector<std::string> reason_lines(const Forecast& forecast) {
   constexpr std::size_t few = 30;
+  std::map<std::string, std::size_t> runs_of;
+  for (const ForecastRun& run : forecast.runs) ++runs_of[state_of(run)];
   std::vector<std::string> lines;
-  if (forecast.runs.size() < few) {
-    for (const ForecastRun& run : forecast.runs) lines.push_back(run.label + ": " + state_of(run));
-    return lines;
-  }
-  std::map<std::string, std::size_t> places;
-  std::vector<std::vector<const ForecastRun*>> groups;
   for (const ForecastRun& run : forecast.runs) {
-    const auto [place, is_new] = places.try_emplace(state_of(run), groups.size());
-    if (is_new) groups.emplace_back();
-    groups[place->second].push_back(&run);
-  }
-  for (const auto& group : groups) {
-    const ForecastRun& first = *group.front();
-    lines.push_back(group.size() == 1 ? first.label + ": " + state_of(first)
-                                      : fmt::format("{} runs: {}", group.size(), state_of(first)));
+    const std::string state = state_of(run);
+    const std::size_t runs = forecast.runs.size() < few ? 1 : std::exchange(runs_of[state], 0);
+    if (runs == 1) lines.push_back(run.label + ": " + state);
+    if (runs > 1) lines.push_back(fmt::format("{} runs: {}", runs, state));
   }
   return lines;
 }

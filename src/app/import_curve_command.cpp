@@ -1,6 +1,5 @@
 // launchsafe import-curve: what a pressure gauge recorded as a curve that scenes take.
 #include "commands.hpp"
-#include "console.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/scene/gauge_record.hpp"
 #include "launchsafe/scene/load_roughness.hpp"

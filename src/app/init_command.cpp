@@ -1,14 +1,12 @@
 // launchsafe init: a scene and a study of a shell of the user's own to start from.
 #include "built_in_texts.hpp"
 #include "commands.hpp"
-#include "console.hpp"
 #include "filled_text.hpp"
 #include "key_schema.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/quantity.hpp"
-#include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "output_folder.hpp"
 #include "shell_words.hpp"
@@ -62,8 +60,7 @@ NamedTexts files_of(const InitArguments& arguments, const std::optional<scene::P
                     const std::string& csv) {
   const double factor = arguments.calibre / published_calibre;
   const double duration = curve ? curve->time.back() : factor * scene::Load{}.duration;
-  const std::string calibre = fmt::format("{:g} mm", 1e3 * arguments.calibre);
-  const TextValues values{{"calibre", calibre},
+  const TextValues values{{"calibre", fmt::format("{:g} mm", 1e3 * arguments.calibre)},
                           {"factor", fmt::format("{:.4g}", factor)},
                           {"charge_begin", scaled_length(118, factor)},
                           {"charge_end", scaled_length(678, factor)},
@@ -77,15 +74,8 @@ NamedTexts files_of(const InitArguments& arguments, const std::optional<scene::P
                    {"calibration.json", shipped_calibration},
                    {"scene.schema.json", scene_schema().dump(1) + "\n"},
                    {"study.schema.json", study_schema().dump(1) + "\n"}};
-  if (curve) files.emplace_back("pressure.csv", csv);
+  if (curve) files.push_back({"pressure.csv", csv});
   return files;
-}
-
-/// A fault of the files just written is the program's, and is told before anybody computes with them.
-ExitCode check(const std::filesystem::path& study, Console& console) {
-  const auto read = kinds::read_study(study);
-  if (!read) return console.fail("internal error: what init wrote cannot be read: " + read.error().message());
-  return ExitCode::done;
 }
 
 }  // namespace
@@ -104,13 +94,12 @@ ExitCode perform(const InitArguments& arguments, Console& console) {
   const NamedTexts files = files_of(arguments, curve, csv);
   if (const ExitCode code = write_where_absent(arguments.output, files, console); code != ExitCode::done)
     return code;
-  nlohmann::ordered_json written = nlohmann::ordered_json::array();
-  for (const auto& [name, text] : files) {
-    console.print_text(fmt::format("wrote {}\n", (arguments.output / name).string()));
-    written.push_back((arguments.output / name).string());
-  }
+  const std::vector<std::string> written = places_of(arguments.output, files);
+  console.print_text(fmt::format("wrote {}\n", fmt::join(written, "\nwrote ")));
   const std::filesystem::path study = arguments.output / "critical_gap.toml";
-  if (const ExitCode code = check(study, console); code != ExitCode::done) return code;
+  // A fault of the files just written is the program's, and is told before anybody computes with them.
+  if (const auto read = kinds::read_study(study); !read)
+    return console.fail("internal error: what init wrote cannot be read: " + read.error().message());
   console.print_text(fmt::format(
       "\nThe shell is the published one, scaled: put the lengths of a drawing into {}.\nnext: {}\n",
       (arguments.output / "scene.toml").string(),

@@ -214,12 +214,6 @@ Json with_head(Json schema, const char* title) {
   return whole;
 }
 
-/// Values of any scene key, under names that the schema of a scene explains.
-Json free_table(Json table) {
-  table["additionalProperties"] = true;
-  return table;
-}
-
 /// Numbers of an uncertain input are in a unit of its key, which a schema cannot follow.
 void free_of_unit(Json& input) {
   for (const char* name : {"range", "mean", "deviation"})
@@ -241,8 +235,9 @@ Json with_other_tables(Json entry, const std::string& table, const Json& changes
     properties["set"] = changes;
     properties["accept"] = array_of(schema_of_table("accept", scene::describe_keys()));
   }
-  const bool free = table == "axes" || table == "settings" || table == "variant";
-  return free ? free_table(std::move(entry)) : entry;
+  // Values of any scene key, under names that the schema of a scene explains.
+  if (table == "axes" || table == "settings" || table == "variant") entry["additionalProperties"] = true;
+  return entry;
 }
 
 }  // namespace

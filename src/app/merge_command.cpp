@@ -14,20 +14,16 @@
 namespace launchsafe::app {
 namespace {
 
-ExitCode import_exit_code(const store::Error& error) {
-  const bool folder_is_wrong =
-      error.kind == store::Error::Kind::conflict || error.kind == store::Error::Kind::missing;
-  return folder_is_wrong ? ExitCode::bad_input : ExitCode::failed;
-}
-
 ExitCode import_folders(const std::vector<std::filesystem::path>& folders, StudySession& session,
                         Console& console) {
   for (const std::filesystem::path& folder : folders) {
     const auto imported = session.store().import_from(folder);
     session.print_remarks();
     if (!imported) {
-      console.error(imported.error().message);
-      return import_exit_code(imported.error());
+      const auto& [kind, message] = imported.error();
+      const bool folder_is_wrong =
+          kind == store::Error::Kind::conflict || kind == store::Error::Kind::missing;
+      return folder_is_wrong ? console.refuse(message) : console.fail(message);
     }
     console.remark(fmt::format("{}: copied {} cases and {} answers, {} cases were there already",
                                folder.string(), imported->cases, imported->answers, imported->already_there));
@@ -35,29 +31,33 @@ ExitCode import_folders(const std::vector<std::filesystem::path>& folders, Study
   return ExitCode::done;
 }
 
-/// Names the mechanical runs that no shard has stored.
-std::size_t list_missing(const study::Forecast& forecast, Console& console) {
-  nlohmann::ordered_json missing = nlohmann::ordered_json::array();
-  for (const study::ForecastRun& run : forecast.runs) {
-    if (run.stored || run.given_up) continue;
-    console.print_text(fmt::format("missing: {}: {}\n", run.label, run.why));
-    missing.push_back({{"mechanical_run", run.label}, {"why", run.why}});
-  }
-  if (!missing.empty()) console.print_json({{"missing", missing}});
-  return missing.size();
+/// The mechanical runs that no shard has stored.
+nlohmann::ordered_json missing_runs(const study::Forecast& forecast) {
+  nlohmann::ordered_json missing;
+  for (const study::ForecastRun& run : forecast.runs)
+    if (!run.stored && !run.given_up) missing.push_back({{"mechanical_run", run.label}, {"why", run.why}});
+  return missing;
 }
 
-/// Names the runs that only turned out to be missing when they were asked for: coupled runs, whose gaps
-/// follow from the mechanics, and files that were damaged after they had been looked at.
-std::size_t list_not_stored(const kinds::StudyOutcome& result, Console& console) {
-  nlohmann::ordered_json missing = nlohmann::ordered_json::array();
-  for (const kinds::Failure& failure : result.failures) {
-    if (failure.outcome != study::RunOutcome::not_stored) continue;
-    console.print_text(fmt::format("missing: {}\n", failure.label));
-    missing.push_back({{"run", failure.label}});
+/// The runs that only turned out to be missing when they were asked for: coupled runs, whose gaps follow from
+/// the mechanics, and files that were damaged after they had been looked at.
+nlohmann::ordered_json missing_runs(const kinds::StudyOutcome& result) {
+  nlohmann::ordered_json missing;
+  for (const kinds::Failure& failure : result.failures)
+    if (failure.outcome == study::RunOutcome::not_stored) missing.push_back({{"run", failure.label}});
+  return missing;
+}
+
+/// Names what is missing; `what`: how many of which runs.
+ExitCode refuse_without(const nlohmann::ordered_json& missing, const std::string& what, Console& console) {
+  for (const auto& run : missing) {
+    std::string line = "missing";
+    for (const auto& part : run) line += ": " + part.get<std::string>();
+    console.print_text(line + "\n");
   }
-  if (!missing.empty()) console.print_json({{"missing", missing}});
-  return missing.size();
+  console.print_json({{"missing", missing}});
+  console.error(what + " are missing; there is no report");
+  return ExitCode::cases_failed;
 }
 
 }  // namespace
@@ -83,16 +83,12 @@ ExitCode perform(const MergeArguments& arguments, Console& console) {
   options.store = &session.store();
   constexpr double any_rate = 1.0;
   const study::Forecast forecast = study::forecast_study(*file, options, any_rate);
-  if (const std::size_t missing = list_missing(forecast, console); missing > 0) {
-    console.error(fmt::format("{} of {} mechanical runs are missing; there is no report", missing,
-                              forecast.runs.size()));
-    return ExitCode::cases_failed;
-  }
+  if (const auto missing = missing_runs(forecast); !missing.empty())
+    return refuse_without(
+        missing, fmt::format("{} of {} mechanical runs", missing.size(), forecast.runs.size()), console);
   const kinds::StudyOutcome result = kinds::run_study(*file, options);
-  if (const std::size_t missing = list_not_stored(result, console); missing > 0) {
-    console.error(fmt::format("{} runs are missing; there is no report", missing));
-    return ExitCode::cases_failed;
-  }
+  if (const auto missing = missing_runs(result); !missing.empty())
+    return refuse_without(missing, fmt::format("{} runs", missing.size()), console);
   return session.conclude(result, *file, options);
 }
 

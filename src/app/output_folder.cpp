@@ -1,7 +1,6 @@
 #include "output_folder.hpp"
 
 #include "launchsafe/store/atomic_file.hpp"
-#include "launchsafe/store/own_files.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -51,20 +50,10 @@ ExitCode write_where_absent(const std::filesystem::path& folder, const NamedText
   return ExitCode::done;
 }
 
-std::optional<std::string> obstacle_to_report(const std::filesystem::path& folder,
-                                              const std::vector<std::string>& names) {
-  for (const std::string& name : names)
-    if (const auto error = store::obstacle_to_own_file(folder / name)) return error->message;
-  return prepare_output_folder(folder);
-}
-
-store::MaybeError write_texts(const std::filesystem::path& folder, const NamedTexts& texts,
-                              report::WrittenFiles& written) {
-  for (const auto& [name, text] : texts) {
-    if (auto error = store::write_own_file(folder / name, {text})) return error;
-    written.files.push_back(name);
-  }
-  return {};
+std::vector<std::string> places_of(const std::filesystem::path& folder, const NamedTexts& texts) {
+  std::vector<std::string> places;
+  for (const report::TextFile& each : texts) places.push_back((folder / each.name).string());
+  return places;
 }
 
 }  // namespace launchsafe::app

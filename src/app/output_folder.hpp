@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace launchsafe::app {
@@ -26,19 +25,13 @@ std::optional<std::string> obstacle_to_file(const std::filesystem::path& file, s
 /// found nothing.
 store::MaybeError write_where_absent(const std::filesystem::path& file, std::string_view content);
 
-/// Texts of files, each under its name.
-using NamedTexts = std::vector<std::pair<std::string, std::string>>;
+using NamedTexts = std::vector<report::TextFile>;
+
+/// Where files of these names lie in a folder, as the user named it.
+std::vector<std::string> places_of(const std::filesystem::path& folder, const NamedTexts& texts);
 
 /// Writes files into a folder, which is made where there is none: all of them, or none where one may not be
 /// written, which it says.
 ExitCode write_where_absent(const std::filesystem::path& folder, const NamedTexts& texts, Console& console);
-
-/// Why the files of a command's report may not be written into the folder, which is made where there is none.
-std::optional<std::string> obstacle_to_report(const std::filesystem::path& folder,
-                                              const std::vector<std::string>& names);
-
-/// Writes the texts of a command's report, each under its name. Errors: those of `store::write_own_file`.
-store::MaybeError write_texts(const std::filesystem::path& folder, const NamedTexts& texts,
-                              report::WrittenFiles& written);
 
 }  // namespace launchsafe::app

@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "launchsafe/report/case_pictures.hpp"
 #include "launchsafe/scene/quantity.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
@@ -13,23 +14,12 @@
 
 #include <algorithm>
 #include <utility>
-#include <variant>
 
 namespace launchsafe::app {
 namespace {
 
 using report::CasePicture;
 using report::PictureKind;
-
-scene::InputError option_fault(std::string key, std::string found, std::string allowed,
-                               std::string suggestion = {}) {
-  scene::InputError fault;
-  fault.key = std::move(key);
-  fault.found = std::move(found);
-  fault.allowed = std::move(allowed);
-  fault.suggestion = std::move(suggestion);
-  return fault;
-}
 
 /// The words of a list between commas or blanks.
 std::vector<std::string> words_of(const std::string& list) {
@@ -42,12 +32,6 @@ std::vector<std::string> words_of(const std::string& list) {
       words.push_back(std::exchange(word, {}));
     }
   }
-  return words;
-}
-
-std::vector<std::string> kind_words() {
-  std::vector<std::string> words;
-  for (const PictureKind& kind : report::picture_kinds()) words.emplace_back(kind.word);
   return words;
 }
 
@@ -68,38 +52,39 @@ std::string obstacle_to_kind(const PictureKind& kind, const report::DrawnCase& d
   return kind.lacks(drawn);
 }
 
-/// All that the case has data for.
-Selection all_kinds(const report::DrawnCase& drawn, bool as_tables) {
-  Selection selection;
-  for (const PictureKind& kind : report::picture_kinds()) {
-    if (std::string why = obstacle_to_kind(kind, drawn, as_tables); why.empty()) {
-      selection.kinds.push_back(&kind);
-    } else {
-      selection.left_out.emplace_back(&kind, std::move(why));
-    }
-  }
-  return selection;
+/// The words of kinds that a user named, each of which must be one.
+scene::Expected<std::vector<std::string>> named_kinds(const std::string& list) {
+  std::vector<std::string> known;
+  for (const PictureKind& kind : report::picture_kinds()) known.emplace_back(kind.word);
+  const auto fault = [&](const std::string& found) {
+    return scene::error_at({}, "--what", fmt::format("\"{}\"", found), scene::quoted_list(known),
+                           scene::nearest_of(found, known));
+  };
+  std::vector<std::string> words = words_of(list);
+  if (words.empty()) return fault(list);
+  for (const std::string& word : words)
+    if (std::find(known.begin(), known.end(), word) == known.end()) return fault(word);
+  return words;
 }
 
-/// The kinds that a user named; each must be one, and the case must have what it needs.
-scene::Expected<Selection> named_kinds(const report::DrawnCase& drawn, const std::string& list,
-                                       bool as_tables) {
-  const std::vector<std::string> words = words_of(list), known = kind_words();
-  if (words.empty()) return option_fault("--what", fmt::format("\"{}\"", list), scene::quoted_list(known));
-  for (const std::string& word : words) {
-    if (std::find(known.begin(), known.end(), word) == known.end())
-      return option_fault("--what", fmt::format("\"{}\"", word), scene::quoted_list(known),
-                          scene::nearest_of(word, known));
-  }
+/// Of these kinds, or of all where none is named, what the case has data for. A kind that is named must have
+/// some.
+scene::Expected<Selection> select(const report::DrawnCase& drawn, const std::vector<std::string>& named,
+                                  bool as_tables) {
   Selection selection;
   for (const PictureKind& kind : report::picture_kinds()) {
-    if (std::find(words.begin(), words.end(), kind.word) == words.end()) continue;
-    if (const std::string why = obstacle_to_kind(kind, drawn, as_tables); !why.empty())
-      return option_fault("--what",
-                          fmt::format("\"{}\", which {} has no data for: {}", kind.word,
-                                      as_tables && !kind.tables ? "--csv" : "this case", why),
-                          "what the case has data for; all of that without --what");
-    selection.kinds.push_back(&kind);
+    if (!named.empty() && std::find(named.begin(), named.end(), kind.word) == named.end()) continue;
+    const std::string why = obstacle_to_kind(kind, drawn, as_tables);
+    if (why.empty()) {
+      selection.kinds.push_back(&kind);
+    } else if (named.empty()) {
+      selection.left_out.emplace_back(&kind, why);
+    } else {
+      return scene::error_at({}, "--what",
+                             fmt::format("\"{}\", which {} has no data for: {}", kind.word,
+                                         as_tables && !kind.tables ? "--csv" : "this case", why),
+                             "what the case has data for; all of that without --what");
+    }
   }
   return selection;
 }
@@ -114,12 +99,12 @@ std::optional<scene::InputError> fault_in_time(const report::DrawnCase& drawn, c
     if (known) return std::nullopt;
     std::vector<std::string> times;
     for (const auto& each : snapshots) times.push_back(scene::time_text(each.time()));
-    return option_fault("--times", found + ", of which the case has no snapshot",
-                        fmt::format("{}; any time with --what profile", fmt::join(times, ", ")));
+    return scene::error_at({}, "--times", found + ", of which the case has no snapshot",
+                           fmt::format("{}; any time with --what profile", fmt::join(times, ", ")));
   }
   const double end = drawn.result.mechanics.end_time;
   if (time >= 0.0 && time <= end * (1.0 + 1e-9)) return std::nullopt;
-  return option_fault("--times", found, "times until the end of the run at " + scene::time_text(end));
+  return scene::error_at({}, "--times", found, "times until the end of the run at " + scene::time_text(end));
 }
 
 /// The times that a user named, each of which must be one that can be drawn.
@@ -127,9 +112,10 @@ scene::Expected<std::vector<double>> wanted_times(const report::DrawnCase& drawn
                                                   const std::string& text) {
   const auto times = scene::parse_list(text, scene::Dimension::time);
   if (!times)
-    return option_fault("--times", times.error().found, times.error().allowed, times.error().suggestion);
+    return scene::error_at({}, "--times", times.error().found, times.error().allowed,
+                           times.error().suggestion);
   if (!selection.has("fields") && !selection.has("profile"))
-    return option_fault("--times", text, "times where fields or profile are drawn");
+    return scene::error_at({}, "--times", text, "times where fields or profile are drawn");
   for (const double time : *times)
     if (auto fault = fault_in_time(drawn, selection, time)) return *fault;
   return *times;
@@ -171,12 +157,6 @@ std::filesystem::path folder_of(const PlotArguments& arguments) {
   return arguments.file.parent_path() / (arguments.file.stem().string() + "_pictures");
 }
 
-std::string written_text(const std::vector<DrawnFile>& files, const std::filesystem::path& folder) {
-  std::string text;
-  for (const DrawnFile& each : files) text += (folder / each.name).string() + "\n";
-  return text;
-}
-
 nlohmann::ordered_json written_json(const std::vector<DrawnFile>& files, const std::filesystem::path& folder,
                                     const Selection& selection, const char* list) {
   nlohmann::ordered_json object{{"folder", folder.string()},
@@ -214,8 +194,13 @@ ExitCode perform(const PlotArguments& arguments, Console& console) {
                           "; allowed: a case file, such as launchsafe run SCENE.toml -o DIR writes");
   report::DrawnCase drawn{file->scene, file->stored.result};
   const bool tables = arguments.tables;
-  const auto selection =
-      arguments.what ? named_kinds(drawn, *arguments.what, tables) : all_kinds(drawn, tables);
+  std::vector<std::string> named;
+  if (arguments.what) {
+    auto words = named_kinds(*arguments.what);
+    if (!words) return console.refuse(words.error());
+    named = std::move(*words);
+  }
+  const auto selection = select(drawn, named, tables);
   if (!selection) return console.refuse(selection.error());
   if (arguments.times) {
     auto times = wanted_times(drawn, *selection, *arguments.times);
@@ -226,11 +211,11 @@ ExitCode perform(const PlotArguments& arguments, Console& console) {
   if (!files) return end_of_drawing(files.error(), console);
   const std::filesystem::path folder = folder_of(arguments);
   NamedTexts texts;
-  for (const DrawnFile& each : *files) texts.emplace_back(each.name, each.text);
+  for (const DrawnFile& each : *files) texts.push_back({each.name, each.text});
   if (const ExitCode code = write_where_absent(folder, texts, console); code != ExitCode::done) return code;
   for (const auto& [kind, why] : selection->left_out)
     console.remark(fmt::format("no {} of {}: {}", tables ? "table" : "picture", kind->word, why));
-  console.print_text(written_text(*files, folder));
+  console.print_text(fmt::format("{}\n", fmt::join(places_of(folder, texts), "\n")));
   console.print_json(written_json(*files, folder, *selection, tables ? "tables" : "pictures"));
   return ExitCode::done;
 }

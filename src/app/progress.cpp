@@ -37,7 +37,10 @@ Progress::Progress(ProgressStyle style)
   last_ -= pause_;
 }
 
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+  const std::lock_guard lock(mutex_);
+  if (shown_) write_or_drop(STDERR_FILENO, "\r\x1b[K");
+}
 
 void Progress::show(const std::string& line) {
   if (style_ == ProgressStyle::none) return;
@@ -48,17 +51,6 @@ void Progress::show(const std::string& line) {
   shown_ = style_ == ProgressStyle::terminal;
   const std::string text = shown_ ? fmt::format("\r{}\x1b[K", fitted(line)) : line + "\n";
   write_or_drop(STDERR_FILENO, text);
-}
-
-void Progress::clear() {
-  const std::lock_guard lock(mutex_);
-  erase();
-}
-
-void Progress::erase() {
-  if (!shown_) return;
-  shown_ = false;
-  write_or_drop(STDERR_FILENO, "\r\x1b[K");
 }
 
 std::string time_left(double share, double elapsed) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
 #include <mutex>
 #include <string>
 
@@ -25,12 +24,8 @@ class Progress {
   /// Shows the line, unless the last one is too fresh: a fifth of a second on a terminal, where the first is
   /// shown at once; ten seconds elsewhere, from the beginning on.
   void show(const std::string& line);
-  /// Removes the line until the next one is shown, so that other words do not run into it.
-  void clear();
 
  private:
-  void erase();
-
   ProgressStyle style_;
   std::mutex mutex_;
   std::chrono::steady_clock::duration pause_;

@@ -17,11 +17,11 @@
 namespace launchsafe::app {
 namespace {
 
-/// A report is not written into the folder of a study: its report.md would take the place of the study's.
-std::optional<std::string> obstacle_in(const ReportArguments& arguments) {
-  if (!store::read_study_record(arguments.output)) return std::nullopt;
-  return fmt::format("report: --output names {}, which holds a study; allowed: another folder",
-                     arguments.output.string());
+/// Why the files may not be written into the folder, which is made where there is none.
+std::optional<std::string> obstacle_to(const NamedTexts& files, const std::filesystem::path& folder) {
+  for (const report::TextFile& file : files)
+    if (const auto error = store::obstacle_to_own_file(folder / file.name)) return error->message;
+  return prepare_output_folder(folder);
 }
 
 store::Result<report::SafetyTemplates> templates_of(const ReportArguments& arguments) {
@@ -33,7 +33,7 @@ store::Result<report::SafetyTemplates> templates_of(const ReportArguments& argum
 /// were written. Only what that report names: other files of ours there are not the report's. Returns remarks
 /// on those that stay.
 store::Result<std::vector<std::string>> remove_stale_figures(const std::filesystem::path& folder,
-                                                             const std::vector<std::string>& names) {
+                                                             const NamedTexts& files) {
   const auto own = store::OwnFiles::read(folder);
   if (!own) return own.error();
   std::vector<std::string> remarks;
@@ -41,7 +41,9 @@ store::Result<std::vector<std::string>> remove_stale_figures(const std::filesyst
   const auto text = store::read_file(folder / "report.json");
   if (!text) return text.error();
   for (const std::string& figure : report::figures_of(*text)) {
-    if (std::find(names.begin(), names.end(), figure) != names.end()) continue;
+    const bool is_new = std::any_of(files.begin(), files.end(),
+                                    [&](const report::TextFile& file) { return file.name == figure; });
+    if (is_new) continue;
     std::error_code failed;
     switch (own->state_of(figure)) {
       case store::FileState::ours:
@@ -70,7 +72,11 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
     if (!parsed) return console.refuse(parsed.error());
     criterion = std::move(*parsed);
   }
-  if (const auto obstacle = obstacle_in(arguments)) return console.refuse(*obstacle);
+  // Its report.md would take the place of the study's.
+  if (store::read_study_record(arguments.output))
+    return console.refuse(
+        fmt::format("report: --output names {}, which holds a study; allowed: another folder",
+                    arguments.output.string()));
   const auto templates = templates_of(arguments);
   if (!templates) return console.refuse(templates.error().message);
   const auto evidence = report::read_safety_evidence(arguments.studies);
@@ -82,27 +88,18 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
     console.error("interrupted while drawing; nothing was written");
     return ExitCode::interrupted;
   }
-  std::vector<std::string> names;
-  std::vector<std::pair<std::string, std::string>> texts;
-  for (const report::TextFile& file : rendered->files) {
-    names.push_back(file.name);
-    texts.emplace_back(file.name, file.text);
-  }
-  if (const auto obstacle = obstacle_to_report(arguments.output, names)) return console.refuse(*obstacle);
-  const auto stale = remove_stale_figures(arguments.output, names);
+  const NamedTexts& files = rendered->files;
+  if (const auto obstacle = obstacle_to(files, arguments.output)) return console.refuse(*obstacle);
+  const auto stale = remove_stale_figures(arguments.output, files);
   if (!stale) return console.end_with(stale.error());
-  report::WrittenFiles written;
-  if (const auto error = write_texts(arguments.output, texts, written)) return console.end_with(*error);
+  for (const auto& [name, text] : files)
+    if (const auto error = store::write_own_file(arguments.output / name, {text}))
+      return console.end_with(*error);
   for (const auto* remarks : {&*stale, &rendered->remarks})
     for (const std::string& remark : *remarks) console.remark(remark);
-  std::string text;
-  nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (const std::string& name : names) {
-    text += (arguments.output / name).string() + "\n";
-    files.push_back((arguments.output / name).string());
-  }
-  console.print_text(text);
-  console.print_json({{"files", std::move(files)}, {"remarks", rendered->remarks}});
+  const std::vector<std::string> places = places_of(arguments.output, files);
+  console.print_text(fmt::format("{}\n", fmt::join(places, "\n")));
+  console.print_json({{"files", places}, {"remarks", rendered->remarks}});
   return ExitCode::done;
 }
 

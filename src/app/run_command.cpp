@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "explain_scene.hpp"
 #include "launchsafe/report/air_energy_table.hpp"
+#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/combustion_table.hpp"
 #include "launchsafe/report/interface_table.hpp"
 #include "launchsafe/report/number.hpp"
@@ -70,11 +71,10 @@ void add_maximum(std::vector<report::Cell>& row, const surface::Maximum& maximum
 }
 
 std::vector<report::Column> gap_columns(bool points) {
-  std::vector<report::Column> columns{
-      {.name = "gap", .unit = "cm", .decimals = 5, .notation = report::Notation::significant},
-      {.name = "T max", .unit = "K"},
-      report::text_column("at"),
-      {.name = "time", .unit = "ms", .decimals = 2}};
+  std::vector<report::Column> columns{report::significant_column("gap", "cm", 5, {}),
+                                      {.name = "T max", .unit = "K"},
+                                      report::text_column("at"),
+                                      {.name = "time", .unit = "ms", .decimals = 2}};
   if (points) {
     columns.push_back({.name = "T max at points", .unit = "K"});
     columns.push_back(report::text_column("where"));
@@ -124,7 +124,7 @@ std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mec
                              : fmt::format("{}: {}", run::to_string(mechanics.status), mechanics.reason));
   if (const std::string measured = scene::measured_load_text(scene.load); !measured.empty())
     text += line("load", measured);
-  text += line("simulated", scene::format_quantity(mechanics.end_time, Dimension::time));
+  text += line("simulated", scene::time_text(mechanics.end_time));
   std::string masses;
   for (const run::MaterialMass& each : mechanics.masses)
     masses += fmt::format("{}{} {:.6g}", masses.empty() ? "" : ", ", each.material, each.mass);
@@ -199,7 +199,6 @@ report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result
   return table;
 }
 
-/// A table of the gaps, then the energy balance, the limiters that acted, and what the run cost.
 std::string combustion_text(const run::CaseResult& result) {
   constexpr std::size_t history_rows = 12;
   const report::Table table = report::combustion_table(result);
@@ -212,6 +211,7 @@ std::string combustion_text(const run::CaseResult& result) {
   return text;
 }
 
+/// A table of the gaps, then the energy balance, the limiters that acted, and what the run cost.
 std::string case_text(const scene::Scene& scene, const run::CaseResult& result) {
   std::string text;
   if (!result.gaps.empty()) {
@@ -250,8 +250,6 @@ nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResul
   return object;
 }
 
-std::string milliseconds(double seconds) { return scene::format_quantity(seconds, scene::Dimension::time); }
-
 run::CaseResult run_with_progress(const scene::Scene& scene, const Console& console) {
   Progress progress(progress_style(console.quiet()));
   const auto start = std::chrono::steady_clock::now();
@@ -260,8 +258,8 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
   options.threads = study::available_cores();
   options.progress = [&](double share) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    progress.show(fmt::format("{} of {}, {:.0f} %  {}", milliseconds(share * scene.load.duration),
-                              milliseconds(scene.load.duration), 100.0 * share,
+    progress.show(fmt::format("{} of {}, {:.0f} %  {}", scene::time_text(share * scene.load.duration),
+                              scene::time_text(scene.load.duration), 100.0 * share,
                               time_left(share, elapsed.count())));
   };
   return run::run_case(scene, options);
@@ -295,7 +293,8 @@ ExitCode report_interruption(const RunArguments& arguments, const run::Mechanics
   const std::string output = arguments.output ? fmt::format(" -o {}", arguments.output->string()) : "";
   console.error(fmt::format(
       "interrupted at {} of {}; nothing of this case was kept; to start it again: launchsafe run {}{}",
-      milliseconds(mechanics.end_time), milliseconds(scene.load.duration), arguments.scene.string(), output));
+      scene::time_text(mechanics.end_time), scene::time_text(scene.load.duration), arguments.scene.string(),
+      output));
   return ExitCode::interrupted;
 }
 

@@ -79,15 +79,6 @@ scene::Scene shell_155() {
   return shell;
 }
 
-/// A pressure (Pa) that rises evenly from 0 within `rise` (s) and then stays.
-scene::Load ramp(double pressure, double rise) {
-  scene::Load load;
-  load.duration = 1.0;
-  load.curve_time = {0.0, rise, 1.0};
-  load.curve_pressure = {0.0, pressure, pressure};
-  return load;
-}
-
 /// To `end` (s) in equal steps no longer than the stable one; `after_step` may look at each.
 void run_to(mpm::Simulation& simulation, double end, const std::function<void()>& after_step = {}) {
   const double span = end - simulation.time(), steps = std::ceil(span / simulation.stable_time_step());
@@ -140,7 +131,10 @@ double longitudinal_speed() {
 double setback_pressure() {
   constexpr double length = 0.56;
   scene::Scene column = block("charge", length, 0.01, 5e-3);
-  column.load = ramp(1717.0 * length * scene::rigid_acceleration(shell_155(), 496e6), 1e-3);
+  const double pressure = 1717.0 * length * scene::rigid_acceleration(shell_155(), 496e6);
+  column.load.duration = 1.0;
+  column.load.curve_time = {0.0, 1e-3, 1.0};
+  column.load.curve_pressure = {0.0, pressure, pressure};
   column.numerics.damping_time = 3e-5;
   mpm::Simulation simulation(column);
   run_to(simulation, 3e-3);

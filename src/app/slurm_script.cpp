@@ -33,7 +33,7 @@ std::string job_name(const SlurmStudy& study) {
   const auto is_trouble = [](unsigned char letter) {
     return letter >= 128 || (std::isalnum(letter) == 0 && letter != '-' && letter != '_');
   };
-  std::string name = "launchsafe-" + study.study.stem().string();
+  std::string name = "launchsafe-" + study.asked.study.stem().string();
   std::replace_if(name.begin(), name.end(), is_trouble, '-');
   return name;
 }
@@ -46,7 +46,7 @@ std::string slurm_time(long minutes) {
 /// The folder of the logs inside quotes as sbatch reads them; in its name no letter is a pattern.
 std::string log_folder(const SlurmStudy& study) {
   std::string folder;
-  for (const char letter : slurm_folder(study.output).string()) {
+  for (const char letter : slurm_folder(study.asked.output).string()) {
     if (letter == '"') folder += '\\';
     if (letter == '%') folder += '%';
     folder += letter;
@@ -80,7 +80,7 @@ std::string user_option(const std::string& option) {
 /// The user's options, one to a line. A merge is one task, and has none of those of an array.
 std::string user_options(const SlurmStudy& study, bool of_merge) {
   std::string lines;
-  for (const std::string& option : study.sbatch) {
+  for (const std::string& option : study.asked.sbatch) {
     if (of_merge && (option.starts_with("--array") || option.starts_with("-a"))) continue;
     lines += fmt::format("#SBATCH {}\n", user_option(option));
   }
@@ -88,51 +88,47 @@ std::string user_options(const SlurmStudy& study, bool of_merge) {
 }
 
 std::string memory_text(const SlurmStudy& study) {
-  if (study.memory_limit) {
+  if (study.asked.memory) {
     return fmt::format("{} as given, nine tenths of it for the cases that run side by side.",
-                       size_text(*study.memory_limit));
+                       size_text(*study.asked.memory));
   }
   return fmt::format(
       "{:.1f} MiB are predicted for the cases that run side by side; asked for are a quarter more and {} "
       "MiB.",
-      study.memory / mebibyte, spare_mebibytes);
+      study.needs.memory / mebibyte, spare_mebibytes);
 }
 
 /// The limits of a shard, as options of the program.
 std::string limits_of(const SlurmStudy& study) {
   std::string options;
-  if (study.memory_limit)
-    options += " --memory " + size_text(std::floor(share_for_cases * *study.memory_limit));
-  if (study.time_limit)
-    options += " --time-limit " + amount(*study.time_limit, {{3600, "h"}, {60, "min"}, {1, "s"}});
+  if (study.asked.memory)
+    options += " --memory " + size_text(std::floor(share_for_cases * *study.asked.memory));
+  if (study.asked.time_limit)
+    options += " --time-limit " + amount(*study.asked.time_limit, {{3600, "h"}, {60, "min"}, {1, "s"}});
   return options;
 }
 
 }  // namespace
 
-std::string count_text(int count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 SlurmRequest request_of(const SlurmStudy& study) {
   const auto rounded_up = [](double number) { return static_cast<long>(std::ceil(number)); };
-  const long minutes = std::max(least_minutes, rounded_up(time_factor * study.time / 60.0));
-  if (study.memory_limit) return {minutes, rounded_up(*study.memory_limit / mebibyte)};
-  return {minutes, rounded_up(memory_factor * study.memory / mebibyte) + spare_mebibytes};
+  const long minutes = std::max(least_minutes, rounded_up(time_factor * study.needs.time / 60.0));
+  if (study.asked.memory) return {minutes, rounded_up(*study.asked.memory / mebibyte)};
+  return {minutes, rounded_up(memory_factor * study.needs.memory / mebibyte) + spare_mebibytes};
 }
 
 std::optional<std::string> fault_of(const SlurmStudy& study) {
-  for (const std::filesystem::path& path : {study.program, study.study, study.output}) {
+  for (const std::filesystem::path& path : {study.program, study.asked.study, study.asked.output}) {
     if (!has_control_character(path.string())) continue;
     return "a path has a control character, such as a line's end; allowed for Slurm: paths without";
   }
-  if (study.output.string().find('\\') != std::string::npos) {
+  if (study.asked.output.string().find('\\') != std::string::npos) {
     return fmt::format(
         "--output: found {}; allowed for Slurm: a folder without a backslash in its path, as Slurm writes no "
         "log there",
-        study.output.string());
+        study.asked.output.string());
   }
-  for (const std::string& option : study.sbatch) {
+  for (const std::string& option : study.asked.sbatch) {
     if (option.starts_with('-') && !has_control_character(option)) continue;
     return fmt::format("--sbatch: found \"{}\"; allowed: options of sbatch such as --partition=long", option);
   }
@@ -140,7 +136,7 @@ std::optional<std::string> fault_of(const SlurmStudy& study) {
 }
 
 std::string predicted_time(const SlurmStudy& study) {
-  return study.time < 1.0 ? "less than a second" : report::duration(study.time);
+  return study.needs.time < 1.0 ? "less than a second" : report::duration(study.needs.time);
 }
 
 std::filesystem::path slurm_folder(const std::filesystem::path& output) { return output / "slurm"; }
@@ -148,9 +144,9 @@ std::filesystem::path slurm_folder(const std::filesystem::path& output) { return
 NamedTexts slurm_scripts(const SlurmStudy& study) {
   const SlurmRequest request = request_of(study);
   const TextValues values{
-      {"folder", shell_quoted(slurm_folder(study.output).string())},
+      {"folder", shell_quoted(slurm_folder(study.asked.output).string())},
       {"job", job_name(study)},
-      {"jobs", std::to_string(study.jobs)},
+      {"jobs", std::to_string(study.asked.jobs)},
       {"least_minutes", std::to_string(least_minutes)},
       {"limits", limits_of(study)},
       {"logs", log_folder(study)},
@@ -158,14 +154,14 @@ NamedTexts slurm_scripts(const SlurmStudy& study) {
       {"memory_text", memory_text(study)},
       {"merge_limit", slurm_time(least_minutes + static_cast<long>(study.cases) / cases_merged_a_minute)},
       {"merge_options", user_options(study, true)},
-      {"output", shell_quoted(study.output.string())},
+      {"output", shell_quoted(study.asked.output.string())},
       {"program", shell_quoted(study.program.string())},
       {"rate", fmt::format("{:.3g}", study.update_rate / 1e6)},
       {"shard_limit", slurm_time(request.minutes)},
       {"shard_options", user_options(study, false)},
-      {"shards", std::to_string(study.shards)},
-      {"shards_text", count_text(study.shards, "shard")},
-      {"study", shell_quoted(study.study.string())},
+      {"shards", std::to_string(study.asked.shards)},
+      {"shards_text", report::counted(study.asked.shards, "shard")},
+      {"study", shell_quoted(study.asked.study.string())},
       {"time", predicted_time(study)},
       {"time_factor", fmt::format("{:.3g}", time_factor)}};
   return {{"shard.sbatch", filled(shard_template, values)},

@@ -2,6 +2,7 @@
 // both.
 #pragma once
 
+#include "commands.hpp"
 #include "output_folder.hpp"
 
 #include <cstddef>
@@ -9,22 +10,23 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace launchsafe::app {
 
+/// What the most demanding of a study's shards is predicted to take.
+struct ShardNeeds {
+  double time = 0;       ///< s of wall time
+  double memory = 0;     ///< bytes
+  std::size_t idle = 0;  ///< shards that have nothing to do
+};
+
 /// What the scripts are written from. Paths are absolute: a job starts in any folder.
 struct SlurmStudy {
-  std::filesystem::path program, study, output;
+  EmitArguments asked;  ///< with at least one job; the limits are handed on to every shard
+  std::filesystem::path program;
   std::size_t cases = 0;
-  int shards = 1;
-  int jobs = 1;                        ///< threads of a shard
-  double time = 0;                     ///< s, predicted, of the slowest shard
-  double memory = 0;                   ///< bytes, predicted, of the shard that takes most
-  double update_rate = 0;              ///< particle updates per second on a core that `time` rests on
-  std::optional<double> memory_limit;  ///< bytes; handed on to every shard
-  std::optional<double> time_limit;    ///< s of one case; handed on to every shard
-  std::vector<std::string> sbatch;     ///< further options, one to a line
+  double update_rate = 0;  ///< particle updates per second on a core that the needed time rests on
+  ShardNeeds needs = {};
 };
 
 /// What a shard asks Slurm for.
@@ -33,10 +35,8 @@ struct SlurmRequest {
   long mebibytes = 0;
 };
 SlurmRequest request_of(const SlurmStudy& study);
-/// The slowest shard's, for people.
+/// Of the slowest shard, for people.
 std::string predicted_time(const SlurmStudy& study);
-/// "1 shard", "20 shards".
-std::string count_text(int count, std::string_view what);
 
 /// Why no script can be written; nothing when one can.
 std::optional<std::string> fault_of(const SlurmStudy& study);

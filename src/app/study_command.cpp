@@ -47,12 +47,6 @@ kinds::StudyOutcome run_with_progress(const study::StudyFile& file, study::Study
   return kinds::run_study(file, options);
 }
 
-void explain_runs(const study::StudyFile& file, const study::StudyOptions& options, const Console& console) {
-  constexpr double any_rate = 1.0;
-  const study::Forecast forecast = study::forecast_study(file, options, any_rate);
-  for (const std::string& line : reason_lines(forecast)) console.remark(line);
-}
-
 /// Where not one case may run, unless an earlier study left results here.
 std::optional<scene::InputError> refusal_of(const study::StudyFile& file, const StudyArguments& arguments,
                                             const study::StudyOptions& options) {
@@ -119,7 +113,11 @@ ExitCode perform(const StudyArguments& arguments, Console& console) {
                        console);
   if (const ExitCode code = session.open(); code != ExitCode::done) return code;
   options.store = &session.store();
-  if (arguments.explain) explain_runs(*file, options, console);
+  if (arguments.explain) {
+    constexpr double any_rate = 1.0;
+    for (const std::string& line : reason_lines(study::forecast_study(*file, options, any_rate)))
+      console.remark(line);
+  }
   return session.conclude(run_with_progress(*file, options, console), *file, options);
 }
 

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -85,14 +84,12 @@ store::Result<store::OwnFiles> own_files(const path& folder, const store::Result
   return own;
 }
 
-/// The names in the folder that a report of this kind would give its files, in alphabetical order.
-std::vector<std::string> report_names_in(const path& folder, const kinds::Kind& kind) {
+/// In alphabetical order; none where there is no folder.
+std::vector<std::string> names_in(const path& folder) {
   std::vector<std::string> names;
   std::error_code failed;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
-    const std::string name = entry.path().filename();
-    if (kinds::may_write(kind, name)) names.push_back(name);
-  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
+    names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -167,15 +164,10 @@ std::string listed(const std::vector<std::string>& names) {
 }  // namespace
 
 bool holds_store(const path& folder) {
-  std::error_code failed;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
-    const std::string name = entry.path().filename();
+  for (const std::string& name : names_in(folder))
     if (name == "journal.jsonl" || (name.starts_with("journal.") && name.ends_with(".jsonl"))) return true;
-  }
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "cases", failed)) {
-    const path file = entry.path().filename();
+  for (const path file : names_in(folder / "cases"))
     if (file.extension() == ".h5" && store::is_case_hash(file.stem().string())) return true;
-  }
   return false;
 }
 
@@ -187,8 +179,10 @@ std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::K
   }
   const auto own = own_files(folder, record);
   if (!own) return own.error().message;
-  std::vector<std::string> foreign = report_names_in(folder, kind);
-  std::erase_if(foreign, [&](const std::string& name) { return own->state_of(name) != FileState::foreign; });
+  std::vector<std::string> foreign = names_in(folder);
+  std::erase_if(foreign, [&](const std::string& name) {
+    return !kinds::may_write(kind, name) || own->state_of(name) != FileState::foreign;
+  });
   // A manifest that cannot be read and is there all the same is a link to nowhere.
   if (!record && std::filesystem::is_symlink(folder / manifest_name)) foreign.emplace_back(manifest_name);
   if (!foreign.empty()) {
@@ -209,11 +203,7 @@ std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::K
 }
 
 void remove_leftovers(const path& folder) {
-  std::vector<path> leftovers;
-  std::error_code failed;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
-    leftovers.push_back(entry.path());
-  for (const path& each : leftovers) store::remove_leftover(each);
+  for (const std::string& name : names_in(folder)) store::remove_leftover(folder / name);
 }
 
 store::Result<path> take_folder(const path& folder, const StudyRecord& asked) {

@@ -1,5 +1,6 @@
 #include "study_session.hpp"
 
+#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/sha256.hpp"
@@ -24,10 +25,6 @@ std::string digest_of(const std::vector<kinds::Failure>& failures) {
   return store::sha256(text);
 }
 
-std::string runs(std::size_t count) {
-  return fmt::format("{} mechanical run{}", count, count == 1 ? "" : "s");
-}
-
 /// Whether the report in the folder says what a new one would. A study's results follow from its input, but
 /// for what failed.
 bool report_stands(const std::filesystem::path& folder, const StudyRecord& record,
@@ -38,19 +35,18 @@ bool report_stands(const std::filesystem::path& folder, const StudyRecord& recor
          store::files_unchanged(folder, record.files);
 }
 
-ExitCode exit_code_of(const std::vector<kinds::Failure>& failures, bool indeterminate) {
-  if (!failures.empty()) return ExitCode::cases_failed;
-  return indeterminate ? ExitCode::indeterminate : ExitCode::done;
+ExitCode exit_code_of(const kinds::StudyOutcome& result) {
+  if (!result.failures.empty()) return ExitCode::cases_failed;
+  return result.indeterminate ? ExitCode::indeterminate : ExitCode::done;
 }
 
-nlohmann::ordered_json shard_json(const kinds::StudyOutcome& result, const study::Shard& shard,
-                                  const std::vector<kinds::Failure>& failures) {
+nlohmann::ordered_json shard_json(const kinds::StudyOutcome& result, const study::Shard& shard) {
   return {{"shard", shard.index},
           {"shards", shard.count},
           {"mechanical_runs", result.timing.runs},
           {"reused", result.timing.reused},
           {"wall_time_s", result.timing.wall_time},
-          {"failed", failures.size()}};
+          {"failed", result.failures.size()}};
 }
 
 }  // namespace
@@ -107,7 +103,8 @@ ExitCode StudySession::report_interruption(const study::StudyFile& file, const s
   const auto stored = std::count_if(forecast.runs.begin(), forecast.runs.end(),
                                     [](const study::ForecastRun& run) { return run.stored; });
   console_.error(fmt::format("interrupted; {} of {} are kept in {}; to go on: {}", stored,
-                             runs(forecast.runs.size()), request_.folder.string(), request_.command));
+                             report::counted(forecast.runs.size(), "mechanical run"),
+                             request_.folder.string(), request_.command));
   return ExitCode::interrupted;
 }
 
@@ -120,24 +117,23 @@ ExitCode StudySession::conclude(const kinds::StudyOutcome& result, const study::
 
 ExitCode StudySession::deliver_shard(const kinds::StudyOutcome& result, const study::Shard& shard) {
   const std::vector<kinds::Failure>& failures = result.failures;
-  console_.print_json(shard_json(result, shard, failures));
+  console_.print_json(shard_json(result, shard));
   console_.failures(failures);
   console_.remark(report::timing_text(result.timing));
   console_.remark(fmt::format(
       "shard {}/{} is done{}; once all are: {} (then the folders of shards that have one of their own)",
       shard.index, shard.count, failures.empty() ? "" : fmt::format(", {} failed", failures.size()),
       shell_command({"launchsafe", "merge", request_.study.string(), "-o", request_.folder.string()})));
-  return exit_code_of(failures, false);
+  return failures.empty() ? ExitCode::done : ExitCode::cases_failed;
 }
 
 ExitCode StudySession::deliver_whole(const kinds::StudyOutcome& result) {
-  const std::vector<kinds::Failure>& failures = result.failures;
   console_.print_text(report::to_text(result.report, request_.folder));
   if (console_.json()) console_.print_json(nlohmann::ordered_json::parse(result.report.json));
-  console_.failures(failures);
+  console_.failures(result.failures);
   console_.remark(report::timing_text(result.timing));
-  const ExitCode written = write_files(result, failures);
-  return written == ExitCode::done ? exit_code_of(failures, result.indeterminate) : written;
+  const ExitCode written = write_files(result);
+  return written == ExitCode::done ? exit_code_of(result) : written;
 }
 
 ExitCode StudySession::keep_edited_files() {
@@ -155,9 +151,8 @@ StudyRecord StudySession::record() const {
   return {.manifest = request_.manifest, .study = study.is_absolute() ? study.filename() : study};
 }
 
-ExitCode StudySession::write_files(const kinds::StudyOutcome& result,
-                                   const std::vector<kinds::Failure>& failures) {
-  const std::string digest = digest_of(failures);
+ExitCode StudySession::write_files(const kinds::StudyOutcome& result) {
+  const std::string digest = digest_of(result.failures);
   const auto present = store::read_study_record(request_.folder);
   if (result.timing.runs == 0 && present &&
       report_stands(request_.folder, *present, request_.manifest, digest)) {
@@ -173,10 +168,9 @@ ExitCode StudySession::write_files(const kinds::StudyOutcome& result,
   written_record.manifest.wall_time = result.timing.wall_time;
   // A report that lacks a picture is no finished one: the next time it is written again.
   written_record.complete = written->pictures_missing == 0;
-  const std::vector<std::string>& names = written->files;
-  written_record.files = store::record_files(request_.folder, names);
+  written_record.files = store::record_files(request_.folder, written->files);
   if (present) {
-    const auto stale = set_stale_aside(request_.folder, *present, names);
+    const auto stale = set_stale_aside(request_.folder, *present, written->files);
     if (!stale) return console_.end_with(stale.error());
     if (!stale->empty())
       console_.remark(

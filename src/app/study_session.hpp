@@ -53,7 +53,7 @@ class StudySession {
   ExitCode keep_edited_files();
   /// What manifest.json is to say before there is a report.
   store::StudyRecord record() const;
-  ExitCode write_files(const kinds::StudyOutcome& result, const std::vector<kinds::Failure>& failures);
+  ExitCode write_files(const kinds::StudyOutcome& result);
 
   SessionRequest request_;
   Console& console_;

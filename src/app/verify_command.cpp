@@ -1,6 +1,6 @@
 // launchsafe verify: numbers that an installed program must reproduce.
 #include "commands.hpp"
-#include "launchsafe/report/table.hpp"
+#include "launchsafe/report/columns.hpp"
 #include "self_test.hpp"
 #include "signals.hpp"
 
@@ -11,7 +11,6 @@
 #include <cctype>
 #include <cmath>
 #include <set>
-#include <utility>
 
 namespace launchsafe::app {
 namespace {
@@ -27,9 +26,8 @@ struct Check {
 };
 
 report::Table table_of(const std::vector<Check>& checks, std::size_t failed) {
-  const auto number = [](std::string name, int digits) {
-    return report::Column{
-        .name = std::move(name), .unit = "", .decimals = digits, .notation = report::Notation::significant};
+  const auto number = [](const char* name, int digits) {
+    return report::significant_column(name, "", digits, {});
   };
   report::Table table;
   table.columns = {report::text_column("check"), number("computed", 9),  number("expected", 9),

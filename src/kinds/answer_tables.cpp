@@ -60,10 +60,6 @@ std::string limited_text(const SweepCounts& counts, const std::string& noun) {
                      counted(counts.limited, noun), limiters_text(counts.limiters));
 }
 
-std::string counted(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 std::string answer_of(std::vector<std::string> lines, const StudyFile& study,
                       const std::string& interrupted) {
   for (std::string& note : mesh_notes(study)) lines.push_back(std::move(note));

@@ -1,6 +1,7 @@
 // What the tables and pages of studies share that answer all their cases.
 #pragma once
 
+#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/study/case_answer.hpp"
@@ -40,8 +41,7 @@ std::string failures_list(const std::vector<report::ShownKey>& keys, const study
 /// What must be said where limiters acted; else empty.
 std::string limited_text(const SweepCounts& counts, const std::string& noun);
 
-/// "1 case", "3 cases".
-std::string counted(std::size_t count, const std::string& noun);
+using report::counted;
 
 /// The lines of an answer below each other, and what every answer about verdicts must say; empty ones are
 /// left out. `interrupted`: what is said last of a study that was.

@@ -58,6 +58,10 @@ std::string duration(double seconds) {
   return fmt::format("{} d {:02} h", whole / day, whole % day / hour);
 }
 
+std::string counted(std::int64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 std::size_t display_width(std::string_view text) {
   std::size_t width = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {

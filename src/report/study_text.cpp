@@ -73,13 +73,12 @@ std::string setup_text(const study::StudyFile& study) {
 }
 
 std::string timing_text(const study::Timing& timing) {
-  std::string text = fmt::format("re-used {} mechanical run{}, ran {}", timing.reused,
-                                 timing.reused == 1 ? "" : "s", timing.runs);
+  std::string text = fmt::format("re-used {}, ran {}", counted(timing.reused, "mechanical run"), timing.runs);
   if (timing.run_time > 0)
     text += fmt::format(" at {} particle updates per second and core",
                         scientific(timing.updates_per_second(), 2));
-  return text + fmt::format("; {} of wall time with {} job{}", duration(timing.wall_time), timing.jobs,
-                            timing.jobs == 1 ? "" : "s");
+  return text +
+         fmt::format("; {} of wall time with {}", duration(timing.wall_time), counted(timing.jobs, "job"));
 }
 
 std::string timing_sentence(const study::Timing& timing) {

@@ -1,6 +1,8 @@
 // Numbers as text.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -21,6 +23,9 @@ std::string exact(double value);
 
 /// A duration in seconds for people: "0.3 s", "42 s", "3 min 05 s", "2 h 14 min", "3 d 04 h".
 std::string duration(double seconds);
+
+/// "1 case", "3 cases".
+std::string counted(std::int64_t count, std::string_view noun);
 
 /// Columns that a UTF-8 text takes in a terminal, with one for every code point but combining ones.
 std::size_t display_width(std::string_view text);
