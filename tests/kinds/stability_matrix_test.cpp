@@ -78,7 +78,9 @@ TEST(StabilityMatrix, CopiedForAnotherShellItComputesThatShell) {
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(result.rows[i].asked.name, names[i]);
     EXPECT_TRUE(result.rows[i].is_as_expected()) << result.rows[i].finding.text;
-    if (i < 3) EXPECT_EQ(result.rows[i].answer.run.particles, 24u);
+    if (i < 3) {
+      EXPECT_EQ(result.rows[i].answer.run.particles, 24u);
+    }
   }
 }
 
