@@ -3,35 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace launchsafe::run {
 
 std::string to_string(RunStatus status) {
-  switch (status) {
-    case RunStatus::completed:
-      return "completed";
-    case RunStatus::non_finite:
-      return "non-finite";
-    case RunStatus::energy_drift:
-      return "energy drift";
-    case RunStatus::time_step_collapse:
-      return "time step collapse";
-    case RunStatus::particles_left_grid:
-      return "particles left the grid";
-    case RunStatus::interrupted:
-      return "interrupted";
-    case RunStatus::timed_out:
-      return "timed out";
-    case RunStatus::cells_distorted:
-      return "cells distorted";
-    case RunStatus::outside_gas_law:
-      return "outside of the gas law";
-    case RunStatus::flame_beyond_sound:
-      return "flame beyond sound";
-  }
-  return "unknown";
+  // In the order of RunStatus.
+  constexpr std::array words{
+      "completed",   "non-finite", "energy drift",    "time step collapse",     "particles left the grid",
+      "interrupted", "timed out",  "cells distorted", "outside of the gas law", "flame beyond sound"};
+  static_assert(words.size() == static_cast<std::size_t>(RunStatus::flame_beyond_sound) + 1);
+  return words.at(static_cast<std::size_t>(status));
 }
 
 std::string to_string(const LimiterCounts& limiters) {

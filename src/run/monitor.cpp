@@ -1,7 +1,5 @@
 #include "monitor.hpp"
 
-#include "launchsafe/run/stable_factor.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -117,26 +115,22 @@ LimiterCounts count_limited(const mpm::Simulation& simulation) {
 
 std::optional<Stop> reason_to_stop(const mpm::Simulation& simulation, const EnergyBalance& energy,
                                    double largest_energy, double drift_limit) {
-  const std::string when = fmt::format("at t = {:.6g} ms", 1e3 * simulation.time());
-  const auto stop = [&](RunStatus status, const std::string& what) {
-    return Stop{status, when + ": " + what + step_remark(simulation.scene())};
-  };
   if (simulation.events().off_grid > 0.0)
-    return stop(RunStatus::particles_left_grid,
-                fmt::format("particles left the grid ({:.0f} particle-steps)", simulation.events().off_grid));
+    return Stop{RunStatus::particles_left_grid,
+                fmt::format("particles left the grid ({:.0f} particle-steps)", simulation.events().off_grid)};
   if (simulation.events().distorted > 0.0)
-    return stop(
+    return Stop{
         RunStatus::cells_distorted,
         fmt::format("cells are inverted or stretched beyond what strains mean ({:.0f} particle-steps)",
-                    simulation.events().distorted));
+                    simulation.events().distorted)};
   if (!std::isfinite(energy.kinetic + energy.internal + energy.external))
-    return stop(RunStatus::non_finite,
-                "the computation is no longer finite, " + first_broken_particle(simulation));
+    return Stop{RunStatus::non_finite,
+                "the computation is no longer finite, " + first_broken_particle(simulation)};
   const double drift = energy.drift() * energy.scale() / largest_energy;
   if (std::abs(drift) > drift_limit)
-    return stop(RunStatus::energy_drift,
+    return Stop{RunStatus::energy_drift,
                 fmt::format("energy drift {:.3g} % of {:.4g} J is past the limit {:.3g} %", 100.0 * drift,
-                            largest_energy, 100.0 * drift_limit));
+                            largest_energy, 100.0 * drift_limit)};
   return std::nullopt;
 }
 

@@ -23,7 +23,7 @@ LimiterCounts count_limited(const mpm::Simulation& simulation);
 
 struct Stop {
   RunStatus status;
-  std::string reason;
+  std::string what;  ///< for people
 };
 
 /// Why the run has to stop now, if it has to. `largest_energy` is the largest energy scale seen so far (J):

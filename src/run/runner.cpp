@@ -166,7 +166,9 @@ void Runner::advance(double dt) {
   const scene::Scene& scene = simulation_.scene();
   simulation_.step(dt);
   ++result_.steps;
-  if (burning_ && !simulation_.within_gas_law()) return stop_outside_gas_law();
+  if (burning_ && !simulation_.within_gas_law())
+    return stop_now(RunStatus::outside_gas_law,
+                    "a burning particle is in a state that the virial law of the gas does not cover");
   recorder_.accumulate(simulation_, dt);
   heat_.accumulate(simulation_);
   if (surface_) surface_->advance(simulation_, recorder_, dt);
@@ -203,13 +205,6 @@ void Runner::take_due_checkpoint() {
   checkpoints_->runs.push_back(std::move(copy));
 }
 
-void Runner::stop_outside_gas_law() {
-  stop({RunStatus::outside_gas_law,
-        fmt::format("at t = {:.6g} ms: a burning particle is in a state that the virial law of the gas does "
-                    "not cover",
-                    1e3 * simulation_.time())});
-}
-
 /// Lets the charge burn where the skin has ignited. The run ends a stated time after the first ignition,
 /// whether that is before or after the end of the launch, at a stated pressure, or where a flame has no
 /// more charge before it. A flame that outruns sound is none that conduction drives, and ends the run too.
@@ -223,10 +218,9 @@ void Runner::burn(double dt) {
   burning_->advance(simulation_, *surface_, dt);
   const double sound = scene::longitudinal_speed(materials::Law(simulation_.scene().charge()));
   if (!(burning_->fastest_flame() < sound))
-    stop({RunStatus::flame_beyond_sound,
-          fmt::format("at t = {:.6g} ms: the kinetics give a flame of {:.3g} m/s; sound in the charge has "
-                      "{:.3g} m/s",
-                      1e3 * simulation_.time(), burning_->fastest_flame(), sound)});
+    stop_now(RunStatus::flame_beyond_sound,
+             fmt::format("the kinetics give a flame of {:.3g} m/s; sound in the charge has {:.3g} m/s",
+                         burning_->fastest_flame(), sound));
   if (burning_->burnt_through()) end_now(CombustionEnd::burnt_through);
   if (recorder_.bottom_pressure() >= combustion.stop_pressure) end_now(CombustionEnd::pressure);
 }
@@ -242,14 +236,13 @@ bool Runner::finished() const {
 
 void Runner::check(double time_step, double first_step) {
   if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed))
-    return stop({RunStatus::interrupted, fmt::format("stopped at t = {:.6g} ms", 1e3 * simulation_.time())});
+    return stop(RunStatus::interrupted, fmt::format("stopped at t = {:.6g} ms", 1e3 * simulation_.time()));
   if (seconds_since(start_) > options_.time_limit)
-    return stop({RunStatus::timed_out, fmt::format("not done after {:.3g} s", options_.time_limit)});
+    return stop(RunStatus::timed_out, fmt::format("not done after {:.3g} s", options_.time_limit));
   if (std::isfinite(time_step) && time_step < collapse_share * first_step)
-    return stop(
-        {RunStatus::time_step_collapse,
-         fmt::format("at t = {:.6g} ms: the stable time step fell from {:.3g} s to {:.3g} s{}",
-                     1e3 * simulation_.time(), first_step, time_step, step_remark(simulation_.scene()))});
+    return stop_now(RunStatus::time_step_collapse,
+                    fmt::format("the stable time step fell from {:.3g} s to {:.3g} s{}", first_step,
+                                time_step, step_remark(simulation_.scene())));
   check_energy(energy_of(simulation_));
   if (options_.progress && seconds_since(last_report_) > 0.25) {
     last_report_ = Clock::now();
@@ -261,21 +254,26 @@ void Runner::check(double time_step, double first_step) {
 void Runner::check_step(double dt) {
   constexpr double shortest_share = 1e-15;
   if (dt >= shortest_share * simulation_.scene().load.duration) return;
-  stop({std::isnan(dt) ? RunStatus::non_finite : RunStatus::time_step_collapse,
-        fmt::format("at t = {:.6g} ms: with steps of {:.3g} s the launch would not end{}",
-                    1e3 * simulation_.time(), dt, step_remark(simulation_.scene()))});
+  stop_now(
+      std::isnan(dt) ? RunStatus::non_finite : RunStatus::time_step_collapse,
+      fmt::format("with steps of {:.3g} s the launch would not end{}", dt, step_remark(simulation_.scene())));
 }
 
 void Runner::check_energy(const EnergyBalance& energy) {
   largest_energy_ = std::max(largest_energy_, energy.scale());
   if (const auto reason = reason_to_stop(simulation_, energy, largest_energy_,
                                          simulation_.scene().numerics.energy_drift_limit))
-    stop(*reason);
+    stop_now(reason->status, reason->what + step_remark(simulation_.scene()));
 }
 
-void Runner::stop(const Stop& why) {
-  result_.status = why.status;
-  result_.reason = why.reason;
+void Runner::stop(RunStatus status, std::string reason) {
+  result_.status = status;
+  result_.reason = std::move(reason);
+}
+
+/// The time stands before the reason.
+void Runner::stop_now(RunStatus status, const std::string& what) {
+  stop(status, fmt::format("at t = {:.6g} ms: {}", 1e3 * simulation_.time(), what));
 }
 
 void Runner::take_monitor_sample(double time_step) {

@@ -52,7 +52,6 @@ class Runner {
   bool has_enough_checkpoints() const;
   void take_due_checkpoint();
   void burn(double dt);
-  void stop_outside_gas_law();
   void end_now(CombustionEnd end);
   bool finished() const;
   bool is_done() const;
@@ -62,7 +61,8 @@ class Runner {
   void take_due_snapshots();
   void take_snapshots_of_events(bool samples);
   Snapshot snapshot() const;
-  void stop(const Stop& why);
+  void stop(RunStatus status, std::string reason);
+  void stop_now(RunStatus status, const std::string& what);
   void take_monitor_sample(double time_step);
 
   RunOptions options_;

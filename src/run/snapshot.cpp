@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace launchsafe::run {
 namespace {
@@ -35,35 +36,38 @@ double half_length_r(const mpm::ParticleFields& p, int i, int j) {
   return 0.5 * lattice.length_r(j) * stretch;
 }
 
-/// The burnt shares of all particles, in the order of a snapshot; none where nothing burns.
-std::vector<double> burnt_shares(const mpm::Simulation& simulation) {
-  std::vector<double> shares;
-  bool burns = false;
-  simulation.for_each_body([&](const mpm::ParticleFields& p) {
-    for (int j = 0; j < p.lattice.rows(); ++j)
-      for (int i = 0; i < p.lattice.columns(); ++i) {
-        const mpm::BurningParticle* burning = p.burning ? p.burning->find(p.lattice.slot(i, j)) : nullptr;
-        shares.push_back(burning != nullptr ? burning->state.burnt_share : 0.0);
-        burns = burns || burning != nullptr;
-      }
-  });
-  return burns ? shares : std::vector<double>{};
-}
-
-/// A state field of all particles, in the order of a snapshot, 0 of bodies without it; none where no body has
-/// it.
-std::vector<double> values_of(const mpm::Simulation& simulation, std::string_view name) {
+/// What `value` gives of a body and the slot of a particle, for all particles in the order of a snapshot: 0
+/// where it gives nothing, and none where it gives nothing of any.
+template <class Value>
+std::vector<double> values_where_known(const mpm::Simulation& simulation, Value value) {
   std::vector<double> values;
   bool known = false;
-  for (const mpm::AnyBody& any : simulation.bodies()) {
-    const mpm::Lattice& lattice = mpm::particle_fields_of(any).lattice;
-    const math::AlignedArray* field = field_of(any, name);
-    known = known || field != nullptr;
+  for (const mpm::AnyBody& body : simulation.bodies()) {
+    const mpm::Lattice& lattice = mpm::particle_fields_of(body).lattice;
     for (int j = 0; j < lattice.rows(); ++j)
-      for (int i = 0; i < lattice.columns(); ++i)
-        values.push_back(field == nullptr ? 0.0 : (*field)[lattice.slot(i, j)]);
+      for (int i = 0; i < lattice.columns(); ++i) {
+        const std::optional<double> each = value(body, lattice.slot(i, j));
+        known = known || each.has_value();
+        values.push_back(each.value_or(0.0));
+      }
   }
   return known ? values : std::vector<double>{};
+}
+
+std::vector<double> burnt_shares(const mpm::Simulation& simulation) {
+  return values_where_known(simulation, [](const mpm::AnyBody& body, std::size_t slot) {
+    const auto& burning = mpm::particle_fields_of(body).burning;
+    const mpm::BurningParticle* particle = burning ? burning->find(slot) : nullptr;
+    return particle != nullptr ? std::optional(particle->state.burnt_share) : std::nullopt;
+  });
+}
+
+/// A state field, which not all laws have.
+std::vector<double> values_of(const mpm::Simulation& simulation, std::string_view name) {
+  return values_where_known(simulation, [name](const mpm::AnyBody& body, std::size_t slot) {
+    const math::AlignedArray* field = field_of(body, name);
+    return field != nullptr ? std::optional((*field)[slot]) : std::nullopt;
+  });
 }
 
 void add_body(const mpm::AnyBody& any, Snapshot& shot) {

@@ -13,7 +13,16 @@ namespace launchsafe::run {
 namespace {
 
 using scene::Scene;
-using Warnings = std::vector<std::string>;
+
+/// Clauses for people.
+struct Warnings {
+  std::vector<std::string> all = {};
+
+  template <class... Values>
+  void add(fmt::format_string<Values...> text, Values&&... values) {
+    all.push_back(fmt::format(text, std::forward<Values>(values)...));
+  }
+};
 
 /// Kinetic energy that only the scaling of the inertia makes, as a share of the internal energy. Measured on
 /// the 155 mm shell (cells of 2.5 mm, gap 0.02 cm): factor 16, share 0.0024, T max 3.9 K too high; 100,
@@ -90,14 +99,13 @@ double largest(const MechanicsResult& mechanics, Number number) {
 
 void check_history(const MechanicsResult& mechanics, Warnings& warnings) {
   if (mechanics.monitor.size() < 2) {
-    warnings.emplace_back("the run has no monitor history, so that its stability is not known");
+    warnings.add("the run has no monitor history, so that its stability is not known");
     return;
   }
   const auto broken = std::find_if_not(mechanics.monitor.begin(), mechanics.monitor.end(),
                                        [](const MonitorSample& sample) { return is_finite(sample); });
   if (broken != mechanics.monitor.end()) {
-    warnings.push_back(fmt::format("the monitor history is not finite from sample {} on",
-                                   broken - mechanics.monitor.begin()));
+    warnings.add("the monitor history is not finite from sample {} on", broken - mechanics.monitor.begin());
   }
 }
 
@@ -108,10 +116,10 @@ void check_inertia(const Scene& scene, const MechanicsResult& mechanics, Warning
   const double kinetic = largest(mechanics, [](const auto& sample) { return sample.energy.kinetic; });
   const double share = internal > 0.0 ? (1.0 - 1.0 / scaling) * kinetic / internal : 0.0;
   if (share <= largest_scaled_share) return;
-  warnings.push_back(fmt::format(
+  warnings.add(
       "inertia scaled by {:.6g} matters: the kinetic energy that it makes reaches {:.3g} % of the internal "
       "energy, more than {:.3g} %",
-      scaling, 100.0 * share, 100.0 * largest_scaled_share));
+      scaling, 100.0 * share, 100.0 * largest_scaled_share);
 }
 
 void check_sliding_inertia(const Scene& scene, Warnings& warnings) {
@@ -120,20 +128,20 @@ void check_sliding_inertia(const Scene& scene, Warnings& warnings) {
   const bool measured = all <= largest_scaling_when_sliding && steel <= largest_steel_inertia_when_sliding &&
                         !(all > 1.0 && steel > 1.0);
   if (measured) return;
-  warnings.push_back(
-      fmt::format("inertia scaled by {:.6g} and that of steel by {:.6g}, of a charge that slides: what that "
-                  "does was measured up "
-                  "to {:g}, or {:g} of steel alone",
-                  all, steel, largest_scaling_when_sliding, largest_steel_inertia_when_sliding));
+  warnings.add(
+      "inertia scaled by {:.6g} and that of steel by {:.6g}, of a charge that slides: what that "
+      "does was measured up "
+      "to {:g}, or {:g} of steel alone",
+      all, steel, largest_scaling_when_sliding, largest_steel_inertia_when_sliding);
 }
 
 void check_samples(const MechanicsResult& mechanics, Warnings& warnings) {
   const std::size_t samples = mechanics.trace.samples();
   if (samples > fewest_intervals) return;
-  warnings.push_back(fmt::format(
+  warnings.add(
       "the trace has {} samples: the sampling error is found by leaving out every other one, which "
       "takes {} or more (output.trace_interval of an eighth of the launch)",
-      samples, fewest_intervals + 1));
+      samples, fewest_intervals + 1);
 }
 
 void check_cracks(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
@@ -143,10 +151,10 @@ void check_cracks(const Scene& scene, const MechanicsResult& mechanics, Warnings
   const scene::Extent charge = scene::charge_extent(scene);
   const double room = std::min(charge.x_end - charge.x_begin, charge.r_end);
   const auto warn = [&](const std::string& against) {
-    warnings.push_back(
-        fmt::format("the crack radius reaches {:.4g} mm, {}, where cracks are no matter of a "
-                    "continuum law",
-                    1e3 * crack, against));
+    warnings.add(
+        "the crack radius reaches {:.4g} mm, {}, where cracks are no matter of a "
+        "continuum law",
+        1e3 * crack, against);
   };
   if (crack > largest_crack_over_flaw * flaw) warn(fmt::format("{:.3g} flaw sizes", crack / flaw));
   const double initial = scene.charge().strength.initial_crack_radius, growth = crack - initial;
@@ -157,10 +165,10 @@ void check_cracks(const Scene& scene, const MechanicsResult& mechanics, Warnings
       (crack > room_in_cells && !(work <= largest_crack_work_of_a_corner * viscous)))
     warn(fmt::format("{:.3g} cells", crack / cell));
   if (growth > largest_growth_over_flaw * flaw && work > largest_crack_work_over_viscous * viscous) {
-    warnings.push_back(
-        fmt::format("cracks run away, by {:.4g} mm or {:.3g} flaw sizes: the heat of a charge that softens "
-                    "depends on cells and steps",
-                    1e3 * growth, growth / flaw));
+    warnings.add(
+        "cracks run away, by {:.4g} mm or {:.3g} flaw sizes: the heat of a charge that softens "
+        "depends on cells and steps",
+        1e3 * growth, growth / flaw);
   }
   if (crack > room) warn(fmt::format("more than the charge measures, {:.4g} mm", 1e3 * room));
 }
@@ -188,10 +196,10 @@ void check_rise(const Scene& scene, Warnings& warnings) {
                          scene::longitudinal_speed(materials::Law(scene.charge()));
   const double share = largest_rise(scene.load, transit) / peak;
   if (!(share > largest_rise_in_a_transit)) return;
-  warnings.push_back(fmt::format(
+  warnings.add(
       "the load rises by {:.3g} % of its peak within {:.3g} us, the time that sound takes through "
       "the charge: its stress waves are not resolved by the cells (up to {:.3g} % are)",
-      100.0 * share, 1e6 * transit, 100.0 * largest_rise_in_a_transit));
+      100.0 * share, 1e6 * transit, 100.0 * largest_rise_in_a_transit);
 }
 
 /// Highest bulk temperature (K) of the charge's bottom under friction heat with factor 1.
@@ -219,9 +227,9 @@ void check_bottom(const Scene& scene, Warnings& warnings) {
                  behind.r_begin <= body.r_begin + touching && behind.r_end >= body.r_end - touching;
         });
     if (covered) continue;
-    warnings.push_back(fmt::format(
+    warnings.add(
         "the charge body \"{}\" ends {:.3g} mm before the charge's bottom, and its face is not looked at",
-        body.name, 1e3 * (bottom - body.x_end)));
+        body.name, 1e3 * (bottom - body.x_end));
   }
 }
 
@@ -230,10 +238,10 @@ void check_charge(const Scene& scene, const MechanicsResult& mechanics, Warnings
   const double temperature = bulk_temperature(scene, mechanics.trace);
   const double ignition = scene.charge().kinetics.ignition_temperature;
   if (temperature < ignition) return;
-  warnings.push_back(
-      fmt::format("friction heats the bulk of the charge to {:.4g} K, above ignition at {:.4g} K, while its "
-                  "reaction is left out",
-                  temperature, ignition));
+  warnings.add(
+      "friction heats the bulk of the charge to {:.4g} K, above ignition at {:.4g} K, while its "
+      "reaction is left out",
+      temperature, ignition);
 }
 
 /// Averages over less than two cells are those of single cells. Measured on the 155 mm shell, station beside
@@ -242,12 +250,10 @@ void check_stations(const Scene& scene, Warnings& warnings) {
   constexpr double fewest_in_corner = 2.0 - 1e-9, fewest = 1.0 - 1e-9;
   const scene::StationCells cells = scene::cells_in_stations(scene);
   if (!(cells.corner_x >= fewest_in_corner && cells.corner_r >= fewest_in_corner))
-    warnings.push_back(fmt::format(
-        "the station beside the wall is {:.3g} cells deep and {:.3g} wide; at least two are needed",
-        cells.corner_x, cells.corner_r));
+    warnings.add("the station beside the wall is {:.3g} cells deep and {:.3g} wide; at least two are needed",
+                 cells.corner_x, cells.corner_r);
   else if (!(cells.fewest_r >= fewest))
-    warnings.push_back(fmt::format(
-        "a station is {:.3g} cells wide; at least one is needed away from the wall", cells.fewest_r));
+    warnings.add("a station is {:.3g} cells wide; at least one is needed away from the wall", cells.fewest_r);
 }
 
 /// Where a bond that breaks stops depends on cells: stresses at its tip have no limit, and no toughness is
@@ -258,9 +264,9 @@ void check_bonds(const MechanicsResult& mechanics, Warnings& warnings) {
     const auto held = std::count(faces.bonded.begin(), faces.bonded.end(), 1.0);
     const auto nodes = std::ssize(faces.bonded);
     if (held == 0 || held == nodes) continue;
-    warnings.push_back(fmt::format(
+    warnings.add(
         "the bond of the body \"{}\" broke at {} of {} nodes, and where it stops depends on the cells",
-        faces.body, nodes - held, nodes));
+        faces.body, nodes - held, nodes);
   }
 }
 
@@ -269,8 +275,7 @@ void check_faces(const Scene& scene, const MechanicsResult& mechanics, Warnings&
     const auto most = std::max_element(faces.overlap.begin(), faces.overlap.end());
     if (most == faces.overlap.end() || *most <= largest_overlap_over_cell * scene.numerics.cell_size)
       continue;
-    warnings.push_back(fmt::format("the charge and the body \"{}\" pass into each other by {:.3g} mm",
-                                   faces.body, 1e3 * *most));
+    warnings.add("the charge and the body \"{}\" pass into each other by {:.3g} mm", faces.body, 1e3 * *most);
   }
 }
 
@@ -300,9 +305,8 @@ void check_steel(const Scene& scene, const MechanicsResult& mechanics, Warnings&
     const double share =
         (temperature - steel.room_temperature) / (steel.melting_temperature - steel.room_temperature);
     if (!(share > largest_homologous_temperature)) continue;
-    warnings.push_back(
-        fmt::format("a plastic strain of {:.3g} heats the {} to {:.4g} K; it melts at {:.4g} K", strain,
-                    material.name, temperature, steel.melting_temperature));
+    warnings.add("a plastic strain of {:.3g} heats the {} to {:.4g} K; it melts at {:.4g} K", strain,
+                 material.name, temperature, steel.melting_temperature);
   }
 }
 
@@ -325,10 +329,10 @@ void check_flight(const Scene& scene, const MechanicsResult& mechanics, Warnings
   if (scene.numerics.formulation != scene::Formulation::updated_lagrangian) return;
   const double cells = flight_of(scene, mechanics.end_time) / scene.numerics.cell_size;
   if (!(cells > most_cells_flown)) return;
-  warnings.push_back(fmt::format(
+  warnings.add(
       "the projectile flew through {:.3g} cells of a grid at rest: beyond some {:g}, false friction "
       "heat outgrows the true one",
-      cells, most_cells_flown));
+      cells, most_cells_flown);
 }
 
 }  // namespace
@@ -338,19 +342,18 @@ std::vector<std::string> combustion_validity_warnings(const Scene& scene,
   Warnings warnings;
   const scene::Numerics& numerics = scene.numerics;
   if (numerics.inertial_scaling > 1.0 || numerics.steel_inertia > 1.0)
-    warnings.push_back(fmt::format(
+    warnings.add(
         "inertia is scaled by {:.6g} and that of steel by {:.6g}: what burning gas sets in motion, and its "
         "pressure, are those of heavier bodies",
-        numerics.inertial_scaling, numerics.steel_inertia));
+        numerics.inertial_scaling, numerics.steel_inertia);
   const std::vector<double>& measured = scene.load.curve_time;
   const double end = combustion.time.empty() ? 0.0 : combustion.time.back();
   if (!measured.empty() && end > measured.back())
-    warnings.push_back(
-        fmt::format("the measured load ends {:.3g} ms before the run, and its last pressure is held",
-                    1e3 * (end - measured.back())));
+    warnings.add("the measured load ends {:.3g} ms before the run, and its last pressure is held",
+                 1e3 * (end - measured.back()));
   if (combustion.end == CombustionEnd::broke_off)
-    warnings.push_back("the run broke off after ignition: " + combustion.reason);
-  return warnings;
+    warnings.add("the run broke off after ignition: {}", combustion.reason);
+  return std::move(warnings.all);
 }
 
 std::vector<std::string> validity_warnings(const Scene& scene, const MechanicsResult& mechanics) {
@@ -359,7 +362,7 @@ std::vector<std::string> validity_warnings(const Scene& scene, const MechanicsRe
   check_flight(scene, mechanics, warnings);
   check_inertia(scene, mechanics, warnings);
   check_sliding_inertia(scene, warnings);
-  for (std::string& each : uncovered_load(scene.load)) warnings.push_back(std::move(each));
+  for (std::string& each : uncovered_load(scene.load)) warnings.all.push_back(std::move(each));
   check_samples(mechanics, warnings);
   if (scene::has_charge(scene)) {
     check_cracks(scene, mechanics, warnings);
@@ -371,7 +374,7 @@ std::vector<std::string> validity_warnings(const Scene& scene, const MechanicsRe
   check_faces(scene, mechanics, warnings);
   check_bonds(mechanics, warnings);
   check_steel(scene, mechanics, warnings);
-  return warnings;
+  return std::move(warnings.all);
 }
 
 }  // namespace launchsafe::run
