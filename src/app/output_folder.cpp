@@ -38,7 +38,7 @@ std::optional<std::string> obstacle_to_file(const std::filesystem::path& file, s
 
 store::MaybeError write_where_absent(const std::filesystem::path& file, std::string_view content) {
   if (std::filesystem::exists(file)) return {};
-  return store::write_file_atomically(file, {content}, store::IfExists::refuse);
+  return store::write_file_atomically(file, content, store::IfExists::refuse);
 }
 
 ExitCode write_where_absent(const std::filesystem::path& folder, const NamedTexts& texts, Console& console) {

@@ -145,7 +145,7 @@ store::Result<std::vector<DrawnFile>> draw(const report::DrawnCase& drawn, const
       progress.show("drawing " + picture.file);
       auto svg = report::to_svg(picture, {.stop = &stop_requested()});
       if (!svg) return svg.error();
-      pictures.push_back({picture.what, picture.file, std::move(*svg), picture.time, picture.gap});
+      pictures.push_back({kind->word, picture.file, std::move(*svg), picture.time, picture.gap});
     }
   }
   return pictures;

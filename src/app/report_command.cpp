@@ -93,7 +93,7 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
   const auto stale = remove_stale_figures(arguments.output, files);
   if (!stale) return console.end_with(stale.error());
   for (const auto& [name, text] : files)
-    if (const auto error = store::write_own_file(arguments.output / name, {text}))
+    if (const auto error = store::write_own_file(arguments.output / name, text))
       return console.end_with(*error);
   for (const auto* remarks : {&*stale, &rendered->remarks})
     for (const std::string& remark : *remarks) console.remark(remark);

@@ -1,10 +1,8 @@
 // launchsafe run: one case.
 #include "commands.hpp"
 #include "explain_scene.hpp"
-#include "launchsafe/report/air_energy_table.hpp"
+#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/columns.hpp"
-#include "launchsafe/report/combustion_table.hpp"
-#include "launchsafe/report/interface_table.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/run/run_case.hpp"

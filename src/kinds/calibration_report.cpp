@@ -1,8 +1,8 @@
 // Tables, page and files of a calibration.
 #include "launchsafe/kinds/calibration.hpp"
+#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/run_table.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 

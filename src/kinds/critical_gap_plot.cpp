@@ -1,7 +1,6 @@
 // The pictures of a critical-gap study.
 #include "critical_gap_marks.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/report/measured.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"

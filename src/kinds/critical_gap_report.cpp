@@ -1,6 +1,6 @@
 // The page, the picture and the files of a critical-gap study.
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/report/interface_table.hpp"
+#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"

@@ -1,10 +1,8 @@
 // The tables of a critical-gap study.
 #include "critical_gap_marks.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/report/air_energy_table.hpp"
-#include "launchsafe/report/combustion_table.hpp"
+#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/run_table.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 

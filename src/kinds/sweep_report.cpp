@@ -1,7 +1,6 @@
 // The answer, the page and the files of a sweep.
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/sweep.hpp"
-#include "launchsafe/report/measured.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"

@@ -2,7 +2,7 @@
 #include "answer_tables.hpp"
 #include "critical_gap_marks.hpp"
 #include "launchsafe/kinds/sweep.hpp"
-#include "launchsafe/report/air_energy_table.hpp"
+#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"

@@ -17,28 +17,17 @@ struct EnergyTerm {
   double run::EnergyBalance::*value;
 };
 
-/// Their magnitudes, in J against time.
-std::vector<Series> energy_series(const run::MechanicsResult& mechanics,
-                                  const std::vector<EnergyTerm>& terms) {
-  std::vector<Series> all;
-  for (const EnergyTerm& term : terms) {
-    Series series{.label = term.name, .x = {}, .y = {}, .style = Style::line};
-    for (const run::MonitorSample& sample : mechanics.monitor) {
-      series.x.push_back(1e3 * sample.time);
-      series.y.push_back(std::abs(sample.energy.*term.value));
-    }
-    all.push_back(std::move(series));
-  }
-  return all;
-}
-
+/// The magnitudes of terms against time.
 Plot energy_plot(const DrawnCase& drawn, const char* what, const std::vector<EnergyTerm>& terms) {
-  Plot plot = titled_plot(drawn, what);
-  plot.x = time_axis();
   const bool whole = drawn.scene.symmetry == scene::Symmetry::axisymmetric;
-  plot.y.label = whole ? "energy, magnitude [J]" : "energy per metre of the half model, magnitude [J]";
+  Plot plot = time_plot(
+      drawn, what, whole ? "energy, magnitude [J]" : "energy per metre of the half model, magnitude [J]");
   plot.y.scale = Scale::logarithmic;
-  plot.series = energy_series(drawn.result.mechanics, terms);
+  for (const EnergyTerm& term : terms) {
+    Series& series = plot.series.emplace_back(Series{.label = term.name});
+    for (const run::MonitorSample& sample : drawn.result.mechanics.monitor)
+      series.add(1e3 * sample.time, std::abs(sample.energy.*term.value));
+  }
   // What is smaller is round-off beside the largest term.
   constexpr double smallest = 1e-8;
   const auto highest = [](const Series& series) {
@@ -95,7 +84,19 @@ std::vector<double> milliseconds_of(const std::vector<double>& seconds) {
   return values;
 }
 
-PlotAxis time_axis() { return {.label = "time [ms]"}; }
+Plot time_plot(const DrawnCase& drawn, std::string title, std::string quantity) {
+  Plot plot = titled_plot(drawn, std::move(title));
+  plot.x.label = "time [ms]";
+  plot.y.label = std::move(quantity);
+  return plot;
+}
+
+Series time_series(const char* label, const std::vector<double>& time, const std::vector<double>& values,
+                   double factor) {
+  Series series{.label = label, .style = Style::line};
+  for (std::size_t i = 0; i < values.size(); ++i) series.add(1e3 * time[i], factor * values[i]);
+  return series;
+}
 
 std::string lacks_pressure(const DrawnCase& drawn) {
   return drawn.result.mechanics.trace.samples() > 1 ? "" : "its trace has no samples";
@@ -103,29 +104,15 @@ std::string lacks_pressure(const DrawnCase& drawn) {
 
 std::vector<CasePicture> pressure_pictures(const DrawnCase& drawn) {
   const trace::BottomTrace& trace = drawn.result.mechanics.trace;
-  const auto megapascals = [](std::vector<double> values) {
-    for (double& value : values) value *= 1e-6;
-    return values;
-  };
-  const std::vector<double> time = milliseconds_of(trace.time);
-  Plot plot = titled_plot(drawn, "Pressures");
-  plot.x = time_axis();
-  plot.y.label = "pressure [MPa]";
-  plot.series = {{.label = "chamber, on the base",
-                  .x = time,
-                  .y = megapascals(trace.chamber_pressure),
-                  .style = Style::line},
-                 {.label = "charge's bottom, area mean",
-                  .x = time,
-                  .y = megapascals(trace.bottom_pressure),
-                  .style = Style::line}};
-  return {{"pressure", "pressure.svg", std::move(plot)}};
+  Plot plot = time_plot(drawn, "Pressures", "pressure [MPa]");
+  plot.series = {time_series("chamber, on the base", trace.time, trace.chamber_pressure, 1e-6),
+                 time_series("charge's bottom, area mean", trace.time, trace.bottom_pressure, 1e-6)};
+  return {{"pressure.svg", std::move(plot)}};
 }
 
 std::vector<CaseTable> pressure_tables(const DrawnCase& drawn) {
   const trace::BottomTrace& trace = drawn.result.mechanics.trace;
-  Table table;
-  table.columns = {{"time", "ms"}, {"chamber", "MPa"}, {"bottom", "MPa"}};
+  Table table{.columns = {{"time", "ms"}, {"chamber", "MPa"}, {"bottom", "MPa"}}};
   for (std::size_t i = 0; i < trace.samples(); ++i)
     table.rows.push_back(
         {1e3 * trace.time[i], 1e-6 * trace.chamber_pressure[i], 1e-6 * trace.bottom_pressure[i]});
@@ -143,20 +130,20 @@ std::string lacks_energy(const DrawnCase& drawn) {
 std::vector<CasePicture> energy_pictures(const DrawnCase& drawn) {
   using run::EnergyBalance;
   std::vector<CasePicture> pictures;
-  pictures.push_back({"energy", "energy.svg",
-                      energy_plot(drawn, "Terms of the energy balance",
-                                  {{"work of the chamber pressure", &EnergyBalance::external},
-                                   {"internal", &EnergyBalance::internal},
-                                   {"work of the frame's body force", &EnergyBalance::body_force},
-                                   {"kinetic, relative to the frame", &EnergyBalance::kinetic},
-                                   {"taken out by damping", &EnergyBalance::damping},
-                                   {"taken out by contact", &EnergyBalance::contact}})});
+  pictures.push_back(
+      {"energy.svg", energy_plot(drawn, "Terms of the energy balance",
+                                 {{"work of the chamber pressure", &EnergyBalance::external},
+                                  {"internal", &EnergyBalance::internal},
+                                  {"work of the frame's body force", &EnergyBalance::body_force},
+                                  {"kinetic, relative to the frame", &EnergyBalance::kinetic},
+                                  {"taken out by damping", &EnergyBalance::damping},
+                                  {"taken out by contact", &EnergyBalance::contact}})});
   Plot losses = energy_plot(drawn, "Dissipated and stored parts of the internal energy",
                             {{"plastic, in steel", &EnergyBalance::plastic},
                              {"viscous, in the charge", &EnergyBalance::viscous},
                              {"crack growth, in the charge", &EnergyBalance::crack},
                              {"stored against hourglassing", &EnergyBalance::hourglass}});
-  if (!losses.series.empty()) pictures.push_back({"energy", "energy_dissipated.svg", std::move(losses)});
+  if (!losses.series.empty()) pictures.push_back({"energy_dissipated.svg", std::move(losses)});
   return pictures;
 }
 
@@ -166,17 +153,12 @@ const std::vector<PictureKind>& picture_kinds() {
   static const std::vector<PictureKind> kinds{
       {"pressure", "chamber and bottom pressure against time", detail::lacks_pressure,
        detail::pressure_pictures, detail::pressure_tables},
-      {"fields", "temperature, pressure, von Mises stress, crack radius and burnt share at every snapshot",
-       detail::lacks_fields, detail::field_pictures, detail::field_tables},
-      {"histories", "skin temperature of the stations against time, for each gap", detail::lacks_skins,
-       detail::history_pictures, detail::history_tables},
-      {"profile", "skin temperature along the bottom at several times, and its spread over time",
-       detail::lacks_skins, detail::profile_pictures},
-      {"air", "air temperature against compression, with the states reached", detail::lacks_air,
-       detail::air_pictures},
+      detail::fields_kind,
+      detail::histories_kind,
+      detail::profile_kind,
+      detail::air_kind,
       {"energy", "terms of the energy balance against time", detail::lacks_energy, detail::energy_pictures},
-      {"combustion", "burnt mass, pressure and reaction degree after ignition", detail::lacks_combustion,
-       detail::combustion_pictures},
+      detail::combustion_kind,
   };
   return kinds;
 }

@@ -1,6 +1,7 @@
 // Skin temperatures along the charge's bottom, the gap's air, and what burns.
 #include "case_pictures_parts.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/study_text.hpp"
 
 #include <fmt/format.h>
 
@@ -17,10 +18,12 @@ bool has_skin(const DrawnCase& drawn, const run::GapResult& gap) {
          gap.skin.temperature.size() == gap.skin.time.size() * trace_of(drawn).stations.size();
 }
 
-std::vector<const run::GapResult*> gaps_with_skin(const DrawnCase& drawn) {
+/// The gaps of a case that hold what a kind of pictures needs.
+std::vector<const run::GapResult*> gaps_with(bool (*what)(const DrawnCase&, const run::GapResult&),
+                                             const DrawnCase& drawn) {
   std::vector<const run::GapResult*> gaps;
   for (const run::GapResult& gap : drawn.result.gaps)
-    if (has_skin(drawn, gap)) gaps.push_back(&gap);
+    if (what(drawn, gap)) gaps.push_back(&gap);
   return gaps;
 }
 
@@ -39,8 +42,20 @@ std::vector<Line> ignition_line(const DrawnCase& drawn, const run::GapResult& ga
                        fixed(1e3 * ignition.time, 2))}};
 }
 
-Plot gap_plot(const DrawnCase& drawn, const run::GapResult& gap, const char* what) {
-  return titled_plot(drawn, fmt::format("{}, gap {}", what, gap_text(gap.gap)));
+std::string gap_title(const char* what, const run::GapResult& gap) {
+  return fmt::format("{}, gap {}", what, centimetres(gap.gap));
+}
+
+/// A quantity of one gap against time.
+Plot gap_plot(const DrawnCase& drawn, const run::GapResult& gap, const char* what, const char* quantity) {
+  Plot plot = time_plot(drawn, gap_title(what, gap), quantity);
+  plot.vertical_lines = ignition_line(drawn, gap);
+  return plot;
+}
+
+/// "histories_0.04cm.svg".
+CasePicture picture_of_gap(const char* name, const run::GapResult& gap, Plot plot) {
+  return {fmt::format("{}_{}.svg", name, gap_in_name(gap.gap)), std::move(plot), {}, gap.gap};
 }
 
 // --- profiles ---
@@ -63,18 +78,15 @@ std::vector<double> temperatures_of(const surface::SkinHistory& skin, std::size_
 
 Plot profile_plot(const DrawnCase& drawn, const run::GapResult& gap) {
   const trace::BottomTrace& trace = trace_of(drawn);
-  Plot plot = gap_plot(drawn, gap, "Skin temperature along the bottom");
+  Plot plot = titled_plot(drawn, gap_title("Skin temperature along the bottom", gap));
   plot.x = {.label = "distance from the axis, r [mm]", .minimum = 0.0};
   plot.y.label = "skin temperature [K]";
-  for (const double time : profile_times(drawn))
-    plot.series.push_back({.label = significant(1e3 * time, 4) + " ms", .x = {}, .y = {}});
   const std::vector<double> times = profile_times(drawn);
+  for (const double time : times) plot.series.push_back({.label = significant(1e3 * time, 4) + " ms"});
   for (const std::size_t ring : rings_of(trace)) {
     const std::vector<double> history = temperatures_of(gap.skin, ring, trace.stations.size());
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      plot.series[i].x.push_back(1e3 * trace.stations[ring].r);
-      plot.series[i].y.push_back(trace::interpolate(gap.skin.time, history, times[i]));
-    }
+    for (std::size_t i = 0; i < times.size(); ++i)
+      plot.series[i].add(1e3 * trace.stations[ring].r, trace::interpolate(gap.skin.time, history, times[i]));
   }
   return plot;
 }
@@ -83,9 +95,7 @@ Plot profile_plot(const DrawnCase& drawn, const run::GapResult& gap) {
 Series spread_series(const DrawnCase& drawn, const run::GapResult& gap) {
   const trace::BottomTrace& trace = trace_of(drawn);
   const std::size_t samples = samples_before_ignition(gap.skin);
-  Series series{.label = gap_text(gap.gap) + (gap.skin.ignition ? ", until ignition" : ""),
-                .x = {},
-                .y = {},
+  Series series{.label = centimetres(gap.gap) + (gap.skin.ignition ? ", until ignition" : ""),
                 .style = Style::line};
   for (std::size_t sample = 0; sample < samples; ++sample) {
     double lowest = HUGE_VAL, highest = -HUGE_VAL;
@@ -94,17 +104,16 @@ Series spread_series(const DrawnCase& drawn, const run::GapResult& gap) {
       lowest = std::min(lowest, temperature);
       highest = std::max(highest, temperature);
     }
-    series.x.push_back(1e3 * gap.skin.time[sample]);
-    series.y.push_back(highest - lowest);
+    series.add(1e3 * gap.skin.time[sample], highest - lowest);
   }
   return series;
 }
 
 Plot spread_plot(const DrawnCase& drawn) {
-  Plot plot = titled_plot(drawn, "Temperature difference along the bottom");
-  plot.x = time_axis();
-  plot.y.label = "highest less lowest skin temperature [K]";
-  for (const run::GapResult* gap : gaps_with_skin(drawn)) plot.series.push_back(spread_series(drawn, *gap));
+  Plot plot =
+      time_plot(drawn, "Temperature difference along the bottom", "highest less lowest skin temperature [K]");
+  for (const run::GapResult* gap : gaps_with(has_skin, drawn))
+    plot.series.push_back(spread_series(drawn, *gap));
   return plot;
 }
 
@@ -149,18 +158,14 @@ std::vector<Series> reached_series(const DrawnCase& drawn) {
     std::vector<std::string> gaps;
   };
   std::vector<Reached> all;
-  for (const run::GapResult& gap : drawn.result.gaps) {
-    if (!has_air(drawn, gap)) continue;
-    const AirState state = reached_state(drawn, gap);
+  for (const run::GapResult* gap : gaps_with(has_air, drawn)) {
+    const AirState state = reached_state(drawn, *gap);
     const auto same = std::find_if(all.begin(), all.end(), [&](const Reached& each) {
       return std::abs(each.state.temperature - state.temperature) < 0.05 &&
              std::abs(each.state.pressure - state.pressure) < 1e-3 * state.pressure;
     });
-    if (same != all.end()) {
-      same->gaps.push_back(significant(100.0 * gap.gap, 6));
-    } else {
-      all.push_back({state, {significant(100.0 * gap.gap, 6)}});
-    }
+    Reached& reached = same != all.end() ? *same : all.emplace_back(Reached{state, {}});
+    reached.gaps.push_back(significant(100.0 * gap->gap, 6));
   }
   std::vector<Series> series;
   for (const Reached& each : all)
@@ -176,56 +181,34 @@ std::vector<Series> reached_series(const DrawnCase& drawn) {
 Series adiabat(const materials::AirParameters& air, double highest_ratio) {
   constexpr int points = 200;
   Series series{.label = fmt::format("adiabat, heat ratio {}", significant(air.heat_ratio, 4)),
-                .x = {},
-                .y = {},
                 .style = Style::line,
                 .colour = 7};
   for (int i = 0; i <= points; ++i) {
     const double ratio = 1.0 + (highest_ratio - 1.0) * i / points;
-    series.x.push_back(ratio);
-    series.y.push_back(air.initial_temperature * std::pow(ratio, air.heat_ratio - 1.0));
+    series.add(ratio, air.initial_temperature * std::pow(ratio, air.heat_ratio - 1.0));
   }
   return series;
 }
 
 // --- combustion ---
 
-Plot combustion_plot(const DrawnCase& drawn, const run::GapResult& gap, const char* what, const char* label) {
-  Plot plot = gap_plot(drawn, gap, what);
-  plot.x = time_axis();
-  plot.y.label = label;
-  plot.vertical_lines = ignition_line(drawn, gap);
-  return plot;
-}
-
-Series scaled_series(const char* label, const run::CombustionHistory& history,
-                     const std::vector<double>& values, double factor) {
-  Series series{.label = label, .x = milliseconds_of(history.time), .y = values, .style = Style::line};
-  for (double& value : series.y) value *= factor;
-  return series;
-}
-
-std::vector<CasePicture> combustion_of(const DrawnCase& drawn, const run::GapResult& gap) {
+void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vector<CasePicture>& pictures) {
   const run::CombustionHistory& history = *gap.combustion;
   const bool whole = drawn.scene.symmetry == scene::Symmetry::axisymmetric;
-  Plot mass =
-      combustion_plot(drawn, gap, "Burnt mass", whole ? "burnt mass [g]" : "burnt mass per metre [g]");
-  mass.series = {scaled_series("burnt mass", history, history.burnt_mass, 1e3)};
-  Plot pressure = combustion_plot(drawn, gap, "Pressure while it burns", "pressure [MPa]");
-  pressure.series = {scaled_series("mean over the charge's bottom", history, history.pressure, 1e-6)};
-  Plot degree = combustion_plot(drawn, gap, "Reaction of the skin", "reaction degree of the skin [1]");
+  Plot mass = gap_plot(drawn, gap, "Burnt mass", whole ? "burnt mass [g]" : "burnt mass per metre [g]");
+  mass.series = {time_series("burnt mass", history.time, history.burnt_mass, 1e3)};
+  Plot pressure = gap_plot(drawn, gap, "Pressure while it burns", "pressure [MPa]");
+  pressure.series = {time_series("mean over the charge's bottom", history.time, history.pressure, 1e-6)};
+  Plot degree = gap_plot(drawn, gap, "Reaction of the skin", "reaction degree of the skin [1]");
   const std::size_t stations = trace_of(drawn).stations.size();
   const auto value = [&](std::size_t sample, std::size_t station) {
     return history.reaction_degree[sample * stations + station];
   };
   degree.series = station_series(trace_of(drawn), milliseconds_of(history.time), value,
                                  gap.skin.ignition ? gap.skin.ignition->station : stations);
-  const std::string end = gap_in_name(gap.gap) + ".svg";
-  std::vector<CasePicture> pictures;
-  pictures.push_back({"combustion", "combustion_mass_" + end, std::move(mass), {}, gap.gap});
-  pictures.push_back({"combustion", "combustion_pressure_" + end, std::move(pressure), {}, gap.gap});
-  pictures.push_back({"combustion", "combustion_reaction_" + end, std::move(degree), {}, gap.gap});
-  return pictures;
+  pictures.push_back(picture_of_gap("combustion_mass", gap, std::move(mass)));
+  pictures.push_back(picture_of_gap("combustion_pressure", gap, std::move(pressure)));
+  pictures.push_back(picture_of_gap("combustion_reaction", gap, std::move(degree)));
 }
 
 bool has_combustion(const DrawnCase& drawn, const run::GapResult& gap) {
@@ -236,7 +219,6 @@ bool has_combustion(const DrawnCase& drawn, const run::GapResult& gap) {
 
 }  // namespace
 
-std::string gap_text(double gap) { return significant(100.0 * gap, 6) + " cm"; }
 std::string gap_in_name(double gap) { return significant(100.0 * gap, 6) + "cm"; }
 
 std::vector<std::size_t> rings_of(const trace::BottomTrace& trace) {
@@ -256,7 +238,7 @@ std::vector<Series> station_series(const trace::BottomTrace& trace, const std::v
   std::vector<Series> background, named;
   for (const std::size_t ring : rings) {
     const trace::Station& station = trace.stations[ring];
-    Series series{.label = {}, .x = x, .y = {}, .style = Style::line, .colour = grey};
+    Series series{.x = x, .style = Style::line, .colour = grey};
     for (std::size_t sample = 0; sample < x.size(); ++sample) series.y.push_back(value(sample, ring));
     const bool is_named =
         ring == rings.front() || ring == rings.back() || ring == rings[rings.size() / 2] || ring == marked;
@@ -273,27 +255,25 @@ std::vector<Series> station_series(const trace::BottomTrace& trace, const std::v
   return background;
 }
 
+namespace {
+
 std::string lacks_skins(const DrawnCase& drawn) {
-  return gaps_with_skin(drawn).empty() ? "it holds no skin temperatures of any gap" : "";
+  return gaps_with(has_skin, drawn).empty() ? "it holds no skin temperatures of any gap" : "";
 }
 
 std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
   std::vector<CasePicture> pictures;
   const std::size_t stations = trace_of(drawn).stations.size();
-  for (const run::GapResult* gap : gaps_with_skin(drawn)) {
+  for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
     const surface::SkinHistory& skin = gap->skin;
-    Plot plot = gap_plot(drawn, *gap, "Skin temperatures");
-    plot.x = time_axis();
-    plot.y.label = "skin temperature [K]";
-    plot.vertical_lines = ignition_line(drawn, *gap);
+    Plot plot = gap_plot(drawn, *gap, "Skin temperatures", "skin temperature [K]");
     plot.series = station_series(
         trace_of(drawn), milliseconds_of(skin.time),
         [&](std::size_t sample, std::size_t station) {
           return skin.temperature[sample * stations + station];
         },
         gap->at_stations.station);
-    pictures.push_back(
-        {"histories", fmt::format("histories_{}.svg", gap_in_name(gap->gap)), std::move(plot), {}, gap->gap});
+    pictures.push_back(picture_of_gap("histories", *gap, std::move(plot)));
   }
   return pictures;
 }
@@ -301,9 +281,8 @@ std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
 std::vector<CaseTable> history_tables(const DrawnCase& drawn) {
   const std::vector<trace::Station>& stations = trace_of(drawn).stations;
   std::vector<CaseTable> tables;
-  for (const run::GapResult* gap : gaps_with_skin(drawn)) {
-    Table table;
-    table.columns = {{"time", "ms"}};
+  for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
+    Table table{.columns = {{"time", "ms"}}};
     for (const trace::Station& station : stations)
       table.columns.push_back({.name = station.name, .unit = "K", .key = station.name + "_K"});
     for (std::size_t sample = 0; sample < gap->skin.time.size(); ++sample) {
@@ -318,21 +297,14 @@ std::vector<CaseTable> history_tables(const DrawnCase& drawn) {
 
 std::vector<CasePicture> profile_pictures(const DrawnCase& drawn) {
   std::vector<CasePicture> pictures;
-  for (const run::GapResult* gap : gaps_with_skin(drawn))
-    pictures.push_back({"profile",
-                        fmt::format("profile_{}.svg", gap_in_name(gap->gap)),
-                        profile_plot(drawn, *gap),
-                        {},
-                        gap->gap});
-  pictures.push_back({"profile", "profile_spread.svg", spread_plot(drawn)});
+  for (const run::GapResult* gap : gaps_with(has_skin, drawn))
+    pictures.push_back(picture_of_gap("profile", *gap, profile_plot(drawn, *gap)));
+  pictures.push_back({"profile_spread.svg", spread_plot(drawn)});
   return pictures;
 }
 
 std::string lacks_air(const DrawnCase& drawn) {
-  const auto& gaps = drawn.result.gaps;
-  const bool any =
-      std::any_of(gaps.begin(), gaps.end(), [&](const run::GapResult& gap) { return has_air(drawn, gap); });
-  return any ? "" : "it holds no gap with air";
+  return gaps_with(has_air, drawn).empty() ? "it holds no gap with air" : "";
 }
 
 std::vector<CasePicture> air_pictures(const DrawnCase& drawn) {
@@ -348,23 +320,30 @@ std::vector<CasePicture> air_pictures(const DrawnCase& drawn) {
   plot.y.label = "air temperature [K]";
   plot.series = {adiabat(surface.air, 1.05 * highest)};
   plot.series.insert(plot.series.end(), reached.begin(), reached.end());
-  return {{"air", "air.svg", std::move(plot)}};
+  return {{"air.svg", std::move(plot)}};
 }
 
 std::string lacks_combustion(const DrawnCase& drawn) {
-  const auto& gaps = drawn.result.gaps;
-  const bool any = std::any_of(gaps.begin(), gaps.end(),
-                               [&](const run::GapResult& gap) { return has_combustion(drawn, gap); });
-  return any ? "" : "no gap of it ignited in a run with two-way coupling";
+  return gaps_with(has_combustion, drawn).empty() ? "no gap of it ignited in a run with two-way coupling"
+                                                  : "";
 }
 
 std::vector<CasePicture> combustion_pictures(const DrawnCase& drawn) {
   std::vector<CasePicture> pictures;
-  for (const run::GapResult& gap : drawn.result.gaps) {
-    if (!has_combustion(drawn, gap)) continue;
-    for (CasePicture& picture : combustion_of(drawn, gap)) pictures.push_back(std::move(picture));
-  }
+  for (const run::GapResult* gap : gaps_with(has_combustion, drawn)) add_combustion(drawn, *gap, pictures);
   return pictures;
 }
+
+}  // namespace
+
+const PictureKind histories_kind{"histories", "skin temperature of the stations against time, for each gap",
+                                 lacks_skins, history_pictures, history_tables};
+const PictureKind profile_kind{"profile",
+                               "skin temperature along the bottom at several times, and its spread over time",
+                               lacks_skins, profile_pictures};
+const PictureKind air_kind{"air", "air temperature against compression, with the states reached", lacks_air,
+                           air_pictures};
+const PictureKind combustion_kind{"combustion", "burnt mass, pressure and reaction degree after ignition",
+                                  lacks_combustion, combustion_pictures};
 
 }  // namespace launchsafe::report::detail

@@ -1,6 +1,7 @@
 // Fields over the section of a shell, from the snapshots of a case.
 #include "case_pictures_parts.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
 #include <fmt/format.h>
@@ -199,7 +200,7 @@ CellPlot field_plot(const DrawnCase& drawn, const DrawnField& field, const Shown
   CellPlot plot;
   plot.title = fmt::format("{} at {} ms", field.name, significant(1e3 * shot.time, 4));
   if (!shot.events.empty()) plot.title += ", " + events_of(shot, ", ");
-  if (shown.gap) plot.title += fmt::format(", gap of {} burning", gap_text(*shown.gap));
+  if (shown.gap) plot.title += fmt::format(", gap of {} burning", centimetres(*shown.gap));
   plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
   plot.subtitle = shortened(drawn.scene.title, 150);
   plot.scales = scales;
@@ -242,8 +243,6 @@ bool has_field(const DrawnCase& drawn, const DrawnField& field, bool burning) {
   });
 }
 
-}  // namespace
-
 std::string lacks_fields(const DrawnCase& drawn) {
   const auto snapshots = shown_snapshots(drawn);
   if (snapshots.empty()) return "it has no snapshots; output.snapshots of the scene asks for them";
@@ -252,10 +251,9 @@ std::string lacks_fields(const DrawnCase& drawn) {
     if (shot.half_length_x.size() != shot.x.size() || shot.half_length_r.size() != shot.x.size())
       return "its snapshots are those of an older program, without the cells of the particles";
     if (!fits(drawn.scene, shot)) return "its snapshots do not fit the grid of its scene";
-    for (const double length : shot.half_length_x)
-      if (!(length > 0.0)) return "a cell in its snapshots is inverted";
-    for (const double length : shot.half_length_r)
-      if (!(length > 0.0)) return "a cell in its snapshots is inverted";
+    for (const auto* lengths : {&shot.half_length_x, &shot.half_length_r})
+      for (const double length : *lengths)
+        if (!(length > 0.0)) return "a cell in its snapshots is inverted";
   }
   return {};
 }
@@ -268,7 +266,7 @@ std::vector<CasePicture> field_pictures(const DrawnCase& drawn) {
       const std::vector<ColourScale> scales = scales_of(drawn, field, burning);
       for (const ShownSnapshot& each : chosen_snapshots(drawn))
         if (each.gap.has_value() == burning)
-          pictures.push_back({"fields", fmt::format("field_{}{}.svg", field.file, name_of(each)),
+          pictures.push_back({fmt::format("field_{}{}.svg", field.file, name_of(each)),
                               field_plot(drawn, field, each, scales), each.snapshot->time, each.gap});
     }
   }
@@ -297,8 +295,7 @@ std::vector<CaseTable> field_tables(const DrawnCase& drawn) {
   std::vector<CaseTable> tables;
   for (const ShownSnapshot& each : chosen_snapshots(drawn)) {
     const Snapshot& shot = *each.snapshot;
-    Table table;
-    table.columns = {text_column("body")};
+    Table table{.columns = {text_column("body")}};
     for (const Value& value : all) table.columns.push_back(value.column);
     for (std::size_t i = 0; i < shot.x.size(); ++i) {
       std::vector<Cell>& row =
@@ -310,5 +307,11 @@ std::vector<CaseTable> field_tables(const DrawnCase& drawn) {
   }
   return tables;
 }
+
+}  // namespace
+
+const PictureKind fields_kind{
+    "fields", "temperature, pressure, von Mises stress, crack radius and burnt share at every snapshot",
+    lacks_fields, field_pictures, field_tables};
 
 }  // namespace launchsafe::report::detail

@@ -1,4 +1,4 @@
-// The kinds of pictures of one case, each with what it needs and what it draws.
+// The kinds of pictures of one case, and what their pictures have in common.
 #pragma once
 
 #include "launchsafe/report/case_pictures.hpp"
@@ -9,37 +9,23 @@
 
 namespace launchsafe::report::detail {
 
-std::string lacks_pressure(const DrawnCase& drawn);
-std::vector<CasePicture> pressure_pictures(const DrawnCase& drawn);
-std::vector<CaseTable> pressure_tables(const DrawnCase& drawn);
-std::string lacks_energy(const DrawnCase& drawn);
-std::vector<CasePicture> energy_pictures(const DrawnCase& drawn);
+extern const PictureKind fields_kind, histories_kind, profile_kind, air_kind, combustion_kind;
 
-std::string lacks_fields(const DrawnCase& drawn);
-std::vector<CasePicture> field_pictures(const DrawnCase& drawn);
-std::vector<CaseTable> field_tables(const DrawnCase& drawn);
-
-std::string lacks_skins(const DrawnCase& drawn);
-std::vector<CasePicture> history_pictures(const DrawnCase& drawn);
-std::vector<CaseTable> history_tables(const DrawnCase& drawn);
-std::vector<CasePicture> profile_pictures(const DrawnCase& drawn);
-std::string lacks_air(const DrawnCase& drawn);
-std::vector<CasePicture> air_pictures(const DrawnCase& drawn);
-std::string lacks_combustion(const DrawnCase& drawn);
-std::vector<CasePicture> combustion_pictures(const DrawnCase& drawn);
-
-/// "0.04 cm", and the same in the name of a file: "0.04cm".
-std::string gap_text(double gap);
+/// Of a gap in the name of a file: "0.04cm".
 std::string gap_in_name(double gap);
 
 /// A text of at most `longest` bytes, about, with dots in the place of the rest.
 std::string shortened(const std::string& text, std::size_t longest);
 /// A plot with a title of its own above that of the scene.
 Plot titled_plot(const DrawnCase& drawn, std::string title);
+/// Likewise, of a quantity against time in ms.
+Plot time_plot(const DrawnCase& drawn, std::string title, std::string quantity);
+/// Values, times a factor, against times in s.
+Series time_series(const char* label, const std::vector<double>& time, const std::vector<double>& values,
+                   double factor);
 
 /// Times in ms.
 std::vector<double> milliseconds_of(const std::vector<double>& seconds);
-PlotAxis time_axis();
 
 /// A value for every station that tiles the bottom, against `x`: the first, the middle and the last station
 /// and the one of index `marked` by name, all others thin and grey.

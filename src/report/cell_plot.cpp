@@ -111,17 +111,9 @@ std::string outline_lines(const Outline& outline, bool mirrored) {
 
 // --- commands ---
 
-/// A distance of marks: 1, 2 or 5 times a power of ten, at least so many pixels.
-double mark_distance(double scale, double pixels) {
-  const double least = pixels / scale, decade = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * decade >= least * (1.0 - 1e-9)) return factor * decade;
-  return 10.0 * decade;
-}
-
 /// Distances from the axis, on both sides of it.
 std::string radius_marks(const CellPanel& panel) {
-  const double distance = mark_distance(panel.scale, 34);
+  const double distance = round_distance(34 / panel.scale);
   std::string marks = "\"0\" 0";
   for (double r = distance; r <= panel.r_end * (1.0 + 1e-9); r += distance)
     for (const double place : {r, -r})
@@ -141,7 +133,7 @@ std::string panel_range(const CellPanel& panel, double page_height) {
 
 std::string panel_marks(const CellPanel& panel) {
   return fmt::format("set xtics nomirror out scale 0.6 {}\nset ytics nomirror out scale 0.6 ({})\n",
-                     exact(mark_distance(panel.scale, 70)), radius_marks(panel));
+                     exact(round_distance(70 / panel.scale)), radius_marks(panel));
 }
 
 constexpr std::string_view filled_boxes = "with boxxyerror fillstyle solid 1.0 noborder linecolor";
@@ -246,11 +238,9 @@ std::string to_gnuplot(const CellPlot& plot) {
     }
     return text + "unset colorbox\n" + std::string(with_axes) + panel_marks(panel);
   };
-  std::string text = fmt::format(
-      "set encoding utf8\n"
-      "set terminal svg size {},{} noenhanced font 'sans-serif,14' background rgb '#ffffff' rounded\n"
-      "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nset format '%g'\nunset key\nset multiplot\n",
-      cell_page_width, height);
+  std::string text =
+      page_commands(cell_page_width, height) +
+      "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nset format '%g'\nunset key\nset multiplot\n";
   text +=
       cells_in(whole, "whole") + page_text(plot) + axis_line(whole) + outline_commands(plot, whole, "whole");
   if (enlarged) {
@@ -265,9 +255,7 @@ std::string to_gnuplot(const CellPlot& plot) {
 
 store::Result<std::string> to_svg(const CellPlot& plot, const std::string& program,
                                   const DrawingLimits& limits) {
-  if (const std::string why = unfit(plot); !why.empty())
-    return store::Error{store::Error::Kind::failed, fmt::format("cannot draw '{}': {}", plot.title, why)};
-  return drawn(program, to_gnuplot(plot), plot.title, limits);
+  return drawn(plot, unfit(plot), program, limits);
 }
 
 }  // namespace launchsafe::report

@@ -42,6 +42,13 @@ std::string palette_command() {
          "'#f6e63c')\n";
 }
 
+std::string page_commands(double width, double height) {
+  return fmt::format(
+      "set encoding utf8\n"
+      "set terminal svg size {},{} noenhanced font 'sans-serif,14' background rgb '#ffffff' rounded\n",
+      width, height);
+}
+
 store::Result<std::string> drawn(const std::string& program, const std::string& commands,
                                  const std::string& title, const DrawingLimits& limits) {
   // --default-settings: the user's own start-up file must not change a report.

@@ -25,19 +25,34 @@ std::string data_block(const std::string& name, const std::string& lines);
 /// lightness rises evenly, so that it also reads in grey.
 std::string palette_command();
 
+/// What begins the commands of a picture of this size in pixels.
+std::string page_commands(double width, double height);
+
 /// The picture that gnuplot makes of commands. Errors: missing, failed; `title` is named in both.
 store::Result<std::string> drawn(const std::string& program, const std::string& commands,
                                  const std::string& title, const DrawingLimits& limits);
+/// That of a plot, unless there is a reason why it cannot be drawn.
+template <class AnyPlot>
+store::Result<std::string> drawn(const AnyPlot& plot, const std::string& unfit, const std::string& program,
+                                 const DrawingLimits& limits) {
+  if (unfit.empty()) return drawn(program, to_gnuplot(plot), plot.title, limits);
+  return store::Error{store::Error::Kind::failed, "cannot draw '" + plot.title + "': " + unfit};
+}
 
-/// What draws a map: data and settings, and the parts of the plot command.
-struct MapCommands {
+/// Data and settings, and the parts of the plot command in the order in which they are drawn.
+struct Commands {
   std::string settings;
   std::vector<std::string> plots;
+
+  void add(const std::string& name, const std::string& lines, const std::string& how) {
+    settings += data_block(name, lines);
+    plots.push_back("$" + name + " using " + how);
+  }
 };
 
 /// The map of a plot whose grid and values fit. Comes before the settings of the axes: gnuplot finds the
 /// contour lines in the coordinates of the picture, in which both axes are linear.
-MapCommands map_commands(const Plot& plot);
+Commands map_commands(const Plot& plot);
 
 /// Why values do not fit their grid; empty where they do.
 std::string unfit(const Map& map, const Plot& plot);

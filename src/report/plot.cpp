@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 namespace launchsafe::report {
 namespace {
@@ -78,17 +79,6 @@ std::string style_of(const Series& series, std::size_t index) {
 
 // --- commands ---
 
-/// Data and the parts of the plot command, in the order in which they are drawn.
-struct Commands {
-  std::string data;
-  std::vector<std::string> plots;
-
-  void add(const std::string& name, const std::string& lines, const std::string& how) {
-    data += data_block(name, lines);
-    plots.push_back(fmt::format("${} using {}", name, how));
-  }
-};
-
 void add_series(const Plot& plot, Commands& commands) {
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const Series& series = plot.series[i];
@@ -149,13 +139,6 @@ std::string subtitle_command(const Plot& plot) {
       quoted(plot.subtitle));
 }
 
-std::string page_commands(int width, int height) {
-  return fmt::format(
-      "set encoding utf8\n"
-      "set terminal svg size {},{} noenhanced font 'sans-serif,14' background rgb '#ffffff' rounded\n",
-      width, height);
-}
-
 std::string frame_commands(const Plot& plot) {
   return fmt::format(
              "set border 3 linewidth 1 linecolor rgb '#444444'\n"
@@ -208,15 +191,14 @@ std::string drawing_commands(const Plot& plot) {
   std::string text = frame_commands(plot);
   Commands commands;
   if (plot.map) {
-    MapCommands map = map_commands(plot);
-    text += map.settings;
-    commands.plots = std::move(map.plots);
+    commands = map_commands(plot);
+    text += std::exchange(commands.settings, {});
   }
   text += axis_commands("x", plot.x) + axis_commands("y", plot.y);
   add_bands(plot, commands);
   add_series(plot, commands);
   add_lines(plot, commands);
-  return text + commands.data + fmt::format("plot {}\n", fmt::join(commands.plots, ", \\\n     "));
+  return text + commands.settings + fmt::format("plot {}\n", fmt::join(commands.plots, ", \\\n     "));
 }
 
 /// Two panels a row, each in a place as large as the largest of them.
@@ -243,16 +225,14 @@ std::string to_gnuplot(const Plot& plot) {
 }
 
 store::Result<std::string> to_svg(const Plot& plot, const std::string& program, const DrawingLimits& limits) {
-  if (const std::string why = unfit(plot); !why.empty())
-    return store::Error{store::Error::Kind::failed, fmt::format("cannot draw '{}': {}", plot.title, why)};
-  return drawn(program, to_gnuplot(plot), plot.title, limits);
+  return drawn(plot, unfit(plot), program, limits);
 }
 
 store::MaybeError write_svg(const Plot& plot, const std::filesystem::path& path,
                             const DrawingLimits& limits) {
   const auto svg = to_svg(plot, "gnuplot", limits);
   if (!svg) return svg.error();
-  return store::write_own_file(path, {*svg});
+  return store::write_own_file(path, *svg);
 }
 
 }  // namespace launchsafe::report

@@ -82,7 +82,7 @@ ValueRange range_of(const std::vector<double>& values) {
   return range;
 }
 
-void add_values(const Map& map, const Cells& cells, MapCommands& commands) {
+void add_values(const Map& map, const Cells& cells, Commands& commands) {
   std::string lines;
   for (std::size_t index = 0; index < map.values.size(); ++index) {
     if (!std::isfinite(map.values[index])) continue;
@@ -98,20 +98,16 @@ void add_values(const Map& map, const Cells& cells, MapCommands& commands) {
       "$cells using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid 1.0 noborder linecolor palette notitle");
 }
 
-void add_hatching(const HatchedCells& hatched, std::size_t number, const Cells& cells,
-                  MapCommands& commands) {
+void add_hatching(const HatchedCells& hatched, std::size_t number, const Cells& cells, Commands& commands) {
   if (hatched.cells.empty()) return;
   std::string lines;
   for (const std::size_t index : hatched.cells) lines += cells.line(index) + "\n";
-  const std::string name = fmt::format("hatched{}", number);
-  commands.settings += data_block(name, lines);
   // In the order of Hatching: gnuplot's fill patterns.
   constexpr std::array<int, 4> patterns{5, 4, 1, 2};
-  commands.plots.push_back(
-      fmt::format("${} using 1:2:3:4:5:6 with boxxyerror linecolor rgb '#777777' fillstyle pattern {} "
-                  "border linecolor rgb '#555555' "
-                  "title {}",
-                  name, patterns[static_cast<std::size_t>(hatched.hatching)], quoted(hatched.label)));
+  commands.add(fmt::format("hatched{}", number), lines,
+               fmt::format("1:2:3:4:5:6 with boxxyerror linecolor rgb '#777777' fillstyle pattern {} "
+                           "border linecolor rgb '#555555' title {}",
+                           patterns[static_cast<std::size_t>(hatched.hatching)], quoted(hatched.label)));
 }
 
 /// The values themselves, or moved by their uncertainty.
@@ -166,7 +162,7 @@ std::string contour_commands(const Plot& plot, const std::vector<double>& values
 }
 
 /// Lines that no uncertainty blurs together: none where the values are not known well enough for two.
-void add_contours(const Plot& plot, const ValueRange& range, MapCommands& commands) {
+void add_contours(const Plot& plot, const ValueRange& range, Commands& commands) {
   const Map& map = *plot.map;
   const double step = contour_step(map, range);
   const std::vector<double> levels = contour_levels(range, step);
@@ -205,7 +201,7 @@ void add_contours(const Plot& plot, const ValueRange& range, MapCommands& comman
 }
 
 /// Black on light colours, white on dark ones.
-void add_numbers(const Map& map, const ValueRange& range, MapCommands& commands) {
+void add_numbers(const Map& map, const ValueRange& range, Commands& commands) {
   const double lowest = map.minimum.value_or(range.lowest), highest = map.maximum.value_or(range.highest);
   const std::string text =
       map.uncertainty.empty() ? "sprintf('%.3g', $7)" : "sprintf(\"%.3g\\n+-%.2g\", $7, $8)";
@@ -232,10 +228,10 @@ std::string unfit(const Map& map, const Plot& plot) {
   return {};
 }
 
-MapCommands map_commands(const Plot& plot) {
+Commands map_commands(const Plot& plot) {
   const Map& map = *plot.map;
   const Cells cells(plot);
-  MapCommands commands;
+  Commands commands;
   const ValueRange range = range_of(map.values);
   if (range.any()) add_values(map, cells, commands);
   for (std::size_t i = 0; i < map.hatched.size(); ++i) add_hatching(map.hatched[i], i, cells, commands);

@@ -90,7 +90,7 @@ store::MaybeError write_texts(const std::filesystem::path& folder,
                         fmt::format("cannot make the folder {}: {}", folder.string(), status.message())};
   }
   for (const auto& [name, text] : texts) {
-    if (auto error = store::write_own_file(folder / name, {text})) return error;
+    if (auto error = store::write_own_file(folder / name, text)) return error;
     written.files.push_back(name);
   }
   return {};

@@ -1,4 +1,5 @@
 // Page one: the answer, and all that a reader of this page alone must know.
+#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
 #include "safety_sections.hpp"
 
@@ -9,9 +10,6 @@
 
 namespace launchsafe::report::safety {
 namespace {
-
-/// Rows of a verdict table that page one holds.
-constexpr std::size_t most_rows = 12;
 
 Parts gap_part(double gap, int decimals) { return part(allowed_text(gap, decimals) + " cm", gap, "cm"); }
 
@@ -67,11 +65,9 @@ void say_recommended(const Subject& subject, SafetySection& section) {
   const auto safe = allowed_in_all(subject.cases, GapCriterion{});
   Parts parts{{"several", subject.cases.size() > 1}};
   if (safe) parts["gap"] = part(exact(*safe) + " cm", *safe, "cm");
-  if (!subject.criterion) {
-    section.say(safe ? "recommended.not_stated" : "recommended.not_stated_none_safe", parts, origin,
-                Look::lead);
-    return;
-  }
+  if (!subject.criterion)
+    return section.say(safe ? "recommended.not_stated" : "recommended.not_stated_none_safe", parts, origin,
+                       Look::lead);
   parts["criterion"] = subject.criterion->text;
   parts["source"] = subject.criterion->source;
   const auto allowed = allowed_in_all(subject.cases, *subject.criterion);
@@ -82,18 +78,12 @@ void say_recommended(const Subject& subject, SafetySection& section) {
 // --- many cases ---
 
 Table case_table(const Subject& subject) {
-  Table table;
-  table.columns = {text_column("case"),
-                   text_column("critical gap"),
-                   text_column("largest SAFE gap"),
-                   {"SAFE", "", Alignment::right, 0, Notation::fixed, "safe"},
-                   {"INDETERMINATE", "", Alignment::right, 0, Notation::fixed, "indeterminate"},
-                   {"UNSAFE", "", Alignment::right, 0, Notation::fixed, "unsafe"}};
+  Table table{.columns = {text_column("case"), text_column("critical gap"), text_column("largest SAFE gap"),
+                          count_column("SAFE", "safe"), count_column("INDETERMINATE", "indeterminate"),
+                          count_column("UNSAFE", "unsafe")}};
   for (const JudgedCase& each : subject.cases) {
-    const auto gap = measured_gap(*each.critical);
     const std::size_t safe = largest_safe(each);
-    table.rows.push_back({each.label,
-                          gap ? gap->text("cm") : text_of(*each.critical, "critical_gap_reads_as"),
+    table.rows.push_back({each.label, gap_text(*each.critical),
                           safe == each.gaps.size() ? "none" : exact(each.gaps[safe].gap) + " cm",
                           static_cast<std::int64_t>(count_of(each.verdicts, "SAFE")),
                           static_cast<std::int64_t>(count_of(each.verdicts, "INDETERMINATE")),
@@ -118,9 +108,7 @@ void say_cases(const Subject& subject, const std::string& text, SafetySection& s
       {"none_safe", count_part(kinds["all-ignite"])},
       {"unknown", count_part(cases.size() - kinds["value"] - kinds["all-safe"] - kinds["all-ignite"])}};
   if (smallest != nullptr) {
-    const auto gap = measured_gap(*smallest);
-    parts["smallest"] = part(gap ? gap->text("cm") : text_of(*smallest, "critical_gap_reads_as"),
-                             number_of(*smallest, "critical_gap_cm"), "cm");
+    parts["smallest"] = part(gap_text(*smallest), number_of(*smallest, "critical_gap_cm"), "cm");
     parts["case"] = name_of_case(subject.study, *smallest);
   }
   section.say(text, parts, subject.origin("cases"), Look::lead);
@@ -131,12 +119,10 @@ void answer_critical_gap(const Subject& subject, SafetySection& section) {
     say_critical_gap(subject, *own, section);
   if (subject.cases.size() > 1) say_cases(subject, "answer.cases", section);
   say_recommended(subject, section);
-  std::vector<const JudgedCase*> cases;
-  for (const JudgedCase& each : subject.cases) cases.push_back(&each);
-  if (all_verdicts(subject).size() <= most_rows)
-    section.blocks.push_back(SaidTable{"verdicts", verdict_table(cases), subject.origin("verdicts")});
+  if (all_verdicts(subject).size() <= most_rows_on_page_one)
+    section.show("verdicts", verdict_table(subject), subject.origin("verdicts"));
   else
-    section.blocks.push_back(SaidTable{"cases", case_table(subject), subject.origin("cases")});
+    section.show("cases", case_table(subject), subject.origin("cases"));
   section.say("answer.read_verdicts");
 }
 
@@ -159,13 +145,12 @@ Parts answer_parts(const Subject& subject) {
       answer["recommended_gap_cm"] = number(allowed_in_all(subject.cases, *subject.criterion));
   }
   for (const JudgedCase& each : subject.cases) {
-    Parts row{{"case", each.label}, {"critical_gap_kind", text_of(*each.critical, "critical_gap_kind")}};
     const auto gap = measured_gap(*each.critical);
-    row["critical_gap"] =
-        gap ? Parts(gap->text("cm")) : Parts(text_of(*each.critical, "critical_gap_reads_as"));
-    row["lower_cm"] = number(gap ? std::optional(gap->lower()) : std::nullopt);
-    row["upper_cm"] = number(gap ? std::optional(gap->upper()) : std::nullopt);
-    answer["cases"].push_back(std::move(row));
+    answer["cases"].push_back({{"case", each.label},
+                               {"critical_gap_kind", text_of(*each.critical, "critical_gap_kind")},
+                               {"critical_gap", gap_text(*each.critical)},
+                               {"lower_cm", gap ? Parts(gap->lower()) : Parts()},
+                               {"upper_cm", gap ? Parts(gap->upper()) : Parts()}});
   }
   return answer;
 }

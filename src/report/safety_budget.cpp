@@ -6,13 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 namespace launchsafe::report::safety {
 namespace {
-
-constexpr std::array<const char*, 4> share_names{"computation", "fit", "inputs", "model_form"};
 
 // --- shares ---
 
@@ -24,19 +21,13 @@ constexpr double least_gap_share = 1e-4;         // cm
 constexpr double least_temperature_share = 0.1;  // K
 
 Table share_table(const JudgedCase& each) {
-  Table table;
-  table.columns = {significant_column("gap", "cm", 6, "gap_cm"),
-                   named_text("computation", "computation"),
-                   named_text("fit", "fit"),
-                   named_text("inputs", "inputs"),
-                   named_text("model form", "model_form"),
-                   named_text("total", "uncertainty"),
-                   named_text("verdict", "verdict")};
-  for (Column& column : table.columns)
-    if (column.key != "verdict" && column.key != "gap_cm") {
-      column.unit = "K";
-      column.alignment = Alignment::right;
-    }
+  const auto kelvin = [](const char* name, const char* key) {
+    return Column{.name = name, .unit = "K", .key = key};
+  };
+  Table table{.columns = {significant_column("gap", "cm", 6, "gap_cm"), kelvin("computation", "computation"),
+                          kelvin("fit", "fit"), kelvin("inputs", "inputs"),
+                          kelvin("model form", "model_form"), kelvin("total", "uncertainty"),
+                          named_text("verdict", "verdict")}};
   for (const Row* row : each.verdicts) {
     if (!each.completed || !std::isfinite(number_of(*row, "uncertainty_K"))) continue;
     std::vector<Cell>& cells = table.rows.emplace_back();
@@ -57,10 +48,8 @@ void say_gap_shares(const Subject& subject, const JudgedCase& each, SafetySectio
   Parts parts{{"case", each.label}};
   for (const char* name : share_names) {
     const double size = number_of(critical, fmt::format("critical_gap_uncertainty_of_{}_cm", name));
-    if (!std::isfinite(size)) {
-      section.say("budget.no_gap_shares", {{"command", subject.study.command()}}, origin);
-      return;
-    }
+    if (!std::isfinite(size))
+      return section.say("budget.no_gap_shares", {{"command", subject.study.command()}}, origin);
     shares.push_back({name, size});
     parts[name] = part(share_text(size, least_gap_share) + " cm", size, "cm");
   }
@@ -75,24 +64,18 @@ void say_gap_shares(const Subject& subject, const JudgedCase& each, SafetySectio
 /// The rows of one variant of an accuracy study.
 std::vector<const Row*> rows_of_variant(const StudyEvidence& accuracy, const std::string& table,
                                         const std::string& variant) {
-  std::vector<const Row*> rows;
-  for (const Row& row : accuracy.rows(table))
-    if (text_of(row, "variant") == variant) rows.push_back(&row);
+  std::vector<const Row*> rows = pointers_to(accuracy.rows(table));
+  std::erase_if(rows, [&](const Row* row) { return text_of(*row, "variant") != variant; });
   return rows;
 }
 
 /// Of several variants the one speaks whose record the main study took, or none.
 void say_accuracy(const StudyEvidence& main, const StudyEvidence* accuracy, SafetySection& section) {
-  if (accuracy == nullptr || !accuracy->finished()) {
-    section.say("budget.no_accuracy");
-    return;
-  }
+  if (accuracy == nullptr || !accuracy->finished()) return section.say("budget.no_accuracy");
   const Row* taken = setting_taken_by(main, *accuracy);
   const Row& settings = accuracy->rows("settings");
-  if (taken == nullptr && !settings.empty() && !text_of(settings.front(), "variant").empty()) {
-    section.say("budget.no_variant", {}, origin_of(*accuracy, "settings"));
-    return;
-  }
+  if (taken == nullptr && !settings.empty() && !text_of(settings.front(), "variant").empty())
+    return section.say("budget.no_variant", {}, origin_of(*accuracy, "settings"));
   const std::string variant = taken != nullptr ? text_of(*taken, "variant") : "";
   for (const Row* row : rows_of_variant(*accuracy, "settings", variant)) {
     if (text_of(*row, "remark").find("the scene as it is") == std::string::npos) continue;
@@ -105,41 +88,34 @@ void say_accuracy(const StudyEvidence& main, const StudyEvidence* accuracy, Safe
                  {"gap", part(uncertain_text(gap) + " cm", gap, "cm")}},
                 origin_of(*accuracy, "settings", setting));
   }
-  Table table;
-  std::vector<std::string> meshes;
-  table.columns = {named_text("quantity", "quantity"), named_text("unit", "unit")};
   const std::vector<const Row*> rows = rows_of_variant(*accuracy, "reference", variant);
   if (rows.empty()) return;
+  std::vector<std::string> meshes;
   for (const auto& [key, value] : rows.front()->items())
     if (key.starts_with("cells_") && !value.is_null()) meshes.push_back(key);
   std::sort(meshes.begin(), meshes.end(), [](const std::string& a, const std::string& b) {
     return std::strtod(a.c_str() + 6, nullptr) < std::strtod(b.c_str() + 6, nullptr);
   });
+  std::vector<Column> columns{named_text("quantity", "quantity"), named_text("unit", "unit")};
   for (const std::string& mesh : meshes) {
     std::string name = mesh.substr(6);
     std::replace(name.begin(), name.end(), '_', ' ');
-    table.columns.push_back(significant_column(name, "", 5, mesh));
+    columns.push_back(significant_column(name, "", 5, mesh));
   }
-  append(table.columns, {significant_column("uncertainty of the limit", "", 2, "uncertainty"),
-                         named_text("method", "method")});
-  for (const Row* row : rows) append_row(*row, table);
-  section.blocks.push_back(SaidTable{"meshes", std::move(table), origin_of(*accuracy, "reference")});
+  append(columns, {significant_column("uncertainty of the limit", "", 2, "uncertainty"),
+                   named_text("method", "method")});
+  section.show("meshes", table_of(rows, std::move(columns)), origin_of(*accuracy, "reference"));
 }
 
 // --- inputs ---
 
 void say_sensitivity(const StudyEvidence* sensitivity, SafetySection& section) {
-  if (sensitivity == nullptr || !sensitivity->finished()) {
-    section.say("budget.no_sensitivity");
-    return;
-  }
-  Table table;
-  table.columns = {named_text("input", "input"),
-                   named_text("distribution", "distribution"),
-                   significant_column("first order", "", 2, "first_order"),
-                   named_text("interval", "first_order_interval"),
-                   significant_column("total order", "", 2, "total_order"),
-                   named_text("interval", "total_order_interval")};
+  if (sensitivity == nullptr || !sensitivity->finished()) return section.say("budget.no_sensitivity");
+  Table table{.columns = {named_text("input", "input"), named_text("distribution", "distribution"),
+                          significant_column("first order", "", 2, "first_order"),
+                          named_text("interval", "first_order_interval"),
+                          significant_column("total order", "", 2, "total_order"),
+                          named_text("interval", "total_order_interval")}};
   const Row* largest = nullptr;
   bool below_first = false;
   const auto interval = [](const Row& row, const std::string& order) {
@@ -156,15 +132,12 @@ void say_sensitivity(const StudyEvidence* sensitivity, SafetySection& section) {
       largest = &row;
   }
   const Origin origin = origin_of(*sensitivity, "indices");
-  if (largest == nullptr) {
-    section.say("budget.no_indices", {}, origin);
-    return;
-  }
+  if (largest == nullptr) return section.say("budget.no_indices", {}, origin);
   section.say("budget.sensitivity",
               {{"input", text_of(*largest, "input")},
                {"share", significant(100 * number_of(*largest, "total_order"), 2) + " %"}},
               origin);
-  section.blocks.push_back(SaidTable{"indices", std::move(table), origin});
+  section.show("indices", std::move(table), origin);
   if (below_first) section.say("budget.total_below_first", {}, origin);
 }
 
@@ -180,26 +153,31 @@ double nearest_pressure(const StudyEvidence& comparison, double peak) {
   return nearest;
 }
 
+/// The cases of a comparison at one pressure (MPa); all where none is known.
+std::vector<const Row*> rows_at(const StudyEvidence& comparison, double pressure) {
+  std::vector<const Row*> rows = pointers_to(comparison.rows("cases"));
+  std::erase_if(rows, [&](const Row* row) {
+    return std::isfinite(pressure) && number_of(*row, "peak_pressure_MPa") != pressure;
+  });
+  return rows;
+}
+
 /// What the record of other models holds, over the pressures; without it the critical gaps at one pressure.
 Table model_table(const StudyEvidence& comparison, const std::vector<const Row*>& cases) {
-  Table table;
   const Row& models = comparison.rows("models");
-  if (models.empty()) {
-    table.columns = {named_text("model", "variant"), named_text("critical gap", "critical_gap_reads_as"),
-                     named_text("reason", "reason")};
-    for (const Row* row : cases) append_row(*row, table);
-    return table;
-  }
-  table.columns = {named_text("model", "model"), named_text("what it is", "what_it_is")};
+  if (models.empty())
+    return table_of(cases,
+                    {named_text("model", "variant"), named_text("critical gap", "critical_gap_reads_as"),
+                     named_text("reason", "reason")});
+  std::vector<Column> columns{named_text("model", "model"), named_text("what it is", "what_it_is")};
   constexpr std::string_view prefix = "critical_gap_at_", unit = "_MPa";
   for (const auto& [key, value] : models.front().items()) {
     if (!key.starts_with(prefix) || !key.ends_with(unit)) continue;
     const std::string pressure = key.substr(prefix.size(), key.size() - prefix.size() - unit.size());
-    table.columns.push_back(named_text(fmt::format("gap at {} MPa [cm]", pressure), key));
+    columns.push_back(named_text(fmt::format("gap at {} MPa [cm]", pressure), key));
   }
-  table.columns.push_back(named_text("counts as", "counts_as"));
-  for (const Row& row : models) append_row(row, table);
-  return table;
+  columns.push_back(named_text("counts as", "counts_as"));
+  return table_of(pointers_to(models), std::move(columns));
 }
 
 /// Critical gaps under each model, a bar each.
@@ -209,7 +187,7 @@ Plot model_plot(const std::vector<const Row*>& rows, const std::string& pressure
   plot.subtitle = pressure;
   plot.x = {.label = "critical gap with its uncertainty [cm]", .minimum = 0.0};
   plot.height = 150 + 34 * static_cast<int>(rows.size());
-  Series series{.label = "", .x = {}, .y = {}, .style = Style::horizontal_bars, .colour = 0};
+  Series series{.style = Style::horizontal_bars, .colour = 0};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double gap = number_of(*rows[i], "critical_gap_cm"),
                  u = number_of(*rows[i], "critical_gap_uncertainty_cm");
@@ -217,11 +195,9 @@ Plot model_plot(const std::vector<const Row*>& rows, const std::string& pressure
     const std::string name = text_of(*rows[i], "variant");
     plot.y.tics.push_back(
         {place, is_value(*rows[i]) ? name : name + ", " + text_of(*rows[i], "critical_gap_reads_as")});
-    if (!is_value(*rows[i])) continue;
-    series.x.push_back(gap);
-    series.y.push_back(place);
-    series.lower.push_back(std::isfinite(u) ? std::max(0.0, gap - u) : gap);
-    series.upper.push_back(std::isfinite(u) ? gap + u : gap);
+    if (is_value(*rows[i]))
+      series.add(gap, place, std::isfinite(u) ? std::max(0.0, gap - u) : gap,
+                 std::isfinite(u) ? gap + u : gap);
   }
   plot.y.minimum = 0.4;
   plot.y.maximum = static_cast<double>(rows.size()) + 0.6;
@@ -231,17 +207,12 @@ Plot model_plot(const std::vector<const Row*>& rows, const std::string& pressure
 
 void say_models(const Subject& subject, SafetySection& section) {
   const StudyEvidence* comparison = subject.evidence.find("comparison");
-  if (comparison == nullptr || !comparison->finished()) {
-    section.say("budget.no_comparison");
-    return;
-  }
+  if (comparison == nullptr || !comparison->finished()) return section.say("budget.no_comparison");
   const double pressure =
       nearest_pressure(*comparison, 1e-6 * scene::PressureHistory(subject.scene().load).stated_peak());
-  const bool with_pressure = std::isfinite(pressure);
-  std::vector<const Row*> rows;
-  for (const Row& row : comparison->rows("cases"))
-    if (!with_pressure || number_of(row, "peak_pressure_MPa") == pressure) rows.push_back(&row);
-  const std::string place = with_pressure ? significant(pressure, 4) + " MPa" : "";
+  const auto text = [](double at) { return std::isfinite(at) ? significant(at, 4) + " MPa" : ""; };
+  const std::vector<const Row*> rows = rows_at(*comparison, pressure);
+  const std::string place = text(pressure);
   const Origin origin = origin_of(*comparison, "cases", place);
   const Row* lowest = nullptr;
   for (const Row& row : comparison->rows("cases"))
@@ -256,25 +227,21 @@ void say_models(const Subject& subject, SafetySection& section) {
   section.say("budget.models", parts, origin);
   // Where they were calibrated all agree: the picture is that of the pressure at which they differ most.
   const double drawn = lowest != nullptr ? number_of(*lowest, "peak_pressure_MPa") : pressure;
-  std::vector<const Row*> bars;
-  for (const Row& row : comparison->rows("cases"))
-    if (!std::isfinite(drawn) || number_of(row, "peak_pressure_MPa") == drawn) bars.push_back(&row);
+  const std::vector<const Row*> bars = rows_at(*comparison, drawn);
   if (std::any_of(bars.begin(), bars.end(), [](const Row* row) { return is_value(*row); })) {
-    const std::string where = std::isfinite(drawn) ? significant(drawn, 4) + " MPa" : "";
+    const std::string where = text(drawn);
     parts["place"] = where;
-    section.blocks.push_back(SaidFigure{"models", "models.svg", model_plot(bars, where), parts,
-                                        origin_of(*comparison, "cases", where)});
+    section.draw("models", "models.svg", model_plot(bars, where), parts,
+                 origin_of(*comparison, "cases", where));
   }
-  section.blocks.push_back(
-      SaidTable{"models", model_table(*comparison, rows), origin_of(*comparison, "models")});
+  section.show("models", model_table(*comparison, rows), origin_of(*comparison, "models"));
 }
 
 // --- published results ---
 
 Table published_table(const Subject& subject) {
-  Table table;
-  table.columns = {significant_column("gap", "cm", 6, "gap_cm"),
-                   named_text("used for", "used_for"),
+  return table_of(pointers_to(subject.study.rows("comparison")),
+                  {significant_column("gap", "cm", 6, "gap_cm"), named_text("used for", "used_for"),
                    number_column("computed", "K", 1, "temperature_max_K"),
                    number_column("published", "K", 1, "temperature_max_published_K"),
                    number_column("difference", "K", 1, "temperature_max_computed_minus_published_K"),
@@ -282,21 +249,16 @@ Table published_table(const Subject& subject) {
                    number_column("computed, early", "K", 1, "temperature_early_K"),
                    number_column("published, early", "K", 1, "temperature_early_published_K"),
                    number_column("ignition", "ms", 2, "ignition_time_ms"),
-                   number_column("published", "ms", 2, "ignition_time_published_ms")};
-  for (const Row& row : subject.study.rows("comparison")) append_row(row, table);
-  return table;
+                   number_column("published", "ms", 2, "ignition_time_published_ms")});
 }
 
 Table limit_table(const Subject& subject) {
-  Table table;
-  table.columns = {significant_column("cited limit", "cm", 4, "limit_cm"),
-                   significant_column("at", "MPa", 4, "limit_peak_pressure_MPa"),
-                   named_text("source", "source"),
-                   named_text("nearest case", "case"),
-                   named_text("computed", "critical_gap_reads_as"),
-                   significant_column("computed less cited", "cm", 2, "difference_cm")};
-  for (const Row& row : subject.study.rows("cited_limits")) append_row(row, table);
-  return table;
+  return table_of(
+      pointers_to(subject.study.rows("cited_limits")),
+      {significant_column("cited limit", "cm", 4, "limit_cm"),
+       significant_column("at", "MPa", 4, "limit_peak_pressure_MPa"), named_text("source", "source"),
+       named_text("nearest case", "case"), named_text("computed", "critical_gap_reads_as"),
+       significant_column("computed less cited", "cm", 2, "difference_cm")});
 }
 
 }  // namespace
@@ -308,7 +270,7 @@ SafetySection budget_section(const Subject& subject) {
     Table table = share_table(*own);
     if (!table.rows.empty()) {
       section.say("budget.shares", {{"case", own->label}});
-      section.blocks.push_back(SaidTable{"shares", std::move(table), subject.origin("verdicts", own->label)});
+      section.show("shares", std::move(table), subject.origin("verdicts", own->label));
     }
   } else {
     section.say("budget.none");
@@ -336,12 +298,12 @@ SafetySection published_section(const Subject& subject) {
   if (published.rows.empty()) {
     section.say("published.none", {}, subject.origin("comparison"));
   } else {
-    section.blocks.push_back(SaidTable{"published", std::move(published), subject.origin("comparison")});
+    section.show("published", std::move(published), subject.origin("comparison"));
     section.say("published.conclusion", parts, subject.origin("comparison"));
   }
   if (Table limits = limit_table(subject); !limits.rows.empty()) {
     section.say("published.limits", {}, subject.origin("cited_limits"));
-    section.blocks.push_back(SaidTable{"limits", std::move(limits), subject.origin("cited_limits")});
+    section.show("limits", std::move(limits), subject.origin("cited_limits"));
   }
   return section;
 }

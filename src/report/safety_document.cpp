@@ -18,17 +18,8 @@ Parts part(std::string text, double value, std::string unit) {
 }
 
 std::string to_string(Look look) {
-  switch (look) {
-    case Look::lead:
-      return "lead";
-    case Look::item:
-      return "item";
-    case Look::code:
-      return "code";
-    case Look::plain:
-      break;
-  }
-  return "plain";
+  constexpr const char* words[] = {"lead", "plain", "item", "code"};  // in the order of Look
+  return words[static_cast<std::size_t>(look)];
 }
 
 namespace safety {
@@ -68,17 +59,27 @@ InertRows inert_rows(const JudgedCase& each) {
   return rows;
 }
 
-void append_row(const Row& row, Table& table) {
-  std::vector<Cell>& cells = table.rows.emplace_back();
-  for (const Column& column : table.columns) {
-    const auto found = row.find(column.key);
-    if (found != row.end() && found->is_string())
-      cells.emplace_back(found->get<std::string>());
-    else if (found != row.end() && found->is_number_integer())
-      cells.emplace_back(found->get<std::int64_t>());
-    else
-      cells.push_back(optional_number(number_of(row, column.key)));
+std::vector<const Row*> pointers_to(const Row& rows) {
+  std::vector<const Row*> pointers;
+  for (const Row& row : rows) pointers.push_back(&row);
+  return pointers;
+}
+
+Table table_of(const std::vector<const Row*>& rows, std::vector<Column> columns) {
+  Table table{"", std::move(columns), {}};
+  for (const Row* row : rows) {
+    std::vector<Cell>& cells = table.rows.emplace_back();
+    for (const Column& column : table.columns) {
+      const auto found = row->find(column.key);
+      if (found != row->end() && found->is_string())
+        cells.emplace_back(found->get<std::string>());
+      else if (found != row->end() && found->is_number_integer())
+        cells.emplace_back(found->get<std::int64_t>());
+      else
+        cells.push_back(optional_number(number_of(*row, column.key)));
+    }
   }
+  return table;
 }
 
 Origin origin_of(const StudyEvidence& study, std::string of, std::string setting) {
@@ -168,9 +169,14 @@ std::optional<Measured> measured_gap(const Row& critical) {
                               number_of(critical, "critical_gap_uncertainty_of_model_form_cm"));
 }
 
+std::string gap_text(const Row& critical) {
+  const auto gap = measured_gap(critical);
+  return gap ? gap->text("cm") : text_of(critical, "critical_gap_reads_as");
+}
+
 std::vector<Share> shares_of(const Row& verdict) {
   std::vector<Share> shares;
-  for (const char* name : {"computation", "fit", "inputs", "model_form"}) {
+  for (const char* name : share_names) {
     const double size = number_of(verdict, fmt::format("uncertainty_of_{}_K", name));
     shares.push_back({name, std::isfinite(size) ? size : 0.0});
   }
@@ -184,7 +190,7 @@ const Share& largest_of(const std::vector<Share>& shares) {
 
 Parts truths_of(const Share& share) {
   Parts parts = Parts::object();
-  for (const char* name : {"computation", "fit", "inputs", "model_form"}) parts[name] = share.name == name;
+  for (const char* name : share_names) parts[name] = share.name == name;
   return parts;
 }
 
@@ -208,9 +214,10 @@ std::string short_reason(const std::string& verdict, const std::string& reason) 
 
 }  // namespace
 
-Table verdict_table(const std::vector<const JudgedCase*>& cases) {
+Table verdict_table(const Subject& subject) {
+  const bool several = subject.cases.size() > 1;
   Table table;
-  if (cases.size() > 1) table.columns.push_back(named_text("case", "case"));
+  if (several) table.columns.push_back(named_text("case", "case"));
   append(table.columns, {significant_column("gap", "cm", 6, "gap_cm"), named_text("verdict", "verdict"),
                          number_column("T max", "K", 0, "temperature_max_K"),
                          significant_column("margin", "K", 6, "margin_K"),
@@ -218,22 +225,22 @@ Table verdict_table(const std::vector<const JudgedCase*>& cases) {
                          number_column("margin over uncertainty", "", 1, "margin_over_uncertainty"),
                          number_column("distance", "cm", 3, "distance_cm"),
                          for_people(named_text("why", "why")), for_programs(named_text("reason", "reason"))});
-  for (const JudgedCase* each : cases) {
-    for (std::size_t i = 0; i < each->verdicts.size(); ++i) {
-      const Row& row = *each->verdicts[i];
-      const JudgedGap& gap = each->gaps[i];
+  for (const JudgedCase& each : subject.cases) {
+    for (std::size_t i = 0; i < each.verdicts.size(); ++i) {
+      const Row& row = *each.verdicts[i];
+      const JudgedGap& gap = each.gaps[i];
       std::vector<Cell>& cells = table.rows.emplace_back();
-      if (cases.size() > 1) cells.emplace_back(each->label);
+      if (several) cells.emplace_back(each.label);
       const int decimals = decimals_for(gap.uncertainty);
-      const auto down = [each](double value, int places) {
-        return each->completed && std::isfinite(value) ? Cell(rounded_down(value, places)) : Cell();
+      const auto down = [&each](double value, int places) {
+        return each.completed && std::isfinite(value) ? Cell(rounded_down(value, places)) : Cell();
       };
       // After ignition T max is that of the burning skin, and a margin says nothing.
       const bool ignited = !text_of(row, "ignition_cause").empty();
-      const bool known = each->completed && std::isfinite(gap.uncertainty) && !has_validity_warning(row);
+      const bool known = each.completed && std::isfinite(gap.uncertainty) && !has_validity_warning(row);
       cells.insert(cells.end(),
                    {gap.gap, text_of(row, "verdict"),
-                    each->completed ? optional_number(number_of(row, "temperature_max_K")) : Cell(),
+                    each.completed ? optional_number(number_of(row, "temperature_max_K")) : Cell(),
                     ignited ? Cell() : down(gap.margin, decimals),
                     known ? Cell(rounded_up(gap.uncertainty, decimals)) : Cell(),
                     known && gap.uncertainty > 0 && !ignited ? down(gap.margin / gap.uncertainty, 1) : Cell(),

@@ -5,6 +5,7 @@
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/sha256.hpp"
+#include "safety_sections.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,10 +19,17 @@
 namespace launchsafe::report {
 namespace {
 
+using safety::number_of;
+using safety::text_of;
 using std::filesystem::path;
 using store::Error;
 
 Error refused(std::string message) { return {Error::Kind::corrupt, std::move(message)}; }
+Error refused(const path& place, std::string_view found, std::string_view allowed) {
+  return refused(fmt::format("{}: {}; allowed: {}", place.string(), found, allowed));
+}
+
+path study_json_of(const StudyEvidence& study) { return study.folder / "study.json"; }
 
 // --- the text of a manifest ---
 
@@ -77,10 +85,6 @@ bool is_of_shell(const std::string& key) {
 
 // --- one study ---
 
-std::string string_in(const nlohmann::json& object, const char* key) {
-  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : std::string{};
-}
-
 /// What the study file says of a key, from the manifest: for a study without study.json.
 std::string said_in(const std::string& input, const std::string& key) {
   const std::size_t begin = ("\n" + input).find("\n" + key + " = ");
@@ -95,17 +99,15 @@ std::string said_in(const std::string& input, const std::string& key) {
 /// Files as they were written; the maps of a sweep are kept.
 store::MaybeError check_files(StudyEvidence& study) {
   for (const store::WrittenFile& file : study.record.files) {
-    auto bytes = store::read_file(study.folder / file.name);
+    const path place = study.folder / file.name;
+    auto bytes = store::read_file(place);
     if (!bytes)
-      return refused(
-          fmt::format("{}: the manifest lists this file, and it cannot be read; allowed: a study's "
-                      "report with all of its files ({})",
-                      (study.folder / file.name).string(), study.command()));
+      return refused(place, "the manifest lists this file, and it cannot be read",
+                     fmt::format("a study's report with all of its files ({})", study.command()));
     if (store::sha256(*bytes) != file.sha256)
-      return refused(
-          fmt::format("{}: this is not what the study wrote, its checksum differs from that of the "
-                      "manifest; allowed: files as they were written ({})",
-                      (study.folder / file.name).string(), study.command()));
+      return refused(place,
+                     "this is not what the study wrote, its checksum differs from that of the manifest",
+                     fmt::format("files as they were written ({})", study.command()));
     if (study.kind == "sweep" && file.name.ends_with(".svg")) study.drawings[file.name] = std::move(*bytes);
   }
   return {};
@@ -115,38 +117,33 @@ store::MaybeError read_study_json(StudyEvidence& study) {
   const bool listed = std::any_of(study.record.files.begin(), study.record.files.end(),
                                   [](const store::WrittenFile& file) { return file.name == "study.json"; });
   if (!listed) return {};
-  const auto text = store::read_file(study.folder / "study.json");
+  const auto text = store::read_file(study_json_of(study));
   if (!text) return text.error();
   study.study = nlohmann::json::parse(*text, nullptr, false);
-  if (!study.study.is_object() || string_in(study.study, "kind").empty())
-    return refused(fmt::format("{}: found no results of a study; allowed: study.json as a study writes it",
-                               (study.folder / "study.json").string()));
-  if (string_in(study.study, "kind") != study.kind)
-    return refused(
-        fmt::format("{}: found results of kind {}, its manifest is of a study of kind {}; allowed: "
-                    "study.json as a study writes it",
-                    (study.folder / "study.json").string(), string_in(study.study, "kind"), study.kind));
-  study.title = string_in(study.study, "title");
-  if (study.record.study.empty()) study.record.study = string_in(study.study, "study");
+  if (!study.study.is_object() || text_of(study.study, "kind").empty())
+    return refused(study_json_of(study), "found no results of a study", "study.json as a study writes it");
+  if (text_of(study.study, "kind") != study.kind)
+    return refused(study_json_of(study),
+                   fmt::format("found results of kind {}, its manifest is of a study of kind {}",
+                               text_of(study.study, "kind"), study.kind),
+                   "study.json as a study writes it");
+  study.title = text_of(study.study, "title");
+  if (study.record.study.empty()) study.record.study = text_of(study.study, "study");
   return {};
-}
-
-double number_in(const nlohmann::json& object, const char* key) {
-  return object.contains(key) && object[key].is_number() ? object[key].get<double>() : std::nan("");
 }
 
 /// Whether a gap's own numbers, and the critical gap of its case, allow it to be called SAFE.
 bool may_be_safe(const StudyEvidence& study, const nlohmann::json& row, const nlohmann::json* critical) {
-  const double margin = number_in(row, "margin_K");
-  if (!(margin > number_in(row, "uncertainty_K")) || !string_in(row, "ignition_cause").empty()) return false;
+  const double margin = number_of(row, "margin_K");
+  if (!(margin > number_of(row, "uncertainty_K")) || !text_of(row, "ignition_cause").empty()) return false;
   if (critical == nullptr) return true;
   constexpr double slack = 1e-6;  // K
   const double ignition = study.scene.scene.charge().kinetics.ignition_temperature;
-  if (!(std::abs(ignition - number_in(row, "temperature_max_K") - margin) <= slack)) return false;
-  const std::string kind = string_in(*critical, "critical_gap_kind");
-  const double distance = number_in(*critical, "critical_gap_cm") - number_in(row, "gap_cm");
+  if (!(std::abs(ignition - number_of(row, "temperature_max_K") - margin) <= slack)) return false;
+  const std::string kind = text_of(*critical, "critical_gap_kind");
+  const double distance = number_of(*critical, "critical_gap_cm") - number_of(row, "gap_cm");
   return kind == "all-safe" ||
-         (kind == "value" && distance > number_in(*critical, "critical_gap_uncertainty_cm"));
+         (kind == "value" && distance > number_of(*critical, "critical_gap_uncertainty_cm"));
 }
 
 /// Rows that are not all there, or whose own numbers contradict their SAFE.
@@ -155,16 +152,18 @@ store::MaybeError check_verdicts(const StudyEvidence& study) {
   const nlohmann::json &cases = study.rows("cases"), &verdicts = study.rows("verdicts");
   if (by_case && study.finished() &&
       (cases.empty() || verdicts.empty() || verdicts.size() % cases.size() != 0))
-    return refused(fmt::format("{}: found {} verdicts for {} cases; allowed: every gap in every case",
-                               (study.folder / "study.json").string(), verdicts.size(), cases.size()));
+    return refused(study_json_of(study),
+                   fmt::format("found {} verdicts for {} cases", verdicts.size(), cases.size()),
+                   "every gap in every case");
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    if (string_in(verdicts[i], "verdict") != "SAFE") continue;
+    if (text_of(verdicts[i], "verdict") != "SAFE") continue;
     if (may_be_safe(study, verdicts[i], by_case ? &cases[i * cases.size() / verdicts.size()] : nullptr))
       continue;
-    return refused(fmt::format(
-        "{}: a gap of {} cm is called SAFE, which its temperature, its margin, the uncertainty or "
-        "the critical gap contradicts; allowed: verdicts as a study writes them",
-        (study.folder / "study.json").string(), number_in(verdicts[i], "gap_cm")));
+    return refused(study_json_of(study),
+                   fmt::format("a gap of {} cm is called SAFE, which its temperature, its margin, the "
+                               "uncertainty or the critical gap contradicts",
+                               number_of(verdicts[i], "gap_cm")),
+                   "verdicts as a study writes them");
   }
   return {};
 }
@@ -183,22 +182,18 @@ store::Result<StudyEvidence> read_study(const path& folder, std::size_t number) 
   study.label = fmt::format("S{}", number);
   study.folder = folder;
   auto record = store::read_study_record(folder);
-  if (!record) {
-    if (record.error().kind == Error::Kind::missing)
-      return refused(
-          fmt::format("{}: found no study there (no manifest.json); allowed: folders that launchsafe "
-                      "study STUDY.toml -o DIR wrote",
-                      folder.string()));
-    return refused(record.error().message +
+  if (!record)
+    return refused((record.error().kind == Error::Kind::missing
+                        ? folder.string() + ": found no study there (no manifest.json)"
+                        : record.error().message) +
                    "; allowed: folders that launchsafe study STUDY.toml -o DIR wrote");
-  }
   study.record = std::move(*record);
   const store::Manifest& manifest = study.record.manifest;
   if (manifest.model_version != run::model_version)
-    return refused(
-        fmt::format("{}: its study is of model version {}, this program is of {}; allowed: studies of "
-                    "this version, computed again by {}",
-                    folder.string(), manifest.model_version, run::model_version, study.command()));
+    return refused(folder,
+                   fmt::format("its study is of model version {}, this program is of {}",
+                               manifest.model_version, run::model_version),
+                   "studies of this version, computed again by " + study.command());
   study.kind = said_in(manifest.input_text, "kind");
   study.title = said_in(manifest.input_text, "title");
   auto scene = scene::parse_scene(scene_text_of(manifest.input_text), folder / "manifest.json");
@@ -229,8 +224,7 @@ store::MaybeError compare_scenes(SafetyEvidence& evidence) {
     if (of_shell.empty()) continue;
     return refused(
         fmt::format("the studies concern different shells: {} \"{}\", {} \"{}\", which differ in {}; "
-                    "allowed: studies of one "
-                    "shell in a report",
+                    "allowed: studies of one shell in a report",
                     main.folder.string(), main.scene.scene.title, study.folder.string(),
                     study.scene.scene.title, fmt::join(of_shell, ", ")));
   }
@@ -238,13 +232,10 @@ store::MaybeError compare_scenes(SafetyEvidence& evidence) {
 }
 
 store::MaybeError check_kinds(const SafetyEvidence& evidence) {
-  std::map<std::string, path> folders;
-  for (const StudyEvidence& study : evidence.studies) {
-    const auto [first, is_new] = folders.emplace(study.kind, study.folder);
-    if (!is_new)
+  for (const StudyEvidence& study : evidence.studies)
+    if (const StudyEvidence* first = evidence.find(study.kind); first != &study)
       return refused(fmt::format("{} and {}: both are studies of kind {}; allowed: one of each kind",
-                                 first->second.string(), study.folder.string(), study.kind));
-  }
+                                 first->folder.string(), study.folder.string(), study.kind));
   return {};
 }
 
@@ -255,17 +246,18 @@ store::MaybeError check_against_run(const StudyEvidence& study, const CaseEviden
   if (stored.mechanics.trace.samples() < 2) return {};
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const nlohmann::json& row = verdicts[i];
-    const bool of_case = string_in(cases[i * cases.size() / verdicts.size()], "case") == stored.label;
+    const bool of_case = text_of(cases[i * cases.size() / verdicts.size()], "case") == stored.label;
     const auto scene = scene_of(study, row);
-    if (!of_case || string_in(row, "verdict") != "SAFE" || !scene) continue;
-    const double gap = number_in(row, "gap_cm"), said = number_in(row, "temperature_max_K");
+    if (!of_case || text_of(row, "verdict") != "SAFE" || !scene) continue;
+    const double gap = number_of(row, "gap_cm"), said = number_of(row, "temperature_max_K");
     const double found =
         run::evaluate_gap(*scene, stored.mechanics.trace, 1e-2 * gap).at_stations.temperature;
     if (std::abs(found - said) <= same_temperature) continue;
-    return refused(fmt::format(
-        "{}: the gap of {} cm is called SAFE at {:.6g} K, and the stored run of {} gives {:.6g} K; allowed: "
-        "results and case files of one study ({})",
-        (study.folder / "study.json").string(), gap, said, stored.label, found, study.command()));
+    return refused(
+        study_json_of(study),
+        fmt::format("the gap of {} cm is called SAFE at {:.6g} K, and the stored run of {} gives {:.6g} K",
+                    gap, said, stored.label, found),
+        fmt::format("results and case files of one study ({})", study.command()));
   }
   return {};
 }
@@ -276,7 +268,7 @@ store::MaybeError read_cases(SafetyEvidence& evidence) {
   const StudyEvidence& main = evidence.main();
   if (main.kind != "critical-gap") return {};
   for (const nlohmann::json& row : main.rows("runs")) {
-    CaseEvidence each{string_in(row, "case"), string_in(row, "stored_case"), false, {}};
+    CaseEvidence each{text_of(row, "case"), text_of(row, "stored_case"), false, {}};
     const path name(each.file), file = main.folder / name;
     if (!name.is_absolute() && name.parent_path() == "cases" && std::filesystem::exists(file)) {
       auto stored = store::read_case_file(file);
@@ -284,10 +276,8 @@ store::MaybeError read_cases(SafetyEvidence& evidence) {
         return refused(fmt::format("{}; allowed: case files as they were written ({})",
                                    stored.error().message, main.command()));
       if (store::CaseIdentity(stored->manifest.input_text).hash() != name.stem())
-        return refused(
-            fmt::format("{}: this is the file of another case; allowed: case files as they were "
-                        "written ({})",
-                        file.string(), main.command()));
+        return refused(file, "this is the file of another case",
+                       fmt::format("case files as they were written ({})", main.command()));
       each.mechanics = std::move(stored->result.mechanics);
       each.present = true;
       if (auto error = check_against_run(main, each)) return *error;
@@ -301,9 +291,9 @@ store::MaybeError read_cases(SafetyEvidence& evidence) {
 
 std::optional<scene::Scene> scene_of(const StudyEvidence& study, const nlohmann::json& verdict) {
   scene::Scene scene = study.scene.scene;
-  scene.load.peak = 1e6 * number_in(verdict, "peak_pressure_MPa");
-  scene.charge().strength.initial_crack_radius = 1e-6 * number_in(verdict, "crack_radius_um");
-  scene.charge().strength.flaw_size = 1e-3 * number_in(verdict, "flaw_size_mm");
+  scene.load.peak = 1e6 * number_of(verdict, "peak_pressure_MPa");
+  scene.charge().strength.initial_crack_radius = 1e-6 * number_of(verdict, "crack_radius_um");
+  scene.charge().strength.flaw_size = 1e-3 * number_of(verdict, "flaw_size_mm");
   return std::isfinite(scene.load.peak) ? std::optional(scene) : std::nullopt;
 }
 

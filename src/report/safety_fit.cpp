@@ -107,11 +107,11 @@ Comparison compare_curves(const std::vector<Curve>& curves, const InertRows& dat
 
 Table residual_table(const InertRows& data, const math::LeastSquares& line,
                      const std::vector<double>& left_out) {
-  Table table;
-  table.columns = {
-      significant_column("gap", "cm", 6, "gap_cm"), number_column("T max", "K", 1, "temperature_max_K"),
-      number_column("on the line", "K", 1, "line_K"), number_column("residual", "K", 2, "residual_K"),
-      number_column("less what the others predict", "K", 2, "left_out_K")};
+  Table table{.columns = {significant_column("gap", "cm", 6, "gap_cm"),
+                          number_column("T max", "K", 1, "temperature_max_K"),
+                          number_column("on the line", "K", 1, "line_K"),
+                          number_column("residual", "K", 2, "residual_K"),
+                          number_column("less what the others predict", "K", 2, "left_out_K")}};
   for (std::size_t i = 0; i < data.gaps.size(); ++i)
     table.rows.push_back({data.gaps[i], data.temperatures[i], data.temperatures[i] - line.residuals[i],
                           line.residuals[i], optional_number(left_out[i])});
@@ -150,15 +150,13 @@ void say_inverse(const Subject& subject, const JudgedCase& each, const math::Lea
 
 /// Every case with a fit, a row each: how well a row follows from the others, by curve.
 Table left_out_table(const Subject& subject) {
-  Table table;
-  table.columns = {named_text("case", "case"),
-                   count_column("rows", "rows"),
-                   significant_column("slope", "K/cm", 4, "slope_K_per_cm"),
-                   significant_column("RMS of residuals", "K", 2, "rms_K"),
-                   significant_column("largest left out", "K", 2, "left_out_largest_K"),
-                   significant_column("RMS left out", "K", 2, "left_out_rms_K"),
-                   significant_column("of a parabola", "K", 2, "left_out_rms_quadratic_K"),
-                   significant_column("with an Arrhenius term", "K", 2, "left_out_rms_arrhenius_K")};
+  Table table{.columns = {named_text("case", "case"), count_column("rows", "rows"),
+                          significant_column("slope", "K/cm", 4, "slope_K_per_cm"),
+                          significant_column("RMS of residuals", "K", 2, "rms_K"),
+                          significant_column("largest left out", "K", 2, "left_out_largest_K"),
+                          significant_column("RMS left out", "K", 2, "left_out_rms_K"),
+                          significant_column("of a parabola", "K", 2, "left_out_rms_quadratic_K"),
+                          significant_column("with an Arrhenius term", "K", 2, "left_out_rms_arrhenius_K")}};
   for (const JudgedCase& each : subject.cases) {
     const InertRows data = inert_rows(each);
     const auto line = math::fit_line(data.gaps, data.temperatures);
@@ -183,10 +181,8 @@ void say_fit(const Subject& subject, const JudgedCase& each, SafetySection& sect
   const InertRows data = inert_rows(each);
   const auto line = math::fit_line(data.gaps, data.temperatures);
   const Origin origin = subject.origin("verdicts", each.label);
-  if (!line || data.gaps.size() < fewest_rows) {
-    section.say("fit.too_few", {{"case", each.label}, {"rows", data.gaps.size()}}, origin);
-    return;
-  }
+  if (!line || data.gaps.size() < fewest_rows)
+    return section.say("fit.too_few", {{"case", each.label}, {"rows", data.gaps.size()}}, origin);
   section.say(
       "fit.line",
       {{"case", each.label},
@@ -197,11 +193,11 @@ void say_fit(const Subject& subject, const JudgedCase& each, SafetySection& sect
       origin);
   const std::vector<Curve> curves = curves_of(subject, *line);
   const std::vector<double> left_out = left_out_errors(curves.front(), data);
-  section.blocks.push_back(SaidTable{"residuals", residual_table(data, *line, left_out), origin});
+  section.show("residuals", residual_table(data, *line, left_out), origin);
   section.say("fit.lack_of_fit", {}, origin);
   say_inverse(subject, each, *line, section);
   const Comparison comparison = compare_curves(curves, data);
-  section.blocks.push_back(SaidTable{"curves", comparison.table, origin});
+  section.show("curves", comparison.table, origin);
   Parts parts{{"rows", data.gaps.size()}};
   if (!comparison.best.empty()) parts[comparison.best] = true;
   parts["error"] = part(significant(comparison.best_error, 2) + " K", comparison.best_error, "K");
@@ -216,7 +212,7 @@ SafetySection fit_section(const Subject& subject) {
   // The others have the same shape; two tables each would bury the answer.
   if (const JudgedCase* own = subject.own_case()) say_fit(subject, *own, section);
   if (Table others = left_out_table(subject); subject.cases.size() > 1 && !others.rows.empty())
-    section.blocks.push_back(SaidTable{"left_out_rows", std::move(others), subject.origin("verdicts")});
+    section.show("left_out_rows", std::move(others), subject.origin("verdicts"));
   return section;
 }
 

@@ -14,40 +14,33 @@ namespace {
 
 constexpr double band_level = 0.95;
 
-Series points_series(std::string label, Mark mark, int colour) {
-  return {
-      .label = std::move(label), .x = {}, .y = {}, .style = Style::points, .colour = colour, .mark = mark};
+/// Points, in the legend only where there are any.
+void add_points(Series series, Plot& plot) {
+  if (!series.x.empty()) plot.series.push_back(std::move(series));
 }
 
 void add_computed(const JudgedCase& each, Plot& plot) {
   Series safe{.label = "computed, with uncertainty",
-              .x = {},
-              .y = {},
               .style = Style::vertical_bars,
               .colour = 6,
               .mark = Mark::circle};
-  Series unknown = points_series("computed, nothing says how wrong", Mark::open_circle, 6);
-  Series ignited = points_series("ignites: T max without reaction", Mark::cross, 1);
+  Series unknown{.label = "computed, nothing says how wrong",
+                 .style = Style::points,
+                 .colour = 6,
+                 .mark = Mark::open_circle};
+  Series ignited{
+      .label = "ignites: T max without reaction", .style = Style::points, .colour = 1, .mark = Mark::cross};
   for (const Row* row : each.verdicts) {
     const double gap = number_of(*row, "gap_cm");
-    if (!text_of(*row, "ignition_cause").empty()) {
-      ignited.x.push_back(gap);
-      ignited.y.push_back(number_of(*row, "temperature_max_inert_K"));
-      continue;
-    }
     const double temperature = number_of(*row, "temperature_max_K"), u = number_of(*row, "uncertainty_K");
-    if (has_validity_warning(*row)) {
-      unknown.x.push_back(gap);
-      unknown.y.push_back(temperature);
-      continue;
-    }
-    safe.x.push_back(gap);
-    safe.y.push_back(temperature);
-    safe.lower.push_back(temperature - u);
-    safe.upper.push_back(temperature + u);
+    if (!text_of(*row, "ignition_cause").empty())
+      ignited.add(gap, number_of(*row, "temperature_max_inert_K"));
+    else if (has_validity_warning(*row))
+      unknown.add(gap, temperature);
+    else
+      safe.add(gap, temperature, temperature - u, temperature + u);
   }
-  for (Series* series : {&safe, &unknown, &ignited})
-    if (!series->x.empty()) plot.series.push_back(std::move(*series));
+  for (Series* series : {&safe, &unknown, &ignited}) add_points(std::move(*series), plot);
 }
 
 void add_fit(const JudgedCase& each, Plot& plot) {
@@ -56,46 +49,40 @@ void add_fit(const JudgedCase& each, Plot& plot) {
   if (!fit) return;
   double end = 0;
   for (const Row* row : each.verdicts) end = std::max(end, number_of(*row, "gap_cm"));
-  Series line{.label = "straight line through them", .x = {}, .y = {}, .style = Style::line, .colour = 7};
-  Series above{
-      .label = "its 95 % band, all gaps at once", .x = {}, .y = {}, .style = Style::dashed_line, .colour = 7};
-  Series below = above;
-  below.label.clear();
+  Series line{.label = "straight line through them", .style = Style::line, .colour = 7};
+  Series above{.label = "its 95 % band, all gaps at once", .style = Style::dashed_line, .colour = 7};
+  Series below{.style = Style::dashed_line, .colour = 7};
   constexpr int parts = 40;
   for (int i = 0; i <= parts; ++i) {
     const double gap = end * i / parts;
     const std::vector<double> at = math::polynomial_row(gap, 1);
     const double middle = fit->at(at);
-    const double half = fit->degrees_of_freedom > 0 ? fit->simultaneous_half_width(at, band_level) : 0.0;
-    line.x.push_back(gap);
-    line.y.push_back(middle);
-    above.x.push_back(gap);
-    above.y.push_back(middle + half);
-    below.x.push_back(gap);
-    below.y.push_back(middle - half);
+    line.add(gap, middle);
+    if (fit->degrees_of_freedom <= 0) continue;
+    const double half = fit->simultaneous_half_width(at, band_level);
+    above.add(gap, middle + half);
+    below.add(gap, middle - half);
   }
-  plot.series.push_back(std::move(line));
-  if (fit->degrees_of_freedom > 0) {
-    plot.series.push_back(std::move(above));
-    plot.series.push_back(std::move(below));
-  }
+  for (Series* series : {&line, &above, &below}) add_points(std::move(*series), plot);
 }
 
 void add_published(const Subject& subject, const JudgedCase& each, Plot& plot) {
   if (&each != subject.own_case()) return;
-  Series calibrated = points_series("published, calibrated to", Mark::open_square, 0);
-  Series selection = points_series("published, chose the model", Mark::open_triangle, 2);
-  Series held_out = points_series("published, held out", Mark::open_circle, 1);
-  for (const Row& row : subject.study.rows("comparison")) {
-    const double published = number_of(row, "temperature_max_published_K");
-    if (!std::isfinite(number_of(row, "temperature_max_computed_minus_published_K"))) continue;
-    const std::string used = text_of(row, "used_for");
-    Series& series = used == "calibration" ? calibrated : used == "selection" ? selection : held_out;
-    series.x.push_back(number_of(row, "gap_cm"));
-    series.y.push_back(published);
+  struct Use {
+    const char *word, *label;
+    Mark mark;
+    int colour;
+  };
+  for (const Use& use : {Use{"calibration", "published, calibrated to", Mark::open_square, 0},
+                         Use{"selection", "published, chose the model", Mark::open_triangle, 2},
+                         Use{"held out", "published, held out", Mark::open_circle, 1}}) {
+    Series series{.label = use.label, .style = Style::points, .colour = use.colour, .mark = use.mark};
+    for (const Row& row : subject.study.rows("comparison"))
+      if (text_of(row, "used_for") == use.word &&
+          std::isfinite(number_of(row, "temperature_max_computed_minus_published_K")))
+        series.add(number_of(row, "gap_cm"), number_of(row, "temperature_max_published_K"));
+    add_points(std::move(series), plot);
   }
-  for (Series* series : {&calibrated, &selection, &held_out})
-    if (!series->x.empty()) plot.series.push_back(std::move(*series));
 }
 
 Plot temperature_plot(const Subject& subject, const JudgedCase& each) {
@@ -160,35 +147,28 @@ std::vector<double> shown_values(const StudyEvidence& sweep, const SweepAxis& ax
   return shown;
 }
 
-void add_line(const StudyEvidence& sweep, const std::vector<SweepAxis>& axes, std::optional<double> value,
-              Plot& plot) {
-  const std::string label =
-      value ? fmt::format("{} {}", significant(*value, 4), axes[1].unit) : std::string{};
-  const int colour = static_cast<int>(plot.series.size() / 2);
-  Series critical{.label = fmt::format("critical gap{}{}", label.empty() ? "" : ", ", label),
-                  .x = {},
-                  .y = {},
-                  .style = Style::vertical_bars,
-                  .colour = colour};
-  Series envelope{.label = fmt::format("less its uncertainty{}{}", label.empty() ? "" : ", ", label),
-                  .x = {},
-                  .y = {},
-                  .style = Style::line,
-                  .colour = colour};
+/// The critical gaps of a sweep against its first axis, and what its uncertainty leaves of them.
+struct SweepLine {
+  Series critical, envelope;
+};
+
+/// At one value of the second axis, if there is one; the number of the line gives it its look.
+SweepLine line_of(const StudyEvidence& sweep, const std::vector<SweepAxis>& axes, std::optional<double> value,
+                  int number) {
+  const std::string end = value ? fmt::format(", {} {}", significant(*value, 4), axes[1].unit) : "";
+  SweepLine line{{.label = "critical gap" + end, .style = Style::vertical_bars, .colour = 0},
+                 {.label = "less its uncertainty" + end,
+                  .style = number == 0 ? Style::line : Style::line_and_points,
+                  .colour = number}};
   for (const Row& row : sweep.rows("cases")) {
     if (value && number_of(row, axes[1].key) != *value) continue;
     const double x = number_of(row, axes[0].key);
-    envelope.x.push_back(x);
-    envelope.y.push_back(envelope_of(row));
+    line.envelope.add(x, envelope_of(row));
     if (!is_value(row)) continue;
     const double gap = number_of(row, "critical_gap_cm"), u = number_of(row, "critical_gap_uncertainty_cm");
-    critical.x.push_back(x);
-    critical.y.push_back(gap);
-    critical.lower.push_back(std::max(0.0, gap - u));
-    critical.upper.push_back(gap + u);
+    line.critical.add(x, gap, std::max(0.0, gap - u), gap + u);
   }
-  plot.series.push_back(std::move(critical));
-  plot.series.push_back(std::move(envelope));
+  return line;
 }
 
 // --- more than two axes ---
@@ -255,8 +235,8 @@ void say_maps(const StudyEvidence& sweep, const std::vector<SweepAxis>& axes, Sa
       const auto found = sweep.drawings.find(file);
       if (found == sweep.drawings.end()) continue;
       if (std::string_view(quantity) == "safe_gap") ++drawn;
-      section.blocks.push_back(SaidFigure{quantity, file, found->second, parts_of(maps[i], axes),
-                                          origin_of(sweep, "cases", maps[i].others)});
+      section.draw(quantity, file, found->second, parts_of(maps[i], axes),
+                   origin_of(sweep, "cases", maps[i].others));
     }
   }
   section.say("envelope.maps", {{"count", axes.size()}, {"drawn", drawn}, {"maps", maps.size()}},
@@ -278,21 +258,16 @@ void say_envelope(const StudyEvidence& sweep, SafetySection& section) {
   std::vector<Series> envelopes;
   for (std::size_t i = 0; i < std::max<std::size_t>(values.size(), 1); ++i) {
     const auto value = values.empty() ? std::nullopt : std::optional(values[i]);
-    Plot one;
-    add_line(sweep, axes, value, one);
-    one.series[1].colour = static_cast<int>(i == 0 ? 0 : i);
-    one.series[1].style = i == 0 ? Style::line : Style::line_and_points;
-    if (i == 0) plot.series.push_back(std::move(one.series[0]));
-    envelopes.push_back(std::move(one.series[1]));
+    SweepLine line = line_of(sweep, axes, value, static_cast<int>(i));
+    if (i == 0) plot.series.push_back(std::move(line.critical));
+    envelopes.push_back(std::move(line.envelope));
   }
   plot.series.insert(plot.series.end(), envelopes.begin(), envelopes.end());
-  section.blocks.push_back(SaidFigure{"envelope",
-                                      "safe_envelope.svg",
-                                      std::move(plot),
-                                      {{"axis", with_unit(axes[0])},
-                                       {"second", axes.size() > 1 ? with_unit(axes[1]) : ""},
-                                       {"cases", sweep.rows("cases").size()}},
-                                      origin});
+  section.draw("envelope", "safe_envelope.svg", std::move(plot),
+               {{"axis", with_unit(axes[0])},
+                {"second", axes.size() > 1 ? with_unit(axes[1]) : ""},
+                {"cases", sweep.rows("cases").size()}},
+               origin);
   section.say("envelope.read");
 }
 
@@ -304,34 +279,27 @@ std::string name_of_case(const StudyEvidence& study, const Row& row) {
 
 SafetySection gap_section(const Subject& subject) {
   SafetySection section{"gap"};
-  std::vector<const JudgedCase*> cases;
-  for (const JudgedCase& each : subject.cases) cases.push_back(&each);
-  std::size_t rows = 0;
   for (const JudgedCase& each : subject.cases) {
-    rows += each.verdicts.size();
     const InertRows inert = inert_rows(each);
     if (inert.gaps.empty()) {
       section.say("gap.nothing_computed", {{"case", each.label}}, subject.origin("verdicts", each.label));
       continue;
     }
     const std::size_t number = static_cast<std::size_t>(&each - subject.cases.data()) + 1;
-    section.blocks.push_back(
-        SaidFigure{"temperature",
-                   number == 1 ? "temperature.svg" : fmt::format("temperature_{}.svg", number),
-                   temperature_plot(subject, each),
-                   {{"case", each.label},
-                    {"rows", inert.gaps.size()},
-                    {"line", inert.gaps.size() > 1},
-                    {"known", std::none_of(each.verdicts.begin(), each.verdicts.end(),
-                                           [](const Row* row) { return has_validity_warning(*row); })},
-                    {"band", inert.gaps.size() > 2},
-                    {"published", &each == subject.own_case() && !subject.study.rows("comparison").empty()},
-                    {"critical", measured_gap(*each.critical).has_value()}},
-                   subject.origin("verdicts, fit, comparison", each.label)});
+    section.draw("temperature", number == 1 ? "temperature.svg" : fmt::format("temperature_{}.svg", number),
+                 temperature_plot(subject, each),
+                 {{"case", each.label},
+                  {"rows", inert.gaps.size()},
+                  {"line", inert.gaps.size() > 1},
+                  {"known", std::none_of(each.verdicts.begin(), each.verdicts.end(),
+                                         [](const Row* row) { return has_validity_warning(*row); })},
+                  {"band", inert.gaps.size() > 2},
+                  {"published", &each == subject.own_case() && !subject.study.rows("comparison").empty()},
+                  {"critical", measured_gap(*each.critical).has_value()}},
+                 subject.origin("verdicts, fit, comparison", each.label));
   }
-  constexpr std::size_t on_page_one = 12;
-  if (rows > on_page_one)
-    section.blocks.push_back(SaidTable{"verdicts", verdict_table(cases), subject.origin("verdicts")});
+  if (!subject.cases.empty() && all_verdicts(subject).size() > most_rows_on_page_one)
+    section.show("verdicts", verdict_table(subject), subject.origin("verdicts"));
   if (const StudyEvidence* sweep = subject.evidence.find("sweep"); sweep != nullptr && sweep->finished())
     say_envelope(*sweep, section);
   else

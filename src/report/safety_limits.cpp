@@ -23,10 +23,8 @@ bool is_confirmed(const Subject& subject, const std::string& label) {
 }
 
 std::vector<const Row*> all_verdicts(const Subject& subject) {
-  std::vector<const Row*> rows;
-  if (subject.study.kind == "critical-gap" || subject.study.kind == "sweep")
-    for (const Row& row : subject.study.rows("verdicts")) rows.push_back(&row);
-  return rows;
+  const bool judges = subject.study.kind == "critical-gap" || subject.study.kind == "sweep";
+  return judges ? pointers_to(subject.study.rows("verdicts")) : std::vector<const Row*>{};
 }
 
 std::size_t count_of(const std::vector<const Row*>& rows, const std::string& verdict) {
@@ -69,18 +67,13 @@ std::string two_digits(double value) { return value < 10.0 ? significant(value, 
 /// The basis of the air's heat.
 void say_air(const Subject& subject, SafetySection& section) {
   const Origin origin = subject.origin("verdicts");
-  if (subject.scene().surface.air_model == scene::AirModel::film) {
-    section.item("limits.air_film", {}, origin);
-    return;
-  }
+  if (subject.scene().surface.air_model == scene::AirModel::film)
+    return section.item("limits.air_film", {}, origin);
   const Row* most = nullptr;
   for (const Row* row : all_verdicts(subject))
     if (number_of(*row, "taken_over_supplied") > (most ? number_of(*most, "taken_over_supplied") : 0.0))
       most = row;
-  if (most == nullptr) {
-    section.item("limits.air_unknown", {}, origin);
-    return;
-  }
+  if (most == nullptr) return section.item("limits.air_unknown", {}, origin);
   const double ratio = number_of(*most, "taken_over_supplied");
   Parts parts{
       {"ratio", part(two_digits(ratio), ratio, "")},

@@ -17,12 +17,13 @@ using Escape = std::function<std::string(const std::string&)>;
 
 // --- words ---
 
-Fields fields_of(const Parts& parts);
-
+/// What a template reads. A text or a list without content is nothing to a section.
 Fields field_of(const Parts& value) {
   if (value.is_object()) {
     if (value.contains("text") && value.contains("unit")) return field_of(value["text"]);
-    return fields_of(value);
+    Fields fields{Fields::type::object};
+    for (const auto& [name, part] : value.items()) fields.set(name, field_of(part));
+    return fields;
   }
   if (value.is_array()) {
     Fields list{Fields::type::list};
@@ -38,28 +39,21 @@ Fields field_of(const Parts& value) {
   return value.is_null() ? Fields(false) : Fields(value.dump());
 }
 
-Fields fields_of(const Parts& parts) {
-  Fields fields{Fields::type::object};
-  for (const auto& [name, value] : parts.items()) fields.set(name, field_of(value));
-  return fields;
-}
-
 /// The words of one report.
 class Words {
  public:
   explicit Words(const SafetyTemplates& templates) : texts_(templates.texts) {}
 
-  bool has(const std::string& id) const { return texts_.contains(id); }
   std::string operator()(const std::string& id, const Parts& parts = {}) const {
     const auto found = texts_.find(id);
     if (found == texts_.end()) return {};
     mustache::mustache text(found->second);
     text.set_custom_escape([](const std::string& each) { return each; });
-    return text.render(fields_of(parts));
+    return text.render(field_of(parts.is_null() ? Parts::object() : parts));
   }
   /// The text of that name, or the word itself.
   std::string word(const std::string& id, const std::string& otherwise) const {
-    return has(id) ? (*this)(id) : otherwise;
+    return texts_.contains(id) ? (*this)(id) : otherwise;
   }
 
  private:
@@ -72,8 +66,6 @@ std::string text_of(const Origin& origin) {
     if (!each.empty()) text += (text.empty() ? "" : ", ") + each;
   return text;
 }
-
-Fields text_field(const std::string& text) { return text.empty() ? Fields(false) : Fields(text); }
 
 /// A table with the headings and words of the templates.
 Table worded(const SaidTable& said, const Words& words) {
@@ -133,99 +125,67 @@ struct Renderer {
   const Words words;
   std::map<const SaidFigure*, WordedFigure> figures = {};
 
-  Fields paragraph(const SaidParagraph& said) const {
-    Fields fields{Fields::type::object};
+  Parts paragraph(const SaidParagraph& said) const {
     std::string text = words(said.id, said.parts);
     // A line break would end the block of code.
     if (said.look == Look::code) std::replace(text.begin(), text.end(), '\n', ' ');
-    fields.set("text", text);
-    fields.set("origin", text_field(text_of(said.origin)));
-    fields.set("lead", Fields(said.look == Look::lead));
-    return fields;
+    return {{"text", text}, {"origin", text_of(said.origin)}, {"lead", said.look == Look::lead}};
   }
 
-  Fields table(const SaidTable& said) const {
+  Parts table(const SaidTable& said) const {
     const Table table = worded(said, words);
-    Fields fields{Fields::type::object}, columns{Fields::type::list}, rows{Fields::type::list};
     const auto for_people = [](const Column& column) { return column.audience != Audience::programs; };
-    for (const Column& column : table.columns) {
-      if (!for_people(column)) continue;
-      Fields each{Fields::type::object};
-      each.set("name", heading_of(column));
-      each.set("number", Fields(column.alignment == Alignment::right));
-      columns << each;
-    }
-    for (const auto& row : table.rows) {
-      Fields cells{Fields::type::list};
-      for (std::size_t i = 0; i < row.size(); ++i) {
+    Parts columns = Parts::array(), rows = Parts::array();
+    for (const Column& column : table.columns)
+      if (for_people(column))
+        columns.push_back({{"name", heading_of(column)}, {"number", column.alignment == Alignment::right}});
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      Parts cells = Parts::array();
+      for (std::size_t i = 0; i < table.rows[row].size(); ++i) {
         const Column& column = table.columns[i];
         if (!for_people(column)) continue;
-        const std::string text = cell_text(row[i], column);
         // The look follows from the program's word, also where a template translates it.
-        const auto* word = i < said.table.rows[rows.list_value().size()].size()
-                               ? std::get_if<std::string>(&said.table.rows[rows.list_value().size()][i])
-                               : nullptr;
-        Fields cell{Fields::type::object};
-        cell.set("name", heading_of(column));
-        cell.set("text", text_field(text));
-        cell.set("look", text_field(column.key == "verdict" && word != nullptr ? *word
-                                    : column.alignment == Alignment::right     ? "number"
-                                                                               : ""));
-        cells << cell;
+        const auto* word = std::get_if<std::string>(&said.table.rows[row][i]);
+        const bool is_verdict = column.key == "verdict" && word != nullptr;
+        cells.push_back({{"name", heading_of(column)},
+                         {"text", cell_text(table.rows[row][i], column)},
+                         {"look", is_verdict                             ? *word
+                                  : column.alignment == Alignment::right ? "number"
+                                                                         : ""}});
       }
-      Fields line{Fields::type::object};
-      line.set("cells", cells);
-      rows << line;
+      rows.push_back({{"cells", cells}});
     }
-    fields.set("id", said.id);
-    fields.set("heading", words.word("table." + said.id, said.id));
-    fields.set("origin", text_field(text_of(said.origin)));
-    fields.set("columns", columns);
-    fields.set("rows", rows);
-    fields.set("markdown", to_markdown(Table{"", table.columns, table.rows}));
-    return fields;
+    return {{"id", said.id},
+            {"heading", words.word("table." + said.id, said.id)},
+            {"origin", text_of(said.origin)},
+            {"columns", columns},
+            {"rows", rows},
+            {"markdown", to_markdown(Table{"", table.columns, table.rows})}};
   }
 
-  Fields figure(const SaidFigure& said) const {
+  Parts figure(const SaidFigure& said) const {
     const WordedFigure& worded = figures.at(&said);
-    Fields fields{Fields::type::object};
-    fields.set("file", said.file);
-    fields.set("caption", worded.caption);
-    fields.set("alternative", worded.alternative);
-    fields.set("origin", text_field(text_of(said.origin)));
-    fields.set("missing", worded.svg.empty() ? Fields(words("no_figure")) : Fields(false));
-    fields.set("source", "data:image/svg+xml;base64," + base64(worded.svg));
-    return fields;
+    return {{"file", said.file},
+            {"caption", worded.caption},
+            {"alternative", worded.alternative},
+            {"origin", text_of(said.origin)},
+            {"missing", worded.svg.empty() ? words("no_figure") : ""},
+            {"source", "data:image/svg+xml;base64," + base64(worded.svg)}};
   }
 
-  Fields blocks(const SafetySection& section) const {
-    Fields list{Fields::type::list};
-    const auto add = [&list](const char* kind, const Fields& fields) {
-      Fields block{Fields::type::object};
-      block.set(kind, fields);
-      list << block;
-    };
-    for (std::size_t i = 0; i < section.blocks.size(); ++i) {
-      if (const auto* said = std::get_if<SaidTable>(&section.blocks[i])) {
-        add("table", table(*said));
-      } else if (const auto* picture = std::get_if<SaidFigure>(&section.blocks[i])) {
-        add("figure", figure(*picture));
-      } else {
-        const auto& text = std::get<SaidParagraph>(section.blocks[i]);
-        if (text.look != Look::item) {
-          add(text.look == Look::code ? "code" : "paragraph", paragraph(text));
-          continue;
-        }
-        Fields items{Fields::type::list};
-        const auto item_at = [&](std::size_t place) {
-          const auto* each = std::get_if<SaidParagraph>(&section.blocks[place]);
-          return each != nullptr && each->look == Look::item ? each : nullptr;
-        };
-        for (; i < section.blocks.size() && item_at(i) != nullptr; ++i) items << paragraph(*item_at(i));
-        --i;
-        Fields whole{Fields::type::object};
-        whole.set("items", items);
-        add("list", whole);
+  Parts blocks(const SafetySection& section) const {
+    Parts list = Parts::array();
+    for (const Block& block : section.blocks) {
+      if (const auto* said = std::get_if<SaidTable>(&block)) {
+        list.push_back({{"table", table(*said)}});
+      } else if (const auto* picture = std::get_if<SaidFigure>(&block)) {
+        list.push_back({{"figure", figure(*picture)}});
+      } else if (const auto& text = std::get<SaidParagraph>(block); text.look != Look::item) {
+        list.push_back({{text.look == Look::code ? "code" : "paragraph", paragraph(text)}});
+      } else {  // items that follow each other are one list
+        if (list.empty() || !list.back().contains("list"))
+          list.push_back({{"list", {{"items", Parts::array()}}}});
+        list.back()["list"]["items"].push_back(paragraph(text));
       }
     }
     return list;
@@ -240,24 +200,15 @@ struct Renderer {
     return words("made_of", {{"studies", fmt::format("{}", fmt::join(labels, ", "))}});
   }
 
-  Fields page() const {
-    Fields page{Fields::type::object}, sections{Fields::type::list};
-    int number = 0;
-    for (const SafetySection& section : document.sections) {
-      Fields each{Fields::type::object};
-      each.set("id", section.id);
-      each.set("number", std::to_string(++number));
-      each.set("heading", words("section." + section.id));
-      each.set("blocks", blocks(section));
-      sections << each;
-    }
-    page.set("language", words("language"));
-    page.set("report", words("report"));
-    page.set("title", document.title);
-    page.set("subject", document.subject);
-    page.set("made_of", made_of());
-    page.set("sections", sections);
-    return page;
+  Parts page() const {
+    Parts sections = Parts::array();
+    for (const SafetySection& section : document.sections)
+      sections.push_back({{"id", section.id},
+                          {"number", sections.size() + 1},
+                          {"heading", words("section." + section.id)},
+                          {"blocks", blocks(section)}});
+    return {{"language", words("language")}, {"report", words("report")}, {"title", document.title},
+            {"subject", document.subject},   {"made_of", made_of()},      {"sections", sections}};
   }
 
   // --- JSON ---
@@ -309,23 +260,27 @@ struct Renderer {
   }
 };
 
+std::vector<const SaidFigure*> figures_in(const SafetyDocument& document) {
+  std::vector<const SaidFigure*> figures;
+  for (const SafetySection& section : document.sections)
+    for (const Block& block : section.blocks)
+      if (const auto* figure = std::get_if<SaidFigure>(&block)) figures.push_back(figure);
+  return figures;
+}
+
 /// Draws all figures; after the first that gnuplot does not draw none is tried.
 std::vector<std::string> draw(Renderer& renderer, const DrawingLimits& limits) {
   std::vector<std::string> remarks;
-  for (const SafetySection& section : renderer.document.sections) {
-    for (const Block& block : section.blocks) {
-      const auto* figure = std::get_if<SaidFigure>(&block);
-      if (figure == nullptr) continue;
-      WordedFigure& worded = renderer.figures[figure];
-      worded.caption = renderer.words("figure." + figure->id, figure->parts);
-      worded.alternative = renderer.words("alternative." + figure->id, figure->parts);
-      if (!remarks.empty() && !std::holds_alternative<std::string>(figure->picture)) continue;
-      auto svg = drawn(*figure, limits);
-      if (svg)
-        worded.svg = with_alternative(std::move(*svg), worded.caption, worded.alternative);
-      else
-        remarks.push_back("no figure: " + svg.error().message);
-    }
+  for (const SaidFigure* figure : figures_in(renderer.document)) {
+    WordedFigure& worded = renderer.figures[figure];
+    worded.caption = renderer.words("figure." + figure->id, figure->parts);
+    worded.alternative = renderer.words("alternative." + figure->id, figure->parts);
+    if (!remarks.empty() && !std::holds_alternative<std::string>(figure->picture)) continue;
+    auto svg = drawn(*figure, limits);
+    if (svg)
+      worded.svg = with_alternative(std::move(*svg), worded.caption, worded.alternative);
+    else
+      remarks.push_back("no figure: " + svg.error().message);
   }
   return remarks;
 }
@@ -359,7 +314,7 @@ store::Result<RenderedReport> render(const SafetyDocument& document, const Safet
                                      const DrawingLimits& limits) {
   Renderer renderer{document, Words(templates)};
   RenderedReport report{{}, draw(renderer, limits)};
-  const Fields page = renderer.page();
+  const Fields page = field_of(renderer.page());
   auto html = filled(templates.html, page, {});
   if (!html) return html.error();
   auto markdown = filled(templates.markdown, page, markdown_escaped);
@@ -370,11 +325,9 @@ store::Result<RenderedReport> render(const SafetyDocument& document, const Safet
       {"report.html", std::move(*html)},
       {"report.md", std::move(*markdown)},
       {"report.json", renderer.json().dump(1, ' ', false, Parts::error_handler_t::replace) + "\n"}};
-  for (const SafetySection& section : document.sections)
-    for (const Block& block : section.blocks)
-      if (const auto* figure = std::get_if<SaidFigure>(&block))
-        if (const WordedFigure& worded = renderer.figures.at(figure); !worded.svg.empty())
-          report.files.push_back({figure->file, worded.svg});
+  for (const SaidFigure* figure : figures_in(document))
+    if (const std::string& svg = renderer.figures.at(figure).svg; !svg.empty())
+      report.files.push_back({figure->file, svg});
   return report;
 }
 

@@ -35,12 +35,8 @@ void say_load(const Subject& subject, SafetySection& section) {
   plot.height = 440;
   const auto add = [&](const char* label, const std::vector<double>& time,
                        const std::vector<double>& pressure, Style style, int colour) {
-    Series series{.label = label, .x = {}, .y = {}, .style = style, .colour = colour};
-    for (std::size_t i = 0; i < time.size(); ++i) {
-      series.x.push_back(1e3 * time[i]);
-      series.y.push_back(1e-6 * pressure[i]);
-    }
-    plot.series.push_back(std::move(series));
+    plot.series.push_back({.label = label, .style = style, .colour = colour});
+    for (std::size_t i = 0; i < time.size(); ++i) plot.series.back().add(1e3 * time[i], 1e-6 * pressure[i]);
   };
   if (measured_curve) add("measured, as stated", load.curve_time, load.curve_pressure, Style::line, 7);
   const scene::PressureHistory chamber(load);
@@ -53,18 +49,15 @@ void say_load(const Subject& subject, SafetySection& section) {
   if (run != nullptr)
     add("charge's bottom, computed", run->mechanics.trace.time, run->mechanics.trace.bottom_pressure,
         Style::dashed_line, 1);
-  section.blocks.push_back(
-      SaidFigure{"load",
-                 "load.svg",
-                 std::move(plot),
-                 {{"peak", significant(1e-6 * chamber.stated_peak(), 4) + " MPa"},
-                  {"duration", significant(1e3 * load.duration, 4) + " ms"},
-                  {"measured", measured_curve},
-                  {"points", load.curve_time.size()},
-                  {"file", load.curve_file},
-                  {"bottom", run != nullptr},
-                  {"smoothing", load.smoothing > 0 ? significant(1e3 * load.smoothing, 3) + " ms" : ""}},
-                 subject.origin("the scene, in its manifest", run != nullptr ? run->label : "")});
+  section.draw("load", "load.svg", std::move(plot),
+               {{"peak", significant(1e-6 * chamber.stated_peak(), 4) + " MPa"},
+                {"duration", significant(1e3 * load.duration, 4) + " ms"},
+                {"measured", measured_curve},
+                {"points", load.curve_time.size()},
+                {"file", load.curve_file},
+                {"bottom", run != nullptr},
+                {"smoothing", load.smoothing > 0 ? significant(1e3 * load.smoothing, 3) + " ms" : ""}},
+               subject.origin("the scene, in its manifest", run != nullptr ? run->label : ""));
 }
 
 // --- inputs ---
@@ -108,9 +101,8 @@ void add_sources_of_tables(const scene::SceneFile& file, Table& table) {
 Table input_table(const Subject& subject) {
   std::map<std::string, scene::DocumentedKey> documented;
   for (scene::DocumentedKey& key : scene::describe_keys()) documented.emplace(key.description.name, key);
-  Table table;
-  table.columns = {named_text("key", "key"), named_text("value", "value"), named_text("standing", "standing"),
-                   named_text("meaning", "meaning")};
+  Table table{.columns = {named_text("key", "key"), named_text("value", "value"),
+                          named_text("standing", "standing"), named_text("meaning", "meaning")}};
   for (const scene::ListedKey& key : scene::list_keys(subject.study.scene)) {
     if (is_of_unused_law(subject.scene(), key.name)) continue;
     // The manifest writes every key: one with the value of the program's default has the default's standing.
@@ -129,13 +121,11 @@ Table input_table(const Subject& subject) {
 }
 
 Table body_table(const scene::Scene& scene) {
-  Table table;
-  table.columns = {named_text("body", "body"),
-                   named_text("material", "material"),
-                   significant_column("x from", "cm", 6, "x_begin_cm"),
-                   significant_column("to", "cm", 6, "x_end_cm"),
-                   significant_column("r from", "cm", 6, "r_begin_cm"),
-                   significant_column("to", "cm", 6, "r_end_cm")};
+  Table table{.columns = {named_text("body", "body"), named_text("material", "material"),
+                          significant_column("x from", "cm", 6, "x_begin_cm"),
+                          significant_column("to", "cm", 6, "x_end_cm"),
+                          significant_column("r from", "cm", 6, "r_begin_cm"),
+                          significant_column("to", "cm", 6, "r_end_cm")}};
   for (const scene::Body& body : scene.bodies)
     table.rows.push_back({body.name, scene::material_text(scene, body), 100 * body.x_begin, 100 * body.x_end,
                           100 * body.r_begin, 100 * body.r_end});
@@ -153,17 +143,14 @@ std::string held_text(const scene::Scene& scene) {
 // --- where and when ---
 
 Table place_table(const JudgedCase& each) {
-  Table table;
-  table.columns = {significant_column("gap", "cm", 6, "gap_cm"),
-                   number_column("T max", "K", 0, "temperature_max_K"),
-                   named_text("hottest station", "temperature_max_place"),
-                   number_column("at time", "ms", 2, "temperature_max_time_ms"),
-                   number_column("ignition at", "ms", 2, "ignition_time_ms"),
-                   named_text("cause", "ignition_cause"),
-                   number_column("chemical share", "", 2, "ignition_chemical_share"),
-                   number_column("spread along the bottom", "K", 0, "spread_K")};
-  for (const Row* row : each.verdicts) append_row(*row, table);
-  return table;
+  return table_of(
+      each.verdicts,
+      {significant_column("gap", "cm", 6, "gap_cm"), number_column("T max", "K", 0, "temperature_max_K"),
+       named_text("hottest station", "temperature_max_place"),
+       number_column("at time", "ms", 2, "temperature_max_time_ms"),
+       number_column("ignition at", "ms", 2, "ignition_time_ms"), named_text("cause", "ignition_cause"),
+       number_column("chemical share", "", 2, "ignition_chemical_share"),
+       number_column("spread along the bottom", "K", 0, "spread_K")});
 }
 
 /// Gaps whose histories are shown: the largest that is SAFE, and the smallest that is not.
@@ -199,10 +186,10 @@ void add_pictures(const Subject& subject, const JudgedCase& judged, const DrawnC
       continue;
     }
     std::vector<CasePicture> pictures = kind.pictures(drawn);
-    std::erase_if(pictures, [](const CasePicture& each) {
-      return each.what == "fields" && !each.file.starts_with("field_temperature");
+    std::erase_if(pictures, [&](const CasePicture& each) {
+      return each.file == "profile_spread.svg" ||
+             (word == "fields" && !each.file.starts_with("field_temperature"));
     });
-    std::erase_if(pictures, [](const CasePicture& each) { return each.file == "profile_spread.svg"; });
     // The last snapshot shows what the launch has done.
     if (word == "fields" && pictures.size() > 1) pictures.erase(pictures.begin(), pictures.end() - 1);
     for (CasePicture& each : pictures) {
@@ -211,8 +198,8 @@ void add_pictures(const Subject& subject, const JudgedCase& judged, const DrawnC
       if (each.time) parts["time"] = significant(1e3 * *each.time, 4) + " ms";
       std::variant<Plot, CellPlot, std::string> picture;
       std::visit([&](auto& plot) { picture = std::move(plot); }, each.plot);
-      section.blocks.push_back(SaidFigure{"place." + word, each.file, std::move(picture), std::move(parts),
-                                          subject.origin("cases/*.h5", judged.label)});
+      section.draw("place." + word, each.file, std::move(picture), std::move(parts),
+                   subject.origin("cases/*.h5", judged.label));
     }
   }
 }
@@ -250,12 +237,11 @@ SafetySection scene_section(const Subject& subject) {
                {"interfaces", held_text(scene)}},
               origin);
   if (!scene.bodies.empty())
-    section.blocks.push_back(
-        SaidFigure{"section", "section.svg", section_svg(scene), {{"title", scene.title}}, origin});
-  section.blocks.push_back(SaidTable{"bodies", body_table(scene), origin});
+    section.draw("section", "section.svg", section_svg(scene), {{"title", scene.title}}, origin);
+  section.show("bodies", body_table(scene), origin);
   say_load(subject, section);
   section.say("scene.inputs", {}, origin);
-  section.blocks.push_back(SaidTable{"inputs", input_table(subject), origin});
+  section.show("inputs", input_table(subject), origin);
   return section;
 }
 
@@ -270,7 +256,7 @@ SafetySection place_section(const Subject& subject) {
     section.say("place.not_completed", {{"case", own->label}}, subject.origin("runs", own->label));
     return section;
   }
-  section.blocks.push_back(SaidTable{"place", place_table(*own), subject.origin("verdicts", own->label)});
+  section.show("place", place_table(*own), subject.origin("verdicts", own->label));
   const auto stored =
       std::find_if(subject.evidence.cases.begin(), subject.evidence.cases.end(),
                    [&](const CaseEvidence& each) { return each.present && each.label == own->label; });

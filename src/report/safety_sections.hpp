@@ -1,7 +1,7 @@
 // The sections of a safety report, and what they share.
 #pragma once
 
-#include "launchsafe/report/measured.hpp"
+#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/safety_document.hpp"
 
 #include <cmath>
@@ -54,8 +54,9 @@ struct InertRows {
 };
 InertRows inert_rows(const JudgedCase& each);
 
-/// Puts a row of a study's table under the columns, by their keys.
-void append_row(const Row& row, Table& table);
+std::vector<const Row*> pointers_to(const Row& rows);
+/// Rows of a study's table under the columns, by their keys.
+Table table_of(const std::vector<const Row*>& rows, std::vector<Column> columns);
 
 Subject subject_of(const SafetyEvidence& evidence, const std::optional<GapCriterion>& criterion);
 Origin origin_of(const StudyEvidence& study, std::string of, std::string setting = {});
@@ -67,15 +68,20 @@ bool is_value(const Row& critical);
 /// cm: the critical gap with its uncertainty as printed; what moves towards ignition alone lowers it alone.
 /// Nothing where it is no value.
 std::optional<Measured> measured_gap(const Row& critical);
+/// That as text, or how the study reads it.
+std::string gap_text(const Row& critical);
 
-/// Verdict rows of a case as a table for people.
-Table verdict_table(const std::vector<const JudgedCase*>& cases);
+/// Verdict rows that page one holds.
+inline constexpr std::size_t most_rows_on_page_one = 12;
+/// Verdict rows of all cases as a table for people.
+Table verdict_table(const Subject& subject);
 
 /// The shares of the uncertainty of a verdict row, K, under the names of the texts.
 struct Share {
   std::string name;
   double size = 0;
 };
+inline constexpr const char* share_names[] = {"computation", "fit", "inputs", "model_form"};
 std::vector<Share> shares_of(const Row& verdict);
 const Share& largest_of(const std::vector<Share>& shares);
 /// Which of the shares one is: a truth under every name.

@@ -13,23 +13,15 @@ namespace launchsafe::report::safety {
 namespace {
 
 Table run_table_of(const StudyEvidence& study) {
-  Table table;
-  table.columns = {named_text("case", "case"),
-                   named_text("status", "status"),
-                   scientific_column("energy drift", "", 1, "energy_drift"),
-                   count_column("steps", "steps"),
-                   count_column("particles", "particles"),
-                   named_text("limiters", "limiters"),
-                   named_text("stored case", "stored_case")};
-  for (const Row& row : study.rows("runs")) append_row(row, table);
-  return table;
+  return table_of(pointers_to(study.rows("runs")),
+                  {named_text("case", "case"), named_text("status", "status"),
+                   scientific_column("energy drift", "", 1, "energy_drift"), count_column("steps", "steps"),
+                   count_column("particles", "particles"), named_text("limiters", "limiters"),
+                   named_text("stored case", "stored_case")});
 }
 
 void say_stability(const StudyEvidence* stability, SafetySection& section) {
-  if (stability == nullptr || !stability->finished()) {
-    section.say("validity.no_stability");
-    return;
-  }
+  if (stability == nullptr || !stability->finished()) return section.say("validity.no_stability");
   const Row counts = stability->study.value("counts", Row::object());
   const auto count = [&](const char* key) { return counts.value(key, 0); };
   section.say("validity.stability",
@@ -47,8 +39,7 @@ void say_stability(const StudyEvidence* stability, SafetySection& section) {
 /// The terms of the plan that were left out, and why.
 Table left_out_table(const scene::Scene& scene) {
   const scene::Plan plan = scene::make_plan(scene);
-  Table table;
-  table.columns = {named_text("term", "term"), named_text("why", "why")};
+  Table table{.columns = {named_text("term", "term"), named_text("why", "why")}};
   const std::pair<const char*, const scene::Term*> terms[] = {{"conduction", &plan.conduction},
                                                               {"bulk_reaction", &plan.bulk_reaction},
                                                               {"air", &plan.air},
@@ -76,21 +67,17 @@ std::string record_text(const StudyEvidence& main, const StudyEvidence& study) {
 }
 
 Table study_table(const SafetyEvidence& evidence) {
-  Table table;
-  table.columns = {named_text("study", "label"),
-                   named_text("kind", "kind"),
-                   named_text("file", "study"),
-                   for_programs(named_text("command", "command")),
-                   named_text("state", "state"),
-                   named_text("made", "made"),
-                   for_people(named_text("commit", "commit_begins")),
-                   for_programs(named_text("commit", "commit")),
-                   for_programs(named_text("compiler", "compiler")),
-                   for_programs(named_text("compiler flags", "compiler_flags")),
-                   for_people(named_text("SHA-256 of the input", "input_begins")),
-                   for_programs(named_text("input SHA-256", "input_sha256")),
-                   named_text("its record is that of the main study", "record_used"),
-                   named_text("differs in", "differences")};
+  Table table{.columns = {named_text("study", "label"), named_text("kind", "kind"),
+                          named_text("file", "study"), for_programs(named_text("command", "command")),
+                          named_text("state", "state"), named_text("made", "made"),
+                          for_people(named_text("commit", "commit_begins")),
+                          for_programs(named_text("commit", "commit")),
+                          for_programs(named_text("compiler", "compiler")),
+                          for_programs(named_text("compiler flags", "compiler_flags")),
+                          for_people(named_text("SHA-256 of the input", "input_begins")),
+                          for_programs(named_text("input SHA-256", "input_sha256")),
+                          named_text("its record is that of the main study", "record_used"),
+                          named_text("differs in", "differences")}};
   constexpr std::size_t shown_digits = 12;
   for (const StudyEvidence& study : evidence.studies) {
     const store::Manifest& manifest = study.record.manifest;
@@ -111,18 +98,16 @@ Table study_table(const SafetyEvidence& evidence) {
 SafetySection validity_section(const Subject& subject) {
   SafetySection section{"validity"};
   Table runs = run_table_of(subject.study);
-  if (!runs.rows.empty())
-    section.blocks.push_back(SaidTable{"runs", std::move(runs), subject.origin("runs")});
+  if (!runs.rows.empty()) section.show("runs", std::move(runs), subject.origin("runs"));
   std::size_t warned = 0;
   for (const Row& row : subject.study.rows("verdicts"))
     if (text_of(row, "reason").find("validity") != std::string::npos) ++warned;
   section.say("validity.warnings", {{"rows", warned}}, subject.origin("verdicts"));
   say_stability(subject.evidence.find("stability"), section);
   section.say("validity.left_out", {}, subject.origin("the scene, in its manifest"));
-  section.blocks.push_back(
-      SaidTable{"left_out", left_out_table(subject.scene()), subject.origin("the scene, in its manifest")});
+  section.show("left_out", left_out_table(subject.scene()), subject.origin("the scene, in its manifest"));
   section.say("validity.studies");
-  section.blocks.push_back(SaidTable{"studies", study_table(subject.evidence)});
+  section.show("studies", study_table(subject.evidence));
   section.say("validity.repeat", {{"version", subject.study.record.manifest.model_version},
                                   {"program", subject.study.record.manifest.program_version}});
   for (const StudyEvidence& study : subject.evidence.studies)

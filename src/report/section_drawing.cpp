@@ -188,15 +188,6 @@ std::string symmetry_elements(const Panel& panel) {
   return text;
 }
 
-/// Distance in m of the marks on an axis: 1, 2 or 5 times a power of ten mm, at least so many pixels.
-double tic_distance(const Panel& panel, double pixels) {
-  const double least = pixels / panel.scale;
-  const double decade = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * decade >= least * (1 - 1e-9)) return factor * decade;
-  return 10.0 * decade;
-}
-
 std::string millimetres(double length) { return significant(1e3 * length, 6); }
 
 std::string axis_elements(const Panel& panel) {
@@ -205,7 +196,7 @@ std::string axis_elements(const Panel& panel) {
   const std::string look = fmt::format("stroke=\"{}\"", soft_ink);
   std::string text = svg_line(panel.left(), y, panel.left() + panel.width(), y, look) +
                      svg_line(x, panel.bottom(), x, panel.top, look);
-  const double dx = tic_distance(panel, 64), dr = tic_distance(panel, 26);
+  const double dx = round_distance(64 / panel.scale), dr = round_distance(26 / panel.scale);
   for (double i = std::ceil(panel.x_begin / dx - 1e-9); i * dx <= panel.x_end + 1e-9 * dx; ++i) {
     text += svg_line(panel.x(i * dx), y, panel.x(i * dx), y + tic, look);
     text += svg_text(panel.x(i * dx), y + tic + size, size, "middle", soft_ink, millimetres(i * dx));

@@ -13,14 +13,8 @@ namespace launchsafe::report {
 namespace {
 
 std::string rounded(double value, const Column& column) {
-  switch (column.notation) {
-    case Notation::scientific:
-      return scientific(value, column.decimals);
-    case Notation::significant:
-      return significant(value, column.decimals);
-    case Notation::fixed:
-      break;
-  }
+  if (column.notation == Notation::scientific) return scientific(value, column.decimals);
+  if (column.notation == Notation::significant) return significant(value, column.decimals);
   return fixed(value, column.decimals);
 }
 
@@ -192,10 +186,7 @@ std::string key_text(const std::string& text) {
 }
 
 Column text_column(std::string name) {
-  Column column;
-  column.name = std::move(name);
-  column.alignment = Alignment::left;
-  return column;
+  return {.name = std::move(name), .unit = {}, .alignment = Alignment::left};
 }
 
 std::vector<std::string> keys_of(const Table& table) {

@@ -6,6 +6,7 @@
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/stations.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/cited_limits.hpp"
 
 #include <fmt/format.h>
 
@@ -39,6 +40,19 @@ std::string off_grid_note(const study::StudyFile& study) {
   if (count == 0) return {};
   return fmt::format("The charge lies off the grid lines in {} of {} cases ({}{}): {}", count,
                      study.cases.size(), count > 1 ? "the first is " : "", first, meaning);
+}
+
+/// Of a row of the cited limits.
+std::vector<Cell> cells_of_limit(const study::LimitComparison& comparison, const study::StudyFile& study,
+                                 const std::vector<const study::CriticalGap*>& critical) {
+  std::vector<Cell> cells{100.0 * comparison.limit.gap,
+                          optional_number(1e-6 * comparison.limit.peak_pressure), comparison.limit.source};
+  if (!comparison.nearest) return cells;
+  const study::StudyCase& input = study.cases[*comparison.nearest];
+  const study::CriticalGap& gap = *critical[*comparison.nearest];
+  cells.insert(cells.end(), {1e-6 * input.peak_pressure, input.label, optional_number(100.0 * value_of(gap)),
+                             reads_as(gap), optional_number(100.0 * comparison.difference)});
+  return cells;
 }
 
 }  // namespace
@@ -144,17 +158,43 @@ std::string reads_as(const study::CriticalGap& gap) {
   return "indeterminate";
 }
 
+Table cited_limit_table(const study::StudyFile& study,
+                        const std::vector<const study::CriticalGap*>& critical) {
+  Table table;
+  if (study.study.cited_limits.empty()) return table;
+  table.title = "Cited limits of the gap";
+  table.columns = {significant_column("limit", "cm", 6, "limit_cm"),
+                   significant_column("at", "MPa", 6, "limit_peak_pressure_MPa"),
+                   named_text("source", "source"),
+                   significant_column("computed at", "MPa", 6, "peak_pressure_MPa"),
+                   quantity::case_name(),
+                   quantity::critical_gap(),
+                   quantity::critical_gap_reads_as(),
+                   significant_column("computed minus cited", "cm", 2, "difference_cm")};
+  bool chosen = false;
+  for (const study::LimitComparison& each : study::compare_with_limits(study, critical)) {
+    chosen = chosen || each.cases > 1;
+    table.rows.push_back(cells_of_limit(each, study, critical));
+  }
+  table.notes.push_back(fmt::format(
+      "Beside each limit stands the case with the nearest peak pressure; for one without a pressure, that of "
+      "the study's scene. The difference is given where the pressures agree within {:.6g} %.",
+      100.0 * study::pressure_slack));
+  if (chosen)
+    table.notes.emplace_back(
+        "Of several cases at that pressure it is the one with the smallest critical gap.");
+  return table;
+}
+
 std::string friction_remark(const study::StudyFile& study) {
   const scene::Scene& scene = study.scene.scene;
   std::string text = fmt::format(
       "The friction closure is \"{}\" with a localisation of {}, and the exchange time is {} ms. These two "
-      "and "
-      "the ignition temperature ({} K) are calibrated on published rows, as are the shape of the load and "
-      "the "
-      "choice of the model (see `studies/calibrate_table8.toml` and `studies/model_form/README.md`), so the "
-      "critical gap of the calibration's own load and defect is a "
-      "fit, "
-      "not a prediction. What is predicted is how it moves with pressure, defect, load shape and design.\n",
+      "and the ignition temperature ({} K) are calibrated on published rows, as are the shape of the load "
+      "and the choice of the model (see `studies/calibrate_table8.toml` and "
+      "`studies/model_form/README.md`), so the critical gap of the calibration's own load and defect is a "
+      "fit, not a prediction. What is predicted is how it moves with pressure, defect, load shape and "
+      "design.\n",
       study::to_string(scene.surface.friction), significant(scene.surface.localisation, 6),
       significant(1e3 * scene.surface.exchange_time, 6),
       significant(scene.charge().kinetics.ignition_temperature, 6));
@@ -169,16 +209,11 @@ std::string friction_remark(const study::StudyFile& study) {
 std::string uncertainty_remark(const study::StudyFile& study) {
   return fmt::format(
       "The uncertainty of a margin is the root of the sum of squares (ASME V&V 20) of three shares, and on "
-      "top "
-      "a fourth, of the model form. Of the "
-      "computation: the sum of the trace's sampling error, the integration error, where confirmed the "
-      "largest "
-      "difference between traced temperatures and coupled runs, where the charge slides on the base what "
-      "the "
-      "temperatures leave out of that (the heat of friction, and the gap's growth where the base opens), and "
-      "{} K for mesh, step and scaling, {}. Of the fit: {} "
-      "Of the "
-      "inputs: {} Of the model form: {}",
+      "top a fourth, of the model form. Of the computation: the sum of the trace's sampling error, the "
+      "integration error, where confirmed the largest difference between traced temperatures and coupled "
+      "runs, where the charge slides on the base what the temperatures leave out of that (the heat of "
+      "friction, and the gap's growth where the base opens), and {} K for mesh, step and scaling, {}. Of the "
+      "fit: {} Of the inputs: {} Of the model form: {}",
       significant(study.study.numerical_uncertainty, 3), study.uncertainty_source,
       study::fit_uncertainty_text(study.study), study::input_uncertainty_text(study.study),
       study::model_form_uncertainty_text(study));

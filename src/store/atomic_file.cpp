@@ -18,10 +18,6 @@
 namespace launchsafe::store {
 namespace {
 
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-}
-
 constexpr std::string_view partial_suffix = ".partial";
 constexpr std::size_t digits = 8;
 
@@ -29,18 +25,11 @@ std::string check_of(std::string_view name, std::string_view number) {
   return sha256(fmt::format("{} {} is being written by launchsafe", number, name)).substr(0, digits);
 }
 
-bool write_parts(Descriptor& file, std::initializer_list<std::string_view> parts) {
-  for (const std::string_view part : parts) {
-    if (!write_all(file.number(), part)) return false;
-  }
-  return ::fsync(file.number()) == 0 && file.close();
-}
-
 /// Leaves nothing behind on a failure; false with errno set.
-bool write_new(const std::filesystem::path& path, std::initializer_list<std::string_view> parts) {
+bool write_new(const std::filesystem::path& path, std::string_view content) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (!file.is_open()) return false;
-  if (write_parts(file, parts)) return true;
+  if (write_all(file.number(), content) && ::fsync(file.number()) == 0 && file.close()) return true;
   const int error_number = errno;
   ::unlink(path.c_str());
   errno = error_number;
@@ -79,12 +68,15 @@ void remove_leftover(const std::filesystem::path& file) {
   if (S_ISREG(status.st_mode)) ::unlink(file.c_str());
 }
 
-MaybeError write_file_atomically(const std::filesystem::path& path,
-                                 std::initializer_list<std::string_view> parts, IfExists if_exists,
-                                 const std::string& name) {
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+MaybeError write_file_atomically(const std::filesystem::path& path, std::string_view content,
+                                 IfExists if_exists, const std::string& name) {
   const std::filesystem::path temporary =
       folder_of(path) / temporary_name(name.empty() ? path.filename().string() : name);
-  if (!write_new(temporary, parts)) return write_error(path, errno);
+  if (!write_new(temporary, content)) return write_error(path, errno);
   if (const std::error_code error = publish(temporary, path, if_exists)) {
     ::unlink(temporary.c_str());
     if (error == std::errc::file_exists && if_exists == IfExists::refuse)

@@ -184,11 +184,11 @@ MaybeError conflict_at(const std::filesystem::path& path, const Manifest& manife
 
 MaybeError publish(const std::filesystem::path& path, std::string_view bytes, const Manifest& manifest) {
   if (const MaybeError conflict = conflict_at(path, manifest)) return conflict;
-  const MaybeError error = write_file_atomically(path, {bytes}, IfExists::refuse);
+  const MaybeError error = write_file_atomically(path, bytes, IfExists::refuse);
   if (!error || error->kind != Error::Kind::conflict) return error;
   // Something is there: the same question's answer before, or since a moment ago by another process.
   if (const MaybeError conflict = conflict_at(path, manifest)) return conflict;
-  return write_file_atomically(path, {bytes}, IfExists::replace);
+  return write_file_atomically(path, bytes, IfExists::replace);
 }
 
 /// What `parse` makes of the file at `path`. Errors: missing, unreadable, corrupt.
@@ -249,8 +249,7 @@ MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene
     return gap.combustion && !gap.combustion->snapshots.empty();
   });
   if (result.mechanics.snapshots.empty() && !burns) return {};
-  const std::filesystem::path sidecar = sidecar_of(path);
-  return write_own_file(sidecar, {xdmf_of(result, path.filename().string())});
+  return write_own_file(sidecar_of(path), xdmf_of(result, path.filename().string()));
 }
 
 std::filesystem::path sidecar_of(const std::filesystem::path& path) {

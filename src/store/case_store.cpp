@@ -220,7 +220,7 @@ MaybeError CaseStore::Content::flush() {
 MaybeError CaseStore::Content::write_case(std::string_view bytes, JournalEntry entry) {
   const std::filesystem::path path = names.case_file(entry.hash);
   const MaybeError error =
-      write_file_atomically(path, {bytes}, IfExists::refuse, entry.hash + "." + names.mark());
+      write_file_atomically(path, bytes, IfExists::refuse, entry.hash + "." + names.mark());
   // Another thread may have stored the same result meanwhile, or another process where nothing keeps it out.
   const bool there_already = error && error->kind == Error::Kind::conflict && read_checked(path, entry.hash);
   if (error && !there_already) return Error{Error::Kind::write_failed, error->message};
@@ -294,10 +294,9 @@ bool CaseStore::holds(const std::string& hash) {
 
 Result<run::CaseResult> CaseStore::load(const std::string& hash) {
   const std::filesystem::path path = content_->names.case_file(hash);
-  const Result<std::string> bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  Result<StoredCase> stored = case_of(*bytes);
-  if (!stored) return content_->set_aside(hash, of_file(path, stored.error()));
+  Result<StoredCase> stored = read_case_file(path);
+  if (!stored && stored.error().kind != Error::Kind::corrupt) return stored.error();
+  if (!stored) return content_->set_aside(hash, stored.error());
   if (!belongs_to(stored->manifest, hash)) return content_->set_aside(hash, of_another_case(path));
   const std::optional<JournalEntry> entry = content_->index.last_entry(hash);
   if (entry && entry->state == CaseState::done) {

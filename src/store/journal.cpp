@@ -15,7 +15,10 @@
 namespace launchsafe::store {
 namespace {
 
-constexpr std::array states{CaseState::done, CaseState::failed, CaseState::timed_out, CaseState::interrupted};
+constexpr std::array<std::pair<CaseState, const char*>, 4> states{{{CaseState::done, "done"},
+                                                                   {CaseState::failed, "failed"},
+                                                                   {CaseState::timed_out, "timed-out"},
+                                                                   {CaseState::interrupted, "interrupted"}}};
 constexpr std::size_t check_digits = 16, digest_digits = 64, key_digits = 32;
 constexpr std::string_view hexadecimal = "0123456789abcdef";
 
@@ -27,9 +30,8 @@ bool is_hexadecimal(std::string_view text) {
 }
 
 std::optional<CaseState> state_of(const std::string& name) {
-  for (const CaseState state : states) {
-    if (to_string(state) == name) return state;
-  }
+  for (const auto& [state, word] : states)
+    if (name == word) return state;
   return {};
 }
 
@@ -80,16 +82,8 @@ bool any_line(std::string_view text, const std::function<bool(std::string_view)>
 }
 
 std::string to_string(CaseState state) {
-  switch (state) {
-    case CaseState::done:
-      return "done";
-    case CaseState::failed:
-      return "failed";
-    case CaseState::timed_out:
-      return "timed-out";
-    case CaseState::interrupted:
-      return "interrupted";
-  }
+  for (const auto& [each, word] : states)
+    if (each == state) return word;
   return "unknown";
 }
 

@@ -18,10 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view line_begin = R"({"file":)";
 
-fs::path folder_with(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
 std::string line_of(const WrittenFile& file) {
   const nlohmann::ordered_json line{{"file", file.name}, {"sha256", file.sha256}};
   return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -64,12 +60,6 @@ Error not_ours(const fs::path& path, FileState state) {
 }
 
 bool is_replaceable(FileState state) { return state == FileState::absent || state == FileState::ours; }
-
-std::string content_of(std::initializer_list<std::string_view> parts) {
-  std::string content;
-  for (const std::string_view part : parts) content += part;
-  return content;
-}
 
 }  // namespace
 
@@ -116,20 +106,19 @@ std::vector<std::string> OwnFiles::present() const {
   return names;
 }
 
-MaybeError write_own_file(const fs::path& path, std::initializer_list<std::string_view> parts) {
-  const std::string content = content_of(parts);
+MaybeError write_own_file(const fs::path& path, std::string_view content) {
   const WrittenFile file{path.filename(), sha256(content)};
   for (int attempt = 1;; ++attempt) {
-    const Result<OwnFiles> own = OwnFiles::read(folder_with(path));
+    const Result<OwnFiles> own = OwnFiles::read(folder_of(path));
     if (!own) return own.error();
     const FileState state = own->state_of(file.name);
     if (const auto present = read_file(path); present && *present == content) return {};
     if (!is_replaceable(state)) return not_ours(path, state);
     if (!own->knows(file)) {
-      if (MaybeError error = append(folder_with(path), line_of(file))) return error;
+      if (MaybeError error = append(folder_of(path), line_of(file))) return error;
     }
     const IfExists if_exists = state == FileState::absent ? IfExists::refuse : IfExists::replace;
-    MaybeError error = write_file_atomically(path, {content}, if_exists);
+    MaybeError error = write_file_atomically(path, content, if_exists);
     // Another process of ours, a shard for example, may have written it meanwhile.
     constexpr int most_attempts = 10;
     if (!error || error->kind != Error::Kind::conflict || attempt == most_attempts) return error;
@@ -137,7 +126,7 @@ MaybeError write_own_file(const fs::path& path, std::initializer_list<std::strin
 }
 
 MaybeError obstacle_to_own_file(const fs::path& path) {
-  const Result<OwnFiles> own = OwnFiles::read(folder_with(path));
+  const Result<OwnFiles> own = OwnFiles::read(folder_of(path));
   if (!own) return own.error();
   const FileState state = own->state_of(path.filename());
   return is_replaceable(state) ? MaybeError() : not_ours(path, state);

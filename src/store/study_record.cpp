@@ -122,9 +122,8 @@ Result<StudyRecord> read_study_record(const std::filesystem::path& folder) {
 }
 
 MaybeError write_study_record(const std::filesystem::path& folder, const StudyRecord& record) {
-  return write_own_file(
-      manifest_path(folder),
-      {json_of(record).dump(2, ' ', false, nlohmann::json::error_handler_t::replace), "\n"});
+  return write_own_file(manifest_path(folder),
+                        json_of(record).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 std::vector<WrittenFile> record_files(const std::filesystem::path& folder,

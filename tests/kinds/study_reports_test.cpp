@@ -2,7 +2,7 @@
 #include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/report/measured.hpp"
+#include "launchsafe/report/number.hpp"
 #include "report/report_folder.hpp"
 #include "study/synthetic_launch.hpp"
 

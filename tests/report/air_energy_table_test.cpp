@@ -1,5 +1,5 @@
 // The energy of the air and the cited limits, in tables and in words.
-#include "launchsafe/report/air_energy_table.hpp"
+#include "launchsafe/report/case_tables.hpp"
 
 #include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"

@@ -1,4 +1,4 @@
-#include "launchsafe/report/measured.hpp"
+#include "launchsafe/report/number.hpp"
 
 #include <gtest/gtest.h>
 

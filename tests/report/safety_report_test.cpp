@@ -238,6 +238,22 @@ TEST_F(SafetyReport, ARowOfWhichNothingSaysHowWrongItIsHasNoUncertainty) {
   }
 }
 
+TEST_F(SafetyReport, NoVariantOfTheAccuracyIsShownWhereTheMainStudyTookTheRecordOfNone) {
+  const path accuracy = copy_of("accuracy");
+  const std::string said = "no variant of the accuracy study is known to be the launch of the main study";
+  EXPECT_FALSE(has(file_of({shipped("critical_gap_155mm"), accuracy}, "report.md"), said));
+  change(accuracy, [](auto& results) {
+    for (auto& row : results["settings"]) {
+      row["temperature_bound_K"] = 98.7;
+      row["variant"] = "another";
+    }
+  });
+  const auto report =
+      nlohmann::json::parse(file_of({shipped("critical_gap_155mm"), accuracy}, "report.json"));
+  EXPECT_TRUE(has(report.dump(), said));
+  EXPECT_FALSE(has(report.dump(), "\"meshes\"")) << "numbers of another launch";
+}
+
 TEST_F(SafetyReport, TheScenesLaunchIsNotCalledCoveredWhereNoCaseIsOfIt) {
   const path study = copy_of("critical_gap_155mm");
   change(study, [](auto& results) {

@@ -199,7 +199,7 @@ TEST_F(StoreFailure, LeftoversOfAPartAreRemovedWhenItIsOpenedAgain) {
   std::map<std::string, std::filesystem::path> leftovers;
   for (const char* mark : {"whole", "1-of-2", "2-of-2"}) {
     leftovers[mark] = where() / "cases" / temporary_name(identity_of(1).hash() + "." + mark);
-    ASSERT_FALSE(write_file_atomically(leftovers[mark], {"half"}, IfExists::refuse));
+    ASSERT_FALSE(write_file_atomically(leftovers[mark], "half", IfExists::refuse));
   }
   const auto leftover = [&](const char* mark) { return leftovers.at(mark); };
   opened("1-of-2");

@@ -131,7 +131,7 @@ TEST_F(StoreLockTest, PartsWriteTheirOwnJournalsAndReadAll) {
 }
 
 TEST_F(StoreLockTest, AFolderThatCannotBeMadeIsAnError) {
-  ASSERT_FALSE(write_file_atomically(where(), {"a file"}, IfExists::replace));
+  ASSERT_FALSE(write_file_atomically(where(), "a file", IfExists::replace));
   const auto store = try_open(where());
   ASSERT_FALSE(store);
   EXPECT_EQ(store.error().kind, Error::Kind::write_failed);

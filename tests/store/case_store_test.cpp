@@ -182,7 +182,7 @@ TEST_F(CaseStoreTest, AnEditedAnswerWithARecomputedChecksumCountsForNothing) {
     store->save_answer("02", "two");
   }
   std::string text = rehashed_line("01", "SAFE") + rehashed_line("02", "two") + rehashed_line("03", "SAFE");
-  ASSERT_FALSE(write_file_atomically(where() / "answers.jsonl", {text}, IfExists::replace));
+  ASSERT_FALSE(write_file_atomically(where() / "answers.jsonl", text, IfExists::replace));
   const auto store = opened();
   EXPECT_FALSE(store->answer("01"));
   EXPECT_EQ(store->answer("02"), "two");
@@ -199,7 +199,7 @@ TEST_F(CaseStoreTest, ADamagedLineIsIgnoredAndRemarked) {
   }
   std::string text = *read_file(where() / "answers.jsonl");
   text.replace(text.find("two"), 3, "tvo");
-  ASSERT_FALSE(write_file_atomically(where() / "answers.jsonl", {text}, IfExists::replace));
+  ASSERT_FALSE(write_file_atomically(where() / "answers.jsonl", text, IfExists::replace));
   append(where() / "journal.jsonl", std::string(4, '\0') + "\n[1]\n{\"case\":\"0f\",\"state\":\"odd\"}\n");
   const auto store = opened();
   EXPECT_EQ(store->answer("01"), "one");

@@ -27,14 +27,14 @@ class OwnFile : public TemporaryFolder {
 
 TEST_F(OwnFile, IsReplacedAndNothingElseIs) {
   EXPECT_EQ(state("report.md"), FileState::absent);
-  ASSERT_FALSE(write_own_file(page(), {"one", " page"}));
+  ASSERT_FALSE(write_own_file(page(), "one page"));
   EXPECT_EQ(state("report.md"), FileState::ours);
-  ASSERT_FALSE(write_own_file(page(), {"another page"}));
+  ASSERT_FALSE(write_own_file(page(), "another page"));
   EXPECT_EQ(*read_file(page()), "another page");
 
   write(page(), "another page, and a note of mine");
   EXPECT_EQ(state("report.md"), FileState::edited);
-  for (const MaybeError& error : {write_own_file(page(), {"a third"}), obstacle_to_own_file(page())}) {
+  for (const MaybeError& error : {write_own_file(page(), "a third"), obstacle_to_own_file(page())}) {
     ASSERT_TRUE(error);
     EXPECT_EQ(error->kind, Error::Kind::conflict);
     EXPECT_NE(error->message.find(page().string()), std::string::npos) << error->message;
@@ -43,13 +43,13 @@ TEST_F(OwnFile, IsReplacedAndNothingElseIs) {
 
   write(folder() / "stability.csv", "mine");
   EXPECT_EQ(state("stability.csv"), FileState::foreign);
-  EXPECT_TRUE(write_own_file(folder() / "stability.csv", {"x"}));
+  EXPECT_TRUE(write_own_file(folder() / "stability.csv", "x"));
   EXPECT_EQ(*read_file(folder() / "stability.csv"), "mine");
 }
 
 // A folder that somebody passed on may hold a journal with any names.
 TEST_F(OwnFile, IsNeverOneOutsideTheFolderOrOfTheStore) {
-  ASSERT_FALSE(write_own_file(page(), {"text"}));
+  ASSERT_FALSE(write_own_file(page(), "text"));
   const fs::path theirs = folder().parent_path() / "theirs.txt";
   const std::string journal = (folder() / own_files_name).string();
   for (const std::string& name :
@@ -65,37 +65,37 @@ TEST_F(OwnFile, IsNeverOneOutsideTheFolderOrOfTheStore) {
 TEST_F(OwnFile, ThatIsALinkOrAFolderIsNone) {
   write(folder() / "theirs", "mine");
   fs::create_symlink(folder() / "theirs", page());
-  EXPECT_TRUE(write_own_file(page(), {"text"}));
+  EXPECT_TRUE(write_own_file(page(), "text"));
   EXPECT_EQ(*read_file(folder() / "theirs"), "mine");
   fs::remove(page());
   fs::create_symlink(folder() / "nowhere", page());
-  EXPECT_TRUE(write_own_file(page(), {"text"}));
+  EXPECT_TRUE(write_own_file(page(), "text"));
   EXPECT_FALSE(fs::exists(folder() / "nowhere"));
   fs::remove(page());
   fs::create_directory(page());
-  EXPECT_TRUE(write_own_file(page(), {"text"}));
+  EXPECT_TRUE(write_own_file(page(), "text"));
   EXPECT_TRUE(fs::is_directory(page()));
 }
 
 // The journal's line comes first, so a kill between the two leaves a name that is known and not there.
 TEST_F(OwnFile, MayBeWrittenAfterAKillAtAnyInstant) {
   ASSERT_FALSE(note_own_files(folder(), {{"report.md", sha256("page")}}));
-  ASSERT_FALSE(write_own_file(page(), {"page"}));
+  ASSERT_FALSE(write_own_file(page(), "page"));
   write(folder() / own_files_name, *read_file(folder() / own_files_name) + "{\"file\":\"verdic");
   EXPECT_EQ(state("report.md"), FileState::ours);
-  ASSERT_FALSE(write_own_file(page(), {"page two"}));
+  ASSERT_FALSE(write_own_file(page(), "page two"));
   EXPECT_EQ(state("report.md"), FileState::ours);
 }
 
 TEST_F(OwnFile, OfTheSameContentStays) {
   write(page(), "page");
-  EXPECT_FALSE(write_own_file(page(), {"pa", "ge"})) << "whoever wrote it";
+  EXPECT_FALSE(write_own_file(page(), "page")) << "whoever wrote it";
   EXPECT_FALSE(fs::exists(folder() / own_files_name));
 }
 
 TEST_F(OwnFile, NeedsAJournalOfFilesThatIsOurs) {
   write(folder() / own_files_name, "mine\n");
-  const MaybeError error = write_own_file(page(), {"text"});
+  const MaybeError error = write_own_file(page(), "text");
   ASSERT_TRUE(error);
   EXPECT_EQ(error->kind, Error::Kind::conflict);
   EXPECT_EQ(*read_file(folder() / own_files_name), "mine\n");
@@ -103,13 +103,13 @@ TEST_F(OwnFile, NeedsAJournalOfFilesThatIsOurs) {
   fs::remove(folder() / own_files_name);
   write(folder() / "theirs", "");
   fs::create_symlink(folder() / "theirs", folder() / own_files_name);
-  EXPECT_TRUE(write_own_file(page(), {"text"}));
+  EXPECT_TRUE(write_own_file(page(), "text"));
   EXPECT_EQ(*read_file(folder() / "theirs"), "");
 }
 
 TEST_F(OwnFile, EditedIsKeptUnderAnotherName) {
-  ASSERT_FALSE(write_own_file(page(), {"page"}));
-  ASSERT_FALSE(write_own_file(folder() / "verdicts.csv", {"table"}));
+  ASSERT_FALSE(write_own_file(page(), "page"));
+  ASSERT_FALSE(write_own_file(folder() / "verdicts.csv", "table"));
   write(page(), "page with notes");
   write(folder() / "report.md.edited-1", "older notes");
   const auto moved = set_edited_aside(folder());

@@ -27,7 +27,6 @@ struct DrawnCase {
 
 /// A picture and the name of its file, which follows from what it shows.
 struct CasePicture {
-  std::string what;  ///< the word of its kind
   std::string file;  ///< "field_temperature_10ms.svg"
   std::variant<Plot, CellPlot> plot;
   std::optional<double> time = {};  ///< s, of a field

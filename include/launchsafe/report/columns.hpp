@@ -30,9 +30,7 @@ inline Column scientific_column(std::string name, std::string unit, int decimals
 
 /// A text under a key of its own.
 inline Column named_text(std::string name, std::string key) {
-  Column column = text_column(std::move(name));
-  column.key = std::move(key);
-  return column;
+  return {.name = std::move(name), .unit = {}, .alignment = Alignment::left, .key = std::move(key)};
 }
 
 /// A whole number.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,9 @@ std::string significant(double value, int digits);
 /// others.
 std::string exact(double value);
 
+/// The smallest of 1, 2 and 5 times the powers of ten that is at least so large (> 0): for marks on an axis.
+double round_distance(double least);
+
 /// A duration in seconds for people: "0.3 s", "42 s", "3 min 05 s", "2 h 14 min", "3 d 04 h".
 std::string duration(double seconds);
 
@@ -29,5 +33,43 @@ std::string counted(std::int64_t count, std::string_view noun);
 
 /// Columns that a UTF-8 text takes in a terminal, with one for every code point but combining ones.
 std::size_t display_width(std::string_view text);
+
+// A value with its uncertainty in digits that mean something. Rounding never makes an allowed gap larger or
+// an uncertainty smaller.
+
+/// Digits after the point with which an uncertainty (> 0) is told: one significant digit, two where the first
+/// is 1. At least 0.
+int decimals_for(double uncertainty);
+
+/// `value` cut to so many digits after the point, towards minus infinity; what is a decimal number already
+/// stays. Never above `value` by more than round-off.
+double rounded_down(double value, int decimals);
+/// Likewise towards plus infinity.
+double rounded_up(double value, int decimals);
+
+/// As it is printed.
+struct Measured {
+  double value = 0;            ///< rounded down
+  double minus = 0, plus = 0;  ///< rounded up
+  int decimals = 0;
+  double lower() const { return value - minus; }
+  double upper() const { return value + plus; }
+  /// "0.039 ± 0.010 cm", or "0.039 +0.010 −0.012 cm" where the two differ.
+  std::string text(const std::string& unit) const;
+};
+
+/// A value that may be smaller by `minus` and larger by `plus` (both finite, >= 0, not both 0). An
+/// uncertainty of the value's own order has two digits, or rounding would halve the value.
+Measured measured(double value, double minus, double plus);
+
+/// A critical gap and its uncertainty in cm, of which `model_form` moves towards ignition alone and so lowers
+/// the gap alone; NaN where that share is not known: then all of it counts on both sides. Nothing where there
+/// is no value or no uncertainty.
+std::optional<Measured> measured_gap(double value, double uncertainty, double model_form);
+
+/// `value` rounded down with so many decimals, as text: what is allowed. Never "-0.0".
+std::string allowed_text(double value, int decimals);
+/// `value` rounded up to so many significant digits, as text: what is uncertain. 0 stays 0.
+std::string uncertain_text(double value, int digits = 2);
 
 }  // namespace launchsafe::report

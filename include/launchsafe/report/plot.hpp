@@ -52,12 +52,23 @@ enum class Mark {
 };
 
 struct Series {
-  std::string label;  ///< not in the legend when empty
-  std::vector<double> x, y;
+  std::string label = {};  ///< not in the legend when empty
+  std::vector<double> x = {}, y = {};
   Style style = Style::line_and_points;
   std::vector<double> lower = {}, upper = {};  ///< ends of the bars; only for the two styles of bars
   std::optional<int> colour = {};  ///< index into the palette of eight; the series' own number where absent
   std::optional<Mark> mark = {};   ///< goes with the colour where absent
+
+  void add(double at, double value) {
+    x.push_back(at);
+    y.push_back(value);
+  }
+  /// A point with the ends of its bar.
+  void add(double at, double value, double low, double high) {
+    add(at, value);
+    lower.push_back(low);
+    upper.push_back(high);
+  }
 };
 
 /// A dashed line across the whole picture; `label` is its entry in the legend.

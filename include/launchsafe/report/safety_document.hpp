@@ -64,6 +64,14 @@ struct SafetySection {
   void say(std::string text, Parts parts = {}, Origin origin = {}, Look look = Look::plain) {
     blocks.push_back(SaidParagraph{std::move(text), look, std::move(parts), std::move(origin)});
   }
+  void show(std::string table, Table content, Origin origin = {}) {
+    blocks.push_back(SaidTable{std::move(table), std::move(content), std::move(origin)});
+  }
+  void draw(std::string figure, std::string file, std::variant<Plot, CellPlot, std::string> picture,
+            Parts parts, Origin origin) {
+    blocks.push_back(SaidFigure{std::move(figure), std::move(file), std::move(picture), std::move(parts),
+                                std::move(origin)});
+  }
   void item(std::string text, Parts parts = {}, Origin origin = {}) {
     say(std::move(text), std::move(parts), std::move(origin), Look::item);
   }

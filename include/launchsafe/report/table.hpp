@@ -35,8 +35,8 @@ Column text_column(std::string name);
 using Cell = std::variant<std::monostate, std::string, double, std::int64_t>;
 
 struct Table {
-  std::string title;
-  std::vector<Column> columns;
+  std::string title = {};
+  std::vector<Column> columns = {};
   std::vector<std::vector<Cell>> rows = {};  ///< a row may be short: the rest is empty
   std::vector<std::string> notes = {};       ///< sentences under the table; in text and Markdown only
 };

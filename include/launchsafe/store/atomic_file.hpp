@@ -4,7 +4,6 @@
 #include "launchsafe/store/result.hpp"
 
 #include <filesystem>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,15 +22,17 @@ std::optional<std::string> name_behind(std::string_view temporary);
 /// Removes a regular file with a temporary name; anything else stays. Failures are of no consequence.
 void remove_leftover(const std::filesystem::path& file);
 
-/// Writes the parts one after the other under a temporary name in the folder of `path`, syncs, renames, and
+/// Writes a file under a temporary name in the folder of `path`, syncs, renames, and
 /// syncs the folder. The temporary name is that of `name`, or of the file itself where that is empty. On an
 /// error nothing is left under either name and what was at `path` before is untouched (except when only the
 /// last step, syncing the folder, fails: then the new file is there, whole, but might not survive a power
 /// cut). Errors: write_failed; conflict when `path` exists and `if_exists` is refuse. A process under a
 /// file-size limit must ignore SIGXFSZ to see the error rather than die of the signal.
-MaybeError write_file_atomically(const std::filesystem::path& path,
-                                 std::initializer_list<std::string_view> parts, IfExists if_exists,
-                                 const std::string& name = {});
+MaybeError write_file_atomically(const std::filesystem::path& path, std::string_view content,
+                                 IfExists if_exists, const std::string& name = {});
+
+/// The folder of a file; "." of one that is named without.
+std::filesystem::path folder_of(const std::filesystem::path& file);
 
 /// Renames, never over something that is there: then the error is file_exists.
 std::error_code move_to_free_name(const std::filesystem::path& from, const std::filesystem::path& to);

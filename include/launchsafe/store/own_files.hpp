@@ -10,7 +10,6 @@
 #include "launchsafe/store/result.hpp"
 
 #include <filesystem>
-#include <initializer_list>
 #include <map>
 #include <set>
 #include <string>
@@ -55,7 +54,7 @@ class OwnFiles {
 
 /// Writes a file whole or not at all, as a new one or in the place of one of ours; one of the same content
 /// stays. Errors: conflict (somebody else's, or edited; nothing was changed), write_failed, unreadable.
-MaybeError write_own_file(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
+MaybeError write_own_file(const std::filesystem::path& path, std::string_view content);
 
 /// Why a file of ours with this name could not be written. Changes nothing. Errors: conflict, unreadable.
 MaybeError obstacle_to_own_file(const std::filesystem::path& path);

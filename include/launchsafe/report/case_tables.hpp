@@ -1,0 +1,63 @@
+// What single cases came to, as tables: their runs, how bodies slid, what followed ignition, and the energy
+// of the air.
+#pragma once
+
+#include "launchsafe/report/table.hpp"
+#include "launchsafe/run/case_result.hpp"
+#include "launchsafe/scene/scene.hpp"
+#include "launchsafe/surface/air_energy.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace launchsafe::report {
+
+/// A run with the name of its case.
+struct NamedRun {
+  std::string name;
+  std::string failure;  ///< why it is no basis for results; empty where it is
+  const run::MechanicsResult* mechanics = nullptr;
+  std::string stored;  ///< the file in the folder of results that holds it; empty: none
+};
+
+/// A row for every run: how it ended, energy drift, steps, particles, particle updates per second, limiters.
+Table run_table(const std::vector<NamedRun>& runs);
+
+/// A row for every face of the charge on which a body can slide: friction work, the largest heat by friction
+/// and where, the longest way slid, the widest opening, and how much of the bond holds. Without rows where
+/// all bodies are bonded for good.
+Table interface_table(const run::MechanicsResult& mechanics);
+
+/// What a run that burnt came to.
+struct BurntState {
+  double burnt_mass = 0;        ///< g, at its end
+  double released = 0;          ///< kJ, of the heat of reaction
+  double highest_pressure = 0;  ///< MPa, of the means over the charge's bottom
+};
+BurntState burnt_state_of(const run::CombustionHistory& combustion);
+
+/// A row a gap that burnt in a run with two-way coupling: flame speeds, end state, balance of energy, cost.
+/// No rows where none did.
+Table combustion_table(const run::CaseResult& result);
+
+/// At most `rows` samples of one of them, from ignition to the end.
+Table combustion_history_table(const run::CombustionHistory& combustion, double gap, std::size_t rows);
+
+/// The air of one gap of one case.
+struct AuditedGap {
+  std::string label;  ///< of the case; empty where there is only one
+  double gap = 0;     ///< m
+  surface::AirEnergy air;
+};
+
+/// What the audit says of temperatures and critical gaps, as a short paragraph: at the gap where the skin
+/// took most against its supply, whether that is more than compression can supply, and what follows. Of a
+/// film, which has no skin of one temperature, nothing is compared.
+std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps);
+
+/// A row for every gap: taken by the skin, supplied by compression, their ratio; under it the statement.
+/// Without rows where there is no gap.
+Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps);
+
+}  // namespace launchsafe::report
