@@ -215,7 +215,7 @@ ExitCode perform(const PlotArguments& arguments, Console& console) {
   if (const ExitCode code = write_where_absent(folder, texts, console); code != ExitCode::done) return code;
   for (const auto& [kind, why] : selection->left_out)
     console.remark(fmt::format("no {} of {}: {}", tables ? "table" : "picture", kind->word, why));
-  console.print_text(fmt::format("{}\n", fmt::join(places_of(folder, texts), "\n")));
+  if (!texts.empty()) console.print_text(fmt::format("{}\n", fmt::join(places_of(folder, texts), "\n")));
   console.print_json(written_json(*files, folder, *selection, tables ? "tables" : "pictures"));
   return ExitCode::done;
 }

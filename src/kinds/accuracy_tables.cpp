@@ -23,6 +23,14 @@ std::vector<Field> start_of_row(const AccuracyResult& result, const VariantAccur
   return {{named_text("variant", "variant"), variant.name}};
 }
 
+/// A table whose first columns are there even where no variant has a row.
+Table table_with(const AccuracyResult& result, const std::vector<Column>& first) {
+  Table table;
+  if (result.variants.size() != 1) table.columns.push_back(named_text("variant", "variant"));
+  append(table.columns, first);
+  return table;
+}
+
 /// What one variant says of quantities, a row each, scaled to the unit that people read.
 struct QuantityTable {
   const AccuracyResult& result;
@@ -53,7 +61,7 @@ struct QuantityTable {
 /// A table of quantities, of which `add` adds those of a variant with a reference.
 Table quantity_table(const AccuracyResult& result,
                      void (*add)(QuantityTable& to, const AccuracyReference& reference)) {
-  Table table;
+  Table table = table_with(result, {named_text("quantity", "quantity"), named_text("unit", "unit")});
   for (const VariantAccuracy& variant : result.variants) {
     QuantityTable to{result, variant, table};
     if (variant.reference) add(to, *variant.reference);
@@ -117,18 +125,17 @@ void add_setting(const VariantAccuracy& variant, const AccuracyRow& row, std::ve
                   {named_text("remark", "remark"), remark_of(row)}});
 }
 
-/// How wrong the own setting of a variant is.
+/// How wrong the own setting of a variant is: nothing but its name where that setting did not run soundly.
 std::vector<Field> variant_fields(const VariantAccuracy& variant) {
-  const AccuracyRow* own = variant.baseline();
-  const Column name = named_text("variant", "variant");
-  const std::string reason = variant.reference ? "its own setting did not run soundly" : variant.no_reference;
-  if (own == nullptr) return {{name, variant.name + ": " + reason}};
+  static const AccuracyRow none;
+  const AccuracyRow* found = variant.baseline();
+  const AccuracyRow* own = found ? found : &none;
   const RecordedSetting* half = cheapest_within(variant.record, 0.5 * own->setting.temperature_bound);
   const AccuracyRow* worst = own;
   for (const AccuracyRow& row : variant.rows)
     if (!row.other_model && row.largest_temperature_error > worst->largest_temperature_error) worst = &row;
-  return {
-      {name, variant.name},
+  std::vector<Field> fields{
+      {named_text("variant", "variant"), variant.name},
       {number_column("T bound", "K", 2, "temperature_bound_K"), own->setting.temperature_bound},
       {number_column("T distance", "K", 2, "temperature_distance_K"), own->largest_temperature_error},
       {quantity::critical_gap(), 100.0 * own->setting.critical_gap},
@@ -142,6 +149,13 @@ std::vector<Field> variant_fields(const VariantAccuracy& variant) {
        half ? half->processor_time : not_a_number},
       {named_text("most distant setting", "most_distant_setting"), worst->setting.label},
       {number_column("its distance", "K", 2, "most_distant_K"), worst->largest_temperature_error}};
+  if (found == nullptr) {
+    const std::string reason =
+        variant.reference ? "its own setting did not run soundly" : variant.no_reference;
+    fields.front().cell = variant.name + ": " + reason;
+    for (std::size_t i = 1; i < fields.size(); ++i) fields[i].cell = {};
+  }
+  return fields;
 }
 
 }  // namespace
@@ -173,7 +187,7 @@ Table point_table(const AccuracyResult& result) {
 }
 
 Table setting_table(const AccuracyResult& result) {
-  Table table;
+  Table table = table_with(result, {named_text("setting", "setting")});
   table.title = "Error against run time";
   for (const VariantAccuracy& variant : result.variants) {
     if (!variant.reference) continue;

@@ -93,8 +93,8 @@ Plot time_plot(const DrawnCase& drawn, std::string title, std::string quantity) 
 
 Series time_series(const char* label, const std::vector<double>& time, const std::vector<double>& values,
                    double factor) {
-  Series series{.label = label, .style = Style::line};
-  for (std::size_t i = 0; i < values.size(); ++i) series.add(1e3 * time[i], factor * values[i]);
+  Series series{.label = label, .x = milliseconds_of(time), .y = values, .style = Style::line};
+  for (double& value : series.y) value *= factor;
   return series;
 }
 

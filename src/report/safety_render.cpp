@@ -169,6 +169,7 @@ struct Renderer {
             {"caption", worded.caption},
             {"alternative", worded.alternative},
             {"origin", text_of(said.origin)},
+            {"drawn", !worded.svg.empty()},
             {"missing", worded.svg.empty() ? words("no_figure") : ""},
             {"source", "data:image/svg+xml;base64," + base64(worded.svg)}};
   }
