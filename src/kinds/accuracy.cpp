@@ -180,7 +180,13 @@ void fill_settings(const std::vector<bool>& inert, std::vector<AccuracyRow>& row
   }
 }
 
-/// Of the sound settings of the same model; none besides the meshes that has temperatures which nothing has.
+/// Whether its temperatures are such as explosives have.
+bool is_usual(const RecordedSetting& setting) {
+  return std::ranges::all_of(setting.temperature,
+                             [](double kelvin) { return kelvin <= highest_recorded_temperature; });
+}
+
+/// Of the sound settings of the same model; none that has temperatures which nothing has.
 AccuracyRecord record_of(const VariantAccuracy& variant) {
   const scene::Scene& scene = variant.study.scene.scene;
   AccuracyRecord record;
@@ -191,14 +197,11 @@ AccuracyRecord record_of(const VariantAccuracy& variant) {
   record.launch = launch_of(scene, variant.study.study.gaps);
   for (const AccuracyRow& row : variant.rows) {
     const RecordedSetting& setting = row.setting;
-    const bool usual = std::ranges::all_of(
-        setting.temperature, [](double kelvin) { return kelvin <= highest_recorded_temperature; });
     // 0.25 cm is not always 2.5 mm to the last digit.
     const bool known = std::ranges::any_of(record.settings, [&](const RecordedSetting& each) {
       return same_setting(each.setting, setting.setting);
     });
-    if (row.sound() && !row.other_model && (usual || setting.reference) && !known)
-      record.settings.push_back(setting);
+    if (row.sound() && !row.other_model && is_usual(setting) && !known) record.settings.push_back(setting);
   }
   find_bounds(record);
   return record;
@@ -217,6 +220,12 @@ void compare(VariantAccuracy& variant) {
   tell_apart(variant, meshes);
   const std::vector<bool> inert = inert_gaps(variant);
   fill_settings(inert, variant.rows);
+  for (const AccuracyRow& mesh : finest_first) {
+    if (is_usual(mesh.setting)) continue;
+    variant.no_reference = fmt::format("the reference mesh {} has no temperature, or one above {:.0f} K",
+                                       mesh.setting.label, highest_recorded_temperature);
+    return;
+  }
   variant.record = record_of(variant);
   const RecordedReference recorded = study::reference_of(variant.record);
   variant.reference = reference_of(finest_first, recorded, inert);

@@ -136,7 +136,7 @@ Finding judge_launch(const StressCaseRow& row, const StressRun& run, bool compar
     const double deviation = row.deviations.empty() ? not_a_number : row.deviations[i];
     const double uncertainty = gap.uncertainty.total();
     const bool off = checked && std::abs(deviation) > uncertainty;
-    if (checked && std::isnan(row.heated_against[i]))
+    if (checked && std::isnan(deviation))
       faults.emplace_back("a temperature to compare with is not a number");
     if (off)
       faults.push_back(fmt::format("off the safe computation by {:.3g} K, more than {:.3g} K",

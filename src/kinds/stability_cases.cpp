@@ -102,12 +102,18 @@ Expected<Changed> with_keys(const SceneFile& start, const std::vector<OverrideTa
   return Changed{scene.take(), std::nullopt};
 }
 
-/// The scene that a case starts from: the study's, or its own, which has none of the study's overrides yet.
+/// The scene that a case starts from: the study's, or its own under the study's overrides, whose refusal is a
+/// fault of the study, never the refusal that a case expects.
 Expected<SceneFile> starting_scene(const CaseReader& reader) {
   if (reader.launch.scene.empty()) return reader.study.scene;
   const toml::node* at = reader.table.get("scene");
-  return read_named_scene(reader.launch.scene, reader.source.folder, "group.cases.scene",
-                          scene::place_of(at ? *at : reader.table, reader.study.file));
+  auto own = read_named_scene(reader.launch.scene, reader.source.folder, "group.cases.scene",
+                              scene::place_of(at ? *at : reader.table, reader.study.file));
+  if (!own) return own;
+  auto changed = with_keys(*own, {{"set", reader.source.root.get("set")}}, reader.study.file);
+  if (!changed) return changed.error();
+  if (changed->refusal) return *changed->refusal;
+  return std::move(changed->scene);
 }
 
 /// A mechanical run of a case. Its scene is checked for all that judging needs.
@@ -178,12 +184,8 @@ Fault read_case(CaseReader reader) {
     return reader.fault("invariants", "none, so that nothing could be WRONG", "at least one; all if absent");
   const auto start = starting_scene(reader);
   if (!start) return start.error();
-  const toml::node* of_study = launch.scene.empty() ? nullptr : reader.source.root.get("set");
-  const auto changed = with_keys(*start,
-                                 {{"set", of_study},
-                                  {"group.set", reader.group.get("set")},
-                                  {"group.cases.set", reader.table.get("set")}},
-                                 file);
+  const auto changed = with_keys(
+      *start, {{"group.set", reader.group.get("set")}, {"group.cases.set", reader.table.get("set")}}, file);
   if (!changed) return changed.error();
   const bool runs = launch.refused.empty();
   if (runs && changed->refusal) return changed->refusal;

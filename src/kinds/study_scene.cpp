@@ -9,9 +9,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace launchsafe::kinds {
 
@@ -42,7 +44,10 @@ Fault apply_overrides(const OverrideTable& overrides, StudyFile& study) {
                            fmt::format("a table, written [{}], of scene keys", overrides.name));
   }
   ChangedScene scene(study.scene);
-  for (const Leaf& leaf : leaves_as_written(*overrides.node->as_table()))
+  // By the alphabet: of two keys of which one takes the other back, the same wins however they are written.
+  std::vector<Leaf> leaves = leaves_as_written(*overrides.node->as_table());
+  std::ranges::sort(leaves, {}, &Leaf::name);
+  for (const Leaf& leaf : leaves)
     if (Fault fault = apply_override(leaf, overrides.name, study, scene)) return fault;
   if (!scene.complete()) return scene.error();
   study.scene = scene.take();

@@ -157,6 +157,8 @@ ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries,
   for (const ModelFormEntry& each : entries) {
     if (const std::string reason = why_another(each); !reason.empty())
       return refused(fmt::format("{}: {}", each.name, reason));
+    if (each.critical_gap.size() != record.peak_pressures.size())
+      return refused(fmt::format("{}: other peak pressures than {}", each.name, own.name));
     if (&each == &own) continue;
     if (const std::string reason = why_no_alternative(own, each); !reason.empty())
       return refused(fmt::format("{}: {}", each.name, reason));

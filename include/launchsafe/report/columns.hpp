@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -74,18 +75,21 @@ struct Field {
   Cell cell;
 };
 
-/// Adds a row. A field stands under the column of its key, which is added where there is none yet.
+/// Adds a row. A field stands under the first column of its key that the row has not filled yet, which is
+/// added where there is none.
 inline void add_row(Table& table, std::vector<Field> fields) {
-  std::vector<Cell>& cells = table.rows.emplace_back(table.columns.size());
+  std::vector<std::optional<Cell>> cells(table.columns.size());
   for (Field& field : fields) {
-    const auto same = std::ranges::find(table.columns, field.column.key, &Column::key);
-    const auto place = static_cast<std::size_t>(same - table.columns.begin());
-    if (same == table.columns.end()) {
+    std::size_t place = 0;
+    while (place < cells.size() && (cells[place] || table.columns[place].key != field.column.key)) ++place;
+    if (place == cells.size()) {
       table.columns.push_back(std::move(field.column));
       cells.emplace_back();
     }
     cells[place] = std::move(field.cell);
   }
+  std::vector<Cell>& row = table.rows.emplace_back();
+  for (std::optional<Cell>& cell : cells) row.push_back(cell ? std::move(*cell) : Cell());
 }
 
 }  // namespace launchsafe::report
