@@ -83,6 +83,16 @@ TEST(ReadStability, WhatTheReaderRefusesIsACaseWithoutARun) {
   expect_error_in(stability_start + refused, {4, "group", "no case that runs", "[[group]]"});
 }
 
+// The study's scene has a sliding wall, the case's a bonded one.
+TEST(ReadStability, ARefusalOfTheStudysOverridesIsNotTheOneThatACaseExpects) {
+  expect_error_in(
+      "kind = \"stability\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = \"4 K\"\n"
+      "[[group]]\nname = \"load\"\nrefused = \"bonded\"\n" +
+          cases("scene = \"stability/small_shell.toml\", set = { load.peak = \"1 GPa\" }") +
+          "[set]\ninterface.wall.friction = 0.1\n",
+      {9, "set.interface.wall.friction", "0.1 on faces that are bonded for good"});
+}
+
 TEST(ReadStability, FaultsNameTheTableTheKeyAndTheLine) {
   const auto expect = [](const std::string& keys, const ExpectedError& error) {
     expect_error_in(stability_start + cases(keys), error);

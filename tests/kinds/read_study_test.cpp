@@ -91,6 +91,16 @@ TEST(ReadStudy, OverridesSceneKeys) {
   EXPECT_EQ(study.overrides.size(), 2u);
 }
 
+// Either of these keys takes the other back, so that their order would decide.
+TEST(ReadStudy, OverridesDoNotDependOnTheOrderInWhichTheyAreWritten) {
+  const std::string friction = "charge.face_friction = 0\n", switched = "charge.crack_friction = true\n";
+  for (const std::string& both : {friction + switched, switched + friction})
+    EXPECT_EQ(
+        study_of(critical_kind + "[set]\n" + both).cases.at(0).scene.scene.charge().strength.face_friction,
+        0.0)
+        << both;
+}
+
 TEST(ReadStudy, FaultsNameFileLineKeyFoundAndAllowed) {
   expect_error("gaps = \"0, 0.01, 0.01 cm\"", "gaps", "twice", "once");
   expect_error("gaps = []", "gaps", "empty");
