@@ -1,8 +1,8 @@
 // The step: balance of uniform stress, momentum, frames.
 #include "launchsafe/mpm/simulation.hpp"
 
-#include "launchsafe/materials/mie_gruneisen.hpp"
 #include "exact_solutions.hpp"
+#include "launchsafe/materials/mie_gruneisen.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>

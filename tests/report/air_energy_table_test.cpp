@@ -1,10 +1,9 @@
 // The energy of the air and the cited limits, in tables and in words.
-#include "launchsafe/report/case_tables.hpp"
-
 #include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/sweep.hpp"
+#include "launchsafe/report/case_tables.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <gtest/gtest.h>
