@@ -17,20 +17,21 @@ using namespace launchsafe::materials;
 using launchsafe::math::Deviator;
 namespace math = launchsafe::math;
 
-/// dS/dt = M S + b e for the five elements at a fixed crack radius, from (I + (q/G) g 1^T) S' = 2 g e -
-/// S/tau, in GPa.
+/// dS/dt = M S + b e for the first elements, as many as are asked for, at a fixed crack radius, from (I +
+/// (q/G) g 1^T) S' = 2 g e - S/tau, in GPa.
 struct FrozenSystem {
-  Eigen::MatrixXd matrix{5, 5};
-  Eigen::VectorXd loading{5};
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd loading;
 
-  FrozenSystem(const ViscoScramParameters& m, double q) {
-    Eigen::MatrixXd left = Eigen::MatrixXd::Identity(5, 5), rates = Eigen::MatrixXd::Zero(5, 5);
-    Eigen::VectorXd moduli(5);
-    for (int n = 0; n < 5; ++n) {
+  FrozenSystem(const ViscoScramParameters& m, double q, int elements = 5) {
+    Eigen::MatrixXd left = Eigen::MatrixXd::Identity(elements, elements),
+                    rates = Eigen::MatrixXd::Zero(elements, elements);
+    Eigen::VectorXd moduli(elements);
+    for (int n = 0; n < elements; ++n) {
       moduli(n) = m.shear_moduli[static_cast<std::size_t>(n)] / 1e9;
       rates(n, n) = m.relaxation_rates[static_cast<std::size_t>(n)];
     }
-    left += q / moduli.sum() * moduli * Eigen::RowVectorXd::Ones(5);
+    left += q / moduli.sum() * moduli * Eigen::RowVectorXd::Ones(elements);
     matrix = -left.inverse() * rates;
     loading = left.inverse() * (2.0 * moduli);
   }
@@ -204,15 +205,9 @@ TEST(ViscoScramFrozenCrack, ShortRelaxationTakesFewSubSteps) {
     EXPECT_GE(lost.viscous, 0.0);
     // The other four with the same crack strain q S/(2 G): q' = q (G - G_5)/G of their own modulus.
     const double reduced = q * without.shear_modulus() / m.shear_modulus();
-    Eigen::MatrixXd left = Eigen::MatrixXd::Identity(4, 4), rates = Eigen::MatrixXd::Zero(4, 4);
-    Eigen::VectorXd moduli(4);
-    for (int n = 0; n < 4; ++n) {
-      moduli(n) = without.shear_moduli[static_cast<std::size_t>(n)] / 1e9;
-      rates(n, n) = without.relaxation_rates[static_cast<std::size_t>(n)];
-    }
-    left += reduced / moduli.sum() * moduli * Eigen::RowVectorXd::Ones(4);
-    const Eigen::MatrixXd propagator = (-left.inverse() * rates * dt).exp();
-    const double exact = 1e9 * (propagator * (left.inverse() * (2.0 * strain * moduli))).sum();
+    const FrozenSystem four(without, reduced, 4);
+    const Eigen::MatrixXd propagator = (four.matrix * dt).exp();
+    const double exact = 1e9 * (propagator * four.loading * strain).sum();
     EXPECT_NEAR(total_deviator(state).rx / exact, 1.0, 1e-3) << q;
   }
 }
