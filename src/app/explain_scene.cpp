@@ -165,9 +165,13 @@ std::string scene_text(const scene::Scene& scene, double update_rate) {
   return text;
 }
 
-nlohmann::ordered_json load_json(const scene::Load& load) {
+nlohmann::ordered_json load_json(const scene::Scene& scene) {
+  const scene::Load& load = scene.load;
   const scene::PressureHistory history(load);
+  const scene::RigidMotion end = scene::rigid_motion(scene, load.duration);
   return {{"peak_pa", history.peak()},
+          {"velocity_at_the_end_m_per_s", end.velocity},
+          {"travel_at_the_end_m", end.travel},
           {"stated_peak_pa", history.stated_peak()},
           {"smoothing_s", load.smoothing},
           {"peak_lost_to_smoothing", scene::peak_lost_to_smoothing(load)},
@@ -189,7 +193,7 @@ nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate)
   const scene::Plan plan = scene::make_plan(scene);
   const auto refusal = run::out_of_reach(scene, reach_here());
   return {{"title", scene.title},
-          {"load", load_json(scene.load)},
+          {"load", load_json(scene)},
           {"interfaces", interfaces_json(scene)},
           {"physics", physics_json(plan)},
           {"particles", particles_json(plan)},

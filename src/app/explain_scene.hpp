@@ -13,7 +13,7 @@ std::string scene_text(const scene::Scene& scene, double update_rate);
 nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate);
 
 /// Peaks, smoothing and roughness of a load, in SI.
-nlohmann::ordered_json load_json(const scene::Load& load);
+nlohmann::ordered_json load_json(const scene::Scene& scene);
 
 /// Key, value, plausible range and acceptance (or null) of every value that is not plausible.
 nlohmann::ordered_json plausibility_json(const scene::Scene& scene);

@@ -122,6 +122,7 @@ std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mec
                              : fmt::format("{}: {}", run::to_string(mechanics.status), mechanics.reason));
   if (const std::string measured = scene::measured_load_text(scene.load); !measured.empty())
     text += line("load", measured);
+  text += line("velocity at the end", scene::rigid_motion_text(scene));
   text += line("simulated", scene::time_text(mechanics.end_time));
   std::string masses;
   for (const run::MaterialMass& each : mechanics.masses)
@@ -229,9 +230,9 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result) 
 /// The same for programs, in SI units but for the gaps (see the keys).
 nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResult& result) {
   const run::MechanicsResult& mechanics = result.mechanics;
-  nlohmann::ordered_json object{{"title", scene.title},          {"status", run::to_string(mechanics.status)},
-                                {"reason", mechanics.reason},    {"end_time_ms", 1e3 * mechanics.end_time},
-                                {"load", load_json(scene.load)}, {"gaps", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json object{{"title", scene.title},       {"status", run::to_string(mechanics.status)},
+                                {"reason", mechanics.reason}, {"end_time_ms", 1e3 * mechanics.end_time},
+                                {"load", load_json(scene)},   {"gaps", nlohmann::ordered_json::array()}};
   for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
   object["combustion"] = report::to_json(report::combustion_table(result))["rows"];
   object["air_energy"] = report::to_json(air_table(scene, result))["rows"];

@@ -186,6 +186,7 @@ void say_launch(const Subject& subject, SafetySection& section) {
               {"cases", subject.study.rows("cases").size()},
               {"peak", significant(1e-6 * scene::PressureHistory(scene.load).stated_peak(), 4) + " MPa"},
               {"duration", significant(1e3 * scene.load.duration, 3) + " ms"},
+              {"launch", scene::rigid_motion_text(scene)},
               {"crack", significant(1e6 * scene.charge().strength.initial_crack_radius, 4) + " µm"},
               {"flaw", significant(1e3 * scene.charge().strength.flaw_size, 3) + " mm"},
               {"temperature", kelvin},

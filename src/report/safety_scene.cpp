@@ -52,6 +52,7 @@ void say_load(const Subject& subject, SafetySection& section) {
   section.draw("load", "load.svg", std::move(plot),
                {{"peak", significant(1e-6 * chamber.stated_peak(), 4) + " MPa"},
                 {"duration", significant(1e3 * load.duration, 4) + " ms"},
+                {"launch", scene::rigid_motion_text(subject.scene())},
                 {"measured", measured_curve},
                 {"points", load.curve_time.size()},
                 {"file", load.curve_file},

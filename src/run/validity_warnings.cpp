@@ -310,24 +310,10 @@ void check_steel(const Scene& scene, const MechanicsResult& mechanics, Warnings&
   }
 }
 
-/// Distance (m) that the load drives the whole projectile as one rigid body.
-double flight_of(const Scene& scene, double duration) {
-  constexpr int parts = 2000;
-  const scene::PressureHistory load(scene.load);
-  const double dt = duration / parts;
-  double speed = 0, distance = 0;
-  for (int part = 0; part < parts; ++part) {
-    const double gained = dt * scene::rigid_acceleration(scene, load.at((part + 0.5) * dt));
-    distance += dt * (speed + 0.5 * gained);
-    speed += gained;
-  }
-  return distance;
-}
-
 void check_flight(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
   if (scene.frame != scene::Frame::lab) return;
   if (scene.numerics.formulation != scene::Formulation::updated_lagrangian) return;
-  const double cells = flight_of(scene, mechanics.end_time) / scene.numerics.cell_size;
+  const double cells = scene::rigid_motion(scene, mechanics.end_time).travel / scene.numerics.cell_size;
   if (!(cells > most_cells_flown)) return;
   warnings.add(
       "the projectile flew through {:.3g} cells of a grid at rest: beyond some {:g}, false friction "

@@ -41,15 +41,9 @@ Number rescaling(const Scene& scene) {
   return scene.load.peak / measured_peak(scene.load);
 }
 
-/// As one rigid body, m/s.
-Number launch_speed(const Scene& scene) {
-  constexpr int parts = 1000;
-  const PressureHistory load(scene.load);
-  const double dt = scene.load.duration / parts;
-  double impulse = 0.0;
-  for (int part = 0; part < parts; ++part) impulse += load.at((part + 0.5) * dt) * dt;
-  return rigid_acceleration(scene, impulse);
-}
+/// As one rigid body at the end of the load, m/s and m.
+Number launch_speed(const Scene& scene) { return rigid_motion(scene, scene.load.duration).velocity; }
+Number launch_travel(const Scene& scene) { return rigid_motion(scene, scene.load.duration).travel; }
 
 /// Of an isotropic solid.
 double poisson_ratio(double bulk, double shear) {
@@ -146,6 +140,9 @@ const std::vector<DerivedQuantity>& derived_quantities() {
       quantity("load.launch_speed", Dimension::speed,
                "Speed at the end of the load, of the projectile as one rigid body.", between(50, 2.5e3),
                "mortars launch with 70 m/s, tank guns with 1.8 km/s", launch_speed),
+      quantity("load.travel", Dimension::length,
+               "Travel until the end of the load, of the projectile as one rigid body.", between(0.5, 15),
+               "mortars have a tube of a metre, guns one of 2 to 11 m", launch_travel),
       quantity("steel.poisson_ratio", Dimension::number,
                "Poisson's ratio, from density, c0 and shear modulus.", between(0.24, 0.35),
                "steels have 0.27 to 0.30", poisson_ratio_of_steel),

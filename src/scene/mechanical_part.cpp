@@ -9,14 +9,20 @@
 namespace launchsafe::scene {
 namespace {
 
-/// Numbers of the load that a measured curve takes the place of.
+/// Without the numbers of the load that its shape does not have, or that a measured curve takes the place of.
 Load without_unused(Load load) {
   load.curve_file.clear();
-  if (load.curve_time.empty()) return load;
   const Load usual;
+  const bool measured = !load.curve_time.empty(), bell = load.shape == LoadShape::bell;
+  if (measured || bell) load.exponent = usual.exponent;
+  if (measured || !bell) {
+    load.width = usual.width;
+    load.steepness = usual.steepness;
+  }
+  if (!measured) return load;
+  load.shape = usual.shape;
   load.base = usual.base;
   load.peak_time = usual.peak_time;
-  load.exponent = usual.exponent;
   if (!load.rescale_to_peak) load.peak = usual.peak;
   return load;
 }

@@ -39,11 +39,12 @@ std::string load_text(const Scene& scene) {
   const double peak = PressureHistory(scene.load).peak();
   std::string text = "Load\n";
   text += row("shape", scene.load.curve_time.empty()
-                           ? std::string("analytic")
+                           ? word_of(scene.load.shape)
                            : fmt::format("measured, {} points{}", scene.load.curve_time.size(),
                                          scene.load.rescale_to_peak ? ", rescaled" : ""));
   text += row("duration", time_text(scene.load.duration));
   text += row("peak", pressure_text(peak));
+  text += row("velocity at the end", rigid_motion_text(scene));
   if (const std::string measured = measured_load_text(scene.load); !measured.empty())
     text += row("measurement", measured);
   text += row("rigid acceleration", fmt::format("{:.6g} m/s2", rigid_acceleration(scene, peak)));

@@ -112,6 +112,15 @@ std::pair<double, double> largest_at(const std::vector<double>& marks,
   return -below.second > values[best] ? std::pair{below.first, -below.second} : at_mark;
 }
 
+/// Of the analytic shapes: the pressure over the base as a share of that at the peak.
+double share_of_peak(const Load& load, double time) {
+  if (load.shape == LoadShape::bell)
+    return std::exp(-std::pow(std::abs((time - load.peak_time) / load.width), load.steepness));
+  if (time <= 0.0) return 0.0;
+  const double ratio = time / load.peak_time;
+  return std::exp(load.exponent * (std::log(ratio) + 1.0 - ratio));
+}
+
 }  // namespace
 
 PressureHistory::PressureHistory(const Load& load) : load_(load) {
@@ -126,12 +135,7 @@ PressureHistory::PressureHistory(const Load& load) : load_(load) {
 }
 
 double PressureHistory::at(double time) const {
-  if (load_.curve_time.empty()) {
-    if (time <= 0.0) return load_.base;
-    const double ratio = time / load_.peak_time;
-    return load_.base +
-           (load_.peak - load_.base) * std::exp(load_.exponent * (std::log(ratio) + 1.0 - ratio));
-  }
+  if (load_.curve_time.empty()) return load_.base + (load_.peak - load_.base) * share_of_peak(load_, time);
   if (!curve_) return scale_ * load_.curve_pressure.front();
   const double first = load_.curve_time.front(), last = load_.curve_time.back();
   // An interpolant's round-off at its ends is that of the average; without one the points are met exactly.

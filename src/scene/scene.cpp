@@ -1,5 +1,7 @@
 #include "launchsafe/scene/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -163,5 +165,25 @@ double base_area(const Scene& scene) {
 double rigid_acceleration(const Scene& scene, double pressure) {
   return pressure * base_area(scene) / total_mass(scene);
 }
+
+RigidMotion rigid_motion(const Scene& scene, double time) {
+  constexpr int parts = 2000;
+  const PressureHistory load(scene.load);
+  const double acceleration_of_unit_pressure = rigid_acceleration(scene, 1.0), dt = time / parts;
+  RigidMotion motion;
+  for (int part = 0; part < parts; ++part) {
+    const double gained = dt * acceleration_of_unit_pressure * load.at((part + 0.5) * dt);
+    motion.travel += dt * (motion.velocity + 0.5 * gained);
+    motion.velocity += gained;
+  }
+  return motion;
+}
+
+std::string rigid_motion_text(const Scene& scene) {
+  const RigidMotion end = rigid_motion(scene, scene.load.duration);
+  return fmt::format("{:.4g} m/s after {:.3g} m of travel", end.velocity, end.travel);
+}
+
+std::string word_of(LoadShape shape) { return shape == LoadShape::bell ? "bell" : "power-exponential"; }
 
 }  // namespace launchsafe::scene

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+#include <string>
 #include <utility>
 
 namespace launchsafe::scene {
@@ -107,6 +109,8 @@ std::vector<Key<Combustion>> combustion_keys() {
   };
 }
 
+bool is_bell(const Load& load) { return load.shape == LoadShape::bell; }
+
 std::vector<Key<Load>> load_keys() {
   return {
       plausibly(number_key("duration", Dimension::time, above_to(0, 1), Standing::paper,
@@ -121,9 +125,30 @@ std::vector<Key<Load>> load_keys() {
       plausibly(number_key("peak_time", Dimension::time, above_to(0, 1), Standing::assumed,
                            "Time of the largest chamber pressure.", &Load::peak_time),
                 between(0.2e-3, 0.05), "propellant burns for some milliseconds"),
-      plausibly(number_key("exponent", Dimension::number, above_to(0, 1000), Standing::assumed,
-                           "Steepness n of base + (peak - base) ((t/peak_time) exp(1 - t/peak_time))^n.",
-                           &Load::exponent),
+      always_plausible(
+          written_where(
+              overriding(word_key("shape", Standing::assumed,
+                                  "base + (peak - base) exp(-|(t - peak_time)/width|^steepness), or "
+                                  "base + (peak - base) ((t/peak_time) exp(1 - t/peak_time))^exponent.",
+                                  {{word_of(LoadShape::bell), LoadShape::bell},
+                                   {word_of(LoadShape::power_exponential), LoadShape::power_exponential}},
+                                  &Load::shape),
+                         {"width", "steepness", "exponent"}),
+              is_bell),
+          "whether a launch is covered is judged by its pressures"),
+      plausibly(written_where(number_key("width", Dimension::time, above_to(0, 1), Standing::assumed,
+                                         "Time from the peak of a bell to where e times less is left of it.",
+                                         &Load::width),
+                              is_bell),
+                between(0.2e-3, 0.02), "propellant burns for some milliseconds"),
+      plausibly(written_where(
+                    number_key("steepness", Dimension::number, above_to(0, 100), Standing::assumed,
+                               "How abruptly a bell rises and falls: 2 is that of Gauss.", &Load::steepness),
+                    is_bell),
+                between(1.1, 6), "gentler pulses have a cusp at their peak, steeper ones are boxes"),
+      plausibly(written_where(number_key("exponent", Dimension::number, above_to(0, 1000), Standing::assumed,
+                                         "How steeply a power-exponential rises and falls.", &Load::exponent),
+                              [](const Load& load) { return !is_bell(load); }),
                 between(1, 50), "gentler or steeper pulses than these no propellant makes"),
       // The points of a measured curve are written back; the file they came from need not exist any more.
       always_plausible(
@@ -140,7 +165,7 @@ std::vector<Key<Load>> load_keys() {
                                 between(-largest_curve_time, largest_curve_time), Standing::assumed,
                                 "Times of a measured curve written in the scene itself, increasing.",
                                 &Load::curve_time)),
-          "the launch that it makes is judged by load.launch_speed"),
+          "the launch that it makes is judged by load.launch_speed and load.travel"),
       always_plausible(
           may_be_empty(
               list_key("curve_pressure", Dimension::pressure, between(0, largest_load), Standing::assumed,
@@ -313,6 +338,12 @@ const std::vector<std::string>& event_words() {
   static const std::vector<std::string> words{"first-crack-growth", "first-yield", "peak-pressure",
                                               "largest-slip",       "ignition",    "burnt"};
   return words;
+}
+
+bool is_of_analytic_shape(const std::string& key) {
+  static const std::set<std::string> keys{"load.base",  "load.peak_time", "load.shape",
+                                          "load.width", "load.steepness", "load.exponent"};
+  return keys.contains(key);
 }
 
 const std::vector<Key<Scene>>& scene_keys() {

@@ -176,6 +176,20 @@ Fault check_curve_use(const SceneFile& file) {
   return std::nullopt;
 }
 
+/// Numbers of the other analytic shape would silently do nothing.
+Fault check_shape(const SceneFile& file) {
+  const bool bell = file.scene.load.shape == LoadShape::bell;
+  const std::vector<std::string> of_bell{"load.width", "load.steepness"}, of_power{"load.exponent"};
+  for (const std::string& key : bell ? of_power : of_bell) {
+    if (file.given.contains(key))
+      return fault_at(
+          file, key,
+          fmt::format("a number that the shape \"{}\" does not have", word_of(file.scene.load.shape)),
+          fmt::format("{}, or another load.shape", fmt::join(bell ? of_bell : of_power, " and ")));
+  }
+  return std::nullopt;
+}
+
 /// A curve of next to nothing has no shape that could be scaled.
 Fault check_rescaling(const SceneFile& file) {
   constexpr double least_peak = 1.0;  // Pa
@@ -220,6 +234,7 @@ Fault check_load(const SceneFile& file) {
                     fmt::format("{} followed by {}", time_text(*late), time_text(*std::next(late))),
                     "times in increasing order, more than " + time_text(least_curve_interval) + " apart");
   }
+  if (Fault fault = check_shape(file)) return fault;
   if (Fault fault = check_curve_use(file)) return fault;
   if (Fault fault = check_rescaling(file)) return fault;
   if (times.empty() && load.rescale_to_peak) {

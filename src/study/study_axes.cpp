@@ -67,9 +67,7 @@ Fault check_load_axis(const StudyFile& study, const std::string& key, const std:
     return fault_at(study, key, "peak pressures for a measured curve that is not rescaled",
                     "peak pressures with load.rescale_to_peak = true in the scene");
   }
-  constexpr std::array<std::string_view, 3> of_the_shape{"load.base", "load.peak_time", "load.exponent"};
-  if (std::find(of_the_shape.begin(), of_the_shape.end(), scene_key) == of_the_shape.end())
-    return std::nullopt;
+  if (!scene::is_of_analytic_shape(scene_key)) return std::nullopt;
   return fault_at(study, key, scene_key + ", which a measured curve does not have",
                   "a scene without a measured curve, or a key that has an effect");
 }

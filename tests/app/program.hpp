@@ -66,6 +66,9 @@ because = "a launch that takes milliseconds to compute"
 key = "load.launch_speed"
 because = "a launch that takes milliseconds to compute"
 [[accept]]
+key = "load.travel"
+because = "a launch that takes milliseconds to compute"
+[[accept]]
 key = "numerics.energy_drift_limit"
 because = "the base is loaded by a shock, on a coarse mesh"
 )";

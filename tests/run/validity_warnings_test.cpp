@@ -158,6 +158,13 @@ TEST(ValidityWarnings, ALaunchThatIsNotSimulatedAsItIsStated) {
   expect_said([](auto& load) { load.duration = 9e-3; }, "not covered", "cut off while it rises");
   expect_said([](auto& load) { load.duration = load.peak_time; }, "cut off", "cut off at its peak");
   expect_said([](auto& load) { load.peak_time = 0.5; }, "not covered", "the peak long after the end");
+  expect_said([](auto& load) { load.shape = scene::LoadShape::bell; }, "", "a bell that begins with 0.1 %");
+  expect_said(
+      [](auto& load) {
+        load.shape = scene::LoadShape::bell;
+        load.width = 4.6e-3;
+      },
+      "begins with", "a bell that begins with 1.2 %");
   const std::vector<Measured> launches{
       {"measured, covered", {0, 5, 9, 11, 13, 18}, {0.1, 20, 400, 496, 400, 80}, ""},
       {"measured, with quiet after it",

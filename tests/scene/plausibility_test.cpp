@@ -137,9 +137,10 @@ TEST(Plausibility, JudgesWhatSeveralKeysMakeTogether) {
       {{"gap.gas_law"}, {{"gap.air_density", "0.7 kg/m3"}}},
       {{"gap.gas_law"}, {{"initial_temperature", "230 K"}}},
       {{"gap.heat_law"}, {{"gap.air_heat_ratio", "1.3"}}},
-      {{"load.launch_speed"}, {{"load.peak", "12 MPa"}}},
-      {{"load.launch_speed"}, {{"load.peak_time", "0.2 ms"}}},
-      {{"load.simulated_peak", "load.launch_speed"}, {{"load.peak_time", "49 ms"}}},
+      {{"load.launch_speed", "load.travel"}, {{"load.peak", "12 MPa"}}},
+      {{"load.launch_speed", "load.travel"}, {{"load.peak_time", "0.2 ms"}}},
+      {{"load.simulated_peak", "load.launch_speed", "load.travel"}, {{"load.peak_time", "49 ms"}}},
+      {{"load.travel"}, {{"load.duration", "60 ms"}}},
       {{"charge.bulk_sound_speed", "charge.poisson_ratio"}, {{"charge.jwl.r1", "16"}}},
       {{"charge.poisson_ratio"}, {{"charge.shear_moduli", "2, 2, 2, 2, 2 MPa"}}},
       {{"charge.heat_capacity"},
@@ -192,12 +193,12 @@ TEST(Plausibility, JudgesAMeasuredCurveByItsLargestPressureAndByWhatIsSimulated)
   using Keys = std::set<std::string>;
   // The small shell is light: 20 MPa launch it with 360 m/s.
   EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 20, 5 MPa")), Keys{});
-  const Keys none{"load.launch_speed", "load.measured_peak"};
+  const Keys none{"load.launch_speed", "load.measured_peak", "load.travel"};
   EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 496, 100 Pa")), none) << "MPa labelled Pa";
   EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 496, 100 kPa")), none) << "MPa labelled kPa";
   EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 0, 0 MPa")), none) << "zero load";
   EXPECT_EQ(keys_of(with_curve("0, 20, 25, 30 ms", "0, 0, 20, 5 MPa")),
-            (Keys{"load.launch_speed", "load.simulated_peak"}))
+            (Keys{"load.launch_speed", "load.simulated_peak", "load.travel"}))
       << "the pulse comes after the end";
   EXPECT_EQ(keys_of(with_curve("0, 5, 10 ms", "0, 496, 100 Pa",
                                "load.rescale_to_peak = true\nload.peak = \"20 MPa\"\n")),

@@ -149,6 +149,21 @@ TEST(ReadScene, ACurveInTheSceneMustLastUntilTheEnd) {
   expect_error(error_of(text), 1, "load.curve_time", "ends at 0.5 ms", "until the end of the launch");
 }
 
+TEST(ReadScene, NumbersOfTheOtherShapeAreRefused) {
+  const std::string bell = "load.shape = \"bell\"\n", power = "load.shape = \"power-exponential\"\n";
+  const std::string shell = with(small_scene, "[load]\nduration = \"1 ms\"\n", "load.duration = \"1 ms\"\n");
+  const auto of = [&](const std::string& load) { return error_of(load + shell); };
+  EXPECT_TRUE(parse_scene(bell + "load.width = \"3 ms\"\nload.steepness = 1.4\n" + shell, "shell.toml"));
+  EXPECT_TRUE(parse_scene(power + "load.exponent = 12\n" + shell, "shell.toml"));
+  expect_error(of(bell + "load.exponent = 12\n"), 2, "load.exponent", "\"bell\" does not have",
+               "load.width and");
+  expect_error(of(power + "load.width = \"3 ms\"\n"), 2, "load.width", "\"power-exponential\" does not have",
+               "load.exponent");
+  expect_error(of(power + "load.steepness = 2\n"), 2, "load.steepness", "does not have", "load.exponent");
+  expect_error(of(bell + "load.width = \"0 ms\"\n"), 2, "load.width", "0 ms", "(excluded)");
+  expect_error(of(bell + "load.steepness = -1\n"), 2, "load.steepness", "-1", "(excluded)");
+}
+
 TEST(ReadScene, EventsOfSnapshotsAreWordsInAnyOrder) {
   const auto file =
       parse_scene("output.snapshot_events = \"peak-pressure,first-yield\"\n" + small_scene, "small.toml");

@@ -72,6 +72,62 @@ TEST(PressureHistory, AnalyticShapeRisesToItsPeakAndFalls) {
   }
 }
 
+/// The bell that the published temperatures imply.
+Load published_bell() {
+  Load load;
+  load.shape = LoadShape::bell;
+  load.peak_time = 11.49e-3;
+  load.width = 3.03e-3;
+  load.steepness = 1.44;
+  return load;
+}
+
+// Tabulated by another program, which rounds its parameters: at the flanks that is up to 3 %.
+TEST(PressureHistory, BellHasTheTabulatedPressures) {
+  const PressureHistory history(published_bell());
+  const std::vector<std::pair<double, double>> table{
+      {0.0, 0.6},    {2.0, 2.9},    {4.0, 12.5},   {6.0, 47.0},  {8.0, 146.0}, {10.0, 347.0},
+      {11.0, 462.0}, {12.0, 459.0}, {14.0, 232.0}, {16.0, 84.0}, {18.0, 24.0}};
+  for (const auto& [milliseconds, megapascals] : table)
+    EXPECT_NEAR(1e-6 * history.at(1e-3 * milliseconds), megapascals, 0.05 + 0.025 * megapascals)
+        << milliseconds;
+  EXPECT_DOUBLE_EQ(history.peak(), 496e6);
+  EXPECT_DOUBLE_EQ(history.peak_time(), 11.49e-3);
+}
+
+// 1/e of the rise is left at one width on either side, whatever the steepness.
+TEST(PressureHistory, WidthOfABellIsWhereEulersNumberTimesLessIsLeft) {
+  Load load = published_bell();
+  for (const double steepness : {0.5, 1.44, 2.0, 6.0}) {
+    load.steepness = steepness;
+    const double left = load.base + (load.peak - load.base) / std::numbers::e;
+    const PressureHistory history(load);
+    EXPECT_NEAR(history.at(load.peak_time - load.width), left, 1e-9 * left);
+    EXPECT_NEAR(history.at(load.peak_time + load.width), left, 1e-9 * left);
+  }
+}
+
+// The same program gave 796 m/s and 5.26 m.
+TEST(Scene, PublishedBellLaunchesTheShellLikeAGun) {
+  Scene scene = shell_155mm();
+  scene.load = published_bell();
+  const RigidMotion end = rigid_motion(scene, 18e-3);
+  EXPECT_NEAR(end.velocity, 796.0, 0.5);
+  EXPECT_NEAR(end.travel, 5.26, 0.005);
+  EXPECT_EQ(rigid_motion_text(scene), "795.8 m/s after 5.26 m of travel");
+}
+
+// v = a t and s = a t^2/2.
+TEST(Scene, RigidMotionUnderAConstantLoadIsThatOfFreeFall) {
+  Scene scene = shell_155mm();
+  scene.load.curve_time = {0.0, 2e-3};
+  scene.load.curve_pressure = {100e6, 100e6};
+  const double acceleration = rigid_acceleration(scene, 100e6);
+  const RigidMotion motion = rigid_motion(scene, 2e-3);
+  EXPECT_NEAR(motion.velocity, acceleration * 2e-3, 1e-9 * motion.velocity);
+  EXPECT_NEAR(motion.travel, acceleration * 2e-6, 1e-9 * motion.travel);
+}
+
 Load measured(std::vector<double> time, std::vector<double> pressure) {
   Load load;
   load.curve_time = std::move(time);

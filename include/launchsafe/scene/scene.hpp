@@ -27,6 +27,10 @@ enum class Formulation { total_lagrangian, updated_lagrangian };
 enum class FrictionClosure { total_strain_rate, inelastic, none };
 /// The word of a closure in scene files and reports: "total strain rate", "inelastic" or "none".
 std::string_view word_of(FrictionClosure closure);
+/// The analytic shapes of a load.
+enum class LoadShape { bell, power_exponential };
+/// The word of a shape in scene files and reports.
+std::string word_of(LoadShape shape);
 enum class AirPressure { charge_bottom, chamber };
 enum class AirModel { reservoir, film };
 enum class Exchange { rate, per_step };
@@ -48,14 +52,18 @@ struct Body {
   double r_begin = 0, r_end = 0;
 };
 
-/// Pressure on the base. Either the analytic shape p0 + (peak - p0) ((t/tm) exp(1 - t/tm))^n or a measured
-/// curve.
+/// Pressure on the base. Either a measured curve or, over time t, one of the analytic shapes
+///   bell                p0 + (peak - p0) exp(-|(t - t_m)/w|^a)
+///   power-exponential   p0 + (peak - p0) ((t/t_m) exp(1 - t/t_m))^n, which is p0 before 0.
 struct Load {
+  LoadShape shape = LoadShape::power_exponential;
   double duration = 18e-3;             ///< s
   double peak = 496e6;                 ///< Pa
   double base = 101325.0;              ///< p0, Pa
   double peak_time = 12.9641e-3;       ///< t_m, s [C]
-  double exponent = 13.578;            ///< n [C]
+  double exponent = 13.578;            ///< n [C], of the power-exponential alone
+  double width = 3.03e-3;              ///< w, s, of the bell alone: the pressure is 1/e of its peak there
+  double steepness = 1.44;             ///< a, of the bell alone
   std::string curve_file;              ///< as the user wrote it
   std::vector<double> curve_time;      ///< s, increasing; empty for the analytic shape
   std::vector<double> curve_pressure;  ///< Pa, one for every time
@@ -274,6 +282,14 @@ double base_area(const Scene& scene);
 
 /// Axial acceleration (m/s2) of the whole projectile as one rigid body under a pressure (Pa) on its base.
 double rigid_acceleration(const Scene& scene, double pressure);
+/// How fast (m/s) and how far (m) the load has driven the whole projectile as one rigid body.
+struct RigidMotion {
+  double velocity = 0, travel = 0;
+};
+/// At a time (s); nothing holds the projectile back.
+RigidMotion rigid_motion(const Scene& scene, double time);
+/// For people, at the end of the load: "796 m/s after 5.26 m of travel".
+std::string rigid_motion_text(const Scene& scene);
 
 /// Chamber pressure (Pa) on the base at time t (s); monotone cubic (PCHIP) through a measured curve of at
 /// least two points at increasing times, held constant outside it. Curves of two or three points are joined
