@@ -103,11 +103,10 @@ using KnownScenes = std::set<std::string>;
 
 /// Makes a case of a valid scene, unless it is known.
 Fault add_case(StudyFile& study, const std::vector<Change>& changes, KnownScenes& known) {
-  ChangedScene scene(study.scene);
-  for (const Change& change : changes) scene.apply(change);
-  if (!scene.complete()) return scene.error();
-  if (!known.insert(scene::to_toml(scene.scene().scene)).second) return std::nullopt;
-  study.cases.push_back(case_of(label_of(changes), scene.take()));
+  auto scene = with_changes(study.scene, changes);
+  if (!scene) return scene.error();
+  if (!known.insert(scene::to_toml(scene->scene)).second) return std::nullopt;
+  study.cases.push_back(case_of(label_of(changes), std::move(*scene)));
   study.cases.back().own_conditions = true;
   return std::nullopt;
 }

@@ -89,14 +89,15 @@ class DesignBuilder {
   Fault add(std::string label, const std::vector<double>& unit_point, const StudyCase* alike) {
     const std::vector<Axis>& inputs = study_.study.axes;
     std::vector<double> coordinates = coordinates_of(inputs, unit_point);
-    ChangedScene scene(alike ? alike->scene : start_);
+    std::vector<Change> changes;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       if (alike && alike->coordinates[i] == coordinates[i]) continue;
       if (Fault fault = check_limits(i, coordinates[i])) return fault;
-      scene.apply(change_of(i, coordinates[i]));
+      changes.push_back(change_of(i, coordinates[i]));
     }
-    if (!scene.complete()) return scene.error();
-    maker_.add(std::move(label), std::move(coordinates), scene.take());
+    auto scene = with_changes(alike ? alike->scene : start_, changes);
+    if (!scene) return scene.error();
+    maker_.add(std::move(label), std::move(coordinates), std::move(*scene));
     return std::nullopt;
   }
 

@@ -75,13 +75,14 @@ struct Changed {
   Fault refusal;
 };
 
-/// Changes a scene by tables of scene keys; a later one has the last word. Unknown keys are faults in any
-/// case.
+/// Changes a scene by tables of scene keys; a later one has the last word, also on keys that its own take
+/// back. Unknown keys are faults in any case.
 Expected<Changed> with_keys(const SceneFile& start, const std::vector<OverrideTable>& all,
                             const std::string& file) {
   std::vector<Change> changes;
   for (const auto& [name, node] : all) {
     if (!node) continue;
+    std::vector<Change> earlier = std::exchange(changes, {});
     if (!node->is_table())
       return scene::error_at(scene::place_of(*node, file), name, scene::found_text(*node),
                              "a table of scene keys, written { key = value, ... }");
@@ -91,15 +92,17 @@ Expected<Changed> with_keys(const SceneFile& start, const std::vector<OverrideTa
       if (!key) return in_table(key.error(), name);
       const auto value = scene::read_value(*leaf.node, *key, file);
       if (!value) return Changed{start, in_table(value.error(), name)};
-      std::erase_if(changes, [&](const Change& change) { return change.key == leaf.name; });
+      std::erase_if(earlier, [&](const Change& change) {
+        return change.key == leaf.name || std::ranges::count(key->overrides, change.key) > 0;
+      });
       changes.push_back(
           {leaf.name, *value, scene::format_value(*key, *value), name + "." + leaf.name, place});
     }
+    changes.insert(changes.begin(), earlier.begin(), earlier.end());
   }
-  ChangedScene scene(start);
-  for (const Change& change : changes) scene.apply(change);
-  if (!scene.complete()) return Changed{start, scene.error()};
-  return Changed{scene.take(), std::nullopt};
+  auto scene = with_changes(start, changes);
+  if (!scene) return Changed{start, scene.error()};
+  return Changed{std::move(*scene), std::nullopt};
 }
 
 /// The scene that a case starts from: the study's, or its own under the study's overrides, whose refusal is a

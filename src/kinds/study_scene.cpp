@@ -24,15 +24,17 @@ namespace {
 using scene::Dimension, scene::Place;
 
 /// One override of a table.
-Fault apply_override(const Leaf& leaf, const std::string& table_name, StudyFile& study, ChangedScene& scene) {
+Fault add_override(const Leaf& leaf, const std::string& table_name, StudyFile& study,
+                   std::vector<Change>& changes) {
   const Place place = scene::place_of(*leaf.node, study.file);
   const auto key = scene::describe_key(study.scene, leaf.name, place);
   if (!key) return in_table(key.error(), table_name);
   const auto value = scene::read_value(*leaf.node, *key, study.file);
   if (!value) return in_table(value.error(), table_name);
-  if (auto note = scene::note_on_former_word(*leaf.node, *key, place)) scene.note(std::move(*note));
+  if (auto note = scene::note_on_former_word(*leaf.node, *key, place))
+    study.scene.notes.push_back(std::move(*note));
   study.overrides[leaf.name] = scene::format_value(*key, *value);
-  scene.apply({leaf.name, *value, study.overrides[leaf.name], table_name + "." + leaf.name, place});
+  changes.push_back({leaf.name, *value, study.overrides[leaf.name], table_name + "." + leaf.name, place});
   return std::nullopt;
 }
 
@@ -43,14 +45,12 @@ Fault apply_overrides(const OverrideTable& overrides, StudyFile& study) {
                            scene::found_text(*overrides.node),
                            fmt::format("a table, written [{}], of scene keys", overrides.name));
   }
-  ChangedScene scene(study.scene);
-  // By the alphabet: of two keys of which one takes the other back, the same wins however they are written.
-  std::vector<Leaf> leaves = leaves_as_written(*overrides.node->as_table());
-  std::ranges::sort(leaves, {}, &Leaf::name);
-  for (const Leaf& leaf : leaves)
-    if (Fault fault = apply_override(leaf, overrides.name, study, scene)) return fault;
-  if (!scene.complete()) return scene.error();
-  study.scene = scene.take();
+  std::vector<Change> changes;
+  for (const Leaf& leaf : leaves_as_written(*overrides.node->as_table()))
+    if (Fault fault = add_override(leaf, overrides.name, study, changes)) return fault;
+  auto changed = with_changes(study.scene, changes);
+  if (!changed) return changed.error();
+  study.scene = std::move(*changed);
   return std::nullopt;
 }
 

@@ -264,6 +264,9 @@ Value value_in(const SceneFile& file, const std::string& name) {
 Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange>& changes) {
   SceneFile changed = file;
   bool other_curve = false;
+  for (const KeyChange& change : changes)
+    if (const auto* key = find_key(scene_keys(), change.name))
+      for (const std::string& overridden : key->overrides) changed.given.erase(overridden);
   for (const auto& [name, value, place] : changes) {
     const auto key = key_named(changed, name, place);
     if (!key) return key.error();
@@ -273,7 +276,6 @@ Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange
       changed.places[name] = place;
       continue;
     }
-    for (const std::string& overridden : key->overrides) changed.given.erase(overridden);
     if (key->get(file) != value) forget_source(changed.sources, name);
     changed.given[name] = {place, value};
     other_curve = other_curve || name == "load.curve";

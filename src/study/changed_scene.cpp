@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace launchsafe::study {
 
@@ -19,57 +18,38 @@ bool same_value(const scene::Value& a, const scene::Value& b) {
   return std::equal(list->begin(), list->end(), other.begin(), other.end(), same_number);
 }
 
-void ChangedScene::apply(const Change& change) {
-  if (auto error = try_to(change)) {
-    waiting_.push_back({change, std::move(*error)});
-  } else if (!waiting_.empty()) {
-    retry();
-  }
-  try_all();
+namespace {
+
+scene::Expected<scene::SceneFile> with_all(const scene::SceneFile& scene,
+                                           const std::vector<Change>& changes) {
+  std::vector<scene::KeyChange> all;
+  for (const Change& change : changes) all.push_back({change.key, change.value, change.place});
+  return scene::with_keys(scene, all);
 }
 
-std::optional<scene::InputError> ChangedScene::try_to(const Change& change) {
-  auto changed = scene::with_key(scene_, change.key, change.value, change.place);
-  if (!changed) return changed.error();
-  scene_ = std::move(*changed);
-  return std::nullopt;
+/// The change that a fault of all together is about: of the key that it names, else the first that the scene
+/// could not have alone, else the first.
+const Change& change_at_fault(const scene::SceneFile& scene, const std::vector<Change>& changes,
+                              const scene::InputError& error) {
+  const auto named = std::ranges::find(changes, error.key, &Change::key);
+  if (named != changes.end()) return *named;
+  const auto alone =
+      std::ranges::find_if(changes, [&](const Change& change) { return !with_all(scene, {change}); });
+  return alone != changes.end() ? *alone : changes.front();
 }
 
-void ChangedScene::retry() {
-  for (bool progress = true; progress && !waiting_.empty();) {
-    progress = false;
-    for (auto each = waiting_.begin(); each != waiting_.end();) {
-      if (auto error = try_to(each->change)) {
-        (each++)->error = std::move(*error);
-      } else {
-        each = waiting_.erase(each);
-        progress = true;
-      }
-    }
-  }
-}
+}  // namespace
 
-/// Those that wait, together. What they lack even so says more than what each lacks alone.
-void ChangedScene::try_all() {
-  if (waiting_.size() < 2) return;
-  std::vector<scene::KeyChange> changes;
-  for (const Waiting& each : waiting_)
-    changes.push_back({each.change.key, each.change.value, each.change.place});
-  auto changed = scene::with_keys(scene_, changes);
-  if (!changed) {
-    waiting_.front().error = std::move(changed.error());
-    return;
-  }
-  scene_ = std::move(*changed);
-  waiting_.clear();
-}
-
-scene::InputError ChangedScene::error() const {
-  const auto& [change, reason] = waiting_.front();
-  scene::InputError error = reason;
-  if (reason.key != change.key) {
-    error.found = fmt::format("{}, with which {} is {}", change.text, reason.key, reason.found);
-    error.allowed = fmt::format("values with which {} is {}", reason.key, reason.allowed);
+scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
+                                               const std::vector<Change>& changes) {
+  if (changes.empty()) return scene;
+  auto changed = with_all(scene, changes);
+  if (changed) return changed;
+  scene::InputError error = changed.error();
+  const Change& change = change_at_fault(scene, changes, error);
+  if (error.key != change.key) {
+    error.found = fmt::format("{}, with which {} is {}", change.text, error.key, error.found);
+    error.allowed = fmt::format("values with which {} is {}", error.key, error.allowed);
   }
   error.file = change.place.file;
   error.line = change.place.line;

@@ -89,15 +89,16 @@ Fault use_calibration(StudyFile& study, const std::filesystem::path& folder) {
   if (Fault fault = contradicted_constant(study, record->calibration.scene)) return fault;
   std::vector<std::string> keys(constants.begin(), constants.end());
   if (takes_load(study, *record)) keys.insert(keys.end(), load_shape.begin(), load_shape.end());
-  ChangedScene scene(study.scene);
+  std::vector<Change> changes;
   for (const std::string& key : keys) {
     const auto& known = *scene::find_key(scene::scene_keys(), key);
     const scene::Value value = known.get(record->calibration.scene);
     study.overrides[key] = scene::format_value(known, value);
-    scene.apply({key, value, study.overrides[key], "calibration", place_of_key(study, "calibration")});
+    changes.push_back({key, value, study.overrides[key], "calibration", place_of_key(study, "calibration")});
   }
-  if (!scene.complete()) return scene.error();
-  study.scene = scene.take();
+  auto changed = with_changes(study.scene, changes);
+  if (!changed) return changed.error();
+  study.scene = std::move(*changed);
   study.study.calibration = record->calibration;
   return settle_fit_uncertainty(study, *record);
 }

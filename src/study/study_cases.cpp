@@ -36,38 +36,13 @@ bool is_condition(const scene::KeyDescription& key) {
          !key.name.starts_with("output.") && !key.name.starts_with("physics.");
 }
 
-/// Walks through the product of the axes, the last one fastest; what a branch has in common is done once.
-class FactorialBuilder {
- public:
-  FactorialBuilder(StudyFile& study, std::vector<Steps> axes, LabelOf label)
-      : study_(study), maker_(study), axes_(std::move(axes)), label_(label) {}
-
-  Fault build(ChangedScene scene, const std::string& changes, std::vector<double> coordinates) {
-    const std::size_t depth = coordinates.size();
-    if (depth == axes_.size()) {
-      if (!scene.complete()) return scene.error();
-      maker_.add({}, std::move(coordinates), scene.take());
-      StudyCase& made = study_.cases.back();
-      made.label = label_(made, changes);
-      return std::nullopt;
-    }
-    coordinates.push_back(0.0);
-    for (const Step& step : axes_[depth]) {
-      ChangedScene changed = scene;
-      changed.apply(step.change);
-      coordinates.back() = step.value;
-      const std::string more = changes.empty() ? step.label : changes + ", " + step.label;
-      if (Fault fault = build(std::move(changed), more, coordinates)) return fault;
-    }
-    return std::nullopt;
-  }
-
- private:
-  StudyFile& study_;
-  CaseMaker maker_;
-  std::vector<Steps> axes_;
-  LabelOf label_;
-};
+/// One step of every axis: the place in their product, the last axis fastest.
+std::vector<const Step*> steps_at(const std::vector<Steps>& axes, std::size_t place) {
+  std::vector<const Step*> steps(axes.size());
+  for (std::size_t i = axes.size(); i-- > 0; place /= axes[i].size())
+    steps[i] = &axes[i][place % axes[i].size()];
+  return steps;
+}
 
 }  // namespace
 
@@ -131,8 +106,23 @@ Fault make_factorial(StudyFile& study, LabelOf label) {
   const std::string key = axes.empty() ? std::string{} : study.study.axes.front().study_key;
   if (Fault fault = check_count(study, key, count, fmt::format("{}", fmt::join(sizes, " x ")))) return fault;
   study.cases.reserve(static_cast<std::size_t>(count));
-  const ChangedScene start(without_places(study.scene));
-  return FactorialBuilder(study, std::move(axes), label).build(start, "", {});
+  const SceneFile start = without_places(study.scene);
+  CaseMaker maker(study);
+  for (std::size_t place = 0; place < static_cast<std::size_t>(count); ++place) {
+    std::vector<Change> changes;
+    std::vector<double> coordinates;
+    std::string text;
+    for (const Step* step : steps_at(axes, place)) {
+      changes.push_back(step->change);
+      coordinates.push_back(step->value);
+      text += (text.empty() ? "" : ", ") + step->label;
+    }
+    auto scene = with_changes(start, changes);
+    if (!scene) return scene.error();
+    maker.add({}, std::move(coordinates), std::move(*scene));
+    study.cases.back().label = label(study.cases.back(), text);
+  }
+  return std::nullopt;
 }
 
 Fault check_count(const StudyFile& study, const std::string& key, double count, const std::string& what) {

@@ -165,14 +165,16 @@ Fault choose_setting(StudyFile& study, const std::optional<AccuracyRecord>& reco
                                     : fmt::format("at least {:.3g} K, the bound of the most accurate one: {}",
                                                   best->temperature_bound * coverage.growth, best->label));
   }
-  ChangedScene scene(study.scene);
+  std::vector<Change> changes;
   for (const auto& [name, value] : chosen->setting) {
     // Reading let nothing else pass than the keys of a setting with values that scenes may have.
     const auto* key = scene::find_key(scene::scene_keys(), name);
-    scene.apply({name, value, scene::format_value(*key, value), "accuracy", place_of_key(study, "accuracy")});
+    changes.push_back(
+        {name, value, scene::format_value(*key, value), "accuracy", place_of_key(study, "accuracy")});
   }
-  if (!scene.complete()) return scene.error();
-  study.scene = scene.take();
+  auto changed = with_changes(study.scene, changes);
+  if (!changed) return changed.error();
+  study.scene = std::move(*changed);
   study.chosen_setting = chosen_text(*chosen, coverage.growth, tolerance);
   return std::nullopt;
 }

@@ -91,14 +91,17 @@ TEST(ReadStudy, OverridesSceneKeys) {
   EXPECT_EQ(study.overrides.size(), 2u);
 }
 
-// Either of these keys takes the other back, so that their order would decide.
-TEST(ReadStudy, OverridesDoNotDependOnTheOrderInWhichTheyAreWritten) {
+// Applied one after the other, one of each pair would take the other back.
+TEST(ReadStudy, OverridesAreOfOneMindInWhicheverOrderTheyAreWritten) {
   const std::string friction = "charge.face_friction = 0\n", switched = "charge.crack_friction = true\n";
-  for (const std::string& both : {friction + switched, switched + friction})
-    EXPECT_EQ(
-        study_of(critical_kind + "[set]\n" + both).cases.at(0).scene.scene.charge().strength.face_friction,
-        0.0)
-        << both;
+  for (const std::string& both : {friction + switched, switched + friction}) {
+    const scene::InputError error = error_of(critical_kind + "[set]\n" + both);
+    EXPECT_EQ(error.key, "set.charge.crack_friction") << error.message();
+    EXPECT_NE(error.found.find("face_friction = 0"), std::string::npos) << error.message();
+  }
+  const std::string shape = "load.shape = \"bell\"\n", width = "load.width = \"2 ms\"\n";
+  for (const std::string& both : {shape + width, width + shape})
+    EXPECT_EQ(study_of(critical_kind + "[set]\n" + both).cases.at(0).scene.scene.load.width, 2e-3) << both;
 }
 
 TEST(ReadStudy, FaultsNameFileLineKeyFoundAndAllowed) {

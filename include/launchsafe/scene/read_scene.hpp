@@ -56,7 +56,7 @@ struct KeyChange {
   Value value;
   Place place;
 };
-/// The same for several keys, which need be valid only together.
+/// The same for several keys, which need be valid only together, and lose no value to each other.
 Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange>& changes);
 /// The same with the value as written: "0.1 mm", "true", "comp-b". Sweeps and the command line use it.
 Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& name, std::string_view written,

@@ -1,9 +1,8 @@
-// A scene changed key by key, where only the last one need be valid.
+// A scene with other values of some keys, as studies ask for them.
 #pragma once
 
 #include "launchsafe/scene/read_scene.hpp"
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,32 +22,9 @@ struct Change {
   scene::Place place;     ///< likewise
 };
 
-/// A scene on its way. Changes may be valid only after others, or together with them: whichever a scene
-/// cannot have yet waits for those that follow.
-class ChangedScene {
- public:
-  explicit ChangedScene(scene::SceneFile scene) : scene_(std::move(scene)) {}
-  void apply(const Change& change);
-  /// Adds to the notes of the scene.
-  void note(std::string note) { scene_.notes.push_back(std::move(note)); }
-  /// The scene has all changes and is valid.
-  bool complete() const { return waiting_.empty(); }
-  /// Why the first waiting change is none that the scene can have. Only where not complete().
-  scene::InputError error() const;
-  const scene::SceneFile& scene() const { return scene_; }
-  scene::SceneFile take() { return std::move(scene_); }
-
- private:
-  struct Waiting {
-    Change change;
-    scene::InputError error;
-  };
-  std::optional<scene::InputError> try_to(const Change& change);
-  void retry();
-  void try_all();
-
-  scene::SceneFile scene_;
-  std::vector<Waiting> waiting_;
-};
+/// The scene with all changes, which need be valid only together (scene::with_keys), or why it cannot have
+/// them, at the change that this is about.
+scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
+                                               const std::vector<Change>& changes);
 
 }  // namespace launchsafe::study
