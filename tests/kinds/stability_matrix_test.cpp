@@ -98,6 +98,7 @@ TEST_F(StabilityMatrixSlow, HasNoCaseThatIsWrongInTheUpdatedLagrangianForm) {
   text = parts_of(text, "\n", [](const std::string& line) {
     return !is_case(line) || (!has(line, "interface") && !has(line, "refused"));
   });
+  text = parts_of(text, "\n[[group]]", [](const std::string& group) { return has(group, "\n  { name"); });
   text = replaced(text, "\"scene_155mm.toml\"", '"' + bonded.string() + '"');
   text = replaced(text, "coupling = \"two-way\", kinetics", "kinetics");
   text = replaced(text, "largest_gap = \"0.5 cm\"",
