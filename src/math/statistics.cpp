@@ -122,11 +122,6 @@ double LeastSquares::leverage(const std::vector<double>& row) const {
   return value;
 }
 
-double LeastSquares::mean_half_width(const std::vector<double>& row, double level) const {
-  if (degrees_of_freedom < 1) return not_a_number;
-  return student_quantile(level, degrees_of_freedom) * residual_deviation * std::sqrt(leverage(row));
-}
-
 double LeastSquares::simultaneous_half_width(const std::vector<double>& row, double level) const {
   if (degrees_of_freedom < 1) return not_a_number;
   const double size = static_cast<double>(coefficients.size());
@@ -235,7 +230,5 @@ std::optional<GridConvergence> grid_convergence(const std::array<double, 3>& val
   result.oscillating = ratio < 0.0;
   return result;
 }
-
-double representative_cell_size(double cells, int dimension) { return std::pow(cells, -1.0 / dimension); }
 
 }  // namespace launchsafe::math

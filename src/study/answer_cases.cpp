@@ -177,9 +177,4 @@ std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions&
   return AnswerRunner(study, options, timing).answer_all();
 }
 
-bool any_failed(const std::vector<CaseAnswer>& answers) {
-  return std::any_of(answers.begin(), answers.end(),
-                     [](const CaseAnswer& each) { return !each.completed(); });
-}
-
 }  // namespace launchsafe::study

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -121,7 +122,7 @@ TEST(Sensitivity, AFailedEvaluationTakesAwayItsRowAlone) {
     return result;
   };
   const SensitivityResult result = run_sensitivity(study, counted.options);
-  EXPECT_TRUE(any_failed(result.answers));
+  EXPECT_FALSE(std::ranges::all_of(result.answers, &CaseAnswer::completed));
   const OutputSensitivity& margin = output_of(result, SensitivityOutput::margin);
   EXPECT_EQ(margin.missing, 3u);  // A, and the two that share its mechanical run
   EXPECT_EQ(margin.sobol.rows_used, 63u);

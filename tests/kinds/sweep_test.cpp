@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <map>
 #include <mutex>
@@ -19,6 +20,10 @@ namespace {
 using namespace launchsafe;
 using namespace launchsafe::kinds;
 using namespace launchsafe::study;
+
+bool any_failed(const std::vector<CaseAnswer>& answers) {
+  return !std::ranges::all_of(answers, &CaseAnswer::completed);
+}
 
 /// `synthetic_constants` without those that the axes vary.
 std::string constants_beside(const std::string& axes) {

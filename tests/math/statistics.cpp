@@ -36,7 +36,6 @@ TEST(LeastSquares, UncertaintiesAreTheTextbooksForALine) {
   EXPECT_NEAR(fit->r_squared, 0.64, 1e-13);  // 1 - 3.6/10
   // t(3, 97.5 %) = 3.182446305 and F(2, 3, 95 %) = 9.552094496 from tables.
   const std::vector<double> centre{1.0, 2.0};
-  EXPECT_NEAR(fit->mean_half_width(centre, 0.95), 3.182446305 * std::sqrt(1.2 / 5.0), 1e-8);
   EXPECT_NEAR(fit->prediction_half_width(centre, 0.95), 3.182446305 * std::sqrt(1.2 * 1.2), 1e-8);
   EXPECT_NEAR(fit->simultaneous_half_width(centre, 0.95), std::sqrt(2.0 * 9.552094496 * 1.2 / 5.0), 1e-8);
 }
@@ -68,7 +67,7 @@ TEST(LeastSquares, WithoutFreedomThereIsNoUncertaintyToState) {
   ASSERT_TRUE(fit.has_value());
   EXPECT_NEAR(fit->coefficients[1], 2.0, 1e-14);
   EXPECT_TRUE(std::isnan(fit->standard_errors[1]));
-  EXPECT_TRUE(std::isnan(fit->mean_half_width({1.0, 0.5}, 0.95)));
+  EXPECT_TRUE(std::isnan(fit->prediction_half_width({1.0, 0.5}, 0.95)));
 }
 
 TEST(ToleranceFactor, IsThatOfTheTables) {
@@ -96,7 +95,7 @@ TEST(GridConvergence, FindsTheOrderOfAnExactPowerLaw) {
 
 TEST(GridConvergence, IsThatOfThePublishedExample) {
   // Celik et al. 2008, Table 1, recomputed without rounding.
-  const auto size = [](double cells) { return math::representative_cell_size(cells, 2); };
+  const auto size = [](double cells) { return 1.0 / std::sqrt(cells); };
   const auto grid = math::grid_convergence({6.063, 5.972, 5.863}, {size(18000), size(8000), size(4500)});
   ASSERT_TRUE(grid.has_value());
   EXPECT_NEAR(grid->order, 1.5340, 5.01e-5);

@@ -21,9 +21,8 @@ struct LeastSquares {
 
   /// Fitted value at the regressors `row` (one value per coefficient).
   double at(const std::vector<double>& row) const;
-  /// Half widths of two-sided bands at confidence `level` in (0, 1): of the mean at one given row (Student
-  /// t), of the mean at all rows at once (Working-Hotelling, F), and of one new observation (Student t).
-  double mean_half_width(const std::vector<double>& row, double level) const;
+  /// Half widths of two-sided bands at confidence `level` in (0, 1): of the mean at all rows at once
+  /// (Working-Hotelling, F), and of one new observation (Student t).
   double simultaneous_half_width(const std::vector<double>& row, double level) const;
   double prediction_half_width(const std::vector<double>& row, double level) const;
 
@@ -61,8 +60,5 @@ struct GridConvergence {
 /// does not grow, a difference vanishes or no order above 0 fits.
 std::optional<GridConvergence> grid_convergence(const std::array<double, 3>& values,
                                                 const std::array<double, 3>& cell_sizes);
-
-/// Representative cell size (1/cells)^(1/dimension) of a domain of unit size.
-double representative_cell_size(double cells, int dimension);
 
 }  // namespace launchsafe::math

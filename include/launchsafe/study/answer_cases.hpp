@@ -31,7 +31,4 @@ Result run_answering(const StudyFile& study, const StudyOptions& options, Conclu
       conclude);
 }
 
-/// Whether the run behind any answer failed.
-bool any_failed(const std::vector<CaseAnswer>& answers);
-
 }  // namespace launchsafe::study
