@@ -259,6 +259,13 @@ CalibratedConstants calibrate(const surface::SkinModel& given, const trace::Bott
                                       result.ignition_lowest, 100.0 * targets.safe_gap,
                                       result.ignition_highest, 100.0 * targets.igniting_gap));
   }
+  constexpr double near = 1.0;  // K
+  if (!(result.ignition_highest < model.kinetics.burnt_temperature - near)) {
+    return failed(result,
+                  fmt::format("at {:.6g} cm the reaction runs away by itself, and the rows say of the "
+                              "ignition temperature only that it is above {:.6g} K",
+                              100.0 * targets.igniting_gap, result.ignition_lowest));
+  }
   result.constants.ignition_temperature = 0.5 * (result.ignition_lowest + result.ignition_highest);
   return result;
 }

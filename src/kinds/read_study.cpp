@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -116,13 +117,22 @@ Fault read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys
   return check_twice(study, "gaps", Dimension::length, study.study.gaps);
 }
 
+/// Labels have six digits; cases that they do not tell apart are numbered.
+void tell_cases_apart(std::vector<StudyCase>& cases) {
+  std::map<std::string, int> seen;
+  for (StudyCase& each : cases)
+    if (const int before = seen[each.label]++; before > 0) each.label += fmt::format(" ({})", before + 1);
+}
+
 /// What varies, and the cases that follow.
 Fault settle_cases(const StudySource& source, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
   if (Fault fault = kind.read(source, study)) return fault;
   if (Fault fault = check_load_axes(study)) return fault;
   if (Fault fault = settle_acceptances(source.root, keys, study)) return fault;
   if (Fault fault = settle_gaps(study)) return fault;
-  return kind.make_cases(source, study);
+  if (Fault fault = kind.make_cases(source, study)) return fault;
+  tell_cases_apart(study.cases);
+  return std::nullopt;
 }
 
 /// People do not number the tables of a study: "input.0.range" is input.range to them.

@@ -14,7 +14,7 @@ std::string to_string(RunStatus status) {
   constexpr std::array words{
       "completed",   "non-finite", "energy drift",    "time step collapse",     "particles left the grid",
       "interrupted", "timed out",  "cells distorted", "outside of the gas law", "flame beyond sound"};
-  static_assert(words.size() == static_cast<std::size_t>(RunStatus::flame_beyond_sound) + 1);
+  static_assert(words.size() == static_cast<std::size_t>(last_status) + 1);
   return words.at(static_cast<std::size_t>(status));
 }
 

@@ -84,7 +84,8 @@ void write_scene(Hdf5Writer& writer, const scene::Scene& scene) {
     choice(writer, "symmetry", scene.symmetry, symmetry_names, {"none", "symmetry"});
     choice(writer, "frame", scene.frame, frame_names, {"none", "frame of reference"});
     writer.value("initial_temperature", scene.initial_temperature, {"K", "initial temperature"});
-    writer.value("peak_pressure", scene.load.peak, {"Pa", "peak chamber pressure"});
+    writer.value("peak_pressure", scene::PressureHistory(scene.load).stated_peak(),
+                 {"Pa", "peak chamber pressure"});
     writer.value("cell_size", scene.numerics.cell_size, {"m", "nominal cell size"});
     writer.group("bodies", "Bodies", [&] { write_bodies(writer, scene.bodies); });
     writer.group("observation_points", "Observation points", [&] {

@@ -155,7 +155,7 @@ json json_of(const RunSummary& run) {
 }
 RunSummary run_of(const json& value) {
   RunSummary run;
-  run.status = enumerator_of(value.at("status"), run::RunStatus::timed_out);
+  run.status = enumerator_of(value.at("status"), run::last_status);
   run.steps = count_of(value.at("steps"));
   run.particles = count_of(value.at("particles"));
   run.energy_drift = amount_of(value.at("energy_drift"));

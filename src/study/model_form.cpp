@@ -82,6 +82,7 @@ std::optional<PressureInterval> interval_of(const std::vector<double>& pressures
   if (pressures.empty() || !(peak >= pressures.front() * (1.0 - round_off)) ||
       !(peak <= pressures.back() * (1.0 + round_off)))
     return std::nullopt;
+  peak = std::clamp(peak, pressures.front(), pressures.back());
   const auto next = std::lower_bound(pressures.begin(), pressures.end(), peak * (1.0 - round_off));
   const auto above = static_cast<std::size_t>(next - pressures.begin());
   if (std::abs(pressures[above] - peak) <= round_off * peak) return PressureInterval{above, above};

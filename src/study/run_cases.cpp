@@ -195,13 +195,13 @@ class CaseLoop {
     if (j == 0 && !run.failure.empty()) open.spoilt = true;
     open.runs[j] = std::move(run);
     if (--open.left > 0) return;
-    std::string failure;
+    std::optional<std::string> failure;
     try {
       on_done_(i, open.runs);
     } catch (const std::exception& error) {
       failure = error.what();
     }
-    if (!failure.empty()) give_up(i, RunOutcome::failed, "the run failed: " + failure);
+    if (failure) give_up(i, RunOutcome::failed, "the run failed: " + *failure);
     open.runs.clear();
   }
 

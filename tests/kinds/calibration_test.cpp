@@ -97,6 +97,19 @@ TEST(Calibration, ATraceWithoutFrictionSaysSoAndRecommendsNothing) {
   EXPECT_FALSE(result.recommendation.row.has_value());
 }
 
+/// Where the reaction runs away by itself, the middle of a safe and a burning temperature is none to ignite
+/// at.
+TEST(Calibration, ARunawayGivesNoIgnitionTemperature) {
+  const trace::BottomTrace trace = synthetic_trace(496e6, friction_for(116.1));
+  std::string rows = published({951.0, 4.2e-4, 0}, trace);
+  const std::string igniting = "{ gap = \"0.0004 m\"";
+  rows.replace(rows.find(igniting), igniting.size(), "{ gap = \"0.002 m\"");
+  const CalibrationResult result =
+      run_calibration(study_of(calibration_text + rows + synthetic_constants), synthetic_options());
+  EXPECT_NE(result.rows[0].failure.find("runs away by itself"), std::string::npos) << result.rows[0].failure;
+  EXPECT_FALSE(result.recommendation.row.has_value());
+}
+
 TEST(Calibration, AFailedMeshIsItsOwnFailure) {
   const trace::BottomTrace trace = synthetic_trace(496e6, friction_for(116.1));
   StudyOptions options = synthetic_options(2);

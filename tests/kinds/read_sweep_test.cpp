@@ -27,6 +27,15 @@ std::string numbers(int count, double first, double step) {
   return text;
 }
 
+/// Labels have six digits, and reports find cases by them.
+TEST(ReadSweep, CasesThatDifferInTheSeventhDigitHaveLabelsOfTheirOwn) {
+  const StudyFile study = study_of(sweep_text + "peak_pressure = \"400, 400.0001, 500 MPa\"\n");
+  ASSERT_EQ(study.cases.size(), 3u);
+  EXPECT_EQ(study.cases[0].label, "peak_pressure 400 MPa");
+  EXPECT_EQ(study.cases[1].label, "peak_pressure 400 MPa (2)");
+  EXPECT_EQ(study.cases[2].label, "peak_pressure 500 MPa");
+}
+
 TEST(ReadSweep, MakesTheProductOfTheAxesInTheOrderWritten) {
   const StudyFile study = study_of(sweep_text +
                                    "peak_pressure = \"400, 496 MPa\"\n"

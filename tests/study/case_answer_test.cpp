@@ -90,6 +90,17 @@ TEST(CaseAnswer, ReadsBackFromJsonExactly) {
   }
 }
 
+TEST(CaseAnswer, EveryStatusOfARunReadsBack) {
+  CaseAnswer answer = answer_to(six_gaps());
+  for (int status = 0; status <= static_cast<int>(run::last_status); ++status) {
+    answer.run.status = static_cast<run::RunStatus>(status);
+    answer.failure = status == 0 ? "" : "the run failed";
+    const auto read = answer_from_json(to_json_line(answer));
+    ASSERT_TRUE(read) << run::to_string(answer.run.status);
+    EXPECT_EQ(read->run.status, answer.run.status);
+  }
+}
+
 TEST(CaseAnswer, NumbersThatAreNotFiniteReadBackAsNotANumber) {
   const StudyFile study = six_gaps();
   const CaseAnswer failed =

@@ -150,6 +150,20 @@ TEST(ModelForm, SaysNothingOfAnotherLaunchOrPressure) {
   EXPECT_TRUE(std::isnan(model_form_shift(record, longer).gap));
 }
 
+// Pressures in other units than pascal come with a round-off, on either side of those recorded.
+TEST(ModelForm, KnowsItsOwnPressuresButForTheirRoundOff) {
+  const ModelFormRecord record = made_record();
+  for (const double pressure : record.peak_pressures)
+    for (const double factor : {1.0 - 0.99e-9, 1.0 - 1e-15, 1.0 + 1e-15, 1.0 + 0.99e-9})
+      EXPECT_NEAR(model_form_shift(record, at_pressure(factor * pressure)).gap,
+                  model_form_shift(record, at_pressure(pressure)).gap, 1e-9)
+          << pressure << " * " << factor;
+  // At the very edge: this read before the first pressure once.
+  const double edge = record.peak_pressures.front() * (1.0 - 1e-9);
+  EXPECT_EQ(model_form_shift(record, at_pressure(edge)).gap,
+            model_form_shift(record, at_pressure(record.peak_pressures.front())).gap);
+}
+
 TEST(ModelForm, IsNotKnownWhereTheDefaultHasABoundAlone) {
   MadeModels made = made_models();
   made.entries.front().critical_gap[1] = no_ignition;

@@ -87,23 +87,25 @@ TEST(RunCases, AStudyThatIsStoppedLeavesItsRunsInterrupted) {
   EXPECT_EQ(count(outcomes_of(study_of(two_cases), options), RunOutcome::interrupted), 2u);
 }
 
-/// What judging throws is the failure of its case, told to the judge itself.
+/// What judging throws, with or without a word, is the failure of its case, told to the judge itself.
 TEST(RunCases, AJudgeThatThrowsIsCalledOnceMoreWithTheReason) {
   const std::vector<CaseRuns> cases = case_runs(study_of(two_cases), 1);
-  std::atomic<int> thrown{0}, failed{0};
-  ProgressTracker tracker({});
-  Timing timing;
-  run_cases(cases, synthetic_options(), tracker, timing, [&](std::size_t, std::vector<FinishedRun>& runs) {
-    if (runs.front().has_result()) {
-      ++thrown;
-      throw std::runtime_error("not a number");
-    }
-    EXPECT_EQ(runs.front().outcome, RunOutcome::failed);
-    EXPECT_NE(runs.front().failure.find("not a number"), std::string::npos);
-    ++failed;
-  });
-  EXPECT_EQ(thrown, 2);
-  EXPECT_EQ(failed, 2);
+  for (const std::string why : {"not a number", ""}) {
+    std::atomic<int> thrown{0}, failed{0};
+    ProgressTracker tracker({});
+    Timing timing;
+    run_cases(cases, synthetic_options(), tracker, timing, [&](std::size_t, std::vector<FinishedRun>& runs) {
+      if (runs.front().has_result()) {
+        ++thrown;
+        throw std::runtime_error(why);
+      }
+      EXPECT_EQ(runs.front().outcome, RunOutcome::failed);
+      EXPECT_NE(runs.front().failure.find("the run failed: " + why), std::string::npos);
+      ++failed;
+    });
+    EXPECT_EQ(thrown, 2);
+    EXPECT_EQ(failed, 2);
+  }
 }
 
 TEST(RunCases, ASecondRunIsNotBegunOnceTheFirstBrokeOff) {

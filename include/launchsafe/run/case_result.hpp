@@ -28,6 +28,7 @@ enum class RunStatus {
   outside_gas_law,
   flame_beyond_sound
 };
+inline constexpr RunStatus last_status = RunStatus::flame_beyond_sound;
 std::string to_string(RunStatus status);
 
 /// Running sums of the energy balance, J (axisymmetric: of the whole shell; plane strain: per metre, half
