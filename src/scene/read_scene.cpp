@@ -303,6 +303,7 @@ std::vector<ListedKey> list_keys(const SceneFile& file) {
   for (const Key<Scene>& key : scene_keys()) {
     const auto given = file.given.find(key.name);
     const bool is_given = given != file.given.end();
+    if (!is_given && key.is_written && !key.is_written(file.scene)) continue;
     const Source* source = source_of(file.scene.sources, key.name);
     const Standing standing = source ? source->standing : is_given ? Standing::input : key.standing;
     listed.push_back({key.name, format_value(key, key.get(file.scene)), standing, key.sentence,

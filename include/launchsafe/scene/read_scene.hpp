@@ -71,6 +71,7 @@ struct ListedKey {
   Place place;           ///< where the user gave it
   std::string citation;  ///< where the value comes from; empty where nothing is said
 };
+/// The scene's own keys: those that do something, and those that the user gave.
 std::vector<ListedKey> list_keys(const SceneFile& file);
 
 /// The whole scene as TOML in SI, every key that does something written, measured curves included: reads back
