@@ -1,9 +1,11 @@
 // The laws against single numbers known to all their digits: half a unit of the last one is the tolerance.
 #include "launchsafe/materials/jwl.hpp"
+#include "launchsafe/materials/kinetics.hpp"
 #include "launchsafe/materials/mie_gruneisen.hpp"
 #include "launchsafe/materials/visco_scram.hpp"
 #include "launchsafe/materials/vlw.hpp"
 
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <gtest/gtest.h>
 
 namespace {
@@ -69,6 +71,20 @@ TEST(CrackGrowth, HasTheStatedSpeeds) {
 TEST(CrackGrowth, HasTheStatedToughnessUnderFriction) {
   // K0 sqrt[1 + (pi A/K0)(1 + A/K0)] at 141 MPa, c = 30 um.
   EXPECT_NEAR(frictional_toughness(ViscoScramParameters{}, 141e6, 30e-6), 1.827012e6, digits(1.0));
+}
+
+TEST(Kinetics, HasTheStatedAdiabaticInductionTimes) {
+  // To 2000 K with the printed activation temperature: the integral of dT over the heating rate.
+  const KineticsParameters printed = named_kinetics("printed");
+  const auto induction = [&](double from) {
+    return boost::math::quadrature::gauss_kronrod<double, 61>::integrate(
+        [&](double temperature) { return 1.0 / arrhenius_heating(printed, 1780.0, temperature); }, from,
+        2000.0, 15, 1e-10);
+  };
+  EXPECT_NEAR(induction(600.0), 7.425578e-2, digits(1e-8));
+  EXPECT_NEAR(induction(650.0), 2.746044e-3, digits(1e-9));
+  EXPECT_NEAR(induction(700.0), 1.645534e-4, digits(1e-10));
+  EXPECT_NEAR(induction(750.0), 1.449736e-5, digits(1e-11));
 }
 
 }  // namespace
