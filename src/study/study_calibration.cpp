@@ -26,7 +26,7 @@ bool states(const StudyFile& study, const std::string& key) {
 /// and the constants are carried to it as to any other.
 bool takes_load(const StudyFile& study, const CalibrationRecord& record) {
   return record.load_fitted && record.calibration.scene.load.curve_time.empty() &&
-         study.scene.scene.load.curve_time.empty() &&
+         study.scene.scene.load.curve_time.empty() && !states(study, "load.shape") &&
          std::none_of(load_shape.begin(), load_shape.end(),
                       [&](const char* key) { return states(study, key); });
 }

@@ -212,6 +212,14 @@ TEST_F(StudyWithRecord, RefusesASceneThatStatesOtherConstants) {
       << read.error().message();
 }
 
+TEST_F(StudyWithRecord, LeavesAShapeThatTheStudyStates) {
+  write(made_calibration());
+  const auto read = study("[set]\nload.shape = \"bell\"\n");
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->scene.scene.load.shape, scene::LoadShape::bell);
+  EXPECT_TRUE(distance_to_calibration(read->scene.scene, read->study.calibration).other_load_shape);
+}
+
 TEST_F(StudyWithRecord, RefusesAFitUncertaintyBelowThatOfTheRecord) {
   const CalibrationRecord record = made_calibration();
   write(record);
