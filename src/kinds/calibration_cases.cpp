@@ -125,7 +125,10 @@ std::vector<Failure> calibration_failures(const CalibrationResult& result) {
 
 Kind calibration_kind() {
   return {
-      .traits = {.name = "calibration", .gaps_key = {}, .gives_verdicts = false},
+      .traits = {.name = "calibration",
+                 .gaps_key = {},
+                 .gives_verdicts = false,
+                 .bounds_critical_gaps = false},
       .keys = joined({reference_keys(), own_keys(calibration_keys())}),
       .tables = {reference_table()},
       .read = read_calibration,

@@ -69,11 +69,15 @@ GapMarks::GapMarks(const std::vector<const CriticalGap*>& gaps, Style bars)
 
 void GapMarks::add(const CriticalGap& gap, double place) {
   Series& series = series_[static_cast<std::size_t>(drawn_kind(gap))];
-  const double position = position_of(gap), error = 100.0 * gap.uncertainty;
+  const double position = position_of(gap);
+  const auto bound = [&](double of_gap) {
+    const bool known = drawn_kind(gap) == CriticalGapKind::value && std::isfinite(of_gap);
+    return known ? 100.0 * of_gap : position;
+  };
   series.x.push_back(along_x_ ? position : place);
   series.y.push_back(along_x_ ? place : position);
-  series.lower.push_back(std::max(0.0, position - error));
-  series.upper.push_back(position + error);
+  series.lower.push_back(bound(gap.bounds.at_least));
+  series.upper.push_back(bound(gap.bounds.at_most));
 }
 
 void GapMarks::put_into(Plot& plot) {

@@ -39,8 +39,10 @@ Series inert_series(const CaseOutcome& outcome, const std::string& label) {
     const Uncertainty& uncertainty = row.uncertainty;
     series.x.push_back(100.0 * row.gap);
     series.y.push_back(temperature);
-    series.lower.push_back(temperature - (uncertainty.total() - uncertainty.model_form));
-    series.upper.push_back(temperature + uncertainty.total());
+    // Of one that ignites at an end of the range no more is known.
+    const auto at_most = [&](double share) { return std::isfinite(share) ? share : row.margin; };
+    series.lower.push_back(temperature - at_most(uncertainty.total() - uncertainty.model_form));
+    series.upper.push_back(temperature + at_most(uncertainty.total()));
   }
   return series;
 }
@@ -115,12 +117,6 @@ void add_published(const CriticalGapResult& result, Plot& plot) {
     if (!series->x.empty()) plot.series.push_back(std::move(*series));
 }
 
-/// cm: the share of the model form in the uncertainty of a critical gap; NaN where it is not known.
-double model_form_share(const CaseOutcome& outcome) {
-  const bool known = outcome.critical_shares && outcome.critical_slope > 0.0;
-  return known ? 100.0 * outcome.critical_shares->model_form / outcome.critical_slope : not_a_number;
-}
-
 /// The critical gap of the only case: a band where it has an uncertainty, words where it is no value.
 void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
   const CriticalGap& gap = outcome.critical;
@@ -129,7 +125,7 @@ void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
     return;
   }
   const double value = 100.0 * gap.value;
-  const auto known = measured_gap(value, 100.0 * gap.uncertainty, model_form_share(outcome));
+  const auto known = report::measured_gap(gap);
   const std::string label = "critical gap: " + (known ? known->text("cm") : centimetres(gap.value));
   plot.vertical_lines = {{value, known ? "" : label}};
   if (known) plot.vertical_bands = {{std::max(0.0, known->lower()), known->upper(), label}};

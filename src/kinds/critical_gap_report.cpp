@@ -24,8 +24,8 @@ std::string answer_of(const CaseOutcome& outcome) {
     case CriticalGapKind::value: {
       const bool confirmed = !outcome.confirmations.empty();
       return fmt::format("the critical gap is {}{}: {} does not ignite, {} does{}{}.", centimetres(gap.value),
-                         std::isfinite(gap.uncertainty)
-                             ? fmt::format(", uncertain by {} cm", significant(100.0 * gap.uncertainty, 2))
+                         std::isfinite(gap.bounds.at_least)
+                             ? fmt::format(", and at least {}", centimetres(gap.bounds.at_least))
                              : std::string{},
                          centimetres(gap.lower), centimetres(gap.upper),
                          confirmed ? "; coupled runs on both sides agree" : "; not confirmed by coupled runs",
@@ -41,55 +41,59 @@ std::string answer_of(const CaseOutcome& outcome) {
   return fmt::format("the critical gap is indeterminate: {}.", gap.reason);
 }
 
-/// What would make one share of a row's uncertainty smaller.
-struct Remedy {
-  const char* share;
-  double size;  ///< K
-  const char* how;
-};
-
-/// K that a share may be for the margin to exceed the uncertainty, the others as they are; NaN where none
-/// may.
-double allowed_share(const study::GapVerdict& row, double share) {
-  const study::Uncertainty& u = row.uncertainty;
-  const double left = row.margin - u.model_form;
-  const double others = std::pow(u.total() - u.model_form, 2) - share * share;
-  return left > 0.0 ? std::sqrt(left * left - others) : study::not_a_number;
-}
-
-bool is_within_uncertainty(const CaseOutcome& outcome, const study::GapVerdict& row) {
+bool is_within_bounds(const CaseOutcome& outcome, const study::GapVerdict& row) {
   return row.judgement.verdict == study::Verdict::indeterminate && !row.ignition && outcome.completed() &&
-         row.evidence.validity_warnings.empty() && row.margin > 0.0;
+         row.evidence.validity_warnings.empty();
 }
 
-std::string undecided_row(const study::GapVerdict& row) {
-  const study::Uncertainty& u = row.uncertainty;
-  const Remedy largest = std::max(
-      {Remedy{"the computation", u.computed(), "a finer setting, or a record of its accuracy"},
-       Remedy{"the fit", u.fit, "more measured temperatures to calibrate on"},
-       Remedy{"the inputs", u.inputs(), "a measured spread of peak pressure and initial temperature"},
-       Remedy{"the model form", u.model_form, "measurements of how the shell holds the charge"}},
-      [](const Remedy& a, const Remedy& b) { return a.size < b.size; });
-  const double allowed = allowed_share(row, largest.size);
-  return fmt::format(
-      "{}: a margin of {} K against shares of {} K (computation), {} K (fit), {} K (inputs) and {} K (model "
-      "form). The largest is that of {}; {} would reduce it, {}.\n",
-      centimetres(row.gap), significant(row.margin, 3), significant(u.computed(), 2), significant(u.fit, 2),
-      significant(u.inputs(), 2), significant(u.model_form, 2), largest.share, largest.how,
-      std::isfinite(allowed) ? fmt::format("and below {} K the row is decided", significant(allowed, 3))
-                             : std::string("and the others have to shrink too"));
+/// What would tell more of a cause.
+const char* remedy_for(ShareKind kind) {
+  switch (kind) {
+    case ShareKind::peak_pressure:
+      return "a measured spread of the peak pressure";
+    case ShareKind::pulse_length:
+      return "measured curves of several rounds";
+    case ShareKind::initial_temperature:
+      return "a narrower range of temperatures";
+    case ShareKind::stated_inputs:
+      return "a better known launch";
+    case ShareKind::load_curve:
+      return "a gauge with less noise";
+    case ShareKind::computation:
+      return "a finer setting, or a record of its accuracy";
+    case ShareKind::sliding:
+      return "a base that holds the charge";
+    case ShareKind::fit:
+      return "more measured temperatures to calibrate on";
+    case ShareKind::model_form:
+      return "measurements of how the shell holds the charge";
+  }
+  return "";
 }
 
-/// Which share keeps each row that did not ignite from a verdict, and what would reduce it; empty where none
+/// The cause that lowers the bound most; nothing without any.
+std::string largest_cause(const study::CriticalGap& gap) {
+  const auto moves = [&](const GapShare& share) { return move_towards_ignition(gap.lower, share); };
+  const auto largest =
+      std::max_element(gap.shares.begin(), gap.shares.end(),
+                       [&](const GapShare& a, const GapShare& b) { return moves(a) < moves(b); });
+  if (largest == gap.shares.end()) return {};
+  return fmt::format(" The largest part, {}, is that of {}; {} would make it smaller.",
+                     centimetres(moves(*largest)), traits_of(largest->kind).title, remedy_for(largest->kind));
+}
+
+/// Which gaps of every case lie between the lower bound of the critical gap and ignition; empty where none
 /// does.
 std::string undecided_text(const CriticalGapResult& result) {
   std::string text;
   for (const CaseOutcome& outcome : result.cases) {
-    for (const study::GapVerdict& row : outcome.verdicts) {
-      if (!is_within_uncertainty(outcome, row)) continue;
-      text +=
-          "- " + (result.cases.size() > 1 ? outcome.input.label + ", " : std::string{}) + undecided_row(row);
-    }
+    std::string gaps;
+    for (const study::GapVerdict& row : outcome.verdicts)
+      if (is_within_bounds(outcome, row)) gaps += (gaps.empty() ? "" : ", ") + centimetres(row.gap);
+    if (gaps.empty()) continue;
+    text += fmt::format("- {}{}: the critical gap may be as small as {}.{}\n",
+                        result.cases.size() > 1 ? outcome.input.label + ", " : std::string{}, gaps,
+                        centimetres(outcome.critical.bounds.at_least), largest_cause(outcome.critical));
   }
   return text.empty() ? text : "## What keeps rows undecided\n\n" + text;
 }
@@ -141,7 +145,8 @@ Report report_of(const CriticalGapResult& result) {
                             ReportTable{coupled_run_table(result), "", "coupled_runs"},
                             ReportTable{cited_limit_table(result), "", "cited_limits"},
                             ReportTable{air_model_table(result), "", "air_models"},
-                            ReportTable{air_energy_table(result), "", "air_energy"}})
+                            ReportTable{air_energy_table(result), "", "air_energy"},
+                            ReportTable{gap_share_table(result), "", "gap_shares", Shown::page}})
     report.items.push_back(std::move(table));
   for (const CaseOutcome& outcome : result.cases)
     report.items.push_back(ReportTable{fit_table(outcome), "", "fit"});

@@ -135,38 +135,17 @@ std::string confirmation_text(const CaseOutcome& outcome) {
   return text;
 }
 
-/// Shares of the uncertainty of a critical gap, cm: half its bracket is the rest.
-std::vector<Column> critical_share_columns() {
-  std::vector<Column> columns;
-  for (const char* share : {"computation", "fit", "inputs", "model_form"})
-    columns.push_back(for_programs(
-        significant_column(share, "cm", 2, fmt::format("critical_gap_uncertainty_of_{}_cm", share))));
-  return columns;
-}
-
-void add_critical_share_cells(const CaseOutcome& outcome, std::vector<Cell>& cells) {
-  if (!outcome.critical_shares || !(outcome.critical_slope > 0)) {
-    cells.resize(cells.size() + 4);
-    return;
-  }
-  const Uncertainty& u = *outcome.critical_shares;
-  for (const double share : {u.computed(), u.fit, u.inputs(), u.model_form})
-    cells.emplace_back(optional_number(100.0 * share / outcome.critical_slope));
-}
-
 }  // namespace
 
 Table critical_gap_table(const CriticalGapResult& result) {
   Table table{"Critical gap", {quantity::case_name()}};
   append(table.columns, critical_gap_columns());
-  append(table.columns, critical_share_columns());
   append(table.columns,
          {for_programs(named_text("coupled runs", "coupled_runs")), named_text("remark", "reason")});
   for (const CaseOutcome& outcome : result.cases) {
     std::vector<Cell>& cells = table.rows.emplace_back();
     cells.emplace_back(outcome.input.label);
     add_critical_gap_cells(outcome.critical, cells);
-    add_critical_share_cells(outcome, cells);
     cells.insert(cells.end(), {confirmation_text(outcome), outcome.critical.reason});
   }
   return table;
@@ -291,6 +270,12 @@ Table run_table(const CriticalGapResult& result) {
     runs.push_back({outcome.input.label, outcome.failure, &outcome.result.mechanics,
                     outcome.completed() ? "cases/" + outcome.hash + ".h5" : std::string{}});
   return report::run_table(runs);
+}
+
+Table gap_share_table(const CriticalGapResult& result) {
+  std::vector<std::pair<std::string, const CriticalGap*>> cases;
+  for (const CaseOutcome& outcome : result.cases) cases.emplace_back(outcome.input.label, &outcome.critical);
+  return report::gap_share_table(cases);
 }
 
 Table cited_limit_table(const CriticalGapResult& result) {

@@ -161,7 +161,11 @@ Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
 
 Kind sensitivity_kind() {
   return {
-      .traits = {.name = "sensitivity", .gaps_key = "gap", .gives_verdicts = false, .keeps_answers = true},
+      .traits = {.name = "sensitivity",
+                 .gaps_key = "gap",
+                 .gives_verdicts = false,
+                 .bounds_critical_gaps = false,
+                 .keeps_answers = true},
       .keys = joined({{one_gap_key()},
                       judging_keys(),
                       calibration_record_keys(),

@@ -96,11 +96,15 @@ constexpr MappedQuantity critical_gap{"critical_gap", "Critical gap", "critical 
 
 /// Up to which gap nothing ignites in spite of the uncertainty, cm; NaN where there is no such gap.
 double surely_safe_in_cm(const CaseAnswer& answer) {
-  const double least = value_in_cm(answer) - 100.0 * answer.critical.uncertainty;
-  return least > 0.0 ? least : study::not_a_number;
+  const double least = 100.0 * answer.critical.bounds.at_least;
+  return answer.critical.kind == CriticalGapKind::value && least > 0.0 ? least : study::not_a_number;
 }
-constexpr MappedQuantity safe_gap{"safe_gap", "Critical gap less its uncertainty",
-                                  "critical gap less its uncertainty [cm]", surely_safe_in_cm,
+/// cm, by which the critical gap may be smaller.
+double uncertainty_in_cm(const CaseAnswer& answer) {
+  return value_in_cm(answer) - 100.0 * answer.critical.bounds.at_least;
+}
+constexpr MappedQuantity safe_gap{"safe_gap", "Lower bound of the critical gap",
+                                  "lower bound of the critical gap [cm]", surely_safe_in_cm,
                                   "no gap surely safe"};
 
 std::size_t place_in(const std::vector<double>& values, double value) {
@@ -127,7 +131,7 @@ Plot empty_map(const SweepResult& result, const std::vector<SweptAxis>& axes, co
     if (!std::isfinite(value)) continue;
     map.minimum = std::min(map.minimum.value_or(value), value);
     map.maximum = std::max(map.maximum.value_or(value), value);
-    const double uncertainty = 100.0 * answer.critical.uncertainty;
+    const double uncertainty = uncertainty_in_cm(answer);
     if (std::isfinite(uncertainty)) map.least_step = std::max(map.least_step, uncertainty);
   }
   auto labels = kind_labels(critical_gaps_of(result.answers));
@@ -160,7 +164,7 @@ std::vector<Plot> maps_of(const SweepResult& result, const std::vector<SweptAxis
     const std::size_t cell = place_in(y.values, y.key.value(input.coordinates[y.index])) * x.values.size() +
                              place_in(x.values, x.key.value(input.coordinates[x.index]));
     map.values[cell] = quantity.value(result.answers[i]);
-    if (!map.uncertainty.empty()) map.uncertainty[cell] = 100.0 * result.answers[i].critical.uncertainty;
+    if (!map.uncertainty.empty()) map.uncertainty[cell] = uncertainty_in_cm(result.answers[i]);
     if (!std::isfinite(map.values[cell]))
       map.hatched[static_cast<std::size_t>(drawn_kind(result.answers[i].critical))].cells.push_back(cell);
   }

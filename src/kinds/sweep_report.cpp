@@ -91,7 +91,7 @@ std::string smallest_text(const SweepResult& result, const std::vector<ShownKey>
   std::string text;
   if (const auto best = smallest(result)) {
     const study::CriticalGap& gap = result.answers[*best].critical;
-    const auto known = measured_gap(100.0 * gap.value, 100.0 * gap.uncertainty, not_a_number);
+    const auto known = measured_gap(gap);
     text = fmt::format("The smallest value is {}, at {}.", known ? known->text("cm") : centimetres(gap.value),
                        name_of(keys, result.study.cases[*best]));
   }

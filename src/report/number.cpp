@@ -121,9 +121,10 @@ Measured measured(double value, double minus, double plus) {
   return shown;
 }
 
-std::optional<Measured> measured_gap(double value, double uncertainty, double model_form) {
-  if (!std::isfinite(value) || !std::isfinite(uncertainty) || !(uncertainty > 0.0)) return std::nullopt;
-  return measured(value, uncertainty, std::isfinite(model_form) ? uncertainty - model_form : uncertainty);
+std::optional<Measured> measured_gap(double value, double at_least, double at_most) {
+  const double minus = value - at_least, plus = at_most - value;
+  if (!std::isfinite(minus) || !std::isfinite(plus) || !(std::max(minus, plus) > 0.0)) return std::nullopt;
+  return measured(value, minus, plus);
 }
 
 std::string allowed_text(double value, int decimals) {

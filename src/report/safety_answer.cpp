@@ -34,8 +34,6 @@ void say_critical_gap(const Subject& subject, const JudgedCase& each, SafetySect
     parts["gap"] = part(gap->text("cm"), number_of(critical, "critical_gap_cm"), "cm");
     parts["from"] = part(fixed(std::max(0.0, gap->lower()), gap->decimals), gap->lower(), "cm");
     parts["to"] = part(fixed(gap->upper(), gap->decimals) + " cm", gap->upper(), "cm");
-    parts["uncertainty"] = part(uncertain_text(number_of(critical, "critical_gap_uncertainty_cm"), 1) + " cm",
-                                number_of(critical, "critical_gap_uncertainty_cm"), "cm");
     section.say("answer.value", parts, origin, Look::lead);
     return;
   }

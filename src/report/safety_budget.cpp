@@ -17,7 +17,6 @@ namespace {
 std::string share_text(double size, double least) {
   return size > 0.0 && size < least ? "< " + significant(least, 1) : uncertain_text(size);
 }
-constexpr double least_gap_share = 1e-4;         // cm
 constexpr double least_temperature_share = 0.1;  // K
 
 Table share_table(const JudgedCase& each) {
@@ -40,23 +39,24 @@ Table share_table(const JudgedCase& each) {
   return table;
 }
 
+/// The causes of a case that lower the bound of its critical gap.
+std::vector<const Row*> causes_of(const Subject& subject, const JudgedCase& each) {
+  std::vector<const Row*> causes = pointers_to(subject.study.rows("gap_shares"));
+  std::erase_if(causes, [&](const Row* row) { return text_of(*row, "case") != each.label; });
+  return causes;
+}
+
 void say_gap_shares(const Subject& subject, const JudgedCase& each, SafetySection& section) {
-  const Row& critical = *each.critical;
-  if (!is_value(critical)) return;
-  const Origin origin = subject.origin("cases", each.label);
-  std::vector<Share> shares;
-  Parts parts{{"case", each.label}};
-  for (const char* name : share_names) {
-    const double size = number_of(critical, fmt::format("critical_gap_uncertainty_of_{}_cm", name));
-    if (!std::isfinite(size))
-      return section.say("budget.no_gap_shares", {{"command", subject.study.command()}}, origin);
-    shares.push_back({name, size});
-    parts[name] = part(share_text(size, least_gap_share) + " cm", size, "cm");
-  }
-  const Share& largest = largest_of(shares);
-  parts["largest"] = truths_of(largest);
-  parts["largest"]["size"] = uncertain_text(largest.size) + " cm";
-  section.say("budget.gap_shares", parts, origin);
+  const std::vector<const Row*> causes = causes_of(subject, each);
+  if (causes.empty()) return;
+  const Origin origin = subject.origin("gap_shares", each.label);
+  section.say("budget.gap_shares", {{"case", each.label}}, origin);
+  section.show("gap_shares",
+               table_of(causes, {named_text("cause", "cause"), named_text("class", "class"),
+                                 named_text("critical gap towards ignition", "raised"),
+                                 named_text("at the other end", "lowered"),
+                                 significant_column("lowers the bound by", "cm", 2, "lowers_cm")}),
+               origin);
 }
 
 // --- numerics ---
@@ -189,15 +189,17 @@ Plot model_plot(const std::vector<const Row*>& rows, const std::string& pressure
   plot.height = 150 + 34 * static_cast<int>(rows.size());
   Series series{.style = Style::horizontal_bars, .colour = 0};
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double gap = number_of(*rows[i], "critical_gap_cm"),
-                 u = number_of(*rows[i], "critical_gap_uncertainty_cm");
+    const double gap = number_of(*rows[i], "critical_gap_cm");
+    const auto bound = [&](const char* key) {
+      const double known = number_of(*rows[i], key);
+      return std::isfinite(known) ? known : gap;
+    };
     const double place = static_cast<double>(rows.size() - i);
     const std::string name = text_of(*rows[i], "variant");
     plot.y.tics.push_back(
         {place, is_value(*rows[i]) ? name : name + ", " + text_of(*rows[i], "critical_gap_reads_as")});
     if (is_value(*rows[i]))
-      series.add(gap, place, std::isfinite(u) ? std::max(0.0, gap - u) : gap,
-                 std::isfinite(u) ? gap + u : gap);
+      series.add(gap, place, bound("critical_gap_at_least_cm"), bound("critical_gap_at_most_cm"));
   }
   plot.y.minimum = 0.4;
   plot.y.maximum = static_cast<double>(rows.size()) + 0.6;

@@ -107,7 +107,8 @@ JudgedGap judged(const Row& row, const Row& critical) {
                 .uncertainty = number_of(row, "uncertainty_K")};
   if (is_value(critical)) {
     gap.distance = number_of(critical, "critical_gap_lower_cm") - gap.gap;
-    gap.distance_uncertainty = number_of(critical, "critical_gap_uncertainty_cm");
+    gap.distance_uncertainty =
+        number_of(critical, "critical_gap_lower_cm") - number_of(critical, "critical_gap_at_least_cm");
   }
   return gap;
 }
@@ -165,8 +166,8 @@ bool is_value(const Row& critical) { return text_of(critical, "critical_gap_kind
 std::optional<Measured> measured_gap(const Row& critical) {
   if (!is_value(critical)) return std::nullopt;
   return report::measured_gap(number_of(critical, "critical_gap_cm"),
-                              number_of(critical, "critical_gap_uncertainty_cm"),
-                              number_of(critical, "critical_gap_uncertainty_of_model_form_cm"));
+                              number_of(critical, "critical_gap_at_least_cm"),
+                              number_of(critical, "critical_gap_at_most_cm"));
 }
 
 std::string gap_text(const Row& critical) {
@@ -183,17 +184,6 @@ std::vector<Share> shares_of(const Row& verdict) {
   return shares;
 }
 
-const Share& largest_of(const std::vector<Share>& shares) {
-  return *std::max_element(shares.begin(), shares.end(),
-                           [](const Share& a, const Share& b) { return a.size < b.size; });
-}
-
-Parts truths_of(const Share& share) {
-  Parts parts = Parts::object();
-  for (const char* name : share_names) parts[name] = share.name == name;
-  return parts;
-}
-
 namespace {
 
 /// A reason without what other columns of its row and page one say of all rows: margin and extrapolation.
@@ -204,7 +194,7 @@ std::string short_reason(const std::string& verdict, const std::string& reason) 
     const std::size_t end = std::min(reason.find("; ", begin), reason.size());
     std::string clause = reason.substr(begin, end - begin);
     begin = end + 2;
-    if (verdict == "SAFE" && clause.starts_with("margin ")) continue;
+    if (verdict == "SAFE" && (clause.starts_with("margin ") || clause.starts_with("below "))) continue;
     if (clause.starts_with("extrapolated: ")) clause = "extrapolated";
     if (clause.starts_with("margin ")) clause = "margin within the uncertainty";
     text += (text.empty() ? "" : "; ") + clause;

@@ -135,15 +135,15 @@ store::MaybeError read_study_json(StudyEvidence& study) {
 /// Whether a gap's own numbers, and the critical gap of its case, allow it to be called SAFE.
 bool may_be_safe(const StudyEvidence& study, const nlohmann::json& row, const nlohmann::json* critical) {
   const double margin = number_of(row, "margin_K");
-  if (!(margin > number_of(row, "uncertainty_K")) || !text_of(row, "ignition_cause").empty()) return false;
+  if (!(margin > 0.0) || !text_of(row, "ignition_cause").empty()) return false;
   if (critical == nullptr) return true;
   constexpr double slack = 1e-6;  // K
   const double ignition = study.scene.scene.charge().kinetics.ignition_temperature;
   if (!(std::abs(ignition - number_of(row, "temperature_max_K") - margin) <= slack)) return false;
   const std::string kind = text_of(*critical, "critical_gap_kind");
-  const double distance = number_of(*critical, "critical_gap_cm") - number_of(row, "gap_cm");
-  return kind == "all-safe" ||
-         (kind == "value" && distance > number_of(*critical, "critical_gap_uncertainty_cm"));
+  const double distance = number_of(*critical, "critical_gap_at_least_cm") - number_of(row, "gap_cm");
+  return (kind == "all-safe" && distance >= 0.0 && margin > number_of(row, "uncertainty_K")) ||
+         (kind == "value" && distance > 0.0);
 }
 
 /// Rows that are not all there, or whose own numbers contradict their SAFE.

@@ -38,7 +38,8 @@ void add_computed(const JudgedCase& each, Plot& plot) {
     else if (has_validity_warning(*row))
       unknown.add(gap, temperature);
     else
-      safe.add(gap, temperature, temperature - u, temperature + u);
+      safe.add(gap, temperature, std::isfinite(u) ? temperature - u : temperature,
+               temperature + (std::isfinite(u) ? u : number_of(*row, "margin_K")));
   }
   for (Series* series : {&safe, &unknown, &ignited}) add_points(std::move(*series), plot);
 }
@@ -130,8 +131,7 @@ std::string with_unit(const SweepAxis& axis) {
 /// cm: up to where no ignition is to be expected even at the end of the uncertainty; 0 where no gap is safe.
 double envelope_of(const Row& row) {
   if (text_of(row, "critical_gap_kind") == "all-ignite") return 0.0;
-  const double gap = number_of(row, "critical_gap_cm"), u = number_of(row, "critical_gap_uncertainty_cm");
-  return std::isfinite(gap) && std::isfinite(u) ? std::max(0.0, gap - u) : std::nan("");
+  return is_value(row) ? number_of(row, "critical_gap_at_least_cm") : std::nan("");
 }
 
 /// At most so many values of the second axis have a line of their own, the first and the last among them.
@@ -157,7 +157,7 @@ SweepLine line_of(const StudyEvidence& sweep, const std::vector<SweepAxis>& axes
                   int number) {
   const std::string end = value ? fmt::format(", {} {}", significant(*value, 4), axes[1].unit) : "";
   SweepLine line{{.label = "critical gap" + end, .style = Style::vertical_bars, .colour = 0},
-                 {.label = "less its uncertainty" + end,
+                 {.label = "its lower bound" + end,
                   .style = number == 0 ? Style::line : Style::line_and_points,
                   .colour = number}};
   for (const Row& row : sweep.rows("cases")) {
@@ -165,8 +165,12 @@ SweepLine line_of(const StudyEvidence& sweep, const std::vector<SweepAxis>& axes
     const double x = number_of(row, axes[0].key);
     line.envelope.add(x, envelope_of(row));
     if (!is_value(row)) continue;
-    const double gap = number_of(row, "critical_gap_cm"), u = number_of(row, "critical_gap_uncertainty_cm");
-    line.critical.add(x, gap, std::max(0.0, gap - u), gap + u);
+    const double gap = number_of(row, "critical_gap_cm");
+    const auto bound = [&](const char* key) {
+      const double known = number_of(row, key);
+      return std::isfinite(known) ? known : gap;
+    };
+    line.critical.add(x, gap, bound("critical_gap_at_least_cm"), bound("critical_gap_at_most_cm"));
   }
   return line;
 }
@@ -207,7 +211,7 @@ Parts parts_of(const MappedCases& map, const std::vector<SweepAxis>& axes) {
   double smallest = std::nan(""), largest_uncertainty = 0;
   std::size_t none = 0, unknown = 0;
   for (const Row* row : map.cases) {
-    const double envelope = envelope_of(*row), u = number_of(*row, "critical_gap_uncertainty_cm");
+    const double envelope = envelope_of(*row), u = number_of(*row, "critical_gap_cm") - envelope;
     if (!(envelope >= smallest) && std::isfinite(envelope)) smallest = envelope;
     if (is_value(*row) && u > largest_uncertainty) largest_uncertainty = u;
     none += envelope == 0.0;

@@ -141,28 +141,24 @@ void say_calibration(const Subject& subject, SafetySection& section) {
   section.item("limits.calibrated", {{"record", says(subject.study, "calibration")}}, origin);
 }
 
+/// The cause that lowers the bound of the critical gap most.
 void say_shares(const Subject& subject, SafetySection& section) {
   const JudgedCase* own = subject.own_case();
   if (own == nullptr || !own->completed) return;
-  // The row at which the question is decided: the largest gap that does not ignite.
-  const Row* row = nullptr;
-  for (const Row* each : own->verdicts)
-    if (text_of(*each, "verdict") != "UNSAFE" && !has_validity_warning(*each) &&
-        std::isfinite(number_of(*each, "uncertainty_K")))
-      row = each;
-  if (row == nullptr) return;
-  const Share largest = largest_of(shares_of(*row));
-  if (!(largest.size > 0.0)) return;
-  Parts parts = truths_of(largest);
-  const double total = number_of(*row, "uncertainty_K");
-  const auto kelvin = [&](double value) {
-    const int decimals = decimals_for(total);  // as in the table
-    return part(fixed(rounded_up(value, decimals), decimals) + " K", value, "K");
-  };
-  parts["size"] = kelvin(largest.size);
-  parts["total"] = kelvin(total);
-  parts["gap"] = significant(number_of(*row, "gap_cm"), 6) + " cm";
-  section.item("limits.largest_share", parts, subject.origin("verdicts", own->label));
+  const Row* largest = nullptr;
+  double most = 0.0;
+  for (const Row& row : subject.study.rows("gap_shares")) {
+    const double lowers = number_of(row, "lowers_cm");
+    if (text_of(row, "case") != own->label || !(lowers > most)) continue;
+    largest = &row;
+    most = lowers;
+  }
+  if (largest == nullptr) return;
+  const double at_least = number_of(*own->critical, "critical_gap_at_least_cm");
+  const Parts parts{{"cause", text_of(*largest, "cause")},
+                    {"at_least", part(allowed_text(at_least, 4) + " cm", at_least, "cm")},
+                    {"size", part(uncertain_text(most) + " cm", most, "cm")}};
+  section.item("limits.largest_share", parts, subject.origin("gap_shares", own->label));
 }
 
 void say_assumptions(const Subject& subject, SafetySection& section) {

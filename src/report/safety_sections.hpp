@@ -83,9 +83,6 @@ struct Share {
 };
 inline constexpr const char* share_names[] = {"computation", "fit", "inputs", "model_form"};
 std::vector<Share> shares_of(const Row& verdict);
-const Share& largest_of(const std::vector<Share>& shares);
-/// Which of the shares one is: a truth under every name.
-Parts truths_of(const Share& share);
 
 /// The verdict rows of the main study, where it judges gaps.
 std::vector<const Row*> all_verdicts(const Subject& subject);

@@ -112,13 +112,15 @@ std::vector<Column> critical_gap_columns() {
           quantity::critical_gap_reads_as(),
           significant_column("no ignition", "cm", 6, "critical_gap_lower_cm"),
           significant_column("ignites", "cm", 6, "critical_gap_upper_cm"),
-          significant_column("uncertainty", "cm", 2, "critical_gap_uncertainty_cm")};
+          significant_column("at least", "cm", 3, "critical_gap_at_least_cm"),
+          significant_column("at most", "cm", 3, "critical_gap_at_most_cm")};
 }
 
 void add_critical_gap_cells(const study::CriticalGap& gap, std::vector<Cell>& cells) {
-  cells.insert(cells.end(), {study::to_string(gap.kind), optional_number(100.0 * value_of(gap)),
-                             reads_as(gap), optional_number(100.0 * gap.lower),
-                             optional_number(100.0 * gap.upper), optional_number(100.0 * gap.uncertainty)});
+  cells.insert(cells.end(),
+               {study::to_string(gap.kind), optional_number(100.0 * value_of(gap)), reads_as(gap),
+                optional_number(100.0 * gap.lower), optional_number(100.0 * gap.upper),
+                optional_number(100.0 * gap.bounds.at_least), optional_number(100.0 * gap.bounds.at_most)});
 }
 
 std::vector<std::string> mesh_notes(const study::StudyFile& study) {
@@ -206,10 +208,47 @@ std::string friction_remark(const study::StudyFile& study) {
   return text;
 }
 
+std::optional<Measured> measured_gap(const study::CriticalGap& gap) {
+  return measured_gap(100.0 * value_of(gap), 100.0 * gap.bounds.at_least, 100.0 * gap.bounds.at_most);
+}
+
+std::string gap_or_bound_text(study::GapOrBound gap) {
+  if (std::isnan(gap)) return "not known";
+  if (gap == study::no_ignition) return "no ignition";
+  return gap > 0.0 ? significant(100.0 * gap, 4) + " cm" : "ignites without a gap";
+}
+
+Table gap_share_table(const std::vector<std::pair<std::string, const study::CriticalGap*>>& cases) {
+  Table table{
+      "What makes the critical gap uncertain",
+      {quantity::case_name(), named_text("cause", "cause"), named_text("class", "class"),
+       named_text("critical gap towards ignition", "raised"), named_text("at the other end", "lowered"),
+       significant_column("lowers the bound by", "cm", 2, "lowers_cm")}};
+  for (const auto& [label, gap] : cases) {
+    for (const study::GapShare& share : gap->shares) {
+      const study::ShareTraits& traits = study::traits_of(share.kind);
+      table.rows.push_back({label, traits.title, study::to_string(traits.of_class),
+                            gap_or_bound_text(share.raised), gap_or_bound_text(share.lowered),
+                            optional_number(100.0 * study::move_towards_ignition(gap->lower, share))});
+    }
+  }
+  if (!table.rows.empty())
+    table.notes.push_back(fmt::format(
+        "Every cause is put to the ends of its range by itself, and the critical gap is searched anew. "
+        "Random "
+        "causes, raised by {:g} standard deviations, are combined as the root of the sum of squares; what is "
+        "not known better stands at its worst end, and is added. The bounds follow.",
+        study::coverage_factor));
+  return table;
+}
+
 std::string uncertainty_remark(const study::StudyFile& study) {
   return fmt::format(
-      "The uncertainty of a margin is the root of the sum of squares (ASME V&V 20) of three shares, and on "
-      "top a fourth, of the model form. Of the computation: the sum of the trace's sampling error, the "
+      "A verdict is judged in gap: SAFE is a gap below the lower bound of the critical gap. Kelvins are told "
+      "besides, and decide where nothing ignites up to the end of the search; one that is infinite says that "
+      "the gap ignites at that end of the range. They are the sum of four shares. Of the computation: the "
+      "sum "
+      "of the trace's sampling error, the "
       "integration error, where confirmed the largest difference between traced temperatures and coupled "
       "runs, where the charge slides on the base what the temperatures leave out of that (the heat of "
       "friction, and the gap's growth where the base opens), and {} K for mesh, step and scaling, {}. Of the "

@@ -78,7 +78,11 @@ Keys general_keys() {
           then(number_key("initial_temperature", Dimension::temperature, between(200, 500), Standing::paper,
                           "Temperature of all bodies and of the gap's air before launch.",
                           &Scene::initial_temperature),
-               [](Scene& s) { s.surface.air.initial_temperature = s.initial_temperature; }),
+               [](Scene& s) {
+                 materials::AirParameters& air = s.surface.air;
+                 air.initial_temperature = s.initial_temperature;
+                 air.density = materials::air_density(air.initial_temperature, air.initial_pressure);
+               }),
           between(219, 345), "shells are stored and fired from -54 to 71 degC"),
       always_plausible(
           written_where(

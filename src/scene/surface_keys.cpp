@@ -41,25 +41,36 @@ std::vector<Key<Surface>> gap_keys() {
   };
 }
 
+void take_density_from_gas_law(materials::AirParameters& air) {
+  air.density = materials::air_density(air.initial_temperature, air.initial_pressure);
+}
+
 std::vector<Key<materials::AirParameters>> air_keys() {
   using materials::AirParameters;
   return {
-      plausibly(number_key("density", Dimension::density, between(0.01, 100), Standing::literature,
-                           "Density of the air before launch.", &AirParameters::density),
-                between(0.6, 1.7), "air has 1.2 kg/m3 at the ground"),
       plausibly(number_key("specific_heat", Dimension::specific_heat, between(100, 1e4), Standing::literature,
                            "Specific heat of the air.", &AirParameters::specific_heat),
                 between(950, 1.2e3), "air has 1.00 kJ/(kg K), at 1000 K 1.14"),
       plausibly(number_key("heat_ratio", Dimension::number, above_to(1, 1.67), Standing::paper,
                            "Adiabatic exponent of the air.", &AirParameters::heat_ratio),
                 between(1.3, 1.42), "air has 1.40, at 2000 K 1.30"),
-      plausibly(number_key("temperature", Dimension::temperature, between(200, 500), Standing::paper,
-                           "Temperature of the air before launch; follows initial_temperature unless given.",
-                           &AirParameters::initial_temperature),
+      plausibly(then(number_key("temperature", Dimension::temperature, between(200, 500), Standing::paper,
+                                "Temperature of the air before launch; follows initial_temperature unless "
+                                "given.",
+                                &AirParameters::initial_temperature),
+                     take_density_from_gas_law),
                 between(219, 345), "shells are stored and fired from -54 to 71 degC"),
-      plausibly(number_key("pressure", Dimension::pressure, above_to(0, 10e6), Standing::assumed,
-                           "Pressure of the air before launch.", &AirParameters::initial_pressure),
+      plausibly(then(number_key("pressure", Dimension::pressure, above_to(0, 10e6), Standing::assumed,
+                                "Pressure of the air before launch.", &AirParameters::initial_pressure),
+                     take_density_from_gas_law),
                 between(5e4, 1.2e5), "it lies between those at 5500 m of altitude and at the ground"),
+      // After what it follows from, so that one that is given stays.
+      plausibly(
+          number_key("density", Dimension::density, between(0.01, 100), Standing::literature,
+                     "Density of the air before launch; follows from its temperature and pressure by the "
+                     "gas law unless given.",
+                     &AirParameters::density),
+          between(0.6, 1.7), "air has 1.2 kg/m3 at the ground"),
   };
 }
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace launchsafe::study {
 
-CriticalGap::CriticalGap()
-    : value(std::numeric_limits<double>::quiet_NaN()), lower(value), upper(value), uncertainty(value) {}
+CriticalGap::CriticalGap() : value(std::numeric_limits<double>::quiet_NaN()), lower(value), upper(value) {}
 
 std::string to_string(CriticalGapKind kind) {
   constexpr std::array words{"value", "all-safe", "all-ignite", "indeterminate"};
@@ -110,6 +110,43 @@ CriticalGap find_critical_gap(const State& state, double largest, double toleran
   result.upper = bracket.upper;
   result.value = 0.5 * (bracket.lower + bracket.upper);
   return result;
+}
+
+GapOrBound smallest_igniting_gap(const State& state, double begin, double end, double tolerance) {
+  constexpr int intervals = 8;
+  double safe = begin;
+  for (int i = 0; i <= intervals; ++i) {
+    const double gap = begin + (end - begin) * i / intervals;
+    const GapState here = state(gap);
+    if (here == GapState::undefined) return std::numeric_limits<double>::quiet_NaN();
+    if (here == GapState::safe) {
+      safe = gap;
+      continue;
+    }
+    if (i == 0) return begin;
+    double undefined = 0;
+    const auto bracket = bisect(state, {safe, gap}, tolerance, undefined);
+    // The lower end, so that no share towards ignition is told smaller than it is.
+    return bracket ? bracket->lower : std::numeric_limits<double>::quiet_NaN();
+  }
+  return no_ignition;
+}
+
+void set_shares(CriticalGap& gap, std::vector<GapShare> shares) {
+  gap.shares = std::move(shares);
+  switch (gap.kind) {
+    case CriticalGapKind::value:
+      gap.bounds = bounds_of(gap.lower, gap.upper, gap.shares);
+      return;
+    case CriticalGapKind::all_safe:
+      gap.bounds = {bounds_of(gap.lower, gap.lower, gap.shares).at_least, no_ignition};
+      return;
+    case CriticalGapKind::all_ignite:
+      gap.bounds = {0.0, bounds_of(gap.upper, gap.upper, gap.shares).at_most};
+      return;
+    case CriticalGapKind::indeterminate:
+      gap.bounds = {};
+  }
 }
 
 }  // namespace launchsafe::study

@@ -55,6 +55,25 @@ bool says(const GapVerdict& row, const InputStatements& statements, const Study&
          !(u.input < stated_input_share(study, input));
 }
 
+/// Whether the shares of a critical gap that was read are all there that the study's case must have.
+bool has_all_shares(const CriticalGap& critical, const Study& study, const StudyCase& input,
+                    const CalibrationDistance& distance) {
+  const bool is_film = input.scene.scene.surface.air_model == scene::AirModel::film;
+  const bool bounded = critical.kind == CriticalGapKind::value || critical.kind == CriticalGapKind::all_safe;
+  if (!study.kind.bounds_critical_gaps || is_film || !bounded) return true;
+  const auto has = [&](ShareKind kind) {
+    return std::any_of(critical.shares.begin(), critical.shares.end(),
+                       [kind](const GapShare& share) { return share.kind == kind; });
+  };
+  if (propagates_spread(study) &&
+      !(has(ShareKind::peak_pressure) && has(ShareKind::pulse_length) && has(ShareKind::initial_temperature)))
+    return false;
+  return (has(ShareKind::computation) || !(input.numerical_uncertainty > 0.0)) &&
+         (has(ShareKind::fit) || !(fit_share(study, distance, {}) > 0.0)) &&
+         (has(ShareKind::stated_inputs) || !(stated_input_share(study, input) > 0.0)) &&
+         (has(ShareKind::model_form) || !(stated_model_form_share(study, input).value_or(1.0) > 0.0));
+}
+
 }  // namespace
 
 CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::MechanicsResult& mechanics,
@@ -94,6 +113,7 @@ bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input) 
       answer.critical.upper > largest_gap(study) * (1.0 + 1e-9))
     return false;
   const InputStatements statements = statements_of(study, input);
+  if (answer.completed() && !has_all_shares(answer.critical, study, input, statements.distance)) return false;
   for (std::size_t i = 0; i < study.gaps.size(); ++i) {
     const GapVerdict& row = answer.verdicts[i];
     if (row.gap != study.gaps[i] || is_late(row.maximum) || is_late(row.early)) return false;

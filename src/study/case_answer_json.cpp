@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace launchsafe::study {
@@ -25,10 +27,14 @@ const json& list_of(const json& value, std::size_t count) {
   return value;
 }
 
+constexpr const char* infinite = "infinite";
+
 /// nlohmann-json prints the shortest text that reads back to the same number, and null for what is not
 /// finite.
+json json_of_number(double number) { return std::isinf(number) ? json(infinite) : json(number); }
 double number_of(const json& value) {
   if (value.is_null()) return not_a_number;
+  if (value == infinite) return std::numeric_limits<double>::infinity();
   require(value.is_number(), "a number is none");
   return value.get<double>();
 }
@@ -70,8 +76,34 @@ std::optional<NamedIgnition> ignition_of(const json& value) {
                        value.at(2).get<std::string>(), number_of(value.at(3))};
 }
 
+json json_of(const std::vector<GapShare>& shares) {
+  json list = json::array();
+  for (const GapShare& share : shares)
+    list.push_back(
+        {static_cast<int>(share.kind), json_of_number(share.raised), json_of_number(share.lowered)});
+  return list;
+}
+std::vector<GapShare> shares_of(const json& value) {
+  require(value.is_array(), "shares are no list");
+  std::vector<GapShare> shares;
+  for (const json& each : value) {
+    list_of(each, 3);
+    shares.push_back(
+        {enumerator_of(each.at(0), ShareKind::model_form), amount_of(each.at(1)), amount_of(each.at(2))});
+  }
+  return shares;
+}
+
+/// Bounds are not stored: they follow from the shares. One without shares has bounds all the same where none
+/// was found, and none where they were not sought.
 json json_of(const CriticalGap& gap) {
-  return {static_cast<int>(gap.kind), gap.value, gap.lower, gap.upper, gap.uncertainty, gap.reason};
+  const bool bounded = !std::isnan(gap.bounds.at_least) || !gap.shares.empty();
+  return {static_cast<int>(gap.kind),
+          gap.value,
+          gap.lower,
+          gap.upper,
+          gap.reason,
+          bounded ? json_of(gap.shares) : json(nullptr)};
 }
 CriticalGap critical_gap_of(const json& value) {
   list_of(value, 6);
@@ -80,19 +112,19 @@ CriticalGap critical_gap_of(const json& value) {
   gap.value = amount_of(value.at(1));
   gap.lower = amount_of(value.at(2));
   gap.upper = amount_of(value.at(3));
-  gap.uncertainty = amount_of(value.at(4));
-  gap.reason = value.at(5).get<std::string>();
-  if (gap.kind == CriticalGapKind::value) {
+  gap.reason = value.at(4).get<std::string>();
+  if (gap.kind == CriticalGapKind::value)
     require(gap.lower <= gap.value && gap.value <= gap.upper, "a critical gap is outside its bracket");
-    // As it was computed: half the bracket and more.
-    require(!(gap.uncertainty < 0.5 * (gap.upper - gap.lower)), "a critical gap is surer than its bracket");
-  }
+  if (!value.at(5).is_null()) set_shares(gap, shares_of(value.at(5)));
   return gap;
 }
 
 json json_of(const Uncertainty& u) {
-  return {u.sampling, u.integration, u.coupling,   u.numerical, u.fit,
-          u.input,    u.load_curve,  u.model_form, u.sliding};
+  json list = json::array();
+  for (const double part : {u.sampling, u.integration, u.coupling, u.numerical, u.fit, u.input, u.load_curve,
+                            u.model_form, u.sliding})
+    list.push_back(json_of_number(part));
+  return list;
 }
 Uncertainty uncertainty_of(const json& value) {
   list_of(value, 9);

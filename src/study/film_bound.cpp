@@ -43,11 +43,10 @@ void evaluate_film(const Study& study, CaseOutcome& outcome) {
   film.maximum_temperature.assign(temperatures.begin(), temperatures.end() - 1);
   const bool all_safe =
       std::all_of(states.begin(), states.end(), [](GapState state) { return state == GapState::safe; });
-  film.critical = all_safe
-                      ? none_up_to(gaps.back(), gaps.size())
-                      : find_critical_gap(
-                            [&](double gap) { return state_of(surface::integrate_skin(model, trace, gap)); },
-                            gaps.back(), study.tolerance);
+  film.critical =
+      all_safe ? none_up_to(gaps.back(), gaps.size())
+               : find_critical_gap([&](double gap) { return state_of(surface::ignites(model, trace, gap)); },
+                                   gaps.back(), study.tolerance);
   outcome.film = std::move(film);
 }
 

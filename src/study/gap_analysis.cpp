@@ -2,8 +2,12 @@
 
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/raised_launch.hpp"
+#include "launchsafe/study/study_uncertainty.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -60,52 +64,39 @@ CaseGround ground_of(const Study& study, const CaseOutcome& outcome) {
           heated_temperature(scene, outcome.result.mechanics.trace, 0.0)};
 }
 
-/// K by which T max of a row changes in another scene, on another trace or under another gap (m). A row that
-/// ignites there has no margin left.
-double changed_share(const scene::Scene& scene, const BottomTrace& trace, double gap, const GapVerdict& row) {
-  const double rise = std::abs(heated_temperature(scene, trace, gap) - row.heated);
-  const auto reacting = surface::integrate_skin(surface::skin_model(scene), trace, gap);
-  return !row.ignition && reacting.ignition ? std::max(rise, row.margin) : rise;
+/// K by which T max of a row is higher in a raised launch; infinite where that ignites and the row does not.
+/// Of a row that ignites it is the difference of skins that do not react.
+double raised_share(const RaisedLaunch& raised, const GapVerdict& row) {
+  if (raised.trace == nullptr) return not_a_number;
+  const double gap = row.gap + raised.thicker;
+  const surface::SkinModel skin = row.ignition ? without_reaction(raised.skin) : raised.skin;
+  const auto history = surface::integrate_skin(skin, *raised.trace, gap);
+  if (history.ignition && !row.ignition) return std::numeric_limits<double>::infinity();
+  const double hotter = surface::maximum_at_stations(history, *raised.trace).temperature -
+                        (row.ignition ? row.heated : row.maximum.temperature);
+  return hotter < 0.0 ? 0.0 : hotter;  // NaN stays NaN
 }
 
-/// K by which T max of a gap changes where load and initial temperature are at the hot ends of their assumed
-/// spread together.
-double propagated_share(const CaseOutcome& outcome, const GapVerdict& row) {
-  scene::Scene hot = with_raised_load(outcome.input.scene.scene);
-  hot.initial_temperature += assumed_temperature_spread;
-  hot.surface.air.initial_temperature += assumed_temperature_spread;
-  return changed_share(hot, outcome.raised->trace, row.gap, row);
+/// K, the random causes together, as independent ones are.
+double input_share(const Study& study, const CaseOutcome& outcome, const GapVerdict& row) {
+  if (!outcome.raised) return stated_input_share(study, outcome.input);
+  double squares = 0.0;
+  for (const RaisedLaunch& each : raised_inputs(study, outcome, End::towards_ignition)) {
+    const double share = raised_share(each, row);
+    squares += share * share;
+  }
+  return std::sqrt(squares);
 }
 
-/// K by which all heat of friction between charge and base could heat the charge's surface: in the skin, or,
-/// where that is thinner, as deep as heat diffuses over the launch at a constant rate (Carslaw & Jaeger
-/// 1959, 2.9).
-double friction_share(const CaseOutcome& outcome) {
-  const scene::Scene& scene = outcome.input.scene.scene;
-  const materials::Charge& charge = scene.charge();
-  const double capacity = charge.eos.initial_density * charge.specific_heat;  // J/(m3 K)
-  const double diffused =
-      0.5 * std::sqrt(std::numbers::pi * charge.conductivity * scene.load.duration / capacity);
-  const double heat =
-      run::friction_heat_at_bottom(outcome.result.mechanics, scene::charge_extent(scene).x_end);
-  return heat / (capacity * std::min(scene.surface.skin_thickness, diffused));
-}
-
-/// K by which T max of a gap changes where it is thicker (m).
+/// K by which T max of a gap is higher where it is thicker (m).
 double thicker_gap_share(const CaseOutcome& outcome, const GapVerdict& row, double thicker) {
   constexpr double least = 1e-9;  // m
   if (thicker < least) return 0.0;
-  return changed_share(outcome.input.scene.scene, outcome.result.mechanics.trace, row.gap + thicker, row);
+  const std::shared_ptr<const BottomTrace> trace(std::shared_ptr<void>{}, &outcome.result.mechanics.trace);
+  return raised_share({{}, surface::skin_model(outcome.input.scene.scene), trace, thicker}, row);
 }
 
-/// K by which T max of a gap changes where charge and base part.
-double opening_share(const CaseOutcome& outcome, const GapVerdict& row) {
-  const double bottom = scene::charge_extent(outcome.input.scene.scene).x_end;
-  return thicker_gap_share(outcome, row, run::opening_at_bottom(outcome.result.mechanics, bottom));
-}
-
-/// K by which T max of a gap changes where other models move the critical gap towards ignition. One that
-/// ignites with that much more gap has no margin left.
+/// K by which T max of a gap is higher where other models move the critical gap towards ignition.
 double model_form_share(const Study& study, const CaseOutcome& outcome, const GapVerdict& row) {
   if (const auto stated = stated_model_form_share(study, outcome.input)) return *stated;
   return thicker_gap_share(outcome, row, model_form_shift(*study.model_form, outcome.input.scene.scene).gap);
@@ -115,15 +106,14 @@ double model_form_share(const Study& study, const CaseOutcome& outcome, const Ga
 /// with the rise.
 void add_shares(const Study& study, const CaseOutcome& outcome, const CaseGround& ground, GapVerdict& row) {
   const double initial = outcome.input.scene.scene.initial_temperature;
-  const double hotter = (row.maximum.temperature - initial) / outcome.input.rise_of_uncertainty;
-  row.uncertainty.numerical = outcome.input.numerical_uncertainty * (hotter > 1.0 ? hotter : 1.0);
+  row.uncertainty.numerical = numerical_share(outcome.input, row.gap, row.maximum.temperature - initial);
   const Rises rises{ground.heated_without_gap - initial, row.heated - ground.heated_without_gap};
   row.uncertainty.fit = fit_share(study, ground.distance, rises);
-  row.uncertainty.input =
-      outcome.raised ? propagated_share(outcome, row) : stated_input_share(study, outcome.input);
+  row.uncertainty.input = input_share(study, outcome, row);
   row.uncertainty.load_curve = ground.load_curve.in_kelvin(rises);
   row.uncertainty.model_form = model_form_share(study, outcome, row);
-  row.uncertainty.sliding = friction_share(outcome) + opening_share(outcome, row);
+  row.uncertainty.sliding =
+      friction_share(outcome) + thicker_gap_share(outcome, row, opening_at_base(outcome));
 }
 
 GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGround& ground,
@@ -156,24 +146,56 @@ double coupling_share(const CaseOutcome& outcome) {
   return coupling;
 }
 
-/// Half the bracket, and the temperature uncertainty over the slope of temperature against gap just below it.
-void set_gap_uncertainty(const Study& study, CaseOutcome& outcome) {
+/// The critical gap of a raised launch, and of one lowered, beside that of the case.
+GapOrBound critical_gap_of(const Study& study, const CriticalGap& critical, const RaisedLaunch& launch,
+                           End end) {
+  if (launch.trace == nullptr) return not_a_number;
+  const auto state = [&](double gap) {
+    return state_of(surface::ignites(launch.skin, *launch.trace, std::max(0.0, gap + launch.thicker)));
+  };
+  const bool towards = end == End::towards_ignition;
+  const double from = towards ? 0.0 : critical.upper;
+  const double to = towards ? (critical.kind == CriticalGapKind::value ? critical.upper : critical.lower)
+                            : largest_gap(study);
+  return smallest_igniting_gap(state, from, to, study.tolerance);
+}
+
+/// The case at the gap next to its critical one that does not ignite, or where the search ended.
+GapVerdict row_at_critical_gap(const Study& study, const CaseOutcome& outcome) {
+  const run::GapResult gap =
+      run::evaluate_gap(outcome.input.scene.scene, outcome.result.mechanics.trace, outcome.critical.lower);
+  GapVerdict row = row_of(study, outcome, ground_of(study, outcome), gap);
+  row.uncertainty.coupling = coupling_share(outcome);
+  if (misses_calibrated_rows(outcome))
+    row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
+  return row;
+}
+
+/// What makes the critical gap uncertain, each cause bisected on its own trace, and the bounds that follow.
+/// Under a film no bound is sought: no ignition shows nothing there.
+void find_bounds_of_critical_gap(const Study& study, CaseOutcome& outcome) {
   CriticalGap& critical = outcome.critical;
-  if (critical.kind != CriticalGapKind::value) return;
-  const double half = 0.5 * (critical.upper - critical.lower);
-  const scene::Scene& scene = outcome.input.scene.scene;
-  const BottomTrace& trace = outcome.result.mechanics.trace;
-  const double below = std::max(0.0, critical.lower - std::max(study.tolerance, 0.02 * critical.lower));
-  const run::GapResult at_lower = run::evaluate_gap(scene, trace, critical.lower);
-  const run::GapResult at_below = run::evaluate_gap(scene, trace, below);
-  const double slope =
-      (at_lower.at_stations.temperature - at_below.at_stations.temperature) / (critical.lower - below);
-  Uncertainty uncertainty = row_of(study, outcome, ground_of(study, outcome), at_below).uncertainty;
-  uncertainty.coupling = coupling_share(outcome);
-  const double temperature = uncertainty.total();
-  outcome.critical_shares = uncertainty;
-  outcome.critical_slope = slope;
-  critical.uncertainty = half + (slope > 0 ? temperature / slope : critical.value);
+  const bool is_film = outcome.input.scene.scene.surface.air_model == scene::AirModel::film;
+  if (!study.kind.bounds_critical_gaps || is_film || critical.kind == CriticalGapKind::indeterminate) return;
+  if (critical.kind == CriticalGapKind::all_ignite) return set_shares(critical, {});
+  const GapVerdict row = row_at_critical_gap(study, outcome);
+  std::vector<RaisedLaunch> raised = raised_launches(study, outcome, row, End::towards_ignition);
+  std::vector<RaisedLaunch> lowered;
+  if (critical.kind == CriticalGapKind::value) lowered = raised_launches(study, outcome, row, End::away);
+  std::vector<GapShare> shares(raised.size());
+  // Cores that find no further run help here; a thread that waits for them must not start one.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, raised.size(), [&](std::size_t i) {
+      GapShare& share = shares[i];
+      share.kind = raised[i].kind;
+      share.raised = critical_gap_of(study, critical, raised[i], End::towards_ignition);
+      const auto away = std::find_if(lowered.begin(), lowered.end(),
+                                     [&](const RaisedLaunch& each) { return each.kind == share.kind; });
+      share.lowered =
+          away == lowered.end() ? critical.upper : critical_gap_of(study, critical, *away, End::away);
+    });
+  });
+  set_shares(critical, std::move(shares));
 }
 
 CriticalGap indeterminate(std::string reason) {
@@ -215,6 +237,27 @@ void attach_references(const Study& study, const StudyCase& input, std::vector<G
         [&row](const Reference& reference) { return std::abs(reference.gap - row.gap) <= 1e-9; });
     if (found != study.references.end()) row.reference = *found;
   }
+}
+
+GapState state_of(std::optional<bool> ignites) {
+  if (!ignites) return GapState::undefined;
+  return *ignites ? GapState::ignites : GapState::safe;
+}
+
+double friction_share(const CaseOutcome& outcome) {
+  const scene::Scene& scene = outcome.input.scene.scene;
+  const materials::Charge& charge = scene.charge();
+  const double capacity = charge.eos.initial_density * charge.specific_heat;  // J/(m3 K)
+  const double diffused =
+      0.5 * std::sqrt(std::numbers::pi * charge.conductivity * scene.load.duration / capacity);
+  const double heat =
+      run::friction_heat_at_bottom(outcome.result.mechanics, scene::charge_extent(scene).x_end);
+  return heat / (capacity * std::min(scene.surface.skin_thickness, diffused));
+}
+
+double opening_at_base(const CaseOutcome& outcome) {
+  return run::opening_at_bottom(outcome.result.mechanics,
+                                scene::charge_extent(outcome.input.scene.scene).x_end);
 }
 
 GapState state_of(const surface::SkinHistory& history) {
@@ -262,9 +305,7 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
   }
   const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
   outcome.critical = find_critical_gap(
-      [&](double gap) {
-        return state_of(surface::integrate_skin(model, outcome.result.mechanics.trace, gap));
-      },
+      [&](double gap) { return state_of(surface::ignites(model, outcome.result.mechanics.trace, gap)); },
       largest_gap(study), study.tolerance);
 }
 
@@ -303,7 +344,7 @@ CaseOutcome without_result(const Study& study, const StudyCase& input, RunOutcom
 }
 
 void apply_confirmations(const Study& study, CaseOutcome& outcome) {
-  set_gap_uncertainty(study, outcome);
+  find_bounds_of_critical_gap(study, outcome);
   for (const Confirmation& confirmation : outcome.confirmations) {
     const auto disagreement = disagreement_of(confirmation);
     if (!disagreement) continue;

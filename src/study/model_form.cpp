@@ -89,22 +89,32 @@ std::optional<PressureInterval> interval_of(const std::vector<double>& pressures
   return PressureInterval{above - 1, above};
 }
 
-/// m at one recorded pressure. NaN where it is not known: where the default has a bound alone, how much lower
-/// another one lies is not known, and where no other model counts, nothing was compared.
-double shift_at(const ModelFormRecord& record, std::size_t pressure) {
+/// The shifts at one recorded pressure, m. NaN where they are not known: where the default has a bound alone,
+/// how far another one lies is not known, and where no other model counts, nothing was compared.
+struct Shift {
+  double sooner = std::nan(""), later = std::nan("");
+};
+
+/// Written so that either being NaN makes it NaN.
+double larger(double a, double b) { return a >= b ? a : b + 0.0 * a; }
+
+Shift shift_at(const ModelFormRecord& record, std::size_t pressure) {
   const GapOrBound own = record.critical_gap[pressure];
-  if (!(own > 0.0) || own == no_ignition) return std::nan("");
+  if (!(own > 0.0) || own == no_ignition) return {};
   bool compared = false;
-  double most = 0.0;
+  Shift most{0.0, 0.0};
   for (const ModelAlternative& each : record.alternatives) {
     if (!each.not_counted.empty()) continue;
     compared = true;
     const GapOrBound other = each.critical_gap[pressure];
-    const double shift = other == no_ignition ? 0.0 : own - other;
-    if (!(shift <= most)) most = shift;
-    if (std::isnan(most)) return most;
+    if (other == no_ignition) {
+      most.later = no_ignition;
+      continue;
+    }
+    most.sooner = larger(most.sooner, own - other);
+    most.later = larger(most.later, other - own);
   }
-  return compared ? most : std::nan("");
+  return compared ? most : Shift{};
 }
 
 double peak_of(const scene::Scene& scene) { return scene::PressureHistory(scene.load).stated_peak(); }
@@ -176,14 +186,14 @@ ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries,
 
 ModelFormShift model_form_shift(const ModelFormRecord& record, const scene::Scene& scene) {
   if (std::string reason = why_outside(record, scene); !reason.empty())
-    return {std::nan(""), std::move(reason)};
+    return {std::nan(""), std::nan(""), std::move(reason)};
   const PressureInterval interval = *interval_of(record.peak_pressures, peak_of(scene));
-  const double below = shift_at(record, interval.below), above = shift_at(record, interval.above);
-  // Written so that either being NaN makes it NaN.
-  const double shift = below >= above ? below : above + 0.0 * below;
-  if (std::isnan(shift))
-    return {shift, "it has no critical gap of the default model, or no other model that counts, there"};
-  return {shift, {}};
+  const Shift below = shift_at(record, interval.below), above = shift_at(record, interval.above);
+  const double sooner = larger(below.sooner, above.sooner), later = larger(below.later, above.later);
+  if (std::isnan(sooner))
+    return {sooner, later,
+            "it has no critical gap of the default model, or no other model that counts, there"};
+  return {sooner, later, {}};
 }
 
 std::string models_without_ignition(const ModelFormRecord& record, const scene::Scene& scene, double gap) {

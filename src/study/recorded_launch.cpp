@@ -130,9 +130,9 @@ Coverage coverage_of(const RecordedLaunch& recorded, const RecordedLaunch& launc
   const double pressure = ratio_of(launch.peak_pressure, recorded.peak_pressure);
   const double cracks = crack_ratio(launch, recorded);
   const double friction = ratio_of(launch.localisation, recorded.localisation);
-  const double air = ratio_of(largest_of(launch.gaps) * launch.air_heating,
-                              largest_of(recorded.gaps) * recorded.air_heating);
   Coverage coverage;
+  const double heating = most_heating * largest_of(recorded.gaps) * recorded.air_heating;
+  coverage.largest_gap = launch.air_heating > 0.0 ? heating / launch.air_heating : infinity;
   const double growth =
       std::pow(std::max(1.0, pressure), 2) * std::sqrt(std::max(1.0, cracks)) * std::max(1.0, friction);
   // What grows without bound is not known: the reason says so.
@@ -153,12 +153,6 @@ Coverage coverage_of(const RecordedLaunch& recorded, const RecordedLaunch& launc
   } else if (!(friction <= most_heating * allowed)) {
     coverage.reason = beyond(recorded.localisation, launch.localisation, "",
                              "with a localisation of the friction of", most_heating);
-  } else if (!(air <= most_heating * allowed)) {
-    coverage.reason = fmt::format(
-        "the air of its largest gap, {:.4g} cm, heats the skin by {:.3g} K/ms, and that of {:.4g} cm by "
-        "{:.3g} K/ms, more than {:g} times that",
-        100.0 * largest_of(recorded.gaps), 1e-3 * largest_of(recorded.gaps) * recorded.air_heating,
-        100.0 * largest_of(launch.gaps), 1e-3 * largest_of(launch.gaps) * launch.air_heating, most_heating);
   } else {
     coverage.reason = foreign_load(recorded, launch);
   }

@@ -56,15 +56,15 @@ void settle_stated(StudyFile& study) {
                                  : "as the study states";
 }
 
-/// What a record says of a scene at the gaps that are judged.
+/// What a record says of a scene.
 struct Recorded {
   std::string reason;           ///< why the bound of the record is not enough, a clause; empty where it is
   double bound = not_a_number;  ///< K, grown to this launch; NaN where the record has none
   double growth = 1.0;          ///< by which the bound was multiplied
+  double largest_gap = 0;       ///< m, up to which it holds
 };
 
-Recorded recorded_for(const AccuracyRecord& record, const scene::Scene& scene,
-                      const std::vector<double>& gaps) {
+Recorded recorded_for(const AccuracyRecord& record, const scene::Scene& scene) {
   Recorded recorded;
   recorded.reason = why_foreign(record, scene);
   if (!recorded.reason.empty()) return recorded;
@@ -73,8 +73,9 @@ Recorded recorded_for(const AccuracyRecord& record, const scene::Scene& scene,
     recorded.reason = "it does not have these settings";
     return recorded;
   }
-  const Coverage coverage = coverage_of(record.launch, launch_of(scene, gaps));
+  const Coverage coverage = coverage_of(record.launch, launch_of(scene, {}));
   recorded.reason = coverage.reason;
+  recorded.largest_gap = coverage.largest_gap;
   recorded.growth = coverage.growth;
   recorded.bound = found->temperature_bound * coverage.growth;
   return recorded;
@@ -101,13 +102,14 @@ void settle_recorded(StudyFile& study, const AccuracyRecord& record) {
   s.numerical_uncertainty = 0.0;
   std::map<std::string, std::size_t> reasons;
   for (StudyCase& each : study.cases) {
-    const Recorded recorded = recorded_for(record, each.scene.scene, s.gaps);
+    const Recorded recorded = recorded_for(record, each.scene.scene);
     const bool known = std::isfinite(recorded.bound);
     const bool applies = known && recorded.reason.empty();
     each.numerical_uncertainty = applies ? recorded.bound : assumed_for(each.scene.scene);
     if (known) {
       each.numerical_uncertainty = std::max(each.numerical_uncertainty, recorded.bound);
       each.rise_of_uncertainty = record.rise * recorded.growth * each.numerical_uncertainty / recorded.bound;
+      each.covered_gap = recorded.largest_gap;
     }
     if (!applies) ++reasons[recorded.reason];
     s.numerical_uncertainty = std::max(s.numerical_uncertainty, each.numerical_uncertainty);
@@ -152,8 +154,7 @@ Fault choose_setting(StudyFile& study, const std::optional<AccuracyRecord>& reco
   }
   const scene::Scene& own = study.scene.scene;
   const std::string foreign = why_foreign(*record, own);
-  const Coverage coverage = coverage_of(
-      record->launch, launch_of(own, study.study.gaps.empty() ? own.surface.gaps : study.study.gaps));
+  const Coverage coverage = coverage_of(record->launch, launch_of(own, {}));
   if (const std::string reason = foreign.empty() ? coverage.reason : foreign; !reason.empty())
     return fault_at(study, "accuracy", asked + ", and a record that does not apply: " + reason,
                     "the record of an accuracy study on this scene");
@@ -177,6 +178,15 @@ Fault choose_setting(StudyFile& study, const std::optional<AccuracyRecord>& reco
   study.scene = std::move(*changed);
   study.chosen_setting = chosen_text(*chosen, coverage.growth, tolerance);
   return std::nullopt;
+}
+
+double numerical_share(const StudyCase& input, double gap, double rise) {
+  constexpr double round_off = 1e-9;
+  const bool covered = gap <= input.covered_gap * (1.0 + round_off);
+  const double here = covered ? input.numerical_uncertainty
+                              : std::max(input.numerical_uncertainty, assumed_for(input.scene.scene));
+  const double hotter = rise / input.rise_of_uncertainty;
+  return here * (hotter > 1.0 ? hotter : 1.0);
 }
 
 void settle_uncertainty(StudyFile& study, const std::optional<AccuracyRecord>& record) {

@@ -27,34 +27,44 @@ std::string margin_text(const char* relation, const Evidence& evidence) {
                      kelvin(evidence.uncertainty, 2));
 }
 
-/// The distance of a gap that did not ignite to the critical gap.
-Judgement judge_distance(const Evidence& evidence, const CriticalGap& critical) {
+std::string centimetres(double length) { return fmt::format("{:.3g} cm", 100.0 * length); }
+
+/// Where nothing ignites up to the end of the search, which a gap may lie at.
+Judgement judge_margin(const Evidence& evidence, const CriticalGap& critical) {
+  // Written so that NaN is never safe.
+  if (!(evidence.margin > evidence.uncertainty))
+    return indeterminate(margin_text("within the uncertainty,", evidence));
+  if (!(evidence.gap <= critical.bounds.at_least))
+    return indeterminate("the critical gap may be as small as " + centimetres(critical.bounds.at_least));
+  return {Verdict::safe, margin_text("over uncertainty", evidence)};
+}
+
+Judgement judge_in_gap(const Evidence& evidence, const CriticalGap& critical) {
+  const double at_least = critical.bounds.at_least;
   switch (critical.kind) {
     case CriticalGapKind::indeterminate:
       return indeterminate("the critical gap is indeterminate: " + critical.reason);
     case CriticalGapKind::all_ignite:
       return indeterminate("no ignition here, but at smaller gaps");
     case CriticalGapKind::all_safe:
-      return {Verdict::safe, margin_text("over uncertainty", evidence)};
+      return judge_margin(evidence, critical);
     case CriticalGapKind::value:
       break;
   }
-  const double distance = critical.value - evidence.gap;
-  // Written so that NaN is never safe.
-  if (!(distance > critical.uncertainty)) {
-    return indeterminate(fmt::format("{:.3g} cm from the critical gap, whose uncertainty is {:.2g} cm",
-                                     100.0 * distance, 100.0 * critical.uncertainty));
-  }
-  return {Verdict::safe, margin_text("over uncertainty", evidence)};
+  if (std::isnan(at_least)) return indeterminate("the critical gap has no lower bound");
+  if (!(evidence.gap < at_least))
+    return indeterminate(at_least > 0.0 ? "the critical gap may be as small as " + centimetres(at_least)
+                                        : std::string("the launch may ignite without a gap"));
+  return {Verdict::safe,
+          fmt::format("below {}, the least that the critical gap can be", centimetres(at_least))};
 }
 
 Judgement judge_sound(const Evidence& evidence, const CriticalGap& critical) {
   if (evidence.ignited) return {Verdict::unsafe, "ignition"};
+  // Written so that NaN is never safe.
+  if (!(evidence.margin > 0.0)) return indeterminate("no margin to the ignition temperature");
   if (!evidence.optimistic.empty()) return indeterminate(evidence.optimistic);
-  if (!(evidence.margin > evidence.uncertainty)) {
-    return indeterminate(margin_text("within the uncertainty,", evidence));
-  }
-  return judge_distance(evidence, critical);
+  return judge_in_gap(evidence, critical);
 }
 
 }  // namespace

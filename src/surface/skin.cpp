@@ -11,6 +11,17 @@ namespace launchsafe::surface {
 
 namespace {
 
+/// The skin equation of an interval, but for the friction of a station.
+detail::SkinEquation equation_of(const SkinModel& model, const detail::Intervals& intervals,
+                                 std::size_t interval) {
+  const detail::LinearAir air = detail::linear_air(model.surface.air, intervals.pressure(interval));
+  detail::SkinEquation equation;
+  equation.exchange_rate = intervals.exchange_rate(interval);
+  equation.air = air.begin;
+  equation.air_slope = (air.end - air.begin) / intervals.length(interval);
+  return equation;
+}
+
 /// Every station by itself under the given air (AirModel::reservoir).
 SkinHistory integrate_reservoir(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
   const detail::Intervals intervals(model, trace, gap);
@@ -23,17 +34,12 @@ SkinHistory integrate_reservoir(const SkinModel& model, const trace::BottomTrace
   }
   std::vector<SkinPoint> points(stations, SkinPoint{model.initial_temperature});
   for (std::size_t interval = 0; interval < intervals.count(); ++interval) {
-    const double length = intervals.length(interval);
-    const detail::LinearAir air = detail::linear_air(model.surface.air, intervals.pressure(interval));
-    detail::SkinEquation equation;
-    equation.exchange_rate = intervals.exchange_rate(interval);
-    equation.air = air.begin;
-    equation.air_slope = (air.end - air.begin) / length;
+    detail::SkinEquation equation = equation_of(model, intervals, interval);
     for (std::size_t station = 0; station < stations; ++station) {
       SkinPoint& point = points[station];
       const bool was_ignited = point.ignited;
       equation.heating = intervals.friction_heating(interval, station);
-      point = detail::advance(model, equation, point, length);
+      point = detail::advance(model, equation, point, intervals.length(interval));
       history.temperature[(interval + 1) * stations + station] = point.temperature;
       if (point.ignited && !was_ignited) {
         detail::note_ignition(history, trace, station, trace.time[interval] + point.ignition_time,
@@ -97,6 +103,28 @@ SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& tra
     history.ignition.reset();
   }
   return history;
+}
+
+std::optional<bool> ignites(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
+  if (gap > 0.0 && model.surface.air_model == scene::AirModel::film) {
+    const SkinHistory history = integrate_skin(model, trace, gap);
+    if (!all_finite(history.temperature) || !all_finite(history.air_temperature)) return std::nullopt;
+    return history.ignition.has_value();
+  }
+  if (trace.samples() == 0 || trace.stations.empty()) return std::nullopt;
+  const detail::Intervals intervals(model, trace, gap);
+  std::vector<SkinPoint> points(trace.stations.size(), SkinPoint{model.initial_temperature});
+  for (std::size_t interval = 0; interval < intervals.count(); ++interval) {
+    detail::SkinEquation equation = equation_of(model, intervals, interval);
+    for (std::size_t station = 0; station < points.size(); ++station) {
+      if (trace.stations[station].observation) continue;
+      equation.heating = intervals.friction_heating(interval, station);
+      points[station] = detail::advance(model, equation, points[station], intervals.length(interval));
+      if (!std::isfinite(points[station].temperature)) return std::nullopt;
+      if (points[station].ignited) return true;
+    }
+  }
+  return false;
 }
 
 SkinPoint advance_skin(const SkinModel& model, double gap, SkinPoint point, double dt, double air_begin,

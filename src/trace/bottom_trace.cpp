@@ -69,6 +69,30 @@ BottomTrace thinned(const BottomTrace& trace) {
   return result;
 }
 
+BottomTrace stretched(BottomTrace trace, double factor) {
+  for (double& time : trace.time) time *= factor;
+  for (double& steps : trace.steps) steps *= factor;
+  return trace;
+}
+
+std::optional<BottomTrace> mirrored(const BottomTrace& trace, const BottomTrace& other) {
+  BottomTrace result = trace;
+  bool same = trace.samples() == other.samples() && trace.stations.size() == other.stations.size();
+  const auto mirror = [&same](std::vector<double>& values, const std::vector<double>& others) {
+    same = same && values.size() == others.size();
+    for (std::size_t i = 0; same && i < values.size(); ++i)
+      if (others[i] > 0.0) values[i] *= values[i] / others[i];
+  };
+  mirror(result.chamber_pressure, other.chamber_pressure);
+  mirror(result.bottom_pressure, other.bottom_pressure);
+  mirror(result.mean_chamber_pressure, other.mean_chamber_pressure);
+  mirror(result.mean_bottom_pressure, other.mean_bottom_pressure);
+  for (std::size_t closure = 0; closure < traced_closures; ++closure)
+    mirror(result.friction[closure], other.friction[closure]);
+  if (!same) return std::nullopt;
+  return result;
+}
+
 double interpolate(const std::vector<double>& time, const std::vector<double>& value, double t) {
   if (time.empty() || time.size() != value.size() || std::isnan(t))
     return std::numeric_limits<double>::quiet_NaN();

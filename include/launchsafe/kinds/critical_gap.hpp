@@ -44,6 +44,8 @@ std::string answer(const CriticalGapResult& result);
 report::Table verdict_table(const CriticalGapResult& result);
 /// Maximum and early temperatures against the published ones; without rows where there are none.
 report::Table comparison_table(const CriticalGapResult& result);
+/// What makes each critical gap uncertain, cause by cause.
+report::Table gap_share_table(const CriticalGapResult& result);
 /// Critical gap of every case, with bracket and confirmation.
 report::Table critical_gap_table(const CriticalGapResult& result);
 /// The study's cited limits beside the critical gaps of its cases; without rows where it cites none.

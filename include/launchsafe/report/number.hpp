@@ -62,10 +62,8 @@ struct Measured {
 /// uncertainty of the value's own order has two digits, or rounding would halve the value.
 Measured measured(double value, double minus, double plus);
 
-/// A critical gap and its uncertainty in cm, of which `model_form` moves towards ignition alone and so lowers
-/// the gap alone; NaN where that share is not known: then all of it counts on both sides. Nothing where there
-/// is no value or no uncertainty.
-std::optional<Measured> measured_gap(double value, double uncertainty, double model_form);
+/// A critical gap between its bounds, all in cm. Nothing where one of them is not known.
+std::optional<Measured> measured_gap(double value, double at_least, double at_most);
 
 /// `value` rounded down with so many decimals, as text: what is allowed. Never "-0.0".
 std::string allowed_text(double value, int decimals);

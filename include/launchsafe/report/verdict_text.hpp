@@ -1,10 +1,13 @@
 // Verdicts and critical gaps as cells and sentences, the same in every study that judges gaps.
 #pragma once
 
+#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/study/gap_verdict.hpp"
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace launchsafe::report {
@@ -29,6 +32,10 @@ std::string used_for(const study::Reference& published);
 
 /// The value in m, NaN for anything that is none: a bound never passes for a value.
 double value_of(const study::CriticalGap& gap);
+/// cm: the value between its bounds; nothing where it is none, or one of them is not known.
+std::optional<Measured> measured_gap(const study::CriticalGap& gap);
+/// What makes critical gaps uncertain, cause by cause, of cases by their labels.
+Table gap_share_table(const std::vector<std::pair<std::string, const study::CriticalGap*>>& cases);
 /// "0.0395 cm", "> 0.1 cm", "ignites without a gap", "indeterminate".
 std::string reads_as(const study::CriticalGap& gap);
 

@@ -1,12 +1,11 @@
 // The smallest gap that ignites, by scanning and bisection on one bottom trace.
 #pragma once
 
-#include "launchsafe/scene/scene.hpp"
-#include "launchsafe/trace/bottom_trace.hpp"
+#include "launchsafe/study/gap_share.hpp"
 
 #include <functional>
-#include <limits>
 #include <string>
+#include <vector>
 
 namespace launchsafe::study {
 
@@ -24,15 +23,15 @@ struct CriticalGap {
   double value;        ///< m, middle of the bracket
   double lower;        ///< m, does not ignite
   double upper;        ///< m, ignites
-  double uncertainty;  ///< m, half the bracket and the temperature uncertainty over the slope; once known
   std::string reason;  ///< why it is a bound or indeterminate, or what is to be known about the value
+  std::vector<GapShare> shares = {};  ///< what makes it uncertain; once known
+  GapBounds bounds = {};              ///< that follow; NaN until the shares are known
   CriticalGap();
 };
 
-/// One critical gap: metres; 0 where it ignites without a gap, infinite where nothing ignites up to the end
-/// of the search, NaN where it is not known.
-using GapOrBound = double;
-inline constexpr GapOrBound no_ignition = std::numeric_limits<double>::infinity();
+/// Takes the shares, and draws the bounds from them. Nothing can be said of one that is indeterminate.
+void set_shares(CriticalGap& gap, std::vector<GapShare> shares);
+
 GapOrBound gap_or_bound(const CriticalGap& gap);
 
 /// What a gap (m) does.
@@ -43,5 +42,11 @@ enum class GapState { safe, ignites, undefined };
 /// one that is safe beyond the change is named in the reason.
 CriticalGap find_critical_gap(const std::function<GapState(double gap)>& state, double largest,
                               double tolerance);
+
+/// The smallest gap that ignites between `begin` and `end` (m), from a scan in equal steps and a bisection
+/// down to `tolerance` (m): the lower end of its bracket, `begin` where that ignites, infinite where none
+/// does, NaN where a state is undefined.
+GapOrBound smallest_igniting_gap(const std::function<GapState(double gap)>& state, double begin, double end,
+                                 double tolerance);
 
 }  // namespace launchsafe::study

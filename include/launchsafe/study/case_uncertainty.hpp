@@ -11,11 +11,13 @@
 
 namespace launchsafe::study {
 
-/// Half widths (about 95 %) that are assumed of a launch of which a study states no input uncertainty: the
-/// chamber pressure from round to round, as in the shipped sensitivity study, and the temperature of the
-/// charge.
+/// Two standard deviations (coverage_factor) that are assumed of a launch of which a study states no input
+/// uncertainty: the chamber pressure from round to round, as in the shipped sensitivity study, the
+/// temperature of the charge, and the length of the pulse at the same peak.
 inline constexpr double assumed_load_spread = 0.04;
 inline constexpr double assumed_temperature_spread = 12.0;  ///< K
+/// Of the length of the pulse: a launch that lasts longer leaves the hot air more time.
+inline constexpr double assumed_pulse_spread = 0.05;
 
 /// Heat grows with the square of the pressure where the steel stays elastic; near 496 MPa, where the wall of
 /// the 155 mm shell yields, with its power of 3.6 (17 K of 116 K for 4 %). Rounded up.

@@ -19,6 +19,15 @@ std::vector<StationTemperature> station_temperatures(const surface::SkinHistory&
 
 /// Undefined where a temperature is not a number.
 GapState state_of(const surface::SkinHistory& history);
+/// Of surface::ignites.
+GapState state_of(std::optional<bool> ignites);
+
+/// K by which all heat of friction between charge and base could heat the charge's surface: in the skin, or,
+/// where that is thinner, as deep as heat diffuses over the launch at a constant rate (Carslaw & Jaeger
+/// 1959, 2.9).
+double friction_share(const CaseOutcome& outcome);
+/// m by which charge and base part, at the most.
+double opening_at_base(const CaseOutcome& outcome);
 
 /// m, where the search for the critical gap ends: beyond all gaps of the study.
 double largest_gap(const Study& study);

@@ -86,10 +86,6 @@ struct CaseOutcome {
   /// of them; empty for the others.
   std::optional<run::MechanicsResult> raised;
   CriticalGap critical;  ///< by the hottest station
-  /// What the uncertainty of the critical gap is made of besides half its bracket, K of T max there, and K
-  /// per m by which T max rises with the gap; only where the critical gap is a value.
-  std::optional<Uncertainty> critical_shares;
-  double critical_slope = not_a_number;
   std::vector<Confirmation> confirmations;
   std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps
   std::optional<GapFit> fit;         ///< over the rows that do not ignite

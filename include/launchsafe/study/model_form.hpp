@@ -51,10 +51,10 @@ std::string to_json_text(const ModelFormRecord& record);
 /// Refuses an edited record and one of another model version. `file` is named in errors.
 scene::Expected<ModelFormRecord> parse_model_form(const std::string& text, const std::string& file);
 
-/// m by which the smallest critical gap of an alternative that counts is below the default's: how far models
-/// move towards ignition.
+/// How far the alternatives that count move the critical gap from the default's.
 struct ModelFormShift {
-  double gap = 0;      ///< m, >= 0; NaN where it is not known
+  double gap = 0;      ///< m, >= 0, by which the smallest one is below: towards ignition; NaN where not known
+  double later = 0;    ///< m, >= 0, by which the largest one is above; infinite where one never ignites
   std::string reason;  ///< why it is not known, a clause
 };
 /// Of a launch of the record's scene at a peak pressure among the recorded ones; between two of them, which

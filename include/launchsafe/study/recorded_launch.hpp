@@ -36,6 +36,9 @@ struct Coverage {
   std::string reason;  ///< why it says nothing, a clause; empty where it holds
   /// >= 1, by which the errors of the record grow. An extrapolation never makes them smaller.
   double growth = 1.0;
+  /// m, up to which it holds: the air of no wider gap heats the skin three times as fast as that of the
+  /// widest recorded one. Judged gap by gap, so that a verdict does not depend on what else a study lists.
+  double largest_gap = 0;
 };
 
 /// How far a record is carried. Errors are those of the friction heat, which goes with p^2 and with the
@@ -45,11 +48,10 @@ struct Coverage {
 /// StudyCase::rise_of_uncertainty). A record says nothing
 /// - beyond 1.25 times the peak pressure: the recorded wall may just not have yielded;
 /// - beyond three times the crack radius, in metres or in flaw sizes, the localisation, or the rate at which
-/// the
-///   air of the widest gap heats the skin, or where it has no cracks or no gap and the launch has;
+///   the air of the widest gap heats the skin, or where it has no cracks or no gap and the launch has;
 /// - of a load that lasts more than 1.1 times as long, rises in less than 1/1.25 of the time, differs in
-/// shape
-///   by more than a tenth of the peak, or is rougher by more than 0.01 (a hundredth of the friction heat).
+///   shape by more than a tenth of the peak, or is rougher by more than 0.01 (a hundredth of the friction
+///   heat).
 Coverage coverage_of(const RecordedLaunch& recorded, const RecordedLaunch& launch);
 
 }  // namespace launchsafe::study

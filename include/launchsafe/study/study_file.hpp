@@ -28,6 +28,7 @@ struct KindTraits {
   /// SAFE or UNSAFE, for which the uncertainty of fit, inputs and model counts. A stability study judges the
   /// computation alone, and the others compare numbers.
   bool gives_verdicts = true;
+  bool bounds_critical_gaps = true;    ///< bounds of the critical gaps are found, which verdicts need
   bool keeps_answers = false;          ///< what is concluded of a case is stored beside its runs
   bool own_scenes = false;             ///< cases may bring scenes and uncertainties of their own
   bool goes_through_ignition = false;  ///< gaps of cases with two-way coupling are run through ignition too
@@ -165,6 +166,8 @@ struct StudyCase {
   /// K; the rise of T max above the initial temperature for which that was found; NaN where it holds for any.
   /// Hotter skins have proportionally larger errors.
   double rise_of_uncertainty = not_a_number;
+  /// m, up to which that holds; beyond, it is the assumed one at the least.
+  double covered_gap = std::numeric_limits<double>::infinity();
   double pressure_ratio = 1.0;  ///< peak pressure over that of the study's scene
   scene::SceneFile scene;
 };

@@ -21,4 +21,8 @@ Fault choose_setting(StudyFile& study, const std::optional<AccuracyRecord>& reco
 /// silence.
 void settle_uncertainty(StudyFile& study, const std::optional<AccuracyRecord>& record);
 
+/// K, of T max of a gap (m) by mesh, step and scaling, where T max is `rise` (K) above the initial
+/// temperature.
+double numerical_share(const StudyCase& input, double gap, double rise);
+
 }  // namespace launchsafe::study

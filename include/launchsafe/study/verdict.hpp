@@ -1,4 +1,4 @@
-// Safe, unsafe or indeterminate: the rules (model section 7).
+// Safe, unsafe or indeterminate: the rules.
 #pragma once
 
 #include "launchsafe/study/bracket.hpp"
@@ -11,14 +11,16 @@ namespace launchsafe::study {
 enum class Verdict { safe, unsafe, indeterminate };
 std::string to_string(Verdict verdict);
 
-/// Uncertainty of the margin of a maximum temperature to ignition, K with about 95 %, part by part.
+/// Uncertainty of T max at one gap, K, part by part: to be read beside the margin, while the verdict is
+/// judged in gap. A part under which the gap ignites is infinite: all that is known of it is that it is at
+/// least the margin.
 struct Uncertainty {
   double sampling = 0;     ///< against a trace with half the samples
   double integration = 0;  ///< against a tolerance ten times wider
   double coupling = 0;     ///< largest difference between trace and coupled runs, where confirmed
   double numerical = 0;    ///< of mesh, step and scaling: from an accuracy study, stated, or assumed
   double fit = 0;          ///< of the calibrated constants, carried to this case
-  double input = 0;        ///< of what is not known of the launch
+  double input = 0;        ///< of what is not known of the launch: its random causes together
   double load_curve = 0;   ///< of a measured curve: what its noise heats, and what smoothing took from it
   double model_form = 0;   ///< by which other models of the launch move towards ignition
   double sliding = 0;  ///< of a base on which the charge slides: all heat of friction, and the gap that opens
@@ -26,11 +28,9 @@ struct Uncertainty {
   double computed() const { return sampling + integration + coupling + numerical + sliding; }
   /// Of the launch: both may be wrong in the same direction.
   double inputs() const { return input + load_curve; }
-  /// The root of the sum of squares of the independent parts, as ASME V&V 20 combines them, and on top the
-  /// model form: its sign is known, so that a verdict holds under each of the models.
-  double total() const {
-    return std::sqrt(computed() * computed() + fit * fit + inputs() * inputs()) + model_form;
-  }
+  /// As the shares of a critical gap are combined (see gap_share.hpp): `input` holds the random causes, and
+  /// the causes of knowledge are added to it.
+  double total() const { return input + load_curve + computed() + fit + model_form; }
 };
 
 /// All that a verdict rests on.
@@ -57,10 +57,19 @@ struct Judgement {
   std::string reason;
 };
 
-/// Unsafe: ignition. Safe: none on the whole bottom, the margin exceeds the uncertainty, and so does the
-/// distance to the critical gap. Indeterminate: everything else; a computation that
-/// failed, is undefined or has validity warnings never is anything else. A verdict on a run in which limiters
-/// acted says so.
+/// The contract of a verdict, for a sound run: one that completed with finite temperatures and without
+/// validity warnings.
+///
+/// | verdict       | condition |
+/// |---------------|-----------|
+/// | UNSAFE        | the gap ignites in the computation as it is stated |
+/// | SAFE          | it does not, and is thinner than the lower bound of the critical gap
+/// (CriticalGap::bounds). Where |               | nothing ignites up to the end of the search, that is the
+/// bound, and the margin must exceed the |               | uncertainty besides | | INDETERMINATE | everything
+/// else, and every run that is not sound |
+///
+/// More uncertainty, a wider range or less evidence never moves a verdict towards SAFE. A verdict on a run in
+/// which limiters acted says so.
 Judgement judge(const Evidence& evidence, const CriticalGap& critical);
 
 }  // namespace launchsafe::study

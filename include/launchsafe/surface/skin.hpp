@@ -56,6 +56,10 @@ double heat_capacity_ratio(const SkinModel& model, double gap);
 /// alone under every model of the air.
 SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap);
 
+/// Whether any station that tiles the bottom ignites: as integrate_skin finds, sooner, as it stops there and
+/// leaves observation points out. Nothing where a temperature is not a number.
+std::optional<bool> ignites(const SkinModel& model, const trace::BottomTrace& trace, double gap);
+
 /// The same equation for one station over one interval, for run::run_with_skin and for tests: temperature
 /// after `dt` with the air at a temperature that goes linearly from `air_begin` to `air_end` and
 /// `friction_heating` K/s.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,14 @@ struct BottomTrace {
 /// Every second sample (the last one kept), with interval means combined by their lengths: what a trace twice
 /// as coarse would have held. Used to bound the sampling error.
 BottomTrace thinned(const BottomTrace& trace);
+
+/// The same history `factor` (> 0) times as slow: that of a pulse so much longer, as the charge responds to
+/// the pressure of a launch quasi-statically. Pressures and energies stay.
+BottomTrace stretched(BottomTrace trace, double factor);
+
+/// A history as far from `trace` as `other` is, on the other side: a^2/b for every pressure and energy a of
+/// `trace` and b of `other`. Nothing where the two do not have the same samples and stations.
+std::optional<BottomTrace> mirrored(const BottomTrace& trace, const BottomTrace& other);
 
 /// Value at time t by linear interpolation between samples; held constant outside. NaN for a NaN time,
 /// without samples, or where the sizes differ.

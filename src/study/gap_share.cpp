@@ -1,0 +1,59 @@
+#include "launchsafe/study/gap_share.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::study {
+
+const ShareTraits& traits_of(ShareKind kind) {
+  using enum ShareClass;
+  static const std::array<ShareTraits, share_kinds> traits{{
+      {"peak_pressure", "peak pressure", random},
+      {"pulse_length", "length of the pulse", random},
+      {"initial_temperature", "initial temperature", random},
+      {"stated_inputs", "inputs, as stated", random},
+      {"load_curve", "noise and smoothing of the measured curve", knowledge},
+      {"computation", "computation", knowledge},
+      {"sliding", "sliding at the base", knowledge},
+      {"fit", "calibrated constants", knowledge},
+      {"model_form", "other models", knowledge},
+  }};
+  return traits.at(static_cast<std::size_t>(kind));
+}
+
+std::string to_string(ShareClass of_class) { return of_class == ShareClass::random ? "random" : "knowledge"; }
+
+namespace {
+
+/// All moves in one direction as one, m.
+template <class Move>
+double combined(const std::vector<GapShare>& shares, Move move) {
+  double squares = 0.0, sum = 0.0;
+  for (const GapShare& share : shares) {
+    const double distance = move(share);
+    if (traits_of(share.kind).of_class == ShareClass::random)
+      squares += distance * distance;
+    else
+      sum += distance;
+  }
+  return std::sqrt(squares) + sum;
+}
+
+/// A length that is not negative; NaN stays NaN.
+double not_negative(double length) { return length < 0.0 ? 0.0 : length; }
+
+}  // namespace
+
+double move_towards_ignition(double safe, const GapShare& share) {
+  return share.raised == no_ignition ? 0.0 : not_negative(safe - share.raised);
+}
+
+GapBounds bounds_of(double safe, double igniting, const std::vector<GapShare>& shares) {
+  const double down =
+      combined(shares, [&](const GapShare& share) { return move_towards_ignition(safe, share); });
+  const double up =
+      combined(shares, [&](const GapShare& share) { return not_negative(share.lowered - igniting); });
+  return {not_negative(safe - down), igniting + up};
+}
+
+}  // namespace launchsafe::study

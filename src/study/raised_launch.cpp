@@ -1,0 +1,135 @@
+#include "launchsafe/study/raised_launch.hpp"
+
+#include "launchsafe/study/gap_analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace launchsafe::study {
+namespace {
+
+using SharedTrace = std::shared_ptr<const trace::BottomTrace>;
+
+/// The case's own trace; it outlives what is made of it.
+SharedTrace own_trace(const CaseOutcome& outcome) { return {SharedTrace{}, &outcome.result.mechanics.trace}; }
+
+SharedTrace trace_at_pressure(const CaseOutcome& outcome, End end) {
+  if (end == End::towards_ignition) return {SharedTrace{}, &outcome.raised->trace};
+  auto lowered = trace::mirrored(outcome.result.mechanics.trace, outcome.raised->trace);
+  return lowered ? std::make_shared<trace::BottomTrace>(std::move(*lowered)) : SharedTrace{};
+}
+
+SharedTrace trace_of_length(const CaseOutcome& outcome, End end) {
+  const double factor = 1.0 + assumed_pulse_spread;
+  return std::make_shared<trace::BottomTrace>(
+      trace::stretched(outcome.result.mechanics.trace, end == End::towards_ignition ? factor : 1.0 / factor));
+}
+
+surface::SkinModel at_temperature(surface::SkinModel skin, End end) {
+  const double rise = end == End::towards_ignition ? assumed_temperature_spread : -assumed_temperature_spread;
+  skin.initial_temperature += rise;
+  skin.surface.air = materials::warmed(skin.surface.air, rise);
+  return skin;
+}
+
+/// Adds the causes of one case.
+class Causes {
+ public:
+  Causes(const Study& study, const CaseOutcome& outcome, End end)
+      : study_(study),
+        outcome_(outcome),
+        end_(end),
+        skin_(surface::skin_model(outcome.input.scene.scene)),
+        trace_(own_trace(outcome)) {}
+
+  void add_inputs() {
+    if (!outcome_.raised) return;
+    add(ShareKind::peak_pressure, skin_, trace_at_pressure(outcome_, end_));
+    add(ShareKind::pulse_length, skin_, trace_of_length(outcome_, end_));
+    add(ShareKind::initial_temperature, at_temperature(skin_, end_), trace_);
+  }
+
+  void add_knowledge(const GapVerdict& row) {
+    rise_ = row.heated - outcome_.input.scene.scene.initial_temperature;
+    const Uncertainty& u = row.uncertainty;
+    if (!outcome_.raised) add_temperature(ShareKind::stated_inputs, u.input);
+    if (u.load_curve > 0.0) add_load_curve();
+    add_temperature(ShareKind::computation, u.computed() - u.sliding);
+    if (u.sliding > 0.0) add_sliding();
+    add_temperature(ShareKind::fit, u.fit);
+    if (const auto stated = stated_model_form_share(study_, outcome_.input))
+      add_temperature(ShareKind::model_form, *stated);
+    else
+      add_shift(ShareKind::model_form);
+  }
+
+  std::vector<RaisedLaunch> take() { return std::move(raised_); }
+
+ private:
+  bool towards() const { return end_ == End::towards_ignition; }
+
+  void add(ShareKind kind, surface::SkinModel skin, SharedTrace trace, double thicker = 0.0) {
+    raised_.push_back({kind, std::move(skin), std::move(trace), thicker});
+  }
+
+  /// A cause that is known as a change of T max, K.
+  void add_temperature(ShareKind kind, double change) {
+    if (change == 0.0) return;
+    const double factor = towards() ? 1.0 + change / rise_ : std::max(0.0, 1.0 - change / rise_);
+    add(kind, heated_more(skin_, factor, factor), std::isfinite(factor) ? trace_ : SharedTrace{});
+  }
+
+  void add_load_curve() {
+    const LoadCurveErrors errors = load_curve_errors(outcome_.input.scene.scene.load);
+    const double friction = 1.0 + errors.of_friction + errors.of_both, air = 1.0 + errors.of_both;
+    add(ShareKind::load_curve,
+        towards() ? heated_more(skin_, friction, air) : heated_more(skin_, 1.0 / friction, 1.0 / air),
+        trace_);
+  }
+
+  /// Heat and opening that the temperatures leave out: there is nothing to take away at the other end.
+  void add_sliding() {
+    if (!towards()) return;
+    const double factor = 1.0 + friction_share(outcome_) / rise_;
+    add(ShareKind::sliding, heated_more(skin_, factor, factor),
+        std::isfinite(factor) ? trace_ : SharedTrace{}, opening_at_base(outcome_));
+  }
+
+  void add_shift(ShareKind kind) {
+    const ModelFormShift shift = model_form_shift(*study_.model_form, outcome_.input.scene.scene);
+    add(kind, skin_, trace_, towards() ? shift.gap : -shift.later);
+  }
+
+  const Study& study_;
+  const CaseOutcome& outcome_;
+  End end_;
+  surface::SkinModel skin_;
+  SharedTrace trace_;
+  double rise_ = not_a_number;  ///< K, of a skin that does not react
+  std::vector<RaisedLaunch> raised_;
+};
+
+}  // namespace
+
+surface::SkinModel heated_more(surface::SkinModel skin, double friction, double air) {
+  skin.surface.localisation *= friction;
+  skin.surface.air.density *= air;  // the heat that an exchange carries goes with it
+  return skin;
+}
+
+std::vector<RaisedLaunch> raised_inputs(const Study& study, const CaseOutcome& outcome, End end) {
+  Causes causes(study, outcome, end);
+  causes.add_inputs();
+  return causes.take();
+}
+
+std::vector<RaisedLaunch> raised_launches(const Study& study, const CaseOutcome& outcome,
+                                          const GapVerdict& row, End end) {
+  Causes causes(study, outcome, end);
+  causes.add_inputs();
+  causes.add_knowledge(row);
+  return causes.take();
+}
+
+}  // namespace launchsafe::study
