@@ -43,6 +43,9 @@ struct BottomTrace {
 /// as coarse would have held. Used to bound the sampling error.
 BottomTrace thinned(const BottomTrace& trace);
 
+/// The samples up to a time (s) alone.
+BottomTrace until(const BottomTrace& trace, double time);
+
 /// Value at time t by linear interpolation between samples; held constant outside. NaN for a NaN time,
 /// without samples, or where the sizes differ.
 double interpolate(const std::vector<double>& time, const std::vector<double>& value, double t);
