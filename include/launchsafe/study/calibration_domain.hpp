@@ -16,7 +16,7 @@ struct CalibrationEvidence {
   double largest_gap = 4e-4;     ///< m, of the rows
   /// K, below which 95 % of the misfits of temperatures lie, by those that nothing was fitted to: Student's
   /// factor for their number times their root mean square. Taken where no fit uncertainty is stated.
-  double misfit_bound = 1.0;
+  double misfit_bound = 1.72;
 };
 
 /// A launch with its calibrated constants: they hold where they were found.
