@@ -21,8 +21,7 @@ using scene::FrictionClosure;
 
 /// A load belongs to the closure that it was fitted with.
 std::vector<FrictionClosure> closures_of(const StudyFile& study) {
-  if (!settings_of<CalibrationSettings>(study.study).fast_rise.empty())
-    return {study.scene.scene.surface.friction};
+  if (settings_of<CalibrationSettings>(study.study).load_fitted) return {study.scene.scene.surface.friction};
   return {FrictionClosure::total_strain_rate, FrictionClosure::inelastic, FrictionClosure::none};
 }
 
@@ -54,6 +53,7 @@ void run_meshes(CalibrationResult& result, const StudyOptions& options) {
     run.outcome = finished.front().outcome;
     run.failure = finished.front().failure;
     run.mechanics = finished.front().result.mechanics;
+    run.mechanics.trace = trace::until(run.mechanics.trace, scene::read_time(run.input.scene.scene.load));
   });
 }
 
@@ -76,7 +76,7 @@ CalibrationRow row_of(const StudyFile& study, const CalibrationRun& run, Frictio
     if (!row.failure.empty()) return row;
     row.calibrated.constants.put_into(model.surface, model.kinetics);
   }
-  predict(study.study, model, run.mechanics.trace, row);
+  compare(study.study, model, run.mechanics.trace, row);
   return row;
 }
 
@@ -132,7 +132,7 @@ double recommended_mesh(const CalibrationResult& result) {
   return mesh_range(result).first;
 }
 
-/// K. Closures whose misfits differ by less predict equally well: the misfits themselves are of tens of
+/// K. Closures whose misfits differ by less are equally good: the misfits themselves are of tens of
 /// kelvin.
 constexpr double distinguishable_rms = 0.5;
 
@@ -153,7 +153,7 @@ void recommend_own(CalibrationResult& result, const std::string& kinetics, doubl
                          to_string(own.closure), 1e3 * mesh)};
 }
 
-/// What the hold-outs and the meshes say of the two closures with the scene's own kinetics.
+/// What the misfits and the meshes say of the two closures with the scene's own kinetics.
 void recommend(CalibrationResult& result) {
   const std::string kinetics = result.study.scene.scene.charge().kinetics.name;
   const double finest = mesh_range(result).first, mesh = recommended_mesh(result);
@@ -166,20 +166,21 @@ void recommend(CalibrationResult& result) {
   Recommendation& said = result.recommendation;
   if (!std::isfinite(total->root_mean_square) || !std::isfinite(inelastic->root_mean_square)) {
     said.reason =
-        "no closure is recommended: not both could be calibrated on the finest mesh and compared with rows "
-        "that are held out";
+        "no closure is recommended: not both could be calibrated on the finest mesh and compared with "
+        "temperatures that nothing was fitted to";
     return;
   }
   const double gain = std::abs(total->root_mean_square - inelastic->root_mean_square);
   const bool separates = gain > distinguishable_rms;
-  // Where the hold-outs do not separate the closures, the scene keeps the one it has (if it has one).
+  // Where the misfits do not separate the closures, the scene keeps the one it has (if it has one).
   const bool keep_inelastic = study_closure(result) == FrictionClosure::inelastic;
   const bool choose_inelastic =
       separates ? inelastic->root_mean_square < total->root_mean_square : keep_inelastic;
   const CalibrationRow* better = choose_inelastic ? inelastic : total;
   const CalibrationRow* other = choose_inelastic ? total : inelastic;
   said.reason = fmt::format(
-      "On the finest mesh ({:.6g} mm) \"{}\" misses the temperature hold-outs by {:.4g} K (RMS), \"{}\" by "
+      "On the finest mesh ({:.6g} mm) \"{}\" misses the temperatures that nothing was fitted to by {:.4g} K "
+      "(RMS), \"{}\" by "
       "{:.4g} K{}. {}",
       1e3 * finest, to_string(better->closure), better->root_mean_square, to_string(other->closure),
       other->root_mean_square,
@@ -187,7 +188,7 @@ void recommend(CalibrationResult& result) {
           ? fmt::format("; the spreads by {:.4g} K and {:.4g} K", better->spread_root_mean_square,
                         other->spread_root_mean_square)
           : std::string{},
-      separates ? "The hold-outs separate them."
+      separates ? "That separates them."
                 : fmt::format("A difference below {} K does not separate them, and the scene keeps \"{}\".",
                               distinguishable_rms, to_string(better->closure)));
   const double change = change_of(result, better->closure, kinetics);
@@ -254,15 +255,14 @@ void compare_stations(CalibrationResult& result) {
   result.stations = {change_to(true), change_to(false)};
 }
 
-/// Runs, fits, predicts and recommends; all but what an interruption is told by.
+/// Runs, fits, compares and recommends; all but what an interruption is told by.
 void calibrate_study(CalibrationResult& result, const StudyOptions& options) {
   const StudyFile& study = result.study;
   const scene::Scene& scene = study.scene.scene;
   result.in_scene = {scene.surface.localisation, scene.surface.exchange_time,
                      scene.charge().kinetics.ignition_temperature};
   const CalibrationTargets targets = *calibration_targets(study);  // reading refuses a study without them
-  if (!settings_of<CalibrationSettings>(study.study).fast_rise.empty())
-    result.load = fit_load(study, targets, options, result.timing);
+  if (targets.load_fitted) result.load = fit_load(study, targets, options, result.timing);
   for (const StudyCase& input : study.cases) {
     CalibrationRun run;
     run.input = input;

@@ -1,4 +1,5 @@
 // A study of kind calibration as a file: its keys, its cases, and which published rows it fits to.
+#include "calibration_numbers.hpp"
 #include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"
@@ -22,6 +23,26 @@ scene::InputError missing(const StudyFile& study, std::string found, std::string
                              : kind != study.places.end() ? kind->second
                                                           : scene::Place{study.file};
   return scene::error_at(place, "reference", std::move(found), std::move(allowed));
+}
+
+/// What a fit of the load needs besides: a bell, and no fewer numbers than unknowns.
+Fault check_fit_of_load(const StudyFile& study, const CalibrationTargets& targets) {
+  constexpr const char* key = "load_fitted";
+  const scene::Load& load = study.scene.scene.load;
+  if (!load.curve_time.empty())
+    return fault_at(study, key, "a load to be fitted beside a measured curve",
+                    "load_fitted = false, or a scene without load.curve");
+  if (load.shape != scene::LoadShape::bell)
+    return fault_at(study, key, fmt::format("a load of shape \"{}\"", word_of(load.shape)),
+                    "load.shape = \"bell\", whose peak time, width and steepness are fitted");
+  const std::size_t numbers = fitted_numbers(targets.zero_gap) + fitted_numbers(targets.wide_gap);
+  if (numbers >= fitted_keys.size()) return std::nullopt;
+  return fault_at(
+      study, key,
+      fmt::format("{} numbers in the calibrated rows for {} unknowns", numbers, fitted_keys.size()),
+      fmt::format("at least {} of maximum_temperature, early_temperature, rise_begins and "
+                  "rise_ends in the two rows together",
+                  fitted_keys.size()));
 }
 
 }  // namespace
@@ -53,24 +74,12 @@ scene::Expected<CalibrationTargets> calibration_targets(const StudyFile& study) 
                    igniting > 1.0 ? "no row that ignites" : "a row that ignites below one that does not",
                    "rows with an ignition_time, all at larger gaps than the rows without");
   }
-  const std::vector<double>& rise = settings_of<CalibrationSettings>(study.study).fast_rise;
-  if (!rise.empty() && !(rise.size() == 2 && rise[0] < rise[1])) {
-    return missing(
-        study,
-        rise.size() == 2 ? fmt::format("{:.6g} and {:.6g} ms in fast_rise", 1e3 * rise[0], 1e3 * rise[1])
-                         : fmt::format("{} instants in fast_rise", rise.size()),
-        "two, the earlier one first: when the temperature without a gap begins and ceases to rise fast");
-  }
-  const bool early = targets.zero_gap.early_calibrated && std::isfinite(targets.zero_gap.early_temperature);
-  if (!rise.empty() && (!early || !study.scene.scene.load.curve_time.empty())) {
-    return missing(study,
-                   early ? "fast_rise beside a measured curve"
-                         : "fast_rise without an early temperature to fit the load to",
-                   "an analytic load, and early_calibrated = true with early_temperature in the calibrated "
-                   "row at gap 0");
-  }
   targets.safe_gap = safe;
   targets.igniting_gap = igniting;
+  targets.load_fitted = settings_of<CalibrationSettings>(study.study).load_fitted;
+  targets.early_time = study.study.early_time;
+  if (targets.load_fitted)
+    if (Fault fault = check_fit_of_load(study, targets)) return *fault;
   return targets;
 }
 
@@ -90,12 +99,17 @@ std::vector<scene::Key<CalibrationSettings>> calibration_keys() {
           "ignition_bracket", Dimension::temperature, scene::between(0, 5000), scene::Standing::paper,
           "Published bracket of the ignition temperature, a check on the calibrated one.",
           &CalibrationSettings::ignition_lowest, &CalibrationSettings::ignition_highest),
-      assumed_list(
-          "fast_rise", Dimension::time, scene::above_to(0, 1),
-          "Two instants between which the published temperature without a gap rises fast. Where given, "
-          "load.exponent is fitted to the time between them and load.peak_time to the row without a "
-          "gap that has early_calibrated = true.",
-          &CalibrationSettings::fast_rise),
+      scene::flag_key<CalibrationSettings>(
+          "load_fitted", scene::Standing::assumed,
+          "Fit peak time, width and steepness of the load's bell too, with the constants by least squares, "
+          "to "
+          "the highest temperatures over the launch and at early_time (0.5 K) and to the two instants of the "
+          "fast rise (0.5 ms) of the calibrated rows.",
+          &CalibrationSettings::load_fitted),
+      scene::text_key<CalibrationSettings>(
+          "frozen_at", scene::Standing::input,
+          "Where rule and weights of the calibration were settled before its fit, for the report.", "1fd14b4",
+          &CalibrationSettings::frozen_at),
   };
 }
 
@@ -134,9 +148,10 @@ Kind calibration_kind() {
       .read = read_calibration,
       .make_cases = make_calibration_cases,
       .run = outcome_of<run_calibration, calibration_failures>,
-      // Reports of older programs had files of cases too.
+      // Reports of older programs had hold-outs and files of cases too.
       .files = {{"calibration.json"},
                 {"calibration.csv"},
+                {"compared.csv"},
                 {"hold_outs.csv"},
                 {"case_", ".h5"},
                 {"case_", ".xdmf"}},

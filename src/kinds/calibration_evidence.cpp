@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace launchsafe::kinds {
 
@@ -15,35 +13,12 @@ using namespace study;
 
 namespace {
 
-/// K, the largest |predicted - published| of a temperature for which `counts` holds, infinite where one is
-/// not known; where there is none, that of the shipped calibration.
-template <class Counts>
-double misfit_or_shipped(const CalibrationRow& row, Counts counts) {
-  bool any = false;
-  double largest = 0.0;
-  for (const HoldOut& each : row.hold_outs) {
-    if (!each.temperature || !counts(each)) continue;
-    any = true;
-    const double misfit = std::abs(each.misfit());
-    largest = std::max(largest, std::isnan(misfit) ? std::numeric_limits<double>::infinity() : misfit);
-  }
-  return any ? largest : CalibrationEvidence{}.largest_misfit;
-}
-
-/// K; where nothing is held out, any other misfit, or what the shipped calibration misses if that is larger.
-double held_out_misfit(const CalibrationRow& row, double largest) {
-  const auto held_out = [](const HoldOut& each) { return each.temperature && each.use == Use::held_out; };
-  return std::any_of(row.hold_outs.begin(), row.hold_outs.end(), held_out)
-             ? misfit_or_shipped(row, held_out)
-             : std::max(largest, CalibrationEvidence{}.largest_misfit);
-}
-
 std::string digest_of(const std::vector<Reference>& references) {
   std::string text;
   for (const Reference& row : references) {
-    text += fmt::format("{} {} {} {} {} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.point,
+    text += fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.point,
                         row.early_temperature, row.early_point, row.spread, row.early_spread,
-                        row.ignition_time, row.calibrated, row.early_calibrated, row.selection);
+                        row.ignition_time, row.rise_begins, row.rise_ends, row.calibrated, row.selection);
   }
   return store::sha256(text);
 }
@@ -81,9 +56,11 @@ std::optional<CalibrationRecord> record_of(const CalibrationResult& result) {
       targets->zero_gap.maximum_temperature - record.calibration.scene.initial_temperature;
   evidence.air_rise = targets->wide_gap.maximum_temperature - targets->zero_gap.maximum_temperature;
   evidence.largest_gap = targets->igniting_gap;
-  evidence.largest_misfit =
-      misfit_or_shipped(row, [](const HoldOut& each) { return each.use != Use::calibration; });
-  record.held_out_misfit = held_out_misfit(row, evidence.largest_misfit);
+  // Where nothing tells, the bound of the shipped calibration stays.
+  const MisfitBound misfits = misfit_bound(row);
+  record.misfits = misfits.count;
+  if (misfits.count > 0) evidence.misfit_bound = misfits.bound();
+  if (result.load) record.covariance = result.load->covariance;
   record.ignition_lowest = row.calibrated.ignition_lowest;
   record.ignition_highest = row.calibrated.ignition_highest;
   record.selection_root_mean_square = row.selection_root_mean_square;

@@ -1,7 +1,7 @@
 #include "calibration_load.hpp"
 
+#include "calibration_numbers.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/scene/load_shape.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
@@ -10,165 +10,207 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace launchsafe::kinds {
 
 using namespace study;
-using namespace report;
 namespace {
 
-constexpr double close_enough = 1e-3;  ///< K, of the early temperature
-constexpr int most_loads = 40;
-constexpr double first_stride = 0.06;  ///< of the peak time, in search of a bracket
+/// The load and the constants of one trial.
+struct Trial {
+  scene::Load load;
+  double localisation = 0;
+  double exchange_time = 0;  ///< s
+};
 
-scene::SceneFile with_shape(const scene::SceneFile& scene, double peak_time, double exponent) {
-  scene::SceneFile changed = scene;
-  changed.scene.load.peak_time = peak_time;
-  changed.scene.load.exponent = exponent;
-  return changed;
+/// What tells the loads of trials apart: peak time, width, steepness, base.
+using LoadNumbers = std::array<double, 4>;
+LoadNumbers numbers_of(const scene::Load& load) {
+  return {load.peak_time, load.width, load.steepness, load.base};
 }
 
-/// Tries loads of one peak time after another.
-class LoadTrial {
+/// Tries loads, each by a mechanical run the first time that it is asked for.
+class LoadTrials {
  public:
-  LoadTrial(const StudyFile& study, const CalibrationTargets& targets, const StudyOptions& options,
-            Timing& timing)
-      : study_(study), targets_(targets), options_(options), timing_(timing) {}
-
-  /// The early temperature without a gap minus the published one, K; NaN with `failure` where there is none.
-  double misfit(double peak_time) {
-    result.peak_time = peak_time;
-    result.early_misfit = not_a_number;
-    const std::vector<double>& rise = settings_of<CalibrationSettings>(study_.study).fast_rise;
-    const auto exponent = scene::exponent_for(peak_time, rise[1] - rise[0]);
-    if (!exponent)
-      return fail(fmt::format("no exponent makes a load with its peak at {:.4g} ms rise fast for {:.4g} ms",
-                              1e3 * peak_time, 1e3 * (rise[1] - rise[0])));
-    if (stop_requested(options_)) return fail("interrupted");
-    if (++tried_ > most_loads) return fail("the search for a peak time does not settle");
-    result.exponent = *exponent;
-    result.turning = scene::turning_times(peak_time, *exponent);
-    const scene::Scene scene = with_shape(study_.scene, peak_time, *exponent).scene;
-    const FinishedRun run = run_with(scene);
-    const run::MechanicsResult& mechanics = run.result.mechanics;
-    if (!run.failure.empty())
-      return fail(fmt::format("the run with its peak at {:.4g} ms: {}", 1e3 * peak_time, run.failure));
-    if (std::string warnings = calibration_validity_warnings(scene, mechanics); !warnings.empty())
-      return fail(std::move(warnings));
-    return misfit_of(mechanics.trace, scene);
+  LoadTrials(const StudyFile& study, const CalibrationTargets& targets, const StudyOptions& options,
+             Timing& timing)
+      : study_(study), targets_(targets), options_(options), timing_(timing) {
+    start_.load = study.scene.scene.load;
   }
 
-  FittedLoad result;
+  /// Constants that meet the highest temperatures under the scene's load; false with `failure` where none do.
+  bool find_start() {
+    if (!run_all({start_.load})) return false;
+    surface::SkinModel model = surface::skin_model(study_.scene.scene);
+    CalibrationTargets highest = targets_;
+    highest.load_fitted = false;
+    const CalibratedConstants found = calibrate(model, trace_of(start_.load), highest);
+    // An ignition temperature is found at the end, and what stands in its way here may be gone then.
+    if (!std::isfinite(found.constants.localisation)) return fail(found.failure);
+    start_.localisation = found.constants.localisation;
+    start_.exchange_time = found.constants.exchange_time;
+    return true;
+  }
+
+  /// With the unknowns given as logarithms of their ratios to those of the start.
+  std::optional<std::vector<std::vector<double>>> misfits(const std::vector<std::vector<double>>& points) {
+    std::vector<scene::Load> loads;
+    for (const std::vector<double>& point : points) loads.push_back(trial_at(point).load);
+    if (!run_all(loads)) return std::nullopt;
+    std::vector<std::vector<double>> all;
+    for (const std::vector<double>& point : points) all.push_back(misfits_of(trial_at(point)));
+    return all;
+  }
+
+  /// Derivative of the misfits with respect to the pressure at the start, 1/Pa; empty where its run failed.
+  std::vector<double> base_derivative(const math::NonlinearFit& fit) {
+    Trial raised = trial_at(fit.unknowns);
+    const double change = 2e-3 * raised.load.peak;
+    raised.load.base += change;
+    if (!run_all({raised.load})) return {};
+    std::vector<double> derivative = misfits_of(raised);
+    for (std::size_t i = 0; i < derivative.size(); ++i)
+      derivative[i] = (derivative[i] - fit.residuals[i]) / change;
+    return derivative;
+  }
+
+  Trial trial_at(const std::vector<double>& point) const {
+    Trial trial = start_;
+    std::size_t next = 0;
+    for (double* number : {&trial.load.peak_time, &trial.load.width, &trial.load.steepness,
+                           &trial.localisation, &trial.exchange_time})
+      *number *= std::exp(point[next++]);
+    return trial;
+  }
+
+  std::size_t runs() const { return traces_.size(); }
+  const std::string& failure() const { return failure_; }
 
  private:
-  double fail(std::string why) {
-    if (result.failure.empty()) result.failure = std::move(why);
-    return not_a_number;
+  bool fail(std::string why) {
+    if (failure_.empty()) failure_ = std::move(why);
+    return false;
   }
 
-  /// With all cores: one run after the other.
-  FinishedRun run_with(const scene::Scene& scene) {
-    CaseRuns trial{{},
-                   {mechanics_run(scene, fmt::format("peak at {:.6g} ms", 1e3 * scene.load.peak_time))},
-                   options_.shard.index};
-    FinishedRun finished;
+  scene::Scene scene_under(const scene::Load& load) const {
+    scene::Scene scene = study_.scene.scene;
+    scene.load = load;
+    return scene;
+  }
+
+  const trace::BottomTrace& trace_of(const scene::Load& load) const { return traces_.at(numbers_of(load)); }
+
+  std::vector<double> misfits_of(const Trial& trial) const {
+    surface::SkinModel model = surface::skin_model(study_.scene.scene);
+    model.surface.localisation = trial.localisation;
+    model.surface.exchange_time = trial.exchange_time;
+    return weighted_misfits(model, trace_of(trial.load), targets_);
+  }
+
+  /// Runs those loads that were not run before.
+  bool run_all(const std::vector<scene::Load>& loads) {
+    if (stop_requested(options_)) return fail("interrupted");
+    std::map<LoadNumbers, scene::Load> untried;
+    for (const scene::Load& load : loads)
+      if (!traces_.contains(numbers_of(load))) untried[numbers_of(load)] = load;
+    std::vector<CaseRuns> cases;
+    std::vector<scene::Load> tried;
+    for (const auto& [numbers, load] : untried) {
+      cases.push_back({{}, {mechanics_run(scene_under(load), label_of(load))}, options_.shard.index});
+      tried.push_back(load);
+    }
+    std::vector<FinishedRun> finished(tried.size());
     ProgressTracker untold({});
-    run_cases({trial}, options_, untold, timing_,
-              [&](std::size_t, std::vector<FinishedRun>& runs) { finished = std::move(runs.front()); });
-    return finished;
+    run_cases(cases, options_, untold, timing_,
+              [&](std::size_t i, std::vector<FinishedRun>& runs) { finished[i] = std::move(runs.front()); });
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      const FinishedRun& run = finished[i];
+      if (!run.failure.empty())
+        return fail(fmt::format("the run with its {}: {}", label_of(tried[i]), run.failure));
+      traces_[numbers_of(tried[i])] = trace::until(run.result.mechanics.trace, scene::read_time(tried[i]));
+    }
+    return true;
   }
 
-  double misfit_of(const trace::BottomTrace& trace, const scene::Scene& scene) {
-    surface::SkinModel model = surface::skin_model(scene);
-    const CalibratedConstants fitted = calibrate(model, trace, targets_);
-    if (!fitted.failure.empty()) return fail(fitted.failure);
-    fitted.constants.put_into(model.surface, model.kinetics);
-    const auto history = surface::integrate_skin(model, trace, targets_.zero_gap.gap);
-    const double early = surface::maximum_at_time(history, trace, study_.study.early_time).temperature;
-    result.early_misfit = early - targets_.zero_gap.early_temperature;
-    return result.early_misfit;
+  static std::string label_of(const scene::Load& load) {
+    return fmt::format("peak at {:.6g} ms, width {:.6g} ms, steepness {:.6g}", 1e3 * load.peak_time,
+                       1e3 * load.width, load.steepness);
   }
 
   const StudyFile& study_;
   const CalibrationTargets& targets_;
   const StudyOptions& options_;
   Timing& timing_;
-  int tried_ = 0;
+  Trial start_;
+  std::map<LoadNumbers, trace::BottomTrace> traces_;
+  std::string failure_;
 };
 
-struct Tried {
-  double peak_time = 0;  ///< s
-  double misfit = 0;     ///< K
-};
-
-/// A later peak leaves less heat by the early instant: strides towards the other sign.
-bool find_bracket(LoadTrial& trial, Tried& early, Tried& late) {
-  double stride = first_stride;
-  while (early.misfit * late.misfit > 0.0) {
-    const bool later = late.misfit > 0.0;
-    const double next = later ? late.peak_time * (1.0 + stride) : early.peak_time * (1.0 - stride);
-    const double misfit = trial.misfit(next);
-    if (std::isnan(misfit)) return false;
-    if (later) {
-      early = late;
-      late = {next, misfit};
-    } else {
-      late = early;
-      early = {next, misfit};
-    }
-    stride *= 1.5;
-  }
-  return true;
-}
-
-/// The Illinois variant of regula falsi: a mechanical run a step, and none of them far from the root.
-void close_in(LoadTrial& trial, Tried early, Tried late) {
-  int side = 0;
-  while (!(std::abs(trial.result.early_misfit) <= close_enough)) {
-    const double next =
-        (early.peak_time * late.misfit - late.peak_time * early.misfit) / (late.misfit - early.misfit);
-    const double misfit = trial.misfit(next);
-    if (std::isnan(misfit)) return;
-    if (misfit * late.misfit > 0.0) {
-      late = {next, misfit};
-      if (side == 1) early.misfit *= 0.5;
-      side = 1;
-    } else {
-      early = {next, misfit};
-      if (side == -1) late.misfit *= 0.5;
-      side = -1;
-    }
+/// The fit in the words of the calibration.
+void describe(FittedLoad& load, const math::NonlinearFit& fit, LoadTrials& trials) {
+  const scene::Load bell = trials.trial_at(fit.unknowns).load;
+  load.peak_time = bell.peak_time;
+  load.width = bell.width;
+  load.steepness = bell.steepness;
+  load.numbers = fit.residuals.size();
+  load.sum_of_squares = fit.sum_of_squares();
+  load.condition = fit.condition;
+  const std::size_t left = load.numbers - fit.unknowns.size();
+  const double variance = left == 0 ? 1.0 : std::max(1.0, load.sum_of_squares / static_cast<double>(left));
+  load.covariance = fit.covariance;
+  for (double& entry : load.covariance) entry *= variance;
+  const std::vector<double> derivative = trials.base_derivative(fit);
+  if (derivative.empty()) return;
+  if (const auto base = math::add_unknown(fit, derivative)) {
+    load.base_change = base->change;
+    load.base_gain = base->gain;
   }
 }
 
 }  // namespace
 
+double FittedLoad::deviation(std::size_t i) const {
+  return std::sqrt(covariance.at(i * fitted_keys.size() + i));
+}
+
+double FittedLoad::correlation(std::size_t i, std::size_t j) const {
+  return covariance.at(i * fitted_keys.size() + j) / (deviation(i) * deviation(j));
+}
+
 std::string calibration_validity_warnings(const scene::Scene& scene, const run::MechanicsResult& mechanics) {
   std::vector<std::string> warnings = run::validity_warnings(scene, mechanics);
   for (const scene::Implausible& each : scene::implausible_values(scene)) {
     // What the calibration settles is no input to it.
-    constexpr std::array settled{"friction.localisation", "gap.exchange_time",
-                                 "kinetics.ignition_temperature", "load.peak_time", "load.exponent"};
-    if (!each.accepted() && std::find(settled.begin(), settled.end(), each.key) == settled.end())
-      warnings.push_back(scene::validity_warning(each));
+    const bool settled = each.key == "kinetics.ignition_temperature" ||
+                         std::find(fitted_keys.begin(), fitted_keys.end(), each.key) != fitted_keys.end();
+    if (!each.accepted() && !settled) warnings.push_back(scene::validity_warning(each));
   }
   return warnings.empty() ? std::string{} : fmt::format("validity warning: {}", fmt::join(warnings, "; "));
 }
 
 FittedLoad fit_load(const StudyFile& study, const CalibrationTargets& targets, const StudyOptions& options,
                     Timing& timing) {
-  LoadTrial trial(study, targets, options, timing);
-  const double start = study.scene.scene.load.peak_time;
-  const double at_start = trial.misfit(start);
-  if (!std::isnan(at_start) && std::abs(at_start) > close_enough) {
-    Tried early{start, at_start}, late = early;
-    if (find_bracket(trial, early, late)) close_in(trial, early, late);
+  LoadTrials trials(study, targets, options, timing);
+  FittedLoad load;
+  if (trials.find_start()) {
+    const auto fit = math::fit_nonlinear([&](const auto& points) { return trials.misfits(points); },
+                                         std::vector<double>(fitted_keys.size(), 0.0), difference_step);
+    load.failure = text_of(fit);
+    if (load.failure.empty()) describe(load, fit, trials);
   }
-  return trial.result;
+  if (!trials.failure().empty()) load.failure = trials.failure();
+  load.runs = trials.runs();
+  return load;
 }
 
 scene::SceneFile with_load(const scene::SceneFile& scene, const FittedLoad& load) {
-  return with_shape(scene, load.peak_time, load.exponent);
+  scene::SceneFile changed = scene;
+  changed.scene.load.peak_time = load.peak_time;
+  changed.scene.load.width = load.width;
+  changed.scene.load.steepness = load.steepness;
+  return changed;
 }
 
 }  // namespace launchsafe::kinds

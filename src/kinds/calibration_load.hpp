@@ -1,5 +1,4 @@
-// The analytic load that meets what is published of the rise without a gap: its duration and an early
-// temperature.
+// The bell that meets, with localisation and exchange time, what is published of the calibrated rows.
 #pragma once
 
 #include "launchsafe/kinds/calibration.hpp"
@@ -10,9 +9,9 @@ namespace launchsafe::kinds {
 /// has values that are not plausible and that nobody accepted. Empty for a sound one.
 std::string calibration_validity_warnings(const scene::Scene& scene, const run::MechanicsResult& mechanics);
 
-/// Fits exponent and peak time to Study::fast_rise and to the row without a gap whose early temperature is to
-/// be met, with localisation, exchange time and T1 calibrated on every load that is tried: each is a
-/// mechanical run on the mesh of the scene. `timing` counts them.
+/// Fits peak time, width and steepness of the scene's bell, with localisation and exchange time, to all
+/// `weighted_misfits`, starting from the scene: one mechanical run on its mesh for every load that is tried,
+/// those of one Jacobian at once. `timing` counts them.
 FittedLoad fit_load(const study::StudyFile& study, const CalibrationTargets& targets,
                     const study::StudyOptions& options, study::Timing& timing);
 

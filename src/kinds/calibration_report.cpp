@@ -1,5 +1,5 @@
 // Tables, page and files of a calibration.
-#include "launchsafe/kinds/calibration.hpp"
+#include "calibration_load_report.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -36,7 +36,7 @@ std::string bracket_check(const study::Study& study, const CalibrationRow& row) 
 /// Constants and what they miss, of every mesh, closure and kinetics: what is printed on stdout.
 Table calibration_table(const CalibrationResult& result) {
   Table table;
-  table.title = "Calibrated constants, and how far they miss what they were not fitted to";
+  table.title = "Calibrated constants, and how far they miss what nothing was fitted to";
   table.columns = {quantity::cell_size(),
                    quantity::closure(),
                    quantity::kinetics(),
@@ -65,33 +65,44 @@ Table calibration_table(const CalibrationResult& result) {
                           optional_number(row.selection_root_mean_square), remark_of(row)});
   }
   table.notes.push_back(
-      "RMS: over the temperature hold-outs, predicted minus published. T1 is the middle between the "
+      "RMS: over the temperatures that nothing was fitted to, computed minus published. T1 is the middle "
+      "between the "
       "untriggered T max of the largest published gap that is safe and of the smallest that ignites.");
   return table;
 }
 
-/// Every hold-out of one row: predicted, published, and their difference.
-Table hold_out_table(const CalibrationResult& result, const CalibrationRow& row) {
+/// Every published number beside what one row computes: with what it was used for, and the model's rival.
+Table compared_table(const CalibrationResult& result, const CalibrationRow& row) {
   Table table;
   table.title = fmt::format("Against the published results: {} mm, {}, {}",
                             significant(1e3 * row.cell_size, 6), study::to_string(row.closure), row.kinetics);
   table.columns = {text_column("quantity"),
                    quantity::gap(),
-                   number_column("predicted", "", 2, "predicted"),
+                   number_column("computed", "", 2, "computed"),
                    number_column("published", "", 2, "published"),
                    number_column("computed - published", "", 2, "computed_minus_published"),
                    text_column("unit"),
+                   number_column("line - published", "", 2, "line_minus_published"),
                    quantity::used_for()};
-  for (const HoldOut& each : row.hold_outs) {
+  for (const ComparedNumber& each : row.compared) {
     const double scale = each.in_seconds ? 1e3 : 1.0;
-    table.rows.push_back({each.quantity, 100.0 * each.gap, optional_number(scale * each.predicted),
+    table.rows.push_back({each.quantity, 100.0 * each.gap, optional_number(scale * each.computed),
                           scale * each.published, optional_number(scale * each.misfit()),
-                          std::string(each.in_seconds ? "ms" : "K"), study::to_string(each.use)});
+                          std::string(each.in_seconds ? "ms" : "K"),
+                          optional_number(each.line - each.published), study::to_string(each.use)});
   }
   for (const Placement& each : row.placements) {
-    table.notes.push_back(fmt::format("Place of {} at {}: predicted {}, published {}.", each.quantity,
-                                      centimetres(each.gap), each.predicted, each.published));
+    table.notes.push_back(fmt::format("Place of {} at {}: computed {}, published {}.", each.quantity,
+                                      centimetres(each.gap), each.computed, each.published));
   }
+  table.notes.push_back(
+      "Fitted: its difference is what the fit leaves. Chosen by: seen when a form of the model was picked, "
+      "so no "
+      "prediction; held out: neither. Line: straight over the gap through what is published of the two "
+      "fitted rows, the rival of the model; gaps near those rows prove little. A fast rise is where the "
+      "highest "
+      "temperature grows, over half a millisecond and without a trigger, at more than 15 % of its largest "
+      "rate.");
   if (result.study.study.references.empty()) table.notes.push_back("The study has no published rows.");
   return table;
 }
@@ -128,30 +139,15 @@ Table convergence_table(const CalibrationResult& result) {
   return table;
 }
 
-/// What was fitted of the load, and how far the stations move from mesh to mesh. Empty without either.
-std::string load_and_stations_text(const CalibrationResult& result) {
-  std::string text;
-  if (result.load && result.load->failure.empty()) {
-    const FittedLoad& load = *result.load;
-    const std::vector<double>& rise = settings_of<CalibrationSettings>(result.study.study).fast_rise;
-    text += fmt::format(
-        "Under the fitted load, its peak at {} ms with an exponent of {}, temperatures without a gap rise "
-        "fast from {:.2f} to {:.2f} ms (published: {} to {} ms; the time between is fitted), and the highest "
-        "at {} ms is {:+.3f} K off the published one.\n",
-        significant(1e3 * load.peak_time, 6), significant(load.exponent, 6), 1e3 * load.turning.fast,
-        1e3 * load.turning.slow, significant(1e3 * rise[0], 4), significant(1e3 * rise[1], 4),
-        significant(1e3 * result.study.study.early_time, 4), load.early_misfit);
-  }
-  if (std::isfinite(result.stations.finer)) {
-    if (!text.empty()) text += "\n";
-    text += fmt::format(
-        "With these constants no station without a gap changes by more than {:.2f} K on the next finer mesh, "
-        "and by more than {:.2f} K from the next coarser one: the stations {} by the rule of "
-        "`studies/model_form/README.md`.\n",
-        result.stations.finer, result.stations.coarser,
-        result.stations.converges() ? "converge" : "do not converge");
-  }
-  return text;
+/// How far the stations move from mesh to mesh. Empty where that was not seen.
+std::string stations_text(const CalibrationResult& result) {
+  if (!std::isfinite(result.stations.finer)) return {};
+  return fmt::format(
+      "With these constants no station without a gap changes by more than {:.2f} K on the next finer mesh, "
+      "and by more than {:.2f} K from the next coarser one: the stations {} by the rule of "
+      "`studies/model_form/README.md`.\n",
+      result.stations.finer, result.stations.coarser,
+      result.stations.converges() ? "converge" : "do not converge");
 }
 
 Json recommendation_json(const CalibrationResult& result) {
@@ -165,17 +161,6 @@ Json in_scene_json(const CalibrationResult& result) {
           {"localisation", number(result.in_scene.localisation)},
           {"exchange_time_ms", number(1e3 * result.in_scene.exchange_time)},
           {"ignition_temperature_K", number(result.in_scene.ignition_temperature)}};
-}
-
-Json load_json(const CalibrationResult& result) {
-  if (!result.load) return nullptr;
-  const FittedLoad& load = *result.load;
-  return {{"peak_time_ms", number(1e3 * load.peak_time)},
-          {"exponent", number(load.exponent)},
-          {"rises_fast_from_ms", number(1e3 * load.turning.fast)},
-          {"rises_fast_until_ms", number(1e3 * load.turning.slow)},
-          {"early_computed_minus_published_K", number(load.early_misfit)},
-          {"reason", load.failure}};
 }
 
 Json stations_json(const study::StationConvergence& stations) {
@@ -199,26 +184,26 @@ std::vector<Cell> row_cells(const CalibrationRow& row) {
   return {1e3 * row.cell_size, study::to_string(row.closure), row.kinetics};
 }
 
-/// Where maxima were predicted and published, of all rows.
+/// Where maxima were computed and published, of all rows.
 Table placement_table(const CalibrationResult& result) {
   Table table;
   table.columns = row_columns();
   append(table.columns,
-         {text_column("quantity"), quantity::gap(), text_column("predicted"), text_column("published")});
+         {text_column("quantity"), quantity::gap(), text_column("computed"), text_column("published")});
   for (const CalibrationRow& row : result.rows) {
     for (const Placement& each : row.placements) {
       std::vector<Cell>& cells = table.rows.emplace_back(row_cells(row));
-      cells.insert(cells.end(), {each.quantity, 100.0 * each.gap, each.predicted, each.published});
+      cells.insert(cells.end(), {each.quantity, 100.0 * each.gap, each.computed, each.published});
     }
   }
   return table;
 }
 
-/// All hold-outs of all rows in one table, for other programs.
-Table all_hold_outs(const CalibrationResult& result) {
+/// All compared numbers of all rows in one table, for other programs.
+Table all_compared(const CalibrationResult& result) {
   Table table;
   for (const CalibrationRow& row : result.rows) {
-    const Table one = hold_out_table(result, row);
+    const Table one = compared_table(result, row);
     if (table.columns.empty()) {
       table.columns = row_columns();
       append(table.columns, one.columns);
@@ -249,10 +234,11 @@ Table constants_table(const CalibrationResult& result) {
   table.rows.push_back({"friction.closure", study::to_string(row.closure), closure_now, Cell()});
   add("friction.localisation", fitted.localisation, now.localisation, 1.0, "");
   add("gap.exchange_time", fitted.exchange_time, now.exchange_time, 1e3, " ms");
-  if (result.load) {
+  if (result.load && result.load->failure.empty()) {
     const scene::Load& held = result.study.scene.scene.load;
     add("load.peak_time", result.load->peak_time, held.peak_time, 1e3, " ms");
-    add("load.exponent", result.load->exponent, held.exponent, 1.0, "");
+    add("load.width", result.load->width, held.width, 1e3, " ms");
+    add("load.steepness", result.load->steepness, held.steepness, 1.0, "");
   }
   add("kinetics.ignition_temperature", fitted.ignition_temperature, now.ignition_temperature, 1.0, " K");
   table.notes.push_back(fmt::format("They belong to cells of {} mm and the scene's other settings.",
@@ -264,6 +250,7 @@ std::string answer(const CalibrationResult& result) {
   std::string text = result.recommendation.reason;
   if (const CalibrationRow* row = result.recommended()) {
     const Constants& fitted = row->calibrated.constants;
+    if (result.load) text += load_sentence(*result.load);
     text += fmt::format(
         " The scene should hold \"{}\": at {} mm, localisation {}, exchange time {} ms, ignition "
         "temperature {} K.",
@@ -278,8 +265,11 @@ Report report_of(const CalibrationResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
   if (const auto record = record_of(result))
     report.files.push_back({"calibration.json", study::to_json_text(*record)});
-  report.items.push_back(Statement{load_and_stations_text(result)});
+  report.items.push_back(Statement{stations_text(result)});
   report.items.push_back(ReportTable{constants_table(result), "", "constants"});
+  report.items.push_back(ReportTable{fitted_table(result), "", "fitted"});
+  report.items.push_back(Statement{fit_text(result)});
+  report.items.push_back(Statement{misfits_text(result)});
   report.items.push_back(ReportTable{calibration_table(result), "calibration.csv", "calibrations"});
   Table selection = selection_table(result);
   if (selection.rows.size() < 2) selection.rows.clear();
@@ -287,9 +277,9 @@ Report report_of(const CalibrationResult& result) {
   report.items.push_back(ReportTable{convergence_table(result), "", "convergence"});
   for (std::size_t row = 0; row < result.rows.size(); ++row) {
     const Shown shown = result.recommendation.row == row ? Shown::page_and_terminal : Shown::page;
-    report.items.push_back(ReportTable{.table = hold_out_table(result, result.rows[row]), .shown = shown});
+    report.items.push_back(ReportTable{.table = compared_table(result, result.rows[row]), .shown = shown});
   }
-  report.items.push_back(ReportTable{all_hold_outs(result), "hold_outs.csv", "hold_outs", Shown::file});
+  report.items.push_back(ReportTable{all_compared(result), "compared.csv", "compared", Shown::file});
   report.items.push_back(ReportTable{placement_table(result), "", "placements", Shown::file});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
   report.items.push_back(ReportTable{run_table(result), "", "runs", Shown::page});

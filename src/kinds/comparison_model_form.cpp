@@ -96,13 +96,13 @@ Table model_constants_table(const ModelForm& form) {
   table.title = "Constants of each model, calibrated by the same rule";
   table.columns = {text_column("model"),
                    significant_column("peak time", "ms", 6, "peak_time_ms"),
-                   significant_column("exponent", "", 6, "exponent"),
+                   significant_column("width", "ms", 6, "width_ms"),
+                   significant_column("steepness", "", 6, "steepness"),
                    quantity::localisation(),
                    quantity::exchange_time(),
                    significant_column("T1", "K", 6, "ignition_temperature_K"),
                    significant_column("RMS of selection", "K", 4, "selection_rms_K"),
-                   significant_column("largest computed - published, held out", "K", 3,
-                                      "held_out_computed_minus_published_K"),
+                   significant_column("95 % of misfits below", "K", 3, "misfit_bound_K"),
                    significant_column("change to the finer mesh", "K", 3, "station_change_to_finer_K"),
                    significant_column("from the coarser", "K", 3, "station_change_from_coarser_K"),
                    text_column("stations converge")};
@@ -111,11 +111,11 @@ Table model_constants_table(const ModelForm& form) {
     if (!record.failure.empty()) continue;
     const scene::Scene& scene = record.calibration.scene;
     table.rows.push_back(
-        {each.name, 1e3 * scene.load.peak_time, scene.load.exponent, scene.surface.localisation,
-         1e3 * scene.surface.exchange_time, scene.charge().kinetics.ignition_temperature,
-         optional_number(record.selection_root_mean_square), optional_number(record.held_out_misfit),
-         optional_number(record.stations.finer), optional_number(record.stations.coarser),
-         std::string(record.stations.converges() ? "yes" : "no")});
+        {each.name, 1e3 * scene.load.peak_time, 1e3 * scene.load.width, scene.load.steepness,
+         scene.surface.localisation, 1e3 * scene.surface.exchange_time,
+         scene.charge().kinetics.ignition_temperature, optional_number(record.selection_root_mean_square),
+         optional_number(record.calibration.evidence.misfit_bound), optional_number(record.stations.finer),
+         optional_number(record.stations.coarser), std::string(record.stations.converges() ? "yes" : "no")});
   }
   table.notes.push_back(
       "Changes: of any station's temperature at the end of the launch without a gap, with the constants "

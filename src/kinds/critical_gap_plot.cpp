@@ -108,7 +108,7 @@ void add_published(const CriticalGapResult& result, Plot& plot) {
   held_out.mark = Mark::open_circle;
   for (const Reference& reference : result.study.study.references) {
     if (!std::isfinite(reference.maximum_temperature)) continue;
-    Series& used = used_for(reference) == to_string(Use::calibration) ? calibrated : held_out;
+    Series& used = used_for(reference) == to_string(Use::fitted) ? calibrated : held_out;
     Series& series = foreign ? published : used;
     series.x.push_back(100.0 * reference.gap);
     series.y.push_back(reference.maximum_temperature);

@@ -21,7 +21,7 @@ namespace {
 std::string early_used_for(const study::Reference& published) {
   using enum study::Use;
   if (!std::isfinite(published.early_temperature)) return {};
-  return to_string(published.early_calibrated ? calibration : published.selection ? selection : held_out);
+  return to_string(published.calibrated ? fitted : published.selection ? chosen_by : held_out);
 }
 
 /// Computed minus published (K) of a calibrated row above which the scene's constants are not those of its

@@ -69,16 +69,16 @@ const std::vector<Key<Reference>>& published_row_keys() {
                        &Reference::early_spread),
       reference_number("ignition_time", Dimension::time, "When it ignited; absent where it did not.",
                        &Reference::ignition_time),
+      reference_number("rise_begins", Dimension::time, "From when on its highest temperature rises fast.",
+                       &Reference::rise_begins),
+      reference_number("rise_ends", Dimension::time, "Until when it rises fast.", &Reference::rise_ends),
       scene::flag_key<Reference>("calibrated", Standing::input,
-                                 "True where constants are fitted to it, false for a hold-out.",
+                                 "True where constants, and a load that is fitted, are fitted to it.",
                                  &Reference::calibrated),
-      scene::flag_key<Reference>("early_calibrated", Standing::input,
-                                 "True where the load is fitted to its temperature at early_time.",
-                                 &Reference::early_calibrated),
-      scene::flag_key<Reference>(
-          "selection", Standing::input,
-          "True where its temperature at early_time, spreads and places were used to choose among models.",
-          &Reference::selection),
+      scene::flag_key<Reference>("selection", Standing::input,
+                                 "True where its other numbers were seen when a form of the model was "
+                                 "picked; they are held out if not.",
+                                 &Reference::selection),
   };
   return keys;
 }

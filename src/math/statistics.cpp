@@ -181,6 +181,11 @@ double one_sided_tolerance_factor(int n, double coverage, double confidence) {
   return boost::math::quantile(boost::math::non_central_t(n - 1, shift), confidence) / root;
 }
 
+double one_sided_student_factor(int n, double level) {
+  if (n < 1 || !(level > 0.0 && level < 1.0)) return not_a_number;
+  return boost::math::quantile(boost::math::students_t(n), level);
+}
+
 namespace {
 
 /// The order p > 0 of the power law through three values, whose (r31^p - 1)/(r21^p - 1) grows with p; NaN

@@ -74,8 +74,8 @@ void add_published(const Subject& subject, const JudgedCase& each, Plot& plot) {
     Mark mark;
     int colour;
   };
-  for (const Use& use : {Use{"calibration", "published, calibrated to", Mark::open_square, 0},
-                         Use{"selection", "published, chose the model", Mark::open_triangle, 2},
+  for (const Use& use : {Use{"fitted", "published, fitted to", Mark::open_square, 0},
+                         Use{"chosen by", "published, model chosen by", Mark::open_triangle, 2},
                          Use{"held out", "published, held out", Mark::open_circle, 1}}) {
     Series series{.label = use.label, .style = Style::points, .colour = use.colour, .mark = use.mark};
     for (const Row& row : subject.study.rows("comparison"))

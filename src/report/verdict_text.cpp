@@ -259,8 +259,10 @@ std::string uncertainty_remark(const study::StudyFile& study) {
 }
 
 std::string used_for(const study::Reference& published) {
-  return to_string(published.calibrated || published.ignited() ? study::Use::calibration
-                                                               : study::Use::held_out);
+  using enum study::Use;
+  // That a gap ignites is what the ignition temperature is fitted to.
+  if (published.calibrated || published.ignited()) return to_string(fitted);
+  return to_string(published.selection ? chosen_by : held_out);
 }
 
 bool acted(const run::LimiterCounts& limiters) {

@@ -184,6 +184,8 @@ std::string rigid_motion_text(const Scene& scene) {
   return fmt::format("{:.4g} m/s after {:.3g} m of travel", end.velocity, end.travel);
 }
 
+double read_time(const Load& load) { return load.duration; }
+
 std::string word_of(LoadShape shape) { return shape == LoadShape::bell ? "bell" : "power-exponential"; }
 
 }  // namespace launchsafe::scene

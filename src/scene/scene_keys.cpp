@@ -138,7 +138,7 @@ std::vector<Key<Load>> load_keys() {
                                    {word_of(LoadShape::power_exponential), LoadShape::power_exponential}},
                                   &Load::shape),
                          {"width", "steepness", "exponent"}),
-              is_bell),
+              [](const Load& load) { return !is_bell(load); }),
           "whether a launch is covered is judged by its pressures"),
       plausibly(written_where(number_key("width", Dimension::time, above_to(0, 1), Standing::assumed,
                                          "Time from the peak of a bell to where e times less is left of it.",

@@ -7,7 +7,7 @@
 namespace launchsafe::study {
 namespace {
 
-constexpr RecordFormat calibration_format{"launchsafe calibration record 2",
+constexpr RecordFormat calibration_format{"launchsafe calibration record 3",
                                           "calibration.json",
                                           "a study of kind calibration",
                                           {"digest", "format"}};
@@ -20,8 +20,11 @@ void describe_numbers(RecordObject& object, CalibrationRecord& record) {
   object.value("friction_rise_K", evidence.friction_rise, above_to(0, 5000));
   object.value("air_rise_K", evidence.air_rise, above_to(0, 5000));
   object.value("largest_gap_m", evidence.largest_gap, above_to(0, 0.01));
-  object.value("largest_misfit_K", evidence.largest_misfit, between(0, 5000));
-  object.value("held_out_misfit_K", record.held_out_misfit, between(0, 5000));
+  object.value("misfits", record.misfits, 0, 1000);
+  object.value("misfit_bound_K", evidence.misfit_bound, between(0, 1e5));
+  constexpr std::size_t entries = fitted_keys.size() * fitted_keys.size();
+  const std::size_t expected = record.load_fitted ? entries : 0;
+  object.value("covariance_of_logarithms", record.covariance, between(-1e4, 1e4), expected, expected);
   object.value("ignition_lowest_K", record.ignition_lowest, above_to(0, 5000));
   object.value("ignition_highest_K", record.ignition_highest, above_to(record.ignition_lowest, 5000));
   object.value("selection_rms_K", record.selection_root_mean_square, temperature_or_none);
@@ -59,7 +62,8 @@ scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& t
 }
 
 double fit_uncertainty_of(const CalibrationRecord& record) {
-  return std::max(0.5 * (record.ignition_highest - record.ignition_lowest), record.held_out_misfit);
+  return std::max(0.5 * (record.ignition_highest - record.ignition_lowest),
+                  record.calibration.evidence.misfit_bound);
 }
 
 }  // namespace launchsafe::study

@@ -16,7 +16,7 @@ namespace launchsafe::study {
 namespace {
 
 constexpr std::array constants{"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"};
-constexpr std::array load_shape{"load.peak_time", "load.exponent"};
+constexpr std::array load_shape{"load.shape", "load.peak_time", "load.width", "load.steepness"};
 
 bool states(const StudyFile& study, const std::string& key) {
   return study.scene.given.contains(key) || study.overrides.contains(key);
@@ -26,7 +26,7 @@ bool states(const StudyFile& study, const std::string& key) {
 /// and the constants are carried to it as to any other.
 bool takes_load(const StudyFile& study, const CalibrationRecord& record) {
   return record.load_fitted && record.calibration.scene.load.curve_time.empty() &&
-         study.scene.scene.load.curve_time.empty() && !states(study, "load.shape") &&
+         study.scene.scene.load.curve_time.empty() &&
          std::none_of(load_shape.begin(), load_shape.end(),
                       [&](const char* key) { return states(study, key); });
 }

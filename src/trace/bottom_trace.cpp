@@ -51,10 +51,7 @@ std::vector<double> picked_rows(const std::vector<double>& values, std::size_t w
   return result;
 }
 
-}  // namespace
-
-BottomTrace thinned(const BottomTrace& trace) {
-  const std::vector<std::size_t> kept = kept_samples(trace.samples());
+BottomTrace with_samples(const BottomTrace& trace, const std::vector<std::size_t>& kept) {
   BottomTrace result;
   result.stations = trace.stations;
   result.time = picked(trace.time, kept);
@@ -67,6 +64,18 @@ BottomTrace thinned(const BottomTrace& trace) {
     result.friction[closure] = picked_rows(trace.friction[closure], trace.stations.size(), kept);
   }
   return result;
+}
+
+}  // namespace
+
+BottomTrace thinned(const BottomTrace& trace) { return with_samples(trace, kept_samples(trace.samples())); }
+
+BottomTrace until(const BottomTrace& trace, double time) {
+  constexpr double round_off = 1e-12;  // s
+  std::vector<std::size_t> kept;
+  for (std::size_t sample = 0; sample < trace.samples() && trace.time[sample] <= time + round_off; ++sample)
+    kept.push_back(sample);
+  return with_samples(trace, kept);
 }
 
 BottomTrace stretched(BottomTrace trace, double factor) {

@@ -31,7 +31,7 @@ base = "0 Pa"
 peak = "50 MPa"
 peak_time = "0.035 ms"
 exponent = 3
-
+shape = "power-exponential"
 [gap]
 thickness = "0, 0.01 cm"
 

@@ -153,6 +153,7 @@ base = "0 Pa"
 peak = "50 MPa"
 peak_time = "$2"
 exponent = 3
+shape = "power-exponential"
 
 [gap]
 thickness = "0, 0.01 cm"

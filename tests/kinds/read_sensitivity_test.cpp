@@ -23,8 +23,8 @@ std::string input(const std::string& rest) { return "[[input]]\n" + rest + "\n";
 
 const std::string crack =
     input("key = \"crack_radius\"\ndistribution = \"uniform\"\nrange = \"10 to 100 um\"");
-const std::string exponent =
-    input("key = \"load.exponent\"\ndistribution = \"normal\"\nmean = 12\ndeviation = 1");
+const std::string steepness =
+    input("key = \"load.steepness\"\ndistribution = \"normal\"\nmean = 12\ndeviation = 1");
 const std::string flaw =
     input("key = \"charge.flaw_size\"\ndistribution = \"log-uniform\"\nrange = \"0.5 mm to 2 mm\"");
 
@@ -56,7 +56,7 @@ TEST(ReadSensitivity, ReadsInputsAndMethod) {
   const StudyFile file = study_of(sensitivity_start +
                                   "method = \"sobol\"\ndesign = \"latin-hypercube\"\nsamples = 8\nseed = 7\n"
                                   "resamples = 500\nconfidence = 0.9\ntolerance = \"2 um\"\n" +
-                                  crack + exponent + flaw);
+                                  crack + steepness + flaw);
   const Study& study = file.study;
   EXPECT_EQ(study.kind.name, kinds::traits_of("sensitivity").name);
   EXPECT_EQ(study::settings_of<kinds::SensitivitySettings>(study).design, math::Design::latin_hypercube);
@@ -113,7 +113,7 @@ void expect_scenes_of_coordinates(const StudyFile& file) {
 
 TEST(ReadSensitivity, SobolCasesFollowTheDesign) {
   const StudyFile file = study_of(
-      sensitivity_start + "design = \"scrambled-sobol\"\nsamples = 4\nseed = 3\n" + crack + exponent + flaw);
+      sensitivity_start + "design = \"scrambled-sobol\"\nsamples = 4\nseed = 3\n" + crack + steepness + flaw);
   const auto design = math::saltelli_design(math::Design::scrambled_sobol, 4, 3, 3);
   ASSERT_EQ(file.cases.size(), design.evaluations());
   for (std::size_t evaluation = 0; evaluation < file.cases.size(); ++evaluation) {
@@ -125,7 +125,7 @@ TEST(ReadSensitivity, SobolCasesFollowTheDesign) {
   }
   EXPECT_EQ(file.cases[design.index(design.block_a, 0)].label, "sample 1 of A");
   EXPECT_EQ(file.cases[design.index(design.block_b, 1)].label, "sample 2 of B");
-  EXPECT_EQ(file.cases[design.index(design.block_ab(1), 3)].label, "sample 4 of AB(load.exponent)");
+  EXPECT_EQ(file.cases[design.index(design.block_ab(1), 3)].label, "sample 4 of AB(load.steepness)");
   expect_scenes_of_coordinates(file);
 }
 
@@ -173,7 +173,7 @@ TEST(ReadSensitivity, FaultsOfInputsNameFileLineKeyFoundAndAllowed) {
   expect_input_error(uniform, {4, "input.key", "missing"});
   expect_input_error("key = 3", {5, "input.key", "3", "a text"});
   expect_input_error("key = \"flaw_sise\"", {5, "input.key", "\"flaw_sise\"", "flaw_size", "flaw_size"});
-  expect_input_error("key = \"load.exponnt\"", {5, "input.key", "unknown", "[load]", "load.exponent"});
+  expect_input_error("key = \"load.stepness\"", {5, "input.key", "unknown", "[load]", "load.steepness"});
   expect_input_error("key = \"symmetry\"", {5, "input.key", "takes a word", "takes one number"});
   expect_input_error("key = \"gap\"", {5, "input.key", "one for all", "the study's key gap"});
   expect_input_error("key = \"numerics.particles_per_cell\"", {5, "input.key", "a whole number"});
@@ -221,7 +221,7 @@ TEST(ReadSensitivity, AValueThatTheSceneCannotHaveNamesTheInput) {
 TEST(ReadSensitivity, TheAnalyticLoadIsNotUncertainUnderAMeasuredCurve) {
   const std::string file = ::testing::TempDir() + "read_sensitivity_curve.csv";
   std::ofstream(file) << "time_ms,pressure_MPa\n0,0\n5,400\n18,0\n";
-  expect_error_in(sensitivity_start + exponent + "[set]\nload.curve = \"" + file + "\"\n",
+  expect_error_in(sensitivity_start + steepness + "[set]\nload.curve = \"" + file + "\"\n",
                   {5, "input.key", "which a measured curve does not have"});
 }
 

@@ -41,13 +41,13 @@ TEST(ReadSweep, MakesTheProductOfTheAxesInTheOrderWritten) {
                                    "peak_pressure = \"400, 496 MPa\"\n"
                                    "gap = \"0, 0.02 cm\"\n"
                                    "flaw_size = [\"1 mm\", \"2 mm\"]\n"
-                                   "load.exponent = [12, 10.5, 9]\n"
+                                   "load.steepness = [12, 10.5, 9]\n"
                                    "crack_radius = \"30 um\"\n");
   EXPECT_EQ(study.study.kind.name, kinds::traits_of("sweep").name);
   EXPECT_EQ(study.study.gaps, (std::vector<double>{0.0, 2e-4}));
   ASSERT_EQ(study.study.axes.size(), 4u);
-  const char* names[] = {"peak_pressure", "flaw_size", "load.exponent", "crack_radius"};
-  const char* keys[] = {"load.peak", "charge.flaw_size", "load.exponent", "charge.crack_radius"};
+  const char* names[] = {"peak_pressure", "flaw_size", "load.steepness", "crack_radius"};
+  const char* keys[] = {"load.peak", "charge.flaw_size", "load.steepness", "charge.crack_radius"};
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(study.study.axes[i].name, names[i]);
     EXPECT_EQ(study.study.axes[i].key.name, keys[i]);
@@ -55,7 +55,7 @@ TEST(ReadSweep, MakesTheProductOfTheAxesInTheOrderWritten) {
   EXPECT_EQ(study.study.axes[2].values, (std::vector<double>{12, 10.5, 9}));
   ASSERT_EQ(study.cases.size(), 12u);
   const StudyCase& second = study.cases[1];
-  EXPECT_EQ(second.label, "peak_pressure 400 MPa, flaw_size 0.1 cm, load.exponent 10.5, crack_radius 30 um");
+  EXPECT_EQ(second.label, "peak_pressure 400 MPa, flaw_size 0.1 cm, load.steepness 10.5, crack_radius 30 um");
   EXPECT_EQ(second.coordinates, (std::vector<double>{400e6, 1e-3, 10.5, 30e-6}));
   EXPECT_EQ(second.peak_pressure, 400e6);
   EXPECT_EQ(second.flaw_size, 1e-3);
@@ -64,7 +64,7 @@ TEST(ReadSweep, MakesTheProductOfTheAxesInTheOrderWritten) {
   const scene::Scene& last = study.cases.back().scene.scene;
   EXPECT_EQ(last.load.peak, 496e6);
   EXPECT_EQ(last.charge().strength.flaw_size, 2e-3);
-  EXPECT_EQ(last.load.exponent, 9.0);
+  EXPECT_EQ(last.load.steepness, 9.0);
 }
 
 TEST(ReadSweep, ACaseIsTheSceneWithItsKeys) {
@@ -81,13 +81,13 @@ TEST(ReadSweep, ACaseIsTheSceneWithItsKeys) {
 TEST(ReadSweep, TakesKeysDottedQuotedOrAsTables) {
   const std::string values = "[10, 12]\n";
   const std::vector<std::string> ways{
-      sweep_text + "load.exponent = " + values, sweep_text + "\"load.exponent\" = " + values,
-      sweep_text + "load = { exponent = [10, 12] }\n", sweep_text + "[axes.load]\nexponent = " + values,
-      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\naxes = { load.exponent = [10, 12] }\n"};
+      sweep_text + "load.steepness = " + values, sweep_text + "\"load.steepness\" = " + values,
+      sweep_text + "load = { steepness = [10, 12] }\n", sweep_text + "[axes.load]\nsteepness = " + values,
+      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\naxes = { load.steepness = [10, 12] }\n"};
   for (const std::string& text : ways) {
     const StudyFile study = study_of(text);
     ASSERT_EQ(study.study.axes.size(), 1u) << text;
-    EXPECT_EQ(study.study.axes[0].name, "load.exponent");
+    EXPECT_EQ(study.study.axes[0].name, "load.steepness");
     EXPECT_EQ(study.cases.size(), 2u);
   }
   const StudyFile beside = study_of(sweep_text + "gap = \"0.01 cm\"\n\"gap.exchange_time\" = \"0.3 ms\"\n");
@@ -127,7 +127,7 @@ TEST(ReadSweep, OnlyAnotherLaunchIsNotTheReferences) {
   EXPECT_TRUE(own("friction.localisation = 500"));
   EXPECT_TRUE(own("charge.density = \"1717 kg/m3\""));
   EXPECT_FALSE(own("charge.density = \"1700 kg/m3\""));
-  EXPECT_FALSE(own("load.exponent = 10"));
+  EXPECT_FALSE(own("load.steepness = 10"));
   EXPECT_FALSE(own("initial_temperature = \"310 K\""));
 }
 
@@ -184,10 +184,11 @@ TEST(ReadSweep, FaultsOfAxesNameFileLineKeyFoundAndAllowed) {
   expect_axes_error("gap = []", {4, "axes.gap", "empty"});
   expect_axes_error("gaps = \"1 mm\"", {4, "axes.gaps", "unknown key", "peak_pressure", "gap"});
   expect_axes_error("peak_presure = \"1 MPa\"",
-                    {4, "axes.peak_presure", "unknown key", "load.exponent", "peak_pressure"});
+                    {4, "axes.peak_presure", "unknown key", "load.steepness", "peak_pressure"});
   expect_axes_error("peak_pressures = \"1 MPa\"", {4, "axes.peak_pressures", "unknown", "", "peak_pressure"});
-  expect_axes_error("load.exponnt = 3", {4, "axes.load.exponnt", "unknown key", "[load]", "load.exponent"});
-  expect_axes_error("load.exponent = 3\nload.exponnt = 3", {5, "axes.load.exponnt", "unknown key"});
+  expect_axes_error("load.stepness = 3",
+                    {4, "axes.load.stepness", "unknown key", "[load]", "load.steepness"});
+  expect_axes_error("load.steepness = 3\nload.stepness = 3", {5, "axes.load.stepness", "unknown key"});
   expect_axes_error("peak_pressure = \"400, 400 MPa\"", {4, "axes.peak_pressure", "twice", "once"});
   expect_axes_error("peak_pressure = [400]", {4, "axes.peak_pressure", "without a unit", "", "400 MPa"});
   expect_axes_error("peak_pressure = \"400, 500\"", {4, "axes.peak_pressure", "without a unit"});
@@ -242,7 +243,7 @@ TEST(ReadSweep, TheAnalyticLoadDoesNotVaryUnderAMeasuredCurve) {
   const std::string curve = "[set]\nload.curve = \"" + file + "\"\n";
   expect_error_in(sweep_text + "peak_pressure = \"400 MPa\"\n" + curve,
                   {4, "axes.peak_pressure", "not rescaled", "load.rescale_to_peak = true"});
-  expect_error_in(sweep_text + "load.exponent = 10\n" + curve, {4, "axes.load.exponent", "measured curve"});
+  expect_error_in(sweep_text + "load.steepness = 10\n" + curve, {4, "axes.load.steepness", "measured curve"});
   const StudyFile study =
       study_of(sweep_text + "peak_pressure = \"300 MPa\"\n" + curve + "load.rescale_to_peak = true\n");
   EXPECT_EQ(study.cases.at(0).peak_pressure, 300e6);
@@ -252,9 +253,9 @@ TEST(ReadSweep, TheAnalyticLoadDoesNotVaryUnderAMeasuredCurve) {
 TEST(ReadSweep, ThereIsAMostOfCases) {
   const std::string axis = "= [" + numbers(101, 1.0, 0.01) + "]\n";
   expect_axes_error(
-      "load.exponent " + axis + "charge.face_friction = [" + numbers(101, 0.0, 0.01) +
+      "load.steepness " + axis + "charge.face_friction = [" + numbers(101, 0.0, 0.01) +
           "]\nsteel.gruneisen = [" + numbers(101, 1.0, 0.01) + "]",
-      {4, "axes.load.exponent", "1030301 mechanical runs, 101 of axes.load.exponent x", "at most 1000000"});
+      {4, "axes.load.steepness", "1030301 mechanical runs, 101 of axes.load.steepness x", "at most 1000000"});
 }
 
 }  // namespace

@@ -155,12 +155,12 @@ TEST(SweepReport, TheAnswerCountsAndNames) {
 
 TEST(SweepReport, ManyFailuresAreNotAllListed) {
   study::StudyFile file = bare_study(kinds::traits_of("sweep"), {0});
-  file.study.axes = {axis(file, "load.exponent", "load.exponent", {8, 9, 10, 11, 12, 13})};
+  file.study.axes = {axis(file, "load.steepness", "load.steepness", {8, 9, 10, 11, 12, 13})};
   const SweepResult result = swept(
       std::move(file), [](const study::Study& study, const auto&) { return broken_answer(study, "broken"); });
-  EXPECT_NE(answer(result).find("load.exponent 8 (broken)"), std::string::npos) << answer(result);
+  EXPECT_NE(answer(result).find("load.steepness 8 (broken)"), std::string::npos) << answer(result);
   EXPECT_NE(answer(result).find("and 3 more"), std::string::npos);
-  EXPECT_EQ(keys_of(critical_gap_table(result)).front(), "load_exponent");
+  EXPECT_EQ(keys_of(critical_gap_table(result)).front(), "load_steepness");
 }
 
 TEST(SweepReport, TheAxesTakeTheUnitInWhichTheirValuesReadBest) {

@@ -25,6 +25,7 @@ scene::Scene cased_charge(double length = 0.02) {
   scene.load.duration = 4e-5;
   scene.load.peak = 100e6;
   scene.load.peak_time = 4e-5;
+  scene.load.shape = scene::LoadShape::power_exponential;
   scene.load.exponent = 2.0;
   scene.numerics.cell_size = 2.5e-3;
   scene.numerics.energy_drift_limit = 0.5;

@@ -15,6 +15,7 @@ inline scene::Scene burning_column(double cell, double radius, double duration) 
   scene.load.duration = 1e-3;
   scene.load.peak = 200e6;
   scene.load.peak_time = 5e-3;
+  scene.load.shape = scene::LoadShape::power_exponential;
   scene.load.exponent = 1.0;
   scene.surface.gaps = {burning_gap};
   scene.surface.exchange_time = 5e-5;

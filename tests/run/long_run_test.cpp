@@ -49,7 +49,7 @@ scene::Scene pulsing_shell(double steps) {
 /// Everything dies out: the motion by damping, the stresses by relaxation.
 scene::Scene decaying_shell(double steps) {
   return shell_for(steps, 500.0,
-                   "load.peak = \"20 MPa\"\nload.exponent = 3\n"
+                   "load.peak = \"20 MPa\"\nload.shape = \"power-exponential\"\nload.exponent = 3\n"
                    "numerics.damping_time = \"20 us\"\nnumerics.energy_drift_limit = 100\n");
 }
 

@@ -141,6 +141,7 @@ const Keys common{{"load.duration", "\"0.2 ms\""},
                   {"load.base", "\"0 Pa\""},
                   {"load.peak", "\"400 MPa\""},
                   {"load.peak_time", "\"0.15 ms\""},
+                  {"load.shape", "\"power-exponential\""},
                   {"load.exponent", "3"},
                   {"numerics.cell_size", "\"5 mm\""},
                   {"output.trace_interval", "\"4 us\""},
@@ -177,7 +178,7 @@ const std::map<std::string, Keys> scenes{
 scene::Scene scene_with(Keys keys) {
   keys.insert(common.begin(), common.end());
   if (keys.contains("load.curve_time")) {
-    for (const char* analytic : {"load.base", "load.peak", "load.peak_time", "load.exponent"})
+    for (const char* analytic : {"load.base", "load.peak", "load.peak_time", "load.shape", "load.exponent"})
       keys.erase(analytic);
   }
   std::string text;

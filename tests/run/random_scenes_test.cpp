@@ -106,7 +106,7 @@ std::string random_load(const scene::Scene& shell) {
   if (flag()) {
     return text + fmt::format(
                       "load.base = \"{} Pa\"\nload.peak = \"{} Pa\"\nload.peak_time = \"{} s\"\n"
-                      "load.exponent = {}\n",
+                      "load.shape = \"power-exponential\"\nload.exponent = {}\n",
                       base, base + between_ratios(1e6, 2e9), duration * between_ratios(0.05, 3),
                       between_ratios(0.5, 30));
   }

@@ -20,7 +20,8 @@ scene::Scene shell(const std::string& more = "") {
   auto file =
       scene::parse_scene(testing::small_shell + testing::small_shell_base + more +
                              "[load]\nduration = \"0.3 ms\"\npeak = \"200 MPa\"\n"
-                             "peak_time = \"0.2 ms\"\nexponent = 4\n[numerics]\ncell_size = \"2.5 mm\"\n"
+                             "peak_time = \"0.2 ms\"\nexponent = 4\nshape = "
+                             "\"power-exponential\"\n[numerics]\ncell_size = \"2.5 mm\"\n"
                              "[output]\ntrace_interval = \"5 us\"\n[gap]\nthickness = \"0, 0.04 cm\"\n"
                              "exchange_time = \"0.02 ms\"\n",
                          "small.toml");
@@ -243,6 +244,7 @@ TEST(Snapshots, OfAGapThatBurnsBeginWithItsIgnition) {
   scene.load.duration = 1e-3;
   scene.load.peak = 200e6;
   scene.load.peak_time = 5e-3;
+  scene.load.shape = scene::LoadShape::power_exponential;
   scene.load.exponent = 1.0;
   scene.surface.gaps = {0.0, 4e-4};
   scene.surface.exchange_time = 5e-5;

@@ -108,6 +108,7 @@ TEST(ValidityWarnings, TheInertiaThatAStepLoadMovesIsTrueWhereNothingScalesIt) {
 TEST(ValidityWarnings, AFlightThroughAGridAtRest) {
   scene::Scene scene = shipped_scene();
   scene.load.peak_time = 11e-3;
+  scene.load.shape = scene::LoadShape::power_exponential;
   scene.load.exponent = 12.0;
   scene.frame = scene::Frame::lab;
   scene.numerics.formulation = scene::Formulation::updated_lagrangian;

@@ -28,7 +28,8 @@ inline const std::string quick_numerics =
     "numerics.cell_size = \"5 mm\"\nnumerics.energy_drift_limit = 0.5\noutput.trace_interval = \"5 us\"\n"
     "load.duration = \"50 us\"\nphysics.reaction_bound = \"1e30 K\"\n";
 inline const std::string analytic_load =
-    "load.base = \"0 Pa\"\nload.peak = \"2 GPa\"\nload.peak_time = \"50 us\"\nload.exponent = 3\n";
+    "load.base = \"0 Pa\"\nload.peak = \"2 GPa\"\nload.peak_time = \"50 us\"\nload.exponent = 3\n"
+    "load.shape = \"power-exponential\"\n";
 inline const std::string measured_load =
     "load.curve_time = \"0, 10, 50 us\"\nload.curve_pressure = \"0, 1000, 2000 MPa\"\n";
 

@@ -108,7 +108,7 @@ TEST(Plausibility, NamesTheKeyOfEveryValueThatNoLaunchHas) {
       {"load.peak", "496 Pa"},
       {"load.peak", "5 GPa"},
       {"load.duration", "1 s"},
-      {"load.exponent", "1000"},
+      {"load.steepness", "100"},
       {"numerics.energy_drift_limit", "100"},
       {"numerics.damping_time", "1e-6 s"},
       {"numerics.pic_fraction", "1"},
@@ -138,7 +138,7 @@ TEST(Plausibility, JudgesWhatSeveralKeysMakeTogether) {
       {{"gap.gas_law"}, {{"initial_temperature", "230 K"}}},
       {{"gap.heat_law"}, {{"gap.air_heat_ratio", "1.3"}}},
       {{"load.launch_speed", "load.travel"}, {{"load.peak", "12 MPa"}}},
-      {{"load.launch_speed", "load.travel"}, {{"load.peak_time", "0.2 ms"}}},
+      {{"load.launch_speed", "load.travel"}, {{"load.width", "0.2 ms"}}},
       {{"load.simulated_peak", "load.launch_speed", "load.travel"}, {{"load.peak_time", "49 ms"}}},
       {{"load.travel"}, {{"load.duration", "60 ms"}}},
       {{"charge.bulk_sound_speed", "charge.poisson_ratio"}, {{"charge.jwl.r1", "16"}}},
@@ -205,7 +205,7 @@ TEST(Plausibility, JudgesAMeasuredCurveByItsLargestPressureAndByWhatIsSimulated)
             (Keys{"load.measured_peak", "load.rescaling"}))
       << "a wrong label stays implausible where the curve is scaled";
   // Numbers of the analytic shape do nothing under a curve.
-  EXPECT_EQ(keys_of("load.exponent = 999\n" + with_curve("0, 5, 10 ms", "0, 20, 5 MPa")), Keys{});
+  EXPECT_EQ(keys_of("load.steepness = 99\n" + with_curve("0, 5, 10 ms", "0, 20, 5 MPa")), Keys{});
 }
 
 TEST(Plausibility, AValueThatIsAcceptedKeepsItsReason) {

@@ -125,7 +125,7 @@ TEST(SceneKeys, ListingTellsInputFromDefault) {
   });
   EXPECT_EQ(listed.size() + static_cast<std::size_t>(idle), scene_keys().size());
   for (const ListedKey& key : listed) {
-    EXPECT_NE(key.name, "load.width") << "of the other shape";
+    EXPECT_NE(key.name, "load.exponent") << "of the other shape";
     EXPECT_EQ(key.standing == Standing::input, file.given.contains(key.name)) << key.name;
     if (key.name == "load.duration") {
       EXPECT_EQ(key.value, "1 ms");

@@ -55,8 +55,9 @@ TEST(Scene, BaseAreaCountsOnlyFacesAtTheVeryBase) {
   EXPECT_NEAR(base_area(scene), std::numbers::pi * (0.02 * 0.02 - 0.01 * 0.01), 1e-18);
 }
 
-TEST(PressureHistory, AnalyticShapeRisesToItsPeakAndFalls) {
+TEST(PressureHistory, PowerExponentialRisesToItsPeakAndFalls) {
   Load load;
+  load.shape = LoadShape::power_exponential;
   load.peak_time = 11e-3;
   load.exponent = 12.0;
   const PressureHistory history(load);

@@ -9,7 +9,7 @@ namespace launchsafe::scene {
 
 inline const std::string plainly_written_scene = R"(
 frame = "co-moving"
-load = { duration = "0.05 ms", peak = "496 MPa", peak_time = "0.05 ms", exponent = 10.5 }
+load = { duration = "0.05 ms", peak = "496 MPa", peak_time = "0.05 ms", shape = "power-exponential", exponent = 10.5 }
 charge = { crack_radius = "0.1 mm", flaw_size = "1.3 mm", relaxation_rates = "0, 7320, 73200, 732000, 2000000 1/s" }
 steel = { yield_stress = "792 MPa", taylor_quinney = 0.9 }
 gap.thickness = "0, 0.1, 0.39 mm"
@@ -63,6 +63,7 @@ x = "0.01 to 0.04 m"
 particles_per_cell = +1
 cell_size = "0.5cm"
 [load]
+shape = "power-exponential"
 exponent = 1.05e1
 peak = "4960 bar"
 duration = "5e-5 s"

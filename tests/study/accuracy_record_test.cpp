@@ -226,11 +226,11 @@ TEST_F(RecordedStudy, CarriesABoundToOtherLaunchesOnlySoFar) {
                                {"flaw_sizes = \"0.1 mm\"\n", assumed},
                                {"gaps = \"0, 0.1 cm\"\n", own},
                                {"gaps = \"0, 0.2 cm\"\n", assumed},
-                               {"[set]\nload.exponent = 11\n", own},
-                               {"[set]\nload.exponent = 4\n", assumed},
+                               {"[set]\nload.steepness = 1.5\n", own},
+                               {"[set]\nload.width = \"1 ms\"\n", assumed},
                                {"[set]\nload.peak_time = \"5 ms\"\n", assumed},
                                {"[set]\nload.duration = \"30 ms\"\n", assumed},
-                               {"[set]\nfriction.localisation = 3016.18\n", 2.0 * own},
+                               {"[set]\nfriction.localisation = 2699.08\n", 2.0 * own},
                                {"[set]\nfriction.localisation = 5000\n", assumed},
                                {"[set]\ngap.exchange_time = \"0.05 ms\"\n", assumed}};
   for (const Expected& launch : launches) {

@@ -123,7 +123,7 @@ TEST(CalibrationDomain, NamesWhatLiesOutside) {
       {"pressure", [](auto& s) { s.load.peak = 550e6; }, "", "peak pressure"},
       {"cracks", [](auto& s) { s.charge().strength.initial_crack_radius = 1e-4; }, "", "crack radius"},
       {"cold", [](auto& s) { s.initial_temperature = 250.0; }, "", "initial temperature"},
-      {"load shape", [](auto& s) { s.load.exponent = 17.0; }, "", "load shape"},
+      {"load shape", [](auto& s) { s.load.steepness = 2.0; }, "", "load shape"},
       {"a measured curve",
        [](auto& s) {
          s.load.curve_time = {0.0, 9e-3, 18e-3};

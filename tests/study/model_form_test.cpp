@@ -146,7 +146,7 @@ TEST(ModelForm, SaysNothingOfAnotherLaunchOrPressure) {
   hotter.surface.localisation *= 1.5;
   EXPECT_TRUE(std::isnan(model_form_shift(record, hotter).gap));
   scene::Scene longer = at_pressure(500e6);
-  longer.load.exponent = 9.0;
+  longer.load.steepness = 1.2;
   EXPECT_TRUE(std::isnan(model_form_shift(record, longer).gap));
 }
 

@@ -105,7 +105,7 @@ TEST(RecordedLaunch, SaysNothingOfWhatTheRecordDoesNotHave) {
 TEST(RecordedLaunch, DoesNotCoverAnotherLoad) {
   const std::vector<std::function<void(scene::Load&)>> others{
       [](auto& load) { load.duration = 30e-3; }, [](auto& load) { load.peak_time = 6e-3; },
-      [](auto& load) { load.exponent = 100; }, [](auto& load) { load.base = 0.3 * load.peak; },
+      [](auto& load) { load.steepness = 20; }, [](auto& load) { load.base = 0.3 * load.peak; },
       [](auto& load) {
         // The same pulse 4 ms later.
         const scene::PressureHistory history(load);

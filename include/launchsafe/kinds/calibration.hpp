@@ -1,9 +1,8 @@
-// The study of kind calibration: the constants that published rows ask for, and what they then predict.
+// The study of kind calibration: the constants that published rows ask for, and what follows for the others.
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/report/report.hpp"
-#include "launchsafe/scene/load_shape.hpp"
 #include "launchsafe/store/result.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/options.hpp"
@@ -22,9 +21,8 @@ struct CalibrationSettings {
   bool compare_kinetics = false;  ///< calibrate with every named kinetics, not only the scene's
   double ignition_lowest = study::not_a_number;   ///< K, published bracket of the ignition temperature
   double ignition_highest = study::not_a_number;  ///< K
-  /// s, two instants between which the published temperature without a gap rises fast; empty: the scene's
-  /// load
-  std::vector<double> fast_rise;
+  bool load_fitted = false;  ///< the bell of the load is fitted to the calibrated rows too
+  std::string frozen_at;     ///< where rule and weights were settled before the fit, for people
 };
 
 /// The calibrated constants of a scene.
@@ -36,12 +34,16 @@ struct Constants {
   void put_into(scene::Surface& surface, materials::KineticsParameters& kinetics) const;
 };
 
-/// The gaps and temperatures that constants are fitted to (model section 8): nothing else is.
+/// The rows that constants are fitted to: nothing else is.
 struct CalibrationTargets {
-  study::Reference zero_gap;  ///< sets the localisation
-  study::Reference wide_gap;  ///< sets the exchange time
+  study::Reference zero_gap;  ///< above all sets the localisation
+  study::Reference wide_gap;  ///< above all sets the exchange time
   double safe_gap = 0;        ///< m, largest gap that did not ignite
   double igniting_gap = 0;    ///< m, smallest gap that did
+  /// Fitted are not only the two highest temperatures, which two constants meet exactly, but all that
+  /// `weighted_misfits` knows of the two rows, by least squares.
+  bool load_fitted = false;
+  double early_time = 10e-3;  ///< s
 };
 /// The targets among a study's references, or what is missing.
 scene::Expected<CalibrationTargets> calibration_targets(const study::StudyFile& study);
@@ -57,42 +59,59 @@ struct CalibratedConstants {
 };
 
 /// Fits localisation, exchange time and ignition temperature on one trace with the model's friction closure
-/// and kinetics. Root finding by TOMS 748; the two fits are repeated until both rows are met.
+/// and kinetics. Root finding by TOMS 748; the two fits are repeated until the highest temperatures of both
+/// rows are met. Where the load is fitted, least squares start from there.
 CalibratedConstants calibrate(const surface::SkinModel& model, const trace::BottomTrace& trace,
                               const CalibrationTargets& targets);
 
-/// The analytic load that was fitted to what is published of the rise without a gap.
+/// The bell that was fitted to the calibrated rows together with localisation and exchange time, by least
+/// squares, and how well the rows determine the five.
 struct FittedLoad {
-  double peak_time = study::not_a_number;     ///< s
-  double exponent = study::not_a_number;      ///< with which the fast rise lasts as long as published
-  scene::TurningTimes turning;                ///< s, of this load
-  double early_misfit = study::not_a_number;  ///< K, left over at Study::early_time
-  std::string failure;                        ///< why there is none; empty when all went well
+  double peak_time = study::not_a_number;  ///< s
+  double width = study::not_a_number;      ///< s
+  double steepness = study::not_a_number;
+  std::size_t numbers = 0;                      ///< that were fitted to
+  double sum_of_squares = study::not_a_number;  ///< of what is left of them, each over its weight
+  double condition = study::not_a_number;  ///< of the Jacobian with respect to the logarithms of the five
+  /// Of the logarithms of study::fitted_keys, row by row. The weights count as standard deviations, and
+  /// larger ones where the fit leaves more than them.
+  std::vector<double> covariance;
+  double base_change = study::not_a_number;  ///< Pa, by which load.base would move as a sixth unknown
+  double base_gain = study::not_a_number;    ///< by which the sum of squares would then fall
+  std::size_t runs = 0;                      ///< mechanical runs that it took
+  std::string failure;                       ///< why there is none; empty when all went well
+  /// Standard deviation of the logarithm of one of the five; correlation of two.
+  double deviation(std::size_t i) const;
+  double correlation(std::size_t i, std::size_t j) const;
 };
 
-/// A prediction beside a published number.
-struct HoldOut {
+/// A published number beside the computed one.
+struct ComparedNumber {
   std::string quantity = {};               ///< "T max", "T at 10 ms", "spread at 10 ms", "ignition time", ...
   double gap = 0;                          ///< m
-  double predicted = study::not_a_number;  ///< K or s
+  double computed = study::not_a_number;   ///< K or s
   double published = study::not_a_number;  ///< K or s
   bool temperature = true;                 ///< counts in the root mean square; spreads and times do not
   bool in_seconds = false;
+  bool selects = false;  ///< counts among the misfits by which a model is chosen
   study::Use use = study::Use::held_out;
-  double misfit() const { return predicted - published; }
+  /// K, of a straight line over the gap through what is published of the two calibrated rows: the rival of
+  /// the model. NaN for what is fitted and for what is no temperature.
+  double line = study::not_a_number;
+  double misfit() const { return computed - published; }
 };
 
-/// Where the maximum was predicted and published.
+/// Where the maximum was computed and published.
 struct Placement {
   std::string quantity;
   double gap = 0;  ///< m
-  std::string predicted, published;
+  std::string computed, published;
 };
 
 /// One of the misfits by which a model is chosen among others (studies/model_form/README.md).
 struct SelectionMisfit {
   std::string quantity;
-  double misfit = study::not_a_number;  ///< K, predicted minus published
+  double misfit = study::not_a_number;  ///< K, computed minus published
 };
 
 /// One mesh with one friction closure and one kinetics.
@@ -100,20 +119,28 @@ struct CalibrationRow {
   double cell_size = 0;  ///< m
   scene::FrictionClosure closure = scene::FrictionClosure::total_strain_rate;
   std::string kinetics;
-  bool calibratable = true;  ///< false for the closure "none": predictions with the scene's constants
+  bool calibratable = true;  ///< false for the closure "none", which has the scene's constants
   CalibratedConstants calibrated;
-  std::vector<HoldOut> hold_outs;
+  std::vector<ComparedNumber> compared;
   std::vector<Placement> placements;
   std::vector<SelectionMisfit> selection;
-  double root_mean_square = study::not_a_number;            ///< K, over the temperatures that are held out
+  double root_mean_square = study::not_a_number;            ///< K, over the temperatures that are not fitted
   double selection_root_mean_square = study::not_a_number;  ///< K, over `selection`; NaN without any
   double spread_root_mean_square = study::not_a_number;     ///< K, over the spreads
   std::string failure;  ///< of the run or of the fit; empty when all went well
 };
 
-/// Fills the hold-outs, the placements and the root mean squares of a row: what its constants predict for the
-/// rows that nothing was fitted to.
-void predict(const study::Study& study, const surface::SkinModel& model, const trace::BottomTrace& trace,
+/// Misfits of temperatures (K) that nothing was fitted to, as evidence of how far others may be off.
+struct MisfitBound {
+  int count = 0;
+  double root_mean_square = study::not_a_number;  ///< infinite where one of them is not known
+  double factor = study::not_a_number;            ///< Student's for so many, 95 % one-sided
+  double bound() const { return factor * root_mean_square; }
+};
+MisfitBound misfit_bound(const CalibrationRow& row);
+
+/// Fills the compared numbers, the placements and the root mean squares of a row.
+void compare(const study::Study& study, const surface::SkinModel& model, const trace::BottomTrace& trace,
              CalibrationRow& row);
 
 /// How much a constant moves from the coarsest to the finest mesh.
@@ -134,7 +161,7 @@ struct CalibrationRun {
 
 /// What the evidence says.
 struct Recommendation {
-  std::optional<std::size_t> row;  ///< of `rows`: closure that predicts best, on the mesh of the scene
+  std::optional<std::size_t> row;  ///< of `rows`: closure that misses least, on the mesh of the scene
   std::string reason;
 };
 

@@ -46,6 +46,10 @@ std::optional<LeastSquares> fit_line(const std::vector<double>& x, const std::ve
 /// 16269-6).
 double one_sided_tolerance_factor(int n, double coverage, double confidence);
 
+/// Student's factor: with probability `level` a further value, of a population about 0 of whose values n >= 1
+/// have a root mean square s, is below the factor times s. One-sided; NaN otherwise.
+double one_sided_student_factor(int n, double level);
+
 /// Discretisation uncertainty from three systematically refined meshes (Celik et al., J. Fluids Eng. 130,
 /// 2008).
 struct GridConvergence {

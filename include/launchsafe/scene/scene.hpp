@@ -56,14 +56,14 @@ struct Body {
 ///   bell                p0 + (peak - p0) exp(-|(t - t_m)/w|^a)
 ///   power-exponential   p0 + (peak - p0) ((t/t_m) exp(1 - t/t_m))^n, which is p0 before 0.
 struct Load {
-  LoadShape shape = LoadShape::power_exponential;
+  LoadShape shape = LoadShape::bell;
   double duration = 18e-3;             ///< s
   double peak = 496e6;                 ///< Pa
   double base = 101325.0;              ///< p0, Pa
-  double peak_time = 12.9641e-3;       ///< t_m, s [C]
-  double exponent = 13.578;            ///< n [C], of the power-exponential alone
-  double width = 3.03e-3;              ///< w, s, of the bell alone: the pressure is 1/e of its peak there
-  double steepness = 1.44;             ///< a, of the bell alone
+  double peak_time = 11.4418e-3;       ///< t_m, s [C]
+  double width = 3.01198e-3;           ///< w, s [C], of the bell alone: the pressure is 1/e of its peak there
+  double steepness = 1.37782;          ///< a [C], of the bell alone
+  double exponent = 13.578;            ///< n [A], of the power-exponential alone
   std::string curve_file;              ///< as the user wrote it
   std::vector<double> curve_time;      ///< s, increasing; empty for the analytic shape
   std::vector<double> curve_pressure;  ///< Pa, one for every time
@@ -82,11 +82,11 @@ struct Surface {
   AirModel air_model = AirModel::reservoir;
   Exchange exchange = Exchange::rate;
   double skin_thickness = 1e-4;       ///< h_ex, m
-  double exchange_time = 3.04915e-4;  ///< tau_ex, s [C]
+  double exchange_time = 2.90374e-4;  ///< tau_ex, s [C]
   /// Stations tile the charge's bottom by about this width and this depth, m.
   double station_width = 5e-3, station_depth = 5e-3;
   FrictionClosure friction = FrictionClosure::total_strain_rate;
-  double localisation = 1508.09;  ///< [C]
+  double localisation = 1349.54;  ///< [C]
 };
 
 struct Numerics {
@@ -290,6 +290,9 @@ struct RigidMotion {
 RigidMotion rigid_motion(const Scene& scene, double time);
 /// For people, at the end of the load: "796 m/s after 5.26 m of travel".
 std::string rigid_motion_text(const Scene& scene);
+
+/// s, up to which published highest temperatures are read: the end of the launch.
+double read_time(const Load& load);
 
 /// Chamber pressure (Pa) on the base at time t (s); monotone cubic (PCHIP) through a measured curve of at
 /// least two points at increasing times, held constant outside it. Curves of two or three points are joined

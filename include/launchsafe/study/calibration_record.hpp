@@ -5,8 +5,10 @@
 #include "launchsafe/study/calibration_domain.hpp"
 #include "launchsafe/study/study_file.hpp"
 
+#include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace launchsafe::study {
 
@@ -30,10 +32,16 @@ struct CalibrationRecord {
   std::string references_digest;          ///< SHA-256 of the published rows and of what each was used for
   double ignition_lowest = not_a_number;  ///< K, T max without a trigger at the largest gap that is safe
   double ignition_highest = not_a_number;  ///< K, and at the smallest that ignites: T1 is in the middle
-  double held_out_misfit = not_a_number;   ///< K, largest of T max of the rows that nothing was fitted to
+  int misfits = 0;                         ///< that evidence.misfit_bound is drawn from
+  /// Of the logarithms of `fitted_keys`, row by row; empty where the load was not fitted.
+  std::vector<double> covariance;
   double selection_root_mean_square = not_a_number;  ///< K; NaN where no row was used for selection
   StationConvergence stations;                       ///< K; NaN where not measured
 };
+
+/// What a calibration with its load fits by least squares, in the order of its covariance.
+inline constexpr std::array fitted_keys{"load.peak_time", "load.width", "load.steepness",
+                                        "friction.localisation", "gap.exchange_time"};
 
 /// Of a calibration that found no constants.
 inline constexpr CalibrationEvidence no_evidence{not_a_number, not_a_number, not_a_number, not_a_number};
@@ -45,7 +53,7 @@ std::string to_json_text(const CalibrationRecord& record);
 scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& text, const std::string& file);
 
 /// K, of T max by the constants, of the launch that they were found on: half the distance between the
-/// temperatures that T1 separates, or the largest misfit of a row that is held out, whichever is larger.
+/// temperatures that T1 separates, or the bound of the misfits, whichever is larger.
 double fit_uncertainty_of(const CalibrationRecord& record);
 
 }  // namespace launchsafe::study

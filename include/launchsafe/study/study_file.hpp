@@ -43,8 +43,9 @@ struct Axis {
   std::optional<math::Distribution> distribution = {};  ///< SI, of a value that is not known exactly
 };
 
-/// What a study's published number is used for.
-enum class Use { held_out, selection, calibration };
+/// What a published number was used for: nothing; it was seen when a form of the model was picked; numbers
+/// were fitted to it.
+enum class Use { held_out, chosen_by, fitted };
 std::string to_string(Use use);
 
 /// A row of published results to compare with; what it does not say is NaN or empty.
@@ -57,9 +58,10 @@ struct Reference {
   double spread = not_a_number;               ///< K, highest minus lowest observation point at the end
   double early_spread = not_a_number;         ///< K, likewise at Study::early_time
   double ignition_time = not_a_number;        ///< s; NaN for a gap that did not ignite
-  bool calibrated = false;        ///< constants are fitted to the maximum temperature; otherwise a hold-out
-  bool early_calibrated = false;  ///< the load is fitted to the temperature at Study::early_time
-  bool selection = false;         ///< the rest of the row was used to choose the model, apart from T max
+  double rise_begins = not_a_number;          ///< s, from when on the temperature rises fast
+  double rise_ends = not_a_number;            ///< s, until when
+  bool calibrated = false;  ///< constants, and the load where one is fitted, are fitted to the row
+  bool selection = false;   ///< what is not fitted of the row was seen when a form of the model was picked
   bool ignited() const { return ignition_time == ignition_time; }
 };
 

@@ -52,6 +52,9 @@ BottomTrace stretched(BottomTrace trace, double factor);
 /// `trace` and b of `other`. Nothing where the two do not have the same samples and stations.
 std::optional<BottomTrace> mirrored(const BottomTrace& trace, const BottomTrace& other);
 
+/// The samples up to a time (s) alone.
+BottomTrace until(const BottomTrace& trace, double time);
+
 /// Value at time t by linear interpolation between samples; held constant outside. NaN for a NaN time,
 /// without samples, or where the sizes differ.
 double interpolate(const std::vector<double>& time, const std::vector<double>& value, double t);

@@ -1,0 +1,211 @@
+// What a calibrated model computes for the published rows, beside them.
+#include "calibration_numbers.hpp"
+#include "launchsafe/math/statistics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+
+namespace {
+
+std::string name_of(const trace::BottomTrace& trace, const surface::Maximum& maximum) {
+  return maximum.station < trace.stations.size() ? trace.stations[maximum.station].name : std::string{};
+}
+
+double root_mean_square_of(const std::vector<double>& misfits) {
+  double sum = 0;
+  for (const double each : misfits) sum += each * each;
+  return misfits.empty() ? not_a_number : std::sqrt(sum / static_cast<double>(misfits.size()));
+}
+
+/// K by which the station at a published place is colder at a time (s) than the hottest one; NaN without such
+/// a place.
+double place_misfit(const surface::SkinHistory& history, const trace::BottomTrace& trace,
+                    const std::string& place, double time) {
+  const auto found = std::find_if(trace.stations.begin(), trace.stations.end(),
+                                  [&](const trace::Station& each) { return each.name == place; });
+  if (found == trace.stations.end()) return not_a_number;
+  double nearest = std::numeric_limits<double>::infinity(), there = not_a_number;
+  for (std::size_t station = 0; station < trace.stations.size(); ++station) {
+    const trace::Station& each = trace.stations[station];
+    if (each.observation || !(std::abs(each.r - found->r) < nearest)) continue;
+    nearest = std::abs(each.r - found->r);
+    there = surface::temperature_at_time(history, trace, station, time);
+  }
+  return there - surface::maximum_at_time(history, trace, time).temperature;
+}
+
+/// Straight lines over the gap through what is published of the two calibrated rows.
+struct Lines {
+  const Reference *zero = nullptr, *wide = nullptr;
+  /// NaN without two such rows, or where one of them does not have the number.
+  double at(double gap, double Reference::*number) const {
+    if (zero == nullptr || wide == nullptr) return not_a_number;
+    return zero->*number + (wide->*number - zero->*number) * gap / wide->gap;
+  }
+};
+
+Lines lines_of(const std::vector<Reference>& references) {
+  Lines lines;
+  for (const Reference& each : references)
+    if (each.calibrated) (each.gap == 0.0 ? lines.zero : lines.wide) = &each;
+  return lines;
+}
+
+/// What one published row says of one calibrated model.
+class RowComparison {
+ public:
+  RowComparison(const Study& study, const surface::SkinModel& model, const trace::BottomTrace& trace,
+                const Reference& reference, CalibrationRow& row)
+      : study_(study),
+        reference_(reference),
+        model_(model),
+        trace_(trace),
+        history_(surface::integrate_skin(model, trace, reference.gap)),
+        at_early_(fmt::format(" at {:.6g} ms", 1e3 * study.early_time)),
+        end_(trace.time.empty() ? 0.0 : trace.time.back()),
+        rest_(reference.selection ? Use::chosen_by : Use::held_out),
+        row_(row) {
+    if (!reference.calibrated || !row.calibratable) return;
+    of_maximum_ = Use::fitted;
+    if (settings_of<CalibrationSettings>(study).load_fitted) of_others_ = Use::fitted;
+  }
+
+  void add_all() {
+    const auto maximum = surface::maximum_at_stations(history_, trace_);
+    const auto early = surface::maximum_at_time(history_, trace_, study_.early_time);
+    add_temperature("T max", maximum.temperature, &Reference::maximum_temperature, of_maximum_);
+    add_temperature("T" + at_early_, early.temperature, &Reference::early_temperature, of_others_);
+    add_rise();
+    add("spread at the end", spread_at(end_), reference_.spread, spread());
+    add("spread" + at_early_, spread_at(study_.early_time), reference_.early_spread, spread());
+    // T1 was set so that this gap ignites: when it does is not held out.
+    add("ignition time", history_.ignition ? history_.ignition->time : not_a_number, reference_.ignition_time,
+        {.temperature = false, .in_seconds = true, .use = Use::chosen_by});
+    place("T max", name_of(trace_, maximum), reference_.ignited() ? std::string{} : reference_.point);
+    if (reference_.ignited()) {
+      place("first ignition", history_.ignition ? trace_.stations[history_.ignition->station].name : "none",
+            reference_.point);
+    }
+    place("T" + at_early_, name_of(trace_, early), reference_.early_point);
+    if (reference_.selection && reference_.gap == 0.0) add_places();
+  }
+
+ private:
+  double spread_at(double time) const { return surface::spread_at_time(history_, trace_, time); }
+  ComparedNumber spread() const {
+    return {.temperature = false, .selects = reference_.selection, .use = rest_};
+  }
+
+  void add(std::string quantity, double computed, double published, ComparedNumber number) {
+    if (!std::isfinite(published)) return;
+    number.quantity = std::move(quantity);
+    number.gap = reference_.gap;
+    number.computed = computed;
+    number.published = published;
+    row_.compared.push_back(std::move(number));
+  }
+  void add_temperature(std::string quantity, double computed, double Reference::*number,
+                       const std::optional<Use>& use) {
+    const bool early = number == &Reference::early_temperature;
+    if (!early && reference_.ignited()) return;
+    // Without a gap the temperature at the early time tells of the load, not of the interfaces.
+    ComparedNumber compared{.selects = early && reference_.selection && reference_.gap > 0.0,
+                            .use = use.value_or(rest_)};
+    if (!use) compared.line = lines_of(study_.references).at(reference_.gap, number);
+    add(std::move(quantity), computed, reference_.*number, std::move(compared));
+  }
+  void add_rise() {
+    if (!std::isfinite(reference_.rise_begins) && !std::isfinite(reference_.rise_ends)) return;
+    const FastRise rise =
+        fast_rise(surface::integrate_skin(untriggered(model_), trace_, reference_.gap), trace_);
+    const ComparedNumber instant{.temperature = false, .in_seconds = true, .use = of_others_.value_or(rest_)};
+    add("fast rise begins", rise.begins, reference_.rise_begins, instant);
+    add("fast rise ends", rise.unfinished ? not_a_number : rise.ends, reference_.rise_ends, instant);
+  }
+  void place(std::string quantity, std::string computed, const std::string& published) {
+    if (!published.empty())
+      row_.placements.push_back({std::move(quantity), reference_.gap, std::move(computed), published});
+  }
+  void add_places() {
+    const auto add_place = [&](const std::string& at, const std::string& point, double time) {
+      const double misfit = place_misfit(history_, trace_, point, time);
+      if (!point.empty()) row_.selection.push_back({"hottest place" + at, misfit});
+    };
+    add_place(at_early_, reference_.early_point, study_.early_time);
+    add_place(" at the end", reference_.point, end_);
+  }
+
+  const Study& study_;
+  const Reference& reference_;
+  const surface::SkinModel& model_;
+  const trace::BottomTrace& trace_;
+  surface::SkinHistory history_;
+  std::string at_early_;                       ///< " at 10 ms"
+  double end_;                                 ///< s
+  Use rest_;                                   ///< of what is not fitted
+  std::optional<Use> of_maximum_, of_others_;  ///< where fitted
+  CalibrationRow& row_;
+};
+
+/// Over what is not fitted. NaN where any of the misfits is: a row with a number that cannot be computed has
+/// no good mean.
+double root_mean_square(const CalibrationRow& row, bool temperatures) {
+  std::vector<double> misfits;
+  for (const ComparedNumber& each : row.compared) {
+    if (each.temperature == temperatures && !each.in_seconds && each.use != Use::fitted)
+      misfits.push_back(each.misfit());
+  }
+  return root_mean_square_of(misfits);
+}
+
+/// Temperatures one by one, each kind of spread as the root mean square over its gaps.
+void add_selection(CalibrationRow& row) {
+  std::map<std::string, std::vector<double>> spreads;
+  for (const ComparedNumber& each : row.compared) {
+    if (!each.selects) continue;
+    if (each.temperature) {
+      row.selection.push_back(
+          {fmt::format("{} at {:.6g} cm", each.quantity, 100.0 * each.gap), each.misfit()});
+    } else {
+      spreads[each.quantity].push_back(each.misfit());
+    }
+  }
+  for (const auto& [quantity, misfits] : spreads)
+    row.selection.push_back({quantity, root_mean_square_of(misfits)});
+  std::vector<double> all;
+  for (const SelectionMisfit& each : row.selection) all.push_back(each.misfit);
+  row.selection_root_mean_square = root_mean_square_of(all);
+}
+
+}  // namespace
+
+MisfitBound misfit_bound(const CalibrationRow& row) {
+  MisfitBound bound;
+  for (const ComparedNumber& each : row.compared) bound.count += each.temperature && each.use != Use::fitted;
+  const double misfit = row.root_mean_square;
+  if (bound.count > 0)
+    bound.root_mean_square = std::isnan(misfit) ? std::numeric_limits<double>::infinity() : misfit;
+  bound.factor = math::one_sided_student_factor(bound.count, 0.95);
+  return bound;
+}
+
+void compare(const Study& study, const surface::SkinModel& model, const trace::BottomTrace& trace,
+             CalibrationRow& row) {
+  for (const Reference& reference : study.references)
+    RowComparison(study, model, trace, reference, row).add_all();
+  add_selection(row);
+  row.root_mean_square = root_mean_square(row, true);
+  row.spread_root_mean_square = root_mean_square(row, false);
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,133 @@
+#include "launchsafe/math/nonlinear_least_squares.hpp"
+
+#include "launchsafe/math/statistics.hpp"
+
+#include <Eigen/Dense>
+#include <unsupported/Eigen/NonLinearOptimization>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace launchsafe::math {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+std::vector<double> listed(const VectorXd& values) { return {values.begin(), values.end()}; }
+
+VectorXd vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+}
+
+/// What Eigen's Levenberg-Marquardt asks for. A negative return value stops it.
+class Problem {
+ public:
+  Problem(const ResidualsAtPoints& residuals, double step) : residuals_(residuals), step_(step) {}
+
+  Index values() const { return count_; }
+
+  int operator()(const VectorXd& point, VectorXd& values) {
+    const auto found = at({listed(point)});
+    if (!found) return -1;
+    values = vector_of(found->front());
+    count_ = values.size();
+    return 0;
+  }
+
+  int df(const VectorXd& point, MatrixXd& jacobian) {
+    std::vector<std::vector<double>> points{listed(point)};
+    for (Index k = 0; k < point.size(); ++k) {
+      points.push_back(points.front());
+      points.back()[static_cast<std::size_t>(k)] += step_;
+    }
+    const auto found = at(points);
+    if (!found) return -1;
+    const VectorXd here = vector_of(found->front());
+    jacobian.resize(here.size(), point.size());
+    for (Index k = 0; k < point.size(); ++k)
+      jacobian.col(k) = (vector_of((*found)[static_cast<std::size_t>(k) + 1]) - here) / step_;
+    return 0;
+  }
+
+ private:
+  std::optional<std::vector<std::vector<double>>> at(const std::vector<std::vector<double>>& points) {
+    auto found = residuals_(points);
+    if (!found) return std::nullopt;
+    for (const std::vector<double>& values : *found)
+      if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+        return std::nullopt;
+    return found;
+  }
+
+  const ResidualsAtPoints& residuals_;
+  double step_;
+  Index count_ = 0;  ///< of residuals, known once they were computed
+};
+
+constexpr double settled = 1e-6;
+constexpr double largest_condition = 1e6;
+
+NonlinearFit failed(FitFailure failure) {
+  NonlinearFit fit;
+  fit.failure = failure;
+  return fit;
+}
+
+/// Jacobian, condition and covariance where the search ended.
+void describe_minimum(NonlinearFit& fit, const MatrixXd& jacobian) {
+  for (Index i = 0; i < jacobian.rows(); ++i) fit.jacobian.push_back(listed(jacobian.row(i)));
+  const VectorXd singular = Eigen::JacobiSVD<MatrixXd>(jacobian).singularValues();
+  fit.condition = singular(0) / singular(singular.size() - 1);
+  const auto linear = least_squares(fit.jacobian, fit.residuals);
+  if (!linear || !(fit.condition <= largest_condition))
+    fit.failure = FitFailure::singular;
+  else
+    fit.covariance = linear->inverse_normal;
+}
+
+}  // namespace
+
+double NonlinearFit::sum_of_squares() const {
+  return std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
+}
+
+NonlinearFit fit_nonlinear(const ResidualsAtPoints& residuals, const std::vector<double>& start,
+                           double step) {
+  using namespace Eigen::LevenbergMarquardtSpace;
+  Problem problem(residuals, step);
+  VectorXd point = vector_of(start), values;
+  if (problem(point, values) < 0) return failed(FitFailure::not_computable);
+  if (values.size() < point.size()) return failed(FitFailure::too_few_residuals);
+  Eigen::LevenbergMarquardt<Problem> search(problem);
+  search.parameters.ftol = search.parameters.xtol = settled;
+  search.parameters.maxfev = 100;
+  const Status status = search.minimize(point);
+  if (status == UserAsked) return failed(FitFailure::not_computable);
+  if (status == TooManyFunctionEvaluation) return failed(FitFailure::does_not_settle);
+  NonlinearFit fit;
+  fit.unknowns = listed(point);
+  MatrixXd jacobian;
+  if (problem(point, values) < 0 || problem.df(point, jacobian) < 0)
+    return failed(FitFailure::not_computable);
+  fit.residuals = listed(values);
+  describe_minimum(fit, jacobian);
+  return fit;
+}
+
+std::optional<AddedUnknown> add_unknown(const NonlinearFit& fit, const std::vector<double>& column) {
+  std::vector<std::vector<double>> rows = fit.jacobian;
+  std::vector<double> wanted;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].push_back(column[i]);
+    wanted.push_back(-fit.residuals[i]);
+  }
+  const auto linear = least_squares(rows, wanted), without = least_squares(fit.jacobian, wanted);
+  if (!linear || !without) return std::nullopt;
+  const auto squares = [](const std::vector<double>& values) {
+    return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+  };
+  return AddedUnknown{linear->coefficients.back(), squares(without->residuals) - squares(linear->residuals)};
+}
+
+}  // namespace launchsafe::math
