@@ -1,6 +1,7 @@
 #include "launchsafe/study/accuracy_record.hpp"
 
 #include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/study/study_uncertainty.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/made_record.hpp"
 
@@ -224,15 +225,13 @@ TEST_F(RecordedStudy, CarriesABoundToOtherLaunchesOnlySoFar) {
                                {"flaw_sizes = \"0.5 mm\"\n", own * std::sqrt(2.0)},
                                {"crack_radii = \"100 um\"\n", assumed},
                                {"flaw_sizes = \"0.1 mm\"\n", assumed},
-                               {"gaps = \"0, 0.1 cm\"\n", own},
-                               {"gaps = \"0, 0.2 cm\"\n", assumed},
+                               {"gaps = \"0, 0.2 cm\"\n", own},
                                {"[set]\nload.steepness = 1.5\n", own},
                                {"[set]\nload.width = \"1 ms\"\n", assumed},
                                {"[set]\nload.peak_time = \"5 ms\"\n", assumed},
                                {"[set]\nload.duration = \"30 ms\"\n", assumed},
                                {"[set]\nfriction.localisation = 2699.08\n", 2.0 * own},
-                               {"[set]\nfriction.localisation = 5000\n", assumed},
-                               {"[set]\ngap.exchange_time = \"0.05 ms\"\n", assumed}};
+                               {"[set]\nfriction.localisation = 5000\n", assumed}};
   for (const Expected& launch : launches) {
     const StudyFile study = read(record_key + launch.keys);
     ASSERT_FALSE(study.cases.empty());
@@ -242,6 +241,16 @@ TEST_F(RecordedStudy, CarriesABoundToOtherLaunchesOnlySoFar) {
     // From the recorded rise on the bound would grow in proportion, whatever it is now.
     EXPECT_NEAR(first.numerical_uncertainty / first.rise_of_uncertainty, own / recorded_rise, 1e-6)
         << launch.keys;
+  }
+}
+
+/// A verdict does not depend on what else a study lists: a gap has its own uncertainty.
+TEST_F(RecordedStudy, CoversGapsOneByOne) {
+  for (const char* gaps : {"gaps = \"0, 0.01 cm\"\n", "gaps = \"0, 0.01, 0.3 cm\"\n"}) {
+    const StudyFile study = read(record_key + gaps);
+    const StudyCase& input = study.cases.front();
+    EXPECT_NEAR(numerical_share(input, 1e-4, 1.0), own_bound, 1e-6) << gaps;
+    EXPECT_EQ(numerical_share(input, 3e-3, 1.0), assumed_numerical_uncertainty) << gaps;
   }
 }
 

@@ -28,7 +28,8 @@ TEST(CaseAnswer, SaysWhatTheCriticalGapStudySays) {
   const CaseOutcome& outcome = whole.cases.front();
   EXPECT_EQ(answer.critical.kind, CriticalGapKind::value);
   EXPECT_EQ(answer.critical.value, outcome.critical.value);
-  EXPECT_EQ(answer.critical.uncertainty, outcome.critical.uncertainty);
+  EXPECT_EQ(answer.critical.bounds.at_least, outcome.critical.bounds.at_least);
+  EXPECT_GT(answer.critical.bounds.at_least, 0.0);
   ASSERT_EQ(answer.verdicts.size(), outcome.verdicts.size());
   for (std::size_t i = 0; i < answer.verdicts.size(); ++i) {
     EXPECT_EQ(answer.verdicts[i].maximum.temperature, outcome.verdicts[i].maximum.temperature) << i;
@@ -68,6 +69,9 @@ TEST(CaseAnswer, ReadsBackFromJsonExactly) {
   EXPECT_EQ(to_json_line(*read), line);
   EXPECT_EQ(read->critical.value, answer.critical.value);
   EXPECT_EQ(read->critical.kind, answer.critical.kind);
+  EXPECT_EQ(read->critical.shares.size(), answer.critical.shares.size());
+  EXPECT_EQ(read->critical.bounds.at_least, answer.critical.bounds.at_least);
+  EXPECT_EQ(read->critical.bounds.at_most, answer.critical.bounds.at_most);
   EXPECT_EQ(read->run.steps, answer.run.steps);
   ASSERT_EQ(read->verdicts.size(), answer.verdicts.size());
   for (std::size_t i = 0; i < answer.verdicts.size(); ++i) {

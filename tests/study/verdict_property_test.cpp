@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
+#include <vector>
 
 #ifdef LAUNCHSAFE_HAVE_RAPIDCHECK
 #include <rapidcheck.h>
@@ -51,12 +53,22 @@ Evidence any_evidence() {
   return evidence;
 }
 
+GapShare any_share() {
+  GapShare share;
+  share.kind = static_cast<ShareKind>(*rc::gen::inRange(0, static_cast<int>(share_kinds)));
+  share.raised = *rc::gen::inRange(0, 6) == 0 ? no_ignition : gap();
+  share.lowered = *rc::gen::inRange(0, 6) == 0 ? no_ignition : gap();
+  return share;
+}
+
 CriticalGap any_critical_gap() {
   CriticalGap critical;
   critical.kind = *rc::gen::element(CriticalGapKind::value, CriticalGapKind::value, CriticalGapKind::all_safe,
                                     CriticalGapKind::all_ignite, CriticalGapKind::indeterminate);
-  critical.value = gap();
-  critical.uncertainty = gap() / 10.0;
+  critical.lower = critical.value = critical.upper = gap();
+  std::vector<GapShare> shares;
+  for (int count = *rc::gen::inRange(0, 5); count > 0; --count) shares.push_back(any_share());
+  set_shares(critical, std::move(shares));
   return critical;
 }
 
@@ -69,24 +81,49 @@ RC_GTEST_PROP(VerdictProperty, RisesWithTheMargin, ()) {
   RC_ASSERT(rank_of(more, critical) >= rank_of(less, critical));
 }
 
-RC_GTEST_PROP(VerdictProperty, RisesWithTheDistanceToTheCriticalGap, ()) {
-  const Evidence evidence = any_evidence();
-  CriticalGap nearer = any_critical_gap();
-  nearer.kind = CriticalGapKind::value;
-  CriticalGap farther = nearer;
-  farther.value += gap();
-  RC_ASSERT(rank_of(evidence, farther) >= rank_of(evidence, nearer));
+RC_GTEST_PROP(VerdictProperty, NeverRisesWithTheGap, ()) {
+  const CriticalGap critical = any_critical_gap();
+  const Evidence thin = any_evidence();
+  Evidence thick = thin;
+  thick.gap += gap();
+  RC_ASSERT(rank_of(thick, critical) <= rank_of(thin, critical));
 }
 
+/// More uncertainty, a wider range, less evidence: one share more, one that reaches further, one not known.
 RC_GTEST_PROP(VerdictProperty, NeverRisesWithAnUncertainty, ()) {
   const CriticalGap critical = any_critical_gap();
   const Evidence evidence = any_evidence();
   Evidence vaguer = evidence;
   vaguer.uncertainty += positive_kelvin();
   RC_ASSERT(rank_of(vaguer, critical) <= rank_of(evidence, critical));
-  CriticalGap wider = critical;
-  wider.uncertainty += gap();
-  RC_ASSERT(rank_of(evidence, wider) <= rank_of(evidence, critical));
+  CriticalGap more = critical;
+  std::vector<GapShare> shares = critical.shares;
+  shares.push_back(any_share());
+  set_shares(more, shares);
+  RC_ASSERT(rank_of(evidence, more) <= rank_of(evidence, critical));
+  CriticalGap wider = more, unknown = more;
+  shares.back().raised *= 0.5;
+  set_shares(wider, shares);
+  RC_ASSERT(rank_of(evidence, wider) <= rank_of(evidence, more));
+  shares.back().raised = not_a_number;
+  set_shares(unknown, shares);
+  RC_ASSERT(rank_of(evidence, unknown) <= rank_of(evidence, more));
+}
+
+/// The verdict and the interval of the critical gap are one.
+RC_GTEST_PROP(VerdictProperty, SafeIsBelowTheBoundAndBelowTheBoundNothingIsIndeterminateForItsMargin, ()) {
+  CriticalGap critical = any_critical_gap();
+  critical.kind = CriticalGapKind::value;
+  set_shares(critical, critical.shares);
+  Evidence evidence = any_evidence();
+  const Judgement judged = judge(evidence, critical);
+  if (judged.verdict == Verdict::safe) RC_ASSERT(evidence.gap < critical.bounds.at_least);
+  evidence.completed = true;
+  evidence.ignited = false;
+  evidence.validity_warnings.clear();
+  evidence.margin = 1e-3 + positive_kelvin();
+  evidence.maximum_temperature = 525.0 - evidence.margin;
+  if (evidence.gap < critical.bounds.at_least) RC_ASSERT(judge(evidence, critical).verdict == Verdict::safe);
 }
 
 RC_GTEST_PROP(VerdictProperty, IsNeverSafeOnAFailureAValidityWarningAnIgnitionOrANumberThatIsNone, ()) {
@@ -99,18 +136,14 @@ RC_GTEST_PROP(VerdictProperty, IsNeverSafeOnAFailureAValidityWarningAnIgnitionOr
   RC_ASSERT(judge(failed, critical).verdict == Verdict::indeterminate);
   RC_ASSERT(judge(warned, critical).verdict == Verdict::indeterminate);
   RC_ASSERT(judge(ignited, critical).verdict != Verdict::safe);
-  for (double Evidence::*number :
-       {&Evidence::margin, &Evidence::uncertainty, &Evidence::maximum_temperature}) {
+  for (double Evidence::*number : {&Evidence::margin, &Evidence::maximum_temperature}) {
     Evidence undefined = sound;
     undefined.*number = not_a_number;
     RC_ASSERT(judge(undefined, critical).verdict != Verdict::safe);
   }
-  for (double CriticalGap::*number : {&CriticalGap::value, &CriticalGap::uncertainty}) {
-    CriticalGap undefined = critical;
-    undefined.kind = CriticalGapKind::value;
-    undefined.*number = not_a_number;
-    RC_ASSERT(judge(sound, undefined).verdict != Verdict::safe);
-  }
+  CriticalGap undefined = critical;
+  undefined.bounds.at_least = not_a_number;
+  RC_ASSERT(judge(sound, undefined).verdict != Verdict::safe);
 }
 
 RC_GTEST_PROP(VerdictProperty, AlwaysHasAReasonAndNamesTheLimitersOfASoundRun, ()) {

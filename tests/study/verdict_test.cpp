@@ -10,45 +10,76 @@ using namespace launchsafe::study;
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
-CriticalGap critical_at(double gap, double uncertainty) {
+/// A critical gap (m) of which one cause of knowledge leaves so much less.
+CriticalGap critical_at(double gap, double less) {
   CriticalGap critical;
   critical.kind = CriticalGapKind::value;
   critical.value = gap;
   critical.lower = gap - 5e-7;
   critical.upper = gap + 5e-7;
-  critical.uncertainty = uncertainty;
+  set_shares(critical, {{ShareKind::fit, critical.lower - less, critical.upper + less}});
+  return critical;
+}
+
+CriticalGap none_up_to(double gap, double least_raised) {
+  CriticalGap critical;
+  critical.kind = CriticalGapKind::all_safe;
+  critical.lower = gap;
+  set_shares(critical, {{ShareKind::fit, least_raised, no_ignition}});
   return critical;
 }
 
 /// A gap of 0.03 cm, 32 K below ignition, with an uncertainty of 0.1 K.
 Evidence calm() { return {true, "", false, 3e-4, 493.0, 32.0, 0.1}; }
 
-TEST(Verdict, SafeNeedsAMarginAndADistanceAboveTheirUncertainties) {
+TEST(Verdict, SafeIsBelowTheLowerBoundOfTheCriticalGap) {
   EXPECT_EQ(judge(calm(), critical_at(3.95e-4, 1e-6)).verdict, Verdict::safe);
+  const Judgement judged = judge(calm(), critical_at(3.95e-4, 1.2e-4));
+  EXPECT_EQ(judged.verdict, Verdict::indeterminate);
+  EXPECT_EQ(judged.reason, "the critical gap may be as small as 0.0275 cm");
 }
 
-TEST(Verdict, AMarginWithinTheUncertaintyIsIndeterminate) {
+/// 0.03 cm, and a bound of 0.03 cm: the bound is the largest gap that no end of a range ignites, but what
+/// lies at it is not below it.
+TEST(Verdict, TheLowerBoundItselfIsNotSafe) {
+  CriticalGap critical = critical_at(3.95e-4, 0.0);
+  critical.bounds.at_least = 3e-4;
+  EXPECT_EQ(judge(calm(), critical).verdict, Verdict::indeterminate);
+}
+
+TEST(Verdict, KelvinsDoNotDecideWhereThereIsACriticalGap) {
   Evidence evidence = calm();
   evidence.uncertainty = 40.0;
-  const Judgement judged = judge(evidence, critical_at(3.95e-4, 1e-6));
-  EXPECT_EQ(judged.verdict, Verdict::indeterminate);
-  EXPECT_NE(judged.reason.find("margin"), std::string::npos);
-  evidence.uncertainty = evidence.margin;
+  EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::safe);
+  evidence.margin = -0.1;
   EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate);
+}
+
+TEST(Verdict, WithoutACriticalGapInReachTheMarginDecidesToo) {
+  Evidence evidence = calm();
+  EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::safe);
+  evidence.gap = 1e-3;  // where the search ended: nothing ignites there either
+  EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::safe);
+  EXPECT_EQ(judge(evidence, none_up_to(1e-3, 9e-4)).verdict, Verdict::indeterminate);
+  evidence.uncertainty = evidence.margin;
+  EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::indeterminate);
 }
 
 TEST(Verdict, ReasonsHaveNoPowersOfTen) {
   Evidence evidence = calm();
   evidence.margin = 1034.5;
   evidence.uncertainty = 138.2;
-  EXPECT_EQ(judge(evidence, critical_at(4e-4, 1e-6)).reason, "margin 1034 K over uncertainty 138 K");
+  EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).reason, "margin 1034 K over uncertainty 138 K");
 }
 
-TEST(Verdict, ADistanceWithinTheUncertaintyIsIndeterminate) {
-  const Judgement judged = judge(calm(), critical_at(3.95e-4, 2e-4));
+TEST(Verdict, WhereAnEndIgnitesWithoutAGapNoneIsSafe) {
+  Evidence evidence = calm();
+  evidence.gap = 0.0;
+  CriticalGap critical = critical_at(3.95e-4, 0.0);
+  set_shares(critical, {{ShareKind::peak_pressure, 0.0, no_ignition}});
+  const Judgement judged = judge(evidence, critical);
   EXPECT_EQ(judged.verdict, Verdict::indeterminate);
-  EXPECT_NE(judged.reason.find("critical gap"), std::string::npos);
-  EXPECT_EQ(judge(calm(), critical_at(2e-4, 1e-6)).verdict, Verdict::indeterminate);
+  EXPECT_EQ(judged.reason, "the launch may ignite without a gap");
 }
 
 TEST(Verdict, IgnitionIsUnsafe) {
@@ -81,13 +112,12 @@ TEST(Verdict, AFailedRunIsNeitherSafeNorUnsafe) {
 }
 
 TEST(Verdict, NotANumberIsNeverSafe) {
-  for (int which = 0; which < 4; ++which) {
+  for (int which = 0; which < 3; ++which) {
     Evidence evidence = calm();
     CriticalGap critical = critical_at(3.95e-4, 1e-6);
     if (which == 0) evidence.maximum_temperature = nan_value;
     if (which == 1) evidence.margin = nan_value;
-    if (which == 2) evidence.uncertainty = nan_value;
-    if (which == 3) critical.uncertainty = nan_value;
+    if (which == 2) set_shares(critical, {{ShareKind::fit, nan_value, nan_value}});
     EXPECT_EQ(judge(evidence, critical).verdict, Verdict::indeterminate) << which;
   }
 }
@@ -96,13 +126,6 @@ TEST(Verdict, AnIndeterminateCriticalGapLeavesNoSafeGap) {
   CriticalGap critical;
   critical.reason = "the run with skin ignites";
   EXPECT_EQ(judge(calm(), critical).verdict, Verdict::indeterminate);
-}
-
-TEST(Verdict, WithoutACriticalGapInReachTheMarginDecides) {
-  CriticalGap critical;
-  critical.kind = CriticalGapKind::all_safe;
-  critical.lower = 1e-3;
-  EXPECT_EQ(judge(calm(), critical).verdict, Verdict::safe);
 }
 
 }  // namespace
