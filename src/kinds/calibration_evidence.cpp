@@ -56,13 +56,16 @@ std::optional<CalibrationRecord> record_of(const CalibrationResult& result) {
       targets->zero_gap.maximum_temperature - record.calibration.scene.initial_temperature;
   evidence.air_rise = targets->wide_gap.maximum_temperature - targets->zero_gap.maximum_temperature;
   evidence.largest_gap = targets->igniting_gap;
-  // Where nothing tells, the bound of the shipped calibration stays.
   const MisfitBound misfits = misfit_bound(row);
   record.misfits = misfits.count;
-  if (misfits.count > 0) evidence.misfit_bound = misfits.bound();
+  record.misfit_bound = misfits.bound();
   if (result.load) record.covariance = result.load->covariance;
   record.ignition_lowest = row.calibrated.ignition_lowest;
   record.ignition_highest = row.calibrated.ignition_highest;
+  const double half = 0.5 * (record.ignition_highest - record.ignition_lowest);
+  // Without a misfit that tells, that of the shipped calibration stays.
+  evidence.fit_uncertainty =
+      std::max(half, misfits.count > 0 ? misfits.bound() : CalibrationEvidence{}.fit_uncertainty);
   record.selection_root_mean_square = row.selection_root_mean_square;
   record.stations = result.stations;
   return record;

@@ -114,7 +114,7 @@ Table model_constants_table(const ModelForm& form) {
         {each.name, 1e3 * scene.load.peak_time, 1e3 * scene.load.width, scene.load.steepness,
          scene.surface.localisation, 1e3 * scene.surface.exchange_time,
          scene.charge().kinetics.ignition_temperature, optional_number(record.selection_root_mean_square),
-         optional_number(record.calibration.evidence.misfit_bound), optional_number(record.stations.finer),
+         optional_number(record.misfit_bound), optional_number(record.stations.finer),
          optional_number(record.stations.coarser), std::string(record.stations.converges() ? "yes" : "no")});
   }
   table.notes.push_back(

@@ -11,7 +11,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace launchsafe::kinds {
 
@@ -100,21 +103,26 @@ void add_published(const CriticalGapResult& result, Plot& plot) {
                                 [](const CaseOutcome& each) { return each.input.own_conditions; });
   if (own == result.cases.end()) return;
   const bool foreign = misses_calibrated_rows(*own);
-  Series published{"published", {}, {}, Style::points};
-  Series calibrated{"published, calibrated to", {}, {}, Style::points};
-  Series held_out{"published, held out", {}, {}, Style::points};
-  published.mark = calibrated.mark = Mark::open_square;
-  published.colour = calibrated.colour = held_out.colour = 6;
-  held_out.mark = Mark::open_circle;
+  Series published{.label = "published"};
+  std::map<std::string, Series> by_use;
+  for (const Use use : {Use::fitted, Use::chosen_by, Use::held_out})
+    by_use[to_string(use)] = {.label = "published, " + to_string(use)};
+  by_use.at(to_string(Use::held_out)).mark = Mark::open_circle;
+  by_use.at(to_string(Use::chosen_by)).mark = Mark::open_triangle;
+  by_use.at(to_string(Use::fitted)).mark = published.mark = Mark::open_square;
   for (const Reference& reference : result.study.study.references) {
     if (!std::isfinite(reference.maximum_temperature)) continue;
-    Series& used = used_for(reference) == to_string(Use::fitted) ? calibrated : held_out;
-    Series& series = foreign ? published : used;
+    Series& series = foreign ? published : by_use.at(used_for(reference));
     series.x.push_back(100.0 * reference.gap);
     series.y.push_back(reference.maximum_temperature);
   }
-  for (Series* series : {&published, &calibrated, &held_out})
-    if (!series->x.empty()) plot.series.push_back(std::move(*series));
+  std::vector<Series> all{published};
+  for (auto& [use, series] : by_use) all.push_back(std::move(series));
+  for (Series& series : all) {
+    series.style = Style::points;
+    series.colour = 6;
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  }
 }
 
 /// The critical gap of the only case: a band where it has an uncertainty, words where it is no value.

@@ -101,8 +101,8 @@ Table comparison_table(const CriticalGapResult& result) {
     }
   }
   table.notes.push_back(
-      "Calibration: constants or the load were fitted to it. Selection: it chose among models, and is no "
-      "prediction. Held out: a prediction.");
+      "Fitted: the load or constants were fitted to it. Chosen by: it was seen when a form of the model was "
+      "picked, and is no prediction. Held out: a prediction.");
   if (!(worst <= calibration_slack)) {
     table.notes.push_back(fmt::format(
         "The scene's constants do not meet the calibrated rows ({}): they belong to other settings, and no "

@@ -196,8 +196,8 @@ StudyKeys uncertainty_keys() {
       stated_uncertainty(
           "fit_uncertainty",
           "Uncertainty of the margin from the calibrated constants, on the rows that they were "
-          "fitted to; what the record of the calibration says if absent, and without one the largest misfit "
-          "of a published temperature that nothing was fitted to.",
+          "fitted to; what the record of the calibration says if absent, and without one that of the shipped "
+          "calibration.",
           &Study::fit_uncertainty),
       stated_uncertainty(
           "input_uncertainty",

@@ -286,13 +286,13 @@ SafetySection budget_section(const Subject& subject) {
 SafetySection published_section(const Subject& subject) {
   SafetySection section{"published"};
   Table published = published_table(subject);
-  Parts parts{{"rows", published.rows.size()}, {"calibration", 0}, {"held_out", 0}};
+  Parts parts{{"rows", published.rows.size()}, {"fitted", 0}, {"chosen_by", 0}, {"held_out", 0}};
   double worst = 0;
   for (const Row& row : subject.study.rows("comparison")) {
     const std::string used = text_of(row, "used_for");
-    if (used == "calibration") parts["calibration"] = parts["calibration"].get<int>() + 1;
-    if (used != "held out") continue;
-    parts["held_out"] = parts["held_out"].get<int>() + 1;
+    const char* use = used == "fitted" ? "fitted" : used == "chosen by" ? "chosen_by" : "held_out";
+    parts[use] = parts[use].get<int>() + 1;
+    if (used == "fitted") continue;
     const double misfit = std::abs(number_of(row, "temperature_max_computed_minus_published_K"));
     if (misfit > worst) worst = misfit;
   }

@@ -26,7 +26,7 @@ std::string analysis_text(const Study& study) {
   }
   const CalibrationEvidence& evidence = study.calibration.evidence;
   text += fmt::format("{} {} {} {}\n", evidence.friction_rise, evidence.air_rise, evidence.largest_gap,
-                      evidence.misfit_bound) +
+                      evidence.fit_uncertainty) +
           scene::to_toml(study.calibration.scene);
   text += fmt::format("{}\n", study.model_form_uncertainty);
   if (study.model_form) text += to_json_text(*study.model_form);

@@ -2,8 +2,6 @@
 
 #include "launchsafe/study/record_reader.hpp"
 
-#include <algorithm>
-
 namespace launchsafe::study {
 namespace {
 
@@ -21,7 +19,8 @@ void describe_numbers(RecordObject& object, CalibrationRecord& record) {
   object.value("air_rise_K", evidence.air_rise, above_to(0, 5000));
   object.value("largest_gap_m", evidence.largest_gap, above_to(0, 0.01));
   object.value("misfits", record.misfits, 0, 1000);
-  object.value("misfit_bound_K", evidence.misfit_bound, between(0, 1e5));
+  object.value("misfit_bound_K", record.misfit_bound, temperature_or_none);
+  object.value("fit_uncertainty_K", evidence.fit_uncertainty, between(0, 1e4));
   constexpr std::size_t entries = fitted_keys.size() * fitted_keys.size();
   const std::size_t expected = record.load_fitted ? entries : 0;
   object.value("covariance_of_logarithms", record.covariance, between(-1e4, 1e4), expected, expected);
@@ -59,11 +58,6 @@ std::string to_json_text(const CalibrationRecord& record) {
 scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& text,
                                                             const std::string& file) {
   return parse_record<CalibrationRecord>(text, file, calibration_format, describe_calibration);
-}
-
-double fit_uncertainty_of(const CalibrationRecord& record) {
-  return std::max(0.5 * (record.ignition_highest - record.ignition_lowest),
-                  record.calibration.evidence.misfit_bound);
 }
 
 }  // namespace launchsafe::study

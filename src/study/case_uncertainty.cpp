@@ -83,8 +83,8 @@ scene::Scene with_raised_load(const scene::Scene& scene) {
 double fit_share(const Study& study, const CalibrationDistance& distance, const Rises& rises) {
   if (!study.kind.gives_verdicts) return 0.0;
   const CalibrationEvidence& evidence = study.calibration.evidence;
-  double fit = std::isfinite(study.fit_uncertainty) ? study.fit_uncertainty : evidence.misfit_bound;
-  if (distance.other_load_shape) fit = std::max(fit, evidence.misfit_bound);
+  double fit = std::isfinite(study.fit_uncertainty) ? study.fit_uncertainty : evidence.fit_uncertainty;
+  if (distance.other_load_shape) fit = std::max(fit, evidence.fit_uncertainty);
   const double growth = std::hypot(rises.friction / evidence.friction_rise, rises.air / evidence.air_rise);
   // Written so that a rise that is not a number leaves none.
   fit *= growth <= 1.0 ? 1.0 : growth;
@@ -166,9 +166,9 @@ std::string fit_uncertainty_text(const Study& study) {
   const std::string base = std::isfinite(study.fit_uncertainty)
                                ? fmt::format("{:.3g} K, as the study states", study.fit_uncertainty)
                                : fmt::format(
-                                     "{:.3g} K, as the study states none: the largest misfit of the "
-                                     "published temperatures that nothing was fitted to",
-                                     evidence.misfit_bound);
+                                     "{:.3g} K, as the study states none: that of the shipped "
+                                     "calibration",
+                                     evidence.fit_uncertainty);
   const std::string rows = fmt::format(
       "for the rows that the constants were fitted to, where friction heats by {:.4g} K and the air by "
       "{:.4g} K",
@@ -177,7 +177,7 @@ std::string fit_uncertainty_text(const Study& study) {
       "{}, {}; their relative errors are carried to a case's own heating by friction and air. Under another "
       "load shape it is at least {:.3g} K, and with other numerics {:.3g} K for the mesh error that the "
       "constants absorbed come in.",
-      base, rows, evidence.misfit_bound, assumed_numerical_uncertainty);
+      base, rows, evidence.fit_uncertainty, assumed_numerical_uncertainty);
 }
 
 std::string model_form_uncertainty_text(const StudyFile& study) {

@@ -54,7 +54,7 @@ Fault contradicted_constant(const StudyFile& study, const scene::Scene& calibrat
 
 /// A constant's uncertainty may be stated larger than its record shows, not smaller.
 Fault settle_fit_uncertainty(StudyFile& study, const CalibrationRecord& record) {
-  const double shown = fit_uncertainty_of(record);
+  const double shown = record.calibration.evidence.fit_uncertainty;
   double& stated = study.study.fit_uncertainty;
   if (std::isnan(stated)) stated = shown;
   if (stated >= shown) return std::nullopt;

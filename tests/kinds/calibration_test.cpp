@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace {
 
@@ -74,7 +77,7 @@ TEST(Calibration, FitsNothingButItsThreeRows) {
   EXPECT_EQ(a.ignition_temperature, b.ignition_temperature);
 }
 
-TEST(Calibration, WithoutFrictionThereIsOnlyAPrediction) {
+TEST(Calibration, WithoutFrictionNothingIsCalibrated) {
   const trace::BottomTrace trace = synthetic_trace(496e6, friction_for(116.1));
   const CalibrationResult result =
       run_calibration(study_of(calibration_text + published({951.0, 4.2e-4, 0}, trace) + synthetic_constants),
@@ -82,9 +85,9 @@ TEST(Calibration, WithoutFrictionThereIsOnlyAPrediction) {
   const CalibrationRow& none = result.rows[2];
   EXPECT_FALSE(none.calibratable);
   EXPECT_TRUE(std::isnan(none.calibrated.constants.localisation));
-  ASSERT_FALSE(none.hold_outs.empty());
-  EXPECT_NEAR(none.hold_outs[0].predicted, 300.0, 1e-3);
-  EXPECT_EQ(none.hold_outs[0].quantity, "T max");
+  ASSERT_FALSE(none.compared.empty());
+  EXPECT_NEAR(none.compared[0].computed, 300.0, 1e-3);
+  EXPECT_EQ(none.compared[0].quantity, "T max");
 }
 
 TEST(Calibration, ATraceWithoutFrictionSaysSoAndRecommendsNothing) {
@@ -166,6 +169,141 @@ TEST(Calibration, SaysWhenTheEvidenceDoesNotTellTheClosuresApart) {
   EXPECT_EQ(result.rows[*result.recommendation.row].closure, scene::FrictionClosure::total_strain_rate);
   EXPECT_NE(result.recommendation.reason.find("does not separate them"), std::string::npos)
       << result.recommendation.reason;
+}
+
+// --- the load ---
+
+/// When the highest temperature rises at more than 15 % of its largest rate over half a millisecond: first
+/// and last instant, found by stepping.
+std::pair<double, double> steep_rise(const surface::SkinHistory& history, const trace::BottomTrace& trace) {
+  constexpr double half = 0.25e-3, step = 1e-6;
+  const auto rate = [&](double time) {
+    return surface::maximum_at_time(history, trace, time + half).temperature -
+           surface::maximum_at_time(history, trace, time - half).temperature;
+  };
+  double largest = 0.0, first = 0.0, last = 0.0;
+  for (double time = half; time < 17.74e-3; time += 75e-6) largest = std::max(largest, rate(time));
+  for (double time = half; time < 17.74e-3; time += step) {
+    if (rate(time) <= 0.15 * largest) continue;
+    if (first == 0.0) first = time;
+    last = time;
+  }
+  return {first, last};
+}
+
+struct Truth {
+  scene::Scene scene;
+  double localisation, exchange_time;
+};
+
+Truth synthetic_truth() {
+  Truth truth{study_of(critical_text).scene.scene, 1500.0, 3.3e-4};
+  truth.scene.load.peak_time = 10.8e-3;
+  truth.scene.load.width = 2.7e-3;
+  truth.scene.load.steepness = 1.55;
+  return truth;
+}
+
+/// Rows as a launch under a bell with these constants would have published them.
+std::string published_rows(const Truth& truth) {
+  const trace::BottomTrace trace = squared_pressure_mechanics(truth.scene).trace;
+  surface::SkinModel model = surface::skin_model(truth.scene);
+  model.surface.localisation = truth.localisation;
+  model.surface.exchange_time = truth.exchange_time;
+  model.kinetics.ignition_temperature = model.kinetics.burnt_temperature;
+  std::string rows;
+  for (const double gap : {0.0, 1e-4, 2e-4}) {
+    const auto history = surface::integrate_skin(model, trace, gap);
+    const auto [begins, ends] = steep_rise(history, trace);
+    rows += fmt::format(
+        "{{ gap = \"{} m\", maximum_temperature = \"{} K\", early_temperature = \"{} K\", rise_begins = \"{} "
+        "s\", "
+        "rise_ends = \"{} s\", calibrated = {} }},",
+        gap, maximum_at(model, trace, gap), surface::maximum_at_time(history, trace, 10e-3).temperature,
+        begins, ends, gap != 1e-4);
+  }
+  return "reference = [" + rows + "{ gap = \"0.3 mm\", ignition_time = \"17.7 ms\" }]\n";
+}
+
+const std::string load_text = calibration_text + "load_fitted = true\n";
+
+TEST(CalibrationOfLoad, RecoversLoadAndConstantsOfASyntheticTruth) {
+  const Truth truth = synthetic_truth();
+  const CalibrationResult result =
+      run_calibration(study_of(load_text + published_rows(truth)), squared_pressure_options());
+  ASSERT_TRUE(result.load);
+  ASSERT_TRUE(result.load->failure.empty()) << result.load->failure;
+  EXPECT_EQ(result.load->numbers, 8u);
+  EXPECT_LT(result.load->sum_of_squares, 1e-4);  // instants were found in steps of a microsecond
+  EXPECT_NEAR(result.load->peak_time, truth.scene.load.peak_time, 1e-3 * truth.scene.load.peak_time);
+  EXPECT_NEAR(result.load->width, truth.scene.load.width, 3e-3 * truth.scene.load.width);
+  EXPECT_NEAR(result.load->steepness, truth.scene.load.steepness, 3e-3 * truth.scene.load.steepness);
+  ASSERT_TRUE(result.recommended()) << result.recommendation.reason;
+  const Constants& constants = result.recommended()->calibrated.constants;
+  EXPECT_NEAR(constants.localisation, truth.localisation, 1e-3 * truth.localisation);
+  EXPECT_NEAR(constants.exchange_time, truth.exchange_time, 3e-3 * truth.exchange_time);
+}
+
+TEST(CalibrationOfLoad, SaysWhatEachPublishedNumberIsUsedFor) {
+  const CalibrationResult result =
+      run_calibration(study_of(load_text + "references = \"table8.toml\"\n"), squared_pressure_options());
+  ASSERT_TRUE(result.recommended()) << result.recommendation.reason;
+  const CalibrationRow& row = *result.recommended();
+  std::map<Use, std::size_t> uses;
+  for (const ComparedNumber& each : row.compared) {
+    ++uses[each.use];
+    EXPECT_EQ(each.use == Use::fitted,
+              each.quantity.find("spread") == std::string::npos && (each.gap == 0.0 || each.gap == 2e-4))
+        << each.quantity << " at " << each.gap;
+  }
+  EXPECT_EQ(uses[Use::fitted], 8u);     // two temperatures and two instants at 0 and at 0.02 cm
+  EXPECT_EQ(uses[Use::held_out], 0u);   // all rows were in view when the forms of the model were picked
+  EXPECT_EQ(row.selection.size(), 9u);  // by model_form/README.md: five temperatures, two spreads, two places
+}
+
+// Between 416.1 K without a gap and 467.7 K at 0.02 cm: 441.9 at 0.01 cm, 516.72 at 0.039 cm.
+TEST(CalibrationOfLoad, PutsAStraightLineBesideTheModel) {
+  const CalibrationResult result =
+      run_calibration(study_of(load_text + "references = \"table8.toml\"\n"), squared_pressure_options());
+  ASSERT_TRUE(result.recommended()) << result.recommendation.reason;
+  int compared = 0;
+  for (const ComparedNumber& each : result.recommended()->compared) {
+    if (each.quantity != "T max" || each.use == Use::fitted) continue;
+    if (each.gap == 1e-4) compared += std::abs(each.line - 441.9) < 1e-9;
+    if (each.gap == 3.9e-4) compared += std::abs(each.line - 516.72) < 1e-9;
+  }
+  EXPECT_EQ(compared, 2);
+}
+
+/// Mechanics that no load moves leaves the load undetermined.
+TEST(CalibrationOfLoad, ASingularFitRecommendsNothing) {
+  const CalibrationResult result =
+      run_calibration(study_of(load_text + published_rows(synthetic_truth())), synthetic_options());
+  ASSERT_TRUE(result.load);
+  EXPECT_NE(result.load->failure.find("do not determine"), std::string::npos) << result.load->failure;
+  EXPECT_FALSE(result.recommended());
+  EXPECT_NE(result.recommendation.reason.find("no load is recommended"), std::string::npos);
+}
+
+TEST(CalibrationOfLoad, NeedsABellAndAsManyNumbersAsUnknowns) {
+  const auto message_of = [](const std::string& text) {
+    const auto study = parse_here(text);
+    EXPECT_FALSE(study);
+    return study ? std::string{} : study.error().message();
+  };
+  const std::string few = message_of(
+      load_text +
+      "reference = [ { gap = \"0 cm\", maximum_temperature = \"416 K\", calibrated = true },"
+      "{ gap = \"0.02 cm\", maximum_temperature = \"468 K\", rise_ends = \"15 ms\", calibrated = true },"
+      "{ gap = \"0.04 cm\", ignition_time = \"17 ms\" } ]\n");
+  EXPECT_NE(few.find("load_fitted"), std::string::npos) << few;
+  EXPECT_NE(few.find("3 numbers in the calibrated rows for 5 unknowns"), std::string::npos) << few;
+  const std::string rows = load_text + "references = \"table8.toml\"\n[set]\n";
+  const std::string shape = message_of(rows + "load.shape = \"power-exponential\"\n");
+  EXPECT_NE(shape.find("load.shape = \"bell\""), std::string::npos) << shape;
+  const std::string curve =
+      message_of(rows + "load.curve_time = \"0, 9, 18 ms\"\nload.curve_pressure = \"0, 496, 9 MPa\"\n");
+  EXPECT_NE(curve.find("measured curve"), std::string::npos) << curve;
 }
 
 }  // namespace

@@ -23,8 +23,9 @@ Load measured(std::size_t points, const std::function<double(double)>& pressure)
 }
 
 double pulse(double time) {
-  static const PressureHistory shape{Load{}};
-  return shape.at(time);
+  Load load;
+  load.shape = LoadShape::power_exponential;
+  return PressureHistory(load).at(time);
 }
 
 /// Two humps of 400 and 300 MPa, 3 ms wide (standard deviation 1.3 ms), with a dip between.

@@ -138,7 +138,7 @@ TEST(Plausibility, JudgesWhatSeveralKeysMakeTogether) {
       {{"gap.gas_law"}, {{"initial_temperature", "230 K"}}},
       {{"gap.heat_law"}, {{"gap.air_heat_ratio", "1.3"}}},
       {{"load.launch_speed", "load.travel"}, {{"load.peak", "12 MPa"}}},
-      {{"load.launch_speed", "load.travel"}, {{"load.width", "0.2 ms"}}},
+      {{"load.travel"}, {{"load.width", "0.2 ms"}}},
       {{"load.simulated_peak", "load.launch_speed", "load.travel"}, {{"load.peak_time", "49 ms"}}},
       {{"load.travel"}, {{"load.duration", "60 ms"}}},
       {{"charge.bulk_sound_speed", "charge.poisson_ratio"}, {{"charge.jwl.r1", "16"}}},

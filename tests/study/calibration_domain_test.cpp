@@ -2,12 +2,13 @@
 
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
+#include "launchsafe/study/calibration_record.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
@@ -31,25 +32,14 @@ TEST(CalibrationDomain, IsTheShippedScene) {
   }
 }
 
-/// The misfit that stands in for a fit uncertainty which nobody stated is that of the shipped calibration.
-TEST(CalibrationDomain, TheLargestMisfitIsThatOfTheReport) {
-  std::ifstream file(LAUNCHSAFE_SOURCE_DIR "/reports/calibrate_table8/hold_outs.csv");
-  ASSERT_TRUE(file);
-  double largest = 0;
-  for (std::string line; std::getline(file, line);) {
-    if (!line.starts_with("1.25,literal,comp-b,T ") && !line.starts_with("1.25,total strain rate,comp-b,T "))
-      continue;
-    std::vector<std::string> cells{""};
-    for (const char letter : line) {
-      if (letter == ',') {
-        cells.emplace_back();
-      } else {
-        cells.back() += letter;
-      }
-    }
-    largest = std::max(largest, std::abs(std::stod(cells.at(7))));
-  }
-  EXPECT_NEAR(CalibrationEvidence{}.largest_misfit, largest, 0.005);
+/// What stands in for a fit uncertainty that nobody stated is that of the shipped calibration.
+TEST(CalibrationDomain, TheFitUncertaintyIsThatOfTheRecord) {
+  const std::string path = LAUNCHSAFE_SOURCE_DIR "/reports/calibrate_table8/calibration.json";
+  const auto text = scene::read_text_file(path);
+  ASSERT_TRUE(text);
+  const auto record = parse_calibration_record(*text, path);
+  ASSERT_TRUE(record) << record.error().message();
+  EXPECT_NEAR(CalibrationEvidence{}.fit_uncertainty, record->calibration.evidence.fit_uncertainty, 0.005);
 }
 
 scene::Interface& interface_of(scene::Scene& scene, const std::string& body) {

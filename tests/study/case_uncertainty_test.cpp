@@ -124,7 +124,7 @@ TEST(CaseUncertainty, ABaseThatOpensThickensTheGap) {
 
 TEST(CaseUncertainty, SilenceAboutTheFitCostsTheBoundOfTheMisfits) {
   const GapVerdict row = first_row("numerical_uncertainty = \"1 K\"\ninput_uncertainty = \"3 K\"\n");
-  EXPECT_NEAR(row.uncertainty.fit, CalibrationEvidence{}.misfit_bound, 0.01);
+  EXPECT_NEAR(row.uncertainty.fit, CalibrationEvidence{}.fit_uncertainty, 0.01);
 }
 
 /// 4 % of pressure are 8.16 % of the friction heat of 116.1 K; 12 K of initial temperature are 12 K; without
@@ -190,7 +190,7 @@ TEST(CaseUncertainty, OtherNumericsBringTheMeshErrorOfTheCalibration) {
 
 TEST(CaseUncertainty, AnotherLoadShapeKeepsTheLargestMisfit) {
   const GapVerdict row = first_row(stated + "[set]\nload.steepness = 1.4\n");
-  EXPECT_NEAR(row.uncertainty.fit, CalibrationEvidence{}.misfit_bound, 0.02);
+  EXPECT_NEAR(row.uncertainty.fit, CalibrationEvidence{}.fit_uncertainty, 0.02);
   EXPECT_NE(row.judgement.reason.find("load shape"), std::string::npos) << row.judgement.reason;
 }
 

@@ -36,7 +36,7 @@ inline const std::string synthetic_statements =
 inline const std::string critical_kind = "kind = \"critical-gap\"\nscene = \"scene_155mm.toml\"\n";
 inline const std::string critical_text = critical_kind + synthetic_statements;
 
-/// The bottom under a load of the default shape: pressure in proportion to the peak, friction energy that
+/// The bottom under a smooth load: pressure in proportion to the peak, friction energy that
 /// grows with t^3, highest at the second station in the end.
 inline trace::BottomTrace synthetic_trace(double peak, double friction) {
   constexpr int intervals = 240;
@@ -82,6 +82,24 @@ inline run::MechanicsResult synthetic_mechanics(const scene::Scene& scene, doubl
   return result;
 }
 
+/// The bottom of a launch whose friction heats with the square of the pressure, in loading as in unloading.
+inline run::MechanicsResult squared_pressure_mechanics(const scene::Scene& scene) {
+  run::MechanicsResult result = synthetic_mechanics(scene);
+  const scene::PressureHistory pressure(scene.load);
+  trace::BottomTrace& trace = result.trace;
+  double work = 0.0, before = 0.0;
+  for (std::size_t sample = 0; sample < trace.samples(); ++sample) {
+    const double p = pressure.at(trace.time[sample]) / scene.load.peak;
+    work += std::abs(p * p - before);
+    before = p * p;
+    trace.bottom_pressure[sample] = trace.mean_bottom_pressure[sample] = 101325.0 + 140e6 * p;
+    const std::size_t stations = trace.stations.size();
+    for (std::size_t station = 0; station < stations; ++station)
+      for (auto& energies : trace.friction) energies[sample * stations + station] = friction_for(60.0) * work;
+  }
+  return result;
+}
+
 /// Runners on the synthetic trace; the one with skin agrees with it.
 inline Runners synthetic_runners(double kelvin = 116.1) {
   return {[kelvin](const scene::Scene& scene, const run::RunOptions&) {
@@ -108,6 +126,14 @@ inline StudyOptions synthetic_options(int jobs = 1) {
   StudyOptions options;
   options.jobs = jobs;
   options.runners = synthetic_runners();
+  return options;
+}
+
+inline StudyOptions squared_pressure_options() {
+  StudyOptions options = synthetic_options();
+  options.runners.mechanics = [](const scene::Scene& scene, const run::RunOptions&) {
+    return squared_pressure_mechanics(scene);
+  };
   return options;
 }
 

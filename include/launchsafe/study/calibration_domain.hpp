@@ -14,9 +14,10 @@ struct CalibrationEvidence {
   double friction_rise = 116.1;  ///< K, of T max without a gap above the initial temperature: localisation
   double air_rise = 51.6;        ///< K, that 0.02 cm of air add: exchange time
   double largest_gap = 4e-4;     ///< m, of the rows
-  /// K, below which 95 % of the misfits of temperatures lie, by those that nothing was fitted to: Student's
-  /// factor for their number times their root mean square. Taken where no fit uncertainty is stated.
-  double misfit_bound = 1.72;
+  /// K, of T max by the constants on this launch; taken where no fit uncertainty is stated. Half the distance
+  /// between the temperatures that T1 separates, or the bound of the misfits of what nothing was fitted to,
+  /// whichever is larger.
+  double fit_uncertainty = 2.77;
 };
 
 /// A launch with its calibrated constants: they hold where they were found.

@@ -32,7 +32,10 @@ struct CalibrationRecord {
   std::string references_digest;          ///< SHA-256 of the published rows and of what each was used for
   double ignition_lowest = not_a_number;  ///< K, T max without a trigger at the largest gap that is safe
   double ignition_highest = not_a_number;  ///< K, and at the smallest that ignites: T1 is in the middle
-  int misfits = 0;                         ///< that evidence.misfit_bound is drawn from
+  /// K, below which 95 % of the misfits of temperatures lie, by so many that nothing was fitted to: Student's
+  /// factor for their number times their root mean square. NaN without any.
+  double misfit_bound = not_a_number;
+  int misfits = 0;
   /// Of the logarithms of `fitted_keys`, row by row; empty where the load was not fitted.
   std::vector<double> covariance;
   double selection_root_mean_square = not_a_number;  ///< K; NaN where no row was used for selection
@@ -51,9 +54,5 @@ std::string to_json_text(const CalibrationRecord& record);
 /// Refuses an edited record, one of another model version, and a scene that no reader takes. `file` is named
 /// in errors.
 scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& text, const std::string& file);
-
-/// K, of T max by the constants, of the launch that they were found on: half the distance between the
-/// temperatures that T1 separates, or the bound of the misfits, whichever is larger.
-double fit_uncertainty_of(const CalibrationRecord& record);
 
 }  // namespace launchsafe::study

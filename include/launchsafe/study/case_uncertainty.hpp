@@ -39,10 +39,11 @@ struct Rises {
   double air = 0;
 };
 
-/// K, uncertainty of T max by the calibrated constants: the stated one, or the largest misfit of the held-out
-/// rows. It is that of the rows that the constants were fitted to; their relative errors are carried to the
-/// case's own rises. Another load shape was held out in no row but those at another time, and other numerics
-/// have another mesh error than the constants absorbed: both add to it. 0 for a study without verdicts.
+/// K, uncertainty of T max by the calibrated constants: the stated one, or that of the
+/// calibration. It is that of the rows that the constants were fitted to; their relative errors are carried
+/// to the case's own rises. Another load shape was held out in no row but those at another time, and other
+/// numerics have another mesh error than the constants absorbed: both add to it. 0 for a study without
+/// verdicts.
 double fit_share(const Study& study, const CalibrationDistance& distance, const Rises& rises);
 
 /// What the study states of the model form, or assumes where its record does not speak of a case, K.
