@@ -1,5 +1,6 @@
 // What the answer rests on, and what it does not cover: the rest of page one.
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 #include "safety_sections.hpp"
 
 #include <fmt/format.h>
@@ -185,8 +186,8 @@ void say_launch(const Subject& subject, SafetySection& section) {
   Parts parts{{"own", own != nullptr && subject.is_own(*own)},
               {"cases", subject.study.rows("cases").size()},
               {"peak", significant(1e-6 * scene::PressureHistory(scene.load).stated_peak(), 4) + " MPa"},
-              {"duration", significant(1e3 * scene.load.duration, 3) + " ms"},
-              {"launch", scene::rigid_motion_text(scene)},
+              {"launch", scene::end_text(scene)},
+              {"exit", scene::exit_text(scene)},
               {"crack", significant(1e6 * scene.charge().strength.initial_crack_radius, 4) + " µm"},
               {"flaw", significant(1e3 * scene.charge().strength.flaw_size, 3) + " mm"},
               {"temperature", kelvin},

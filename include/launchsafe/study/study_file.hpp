@@ -31,6 +31,7 @@ struct KindTraits {
   bool keeps_answers = false;          ///< what is concluded of a case is stored beside its runs
   bool own_scenes = false;             ///< cases may bring scenes and uncertainties of their own
   bool goes_through_ignition = false;  ///< gaps of cases with two-way coupling are run through ignition too
+  bool runs_without_exit = false;      ///< launches with a muzzle exit are also run in a barrel without end
 };
 
 /// A scene key that the cases of a study vary.
@@ -49,13 +50,13 @@ std::string to_string(Use use);
 /// A row of published results to compare with; what it does not say is NaN or empty.
 struct Reference {
   double gap = not_a_number;                  ///< m, >= 0
-  double maximum_temperature = not_a_number;  ///< K, over the whole launch
+  double maximum_temperature = not_a_number;  ///< K, until the exit, or over the whole launch without one
   std::string point;                          ///< where that was
   double early_temperature = not_a_number;    ///< K, highest at Study::early_time
   std::string early_point;                    ///< where that was
-  double spread = not_a_number;               ///< K, highest minus lowest observation point at the end
-  double early_spread = not_a_number;         ///< K, likewise at Study::early_time
-  double ignition_time = not_a_number;        ///< s; NaN for a gap that did not ignite
+  double spread = not_a_number;         ///< K, highest minus lowest observation point at the exit, or the end
+  double early_spread = not_a_number;   ///< K, likewise at Study::early_time
+  double ignition_time = not_a_number;  ///< s; NaN for a gap that did not ignite
   bool calibrated = false;        ///< constants are fitted to the maximum temperature; otherwise a hold-out
   bool early_calibrated = false;  ///< the load is fitted to the temperature at Study::early_time
   bool selection = false;         ///< the rest of the row was used to choose the model, apart from T max
