@@ -262,13 +262,15 @@ Table without_exit_table(const CriticalGapResult& result) {
   Table table{"In a barrel without end",
               {quantity::case_name(), quantity::gap(),
                number_column("T max, muzzle exit", "K", 1, "temperature_max_with_exit_K"),
-               number_column("T max, without", "K", 1, "temperature_max_without_exit_K")}};
+               number_column("T max, without", "K", 1, "temperature_max_without_exit_K"),
+               for_programs(named_text("critical gap, without", "critical_gap_without_exit"))}};
   for (const CaseOutcome& outcome : result.cases) {
     if (!outcome.without_exit) continue;
     for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) {
       const GapVerdict& row = outcome.verdicts[i];
       table.rows.push_back({outcome.input.label, 100.0 * row.gap, optional_number(row.maximum.temperature),
-                            optional_number(outcome.without_exit->maximum_temperature.at(i))});
+                            optional_number(outcome.without_exit->maximum_temperature.at(i)),
+                            reads_as(outcome.without_exit->critical)});
     }
     table.notes.push_back(fmt::format("Critical gap, {}: {} with the muzzle exit, {} without.",
                                       outcome.input.label, reads_as(outcome.critical),

@@ -179,6 +179,14 @@ void say_assumptions(const Subject& subject, SafetySection& section) {
   if (!others.empty()) section.item("limits.other_models", {{"models", others}}, subject.origin("verdicts"));
 }
 
+/// What the answer would be if the shot never left.
+void say_without_exit(const Subject& subject, SafetySection& section) {
+  const auto& rows = subject.study.rows("without_exit");
+  if (rows.empty() || subject.cases.size() != 1) return;
+  section.item("limits.without_exit", {{"critical", text_of(rows.front(), "critical_gap_without_exit")}},
+               subject.origin("without_exit"));
+}
+
 void say_launch(const Subject& subject, SafetySection& section) {
   const scene::Scene& scene = subject.scene();
   const auto kelvin = fixed(scene.initial_temperature, 0) + " K";
@@ -272,6 +280,7 @@ void say_limits(const Subject& subject, SafetySection& section) {
   say_shares(subject, section);
   say_assumptions(subject, section);
   say_launch(subject, section);
+  say_without_exit(subject, section);
 }
 
 }  // namespace launchsafe::report::safety
