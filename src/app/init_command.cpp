@@ -37,8 +37,8 @@ std::string load_lines(const InitArguments& arguments, const std::optional<scene
     const auto window = scene::suggested_smoothing(scene::load_of_curve(*curve));
     return fmt::format(
         "curve = \"pressure.csv\"         # measured; `launchsafe explain scene.toml` tells its roughness\n"
-        "# muzzle_exit = \"{:.4g} ms\"    # when the shot leaves the barrel, if the record goes on after "
-        "it{}",
+        "# muzzle_exit = \"{:.4g} ms\"    # when the shot leaves the barrel: needed where the record "
+        "ends above 1 % of its peak{}",
         1e3 * curve->time.back(),
         window ? fmt::format("\nsmoothing = \"{}\"           # noise heats falsely; what this takes counts "
                              "as uncertainty",
