@@ -4,6 +4,7 @@
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/scene/grid_intervals.hpp"
 #include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
@@ -168,8 +169,22 @@ std::string scene_text(const scene::Scene& scene, double update_rate) {
 nlohmann::ordered_json load_json(const scene::Scene& scene) {
   const scene::Load& load = scene.load;
   const scene::PressureHistory history(load);
-  const scene::RigidMotion end = scene::rigid_motion(scene, load.duration);
-  return {{"peak_pa", history.peak()},
+  const double end_time = scene::end_time(load);
+  const scene::RigidMotion end = scene::rigid_motion(scene, end_time);
+  nlohmann::ordered_json exit = nullptr;
+  if (const auto time = scene::exit_time(load)) {
+    const scene::RigidMotion motion = scene::rigid_motion(scene, *time);
+    exit = {{"time_s", *time},
+            {"earliest_s", scene::exit_window(load)->earliest},
+            {"latest_s", scene::exit_window(load)->latest},
+            {"velocity_m_per_s", motion.velocity},
+            {"travel_m", motion.travel},
+            {"share_of_peak", scene::share_left(load, *time)}};
+  }
+  return {{"muzzle_exit", exit},
+          {"end_s", end_time},
+          {"cut_short", scene::is_cut_short(load)},
+          {"peak_pa", history.peak()},
           {"velocity_at_the_end_m_per_s", end.velocity},
           {"travel_at_the_end_m", end.travel},
           {"stated_peak_pa", history.stated_peak()},

@@ -24,6 +24,7 @@ namespace launchsafe::app {
 namespace {
 
 constexpr double published_calibre = 0.155;  // m
+constexpr double published_exit = 18e-3;     // s, when the published shell leaves its barrel
 
 /// A length of the published shell (mm), scaled and rounded to half a millimetre.
 std::string scaled_length(double published, double factor) {
@@ -36,7 +37,8 @@ std::string load_lines(const InitArguments& arguments, const std::optional<scene
     const auto window = scene::suggested_smoothing(scene::load_of_curve(*curve));
     return fmt::format(
         "curve = \"pressure.csv\"         # measured; `launchsafe explain scene.toml` tells its roughness\n"
-        "duration = \"{:.9g} ms\"         # the whole of it{}",
+        "# muzzle_exit = \"{:.4g} ms\"    # when the shot leaves the barrel: needed where the record "
+        "ends above 1 % of its peak{}",
         1e3 * curve->time.back(),
         window ? fmt::format("\nsmoothing = \"{}\"           # noise heats falsely; what this takes counts "
                              "as uncertainty",
@@ -48,18 +50,18 @@ std::string load_lines(const InitArguments& arguments, const std::optional<scene
   const scene::Load published;
   return fmt::format(
       "peak = \"{}\"              # largest chamber pressure\n"
-      "duration = \"{:.4g} ms\"             # of the launch; time scales as lengths do\n"
-      "peak_time = \"{:.4g} ms\"\n"
+      "peak_time = \"{:.4g} ms\"           # time scales as lengths do\n"
+      "muzzle_exit = \"{:.4g} ms\"         # when the shot leaves the barrel; or muzzle_travel = \"5 m\"\n"
       "# curve = \"pressure.csv\"       # a measured curve instead; launchsafe import-curve makes one of a "
       "gauge's record",
-      scene::pressure_text(arguments.peak.value_or(published.peak)), 1e3 * factor * published.duration,
-      1e3 * factor * published.peak_time);
+      scene::pressure_text(arguments.peak.value_or(published.peak)), 1e3 * factor * published.peak_time,
+      1e3 * factor * published_exit);
 }
 
 NamedTexts files_of(const InitArguments& arguments, const std::optional<scene::PressureCurve>& curve,
                     const std::string& csv) {
   const double factor = arguments.calibre / published_calibre;
-  const double duration = curve ? curve->time.back() : factor * scene::Load{}.duration;
+  const double duration = curve ? curve->time.back() : factor * published_exit;
   const TextValues values{{"calibre", fmt::format("{:g} mm", 1e3 * arguments.calibre)},
                           {"factor", fmt::format("{:.4g}", factor)},
                           {"charge_begin", scaled_length(118, factor)},

@@ -7,6 +7,7 @@
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plausibility.hpp"
@@ -122,7 +123,8 @@ std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mec
                              : fmt::format("{}: {}", run::to_string(mechanics.status), mechanics.reason));
   if (const std::string measured = scene::measured_load_text(scene.load); !measured.empty())
     text += line("load", measured);
-  text += line("velocity at the end", scene::rigid_motion_text(scene));
+  if (const std::string exit = scene::exit_text(scene); !exit.empty()) text += line("muzzle exit", exit);
+  text += line("end of the launch", scene::end_text(scene));
   text += line("simulated", scene::time_text(mechanics.end_time));
   std::string masses;
   for (const run::MaterialMass& each : mechanics.masses)
@@ -255,11 +257,11 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
   run::RunOptions options;
   options.stop = &stop_requested();
   options.threads = study::available_cores();
-  options.progress = [&](double share) {
+  const double end = scene::end_time(scene.load);
+  options.progress = [&, end](double share) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    progress.show(fmt::format("{} of {}, {:.0f} %  {}", scene::time_text(share * scene.load.duration),
-                              scene::time_text(scene.load.duration), 100.0 * share,
-                              time_left(share, elapsed.count())));
+    progress.show(fmt::format("{} of {}, {:.0f} %  {}", scene::time_text(share * end), scene::time_text(end),
+                              100.0 * share, time_left(share, elapsed.count())));
   };
   return run::run_case(scene, options);
 }
@@ -292,8 +294,8 @@ ExitCode report_interruption(const RunArguments& arguments, const run::Mechanics
   const std::string output = arguments.output ? fmt::format(" -o {}", arguments.output->string()) : "";
   console.error(fmt::format(
       "interrupted at {} of {}; nothing of this case was kept; to start it again: launchsafe run {}{}",
-      scene::time_text(mechanics.end_time), scene::time_text(scene.load.duration), arguments.scene.string(),
-      output));
+      scene::time_text(mechanics.end_time), scene::time_text(scene::end_time(scene.load)),
+      arguments.scene.string(), output));
   return ExitCode::interrupted;
 }
 

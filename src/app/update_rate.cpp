@@ -22,7 +22,7 @@ scene::Scene measurable(scene::Scene scene) {
     scene.numerics.cell_size *= std::sqrt(2.0);
   scene.output.snapshot_times.clear();
   scene.output.snapshot_events.clear();
-  scene.output.trace_interval = scene.load.duration;
+  scene.output.trace_interval = scene::end_time(scene.load);
   return scene;
 }
 

@@ -134,7 +134,7 @@ class VariantMaker {
     if (&acceptances != &source_.root) {
       if (Fault fault = accept_also(acceptances, own)) return fault;
     }
-    if (own.study.early_time > own.scene.scene.load.duration) {
+    if (own.study.early_time > scene::end_time(own.scene.scene.load)) {
       return fault_at(study_, "early_time",
                       fmt::format("an instant after the launch of variant \"{}\"", variant.name),
                       "a time within the load's duration of every variant");

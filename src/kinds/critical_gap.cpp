@@ -27,6 +27,11 @@ namespace {
 
 /// One case on its runs: the mechanics, and those under a raised load where there are.
 CaseOutcome judged(const Study& study, const StudyCase& input, std::vector<FinishedRun> runs) {
+  std::optional<FinishedRun> without_exit;
+  if (study.kind.runs_without_exit && asks_without_exit(input)) {
+    without_exit = std::move(runs.back());
+    runs.pop_back();
+  }
   if (const FinishedRun* run = run_without_result(runs))
     return without_result(study, input, run->outcome, run->failure);
   CaseOutcome outcome;
@@ -41,6 +46,14 @@ CaseOutcome judged(const Study& study, const StudyCase& input, std::vector<Finis
   }
   evaluate(study, outcome);
   evaluate_film(study, outcome);
+  if (without_exit && outcome.completed()) {
+    run::MechanicsResult& mechanics = without_exit->result.mechanics;
+    if (!without_exit->has_result()) {
+      mechanics.status = run::RunStatus::interrupted;
+      mechanics.reason = without_exit->failure;
+    }
+    evaluate_without_exit(study, mechanics, outcome);
+  }
   return outcome;
 }
 

@@ -144,6 +144,7 @@ Report report_of(const CriticalGapResult& result) {
   for (ReportTable table : {ReportTable{critical_gap_table(result), "", "cases"},
                             ReportTable{coupled_run_table(result), "", "coupled_runs"},
                             ReportTable{cited_limit_table(result), "", "cited_limits"},
+                            ReportTable{without_exit_table(result), "", "without_exit"},
                             ReportTable{air_model_table(result), "", "air_models"},
                             ReportTable{air_energy_table(result), "", "air_energy"},
                             ReportTable{gap_share_table(result), "", "gap_shares", Shown::page}})

@@ -5,6 +5,7 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 
 #include <fmt/format.h>
 
@@ -51,10 +52,10 @@ std::vector<Column> comparison_columns(double early_time) {
 std::vector<Cell> comparison_cells(const GapVerdict& row, const study::Reference& published) {
   return {100.0 * row.gap,
           used_for(published),
-          row.maximum.temperature,
+          row.until_exit.temperature,
           optional_number(published.maximum_temperature),
           optional_number(row.misfit()),
-          row.maximum.point,
+          row.until_exit.point,
           published.point,
           early_used_for(published),
           row.early.temperature,
@@ -64,6 +65,17 @@ std::vector<Cell> comparison_cells(const GapVerdict& row, const study::Reference
           published.early_point,
           row.ignition ? optional_number(1e3 * row.ignition->time) : Cell(),
           optional_number(1e3 * published.ignition_time)};
+}
+
+}  // namespace
+
+namespace {
+
+/// With what the shot leaves the barrel: what a person who knows the gun recognises.
+std::string launch_note(const scene::Scene& scene) {
+  const std::string exit = scene::exit_text(scene);
+  return exit.empty() ? "The load drives the shell to " + scene::end_text(scene) + "."
+                      : "The shot leaves the barrel with " + exit + ".";
 }
 
 }  // namespace
@@ -81,6 +93,7 @@ Table verdict_table(const CriticalGapResult& result) {
     }
   }
   table.notes = mesh_notes(result.study);
+  table.notes.push_back(launch_note(result.study.scene.scene));
   table.notes.push_back(station_note(result.study));
   return table;
 }
@@ -221,6 +234,32 @@ Table air_model_table(const CriticalGapResult& result) {
         "The film conserves energy and conducts into charge and base: an optimistic bound, on which no "
         "verdict rests. Its temperature is that of the charge's surface, which the base cools.");
   }
+  return table;
+}
+
+Table without_exit_table(const CriticalGapResult& result) {
+  Table table{"In a barrel without end",
+              {quantity::case_name(), quantity::gap(),
+               number_column("T max, muzzle exit", "K", 1, "temperature_max_with_exit_K"),
+               number_column("T max, without", "K", 1, "temperature_max_without_exit_K"),
+               for_programs(named_text("critical gap, without", "critical_gap_without_exit"))}};
+  for (const CaseOutcome& outcome : result.cases) {
+    if (!outcome.without_exit) continue;
+    for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) {
+      const GapVerdict& row = outcome.verdicts[i];
+      table.rows.push_back({outcome.input.label, 100.0 * row.gap, optional_number(row.maximum.temperature),
+                            optional_number(outcome.without_exit->maximum_temperature.at(i)),
+                            reads_as(outcome.without_exit->critical)});
+    }
+    table.notes.push_back(fmt::format("Critical gap, {}: {} with the muzzle exit, {} without.",
+                                      outcome.input.label, reads_as(outcome.critical),
+                                      reads_as(outcome.without_exit->critical)));
+  }
+  if (!table.rows.empty())
+    table.notes.push_back(
+        "Verdicts rest on the muzzle exit that the scene states. Without it the load goes on until it is "
+        "below "
+        "1 % of its peak: what the answer would be if the exit were wrong.");
   return table;
 }
 

@@ -75,10 +75,10 @@ Fault check_scene(const StudyFile& study) {
   const scene::Scene& scene = study.scene.scene;
   if (!scene::has_charge(scene))
     return fault_at(study, "scene", "a scene without a charge", "a scene with a charge");
-  if (!study.study.kind.own_scenes && study.study.early_time > scene.load.duration) {
-    return fault_at(
-        study, "early_time", scene::format_quantity(study.study.early_time, Dimension::time),
-        "a time within the load's duration, " + scene::format_quantity(scene.load.duration, Dimension::time));
+  if (!study.study.kind.own_scenes && study.study.early_time > scene::end_time(scene.load)) {
+    return fault_at(study, "early_time", scene::format_quantity(study.study.early_time, Dimension::time),
+                    "a time within the load's duration, " +
+                        scene::format_quantity(scene::end_time(scene.load), Dimension::time));
   }
   return std::nullopt;
 }

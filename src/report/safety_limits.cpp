@@ -1,5 +1,6 @@
 // What the answer rests on, and what it does not cover: the rest of page one.
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 #include "safety_sections.hpp"
 
 #include <fmt/format.h>
@@ -174,6 +175,14 @@ void say_assumptions(const Subject& subject, SafetySection& section) {
   if (!others.empty()) section.item("limits.other_models", {{"models", others}}, subject.origin("verdicts"));
 }
 
+/// What the answer would be if the shot never left.
+void say_without_exit(const Subject& subject, SafetySection& section) {
+  const auto& rows = subject.study.rows("without_exit");
+  if (rows.empty() || subject.cases.size() != 1) return;
+  section.item("limits.without_exit", {{"critical", text_of(rows.front(), "critical_gap_without_exit")}},
+               subject.origin("without_exit"));
+}
+
 void say_launch(const Subject& subject, SafetySection& section) {
   const scene::Scene& scene = subject.scene();
   const auto kelvin = fixed(scene.initial_temperature, 0) + " K";
@@ -181,8 +190,8 @@ void say_launch(const Subject& subject, SafetySection& section) {
   Parts parts{{"own", own != nullptr && subject.is_own(*own)},
               {"cases", subject.study.rows("cases").size()},
               {"peak", significant(1e-6 * scene::PressureHistory(scene.load).stated_peak(), 4) + " MPa"},
-              {"duration", significant(1e3 * scene.load.duration, 3) + " ms"},
-              {"launch", scene::rigid_motion_text(scene)},
+              {"launch", scene::end_text(scene)},
+              {"exit", scene::exit_text(scene)},
               {"crack", significant(1e6 * scene.charge().strength.initial_crack_radius, 4) + " µm"},
               {"flaw", significant(1e3 * scene.charge().strength.flaw_size, 3) + " mm"},
               {"temperature", kelvin},
@@ -267,6 +276,7 @@ void say_limits(const Subject& subject, SafetySection& section) {
   say_shares(subject, section);
   say_assumptions(subject, section);
   say_launch(subject, section);
+  say_without_exit(subject, section);
 }
 
 }  // namespace launchsafe::report::safety

@@ -5,6 +5,7 @@
 #include "launchsafe/report/section_drawing.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/scene/stations.hpp"
 #include "safety_sections.hpp"
@@ -41,8 +42,9 @@ void say_load(const Subject& subject, SafetySection& section) {
   if (measured_curve) add("measured, as stated", load.curve_time, load.curve_pressure, Style::line, 7);
   const scene::PressureHistory chamber(load);
   std::vector<double> time, pressure;
+  const double end = scene::end_time(load);
   for (int i = 0; i <= curve_points; ++i) {
-    time.push_back(load.duration * i / curve_points);
+    time.push_back(end * i / curve_points);
     pressure.push_back(chamber.at(time.back()));
   }
   add("chamber, as simulated", time, pressure, Style::line, 0);
@@ -51,8 +53,8 @@ void say_load(const Subject& subject, SafetySection& section) {
         Style::dashed_line, 1);
   section.draw("load", "load.svg", std::move(plot),
                {{"peak", significant(1e-6 * chamber.stated_peak(), 4) + " MPa"},
-                {"duration", significant(1e3 * load.duration, 4) + " ms"},
-                {"launch", scene::rigid_motion_text(subject.scene())},
+                {"launch", scene::end_text(subject.scene())},
+                {"exit", scene::exit_text(subject.scene())},
                 {"measured", measured_curve},
                 {"points", load.curve_time.size()},
                 {"file", load.curve_file},

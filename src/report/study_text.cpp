@@ -43,11 +43,26 @@ std::string setup_text(const study::StudyFile& study) {
     text += fmt::format("- Setting picked from `{}`: {}\n", study.study.accuracy, study.chosen_setting);
   for (const study::Axis& axis : study.study.axes)
     text += fmt::format("- `{}` is varied: {}\n", axis.key.name, values_or_distribution(axis));
-  const std::set<std::string> told(
-      {"symmetry", "frame", "barrel", "load.peak", "load.duration", "numerics.cell_size",
-       "numerics.inertial_scaling", "numerics.damping_time", "charge.crack_radius", "charge.flaw_size",
-       "gap.pressure", "gap.air", "gap.exchange", "gap.exchange_time", "friction.closure",
-       "friction.localisation", "kinetics.set", "kinetics.ignition_temperature"});
+  const std::set<std::string> told({"symmetry",
+                                    "frame",
+                                    "barrel",
+                                    "load.peak",
+                                    "load.duration",
+                                    "load.muzzle_exit",
+                                    "load.muzzle_travel",
+                                    "numerics.cell_size",
+                                    "numerics.inertial_scaling",
+                                    "numerics.damping_time",
+                                    "charge.crack_radius",
+                                    "charge.flaw_size",
+                                    "gap.pressure",
+                                    "gap.air",
+                                    "gap.exchange",
+                                    "gap.exchange_time",
+                                    "friction.closure",
+                                    "friction.localisation",
+                                    "kinetics.set",
+                                    "kinetics.ignition_temperature"});
   for (const scene::ListedKey& key : scene::list_keys(study.scene)) {
     if (!told.contains(key.name)) continue;
     if (varies(study.study, key.name)) continue;

@@ -26,7 +26,8 @@ struct TraceSize {
 TraceSize trace_size(const scene::Scene& scene, const scene::Plan& plan) {
   const double row =
       charge_extent(scene).r_end / scene.numerics.cell_size * scene.numerics.particles_per_cell;
-  return {2.0 + std::min(scene.load.duration / scene.output.trace_interval, static_cast<double>(plan.steps)),
+  return {2.0 + std::min(scene::end_time(scene.load) / scene.output.trace_interval,
+                         static_cast<double>(plan.steps)),
           static_cast<double>(scene.output.observation_points.size()) + row};
 }
 

@@ -25,7 +25,7 @@ double least_judged_energy(const scene::Scene& scene) {
 }
 
 double least_judged_impulse(const scene::Scene& scene) {
-  return least_pressure * scene::base_area(scene) * scene.load.duration;
+  return least_pressure * scene::base_area(scene) * scene::end_time(scene.load);
 }
 
 }  // namespace launchsafe::run

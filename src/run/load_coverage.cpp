@@ -1,5 +1,6 @@
 // Whether a simulation covers the launch that its load states.
 #include "launchsafe/run/validity_warnings.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 
 #include <fmt/format.h>
 
@@ -13,17 +14,15 @@ namespace {
 constexpr double least_reached = 0.995;
 /// A smoothed curve loses what was noise at its peak; what it loses beyond this was none.
 constexpr double least_reached_smoothed = 0.95;
-/// A launch whose pressure ends this near its peak has not been seen to pass it.
-constexpr double highest_end = 0.9;
-/// Rise over the last parts of the launch from which the load is on its way to somewhere.
-constexpr double least_rise = 0.003;
-/// Pressure before or after the simulated time that is no part of a launch: offset and noise of a gauge.
+/// Part of a measured curve over which its end is judged, so that a point that a gauge dropped is no end.
+constexpr double last_part = 0.02;
+/// Pressure before the simulated time that is no part of a launch: offset and noise of a gauge.
 constexpr double negligible = 0.01;
 /// A start that the charge would feel as a blow; of an analytic load over its base, which has no offset and
 /// no noise.
 constexpr double highest_start = 0.05, highest_analytic_start = 0.01;
 
-// Of a measured curve, shares of the duration or of its own rise.
+// Of a measured curve, shares of its length or of its own rise.
 /// A gauge that saturates or is cut shows one pressure for so long; the pulse of a gun is within 0.2 % of its
 /// peak for 2 % of the launch.
 constexpr double longest_plateau = 0.05, plateau = 0.998;
@@ -52,23 +51,29 @@ std::string reaches_its_peak(const Load& load, const PressureHistory& history) {
   if (reached >= least * stated) return {};
   return fmt::format(
       "the load reaches {} within {}, {:.3g} % of its stated peak, {}: the launch is not covered",
-      megapascals(reached), milliseconds(load.duration), 100.0 * reached / stated, megapascals(stated));
+      megapascals(reached), milliseconds(scene::end_time(load)), 100.0 * reached / stated,
+      megapascals(stated));
 }
 
-std::string passes_its_peak(const Load& load, const PressureHistory& history) {
-  const double stated = history.stated_peak(), end = history.at(load.duration);
-  // Means, so that the noise of a gauge is no rise.
-  const double before = mean_of(history, load.duration, 0.95, 0.975);
-  const double last = mean_of(history, load.duration, 0.975, 1.0);
-  if (last - before > least_rise * stated) {
+/// Whether the pressure is gone at the end, or a muzzle exit says that the shot is.
+std::string is_over(const Load& load) {
+  if (scene::is_cut_short(load))
     return fmt::format(
-        "the load still rises at the end of the simulation, {}, where it is {}: the launch is cut "
-        "off",
-        milliseconds(load.duration), megapascals(end));
-  }
-  if (end < highest_end * stated) return {};
-  return fmt::format("the simulation ends at {} with the load at {:.3g} % of its peak: the launch is cut off",
-                     milliseconds(load.duration), 100.0 * end / stated);
+        "load.duration ends the simulation at {} with the load at {:.3g} % of its peak, and the launch is "
+        "over "
+        "at {}: it is cut short",
+        milliseconds(*load.duration), 100.0 * scene::share_left(load, *load.duration),
+        milliseconds(scene::launch_end(load)));
+  if (load.curve_time.empty() || scene::exit_time(load)) return {};
+  const double last = load.curve_time.back(), share = scene::share_left(load, last);
+  const double before = mean_of(PressureHistory(load), last, 1.0 - last_part, 1.0) /
+                        std::max(PressureHistory(load).stated_peak(), 1e-300);
+  if (share <= scene::share_when_over && before <= 2.0 * scene::share_when_over) return {};
+  return fmt::format(
+      "the launch is not over: the load stands at {:.3g} % of its peak at its last point, {}; a record that "
+      "goes "
+      "on to {:g} % is needed, or load.muzzle_exit, when the shot leaves the barrel",
+      100.0 * std::max(share, before), milliseconds(last), 100.0 * scene::share_when_over);
 }
 
 std::string begins_at_rest(const Load& load, const PressureHistory& history) {
@@ -79,37 +84,40 @@ std::string begins_at_rest(const Load& load, const PressureHistory& history) {
                      megapascals(start), 100.0 * start / stated);
 }
 
-/// What a measured curve has before the start and after the end of the simulation.
+/// What a measured curve has before the start of the simulation.
 std::string is_whole(const Load& load, const PressureHistory& history) {
   const double limit = negligible * history.stated_peak();
-  const double end = load.duration * (1.0 + 1e-9);
   for (const double time : load.curve_time) {
-    if ((time >= 0.0 && time <= end) || !(history.at(time) > limit)) continue;
-    return fmt::format("the measured curve has {} at {}, {} the simulation: the launch is not covered",
-                       megapascals(history.at(time)), milliseconds(time),
-                       time < 0.0 ? "before the start of" : "after the end of");
+    if (time >= 0.0 || !(history.at(time) > limit)) continue;
+    return fmt::format(
+        "the measured curve has {} at {}, before the start of the simulation: the launch is not covered",
+        megapascals(history.at(time)), milliseconds(time));
   }
   return {};
 }
 
-/// Whether the largest point of a measured curve can be the peak of the launch.
-std::string shows_its_peak(const Load& load, const PressureHistory& history) {
+/// Whether the largest point of a measured curve can be the peak of the launch. Judged is what the gauge
+/// showed: after a muzzle exit the pressure falls as fast as it may.
+std::string shows_its_peak(const Load& whole) {
+  const Load load = scene::without_exit(whole);
+  const PressureHistory history(load);
+  const double end = scene::end_time(load);
   const auto& pressure = load.curve_pressure;
   if (pressure.size() < 2) return {};
   const auto top = std::max_element(pressure.begin(), pressure.end());
   const auto at = static_cast<std::size_t>(top - pressure.begin());
   const double before = at > 0 ? load.curve_time[at] - load.curve_time[at - 1] : 0.0;
   const double after = at + 1 < pressure.size() ? load.curve_time[at + 1] - load.curve_time[at] : 0.0;
-  if (std::max(before, after) > widest_gap_at_peak * load.duration)
+  if (std::max(before, after) > widest_gap_at_peak * end)
     return fmt::format("the measured curve has no point for {} beside its largest: the peak may lie between",
                        milliseconds(std::max(before, after)));
   constexpr int parts = 2000;
   const double stated = history.peak();
-  double first_half = load.duration, last_half = 0.0, flat = 0.0;
+  double first_half = end, last_half = 0.0, flat = 0.0;
   bool has_fallen = false;
   for (int part = 0; part < parts; ++part) {
-    const double time = load.duration * (part + 0.5) / parts, here = history.at(time);
-    if (here >= plateau * stated) flat += load.duration / parts;
+    const double time = end * (part + 0.5) / parts, here = history.at(time);
+    if (here >= plateau * stated) flat += end / parts;
     has_fallen = has_fallen || (here < 0.1 * stated && last_half > 0.0);
     if (here < 0.5 * stated) continue;
     if (has_fallen)
@@ -120,11 +128,11 @@ std::string shows_its_peak(const Load& load, const PressureHistory& history) {
     first_half = std::min(first_half, time);
     last_half = std::max(last_half, time);
   }
-  if (flat > longest_plateau * load.duration)
+  if (flat > longest_plateau * end)
     return fmt::format(
         "the measured curve stays at its largest pressure for {}, as a gauge does that saturates",
         milliseconds(flat));
-  const double peak_time = std::clamp(load.curve_time[at], 0.0, load.duration);
+  const double peak_time = std::clamp(load.curve_time[at], 0.0, end);
   if (last_half - peak_time < fastest_fall * (peak_time - first_half))
     return fmt::format(
         "the measured curve breaks off: it falls to half of its peak within {}, and took {} to rise",
@@ -139,8 +147,8 @@ std::vector<std::string> uncovered_load(const Load& load) {
   std::vector<std::string> uncovered;
   if (history.stated_peak() == 0.0) return uncovered;  // nothing can be missing of no load
   for (const std::string& each :
-       {reaches_its_peak(load, history), passes_its_peak(load, history), begins_at_rest(load, history),
-        is_whole(load, history), shows_its_peak(load, history)}) {
+       {reaches_its_peak(load, history), is_over(load), begins_at_rest(load, history),
+        is_whole(load, history), shows_its_peak(load)}) {
     if (!each.empty()) uncovered.push_back(each);
   }
   return uncovered;

@@ -54,7 +54,8 @@ CaseResult continue_with_skin(const scene::Scene& scene, double gap, const Mecha
     return result;
   }
   const bool total = scene.numerics.formulation == scene::Formulation::total_lagrangian;
-  const std::size_t needed = total ? checkpoints_before(launch.trace, traced, scene.load.duration) : 0;
+  const std::size_t needed =
+      total ? checkpoints_before(launch.trace, traced, scene::end_time(scene.load)) : 0;
   Runner runner(scene, options, gap);
   if (needed > 0) {
     // What was stored has none: the launch is computed again as far as needed.

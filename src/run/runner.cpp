@@ -198,8 +198,7 @@ bool Runner::has_enough_checkpoints() const {
 }
 
 void Runner::take_due_checkpoint() {
-  const double duration = simulation_.scene().load.duration;
-  if (simulation_.time() < time_of_checkpoint(checkpoints_->runs.size(), duration)) return;
+  if (simulation_.time() < time_of_checkpoint(checkpoints_->runs.size(), launch_time_)) return;
   auto copy = std::make_unique<Runner>(simulation_.scene(), RunOptions{}, std::nullopt);
   copy->continue_from(*this);
   checkpoints_->runs.push_back(std::move(copy));
@@ -230,9 +229,7 @@ void Runner::end_now(CombustionEnd end) {
   combustion_end_ = end;
 }
 
-bool Runner::finished() const {
-  return end_ - simulation_.time() <= 1e-12 * simulation_.scene().load.duration;
-}
+bool Runner::finished() const { return end_ - simulation_.time() <= 1e-12 * launch_time_; }
 
 void Runner::check(double time_step, double first_step) {
   if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed))
@@ -253,7 +250,7 @@ void Runner::check(double time_step, double first_step) {
 /// Steps so short would not end the launch, or no longer move the time at all.
 void Runner::check_step(double dt) {
   constexpr double shortest_share = 1e-15;
-  if (dt >= shortest_share * simulation_.scene().load.duration) return;
+  if (dt >= shortest_share * launch_time_) return;
   stop_now(
       std::isnan(dt) ? RunStatus::non_finite : RunStatus::time_step_collapse,
       fmt::format("with steps of {:.3g} s the launch would not end{}", dt, step_remark(simulation_.scene())));
@@ -278,8 +275,7 @@ void Runner::stop_now(RunStatus status, const std::string& what) {
 
 void Runner::take_monitor_sample(double time_step) {
   result_.monitor.push_back(monitor_sample(simulation_, time_step));
-  next_monitor_ =
-      simulation_.time() + simulation_.scene().load.duration / static_cast<double>(monitor_samples);
+  next_monitor_ = simulation_.time() + launch_time_ / static_cast<double>(monitor_samples);
 }
 
 }  // namespace launchsafe::run

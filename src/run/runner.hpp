@@ -74,7 +74,8 @@ class Runner {
   std::optional<BurningBottom> burning_;  ///< from ignition on
   bool couples_back_ = false;
   CombustionEnd combustion_end_ = CombustionEnd::time;
-  double end_ = simulation_.scene().load.duration;  ///< s
+  double launch_time_ = scene::end_time(simulation_.scene().load);  ///< s, of the whole launch
+  double end_ = launch_time_;                                       ///< s
   MechanicsResult result_;
   Clock::time_point start_ = Clock::now(), last_report_ = start_;
   double first_step_ = 0, time_step_ = 0;  ///< s

@@ -9,7 +9,7 @@ namespace launchsafe::run {
 using scene::Event;
 
 SnapshotTaker::SnapshotTaker(const scene::Scene& scene)
-    : tolerance_(2e-12 * scene.load.duration), wanted_(scene.output.snapshot_events) {
+    : tolerance_(2e-12 * scene::end_time(scene.load)), wanted_(scene.output.snapshot_events) {
   for (const double time : scene.output.snapshot_times) due_.push_back({time, {}});
   if (wants(Event::peak_pressure)) {
     due_.push_back({scene::PressureHistory(scene.load).peak_time(), Event::peak_pressure});

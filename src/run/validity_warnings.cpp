@@ -178,11 +178,11 @@ void check_cracks(const Scene& scene, const MechanicsResult& mechanics, Warnings
 double largest_rise(const scene::Load& load, double window) {
   const scene::PressureHistory history(load);
   std::vector<double> times = history.marks();
-  const double between = std::max(window / 8.0, load.duration * 1e-6);
-  for (double time = 0.0; time < load.duration; time += between) times.push_back(time);
+  const double end = scene::end_time(load), between = std::max(window / 8.0, end * 1e-6);
+  for (double time = 0.0; time < end; time += between) times.push_back(time);
   double rise = 0.0;
   for (const double time : times) {
-    const double earlier = std::max(0.0, time - window), later = std::min(load.duration, time + window);
+    const double earlier = std::max(0.0, time - window), later = std::min(end, time + window);
     rise = std::max({rise, history.at(time) - history.at(earlier), history.at(later) - history.at(time)});
   }
   return rise;
@@ -334,7 +334,7 @@ std::vector<std::string> combustion_validity_warnings(const Scene& scene,
         numerics.inertial_scaling, numerics.steel_inertia);
   const std::vector<double>& measured = scene.load.curve_time;
   const double end = combustion.time.empty() ? 0.0 : combustion.time.back();
-  if (!measured.empty() && end > measured.back())
+  if (!measured.empty() && !scene::exit_time(scene.load) && end > measured.back())
     warnings.add("the measured load ends {:.3g} ms before the run, and its last pressure is held",
                  1e3 * (end - measured.back()));
   if (combustion.end == CombustionEnd::broke_off)

@@ -1,4 +1,5 @@
 // Quantities that follow from several keys, and what is plausible of them.
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 
@@ -41,9 +42,20 @@ Number rescaling(const Scene& scene) {
   return scene.load.peak / measured_peak(scene.load);
 }
 
-/// As one rigid body at the end of the load, m/s and m.
-Number launch_speed(const Scene& scene) { return rigid_motion(scene, scene.load.duration).velocity; }
-Number launch_travel(const Scene& scene) { return rigid_motion(scene, scene.load.duration).travel; }
+/// As one rigid body at the muzzle exit, or at the end where there is none, m/s and m.
+Number launch_speed(const Scene& scene) { return rigid_motion(scene, read_time(scene.load)).velocity; }
+Number launch_travel(const Scene& scene) { return rigid_motion(scene, read_time(scene.load)).travel; }
+
+/// At a stated muzzle exit.
+Number pressure_at_exit(const Scene& scene) {
+  const auto exit = exit_time(scene.load);
+  return exit ? Number(share_left(scene.load, *exit)) : std::nullopt;
+}
+Number calibres_to_exit(const Scene& scene) {
+  const auto exit = exit_time(scene.load);
+  if (!exit) return std::nullopt;
+  return rigid_motion(scene, *exit).travel / (2.0 * extent_of(scene).r_end);
+}
 
 /// Of an isotropic solid.
 double poisson_ratio(double bulk, double shear) {
@@ -132,17 +144,23 @@ const std::vector<DerivedQuantity>& derived_quantities() {
                "Largest pressure of a measured curve as it was measured, wherever in time it lies.", gun,
                "a mortar has 10 MPa, and no gun tube bears 1 GPa", peak_of_curve),
       quantity("load.simulated_peak", Dimension::pressure,
-               "Largest pressure within load.duration, where it is below the one that the scene states.", gun,
+               "Largest pressure until the end, where it is below the one that the scene states.", gun,
                "what lies outside of the simulated time does nothing", simulated_peak),
       quantity("load.rescaling", Dimension::number, "Factor on a measured curve by load.rescale_to_peak.",
                between(0.25, 4), "other charges of propellant than these make another shape of the curve",
                rescaling),
       quantity("load.launch_speed", Dimension::speed,
-               "Speed at the end of the load, of the projectile as one rigid body.", between(50, 2.5e3),
-               "mortars launch with 70 m/s, tank guns with 1.8 km/s", launch_speed),
+               "Speed at the muzzle exit, or at the end, of the projectile as one rigid body.",
+               between(50, 2.5e3), "mortars launch with 70 m/s, tank guns with 1.8 km/s", launch_speed),
       quantity("load.travel", Dimension::length,
-               "Travel until the end of the load, of the projectile as one rigid body.", between(0.5, 15),
-               "mortars have a tube of a metre, guns one of 2 to 11 m", launch_travel),
+               "Travel until the muzzle exit, or the end, of the projectile as one rigid body.",
+               between(0.5, 15), "mortars have a tube of a metre, guns one of 2 to 11 m", launch_travel),
+      quantity("load.exit_pressure", Dimension::number, "Pressure over its peak at a stated muzzle exit.",
+               between(0, 0.35), "no gun lets the shot go at a third of its peak pressure", pressure_at_exit),
+      quantity("load.exit_calibres", Dimension::number,
+               "Travel until a stated muzzle exit over the outer diameter.", between(10, 200),
+               "mortars have barrels of 12 calibres or more, howitzers of 20, guns of 40 to 60",
+               calibres_to_exit),
       quantity("steel.poisson_ratio", Dimension::number,
                "Poisson's ratio, from density, c0 and shear modulus.", between(0.24, 0.35),
                "steels have 0.27 to 0.30", poisson_ratio_of_steel),

@@ -12,18 +12,6 @@
 namespace launchsafe::scene {
 namespace {
 
-/// A number that may be absent.
-Key<Interface> optional_number_key(std::string name, Dimension dimension, Limits limits, std::string sentence,
-                                   std::optional<double> Interface::*member) {
-  auto key = keys::bound_key<Interface>(
-      keys::description(std::move(name), KeyKind::number, Standing::input, std::move(sentence), dimension,
-                        limits),
-      member, [](auto& number, const Value& value) { number = std::get<double>(value) + 0.0; },
-      [](const auto& number) { return number.value_or(0.0); });
-  return written_where(std::move(key),
-                       [member](const Interface& faces) { return (faces.*member).has_value(); });
-}
-
 /// A fault of one interface, at the first of its keys that the file has.
 InputError fault_of(const SceneFile& file, const Interface& faces, const std::string& key, std::string found,
                     std::string allowed, std::string suggestion = {}) {
@@ -141,19 +129,21 @@ const std::vector<Key<Interface>>& interface_keys() {
                             &Interface::condition)),
           "launches are published with bonded charges, and shells are loaded with and without a bond"),
       plausibly(
-          optional_number_key(
+          optional_number_key<Interface>(
               "friction", Dimension::number, between(0, largest_friction),
               "Coulomb's coefficient between the faces; to be given where they can slide, 0 for smooth ones.",
               &Interface::friction),
           between(0, 1), "explosives on metals and lacquers are measured between 0.05 and 0.6"),
-      plausibly(optional_number_key("tension_strength", Dimension::pressure, above_to(0, 1e12),
-                                    "Tension at which the bond breaks for good; none: it never does.",
-                                    &Interface::tension_strength),
-                above_to(0, 100e6), "no explosive or lacquer bears more"),
-      plausibly(optional_number_key("shear_strength", Dimension::pressure, above_to(0, 1e12),
-                                    "Shear at which the bond breaks for good; none: it never does.",
-                                    &Interface::shear_strength),
-                above_to(0, 100e6), "no explosive or lacquer bears more"),
+      plausibly(
+          optional_number_key<Interface>("tension_strength", Dimension::pressure, above_to(0, 1e12),
+                                         "Tension at which the bond breaks for good; none: it never does.",
+                                         &Interface::tension_strength),
+          above_to(0, 100e6), "no explosive or lacquer bears more"),
+      plausibly(
+          optional_number_key<Interface>("shear_strength", Dimension::pressure, above_to(0, 1e12),
+                                         "Shear at which the bond breaks for good; none: it never does.",
+                                         &Interface::shear_strength),
+          above_to(0, 100e6), "no explosive or lacquer bears more"),
   };
   return keys;
 }

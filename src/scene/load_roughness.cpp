@@ -1,5 +1,6 @@
 #include "launchsafe/scene/load_roughness.hpp"
 
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
 #include <fmt/format.h>
@@ -78,8 +79,9 @@ constexpr std::size_t fewest_deviations = 16;
 double noise_of(const Load& load) {
   constexpr double exceeded_by_a_tenth = 1.645;  // standard deviations of a normal distribution
   std::vector<double> deviations;
+  const double end = end_time(load);
   for (std::size_t i = 2; i + 2 < load.curve_time.size(); ++i)
-    if (load.curve_time[i] >= 0.0 && load.curve_time[i] <= load.duration)
+    if (load.curve_time[i] >= 0.0 && load.curve_time[i] <= end)
       deviations.push_back(deviation_from_neighbours(load, i));
   if (deviations.size() < fewest_deviations) return 0.0;
   const auto ninth = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() * 9 / 10);
@@ -152,7 +154,6 @@ std::string smoothing_text(const Load& load) {
 
 Load load_of_curve(const PressureCurve& curve) {
   Load load;
-  load.duration = curve.time.back();
   load.curve_time = curve.time;
   load.curve_pressure = curve.pressure;
   return load;
@@ -174,8 +175,8 @@ double work_lost_to_smoothing(const Load& load) {
 
 double peak_lost_to_smoothing(const Load& load) {
   if (load.curve_time.size() < 2 || !(load.smoothing > 0.0)) return 0.0;
-  Load whole = load;
-  whole.duration = load.curve_time.back();
+  Load whole = without_exit(load);
+  whole.duration.reset();
   const PressureHistory history(whole);
   const double before = history.stated_peak();
   return before > 0.0 ? std::max(0.0, 1.0 - history.peak() / before) : 0.0;

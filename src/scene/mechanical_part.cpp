@@ -13,6 +13,11 @@ namespace {
 Load without_unused(Load load) {
   load.curve_file.clear();
   const Load usual;
+  // The mechanics knows the time of the exit, however it was stated.
+  load.muzzle_exit = exit_time(load);
+  load.muzzle_travel.reset();
+  load.muzzle_exit_spread = usual.muzzle_exit_spread;
+  if (!load.muzzle_exit) load.exit_decay = usual.exit_decay;
   const bool measured = !load.curve_time.empty(), bell = load.shape == LoadShape::bell;
   if (measured || bell) load.exponent = usual.exponent;
   if (measured || !bell) {
@@ -113,7 +118,7 @@ Scene mechanical_part(const Scene& scene) {
   Scene part = scene;
   // Of a gap, and of what follows its ignition, the mechanics knows nothing.
   std::erase_if(part.output.snapshot_times, [&](double time) {
-    return scene.coupling == Coupling::two_way && time > scene.load.duration * (1.0 + 1e-12);
+    return scene.coupling == Coupling::two_way && time > end_time(scene.load) * (1.0 + 1e-12);
   });
   std::erase_if(part.output.snapshot_events,
                 [](Event event) { return event == Event::ignition || event == Event::burnt; });

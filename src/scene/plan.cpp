@@ -37,13 +37,13 @@ Material material_to_conduct(const Scene& scene) {
   std::vector<Material> used = used_materials(scene);
   if (has_charge(scene)) std::erase_if(used, [](const Material& each) { return !is_explosive(each.law); });
   return *std::max_element(used.begin(), used.end(), [&](const Material& a, const Material& b) {
-    return diffusion_length(a.law, scene.load.duration) < diffusion_length(b.law, scene.load.duration);
+    return diffusion_length(a.law, end_time(scene.load)) < diffusion_length(b.law, end_time(scene.load));
   });
 }
 
 Term plan_conduction(const Scene& scene, const CellRange& cells) {
   const Material material = material_to_conduct(scene);
-  const double length = diffusion_length(material.law, scene.load.duration);
+  const double length = diffusion_length(material.law, end_time(scene.load));
   const double cell = cells.shortest();
   const double share = length / cell;
   const double bound = scene.physics.conduction_bound;
@@ -59,7 +59,7 @@ Term plan_bulk_reaction(const Scene& scene) {
   const double temperature = bulk_temperature_bound(scene);
   const double heating =
       materials::arrhenius_heating(scene.charge().kinetics, scene.charge().specific_heat, temperature) *
-      scene.load.duration;
+      end_time(scene.load);
   const double bound = scene.physics.reaction_bound;
   return switched(
       scene.physics.bulk_reaction, heating > bound,
@@ -137,7 +137,7 @@ Term plan_inertial_scaling(const Scene& scene) {
 /// s of the launch, at most, that the run of a gap computes before it ignites or the launch ends.
 double time_before_ignition(const Scene& scene) {
   const bool checkpoints = scene.numerics.formulation == Formulation::total_lagrangian;
-  return scene.load.duration *
+  return end_time(scene.load) *
          (checkpoints ? std::min(1.0, 1.0 / parts_of_launch + share_before_ignition) : 1.0);
 }
 
@@ -145,7 +145,7 @@ double time_before_ignition(const Scene& scene) {
 double coupled_share(const Scene& scene) {
   // Measured on the 155 mm shell: steps that follow a flame are shorter, and each checks its stability.
   constexpr double cost_of_burning = 2.5;
-  return (time_before_ignition(scene) + cost_of_burning * scene.combustion.duration) / scene.load.duration;
+  return (time_before_ignition(scene) + cost_of_burning * scene.combustion.duration) / end_time(scene.load);
 }
 
 Term plan_coupling(const Scene& scene) {
@@ -224,7 +224,7 @@ void count_work(const Scene& scene, const CellRange& cells, Plan& plan) {
   count_particles(scene, plan);
   plan.cells = static_cast<std::int64_t>(cells.nx) * cells.nr;
   plan.time_step = time_step_at_rest(scene);
-  const double steps = std::ceil(scene.load.duration / plan.time_step - 1e-9);
+  const double steps = std::ceil(end_time(scene.load) / plan.time_step - 1e-9);
   plan.steps = counted(steps);
   // Measured: a sub-step costs as much as 1.4 whole updates of a particle.
   constexpr double updates_per_substep = 1.4;

@@ -1,5 +1,6 @@
 // The plan as people read it.
 #include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
@@ -42,9 +43,9 @@ std::string load_text(const Scene& scene) {
                            ? word_of(scene.load.shape)
                            : fmt::format("measured, {} points{}", scene.load.curve_time.size(),
                                          scene.load.rescale_to_peak ? ", rescaled" : ""));
-  text += row("duration", time_text(scene.load.duration));
   text += row("peak", pressure_text(peak));
-  text += row("velocity at the end", rigid_motion_text(scene));
+  if (const std::string exit = exit_text(scene); !exit.empty()) text += row("muzzle exit", exit);
+  text += row("end", end_text(scene));
   if (const std::string measured = measured_load_text(scene.load); !measured.empty())
     text += row("measurement", measured);
   text += row("rigid acceleration", fmt::format("{:.6g} m/s2", rigid_acceleration(scene, peak)));

@@ -124,6 +124,15 @@ double share_of_peak(const Load& load, double time) {
 }  // namespace
 
 PressureHistory::PressureHistory(const Load& load) : load_(load) {
+  join_points();
+  const std::optional<double> exit = exit_time(load_);
+  if (!exit) return;
+  exit_ = *exit;
+  exit_pressure_ = in_the_barrel(exit_);
+  pressure_outside_ = load_.curve_time.empty() ? load_.base : 0.0;
+}
+
+void PressureHistory::join_points() {
   if (load_.curve_time.size() < 2) return;
   curve_ = interpolant(load_.curve_time, load_.curve_pressure);
   const bool smoothed = load_.smoothing > 0.0;
@@ -135,6 +144,12 @@ PressureHistory::PressureHistory(const Load& load) : load_(load) {
 }
 
 double PressureHistory::at(double time) const {
+  if (!(time > exit_)) return in_the_barrel(time);
+  return pressure_outside_ +
+         (exit_pressure_ - pressure_outside_) * std::exp(-(time - exit_) / load_.exit_decay);
+}
+
+double PressureHistory::in_the_barrel(double time) const {
   if (load_.curve_time.empty()) return load_.base + (load_.peak - load_.base) * share_of_peak(load_, time);
   if (!curve_) return scale_ * load_.curve_pressure.front();
   const double first = load_.curve_time.front(), last = load_.curve_time.back();
@@ -145,11 +160,16 @@ double PressureHistory::at(double time) const {
   return scale_ * curve_(time);
 }
 
-std::vector<double> PressureHistory::marks() const { return marks_between(load_, 0.0, load_.duration); }
+std::vector<double> PressureHistory::marks() const {
+  const double end = end_time(load_);
+  std::vector<double> marks = marks_between(load_, 0.0, end);
+  if (exit_ > 0.0 && exit_ < end) marks.insert(std::upper_bound(marks.begin(), marks.end(), exit_), exit_);
+  return marks;
+}
 
 PressureHistory::State PressureHistory::largest() const {
   if (load_.curve_time.empty()) {
-    const double time = std::min(load_.peak_time, load_.duration);
+    const double time = std::min({load_.peak_time, end_time(load_), exit_});
     return {time, at(time)};
   }
   const auto [time, pressure] = largest_at(

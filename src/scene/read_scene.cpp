@@ -73,6 +73,7 @@ std::optional<InputError> rebuild(SceneFile& file, bool has_curve) {
   } else if (auto error = read_curve_file(file)) {
     return error;
   }
+  settle_load(file.scene);
   return validate(file);
 }
 

@@ -179,12 +179,15 @@ RigidMotion rigid_motion(const Scene& scene, double time) {
   return motion;
 }
 
-std::string rigid_motion_text(const Scene& scene) {
-  const RigidMotion end = rigid_motion(scene, scene.load.duration);
-  return fmt::format("{:.4g} m/s after {:.3g} m of travel", end.velocity, end.travel);
+std::string rigid_motion_text(const Scene& scene, double time) {
+  const RigidMotion motion = rigid_motion(scene, time);
+  return fmt::format("{:.4g} m/s after {:.3g} m of travel", motion.velocity, motion.travel);
 }
 
-double read_time(const Load& load) { return load.duration; }
+void settle_load(Scene& scene) {
+  const double area = base_area(scene);
+  scene.load.mass_over_area = area > 0.0 ? total_mass(scene) / area : 0.0;
+}
 
 std::string word_of(LoadShape shape) { return shape == LoadShape::bell ? "bell" : "power-exponential"; }
 

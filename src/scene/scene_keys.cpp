@@ -113,13 +113,18 @@ std::vector<Key<Combustion>> combustion_keys() {
   };
 }
 
+bool has_exit(const Load& load) { return load.muzzle_exit || load.muzzle_travel; }
+
 bool is_bell(const Load& load) { return load.shape == LoadShape::bell; }
 
 std::vector<Key<Load>> load_keys() {
   return {
-      plausibly(number_key("duration", Dimension::time, above_to(0, 1), Standing::paper,
-                           "Simulated time, from the ignition of the propellant on.", &Load::duration),
-                between(1e-3, 0.1), "a shell leaves its tube after some milliseconds"),
+      plausibly(
+          optional_number_key<Load>("duration", Dimension::time, above_to(0, 1),
+                                    "Simulated time, from the ignition of the propellant on, to look at the "
+                                    "beginning alone; without it the launch is simulated until it is over.",
+                                    &Load::duration),
+          between(1e-3, 0.1), "a shell leaves its tube after some milliseconds"),
       plausibly(number_key("peak", Dimension::pressure, above_to(0, 10e9), Standing::paper,
                            "Largest chamber pressure.", &Load::peak),
                 between(10e6, 1e9), "a mortar has 10 MPa, and no gun tube bears 1 GPa"),
@@ -188,6 +193,32 @@ std::vector<Key<Load>> load_keys() {
                         [](const Load& load) { return load.smoothing != 0.0; }),
           between(1e-6, 1e-3),
           "gauges ring and sample within a millisecond, and a longer average takes from the pulse itself"),
+      plausibly(overriding(optional_number_key<Load>("muzzle_exit", Dimension::time, above_to(0, 1),
+                                                     "Time at which the shot leaves the barrel.",
+                                                     &Load::muzzle_exit),
+                           {"muzzle_travel"}),
+                between(1e-3, 0.1), "a shell leaves its tube after some milliseconds"),
+      plausibly(overriding(optional_number_key<Load>(
+                               "muzzle_travel", Dimension::length, above_to(0, 100),
+                               "Travel of the projectile after which it leaves the barrel; the time follows "
+                               "from the load, or is checked where it is stated.",
+                               &Load::muzzle_travel),
+                           {"muzzle_exit"}),
+                between(0.5, 15), "mortars have a tube of a metre, guns one of 2 to 11 m"),
+      plausibly(
+          written_where(
+              number_key("muzzle_exit_spread", Dimension::time, between(0, 0.1), Standing::assumed,
+                         "Half width (95 %) of the time of the muzzle exit.", &Load::muzzle_exit_spread),
+              [](const Load& load) { return load.muzzle_exit_spread > 0.0; }),
+          between(0, 2e-3), "ignition varies by some tenths of a millisecond"),
+      plausibly(
+          written_where(
+              number_key("exit_decay", Dimension::time, above_to(0, 1), Standing::assumed,
+                         "Time constant with which the pressure falls after the muzzle exit: by default that "
+                         "in which a shell of 155 mm at 800 m/s flies 2.6 calibres.",
+                         &Load::exit_decay),
+              has_exit),
+          between(0.1e-3, 3e-3), "the gas outruns the shot within some calibres"),
   };
 }
 

@@ -3,6 +3,7 @@
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/read_scene.hpp"
+#include "validate_end.hpp"
 
 #include <fmt/format.h>
 
@@ -167,11 +168,11 @@ Fault check_curve_use(const SceneFile& file) {
                     pressure_text(load.peak) + " beside a measured curve, which has a peak of its own",
                     "load.curve alone, or both with load.rescale_to_peak = true");
   }
-  if (load.curve_time.back() < load.duration * (1.0 - 1e-9)) {
+  if (load.duration && load.curve_time.back() < read_time(load) * (1.0 - 1e-9)) {
     const char* key = load.curve_file.empty() ? "load.curve_time" : "load.curve";
     return fault_at(file, key, "a curve that ends at " + time_text(load.curve_time.back()),
-                    "a curve that lasts until the end of the launch, " + time_text(load.duration) +
-                        ", or a shorter load.duration");
+                    "a curve that lasts until the end of the launch, " + time_text(*load.duration) +
+                        ", or no load.duration, with which it ends at its last point");
   }
   return std::nullopt;
 }
@@ -248,7 +249,7 @@ Fault check_load(const SceneFile& file) {
         fmt::format("a base of {} and a peak of {}", pressure_text(load.base), pressure_text(load.peak)),
         "a base pressure of at most the peak");
   }
-  return std::nullopt;
+  return fault_of_end(file);
 }
 
 Fault check_kinetics(const SceneFile& file) {
@@ -409,7 +410,7 @@ Fault check_coupling(const SceneFile& file) {
 }
 
 Fault check_output(const SceneFile& file) {
-  const double duration = file.scene.load.duration;
+  const double duration = end_time(file.scene.load);
   const std::string until = time_text(duration);
   if (file.scene.output.trace_interval > duration) {
     return fault_at(file, "output.trace_interval", time_text(file.scene.output.trace_interval),

@@ -46,6 +46,7 @@ constexpr std::array special_keys{
     NamedRole{"initial_temperature", Role::condition},
     NamedRole{"load.peak", Role::condition},
     NamedRole{"load.curve", Role::none},               // its points count
+    NamedRole{"load.muzzle_exit_spread", Role::none},  // of what is not known, not of the launch
     NamedRole{"charge.crack_radius", Role::condition},
     NamedRole{"charge.flaw_size", Role::condition},
     NamedRole{"gap.thickness", Role::none},            // judged row by row

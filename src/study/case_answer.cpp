@@ -106,7 +106,7 @@ bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input) 
   const scene::Scene& scene = input.scene.scene;
   const double ignition_temperature = scene.charge().kinetics.ignition_temperature;
   // A step may end a little beyond the duration.
-  const double end = scene.load.duration * (1.0 + 1e-6);
+  const double end = scene::end_time(scene.load) * (1.0 + 1e-6);
   const auto is_late = [end](const Peak& peak) { return peak.time > end; };
   if (answer.verdicts.size() != study.gaps.size()) return false;
   if (answer.critical.kind == CriticalGapKind::value &&

@@ -145,6 +145,7 @@ surface::AirEnergy air_of(const json& value) {
 json json_of(const GapVerdict& row) {
   return {{"gap", row.gap},
           {"maximum", json_of(row.maximum)},
+          {"until_exit", json_of(row.until_exit)},
           {"early", json_of(row.early)},
           {"spread", {row.spread, row.early_spread}},
           {"margin", row.margin},
@@ -161,6 +162,7 @@ GapVerdict row_of(const json& value) {
   GapVerdict row;
   row.gap = amount_of(value.at("gap"));
   row.maximum = peak_of(value.at("maximum"));
+  row.until_exit = peak_of(value.at("until_exit"));
   row.early = peak_of(value.at("early"));
   const json& spread = list_of(value.at("spread"), 2);
   row.spread = amount_of(spread.at(0));

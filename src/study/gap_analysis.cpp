@@ -123,8 +123,10 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGrou
   GapVerdict row;
   row.gap = gap.gap;
   row.maximum = peak_of(gap.at_stations, trace);
+  const double read = scene::read_time(scene.load);
+  row.until_exit = peak_of(surface::maximum_until(gap.skin, trace, read), trace);
   row.early = peak_of(surface::maximum_at_time(gap.skin, trace, study.early_time), trace);
-  row.spread = surface::spread_at_time(gap.skin, trace, scene.load.duration);
+  row.spread = surface::spread_at_time(gap.skin, trace, read);
   row.early_spread = surface::spread_at_time(gap.skin, trace, study.early_time);
   row.margin = scene.charge().kinetics.ignition_temperature - gap.at_stations.temperature;
   row.heated = heated_temperature(scene, trace, gap.gap);
@@ -249,7 +251,7 @@ double friction_share(const CaseOutcome& outcome) {
   const materials::Charge& charge = scene.charge();
   const double capacity = charge.eos.initial_density * charge.specific_heat;  // J/(m3 K)
   const double diffused =
-      0.5 * std::sqrt(std::numbers::pi * charge.conductivity * scene.load.duration / capacity);
+      0.5 * std::sqrt(std::numbers::pi * charge.conductivity * scene::end_time(scene.load) / capacity);
   const double heat =
       run::friction_heat_at_bottom(outcome.result.mechanics, scene::charge_extent(scene).x_end);
   return heat / (capacity * std::min(scene.surface.skin_thickness, diffused));

@@ -10,7 +10,7 @@ std::string to_string(surface::IgnitionCause cause) {
 
 double GapVerdict::misfit() const {
   if (!reference || reference->ignited() || ignition) return not_a_number;
-  return maximum.temperature - reference->maximum_temperature;
+  return until_exit.temperature - reference->maximum_temperature;
 }
 
 double GapVerdict::early_misfit() const {

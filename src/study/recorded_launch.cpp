@@ -110,7 +110,7 @@ RecordedLaunch launch_of(const scene::Scene& scene, std::vector<double> gaps) {
   const scene::PressureHistory history(scene.load);
   RecordedLaunch launch;
   launch.peak_pressure = history.peak();
-  launch.duration = scene.load.duration;
+  launch.duration = scene::end_time(scene.load);
   for (std::size_t i = 0; i < shape_instants; ++i) {
     const double time = launch.duration * static_cast<double>(i) / (shape_instants - 1);
     const double pressure = history.at(time);

@@ -1,6 +1,7 @@
 #include "launchsafe/study/run_cases.hpp"
 
 #include "launchsafe/run/model_version.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 
@@ -285,6 +286,16 @@ std::vector<CaseRun> burning_runs(const StudyFile& study, const StudyCase& input
 
 }  // namespace
 
+bool asks_without_exit(const StudyCase& input) {
+  return scene::exit_time(input.scene.scene.load) && !input.scene.scene.load.duration;
+}
+
+scene::Scene in_barrel_without_end(const scene::Scene& scene) {
+  scene::Scene barrel = scene;
+  barrel.load = scene::without_exit(scene.load);
+  return barrel;
+}
+
 std::vector<CaseRuns> case_runs(const StudyFile& study, int shards) {
   std::vector<CaseRun> own(study.cases.size());
   tbb::parallel_for(std::size_t{0}, own.size(), [&](std::size_t i) {
@@ -309,6 +320,14 @@ std::vector<CaseRuns> case_runs(const StudyFile& study, int shards) {
       const StudyCase& first = study.cases[cases[i].members.front()];
       cases[i].runs.push_back(mechanics_run(with_raised_load(first.scene.scene), label_of_raised(first)));
     });
+  }
+  if (study.study.kind.runs_without_exit) {
+    for (CaseRuns& each : cases) {
+      const StudyCase& first = study.cases[each.members.front()];
+      if (asks_without_exit(first))
+        each.runs.push_back(mechanics_run(in_barrel_without_end(first.scene.scene),
+                                          fmt::format("{}, without muzzle exit", first.label)));
+    }
   }
   std::vector<double> costs;
   for (const CaseRuns& each : cases) costs.push_back(each.runs.front().cost);

@@ -17,12 +17,15 @@ void raise(Maximum& most, bool& found, const Maximum& other) {
   found = true;
 }
 
+/// Over the samples up to a time (s).
 template <class Accept>
-Maximum highest(const SkinHistory& history, Accept accept) {
+Maximum highest(const SkinHistory& history, Accept accept,
+                double until = std::numeric_limits<double>::infinity()) {
   const std::size_t stations = history.time.empty() ? 0 : history.temperature.size() / history.time.size();
   Maximum most{not_a_number, 0.0, 0};
   bool found = false;
   for (std::size_t sample = 0; sample < history.time.size(); ++sample) {
+    if (history.time[sample] > until) break;
     for (std::size_t station = 0; station < stations; ++station) {
       if (!accept(station)) continue;
       raise(most, found, {history.temperature[sample * stations + station], history.time[sample], station});
@@ -49,6 +52,14 @@ Maximum maximum_at_stations(const SkinHistory& history, const trace::BottomTrace
 
 Maximum maximum_at_observation_points(const SkinHistory& history, const trace::BottomTrace& trace) {
   return highest(history, [&](std::size_t station) { return trace.stations[station].observation; });
+}
+
+Maximum maximum_until(const SkinHistory& history, const trace::BottomTrace& trace, double time) {
+  Maximum most = highest(
+      history, [&](std::size_t station) { return !trace.stations[station].observation; }, time);
+  bool found = !history.time.empty() && history.time.front() <= time;
+  raise(most, found, maximum_at_time(history, trace, time));
+  return most;
 }
 
 Maximum maximum_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time) {

@@ -52,7 +52,7 @@ TEST_F(FailingCase, ARunawayIsGivenUpAndTriedAgainWithMoreTimeOnly) {
     return run({"study", "study.toml", "-o", output, "--time-limit", limit, "--shard", part}).code;
   };
   const std::string enough = "1h", none = "1e-9s";
-  write_study("\"load.duration\" = \"0.05, 0.06 ms\"");
+  write_study("\"load.duration\" = \"0.15, 0.16 ms\"");
   EXPECT_EQ(shard("1/2", "out", enough), 0);
   const Outcome first = run({"study", "study.toml", "-o", "out", "--time-limit", none});
   EXPECT_EQ(first.code, 3);

@@ -105,7 +105,7 @@ TEST_F(SlurmProgram, AsksForWhatAShardNeeds) {
 
 TEST_F(SlurmProgram, TheTimeFollowsFromTheSlowestShard) {
   write("shell.toml",
-        with(with(tiny_scene, "0.05 ms", "20 ms"), "cell_size = \"5 mm\"", "cell_size = \"0.1 mm\""));
+        with(with(tiny_scene, "0.15 ms", "20 ms"), "cell_size = \"5 mm\"", "cell_size = \"0.1 mm\""));
   const auto minutes = [this](const std::string& jobs) {
     std::filesystem::remove_all(folder() / "out");
     return nlohmann::json::parse(emit({"--jobs", jobs, "--json"}).out)["time_s"].get<double>() / 60.0;

@@ -43,7 +43,7 @@ void check_load(const scene::Scene& given) {
   fuzz::require(std::isfinite(history.peak()), "the peak of the load is a number");
   constexpr int instants = 16;
   for (int i = 0; i <= instants; ++i) {
-    const double pressure = history.at(given.load.duration * i / instants);
+    const double pressure = history.at(scene::end_time(given.load) * i / instants);
     fuzz::require(std::isfinite(pressure) && pressure >= 0.0, "the load is a pressure at any time");
   }
 }

@@ -166,7 +166,7 @@ void expect_edit_of_curve_told() {
   auto file = scene::parse_scene(scene_text(), studies_folder / "scene.toml").value();
   file.scene.load.curve_time = curve->time;
   file.scene.load.curve_pressure = curve->pressure;
-  if (curve->time.back() < file.scene.load.duration) return;  // the reader refuses it
+  if (curve->time.back() < scene::end_time(file.scene.load)) return;  // the reader refuses it
   const GapVerdict row = row_of(file);
   if (row.judgement.verdict != Verdict::safe) return;
   const scene::PressureHistory history(file.scene.load);

@@ -53,7 +53,7 @@ ContactWatch watched_launch(const std::function<void(scene::Scene&)>& change) {
   shell.interfaces = {sliding("wall", 0.1), sliding("base", 0.1), sliding("nose", 0.1)};
   change(shell);
   mpm::Simulation simulation(shell);
-  return watched(simulation, shell.load.duration);
+  return watched(simulation, scene::end_time(shell.load));
 }
 
 void set_friction(scene::Scene& scene, double friction) {
@@ -294,7 +294,7 @@ void break_bonds_of(scene::Scene& shell, double strength) {
 
 /// A load that jumps between nothing and 496 MPa.
 void saw_load(scene::Scene& shell, double period) {
-  for (int k = 0; k * period / 2 < shell.load.duration + period; ++k) {
+  for (int k = 0; k * period / 2 < scene::end_time(shell.load) + period; ++k) {
     shell.load.curve_time.push_back(k * period / 2);
     shell.load.curve_pressure.push_back(k % 2 == 0 ? 1e5 : 496e6);
   }

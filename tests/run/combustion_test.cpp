@@ -84,7 +84,7 @@ TEST(Checkpoints, SaveMostOfARunThatIgnitesLate) {
   scene.combustion.duration = 1e-5;
   const CaseResult continued = continued_run(scene, burning_gap, launch);
   ASSERT_TRUE(continued.gaps.front().skin.ignition.has_value());
-  ASSERT_GT(continued.gaps.front().skin.ignition->time, 0.8 * scene.load.duration);
+  ASSERT_GT(continued.gaps.front().skin.ignition->time, 0.8 * scene::end_time(scene.load));
   // A run that is told to stop does so where it goes on: what it counts from the launch's begin is saved.
   scene.coupling = scene::Coupling::two_way;
   const std::atomic<bool> stop{true};
@@ -278,7 +278,7 @@ TEST(TwoWayCoupling, ACaseKeepsTheCombustionOfTheGapsThatIgnite) {
   const CaseResult result = run_case(scene);
   EXPECT_FALSE(result.gaps[0].combustion.has_value());
   ASSERT_TRUE(result.gaps[1].combustion.has_value());
-  EXPECT_EQ(result.mechanics.end_time, scene.load.duration);
+  EXPECT_EQ(result.mechanics.end_time, scene::end_time(scene.load));
   scene.coupling = scene::Coupling::one_way;
   EXPECT_FALSE(run_case(scene).gaps[1].combustion.has_value());
 }

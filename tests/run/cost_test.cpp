@@ -94,7 +94,8 @@ TEST(Cost, CountsOneSampleAStepAtMost) {
   scene::Scene scene = small_file().scene;
   scene.output.trace_interval = 1e-300;
   const Cost every_step = cost_of(scene);
-  scene.output.trace_interval = scene.load.duration / static_cast<double>(scene::make_plan(scene).steps);
+  scene.output.trace_interval =
+      scene::end_time(scene.load) / static_cast<double>(scene::make_plan(scene).steps);
   EXPECT_NEAR(every_step.trace, cost_of(scene).trace, 1e-6 * every_step.trace);
 }
 

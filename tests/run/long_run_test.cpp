@@ -30,7 +30,7 @@ scene::Scene shell_for(double steps, double pulse, const std::string& keys) {
   const double step = scene::make_plan(scene).time_step;
   scene.load.duration = steps * step;
   scene.load.peak_time = 0.2 * pulse * step;
-  scene.output.trace_interval = scene.load.duration / 100.0;
+  scene.output.trace_interval = scene::end_time(scene.load) / 100.0;
   return scene;
 }
 
@@ -40,7 +40,7 @@ scene::Scene pulsing_shell(double steps) {
   scene::Scene scene =
       shell_for(steps, steps, "charge.crack_growth = false\nnumerics.energy_drift_limit = 100\n");
   for (int i = 0; i <= 2 * pulses; ++i) {
-    scene.load.curve_time.push_back(scene.load.duration * i / (2 * pulses));
+    scene.load.curve_time.push_back(scene::end_time(scene.load) * i / (2 * pulses));
     scene.load.curve_pressure.push_back(i % 2 == 0 ? 0.0 : 20e6);
   }
   return scene;
@@ -57,7 +57,7 @@ scene::Scene decaying_shell(double steps) {
 double momentum_drift(const scene::Scene& scene, const MechanicsResult& result) {
   constexpr int intervals = 100000;
   const scene::PressureHistory load(scene.load);
-  const double end = scene.load.duration;
+  const double end = scene::end_time(scene.load);
   double impulse = 0.0;
   for (int i = 0; i < intervals; ++i) impulse += load.at(end * (i + 0.5) / intervals) * end / intervals;
   double largest = 0.0;
@@ -77,7 +77,7 @@ double energy_gap(const MechanicsResult& result) {
 
 /// Largest energy stored in one of the pulses, J.
 double stored_in(const scene::Scene& scene, const MechanicsResult& result, int pulse) {
-  const double length = scene.load.duration / pulses;
+  const double length = scene::end_time(scene.load) / pulses;
   double stored = 0.0;
   for (const MonitorSample& sample : result.monitor) {
     if (sample.time >= pulse * length && sample.time < (pulse + 1) * length)

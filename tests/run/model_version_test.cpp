@@ -202,7 +202,7 @@ void add_run(Numbers& numbers, const std::string& title, const scene::Scene& sce
   const std::string name = title + ": ";
   for (const double share : {0.25, 0.75, 1.0}) {
     const double pressure =
-        trace::interpolate(bottom.time, bottom.bottom_pressure, share * scene.load.duration);
+        trace::interpolate(bottom.time, bottom.bottom_pressure, share * scene::end_time(scene.load));
     numbers.push_back({name + fmt::format("bottom pressure at {}", share), pressure, 1e-3 * scene.load.peak});
   }
   for (std::size_t closure = 0; closure < bottom.friction.size(); ++closure) {

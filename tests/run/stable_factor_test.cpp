@@ -81,7 +81,7 @@ TEST(StableFactor, OfTheLatticeIsSharp) {
 /// Round-off without a load is no drift.
 TEST(StableFactor, NothingMovesWithoutALoad) {
   scene::Scene scene = small_shell();
-  scene.load.curve_time = {0.0, scene.load.duration};
+  scene.load.curve_time = {0.0, scene::end_time(scene.load)};
   scene.load.curve_pressure = {0.0, 0.0};
   const MechanicsResult run = run_mechanics(scene);
   EXPECT_EQ(run.status, RunStatus::completed) << run.reason;

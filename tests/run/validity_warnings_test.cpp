@@ -1,6 +1,7 @@
 #include "launchsafe/run/validity_warnings.hpp"
 
 #include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -18,6 +19,9 @@ namespace {
 scene::Scene shipped_scene() {
   return scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
 }
+
+/// The shipped load in a barrel without end.
+void take_exit(scene::Load& load) { load = scene::without_exit(load); }
 
 /// A sound run of the shipped scene, made by hand; energies as measured on cells of 2.5 mm.
 MechanicsResult sound_run() {
@@ -66,7 +70,10 @@ TEST(ValidityWarnings, CombustionNeedsTrueInertiaAndAKnownLoad) {
   scene.numerics.steel_inertia = 4.0;
   expect_one(combustion_validity_warnings(scene, combustion), "that of steel by 4");
   scene.numerics.steel_inertia = 1.0;
+  // A decay behind an exit goes on; the last point of a record does not.
   scene.load.curve_time = {0.0, 18e-3};
+  EXPECT_TRUE(combustion_validity_warnings(scene, combustion).empty());
+  take_exit(scene.load);
   expect_one(combustion_validity_warnings(scene, combustion), "0.7 ms before the run");
   scene.load.curve_time = {0.0, 19e-3};
   EXPECT_TRUE(combustion_validity_warnings(scene, combustion).empty());
@@ -154,11 +161,20 @@ void expect_said(const std::function<void(scene::Load&)>& change, const std::str
 }
 
 TEST(ValidityWarnings, ALaunchThatIsNotSimulatedAsItIsStated) {
-  expect_said([](auto&) {}, "", "as shipped: ends at 18 % of its peak");
+  expect_said([](auto&) {}, "", "as shipped: the shot leaves, and the load decays");
+  expect_said([](auto& load) { take_exit(load); }, "", "until the load is over");
   expect_said([](auto& load) { load.peak_time = 15e-3; }, "", "a late peak, passed");
   expect_said([](auto& load) { load.duration = 9e-3; }, "not covered", "cut off while it rises");
-  expect_said([](auto& load) { load.duration = load.peak_time; }, "cut off", "cut off at its peak");
-  expect_said([](auto& load) { load.peak_time = 0.5; }, "not covered", "the peak long after the end");
+  expect_said([](auto& load) { load.duration = load.peak_time; }, "cut short", "cut off at its peak");
+  for (const double end : {14.7e-3, 15e-3, 18e-3})
+    expect_said([end](auto& load) { load.duration = end; }, "cut short",
+                "a duration before the decay is over");
+  expect_said(
+      [](auto& load) {
+        take_exit(load);
+        load.duration = 18e-3;
+      },
+      "cut short", "a duration without an exit");
   expect_said([](auto& load) { load.shape = scene::LoadShape::bell; }, "", "a bell that begins with 0.1 %");
   expect_said(
       [](auto& load) {
@@ -167,30 +183,27 @@ TEST(ValidityWarnings, ALaunchThatIsNotSimulatedAsItIsStated) {
       },
       "begins with", "a bell that begins with 1.2 %");
   const std::vector<Measured> launches{
-      {"measured, covered", {0, 5, 9, 11, 13, 18}, {0.1, 20, 400, 496, 400, 80}, ""},
+      {"measured, covered", {0, 5, 9, 11, 13, 18, 22}, {0.1, 20, 400, 496, 400, 80, 4}, ""},
+      {"measured, not over", {0, 5, 9, 11, 13, 18}, {0.1, 20, 400, 496, 400, 80}, "not over"},
+      {"measured, its last point dropped",
+       {0, 5, 9, 11, 13, 17.999, 18},
+       {0.1, 20, 400, 496, 400, 80, 0},
+       "not over"},
       {"measured, with quiet after it",
        {0, 5, 9, 11, 13, 17, 20, 50},
        {0.1, 20, 400, 496, 400, 80, 2, 0.1},
        ""},
-      {"measured, goes on after the end",
-       {0, 5, 9, 11, 18, 25},
-       {0.1, 20, 400, 496, 90, 30},
-       "after the end"},
-      {"measured, 20 ms of quiet before it", {0, 20, 25, 31, 38}, {0, 0, 20, 496, 80}, "not covered"},
-      {"the same, rescaled", {0, 20, 25, 31, 38}, {0, 0, 20, 400, 80}, "not covered", true},
-      {"measured, its second and larger hump after the end",
-       {0, 5, 10, 15, 18, 25, 30},
-       {0, 50, 200, 50, 40, 450, 10},
-       "44.4 % of its stated peak"},
+      {"measured, 20 ms of quiet before it", {0, 20, 25, 31, 38}, {0, 0, 20, 496, 80}, "not over"},
+      {"the same, rescaled", {0, 20, 25, 31, 38}, {0, 0, 20, 400, 80}, "not over", true},
       {"measured, ends as the second hump begins",
        {0, 5, 8, 12, 16, 18},
        {0, 100, 300, 50, 60, 140},
-       "still rises"},
-      {"measured, cut at its peak", {0, 5, 9, 18}, {0.1, 20, 100, 496}, "still rises"},
-      {"measured, a plateau to the end", {0, 5, 11, 18}, {0.1, 400, 400, 400}, "cut off"},
+       "not over"},
+      {"measured, cut at its peak", {0, 5, 9, 18}, {0.1, 20, 100, 496}, "not over"},
+      {"measured, a plateau to the end", {0, 5, 11, 18}, {0.1, 400, 400, 400}, "not over"},
       {"measured, a gauge that saturates",
-       {0, 5, 7, 9, 11, 13, 15, 18},
-       {0, 60, 240, 250, 250, 250, 240, 70},
+       {0, 5, 7, 9, 11, 13, 15, 18, 20},
+       {0, 60, 240, 250, 250, 250, 240, 2, 2},
        "saturates"},
       {"measured, breaks off as it rises",
        {0, 3, 5, 7, 9, 9.5, 18},
@@ -198,22 +211,23 @@ TEST(ValidityWarnings, ALaunchThatIsNotSimulatedAsItIsStated) {
        "breaks off"},
       {"measured, breaks off more slowly", {0, 3, 5, 7, 9, 10, 18}, {0, 5, 60, 240, 390, 0, 0}, "breaks off"},
       {"measured, no point near the peak",
-       {0, 3, 6, 8.5, 13.5, 18},
-       {0, 5, 120, 380, 390, 70},
+       {0, 3, 6, 8.5, 13.5, 18, 20},
+       {0, 5, 120, 380, 390, 2, 2},
        "no point for"},
       {"measured, points between thousands read as decimals",
-       {0, 3, 3.5, 4, 6, 8, 10, 12, 12.5, 18},
-       {1, 50, 68.7, 0.1, 0.3, 0.5, 0.3, 0.1, 68.6, 1},
+       {0, 3, 3.5, 4, 6, 8, 10, 12, 12.5, 18, 20},
+       {0.5, 50, 68.7, 0.1, 0.3, 0.5, 0.3, 0.1, 68.6, 0.5, 0.5},
        "misread numbers"},
-      {"measured, begins under load", {0, 5, 11, 18}, {60, 300, 496, 80}, "begins with"},
+      {"measured, begins under load", {0, 5, 11, 18, 20}, {60, 300, 496, 2, 2}, "begins with"},
       {"measured, begins before the simulation",
-       {-6, -3, 0, 5, 11, 18},
-       {0, 60, 10, 300, 496, 80},
+       {-6, -3, 0, 5, 11, 18, 20},
+       {0, 60, 10, 300, 496, 2, 2},
        "before the start"},
   };
   for (const Measured& each : launches)
     expect_said(
         [&each](scene::Load& load) {
+          take_exit(load);
           for (const double time : each.time) load.curve_time.push_back(1e-3 * time);
           for (const double pressure : each.pressure) load.curve_pressure.push_back(1e6 * pressure);
           load.rescale_to_peak = each.rescaled;
@@ -252,6 +266,9 @@ TEST(ValidityWarnings, ATraceOfTooFewSamples) {
 /// on the difference to half the samples is larger than the error.
 TEST(ValidityWarnings, FewerSamplesThanTheSamplingErrorNeedsCannotFindIt) {
   scene::Scene scene = shipped_scene();
+  // As it was measured, without the kink of an exit.
+  take_exit(scene.load);
+  scene.load.duration = 18e-3;
   scene.numerics.cell_size = 10e-3;
   scene.numerics.inertial_scaling = 16.0;
   const trace::BottomTrace fine = run_mechanics(scene).trace;

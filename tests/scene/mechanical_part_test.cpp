@@ -123,10 +123,10 @@ TEST(MechanicalPart, HasNoNegativeZeros) {
 TEST(MechanicalPart, HasNoSnapshotsOfIgnitionAndOfWhatFollows) {
   Scene scene = parse_scene(plainly_written_scene, "plain.toml").value().scene;
   scene.coupling = Coupling::two_way;
-  scene.output.snapshot_times = {scene.load.duration + 1e-4, scene.load.duration};
+  scene.output.snapshot_times = {end_time(scene.load) + 1e-4, end_time(scene.load)};
   scene.output.snapshot_events = {Event::first_yield, Event::ignition, Event::burnt};
   const Scene part = mechanical_part(scene);
-  EXPECT_EQ(part.output.snapshot_times, std::vector{scene.load.duration});
+  EXPECT_EQ(part.output.snapshot_times, std::vector{end_time(scene.load)});
   EXPECT_EQ(part.output.snapshot_events, std::vector{Event::first_yield});
   EXPECT_TRUE(parse_scene(to_toml(part), "part.toml"));
 }

@@ -39,8 +39,8 @@ Load pulse(std::size_t points, double smoothing) {
 double impulse(const Load& load) {
   const PressureHistory history(load);
   constexpr int steps = 40'000;
-  const double dt = load.duration / steps;
-  double sum = 0.5 * (history.at(0.0) + history.at(load.duration));
+  const double dt = end_time(load) / steps;
+  double sum = 0.5 * (history.at(0.0) + history.at(end_time(load)));
   for (int i = 1; i < steps; ++i) sum += history.at(i * dt);
   return sum * dt;
 }

@@ -29,6 +29,7 @@ TEST(SceneKeys, EveryKeyIsDocumentedOnce) {
 
 TEST(SceneKeys, EveryDefaultIsAllowedAndReadsBack) {
   for (const Key<Scene>& key : scene_keys()) {
+    if (key.standing == Standing::input) continue;  // only the user can say it
     const std::string line = "value = " + exact_toml(key, key.default_value());
     const auto table = parse_toml(line, "defaults.toml");
     ASSERT_TRUE(table) << line;

@@ -115,7 +115,7 @@ TEST(Scene, PublishedBellLaunchesTheShellLikeAGun) {
   const RigidMotion end = rigid_motion(scene, 18e-3);
   EXPECT_NEAR(end.velocity, 796.0, 0.5);
   EXPECT_NEAR(end.travel, 5.26, 0.005);
-  EXPECT_EQ(rigid_motion_text(scene), "795.8 m/s after 5.26 m of travel");
+  EXPECT_EQ(rigid_motion_text(scene, 18e-3), "795.8 m/s after 5.26 m of travel");
 }
 
 // v = a t and s = a t^2/2.

@@ -29,7 +29,7 @@ void measure(scene::Load& load, int points, double noise) {
   std::vector<double> time, pressure;
   for (int i = 0; i < points; ++i) {
     const double swing = (i % 2 == 0 ? noise : -noise) * load.peak;
-    time.push_back(load.duration * i / (points - 1));
+    time.push_back(scene::end_time(load) * i / (points - 1));
     pressure.push_back(std::max(0.0, history.at(time.back()) + swing));
   }
   load.curve_time = time;
@@ -82,7 +82,8 @@ TEST(RecordedLaunch, GrowsWithWhatDrivesTheErrorsAndNeverShrinks) {
            [](auto& s) { s.load.peak *= 0.3; },
            [](auto& s) { s.charge().strength.initial_crack_radius = 0.0; },
            [](auto& s) { s.surface.localisation = 0.0; },
-           [](auto& s) { s.charge().strength.flaw_size *= 10.0; }, [](auto& s) { s.load.duration *= 0.8; }})
+           [](auto& s) { s.charge().strength.flaw_size *= 10.0; },
+           [](auto& s) { s.load.duration = 0.8 * scene::end_time(s.load); }})
     EXPECT_EQ(growth(smaller), 1.0);
 }
 
@@ -121,7 +122,7 @@ TEST(RecordedLaunch, DoesNotCoverAnotherLoad) {
         const scene::PressureHistory history(load);
         scene::Load delayed = load;
         for (int i = 0; i <= 200; ++i) {
-          const double time = load.duration * i / 200;
+          const double time = scene::end_time(load) * i / 200;
           delayed.curve_time.push_back(time);
           delayed.curve_pressure.push_back(history.at(std::max(0.0, time - 4e-3)));
         }

@@ -71,7 +71,7 @@ inline double friction_for(double kelvin) { return kelvin * 1717.0 * 1780.0 / 17
 
 inline run::MechanicsResult synthetic_mechanics(const scene::Scene& scene, double kelvin = 116.1) {
   run::MechanicsResult result;
-  result.end_time = scene.load.duration;
+  result.end_time = scene::end_time(scene.load);
   result.steps = 1000;
   result.particles = 10;
   result.wall_time = 1.0;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -175,6 +176,18 @@ auto number_key(std::string name, Dimension dimension, Limits limits, Standing s
       description(std::move(name), KeyKind::number, standing, std::move(sentence), dimension, limits), member,
       [](Number& number, const Value& value) { number = static_cast<Number>(std::get<double>(value)); },
       [](const Number& number) { return static_cast<double>(number); });
+}
+
+/// A quantity that may be absent: it has no default, and is written back only where it is stated.
+template <class Owner>
+Key<Owner> optional_number_key(std::string name, Dimension dimension, Limits limits, std::string sentence,
+                               std::optional<double> Owner::*member) {
+  auto key = bound_key<Owner>(
+      description(std::move(name), KeyKind::number, Standing::input, std::move(sentence), dimension, limits),
+      member, [](auto& number, const Value& value) { number = std::get<double>(value) + 0.0; },
+      [](const auto& number) { return number.value_or(0.0); });
+  key.is_written = [member](const Owner& owner) { return (owner.*member).has_value(); };
+  return key;
 }
 
 template <class Named = void, class Member>

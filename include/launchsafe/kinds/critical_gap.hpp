@@ -55,6 +55,8 @@ report::Table coupled_run_table(const CriticalGapResult& result);
 /// Highest temperatures and critical gaps under the reservoir and under the film of air, by name; no rows
 /// where the study's own air is no reservoir.
 report::Table air_model_table(const CriticalGapResult& result);
+/// Highest temperatures and critical gaps with and without the muzzle exit; no rows where there is none.
+report::Table without_exit_table(const CriticalGapResult& result);
 /// What the skin took from the air of every gap of every case, and what follows from it.
 report::Table air_energy_table(const CriticalGapResult& result);
 /// Lines of one case and their residuals.

@@ -19,9 +19,9 @@ std::vector<std::string> validity_warnings(const scene::Scene& scene, const Mech
 std::vector<std::string> combustion_validity_warnings(const scene::Scene& scene,
                                                       const CombustionHistory& combustion);
 
-/// What of the stated load lies outside the simulated time, a clause each for people; nothing for a launch
-/// that begins at rest, reaches its stated peak, and ends after it with all that was measured. A launch may
-/// end at the stated duration while pressure is left, as the shell leaves the barrel.
+/// What of the launch lies outside the simulated time, a clause each for people; nothing for one that begins
+/// at rest, reaches its stated peak, and is over at the end: at a hundredth of its peak pressure, or where
+/// the scene states the muzzle exit, behind which the pressure decays (scene/launch_end.hpp).
 std::vector<std::string> uncovered_load(const scene::Load& load);
 
 }  // namespace launchsafe::run

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -55,9 +56,11 @@ struct Body {
 /// Pressure on the base. Either a measured curve or, over time t, one of the analytic shapes
 ///   bell                p0 + (peak - p0) exp(-|(t - t_m)/w|^a)
 ///   power-exponential   p0 + (peak - p0) ((t/t_m) exp(1 - t/t_m))^n, which is p0 before 0.
+/// Where the shot leaves a muzzle, the pressure falls from then on by exp(-t/exit_decay) to p0, of a measured
+/// curve to 0.
 struct Load {
   LoadShape shape = LoadShape::bell;
-  double duration = 18e-3;             ///< s
+  std::optional<double> duration;      ///< s, where not all of the launch is simulated: see `end_time`
   double peak = 496e6;                 ///< Pa
   double base = 101325.0;              ///< p0, Pa
   double peak_time = 11.4418e-3;       ///< t_m, s [C]
@@ -69,7 +72,23 @@ struct Load {
   std::vector<double> curve_pressure;  ///< Pa, one for every time
   bool rescale_to_peak = false;        ///< scale the measured curve, smoothed, so that its maximum is `peak`
   double smoothing = 0.0;              ///< s; window over which a measured curve is averaged, 0 = as measured
+  std::optional<double> muzzle_exit;   ///< s, when the shot leaves the barrel
+  std::optional<double> muzzle_travel;  ///< m, after which it does; beside `muzzle_exit` only a check of it
+  double muzzle_exit_spread = 0.0;      ///< s, 95 % half width of the time of the exit
+  double exit_decay = 5e-4;             ///< s, time constant of the pressure after the exit
+  /// kg/m2 of the whole projectile over its base, with which `muzzle_travel` is reached. It follows from the
+  /// bodies: `settle_load` sets it, and reading a scene calls that.
+  double mass_over_area = 0.0;
 };
+
+/// When the shot leaves the barrel, s: as the load states, or when the projectile as one rigid body has
+/// travelled `muzzle_travel`. None where neither is stated, or that far it never comes.
+std::optional<double> exit_time(const Load& load);
+/// When the simulation ends, s: at `duration` where that is stated, else when the launch is over
+/// (launch_end.hpp).
+double end_time(const Load& load);
+/// When published values at the end of a launch are read, s: at the exit where there is one, else at the end.
+double read_time(const Load& load);
 
 using materials::Charge;
 using materials::Steel;
@@ -288,11 +307,10 @@ struct RigidMotion {
 };
 /// At a time (s); nothing holds the projectile back.
 RigidMotion rigid_motion(const Scene& scene, double time);
-/// For people, at the end of the load: "796 m/s after 5.26 m of travel".
-std::string rigid_motion_text(const Scene& scene);
-
-/// s, up to which published highest temperatures are read: the end of the launch.
-double read_time(const Load& load);
+/// For people: "796 m/s after 5.26 m of travel".
+std::string rigid_motion_text(const Scene& scene, double time);
+/// Sets what of the load follows from the bodies. A program that states a `muzzle_travel` calls it.
+void settle_load(Scene& scene);
 
 /// Chamber pressure (Pa) on the base at time t (s); monotone cubic (PCHIP) through a measured curve of at
 /// least two points at increasing times, held constant outside it. Curves of two or three points are joined
@@ -302,14 +320,14 @@ class PressureHistory {
  public:
   explicit PressureHistory(const Load& load);
   double at(double time) const;
-  /// Largest pressure over the load's duration, Pa, and when it is, s.
+  /// Largest pressure until the end of the simulation, Pa, and when it is, s.
   double peak() const { return largest().pressure; }
   double peak_time() const { return largest().time; }
-  /// Largest pressure of the whole load as stated, Pa, whatever the duration: `load.peak` of the analytic
+  /// Largest pressure of the whole load as stated, Pa, whatever the end: `load.peak` of the analytic
   /// shape, the largest point of a measured curve before smoothing, in the scale of `at`.
   double stated_peak() const;
-  /// Times from 0 to the duration, both included, at which the curvature of a measured curve changes: what it
-  /// does is seen at these. For the analytic shape only the ends.
+  /// Times from 0 to the end of the simulation, both included, at which the curvature of a measured curve
+  /// changes: what it does is seen at these. For the analytic shape only the ends, and the exit.
   std::vector<double> marks() const;
 
  private:
@@ -317,11 +335,15 @@ class PressureHistory {
     double time, pressure;
   };
   State largest() const;
+  void join_points();
+  double in_the_barrel(double time) const;
 
   Load load_;
   std::function<double(double)>
       curve_;  ///< between the first and the last point; empty for the analytic shape
   double scale_ = 1.0;
+  double exit_ = std::numeric_limits<double>::infinity();  ///< s
+  double exit_pressure_ = 0.0, pressure_outside_ = 0.0;    ///< Pa
 };
 
 }  // namespace launchsafe::scene

@@ -44,6 +44,8 @@ CaseOutcome without_result(const Study& study, const StudyCase& input, RunOutcom
 
 /// The gaps of the study and the critical gap with air as a film, on the same trace.
 void evaluate_film(const Study& study, CaseOutcome& outcome);
+/// The same in a barrel without end, on the mechanics of that launch.
+void evaluate_without_exit(const Study& study, const run::MechanicsResult& mechanics, CaseOutcome& outcome);
 
 /// What the confirmations say about the critical gap: a disagreement makes it indeterminate.
 void apply_confirmations(const Study& study, CaseOutcome& outcome);

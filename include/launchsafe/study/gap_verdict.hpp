@@ -32,8 +32,9 @@ std::string to_string(surface::IgnitionCause cause);
 struct GapVerdict {
   double gap = 0;                      ///< m
   Peak maximum;                        ///< over the stations: what the verdict uses
+  Peak until_exit;                     ///< the same until scene::read_time: what a reference is compared with
   Peak early;                          ///< the same at Study::early_time
-  double spread = not_a_number;        ///< K, over the stations at the end
+  double spread = not_a_number;        ///< K, over the stations at scene::read_time
   double early_spread = not_a_number;  ///< K, at Study::early_time
   double margin = not_a_number;        ///< K, to the ignition temperature
   double heated = not_a_number;  ///< K, T max of a skin that air and friction heat and that never reacts
@@ -43,7 +44,7 @@ struct GapVerdict {
   Evidence evidence;                      ///< what the judgement rests on
   Judgement judgement;
   std::optional<Reference> reference;
-  /// K, this minus the reference; NaN without one or where either ignited
+  /// K, this until the exit minus the reference; NaN without one or where either ignited
   double misfit() const;
   double early_misfit() const;
 };
@@ -68,9 +69,8 @@ struct Confirmation {
   bool agrees() const { return completed && ignited == expected_ignition; }
 };
 
-/// The same case with its air as a film that conserves energy: the optimistic bound beside the reservoir. It
-/// gives no verdict.
-struct FilmBound {
+/// The same case on other terms, which stands beside the answer and gives no verdict.
+struct OtherAnswer {
   std::vector<double> maximum_temperature;  ///< K, of the charge's surface, for every gap of the study
   CriticalGap critical;                     ///< without an uncertainty
 };
@@ -89,7 +89,11 @@ struct CaseOutcome {
   std::vector<Confirmation> confirmations;
   std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps
   std::optional<GapFit> fit;         ///< over the rows that do not ignite
-  std::optional<FilmBound> film;     ///< of a completed run with the reservoir
+  /// With air as a film that conserves energy, an optimistic bound: of a completed run with the reservoir.
+  std::optional<OtherAnswer> film;
+  /// In a barrel without end, where the launch has a muzzle exit; indeterminate where that run did not
+  /// complete.
+  std::optional<OtherAnswer> without_exit;
   bool completed() const { return failure.empty(); }
 };
 

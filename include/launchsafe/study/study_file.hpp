@@ -32,6 +32,7 @@ struct KindTraits {
   bool keeps_answers = false;          ///< what is concluded of a case is stored beside its runs
   bool own_scenes = false;             ///< cases may bring scenes and uncertainties of their own
   bool goes_through_ignition = false;  ///< gaps of cases with two-way coupling are run through ignition too
+  bool runs_without_exit = false;      ///< launches with a muzzle exit are also run in a barrel without end
 };
 
 /// A scene key that the cases of a study vary.
@@ -51,15 +52,15 @@ std::string to_string(Use use);
 /// A row of published results to compare with; what it does not say is NaN or empty.
 struct Reference {
   double gap = not_a_number;                  ///< m, >= 0
-  double maximum_temperature = not_a_number;  ///< K, over the whole launch
+  double maximum_temperature = not_a_number;  ///< K, until the exit, or over the whole launch without one
   std::string point;                          ///< where that was
   double early_temperature = not_a_number;    ///< K, highest at Study::early_time
   std::string early_point;                    ///< where that was
-  double spread = not_a_number;               ///< K, highest minus lowest observation point at the end
-  double early_spread = not_a_number;         ///< K, likewise at Study::early_time
-  double ignition_time = not_a_number;        ///< s; NaN for a gap that did not ignite
-  double rise_begins = not_a_number;          ///< s, from when on the temperature rises fast
-  double rise_ends = not_a_number;            ///< s, until when
+  double spread = not_a_number;         ///< K, highest minus lowest observation point at the exit, or the end
+  double early_spread = not_a_number;   ///< K, likewise at Study::early_time
+  double ignition_time = not_a_number;  ///< s; NaN for a gap that did not ignite
+  double rise_begins = not_a_number;    ///< s, from when on the temperature rises fast
+  double rise_ends = not_a_number;      ///< s, until when
   bool calibrated = false;  ///< constants, and the load where one is fitted, are fitted to the row
   bool selection = false;   ///< what is not fitted of the row was seen when a form of the model was picked
   bool ignited() const { return ignition_time == ignition_time; }

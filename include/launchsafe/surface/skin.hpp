@@ -85,6 +85,8 @@ Maximum maximum_at_observation_points(const SkinHistory& history, const trace::B
 double temperature_at_time(const SkinHistory& history, const trace::BottomTrace& trace, std::size_t station,
                            double time);
 /// Highest temperature of the stations at time t (s), and the spread (max - min) over them.
+/// Highest up to a time (s), over the stations.
+Maximum maximum_until(const SkinHistory& history, const trace::BottomTrace& trace, double time);
 Maximum maximum_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time);
 double spread_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time);
 

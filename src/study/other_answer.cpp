@@ -1,0 +1,70 @@
+// The gaps of a case on other terms than those of its verdicts: with air that conserves energy, and without a
+// muzzle exit.
+#include "launchsafe/study/gap_analysis.hpp"
+#include "launchsafe/study/run_cases.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace launchsafe::study {
+namespace {
+
+/// None of some gaps up to the last one ignites.
+CriticalGap none_up_to(double largest, std::size_t gaps) {
+  CriticalGap bound;
+  bound.kind = CriticalGapKind::all_safe;
+  bound.lower = largest;
+  bound.reason = fmt::format("none of {} gaps up to {:.6g} cm ignites", gaps, 100.0 * largest);
+  return bound;
+}
+
+OtherAnswer answer_on(const Study& study, const surface::SkinModel& model, const trace::BottomTrace& trace) {
+  std::vector<double> gaps = study.gaps;
+  gaps.push_back(largest_gap(study));
+  std::vector<double> temperatures(gaps.size());
+  std::vector<GapState> states(gaps.size());
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t i) {
+      const auto history = surface::integrate_skin(model, trace, gaps[i]);
+      temperatures[i] = surface::maximum_at_stations(history, trace).temperature;
+      states[i] = state_of(history);
+    });
+  });
+  OtherAnswer answer;
+  answer.maximum_temperature.assign(temperatures.begin(), temperatures.end() - 1);
+  const bool all_safe =
+      std::all_of(states.begin(), states.end(), [](GapState state) { return state == GapState::safe; });
+  answer.critical =
+      all_safe ? none_up_to(gaps.back(), gaps.size())
+               : find_critical_gap([&](double gap) { return state_of(surface::ignites(model, trace, gap)); },
+                                   gaps.back(), study.tolerance);
+  return answer;
+}
+
+}  // namespace
+
+void evaluate_film(const Study& study, CaseOutcome& outcome) {
+  const scene::Scene& scene = outcome.input.scene.scene;
+  const trace::BottomTrace& trace = outcome.result.mechanics.trace;
+  if (!outcome.completed() || trace.samples() == 0 || scene.surface.air_model != scene::AirModel::reservoir)
+    return;
+  surface::SkinModel model = surface::skin_model(scene);
+  model.surface.air_model = scene::AirModel::film;
+  outcome.film = answer_on(study, model, trace);
+}
+
+void evaluate_without_exit(const Study& study, const run::MechanicsResult& mechanics, CaseOutcome& outcome) {
+  if (mechanics.status == run::RunStatus::completed && mechanics.trace.samples() > 0) {
+    const scene::Scene barrel = in_barrel_without_end(outcome.input.scene.scene);
+    outcome.without_exit = answer_on(study, surface::skin_model(barrel), mechanics.trace);
+    return;
+  }
+  OtherAnswer none{std::vector<double>(study.gaps.size(), not_a_number), {}};
+  none.critical.reason = "the run without muzzle exit: " + failure_of(mechanics);
+  outcome.without_exit = std::move(none);
+}
+
+}  // namespace launchsafe::study

@@ -1,0 +1,190 @@
+// When a launch is over: analytic loads and measured curves, with and without a muzzle exit.
+#include "launchsafe/scene/launch_end.hpp"
+
+#include "launchsafe/scene/mechanical_part.hpp"
+#include "launchsafe/scene/plausibility.hpp"
+#include "launchsafe/scene/read_scene.hpp"
+#include "scene_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace launchsafe::scene {
+namespace {
+
+/// The bell that the publication's numbers imply.
+Load bell() {
+  Load load;
+  load.shape = LoadShape::bell;
+  load.peak_time = 11.49e-3;
+  load.width = 3.03e-3;
+  load.steepness = 1.44;
+  return load;
+}
+
+Load curve(std::vector<double> time, std::vector<double> pressure) {
+  Load load;
+  load.curve_time = std::move(time);
+  load.curve_pressure = std::move(pressure);
+  return load;
+}
+
+/// The shipped shell under the bell, with lines of [load] in place of its muzzle exit.
+Expected<SceneFile> shell_with(const std::string& lines) {
+  auto text = read_text_file(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value();
+  const std::string exit = "muzzle_exit = \"18 ms\"";
+  text.replace(
+      text.find(exit), exit.size(),
+      "shape = \"bell\"\npeak_time = \"11.49 ms\"\nwidth = \"3.03 ms\"\nsteepness = 1.44\n" + lines + "\n");
+  return parse_scene(text, "shell.toml");
+}
+
+std::string fault_of(const std::string& lines) {
+  const auto file = shell_with(lines);
+  return file ? std::string{} : file.error().message();
+}
+
+void expect_fault(const std::string& lines, const std::vector<std::string>& parts) {
+  const std::string fault = fault_of(lines);
+  for (const std::string& part : parts)
+    EXPECT_NE(fault.find(part), std::string::npos) << lines << ": " << fault;
+}
+
+// 11.49 ms + 3.03 ms (ln 100)^(1/1.44) = 20.24 ms, by hand.
+TEST(LaunchEnd, ABellIsOverWhereAHundredthOfItsPeakIsLeft) {
+  const Load load = bell();
+  EXPECT_NEAR(launch_end(load), 20.24e-3, 0.01e-3);
+  EXPECT_NEAR(share_left(load, end_time(load)), share_when_over, 1e-12);
+  EXPECT_EQ(read_time(load), end_time(load));
+}
+
+// The definition itself, over exponents from cusps to spikes.
+TEST(LaunchEnd, APowerExponentialIsOverWhereAHundredthOfItsPeakIsLeft) {
+  for (const double exponent : {0.2, 1.0, 3.0, 13.578, 1000.0}) {
+    Load load;
+    load.exponent = exponent;
+    EXPECT_GT(launch_end(load), load.peak_time);
+    EXPECT_NEAR(share_left(load, launch_end(load)), share_when_over, 1e-10) << exponent;
+  }
+}
+
+TEST(LaunchEnd, AMeasuredCurveIsOverAtItsLastPoint) {
+  EXPECT_EQ(end_time(curve({0, 5e-3, 9e-3, 17e-3}, {0, 400e6, 100e6, 1e6})), 17e-3);
+}
+
+TEST(LaunchEnd, ADurationCutsALaunchShort) {
+  Load load = bell();
+  load.duration = 15e-3;
+  EXPECT_EQ(end_time(load), 15e-3);
+  EXPECT_TRUE(is_cut_short(load));
+  load.duration = 21e-3;
+  EXPECT_FALSE(is_cut_short(load));
+  // A gauge that goes on after the pressure is gone.
+  Load quiet = curve({0, 5e-3, 9e-3, 17e-3, 30e-3}, {0, 400e6, 100e6, 1e6, 0});
+  quiet.duration = 18e-3;
+  EXPECT_FALSE(is_cut_short(quiet));
+  quiet.duration = 12e-3;
+  EXPECT_TRUE(is_cut_short(quiet));
+}
+
+// exp(-(6.51/3.03)^1.44) = 0.0494 of the peak at 18 ms; 18 ms + 0.5 ms ln 4.94 = 18.80 ms.
+TEST(LaunchEnd, BehindTheExitThePressureDecaysToTheBase) {
+  Load load = bell();
+  load.muzzle_exit = 18e-3;
+  const PressureHistory barrel(bell()), history(load);
+  EXPECT_EQ(history.at(17.9e-3), barrel.at(17.9e-3));
+  EXPECT_NEAR(history.at(18.5e-3) - load.base, (barrel.at(18e-3) - load.base) / std::exp(1.0), 1.0);
+  EXPECT_NEAR(end_time(load), 18.80e-3, 0.01e-3);
+  EXPECT_NEAR(share_left(load, end_time(load)), share_when_over, 1e-12);
+  EXPECT_EQ(read_time(load), 18e-3);
+  load.exit_decay = 1e-3;
+  EXPECT_NEAR(end_time(load), 19.60e-3, 0.02e-3);
+}
+
+TEST(LaunchEnd, BehindTheExitOfAMeasuredCurveThePressureDecaysToNothing) {
+  Load load = curve({0, 5e-3, 9e-3, 17e-3}, {0, 400e6, 100e6, 60e6});
+  load.muzzle_exit = 9e-3;
+  const PressureHistory history(load);
+  EXPECT_NEAR(history.at(9.5e-3), 100e6 / std::exp(1.0), 1.0);
+  EXPECT_NEAR(end_time(load), 9e-3 + 0.5e-3 * std::log(25.0), 1e-9);
+}
+
+TEST(LaunchEnd, TheSpreadOfAnExitGivesItsEarliestAndLatestTime) {
+  Load load = bell();
+  EXPECT_FALSE(exit_window(load));
+  load.muzzle_exit = 18e-3;
+  load.muzzle_exit_spread = 0.3e-3;
+  EXPECT_DOUBLE_EQ(exit_window(load)->earliest, 17.7e-3);
+  EXPECT_DOUBLE_EQ(exit_window(load)->latest, 18.3e-3);
+}
+
+// 5.26 m until 18 ms: the double integral of p(t) A/m by another program (scene_test.cpp).
+TEST(LaunchEnd, AnExitMayBeStatedAsATravel) {
+  const auto file = shell_with("muzzle_travel = \"5.26 m\"");
+  ASSERT_TRUE(file) << file.error().message();
+  const Load& load = file->scene.load;
+  EXPECT_NEAR(*exit_time(load), 18e-3, 0.01e-3);
+  // A load that pushes harder drives the shot out earlier.
+  Load raised = load;
+  raised.peak *= 1.04;
+  EXPECT_LT(*exit_time(raised), *exit_time(load) - 0.1e-3);
+  EXPECT_LT(end_time(raised), end_time(load));
+  // The mechanics knows the time alone, however it was stated.
+  const Load part = mechanical_part(file->scene).load;
+  EXPECT_EQ(part.muzzle_exit, exit_time(load));
+  EXPECT_FALSE(part.muzzle_travel);
+  const auto again = parse_scene(to_toml(file->scene), "again.toml");
+  ASSERT_TRUE(again) << again.error().message();
+  EXPECT_EQ(exit_time(again->scene.load), exit_time(load));
+}
+
+TEST(LaunchEnd, ATravelBesideATimeIsACheck) {
+  EXPECT_EQ(fault_of("muzzle_exit = \"18 ms\"\nmuzzle_travel = \"5.2 m\""), "");
+  expect_fault("muzzle_exit = \"18 ms\"\nmuzzle_travel = \"6 m\"",
+               {"shell.toml:", "load.muzzle_travel", "6 m", "5.26 m until load.muzzle_exit", "within 5 %"});
+}
+
+TEST(LaunchEnd, AnExitThatIsNoneIsRefused) {
+  expect_fault("muzzle_exit = \"21 ms\"", {"shell.toml:", "load.muzzle_exit", "after the end", "20.2"});
+  expect_fault("muzzle_exit = \"11 ms\"", {"load.muzzle_exit", "not after the peak", "11.49 ms"});
+  expect_fault("muzzle_travel = \"0.5 m\"", {"load.muzzle_travel", "not after the peak"});
+  expect_fault("muzzle_travel = \"9 m\"", {"load.muzzle_travel", "does not reach", "at most"});
+  expect_fault("exit_decay = \"1 ms\"", {"load.exit_decay", "not stated", "load.muzzle_exit"});
+  expect_fault("muzzle_exit_spread = \"1 ms\"",
+               {"load.muzzle_exit_spread", "not stated", "load.muzzle_exit"});
+}
+
+TEST(LaunchEnd, NoGunLetsTheShotGoAtAThirdOfThePeakOrAfterTenCalibres) {
+  const auto keys_of = [](const std::string& exit) {
+    std::vector<std::string> keys;
+    for (const Implausible& each : implausible_values(shell_with("muzzle_exit = \"" + exit + "\"")->scene))
+      keys.push_back(each.key);
+    return keys;
+  };
+  EXPECT_EQ(keys_of("18 ms"), std::vector<std::string>{});
+  // At 14 ms 47 % of the peak are left, and the shell is at 2.2 m or 14 calibres; at 12.5 ms at 1.2 m or 8.
+  EXPECT_EQ(keys_of("14 ms"), std::vector<std::string>{"load.exit_pressure"});
+  EXPECT_EQ(keys_of("12.5 ms"), (std::vector<std::string>{"load.exit_pressure", "load.exit_calibres"}));
+}
+
+TEST(LaunchEnd, TextsSayHowTheShotLeavesAndWhyTheSimulationEnds) {
+  const auto exit = shell_with("muzzle_exit = \"18 ms\"");
+  EXPECT_EQ(exit_text(exit->scene),
+            "795.8 m/s after 5.26 m of travel, at 18 ms with 4.94 % of the peak pressure");
+  EXPECT_NE(
+      end_text(exit->scene).find("with 1 % of the peak pressure, when the decay after the exit is over"),
+      std::string::npos);
+  const auto barrel = shell_with("");
+  EXPECT_EQ(exit_text(barrel->scene), "");
+  EXPECT_NE(end_text(barrel->scene).find("when the load is over"), std::string::npos);
+  const auto cut = shell_with("duration = \"15 ms\"");
+  EXPECT_NE(end_text(cut->scene).find("cut short by load.duration"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace launchsafe::scene
