@@ -187,12 +187,12 @@ TEST(CalibrationReport, SaysWhatTheEvidenceSupports) {
   const Folder folder;
   // The synthetic launch has one load, whatever the scene says.
   StudyFile shipped = *read_study(studies_folder / "calibrate_table8.toml");
-  study::settings_of<kinds::CalibrationSettings>(shipped.study).fast_rise.clear();
+  study::settings_of<kinds::CalibrationSettings>(shipped.study).load_fitted = false;
   const CalibrationResult result = run_calibration(shipped, synthetic_options());
   const auto json = json_of(result);
   EXPECT_EQ(json["calibrations"].size(), result.rows.size());
   EXPECT_GE(json["calibrations"].size(), 6u);
-  EXPECT_FALSE(json["hold_outs"].empty());
+  EXPECT_FALSE(json["compared"].empty());
   EXPECT_FALSE(json["placements"].empty());
   ASSERT_TRUE(result.recommendation.row.has_value()) << result.recommendation.reason;
   EXPECT_FALSE(kinds::constants_table(result).rows.empty());

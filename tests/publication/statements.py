@@ -34,9 +34,9 @@ QUANTITIES = {
     "hottest point": ("", 0, "the station that is hottest at the time"),
     "hottest part": ("", 0, "the third of the bottom's radius in which that station lies: centre, between or outer"),
     "spread": ("K", 1, "highest less lowest temperature of the stations"),
-    "fast rise begins": ("ms", 2, "when the rate of the highest temperature, over 0.5 ms, first exceeds half of its "
-                         "largest before an ignition"),
-    "fast rise ends": ("ms", 2, "when that rate last falls below that half"),
+    "fast rise begins": ("ms", 2, "when the rate of the highest temperature, over 0.5 ms, first rises "
+                         "above 15 % of its largest before an ignition"),
+    "fast rise ends": ("ms", 2, "when that rate last falls below that"),
     "reaches": ("ms", 2, "when the station, or the first one, comes to the level"),
     "ignition": ("ms", 2, "of the first station"),
     "ignition point": ("", 0, "that station"),
@@ -83,13 +83,14 @@ class Launch:
         return {ring: interpolate(self.time, values, time) for ring, values in self.rings.items()}
 
     def fast_rise(self):
-        """Rates of the highest temperature in windows of 0.5 ms before an ignition: begin and end of the fast rise."""
+        """Begin and end of the fast rise: a rate of the highest temperature, in windows of 0.5 ms before an ignition, above
+        15 % of its largest."""
         half, end = 0.25, self.ignition or float("inf")
         time = [t for t in self.time if t < end]
         highest = self.highest[:len(time)]
         middle = [t for t in time if time[0] + half <= t <= time[-1] - half]
         rate = [interpolate(time, highest, t + half) - interpolate(time, highest, t - half) for t in middle]
-        passed = list(crossings(middle, rate, 0.5 * max(rate)))
+        passed = list(crossings(middle, rate, 0.15 * max(rate)))
         begin = next((t for t, rises in passed if rises), None)
         return begin, passed[-1][0] if passed and not passed[-1][1] else None
 

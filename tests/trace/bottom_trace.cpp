@@ -56,6 +56,19 @@ TEST(ThinnedTrace, KeepsTheIntegralOfThePressure) {
   }
 }
 
+TEST(Trace, UntilATimeEndsWithTheLastSampleBefore) {
+  const BottomTrace whole = example(9);
+  const BottomTrace cut = until(whole, whole.time[5]),
+                    between = until(whole, 0.5 * (whole.time[5] + whole.time[6]));
+  for (const BottomTrace& each : {cut, between}) {
+    EXPECT_EQ(each.samples(), 6u);
+    EXPECT_EQ(each.time.back(), whole.time[5]);
+    EXPECT_EQ(each.mean_chamber_pressure[3], whole.mean_chamber_pressure[3]);
+    EXPECT_EQ(each.friction[1].size(), 12u);
+  }
+  EXPECT_EQ(until(whole, 2.0 * whole.time.back()).samples(), 9u);
+}
+
 TEST(ThinnedTrace, OfNothingIsNothing) { EXPECT_EQ(thinned(BottomTrace{}).samples(), 0u); }
 
 TEST(ThinnedTrace, LeavesOutAClosureThatWasNotTraced) {
