@@ -228,7 +228,7 @@ TEST_F(RecordedStudy, CarriesABoundToOtherLaunchesOnlySoFar) {
                                {"gaps = \"0, 0.2 cm\"\n", assumed},
                                {"[set]\nload.exponent = 11\n", own},
                                {"[set]\nload.exponent = 4\n", assumed},
-                               {"[set]\nload.peak_time = \"5 ms\"\n", assumed},
+                               {"[set]\nload.peak_time = \"5 ms\"\nload.muzzle_exit = \"9 ms\"\n", assumed},
                                {"[set]\nload.duration = \"30 ms\"\n", assumed},
                                {"[set]\nfriction.localisation = 3016.18\n", 2.0 * own},
                                {"[set]\nfriction.localisation = 5000\n", assumed},
