@@ -78,14 +78,14 @@ double propagated_share(const CaseOutcome& outcome, const GapVerdict& row) {
 }
 
 /// K by which all heat of friction between charge and base could heat the charge's surface: in the skin, or,
-/// where that is thinner, as deep as heat diffuses over the launch at a constant rate (Carslaw & Jaeger
+/// where that is thinner, as deep as heat diffuses until the exit at a constant rate (Carslaw & Jaeger
 /// 1959, 2.9).
 double friction_share(const CaseOutcome& outcome) {
   const scene::Scene& scene = outcome.input.scene.scene;
   const materials::Charge& charge = scene.charge();
   const double capacity = charge.eos.initial_density * charge.specific_heat;  // J/(m3 K)
   const double diffused =
-      0.5 * std::sqrt(std::numbers::pi * charge.conductivity * scene::end_time(scene.load) / capacity);
+      0.5 * std::sqrt(std::numbers::pi * charge.conductivity * scene::read_time(scene.load) / capacity);
   const double heat =
       run::friction_heat_at_bottom(outcome.result.mechanics, scene::charge_extent(scene).x_end);
   return heat / (capacity * std::min(scene.surface.skin_thickness, diffused));
