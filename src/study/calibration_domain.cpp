@@ -181,6 +181,7 @@ Scene calibration_scene() {
                   {"base", "steel", 0.678, 0.74, 0.0, 0.0775}};
   for (const char* body : {"nose", "wall"})
     scene.interfaces.push_back({.body = body, .condition = scene::Condition::sliding, .friction = 0.0});
+  scene.load.muzzle_exit = 18e-3;  // where the published rows are read
   scene.numerics.cell_size = 1.25e-3;
   scene.numerics.growth_x = scene.numerics.growth_r = 1.3;
   scene.numerics.largest_cell = 20e-3;

@@ -251,7 +251,7 @@ double friction_share(const CaseOutcome& outcome) {
   const materials::Charge& charge = scene.charge();
   const double capacity = charge.eos.initial_density * charge.specific_heat;  // J/(m3 K)
   const double diffused =
-      0.5 * std::sqrt(std::numbers::pi * charge.conductivity * scene::end_time(scene.load) / capacity);
+      0.5 * std::sqrt(std::numbers::pi * charge.conductivity * scene::read_time(scene.load) / capacity);
   const double heat =
       run::friction_heat_at_bottom(outcome.result.mechanics, scene::charge_extent(scene).x_end);
   return heat / (capacity * std::min(scene.surface.skin_thickness, diffused));

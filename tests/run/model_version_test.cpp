@@ -232,6 +232,7 @@ Numbers computed() {
   scene::Scene shell = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
   shell.numerics.cell_size = 10e-3;
   shell.numerics.inertial_scaling = 16.0;
+  shell.load.duration = 18e-3;  // until the exit
   add_run(numbers, "155 mm", shell);
   return numbers;
 }

@@ -228,7 +228,7 @@ TEST_F(RecordedStudy, CarriesABoundToOtherLaunchesOnlySoFar) {
                                {"gaps = \"0, 0.2 cm\"\n", own},
                                {"[set]\nload.steepness = 1.5\n", own},
                                {"[set]\nload.width = \"1 ms\"\n", assumed},
-                               {"[set]\nload.peak_time = \"5 ms\"\n", assumed},
+                               {"[set]\nload.peak_time = \"5 ms\"\nload.muzzle_exit = \"9 ms\"\n", assumed},
                                {"[set]\nload.duration = \"30 ms\"\n", assumed},
                                {"[set]\nfriction.localisation = 2699.08\n", 2.0 * own},
                                {"[set]\nfriction.localisation = 5000\n", assumed}};

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -140,8 +141,9 @@ TEST(CaseUncertainty, SilenceAboutTheInputsPropagatesAnAssumedSpread) {
       run_critical_gap(study_of(critical_kind + no_confirmation +
                                 "numerical_uncertainty = \"1 K\"\nfit_uncertainty = \"2 K\"\n"),
                        options);
-  EXPECT_EQ(peaks, (std::vector<double>{496e6, 1.04 * 496e6}));
-  EXPECT_EQ(result.timing.runs, 2u);
+  std::ranges::sort(peaks);  // the launch, without its muzzle exit, and raised
+  EXPECT_EQ(peaks, (std::vector<double>{496e6, 496e6, 1.04 * 496e6}));
+  EXPECT_EQ(result.timing.runs, 3u);
   const GapVerdict& row = result.cases.at(0).verdicts.at(0);
   EXPECT_NEAR(row.uncertainty.input, std::hypot(0.0816 * 116.1, 12.0), 1e-2);
   EXPECT_GT(result.cases[0].verdicts[1].uncertainty.input, row.uncertainty.input);  // hotter air too

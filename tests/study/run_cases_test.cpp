@@ -14,6 +14,13 @@ using namespace launchsafe::study;
 
 const std::string two_cases = critical_text + "peak_pressures = \"450, 496 MPa\"\n";
 
+/// A study whose launches are not run without their muzzle exit.
+StudyFile plain_study(const std::string& text) {
+  StudyFile study = study_of(text);
+  study.study.kind.runs_without_exit = false;
+  return study;
+}
+
 /// What became of every run of a study's cases: label and outcome.
 std::map<std::string, RunOutcome> outcomes_of(const StudyFile& study, const StudyOptions& options) {
   std::map<std::string, RunOutcome> outcomes;
@@ -38,13 +45,13 @@ std::size_t count(const std::map<std::string, RunOutcome>& outcomes, RunOutcome 
 }
 
 TEST(RunCases, EveryCaseIsJudgedOnce) {
-  const auto outcomes = outcomes_of(study_of(two_cases), synthetic_options());
+  const auto outcomes = outcomes_of(plain_study(two_cases), synthetic_options());
   EXPECT_EQ(outcomes.size(), 2u);
   EXPECT_EQ(count(outcomes, RunOutcome::ran), 2u);
 }
 
 TEST(RunCases, RunsUnderARaisedLoadBelongToTheirCase) {
-  const StudyFile study = study_of(critical_kind + "peak_pressures = \"450, 496 MPa\"\n");
+  const StudyFile study = plain_study(critical_kind + "peak_pressures = \"450, 496 MPa\"\n");
   const std::vector<CaseRuns> cases = case_runs(study, 1);
   ASSERT_EQ(cases.size(), 2u);
   for (const CaseRuns& each : cases) {
@@ -54,10 +61,25 @@ TEST(RunCases, RunsUnderARaisedLoadBelongToTheirCase) {
   }
 }
 
+TEST(RunCases, ALaunchWithAMuzzleExitIsAlsoRunInABarrelWithoutEnd) {
+  const std::vector<CaseRuns> cases = case_runs(study_of(two_cases), 1);
+  ASSERT_EQ(cases.size(), 2u);
+  for (const CaseRuns& each : cases) {
+    ASSERT_EQ(each.runs.size(), 2u);
+    const scene::Load &own = each.runs[0].scene.load, &barrel = each.runs[1].scene.load;
+    EXPECT_EQ(own.muzzle_exit, 18e-3);
+    EXPECT_FALSE(barrel.muzzle_exit);
+    EXPECT_EQ(barrel.peak, own.peak);
+    EXPECT_GT(scene::end_time(barrel), scene::end_time(own));
+  }
+  const StudyFile partial = study_of(two_cases + "[set]\nload.duration = \"18 ms\"\n");
+  for (const CaseRuns& each : case_runs(partial, 1)) EXPECT_EQ(each.runs.size(), 1u);
+}
+
 TEST(RunCases, ACaseOfAnotherShardIsNotRun) {
   StudyOptions options = synthetic_options();
   options.shard = {1, 2};
-  const auto outcomes = outcomes_of(study_of(two_cases), options);
+  const auto outcomes = outcomes_of(plain_study(two_cases), options);
   EXPECT_EQ(count(outcomes, RunOutcome::ran), 1u);
   EXPECT_EQ(count(outcomes, RunOutcome::other_shard), 1u);
 }
@@ -65,7 +87,7 @@ TEST(RunCases, ACaseOfAnotherShardIsNotRun) {
 TEST(RunCases, ARunThatIsTooLargeIsRefusedAndTheOthersRun) {
   StudyOptions options = synthetic_options();
   options.memory_limit = 1.0;  // byte
-  EXPECT_EQ(count(outcomes_of(study_of(two_cases), options), RunOutcome::refused), 2u);
+  EXPECT_EQ(count(outcomes_of(plain_study(two_cases), options), RunOutcome::refused), 2u);
 }
 
 TEST(RunCases, ARunThatThrowsIsFailedAlone) {
@@ -75,7 +97,7 @@ TEST(RunCases, ARunThatThrowsIsFailedAlone) {
     if (scene.load.peak < 460e6) throw std::runtime_error("no memory");
     return run(scene, of_run);
   };
-  const auto outcomes = outcomes_of(study_of(two_cases), options);
+  const auto outcomes = outcomes_of(plain_study(two_cases), options);
   EXPECT_EQ(count(outcomes, RunOutcome::failed), 1u);
   EXPECT_EQ(count(outcomes, RunOutcome::ran), 1u);
 }
@@ -84,12 +106,12 @@ TEST(RunCases, AStudyThatIsStoppedLeavesItsRunsInterrupted) {
   std::atomic<bool> stop{true};
   StudyOptions options = synthetic_options();
   options.stop = &stop;
-  EXPECT_EQ(count(outcomes_of(study_of(two_cases), options), RunOutcome::interrupted), 2u);
+  EXPECT_EQ(count(outcomes_of(plain_study(two_cases), options), RunOutcome::interrupted), 2u);
 }
 
 /// What judging throws, with or without a word, is the failure of its case, told to the judge itself.
 TEST(RunCases, AJudgeThatThrowsIsCalledOnceMoreWithTheReason) {
-  const std::vector<CaseRuns> cases = case_runs(study_of(two_cases), 1);
+  const std::vector<CaseRuns> cases = case_runs(plain_study(two_cases), 1);
   for (const std::string why : {"not a number", ""}) {
     std::atomic<int> thrown{0}, failed{0};
     ProgressTracker tracker({});
@@ -118,7 +140,7 @@ TEST(RunCases, ASecondRunIsNotBegunOnceTheFirstBrokeOff) {
     broken.status = run::RunStatus::energy_drift;
     return broken;
   };
-  outcomes_of(study_of(critical_kind), options);
+  outcomes_of(plain_study(critical_kind), options);
   EXPECT_EQ(begun, 1);
 }
 

@@ -23,7 +23,7 @@ GapState state_of(const surface::SkinHistory& history);
 GapState state_of(std::optional<bool> ignites);
 
 /// K by which all heat of friction between charge and base could heat the charge's surface: in the skin, or,
-/// where that is thinner, as deep as heat diffuses over the launch at a constant rate (Carslaw & Jaeger
+/// where that is thinner, as deep as heat diffuses until the exit at a constant rate (Carslaw & Jaeger
 /// 1959, 2.9).
 double friction_share(const CaseOutcome& outcome);
 /// m by which charge and base part, at the most.
