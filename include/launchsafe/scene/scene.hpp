@@ -63,9 +63,9 @@ struct Load {
   std::optional<double> duration;      ///< s, where not all of the launch is simulated: see `end_time`
   double peak = 496e6;                 ///< Pa
   double base = 101325.0;              ///< p0, Pa
-  double peak_time = 11.4418e-3;       ///< t_m, s [C]
-  double width = 3.01198e-3;           ///< w, s [C], of the bell alone: the pressure is 1/e of its peak there
-  double steepness = 1.37782;          ///< a [C], of the bell alone
+  double peak_time = 11.4422e-3;       ///< t_m, s [C]
+  double width = 3.01097e-3;           ///< w, s [C], of the bell alone: the pressure is 1/e of its peak there
+  double steepness = 1.37895;          ///< a [C], of the bell alone
   double exponent = 13.578;            ///< n [A], of the power-exponential alone
   std::string curve_file;              ///< as the user wrote it
   std::vector<double> curve_time;      ///< s, increasing; empty for the analytic shape
@@ -101,11 +101,11 @@ struct Surface {
   AirModel air_model = AirModel::reservoir;
   Exchange exchange = Exchange::rate;
   double skin_thickness = 1e-4;       ///< h_ex, m
-  double exchange_time = 2.90374e-4;  ///< tau_ex, s [C]
+  double exchange_time = 2.90026e-4;  ///< tau_ex, s [C]
   /// Stations tile the charge's bottom by about this width and this depth, m.
   double station_width = 5e-3, station_depth = 5e-3;
   FrictionClosure friction = FrictionClosure::total_strain_rate;
-  double localisation = 1349.54;  ///< [C]
+  double localisation = 1349.57;  ///< [C]
 };
 
 struct Numerics {
