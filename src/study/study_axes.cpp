@@ -41,7 +41,7 @@ InputError unfit_key(const StudyFile& study, const std::string& name, const std:
   const std::string allowed =
       unknown.allowed.starts_with("in [")
           ? unknown.allowed
-          : joined(short_names) + ", or a scene key that takes one number, such as load.exponent";
+          : joined(short_names) + ", or a scene key that takes one number, such as load.steepness";
   return scene::error_at(place, faulty_key, fmt::format("the unknown key \"{}\"", name), allowed,
                          unknown.suggestion);
 }

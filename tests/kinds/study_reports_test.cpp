@@ -50,7 +50,7 @@ TEST(CriticalGapReport, JsonHasTheKeysThatOtherProgramsReadFrom) {
   }
   EXPECT_EQ(json["early_time_ms"], 10.0);
   ASSERT_EQ(json["comparison"].size(), 2u);
-  EXPECT_EQ(json["comparison"][0]["used_for"], "calibration");
+  EXPECT_EQ(json["comparison"][0]["used_for"], "fitted");
   EXPECT_EQ(json["comparison"][1]["used_for"], "held out");
   EXPECT_EQ(json["comparison"][1]["temperature_max_published_K"], 492.9);
   EXPECT_TRUE(json["verdicts"][0]["ignition_cause"].is_null());
@@ -131,13 +131,13 @@ TEST(CriticalGapReport, ThePictureTellsCalibratedRowsFromHeldOutOnes) {
   };
   calibrate_to(computed);
   const report::Plot met = kinds::temperature_plot(result);
-  ASSERT_NE(series_named(met, "published, calibrated to"), nullptr);
-  EXPECT_EQ(series_named(met, "published, calibrated to")->x, std::vector<double>{0.0});
+  ASSERT_NE(series_named(met, "published, fitted"), nullptr);
+  EXPECT_EQ(series_named(met, "published, fitted")->x, std::vector<double>{0.0});
   ASSERT_NE(series_named(met, "published, held out"), nullptr);
   EXPECT_EQ(series_named(met, "published, held out")->y, std::vector<double>{492.9});
   calibrate_to(computed + 5.0);
   const report::Plot missed = kinds::temperature_plot(result);
-  EXPECT_EQ(series_named(missed, "published, calibrated to"), nullptr) << "the constants are of elsewhere";
+  EXPECT_EQ(series_named(missed, "published, fitted"), nullptr) << "the constants are of elsewhere";
   ASSERT_NE(series_named(missed, "published"), nullptr);
   EXPECT_EQ(series_named(missed, "published")->x.size(), 2u);
   result.cases.front().input.own_conditions = false;

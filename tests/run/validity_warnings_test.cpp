@@ -269,6 +269,8 @@ TEST(ValidityWarnings, FewerSamplesThanTheSamplingErrorNeedsCannotFindIt) {
   // As it was measured, without the kink of an exit.
   take_exit(scene.load);
   scene.load.duration = 18e-3;
+  scene.load.shape = scene::LoadShape::power_exponential;
+  scene.load.peak_time = 12.9641e-3;
   scene.numerics.cell_size = 10e-3;
   scene.numerics.inertial_scaling = 16.0;
   const trace::BottomTrace fine = run_mechanics(scene).trace;
@@ -293,6 +295,7 @@ TEST(ValidityWarnings, FewerSamplesThanTheSamplingErrorNeedsCannotFindIt) {
 /// Sound takes 192 us through the 0.5 m of the shipped charge. The analytic load rises as sin^n to its peak.
 TEST(ValidityWarnings, ALoadThatRisesWhileSoundRunsThroughTheCharge) {
   scene::Scene scene = shipped_scene();
+  scene.load.shape = scene::LoadShape::power_exponential;
   scene.load.peak_time = 0.5e-3;
   expect_one(validity_warnings(scene, sound_run()), "% of its peak within 192 us");
   scene.load.peak_time = 1.5e-3;
