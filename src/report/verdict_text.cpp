@@ -182,6 +182,8 @@ Table cited_limit_table(const study::StudyFile& study,
       "Beside each limit stands the case with the nearest peak pressure; for one without a pressure, that of "
       "the study's scene. The difference is given where the pressures agree within {:.6g} %.",
       100.0 * study::pressure_slack));
+  table.notes.emplace_back(
+      "Whether the pressure of a cited limit is that at the breech, at the base or under the charge is not known.");
   if (chosen)
     table.notes.emplace_back(
         "Of several cases at that pressure it is the one with the smallest critical gap.");

@@ -199,8 +199,10 @@ std::string model_form_uncertainty_text(const StudyFile& study) {
   std::string text = fmt::format(
       "what a gap thicker by as much as the smallest critical gap of another model is below that of the "
       "default changes, by the record `{}` of {} and, counting for nothing, {}; models that only move away "
-      "from ignition take nothing from a margin",
-      s.model_form_record, names_of(*s.model_form, true), names_of(*s.model_form, false));
+      "from ignition take nothing from a margin. At {:.4g} MPa all of them were calibrated on the same rows: "
+      "there they agree by construction, and the model form is not assessable",
+      s.model_form_record, names_of(*s.model_form, true), names_of(*s.model_form, false),
+      1e-6 * s.calibration.scene.load.peak);
   if (outside > 0)
     text += fmt::format("; where it does not speak of a case ({} of {}: {}) {}", outside, study.cases.size(),
                         reason, otherwise);

@@ -79,11 +79,16 @@ class Causes {
     raised_.push_back({kind, std::move(skin), std::move(trace), thicker});
   }
 
+  /// Of a launch that heats nothing, no factor on its heat makes the skin hotter.
+  SharedTrace trace_where_known(double factor) const {
+    return rise_ > 0.0 && std::isfinite(factor) ? trace_ : SharedTrace{};
+  }
+
   /// A cause that is known as a change of T max, K.
   void add_temperature(ShareKind kind, double change) {
     if (change == 0.0) return;
     const double factor = towards() ? 1.0 + change / rise_ : std::max(0.0, 1.0 - change / rise_);
-    add(kind, heated_more(skin_, factor, factor), std::isfinite(factor) ? trace_ : SharedTrace{});
+    add(kind, heated_more(skin_, factor, factor), trace_where_known(factor));
   }
 
   void add_load_curve() {
@@ -98,8 +103,8 @@ class Causes {
   void add_sliding() {
     if (!towards()) return;
     const double factor = 1.0 + friction_share(outcome_) / rise_;
-    add(ShareKind::sliding, heated_more(skin_, factor, factor),
-        std::isfinite(factor) ? trace_ : SharedTrace{}, opening_at_base(outcome_));
+    add(ShareKind::sliding, heated_more(skin_, factor, factor), trace_where_known(factor),
+        opening_at_base(outcome_));
   }
 
   void add_shift(ShareKind kind) {
