@@ -165,13 +165,28 @@ void say_shares(const Subject& subject, SafetySection& section) {
 void say_assumptions(const Subject& subject, SafetySection& section) {
   const StudyEvidence& study = subject.study;
   const Origin origin = subject.origin("the study file, in its manifest");
-  const bool inputs = !says(study, "input_uncertainty");
-  const bool computation = !says(study, "accuracy") && !says(study, "numerical_uncertainty");
-  const bool models = !says(study, "model_form") && !says(study, "model_form_uncertainty");
+  const auto states = [&](const char* key) {
+    const Row& stated = study.rows("stated_by_hand");
+    return std::any_of(stated.begin(), stated.end(),
+                       [&](const Row& row) { return text_of(row, "key") == key; });
+  };
+  const bool inputs = !states("input_uncertainty");
+  const bool computation = !says(study, "accuracy") && !states("numerical_uncertainty");
+  const bool models = !says(study, "model_form") && !states("model_form_uncertainty");
   const std::string others = said_after(all_verdicts(subject), "ignition not excluded under ");
   if (inputs || computation || models)
     section.item("limits.assumed", {{"inputs", inputs}, {"computation", computation}, {"models", models}},
                  origin);
+  for (const Row& row : study.rows("stated_by_hand")) {
+    std::string name = text_of(row, "key");
+    std::replace(name.begin(), name.end(), '_', ' ');
+    const double value = number_of(row, "K");
+    section.item("limits.stated",
+                 {{"what", name},
+                  {"value", part(significant(value, 3) + " K", value, "K")},
+                  {"because", text_of(row, "because")}},
+                 origin);
+  }
   if (!others.empty()) section.item("limits.other_models", {{"models", others}}, subject.origin("verdicts"));
 }
 

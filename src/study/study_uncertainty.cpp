@@ -133,7 +133,7 @@ scene::Expected<std::optional<AccuracyRecord>> read_record(const StudyFile& stud
   const std::string& name = study.study.accuracy;
   if (name.empty()) return std::optional<AccuracyRecord>{};
   if (std::isfinite(study.study.numerical_uncertainty)) {
-    return fault_at(study, "numerical_uncertainty", "a stated uncertainty beside an accuracy record",
+    return fault_at(study, "numerical_uncertainty.value", "a stated uncertainty beside an accuracy record",
                     "either numerical_uncertainty or accuracy");
   }
   const auto text =

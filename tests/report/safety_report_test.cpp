@@ -213,6 +213,16 @@ TEST_F(SafetyReport, OfSeveralCasesTheWorstStandsOnPageOneAndEachIsLeftOneOut) {
   ADD_FAILURE() << "no table of rows left out";
 }
 
+TEST_F(SafetyReport, AnUncertaintyStatedByHandStandsOnPageOneWithItsSource) {
+  const path study = copy_of("critical_gap_155mm");
+  change(study, [](auto& results) {
+    results["stated_by_hand"] = {{{"key", "input_uncertainty"}, {"K", 12.5}, {"because", "30 rounds fired"}}};
+  });
+  const std::string page = file_of({study}, "report.md"), one = page.substr(0, page.find("## 2."));
+  EXPECT_TRUE(has(one, "Stated by hand: input uncertainty 12.5 K, because 30 rounds fired."));
+  EXPECT_FALSE(has(one, "the spread of the inputs"));
+}
+
 TEST_F(SafetyReport, ARowOfWhichNothingSaysHowWrongItIsHasNoUncertainty) {
   const path study = copy_of("critical_gap_155mm");
   change(study, [](auto& results) {

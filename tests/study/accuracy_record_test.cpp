@@ -303,9 +303,10 @@ TEST_F(RecordedStudy, RefusesWhatIsNoRecord) {
   ASSERT_FALSE(broken);
   EXPECT_NE(broken.error().file.find("broken.json"), std::string::npos) << broken.error().message();
   EXPECT_EQ(broken.error().key, "format");
-  const auto both = parse(record_key + "numerical_uncertainty = \"1 K\"\n");
+  const auto both =
+      parse(record_key + "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n");
   ASSERT_FALSE(both);
-  EXPECT_EQ(both.error().key, "numerical_uncertainty");
+  EXPECT_EQ(both.error().key, "numerical_uncertainty.value");
 }
 
 }  // namespace
