@@ -44,6 +44,12 @@ class Causes {
         trace_(own_trace(outcome)) {}
 
   void add_inputs() {
+    const scene::Load& load = outcome_.input.scene.scene.load;
+    if (const auto exit = scene::exit_time(load); exit && load.muzzle_exit_spread > 0.0) {
+      const double delay = towards() ? load.muzzle_exit_spread : -load.muzzle_exit_spread;
+      add(ShareKind::muzzle_exit, skin_,
+          std::make_shared<trace::BottomTrace>(trace::delayed(*trace_, *exit, delay)));
+    }
     if (!outcome_.raised) return;
     add(ShareKind::peak_pressure, skin_, trace_at_pressure(outcome_, end_));
     add(ShareKind::pulse_length, skin_, trace_of_length(outcome_, end_));

@@ -65,7 +65,8 @@ TEST(CriticalGapStudy, TheResultDoesNotDependOnTheNumberOfThreads) {
     EXPECT_EQ(a.input.label, b.input.label);
     EXPECT_EQ(a.critical.lower, b.critical.lower);
     EXPECT_EQ(a.critical.upper, b.critical.upper);
-    EXPECT_EQ(a.critical.uncertainty, b.critical.uncertainty);
+    EXPECT_EQ(a.critical.bounds.at_least, b.critical.bounds.at_least);
+    EXPECT_EQ(a.critical.bounds.at_most, b.critical.bounds.at_most);
     for (std::size_t gap = 0; gap < a.verdicts.size(); ++gap) {
       EXPECT_EQ(a.verdicts[gap].maximum.temperature, b.verdicts[gap].maximum.temperature);
       EXPECT_EQ(a.verdicts[gap].judgement.reason, b.verdicts[gap].judgement.reason);

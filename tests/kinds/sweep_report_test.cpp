@@ -256,7 +256,7 @@ TEST(SweepPictures, WhatIsNoValueIsHatchedByItsReason) {
 
 TEST(SweepPictures, AGapThatDoesNotExceedItsUncertaintyIsNotSafe) {
   SweepResult result = made_sweep();
-  result.answers[15].critical.uncertainty = 1.0;  // m
+  result.answers[15].critical.bounds.at_least = 0.0;
   const Map map = *pictures(result).pictures[1].plot.map;
   ASSERT_EQ(map.hatched[0].cells.size(), 1u);
   EXPECT_EQ(map.hatched[0].label, "no gap surely safe");

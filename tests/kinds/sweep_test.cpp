@@ -152,8 +152,9 @@ TEST(Sweep, BracketsWithoutAChangeAreBoundsAndNoNumbers) {
   EXPECT_EQ(counting.runs(), 1);
   for (const std::size_t bound : {0u, 2u}) {
     EXPECT_TRUE(std::isnan(result.answers[bound].critical.value));
-    EXPECT_TRUE(std::isnan(result.answers[bound].critical.uncertainty));
   }
+  EXPECT_EQ(result.answers[0].critical.bounds.at_least, 0.0);
+  EXPECT_EQ(result.answers[2].critical.bounds.at_most, no_ignition);
   EXPECT_EQ(result.answers[2].critical.lower, 2e-4);
 }
 

@@ -140,9 +140,9 @@ TEST_F(SafetyReport, ASafeThatItsTemperatureOrCriticalGapContradictsIsRefused) {
   change(colder, [](auto& results) { results["verdicts"][2]["margin_K"] = 300.0; });
   EXPECT_TRUE(has(fault_of({colder}), "0.02 cm is called SAFE")) << fault_of({colder});
   std::filesystem::remove_all(colder);
-  // 0.0195 cm from the critical gap, which is now uncertain by more.
+  // Above a lower bound that is now smaller.
   const path near = copy_of("critical_gap_155mm");
-  change(near, [](auto& results) { results["cases"][0]["critical_gap_uncertainty_cm"] = 0.0196; });
+  change(near, [](auto& results) { results["cases"][0]["critical_gap_at_least_cm"] = 0.0199; });
   EXPECT_TRUE(has(fault_of({near}), "0.02 cm is called SAFE")) << fault_of({near});
   change(near, [](auto& results) { results["cases"][0]["critical_gap_kind"] = "indeterminate"; });
   EXPECT_TRUE(has(fault_of({near}), "0 cm is called SAFE")) << fault_of({near});

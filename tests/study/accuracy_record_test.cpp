@@ -227,7 +227,7 @@ TEST_F(RecordedStudy, CarriesABoundToOtherLaunchesOnlySoFar) {
                                {"flaw_sizes = \"0.1 mm\"\n", assumed},
                                {"gaps = \"0, 0.2 cm\"\n", own},
                                {"[set]\nload.steepness = 1.5\n", own},
-                               {"[set]\nload.width = \"1 ms\"\n", assumed},
+                               {"[set]\nload.width = \"1 ms\"\nload.muzzle_exit = \"14 ms\"\n", assumed},
                                {"[set]\nload.peak_time = \"5 ms\"\nload.muzzle_exit = \"9 ms\"\n", assumed},
                                {"[set]\nload.duration = \"30 ms\"\n", assumed},
                                {"[set]\nfriction.localisation = 2699.08\n", 2.0 * own},

@@ -196,9 +196,9 @@ TEST(CaseUncertainty, OtherNumericsBringTheMeshErrorOfTheCalibration) {
   EXPECT_NE(row.judgement.reason.find("extrapolated: numerics"), std::string::npos) << row.judgement.reason;
 }
 
-TEST(CaseUncertainty, AnotherLoadShapeKeepsTheLargestMisfit) {
+TEST(CaseUncertainty, AnotherLoadShapeCountsWhatAnotherFamilyOfLoadsMissed) {
   const GapVerdict row = first_row(stated + "[set]\nload.steepness = 1.4\n");
-  EXPECT_NEAR(row.uncertainty.fit, CalibrationEvidence{}.fit_uncertainty, 0.02);
+  EXPECT_NEAR(row.uncertainty.fit, assumed_other_load_shape, 0.1);
   EXPECT_NE(row.judgement.reason.find("load shape"), std::string::npos) << row.judgement.reason;
 }
 
@@ -207,13 +207,12 @@ TEST(CaseUncertainty, ARoughCurveIsToldInKelvinAndItsSmoothingByName) {
   StudyFile study = study_of(critical_kind + no_confirmation + stated);
   scene::Load& load = study.cases.at(0).scene.scene.load;
   scene::Load clean;
-  clean.shape = scene::LoadShape::power_exponential;
-  clean.peak_time = 12.9641e-3;
-  for (int i = 0; i <= 900; ++i) {
-    const double time = 18e-3 * i / 900.0;
+  clean.steepness = 2.0;             // a round peak, from which an average takes little
+  for (int i = 0; i <= 1000; ++i) {  // until the load is over
+    const double time = 20e-3 * i / 1000.0;
     load.curve_time.push_back(time);
     load.curve_pressure.push_back(scene::PressureHistory(clean).at(time) *
-                                  (1.0 + 0.02 * ((i * 7919) % 13 - 6) / 6.0));
+                                  (1.0 + 0.004 * ((i * 7919) % 13 - 6) / 6.0));
   }
   const GapVerdict rough = run_critical_gap(study, quadratic_options()).cases.at(0).verdicts.at(0);
   EXPECT_GT(rough.uncertainty.load_curve, 5.0);
