@@ -129,7 +129,7 @@ TEST_F(ExplainedMaterials, TellHowFastDecompositionsRunAway) {
   const std::string file = LAUNCHSAFE_SOURCE_DIR "/studies/materials/decomposition.toml";
   const Json told = Json::parse(run({"explain", file, "--json"}).out);
   ASSERT_EQ(told["decompositions"].size(), 2u);
-  EXPECT_NEAR(told["decompositions"][1]["runaway_from_519_K_ms"].get<double>(), 223.6, 0.05);
+  EXPECT_NEAR(told["decompositions"][0]["runaway_from_519_K_ms"].get<double>(), 223.6, 0.05);
   // They are no materials of users.
   write("mine.toml", "[decomposition.mine]\ntitle = \"x\"\n");
   EXPECT_EQ(run({"explain", "mine.toml"}).code, 2);
