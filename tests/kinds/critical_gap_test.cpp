@@ -24,9 +24,11 @@ TEST(CriticalGapStudy, WithoutAStatedUncertaintyASmallMarginIsNotSafe) {
 }
 
 TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
-  const CriticalGapResult result = run_critical_gap(
-      study_of(critical_text + gap_keys + "numerical_uncertainty = \"1 K\"\n" + synthetic_constants),
-      synthetic_options());
+  const CriticalGapResult result =
+      run_critical_gap(study_of(critical_text + gap_keys +
+                                "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n" +
+                                synthetic_constants),
+                       synthetic_options());
   ASSERT_EQ(result.cases.size(), 1u);
   const CaseOutcome& outcome = result.cases[0];
   ASSERT_EQ(outcome.critical.kind, CriticalGapKind::value) << outcome.critical.reason;
@@ -176,9 +178,11 @@ TEST(CriticalGapStudy, BoundsAreNotConfirmedAndNotNumbers) {
 }
 
 TEST(CriticalGapStudy, TheStatedMeshUncertaintyCanMakeAGapIndeterminate) {
-  const CriticalGapResult result = run_critical_gap(
-      study_of(critical_text + gap_keys + "numerical_uncertainty = \"60 K\"\n" + synthetic_constants),
-      synthetic_options());
+  const CriticalGapResult result =
+      run_critical_gap(study_of(critical_text + gap_keys +
+                                "numerical_uncertainty = { value = \"60 K\", because = \"for a test\" }\n" +
+                                synthetic_constants),
+                       synthetic_options());
   const auto& rows = result.cases[0].verdicts;
   EXPECT_EQ(rows[0].judgement.verdict, Verdict::safe) << rows[0].judgement.reason;
   EXPECT_EQ(rows[3].judgement.verdict, Verdict::indeterminate) << rows[3].judgement.reason;

@@ -26,7 +26,8 @@ using run::CombustionHistory, run::MechanicsResult;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 const std::string head =
-    "kind = \"stability\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = \"3 K\"\n"
+    "kind = \"stability\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = { value = \"3 K\", because "
+    "= \"for a test\" }\n"
     "gaps = \"0.01 cm\"\n" +
     synthetic_constants;
 

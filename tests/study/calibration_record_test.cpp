@@ -180,7 +180,7 @@ TEST_F(StudyWithRecord, RefusesAFitUncertaintyBelowThatOfTheRecord) {
   write(record);
   const double shown = record.calibration.evidence.fit_uncertainty;
   const auto stated = [](double kelvin) {
-    return "fit_uncertainty = \"" + std::to_string(kelvin) + " K\"\n";
+    return "fit_uncertainty = { value = \"" + std::to_string(kelvin) + " K\", because = \"for a test\" }\n";
   };
   EXPECT_FALSE(study(stated(0.5 * shown)));
   const auto larger = study(stated(2.0 * shown));

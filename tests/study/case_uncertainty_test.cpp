@@ -53,8 +53,9 @@ StudyOptions quadratic_options() {
 
 const std::string no_confirmation = "confirm = false\ngaps = \"0, 0.02 cm\"\n";
 const std::string stated =
-    "numerical_uncertainty = \"1 K\"\nfit_uncertainty = \"2 K\"\ninput_uncertainty = \"3 "
-    "K\"\nmodel_form_uncertainty = \"1 K\"\n";
+    "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\nfit_uncertainty = { value = \"2 "
+    "K\", because = \"for a test\" }\ninput_uncertainty = { value = \"3 K\", because = \"for a test\" "
+    "}\nmodel_form_uncertainty = { value = \"1 K\", because = \"for a test\" }\n";
 
 GapVerdict first_row(const std::string& text) {
   const CriticalGapResult result =
@@ -124,7 +125,9 @@ TEST(CaseUncertainty, ABaseThatOpensThickensTheGap) {
 }
 
 TEST(CaseUncertainty, SilenceAboutTheFitCostsTheBoundOfTheMisfits) {
-  const GapVerdict row = first_row("numerical_uncertainty = \"1 K\"\ninput_uncertainty = \"3 K\"\n");
+  const GapVerdict row = first_row(
+      "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\ninput_uncertainty = { value = "
+      "\"3 K\", because = \"for a test\" }\n");
   EXPECT_NEAR(row.uncertainty.fit, CalibrationEvidence{}.fit_uncertainty, 0.01);
 }
 
@@ -139,7 +142,8 @@ TEST(CaseUncertainty, SilenceAboutTheInputsPropagatesAnAssumedSpread) {
   };
   const CriticalGapResult result =
       run_critical_gap(study_of(critical_kind + no_confirmation +
-                                "numerical_uncertainty = \"1 K\"\nfit_uncertainty = \"2 K\"\n"),
+                                "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" "
+                                "}\nfit_uncertainty = { value = \"2 K\", because = \"for a test\" }\n"),
                        options);
   std::ranges::sort(peaks);  // the launch, without its muzzle exit, and raised
   EXPECT_EQ(peaks, (std::vector<double>{496e6, 496e6, 1.04 * 496e6}));
@@ -178,7 +182,9 @@ TEST(CaseUncertainty, TheErrorOfTheConstantsGrowsWithTheHeat) {
 /// What is assumed of other models is of the calibrated launch, whatever peak the study's scene has.
 TEST(CaseUncertainty, TheAssumedModelFormGrowsFromTheCalibratedPeak) {
   const std::string rest =
-      "fit_uncertainty = \"2 K\"\ninput_uncertainty = \"3 K\"\nnumerical_uncertainty = \"4 K\"\n";
+      "fit_uncertainty = { value = \"2 K\", because = \"for a test\" }\ninput_uncertainty = { value = \"3 "
+      "K\", because = \"for a test\" }\nnumerical_uncertainty = { value = \"4 K\", because = \"for a test\" "
+      "}\n";
   const double grown = assumed_model_form * std::pow(530.0 / 496.0, 4);
   EXPECT_NEAR(first_row(rest + "peak_pressures = \"530 MPa\"\n").uncertainty.model_form, grown, 1e-6);
   EXPECT_NEAR(first_row(rest + "[set]\nload.peak = \"530 MPa\"\n").uncertainty.model_form, grown, 1e-6);
@@ -251,8 +257,8 @@ TEST(CaseUncertainty, AStudyWithoutVerdictsNeedsNoSecondRun) {
 
 TEST(CaseUncertainty, ASweepPropagatesTheSpreadToo) {
   const std::string text =
-      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = \"1 K\"\nfit_uncertainty = "
-      "\"2 K\"\n"
+      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = { value = \"1 K\", because = "
+      "\"for a test\" }\nfit_uncertainty = { value = \"2 K\", because = \"for a test\" }\n"
       "[axes]\ngap = \"0, 0.02 cm\"\npeak_pressure = \"400, 496 MPa\"\n";
   const SweepResult result = run_sweep(study_of(text), quadratic_options());
   EXPECT_EQ(result.timing.runs, 4u);

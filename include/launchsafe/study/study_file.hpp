@@ -81,6 +81,13 @@ struct CitedLimit {
   std::string source;                   ///< who found what, and how
 };
 
+/// An uncertainty that a study states by hand, and on what grounds.
+struct StatedUncertainty {
+  std::string key;      ///< "numerical_uncertainty"
+  double value = 0;     ///< K, of T max
+  std::string because;  ///< the source, in words
+};
+
 /// What a study file says, in SI.
 struct Study {
   KindTraits kind;
@@ -122,6 +129,8 @@ struct Study {
   double fit_uncertainty = not_a_number;
   /// K, of T max by what is not known of the launch, for the study's own scene; NaN: not stated
   double input_uncertainty = not_a_number;
+
+  std::vector<StatedUncertainty> stated;  ///< by hand, as written
 
   /// What the study itself states, rather than its scene, and is not plausible; accepted or not.
   std::vector<scene::Implausible> implausible;
