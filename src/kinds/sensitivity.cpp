@@ -17,6 +17,10 @@ bool SensitivityResult::any_indeterminate() const {
   return std::any_of(outputs.begin(), outputs.end(), [](const auto& each) { return !each.reason.empty(); });
 }
 
+bool samples_inputs(const Study& study, std::size_t evaluation) {
+  return evaluation % (study.axes.size() + 2) < 2;
+}
+
 namespace {
 
 double number_of(const OutputSensitivity& of, const CaseAnswer& answer, const StudyCase& input) {
@@ -38,12 +42,6 @@ bool any_ignites(const SensitivityResult& result) {
 bool is_bound(const CaseAnswer& answer) {
   return answer.critical.kind == CriticalGapKind::all_safe ||
          answer.critical.kind == CriticalGapKind::all_ignite;
-}
-
-/// Whether an evaluation is a random sample of the inputs, rather than one made for differences: the blocks A
-/// and B of a Saltelli design.
-bool samples_inputs(const Study& study, std::size_t evaluation) {
-  return evaluation % (study.axes.size() + 2) < 2;
 }
 
 void summarise(const Study& study, OutputSensitivity& output) {

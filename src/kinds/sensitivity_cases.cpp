@@ -176,7 +176,12 @@ Kind sensitivity_kind() {
       .read = read_inputs,
       .make_cases = make_sensitivity_cases,
       .run = outcome_of<run_sensitivity, failures_of<SensitivityResult>>,
-      .files = {{"sensitivity.csv"}, {"evaluations.csv"}, {"sensitivity_", ".svg"}},
+      .files = {{"sensitivity.csv"},
+                {"evaluations.csv"},
+                {"quantiles.csv"},
+                {"histogram.csv"},
+                {"histogram.svg"},
+                {"sensitivity_", ".svg"}},
   };
 }
 

@@ -6,6 +6,7 @@
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "sensitivity_samples.hpp"
 #include "sensitivity_text.hpp"
 
 #include <fmt/format.h>
@@ -205,6 +206,7 @@ std::string answer(const SensitivityResult& result) {
   std::vector<std::string> lines;
   for (const OutputSensitivity& output : result.outputs) lines.push_back(OutputAnswer(result, output).text());
   if (result.outputs.empty()) lines.emplace_back("There are no indices: the study did not come to its end.");
+  lines.push_back(samples_text(result));
   lines.push_back(share_failed(result));
   lines.push_back(limited_text(counts_of(result.answers), "evaluation"));
   return answer_of(std::move(lines), result.study, result.interrupted ? "The study was interrupted." : "");
@@ -221,6 +223,11 @@ Report report_of(const SensitivityResult& result) {
       report.items.push_back(Picture{picture_name(output), sensitivity_plot(result, output),
                                      "sensitivity of " + shown_output(output.output).name});
   }
+  report.items.push_back(ReportTable{quantile_table(result), "quantiles.csv", "quantiles"});
+  if (Plot plot = histogram_plot(result); !plot.panels.empty())
+    report.items.push_back(
+        Picture{"histogram.svg", std::move(plot), "histograms of critical gap and T max over the draws"});
+  report.items.push_back(ReportTable{histogram_table(result), "histogram.csv", "histogram", Shown::file});
   report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
   report.items.push_back(Statement{
       "The indices are those of these distributions: another range of an input gives it another share. Bound "
@@ -232,6 +239,7 @@ Report report_of(const SensitivityResult& result) {
                            {{"method", method_json(result)},
                             {"gap_cm", number(in_centimetres(result.study.study.gaps.front()))},
                             {"inputs", axes_json(result.study.study)},
+                            {"ignition", ignition_json(result)},
                             {"failed", counts_of(result.answers).failed},
                             {"notes", mesh_notes(result.study)}});
   return report;

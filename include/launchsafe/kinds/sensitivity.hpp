@@ -28,6 +28,10 @@ inline const SensitivitySettings& sensitivity_settings(const study::Study& study
   return study::settings_of<SensitivitySettings>(study);
 }
 
+/// Whether an evaluation is a draw from the distributions of the inputs, rather than one made for
+/// differences: the blocks A and B of a Saltelli design.
+bool samples_inputs(const study::Study& study, std::size_t evaluation);
+
 /// One output of a case as a number.
 enum class SensitivityOutput {
   maximum_temperature,  ///< K, T max of the verdict at the study's gap; see OutputSensitivity::inert
