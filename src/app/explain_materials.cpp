@@ -1,5 +1,7 @@
 // launchsafe explain of materials: every number and where it comes from.
 #include "explain_program.hpp"
+#include "launchsafe/report/kinetics_text.hpp"
+#include "launchsafe/scene/decomposition.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
@@ -19,14 +21,25 @@ namespace {
 
 using scene::NamedMaterial;
 
+/// A scene with the numbers of a material.
+scene::Scene with_material(scene::Scene scene, const NamedMaterial& material) {
+  for (const auto& key : scene::scene_keys())
+    if (const auto given = material.values.find(key.name); given != material.values.end())
+      key.set(scene, given->second.value);
+  return scene;
+}
+
 /// Whether the shipped calibration was made with a material of these numbers.
 bool is_calibrated(const NamedMaterial& material) {
   const study::Calibration calibration = study::shipped_calibration();
-  scene::Scene with = calibration.scene;
-  for (const auto& key : scene::scene_keys())
-    if (const auto given = material.values.find(key.name); given != material.values.end())
-      key.set(with, given->second.value);
-  return study::distance_to_calibration(with, calibration).inside();
+  return study::distance_to_calibration(with_material(calibration.scene, material), calibration).inside();
+}
+
+/// How fast an explosive heats itself by its own kinetics; empty for other laws.
+std::string self_heating_text(const NamedMaterial& material) {
+  if (material.law != "charge") return {};
+  const materials::Charge charge = with_material({}, material).charge();
+  return "; " + report::runaway_text(charge.kinetics, charge.specific_heat);
 }
 
 const char* calibration_text(const NamedMaterial& material) {
@@ -68,8 +81,10 @@ Told told(const NamedMaterial& material) {
   for (const auto& [key, given] : material.values)
     numbers.push_back({key, scene::key_in_material(material.law, key),
                        scene::format_value(*scene::find_key(scene::scene_keys(), key), given.value)});
-  return told(material, fmt::format("law {}; {}", material.law, calibration_text(material)),
-              std::move(numbers));
+  return told(
+      material,
+      fmt::format("law {}; {}{}", material.law, calibration_text(material), self_heating_text(material)),
+      std::move(numbers));
 }
 
 Told told(const scene::NamedContact& contact) {
@@ -78,6 +93,17 @@ Told told(const scene::NamedContact& contact) {
     if (!key.is_written || key.is_written(contact.faces))
       numbers.push_back({key.name, key.name, scene::format_value(key, key.get(contact.faces))});
   return told(contact, "contact of an interface", std::move(numbers));
+}
+
+Told told(const scene::Decomposition& decomposition) {
+  std::vector<Number> numbers;
+  for (const auto& key : scene::decomposition_keys())
+    if (key.name != "title")
+      numbers.push_back({key.name, key.name, scene::format_value(key, key.get(decomposition))});
+  return told(decomposition,
+              "decomposition of a flame, combustion.kinetics; with the specific heat of comp-b it " +
+                  report::runaway_text(decomposition.kinetics, materials::Charge{}.specific_heat),
+              std::move(numbers));
 }
 
 std::string text_of(const Told& told) {
@@ -109,6 +135,18 @@ nlohmann::ordered_json json_of(const NamedMaterial& material) {
           {"numbers", numbers_json(told(material))}};
 }
 
+nlohmann::ordered_json json_of(const scene::Decomposition& decomposition) {
+  const auto runaway = [&](double from) {
+    return 1e3 *
+           materials::adiabatic_runaway_time(decomposition.kinetics, materials::Charge{}.specific_heat, from);
+  };
+  return {{"name", decomposition.name},
+          {"title", decomposition.title},
+          {"runaway_from_519_K_ms", runaway(519.0)},
+          {"runaway_from_550_K_ms", runaway(550.0)},
+          {"numbers", numbers_json(told(decomposition))}};
+}
+
 nlohmann::ordered_json json_of(const scene::NamedContact& contact) {
   return {{"name", contact.name}, {"title", contact.title}, {"numbers", numbers_json(told(contact))}};
 }
@@ -125,17 +163,20 @@ bool print_materials(const scene::NamedMaterials& named, const std::string& word
     }
     return list;
   };
-  const auto materials = list_of(named.materials), contacts = list_of(named.contacts);
+  const auto materials = list_of(named.materials), contacts = list_of(named.contacts),
+             decompositions = list_of(named.decompositions);
   if (text.empty()) return false;
   console.print_text(text);
-  console.print_json({{"materials", materials}, {"contacts", contacts}});
+  console.print_json({{"materials", materials}, {"contacts", contacts}, {"decompositions", decompositions}});
   return true;
 }
 
 }  // namespace
 
 ExitCode explain_materials(const std::string& word, Console& console) {
-  if (print_materials({scene::shipped_materials(), scene::shipped_contacts()}, word, console))
+  if (print_materials(
+          {scene::shipped_materials(), scene::shipped_contacts(), scene::shipped_decompositions()}, word,
+          console))
     return ExitCode::done;
   return console.refuse(
       fmt::format("explain --materials: found \"{}\", with which no shipped material or contact begins; "

@@ -200,9 +200,9 @@ report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result
   return table;
 }
 
-std::string combustion_text(const run::CaseResult& result) {
+std::string combustion_text(const scene::Scene& scene, const run::CaseResult& result) {
   constexpr std::size_t history_rows = 12;
-  const report::Table table = report::combustion_table(result);
+  const report::Table table = report::combustion_table(scene, result);
   if (table.rows.empty()) return {};
   std::string text = report::to_text(table) + "\n";
   for (const run::GapResult& gap : result.gaps)
@@ -218,7 +218,7 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result) 
   if (!result.gaps.empty()) {
     text += report::to_text(gap_table(scene, result)) + "\n";
     text += report::to_text(air_table(scene, result)) + "\n";
-    text += combustion_text(result);
+    text += combustion_text(scene, result);
   }
   if (const report::Table faces = report::interface_table(result.mechanics); !faces.rows.empty())
     text += report::to_text(faces) + "\n";
@@ -236,7 +236,7 @@ nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResul
                                 {"reason", mechanics.reason}, {"end_time_ms", 1e3 * mechanics.end_time},
                                 {"load", load_json(scene)},   {"gaps", nlohmann::ordered_json::array()}};
   for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
-  object["combustion"] = report::to_json(report::combustion_table(result))["rows"];
+  object["combustion"] = report::to_json(report::combustion_table(scene, result))["rows"];
   object["air_energy"] = report::to_json(air_table(scene, result))["rows"];
   if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
   object["interfaces"] = report::to_json(report::interface_table(mechanics))["rows"];

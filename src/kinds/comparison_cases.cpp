@@ -163,10 +163,10 @@ class VariantMaker {
 
   /// What the file says, and not what was settled for the scene itself since.
   double stated(const char* key) const {
-    const toml::node* node = source_.root.get(key);
-    if (!node) return not_a_number;
-    // The reader of keys has let it pass.
-    return std::get<double>(*scene::read_value(*node, *scene::find_key(keys_, key), study_.file));
+    const auto& all = study_.study.stated;
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const StatedUncertainty& each) { return each.key == key; });
+    return found == all.end() ? not_a_number : found->value;
   }
 
   /// A variant accepts for itself.

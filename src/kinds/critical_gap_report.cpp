@@ -55,6 +55,8 @@ const char* remedy_for(ShareKind kind) {
       return "measured curves of several rounds";
     case ShareKind::initial_temperature:
       return "a narrower range of temperatures";
+    case ShareKind::muzzle_exit:
+      return "a measured time of the exit";
     case ShareKind::stated_inputs:
       return "a better known launch";
     case ShareKind::load_curve:

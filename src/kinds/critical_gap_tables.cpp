@@ -2,6 +2,7 @@
 #include "critical_gap_marks.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/report/case_tables.hpp"
+#include "launchsafe/report/kinetics_text.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
@@ -199,6 +200,8 @@ Table coupled_run_table(const CriticalGapResult& result) {
       const std::vector<Cell> burning = burning_cells(each.combustion);
       cells.insert(cells.end(), burning.begin(), burning.end());
       cells.emplace_back(each.failure);
+      if (each.combustion && table.notes.empty())
+        table.notes.push_back(flame_kinetics_note(outcome.input.scene.scene));
     }
   }
   return table;

@@ -111,6 +111,7 @@ Fault read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys
   auto read = scene::read_table(root, keys, tables, study.file, study.study);
   if (!read) return read.error();
   study.places = std::move(*read);
+  if (Fault fault = check_stated_uncertainties(keys, study)) return fault;
   for (const std::string& name : tables) {
     if (const toml::node* node = root.get(name)) study.places[name] = scene::place_of(*node, study.file);
   }
@@ -159,8 +160,9 @@ scene::Expected<StudyFile> read_study_table(const StudySource& source, const std
   if (Fault fault = scene::check_content(source.root, study.file, scene::InputContent::study)) return *fault;
   const auto kind = read_kind(source.root, study.file);
   if (!kind) return kind.error();
-  if (Fault fault = check_kind(source.root, **kind, study.file)) return *fault;
   const StudyKeys keys = joined({common_keys(), (*kind)->keys});
+  if (Fault fault = check_bare_uncertainties(source.root, keys, study.file)) return *fault;
+  if (Fault fault = check_kind(source.root, **kind, study.file)) return *fault;
   if (Fault fault = read_keys(source.root, **kind, keys, study)) return *fault;
   std::optional<AccuracyRecord> record;
   if (Fault fault = settle_scene(source, {{"set", source.root.get("set")}}, study, record))

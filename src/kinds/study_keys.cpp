@@ -1,5 +1,6 @@
 #include "study_keys.hpp"
 
+#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/cited_limits.hpp"
 
@@ -23,12 +24,27 @@ Key<Study> study_number(std::string name, Dimension dimension, scene::Limits lim
                                   member);
 }
 
-/// Of a temperature, K.
-Key<Study> stated_uncertainty(std::string name, std::string sentence, double Study::*member) {
-  return plausibly(study_number(std::move(name), Dimension::temperature_difference, between(0, 1000),
-                                std::move(sentence), member),
-                   between(1, 1000),
-                   "no published temperature is met, and no mesh known to be exact, to a kelvin");
+constexpr const char *value_part = ".value", *because_part = ".because";
+
+/// The source of an uncertainty that is stated by hand; it is read after the value.
+Key<Study> because_key(const std::string& name, double Study::*member) {
+  Key<Study> key{keys::description(name + because_part, scene::KeyKind::text, Standing::input,
+                                   "Where that comes from, in words; told beside verdicts.")};
+  key.example = "mesh study of this shell, 2.5 and 1.25 mm";
+  key.set = [name, member](Study& study, const scene::Value& value) {
+    study.stated.push_back({name, study.*member, std::get<std::string>(value)});
+  };
+  key.get = [](const Study&) { return scene::Value(std::string{}); };
+  return key;
+}
+
+/// Of a temperature, K: NAME = { value = "1 K", because = "..." }.
+StudyKeys stated_uncertainty(const std::string& name, std::string sentence, double Study::*member) {
+  return {plausibly(study_number(name + value_part, Dimension::temperature_difference, between(0, 1000),
+                                 std::move(sentence), member),
+                    between(1, 1000),
+                    "no published temperature is met, and no mesh known to be exact, to a kelvin"),
+          because_key(name, member)};
 }
 
 /// The kind by its name.
@@ -160,17 +176,18 @@ StudyKeys gaps_keys() {
 }
 
 StudyKeys judging_keys() {
-  return {
+  const StudyKeys search{
       plausibly(study_number("tolerance", Dimension::length, between(1e-9, 1e-3),
                              "Largest width of the bracket of the critical gap.", &Study::tolerance),
                 between(1e-9, 2e-4), "a wider bracket says little of gaps that are tenths of a millimetre"),
       plausibly(study_number("largest_gap", Dimension::length, above_to(0, 0.01),
                              "Where the search for the critical gap ends.", &Study::largest_gap),
                 between(1e-4, 0.01), "a search that ends at less finds no gap that ignites"),
-      stated_uncertainty("numerical_uncertainty",
-                         "Uncertainty of the maximum temperature from the mesh, from a mesh study.",
-                         &Study::numerical_uncertainty),
   };
+  return joined(
+      {search, stated_uncertainty("numerical_uncertainty",
+                                  "Uncertainty of the maximum temperature from the mesh, from a mesh study.",
+                                  &Study::numerical_uncertainty)});
 }
 
 StudyKeys calibration_record_keys() {
@@ -182,7 +199,7 @@ StudyKeys calibration_record_keys() {
 }
 
 StudyKeys uncertainty_keys() {
-  return {
+  const StudyKeys records{
       scene::text_key<Study>(
           "accuracy", Standing::input,
           "Path of the record of an accuracy study, accuracy.json, from the study file's folder; it gives "
@@ -193,29 +210,28 @@ StudyKeys uncertainty_keys() {
           "Replaces the scene's numerics by the cheapest setting of the record that knows the maximum "
           "temperature to this; on the command line --tolerance.",
           &Study::setting_tolerance),
-      stated_uncertainty(
-          "fit_uncertainty",
-          "Uncertainty of the margin from the calibrated constants, on the rows that they were "
-          "fitted to; what the record of the calibration says if absent, and without one that of the shipped "
-          "calibration.",
-          &Study::fit_uncertainty),
-      stated_uncertainty(
-          "input_uncertainty",
-          "Uncertainty of the maximum temperature from what is not known of the launch (see "
-          "kind sensitivity), for the study's own scene; if absent an assumed spread of load and "
-          "initial temperature is propagated, which takes a second run for every case.",
-          &Study::input_uncertainty),
       scene::text_key<Study>(
           "model_form", Standing::input,
           "Path of the record of other models, model_form.json, from the study file's folder; it says how "
           "far they move the critical gap towards ignition.",
           "../reports/model_form/model_form.json", &Study::model_form_record),
-      stated_uncertainty(
-          "model_form_uncertainty",
-          "By how much other models of the launch could be hotter, instead of such a record; an assumed one "
-          "if absent.",
-          &Study::model_form_uncertainty),
   };
+  return joined(
+      {records,
+       stated_uncertainty("fit_uncertainty",
+                          "Uncertainty of the margin from the calibrated constants, on the rows that they "
+                          "were fitted to; what the record of the calibration says if absent, and without "
+                          "one that of the shipped calibration.",
+                          &Study::fit_uncertainty),
+       stated_uncertainty("input_uncertainty",
+                          "Uncertainty of the maximum temperature from what is not known of the launch (see "
+                          "kind sensitivity), for the study's own scene; if absent an assumed spread of load "
+                          "and initial temperature is propagated, which takes a second run for every case.",
+                          &Study::input_uncertainty),
+       stated_uncertainty("model_form_uncertainty",
+                          "By how much other models of the launch could be hotter, instead of such a record; "
+                          "an assumed one if absent.",
+                          &Study::model_form_uncertainty)});
 }
 
 StudyKeys reference_keys() {
@@ -245,6 +261,37 @@ std::string default_text(const scene::KeyDescription& key, const scene::Value& v
 StudyTable reference_table() { return table_of("reference", published_row_keys()); }
 
 StudyTable cited_limit_table() { return table_of("cited_limit", cited_limit_keys()); }
+
+Fault check_bare_uncertainties(const toml::table& root, const StudyKeys& keys, const std::string& file) {
+  for (const auto& key : keys) {
+    if (!key.name.ends_with(because_part)) continue;
+    const std::string name = key.name.substr(0, key.name.rfind('.'));
+    const toml::node* node = root.get(name);
+    if (node == nullptr || (node->is_table() && !node->as_table()->empty())) continue;
+    const std::string value = node->is_string() ? scene::found_text(*node) : "\"1 K\"";
+    return scene::error_at(scene::place_of(*node, file), name, scene::found_text(*node) + " without a source",
+                           "a value with where it comes from, in words",
+                           fmt::format("{{ value = {}, because = \"...\" }}", value));
+  }
+  return std::nullopt;
+}
+
+Fault check_stated_uncertainties(const StudyKeys& keys, const StudyFile& study) {
+  const auto has = [&](const std::string& key) { return study.places.contains(key); };
+  for (const auto& key : keys) {
+    if (!key.name.ends_with(because_part)) continue;
+    const std::string name = key.name.substr(0, key.name.rfind('.'));
+    if (has(name + value_part) == has(key.name)) continue;
+    return fault_at(study, has(key.name) ? key.name : name + value_part,
+                    has(key.name) ? "a source without a value" : "a value without a source",
+                    fmt::format("{} = {{ value = \"1 K\", because = \"...\" }}", name));
+  }
+  for (const StatedUncertainty& each : study.study.stated) {
+    const std::string key = each.key + because_part;
+    if (Fault fault = scene::check_reason(each.because, place_of_key(study, key), key)) return fault;
+  }
+  return std::nullopt;
+}
 
 Fault read_references(const StudySource& source, StudyFile& study) {
   if (Fault fault = read_reference_tables(source.root, study.file, study)) return fault;

@@ -22,6 +22,11 @@ StudyKeys judging_keys();
 StudyKeys calibration_record_keys();
 /// What the uncertainty of a verdict is made of, besides the mesh.
 StudyKeys uncertainty_keys();
+/// The fault of an uncertainty that is stated by hand as a bare number, "1 K"; none without one.
+study::Fault check_bare_uncertainties(const toml::table& root, const StudyKeys& keys,
+                                      const std::string& file);
+/// The fault of one without a source in words, or of a source without its value.
+study::Fault check_stated_uncertainties(const StudyKeys& keys, const study::StudyFile& study);
 /// A file of published rows, and a published line.
 StudyKeys reference_keys();
 

@@ -1,5 +1,6 @@
 #include "launchsafe/report/case_tables.hpp"
 
+#include "launchsafe/report/kinetics_text.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
@@ -109,7 +110,7 @@ BurntState burnt_state_of(const run::CombustionHistory& c) {
   return {1e3 * last_of(c.burnt_mass), 1e-3 * last_of(c.released), 1e-6 * largest_in(c.pressure)};
 }
 
-Table combustion_table(const run::CaseResult& result) {
+Table combustion_table(const scene::Scene& scene, const run::CaseResult& result) {
   Table table{"After ignition, with two-way coupling",
               {quantity::gap(), significant_column("flame in the skin", "m/s", 3, "skin_flame_speed_m_per_s"),
                significant_column("behind it", "m/s", 3, "bulk_flame_speed_m_per_s"),
@@ -135,6 +136,7 @@ Table combustion_table(const run::CaseResult& result) {
       "At the end of the run; p max is the largest over it. Released and kept back: of the heat of reaction "
       "of what had burnt. Brought: heat above the initial temperature that it had before, from air, friction "
       "and slow reaction.",
+      flame_kinetics_note(scene),
       "The flame lives on conduction alone. Friction heats by the closure and the localisation of the "
       "launch, which are not calibrated for the motion that the gas causes: how fast burning spreads over "
       "the bottom is a result of the model, and no prediction."};

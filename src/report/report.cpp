@@ -128,6 +128,8 @@ std::string study_json(const study::StudyFile& study, const Report& report,
                               {"title", report.title},
                               {"answer", report.answer}};
   head.update(members);
+  for (const study::StatedUncertainty& each : study.study.stated)
+    head["stated_by_hand"].push_back({{"key", each.key}, {"K", each.value}, {"because", each.because}});
   std::string text = json_file_text(head);
   text.resize(text.rfind("\n}"));  // open the object again
   std::vector<const ReportTable*> tables;

@@ -61,7 +61,7 @@ std::optional<double> allowed_in_all(const std::vector<JudgedCase>& cases, const
 void say_recommended(const Subject& subject, SafetySection& section) {
   const Origin origin = subject.origin("verdicts");
   const auto safe = allowed_in_all(subject.cases, GapCriterion{});
-  Parts parts{{"several", subject.cases.size() > 1}};
+  Parts parts{{"several", subject.cases.size() > 1}, {"temperature", launch_temperature_text(subject)}};
   if (safe) parts["gap"] = part(exact(*safe) + " cm", *safe, "cm");
   if (!subject.criterion)
     return section.say(safe ? "recommended.not_stated" : "recommended.not_stated_none_safe", parts, origin,
@@ -77,12 +77,14 @@ void say_recommended(const Subject& subject, SafetySection& section) {
 
 Table case_table(const Subject& subject) {
   Table table{.columns = {text_column("case"), text_column("critical gap"), text_column("largest SAFE gap"),
+                          number_column("before launch", "K", 0, "initial_temperature_K"),
                           count_column("SAFE", "safe"), count_column("INDETERMINATE", "indeterminate"),
                           count_column("UNSAFE", "unsafe")}};
   for (const JudgedCase& each : subject.cases) {
     const std::size_t safe = largest_safe(each);
     table.rows.push_back({each.label, gap_text(*each.critical),
                           safe == each.gaps.size() ? "none" : exact(each.gaps[safe].gap) + " cm",
+                          subject.scene().initial_temperature,
                           static_cast<std::int64_t>(count_of(each.verdicts, "SAFE")),
                           static_cast<std::int64_t>(count_of(each.verdicts, "INDETERMINATE")),
                           static_cast<std::int64_t>(count_of(each.verdicts, "UNSAFE"))});

@@ -209,6 +209,7 @@ Table verdict_table(const Subject& subject) {
   Table table;
   if (several) table.columns.push_back(named_text("case", "case"));
   append(table.columns, {significant_column("gap", "cm", 6, "gap_cm"), named_text("verdict", "verdict"),
+                         number_column("before launch", "K", 0, "initial_temperature_K"),
                          number_column("T max", "K", 0, "temperature_max_K"),
                          significant_column("margin", "K", 6, "margin_K"),
                          significant_column("uncertainty", "K", 6, "uncertainty_K"),
@@ -229,7 +230,7 @@ Table verdict_table(const Subject& subject) {
       const bool ignited = !text_of(row, "ignition_cause").empty();
       const bool known = each.completed && std::isfinite(gap.uncertainty) && !has_validity_warning(row);
       cells.insert(cells.end(),
-                   {gap.gap, text_of(row, "verdict"),
+                   {gap.gap, text_of(row, "verdict"), subject.scene().initial_temperature,
                     each.completed ? optional_number(number_of(row, "temperature_max_K")) : Cell(),
                     ignited ? Cell() : down(gap.margin, decimals),
                     known ? Cell(rounded_up(gap.uncertainty, decimals)) : Cell(),

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <string_view>
@@ -21,6 +22,22 @@ bool is_confirmed(const Subject& subject, const std::string& label) {
     (text_of(run, "expected") == "ignites" ? above : below) = true;
   }
   return below && above;
+}
+
+std::vector<double> swept_temperatures(const StudyEvidence& study) {
+  std::vector<double> temperatures;
+  for (const Row& axis : study.rows("axes"))
+    if (text_of(axis, "scene_key") == "initial_temperature" && axis.contains("values"))
+      for (const Row& value : axis["values"])
+        if (value.is_number()) temperatures.push_back(value.get<double>());
+  return temperatures;
+}
+
+std::string launch_temperature_text(const Subject& subject) {
+  const auto swept = swept_temperatures(subject.study);
+  if (swept.empty()) return fixed(subject.scene().initial_temperature, 0) + " K";
+  const auto [coldest, hottest] = std::minmax_element(swept.begin(), swept.end());
+  return fmt::format("{} to {} K", fixed(*coldest, 0), fixed(*hottest, 0));
 }
 
 std::vector<const Row*> all_verdicts(const Subject& subject) {
@@ -58,8 +75,32 @@ void say_verdict_counts(const Subject& subject, SafetySection& section) {
                     {"safe", count_of(rows, "SAFE")},
                     {"unsafe", count_of(rows, "UNSAFE")},
                     {"indeterminate", open},
+                    {"temperature", launch_temperature_text(subject)},
                     {"all", open == rows.size()}};
   section.item(open > 0 ? "limits.indeterminate" : "limits.all_decided", parts, subject.origin("verdicts"));
+}
+
+/// The least that the critical gap can be at the hottest temperature of a sweep over it; of several cases at
+/// that the smallest, and nothing where one has no bound.
+void say_hottest(const Subject& subject, SafetySection& section) {
+  for (const StudyEvidence& study : subject.evidence.studies) {
+    const auto temperatures = swept_temperatures(study);
+    if (study.kind != "sweep" || temperatures.empty()) continue;
+    const double hottest = *std::max_element(temperatures.begin(), temperatures.end());
+    double least = std::numeric_limits<double>::infinity();
+    for (const Row& row : study.rows("cases")) {
+      if (number_of(row, "initial_temperature_K") != hottest) continue;
+      const bool ignites = text_of(row, "critical_gap_kind") == "all-ignite";
+      const double bound = ignites ? 0.0 : number_of(row, "critical_gap_at_least_cm");
+      // Written so that a bound that is not known stays.
+      least = least < bound || std::isnan(least) ? least : bound;
+    }
+    Parts parts{{"temperature", part(fixed(hottest, 0) + " K", hottest, "K")}, {"study", study.label}};
+    if (std::isfinite(least) && least > 0.0)
+      parts["at_least"] = part(allowed_text(least, 4) + " cm", least, "cm");
+    parts["none"] = least == 0.0;
+    section.item("limits.hottest", parts, origin_of(study, "cases"));
+  }
 }
 
 /// Two digits, or all before the point.
@@ -165,13 +206,28 @@ void say_shares(const Subject& subject, SafetySection& section) {
 void say_assumptions(const Subject& subject, SafetySection& section) {
   const StudyEvidence& study = subject.study;
   const Origin origin = subject.origin("the study file, in its manifest");
-  const bool inputs = !says(study, "input_uncertainty");
-  const bool computation = !says(study, "accuracy") && !says(study, "numerical_uncertainty");
-  const bool models = !says(study, "model_form") && !says(study, "model_form_uncertainty");
+  const auto states = [&](const char* key) {
+    const Row& stated = study.rows("stated_by_hand");
+    return std::any_of(stated.begin(), stated.end(),
+                       [&](const Row& row) { return text_of(row, "key") == key; });
+  };
+  const bool inputs = !states("input_uncertainty");
+  const bool computation = !says(study, "accuracy") && !states("numerical_uncertainty");
+  const bool models = !says(study, "model_form") && !states("model_form_uncertainty");
   const std::string others = said_after(all_verdicts(subject), "ignition not excluded under ");
   if (inputs || computation || models)
     section.item("limits.assumed", {{"inputs", inputs}, {"computation", computation}, {"models", models}},
                  origin);
+  for (const Row& row : study.rows("stated_by_hand")) {
+    std::string name = text_of(row, "key");
+    std::replace(name.begin(), name.end(), '_', ' ');
+    const double value = number_of(row, "K");
+    section.item("limits.stated",
+                 {{"what", name},
+                  {"value", part(significant(value, 3) + " K", value, "K")},
+                  {"because", text_of(row, "because")}},
+                 origin);
+  }
   if (!others.empty()) section.item("limits.other_models", {{"models", others}}, subject.origin("verdicts"));
 }
 
@@ -185,7 +241,6 @@ void say_without_exit(const Subject& subject, SafetySection& section) {
 
 void say_launch(const Subject& subject, SafetySection& section) {
   const scene::Scene& scene = subject.scene();
-  const auto kelvin = fixed(scene.initial_temperature, 0) + " K";
   const JudgedCase* own = subject.own_case();
   Parts parts{{"own", own != nullptr && subject.is_own(*own)},
               {"cases", subject.study.rows("cases").size()},
@@ -194,7 +249,7 @@ void say_launch(const Subject& subject, SafetySection& section) {
               {"exit", scene::exit_text(scene)},
               {"crack", significant(1e6 * scene.charge().strength.initial_crack_radius, 4) + " µm"},
               {"flaw", significant(1e3 * scene.charge().strength.flaw_size, 3) + " mm"},
-              {"temperature", kelvin},
+              {"temperature", launch_temperature_text(subject)},
               {"several", subject.cases.size() > 1},
               {"others", subject.study.kind != "sweep" && subject.evidence.find("sweep") != nullptr}};
   // Nothing is covered by what was not computed.
@@ -271,6 +326,7 @@ void say_limits(const Subject& subject, SafetySection& section) {
   say_failed(subject, section);
   say_differences(subject, section);
   say_verdict_counts(subject, section);
+  say_hottest(subject, section);
   say_calibration(subject, section);
   say_air(subject, section);
   say_shares(subject, section);

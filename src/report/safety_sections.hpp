@@ -84,6 +84,11 @@ struct Share {
 inline constexpr const char* share_names[] = {"computation", "fit", "inputs", "model_form"};
 std::vector<Share> shares_of(const Row& verdict);
 
+/// "300 K": what the verdicts of the main study hold for; of a sweep over it "219 to 344 K".
+std::string launch_temperature_text(const Subject& subject);
+/// The initial temperatures of a sweep over them, K; none of another study.
+std::vector<double> swept_temperatures(const StudyEvidence& study);
+
 /// The verdict rows of the main study, where it judges gaps.
 std::vector<const Row*> all_verdicts(const Subject& subject);
 std::size_t count_of(const std::vector<const Row*>& rows, const std::string& verdict);

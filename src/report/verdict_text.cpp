@@ -22,6 +22,15 @@ std::string ignition_text(const study::GapVerdict& row) {
                      row.ignition->point);
 }
 
+/// Uncertainties that somebody stated by hand, with their sources; empty without any.
+std::string stated_note(const study::Study& study) {
+  std::string text;
+  for (const study::StatedUncertainty& each : study.stated)
+    text += fmt::format("{}{} {} K, because {}", text.empty() ? "Stated by hand: " : "; ", each.key,
+                        significant(each.value, 3), each.because);
+  return text.empty() ? text : text + ".";
+}
+
 /// The charge off the grid lines, in the scene of a study or in those of its cases, which may have meshes and
 /// bodies of their own.
 std::string off_grid_note(const study::StudyFile& study) {
@@ -129,6 +138,7 @@ std::vector<std::string> mesh_notes(const study::StudyFile& study) {
     notes.push_back(fmt::format("The uncertainty includes up to {} K for mesh, step and scaling, {}.",
                                 significant(study.study.numerical_uncertainty, 3), study.uncertainty_source));
   }
+  if (std::string note = stated_note(study.study); !note.empty()) notes.push_back(std::move(note));
   if (std::string note = off_grid_note(study); !note.empty()) notes.push_back(std::move(note));
   return notes;
 }
@@ -182,6 +192,8 @@ Table cited_limit_table(const study::StudyFile& study,
       "Beside each limit stands the case with the nearest peak pressure; for one without a pressure, that of "
       "the study's scene. The difference is given where the pressures agree within {:.6g} %.",
       100.0 * study::pressure_slack));
+  table.notes.emplace_back(
+      "Whether the pressure of a cited limit is that at the breech, at the base or under the charge is not known.");
   if (chosen)
     table.notes.emplace_back(
         "Of several cases at that pressure it is the one with the smallest critical gap.");

@@ -1,6 +1,7 @@
 #include "burning_bottom.hpp"
 
 #include "launchsafe/materials/deflagration.hpp"
+#include "launchsafe/scene/decomposition.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/stations.hpp"
 
@@ -63,6 +64,7 @@ bool heats_bulk(const scene::Scene& scene) {
 
 BurningBottom::BurningBottom(const mpm::Simulation& simulation, const TraceRecorder& recorder)
     : charge_(simulation.scene().charge()),
+      flame_kinetics_(scene::flame_kinetics(simulation.scene())),
       release_(simulation.scene().combustion.release),
       skin_thickness_(simulation.scene().surface.skin_thickness),
       initial_temperature_(simulation.scene().initial_temperature),
@@ -117,7 +119,7 @@ void BurningBottom::ignite(const mpm::Simulation& simulation, const SteppedSkin&
   // A station over no body that reaches the bottom has nothing that burns.
   flame.bulk_temperature = reads_bulk_ && share > 0.0 ? temperature / share : initial_temperature_;
   const auto speed = [&](double unburnt) {
-    return materials::deflagration_speed(charge_.kinetics, charge_.conductivity, charge_.initial_density(),
+    return materials::deflagration_speed(flame_kinetics_, charge_.conductivity, charge_.initial_density(),
                                          charge_.specific_heat, unburnt);
   };
   flame.burns = true;

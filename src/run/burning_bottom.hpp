@@ -67,6 +67,7 @@ class BurningBottom {
   void burn_column(mpm::Simulation& simulation, Column& column, const std::vector<Burnt>& burnt);
 
   scene::Charge charge_;
+  materials::KineticsParameters flame_kinetics_;  ///< that the flame lives on
   scene::HeatRelease release_;
   double skin_thickness_;       ///< m
   double initial_temperature_;  ///< K

@@ -54,19 +54,20 @@ std::optional<InputError> check(const Acceptance& acceptance, const std::map<std
     return error_at(places.at("key"), "accept.key", fmt::format("\"{}\" a second time", acceptance.key),
                     "each key once");
   }
-  const std::string& because = acceptance.because;
-  if (!is_in_words(because) || has_invisible(because) ||
-      std::any_of(because.begin(), because.end(), is_control)) {
-    return error_at(
-        places.at("because"), "accept.because", fmt::format("a reason of {} characters", because.size()),
-        fmt::format(
-            "a reason in words, at least two and {} letters on one line: it is printed beside every verdict",
-            fewest_letters));
-  }
-  return std::nullopt;
+  return check_reason(acceptance.because, places.at("because"), "accept.because");
 }
 
 }  // namespace
+
+std::optional<InputError> check_reason(const std::string& text, const Place& place, const std::string& key) {
+  if (is_in_words(text) && !has_invisible(text) && std::none_of(text.begin(), text.end(), is_control))
+    return std::nullopt;
+  return error_at(
+      place, key, fmt::format("a reason of {} characters", text.size()),
+      fmt::format(
+          "a reason in words, at least two and {} letters on one line: it is printed beside every verdict",
+          fewest_letters));
+}
 
 const std::vector<Key<Acceptance>>& acceptance_keys() {
   static const std::vector<Key<Acceptance>> keys{

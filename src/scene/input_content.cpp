@@ -27,7 +27,8 @@ Wording wording_of(InputContent content) {
 
 InputContent content_of(const toml::table& root) {
   const auto of_materials = [](const auto& each) {
-    return each.first.str() == "material" || each.first.str() == "contact";
+    return each.first.str() == "material" || each.first.str() == "contact" ||
+           each.first.str() == "decomposition";
   };
   if (!root.empty() && std::all_of(root.begin(), root.end(), of_materials)) return InputContent::materials;
   if (root.contains("body")) return InputContent::scene;

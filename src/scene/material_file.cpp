@@ -1,5 +1,6 @@
 // Files of materials and contacts, and those that ship.
 #include "built_in_materials.hpp"
+#include "launchsafe/scene/decomposition.hpp"
 #include "launchsafe/scene/input_content.hpp"
 #include "launchsafe/scene/named_material.hpp"
 
@@ -61,6 +62,11 @@ const std::vector<NamedContact>& shipped_contacts() {
   return all;
 }
 
+const std::vector<Decomposition>& shipped_decompositions() {
+  static const std::vector<Decomposition> all = read_built_in<Decomposition>(read_decompositions);
+  return all;
+}
+
 Expected<NamedMaterials> read_material_file(const std::filesystem::path& file) {
   const auto text = read_text_file(file);
   if (!text) return text.error();
@@ -69,13 +75,14 @@ Expected<NamedMaterials> read_material_file(const std::filesystem::path& file) {
   if (auto error = check_content(*table, file.string(), InputContent::materials)) return *error;
   if (is_shipped(*text))
     return NamedMaterials{named_in(*table, "material", shipped_materials()),
-                          named_in(*table, "contact", shipped_contacts())};
+                          named_in(*table, "contact", shipped_contacts()),
+                          named_in(*table, "decomposition", shipped_decompositions())};
   if (auto error = check_material_tables(*table, file.string())) return *error;
   auto materials = read_materials(*table, file.string(), shipped_materials());
   if (!materials) return materials.error();
   auto contacts = read_contacts(*table, file.string(), shipped_contacts());
   if (!contacts) return contacts.error();
-  return NamedMaterials{std::move(*materials), std::move(*contacts)};
+  return NamedMaterials{std::move(*materials), std::move(*contacts), {}};
 }
 
 }  // namespace launchsafe::scene

@@ -1,6 +1,7 @@
 #include "launchsafe/scene/scene_keys.hpp"
 
 #include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/decomposition.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
@@ -95,8 +96,23 @@ Keys general_keys() {
   };
 }
 
+Key<Combustion> flame_kinetics_key() {
+  KeyDescription description = keys::description(
+      "kinetics", KeyKind::word, Standing::literature,
+      "What the flame lives on after ignition: a decomposition whose numbers belong together, of RDX or of "
+      "Composition B, or effective, the charge's own. These alone decide ignition, and what is released "
+      "stays kinetics.heat_of_reaction.");
+  for (const Decomposition& each : shipped_decompositions()) description.words.push_back(each.name);
+  description.words.emplace_back(effective_kinetics);
+  return keys::bound_key<Combustion>(
+      std::move(description), &Combustion::kinetics,
+      [](std::string& word, const Value& value) { word = std::get<std::string>(value); },
+      [](const std::string& word) { return word; });
+}
+
 std::vector<Key<Combustion>> combustion_keys() {
   return {
+      always_plausible(flame_kinetics_key(), "it neither decides nor confirms ignition"),
       always_plausible(
           word_key("release", Standing::paper,
                    "Heat of burning explosive: as much as brings it to T2, or all of its heat of reaction.",
@@ -105,7 +121,7 @@ std::vector<Key<Combustion>> combustion_keys() {
           "the published model stops at T2, and explosives release all of it"),
       plausibly(number_key("duration", Dimension::time, above_to(0, 1), Standing::assumed,
                            "Time after the first ignition at which the run ends.", &Combustion::duration),
-                between(1e-5, 5e-3), "a skin of 0.1 mm burns through in half a millisecond"),
+                between(1e-5, 5e-3), "a skin of 0.1 mm burns through in 3 ms"),
       plausibly(number_key("stop_pressure", Dimension::pressure, above_to(0, 1e11), Standing::assumed,
                            "Pressure at the charge's bottom at which the run ends before.",
                            &Combustion::stop_pressure),

@@ -208,16 +208,28 @@ std::string why_foreign(const AccuracyRecord& record, const scene::Scene& scene)
   if (record.model_version != run::model_version)
     return fmt::format("it was made with model version {}, and this is {}", record.model_version,
                        run::model_version);
-  if (record.shell != shell_of(scene) || record.initial_temperature != scene.initial_temperature)
-    return "it was made of another shell, material, initial temperature, closure of friction or air, or of a "
-           "charge "
-           "that is held otherwise";
+  scene::Scene as_recorded = scene;
+  as_recorded.initial_temperature = record.initial_temperature;
+  if (record.shell != shell_of(as_recorded))
+    return "it was made of another shell, material, closure of friction or air, or of a charge that is held "
+           "otherwise";
   if (record.unvaried.empty()) return {};
   const std::string& key = record.unvaried.front();
   const auto* description = scene::find_key(scene::scene_keys(), key);
   return fmt::format(
       "all its reference meshes have {} = {}, and no setting of it tells what the exact value changes", key,
       scene::format_value(*description, record.settings.front().setting.at(key)));
+}
+
+Coverage coverage_of(const AccuracyRecord& record, const scene::Scene& scene) {
+  constexpr double hottest = 1.2, round_off = 1e-9;
+  Coverage coverage = coverage_of(record.launch, launch_of(scene, {}));
+  const double ratio = scene.initial_temperature / record.initial_temperature;
+  coverage.growth *= std::pow(std::max(1.0, ratio), 2);
+  if (coverage.reason.empty() && !(ratio <= hottest * (1.0 + round_off)))
+    coverage.reason = fmt::format("it was made at {:.4g} K, and {:.4g} K are hotter by more than a fifth",
+                                  record.initial_temperature, scene.initial_temperature);
+  return coverage;
 }
 
 const RecordedSetting* recorded_setting(const AccuracyRecord& record, const scene::Scene& scene) {

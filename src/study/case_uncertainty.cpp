@@ -84,7 +84,7 @@ double fit_share(const Study& study, const CalibrationDistance& distance, const 
   if (!study.kind.gives_verdicts) return 0.0;
   const CalibrationEvidence& evidence = study.calibration.evidence;
   double fit = std::isfinite(study.fit_uncertainty) ? study.fit_uncertainty : evidence.fit_uncertainty;
-  if (distance.other_load_shape) fit = std::max(fit, evidence.fit_uncertainty);
+  if (distance.other_load_shape) fit = std::max(fit, assumed_other_load_shape);
   const double growth = std::hypot(rises.friction / evidence.friction_rise, rises.air / evidence.air_rise);
   // Written so that a rise that is not a number leaves none.
   fit *= growth <= 1.0 ? 1.0 : growth;
@@ -177,7 +177,7 @@ std::string fit_uncertainty_text(const Study& study) {
       "{}, {}; their relative errors are carried to a case's own heating by friction and air. Under another "
       "load shape it is at least {:.3g} K, and with other numerics {:.3g} K for the mesh error that the "
       "constants absorbed come in.",
-      base, rows, evidence.fit_uncertainty, assumed_numerical_uncertainty);
+      base, rows, assumed_other_load_shape, assumed_numerical_uncertainty);
 }
 
 std::string model_form_uncertainty_text(const StudyFile& study) {
@@ -199,8 +199,10 @@ std::string model_form_uncertainty_text(const StudyFile& study) {
   std::string text = fmt::format(
       "what a gap thicker by as much as the smallest critical gap of another model is below that of the "
       "default changes, by the record `{}` of {} and, counting for nothing, {}; models that only move away "
-      "from ignition take nothing from a margin",
-      s.model_form_record, names_of(*s.model_form, true), names_of(*s.model_form, false));
+      "from ignition take nothing from a margin. At {:.4g} MPa all of them were calibrated on the same rows: "
+      "there they agree by construction, and the model form is not assessable",
+      s.model_form_record, names_of(*s.model_form, true), names_of(*s.model_form, false),
+      1e-6 * s.calibration.scene.load.peak);
   if (outside > 0)
     text += fmt::format("; where it does not speak of a case ({} of {}: {}) {}", outside, study.cases.size(),
                         reason, otherwise);

@@ -79,8 +79,7 @@ double raised_share(const RaisedLaunch& raised, const GapVerdict& row) {
 
 /// K, the random causes together, as independent ones are.
 double input_share(const Study& study, const CaseOutcome& outcome, const GapVerdict& row) {
-  if (!outcome.raised) return stated_input_share(study, outcome.input);
-  double squares = 0.0;
+  double squares = outcome.raised ? 0.0 : std::pow(stated_input_share(study, outcome.input), 2);
   for (const RaisedLaunch& each : raised_inputs(study, outcome, End::towards_ignition)) {
     const double share = raised_share(each, row);
     squares += share * share;

@@ -11,6 +11,7 @@ const ShareTraits& traits_of(ShareKind kind) {
       {"peak_pressure", "peak pressure", random},
       {"pulse_length", "length of the pulse", random},
       {"initial_temperature", "initial temperature", random},
+      {"muzzle_exit", "time of the muzzle exit", random},
       {"stated_inputs", "inputs, as stated", random},
       {"load_curve", "noise and smoothing of the measured curve", knowledge},
       {"computation", "computation", knowledge},

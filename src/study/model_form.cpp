@@ -119,7 +119,8 @@ Shift shift_at(const ModelFormRecord& record, std::size_t pressure) {
 
 double peak_of(const scene::Scene& scene) { return scene::PressureHistory(scene.load).stated_peak(); }
 
-/// Why a record says nothing of a scene; empty where it does.
+/// Why a record says nothing of a scene; empty where it does. Over the initial temperature it is not carried:
+/// a colder launch ignites at a gap beyond the rows that all models are calibrated on, and there they part.
 std::string why_outside(const ModelFormRecord& record, const scene::Scene& scene) {
   const CalibrationDistance distance = distance_to_calibration(scene, {record.scene, {}});
   std::vector<std::string> other = distance.unknown;

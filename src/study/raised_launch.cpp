@@ -44,6 +44,12 @@ class Causes {
         trace_(own_trace(outcome)) {}
 
   void add_inputs() {
+    const scene::Load& load = outcome_.input.scene.scene.load;
+    if (const auto exit = scene::exit_time(load); exit && load.muzzle_exit_spread > 0.0) {
+      const double delay = towards() ? load.muzzle_exit_spread : -load.muzzle_exit_spread;
+      add(ShareKind::muzzle_exit, skin_,
+          std::make_shared<trace::BottomTrace>(trace::delayed(*trace_, *exit, delay)));
+    }
     if (!outcome_.raised) return;
     add(ShareKind::peak_pressure, skin_, trace_at_pressure(outcome_, end_));
     add(ShareKind::pulse_length, skin_, trace_of_length(outcome_, end_));
@@ -73,11 +79,16 @@ class Causes {
     raised_.push_back({kind, std::move(skin), std::move(trace), thicker});
   }
 
+  /// Of a launch that heats nothing, no factor on its heat makes the skin hotter.
+  SharedTrace trace_where_known(double factor) const {
+    return rise_ > 0.0 && std::isfinite(factor) ? trace_ : SharedTrace{};
+  }
+
   /// A cause that is known as a change of T max, K.
   void add_temperature(ShareKind kind, double change) {
     if (change == 0.0) return;
     const double factor = towards() ? 1.0 + change / rise_ : std::max(0.0, 1.0 - change / rise_);
-    add(kind, heated_more(skin_, factor, factor), std::isfinite(factor) ? trace_ : SharedTrace{});
+    add(kind, heated_more(skin_, factor, factor), trace_where_known(factor));
   }
 
   void add_load_curve() {
@@ -92,8 +103,8 @@ class Causes {
   void add_sliding() {
     if (!towards()) return;
     const double factor = 1.0 + friction_share(outcome_) / rise_;
-    add(ShareKind::sliding, heated_more(skin_, factor, factor),
-        std::isfinite(factor) ? trace_ : SharedTrace{}, opening_at_base(outcome_));
+    add(ShareKind::sliding, heated_more(skin_, factor, factor), trace_where_known(factor),
+        opening_at_base(outcome_));
   }
 
   void add_shift(ShareKind kind) {

@@ -58,7 +58,7 @@ Fault settle_fit_uncertainty(StudyFile& study, const CalibrationRecord& record) 
   double& stated = study.study.fit_uncertainty;
   if (std::isnan(stated)) stated = shown;
   if (stated >= shown) return std::nullopt;
-  return fault_at(study, "fit_uncertainty",
+  return fault_at(study, "fit_uncertainty.value",
                   fmt::format("{:.3g} K, and {:.3g} K in the record of the calibration", stated, shown),
                   "no less than the record shows, or no fit_uncertainty, which takes it");
 }
@@ -107,7 +107,8 @@ Fault read_model_form(StudyFile& study, const std::filesystem::path& folder) {
   const std::string& name = study.study.model_form_record;
   if (name.empty()) return std::nullopt;
   if (std::isfinite(study.study.model_form_uncertainty)) {
-    return fault_at(study, "model_form_uncertainty", "a stated uncertainty beside a record of other models",
+    return fault_at(study, "model_form_uncertainty.value",
+                    "a stated uncertainty beside a record of other models",
                     "either model_form_uncertainty or model_form");
   }
   auto record = read_named(study, folder, "model_form", name,

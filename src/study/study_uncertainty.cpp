@@ -73,7 +73,7 @@ Recorded recorded_for(const AccuracyRecord& record, const scene::Scene& scene) {
     recorded.reason = "it does not have these settings";
     return recorded;
   }
-  const Coverage coverage = coverage_of(record.launch, launch_of(scene, {}));
+  const Coverage coverage = coverage_of(record, scene);
   recorded.reason = coverage.reason;
   recorded.largest_gap = coverage.largest_gap;
   recorded.growth = coverage.growth;
@@ -133,7 +133,7 @@ scene::Expected<std::optional<AccuracyRecord>> read_record(const StudyFile& stud
   const std::string& name = study.study.accuracy;
   if (name.empty()) return std::optional<AccuracyRecord>{};
   if (std::isfinite(study.study.numerical_uncertainty)) {
-    return fault_at(study, "numerical_uncertainty", "a stated uncertainty beside an accuracy record",
+    return fault_at(study, "numerical_uncertainty.value", "a stated uncertainty beside an accuracy record",
                     "either numerical_uncertainty or accuracy");
   }
   const auto text =
@@ -154,7 +154,7 @@ Fault choose_setting(StudyFile& study, const std::optional<AccuracyRecord>& reco
   }
   const scene::Scene& own = study.scene.scene;
   const std::string foreign = why_foreign(*record, own);
-  const Coverage coverage = coverage_of(record->launch, launch_of(own, {}));
+  const Coverage coverage = coverage_of(*record, own);
   if (const std::string reason = foreign.empty() ? coverage.reason : foreign; !reason.empty())
     return fault_at(study, "accuracy", asked + ", and a record that does not apply: " + reason,
                     "the record of an accuracy study on this scene");

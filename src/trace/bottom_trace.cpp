@@ -27,8 +27,8 @@ std::vector<double> combined_means(const std::vector<double>& time, const std::v
                                    const std::vector<std::size_t>& kept) {
   std::vector<double> result;
   for (std::size_t k = 0; k < kept.size(); ++k) {
-    if (k == 0) {
-      result.push_back(means[kept[0]]);
+    if (k == 0 || kept[k] == kept[k - 1]) {
+      result.push_back(means[kept[k]]);
       continue;
     }
     double weighted = 0.0;
@@ -76,6 +76,29 @@ BottomTrace until(const BottomTrace& trace, double time) {
   for (std::size_t sample = 0; sample < trace.samples() && trace.time[sample] <= time + round_off; ++sample)
     kept.push_back(sample);
   return with_samples(trace, kept);
+}
+
+BottomTrace delayed(const BottomTrace& trace, double instant, double delay) {
+  constexpr double round_off = 1e-12;  // s
+  std::vector<std::size_t> kept;
+  std::size_t moved = 0;  // the first sample that comes later or sooner
+  for (std::size_t sample = 0; sample < trace.samples(); ++sample) {
+    const bool before = trace.time[sample] < instant - round_off;
+    if (before && delay < 0.0 && trace.time[sample] > instant + delay - round_off) continue;
+    if (before) moved = kept.size() + 1;
+    kept.push_back(sample);
+  }
+  if (moved == 0 || moved == kept.size()) return trace;
+  // The state at the instant once more, from which it holds.
+  if (delay > 0.0) kept.insert(kept.begin() + static_cast<std::ptrdiff_t>(moved), kept[moved]);
+  BottomTrace result = with_samples(trace, kept);
+  if (delay > 0.0) {
+    ++moved;
+    result.mean_chamber_pressure[moved] = result.chamber_pressure[moved];
+    result.mean_bottom_pressure[moved] = result.bottom_pressure[moved];
+  }
+  for (std::size_t sample = moved; sample < result.samples(); ++sample) result.time[sample] += delay;
+  return result;
 }
 
 BottomTrace stretched(BottomTrace trace, double factor) {

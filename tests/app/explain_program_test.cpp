@@ -118,6 +118,23 @@ TEST_F(ExplainedMaterials, OfAShippedFileAreThoseOfItsName) {
   EXPECT_EQ(told["contacts"][0]["name"], "bonded");
 }
 
+// The times are those of an independent quadrature, scene/decomposition_test.cpp.
+TEST_F(ExplainedMaterials, TellHowFastDecompositionsRunAway) {
+  const std::string text = run({"explain", "--materials"}).out;
+  EXPECT_NE(text.find("runs away by itself in 2.86 ms from 519 K and in 0.305 ms from 550 K"),
+            std::string::npos);
+  EXPECT_NE(text.find("runs away by itself in 341 ms from 519 K and in 29.3 ms from 550 K"),
+            std::string::npos);
+  EXPECT_NE(text.find("Rogers"), std::string::npos);
+  const std::string file = LAUNCHSAFE_SOURCE_DIR "/studies/materials/decomposition.toml";
+  const Json told = Json::parse(run({"explain", file, "--json"}).out);
+  ASSERT_EQ(told["decompositions"].size(), 2u);
+  EXPECT_NEAR(told["decompositions"][0]["runaway_from_519_K_ms"].get<double>(), 223.6, 0.05);
+  // They are no materials of users.
+  write("mine.toml", "[decomposition.mine]\ntitle = \"x\"\n");
+  EXPECT_EQ(run({"explain", "mine.toml"}).code, 2);
+}
+
 TEST_F(ExplainedMaterials, OfAnOwnFileHaveEveryNumberEvenWithoutASource) {
   const std::string mix =
       "[material.mix]\nlaw = \"charge\"\nlike = \"comp-b\"\ndensity = \"1.65 g/cm3\"\n"

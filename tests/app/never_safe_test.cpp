@@ -32,10 +32,10 @@ const std::string sound_study = R"(kind = "critical-gap"
 scene = "shell.toml"
 largest_gap = "0.02 cm"
 confirm = false
-numerical_uncertainty = "5 K"
-fit_uncertainty = "3 K"
-input_uncertainty = "5 K"
-model_form_uncertainty = "1 K"
+numerical_uncertainty = { value = "5 K", because = "for a test" }
+fit_uncertainty = { value = "3 K", because = "for a test" }
+input_uncertainty = { value = "5 K", because = "for a test" }
+model_form_uncertainty = { value = "1 K", because = "for a test" }
 )";
 
 /// A pulse as a gun makes it, in ms and MPa.
@@ -148,7 +148,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"NoLoad", with_curve("time_ms,pressure_MPa\n0,0\n9,0\n18,0\n"), "load.measured_peak"},
         Mistake{"LateIgnition", in_scene("[kinetics]\n", "[kinetics]\nignition_temperature = \"700 K\"\n"),
                 "kinetics.ignition_temperature"},
-        Mistake{"AnExactMesh", in_study("\"5 K\"\nfit", "\"0 K\"\nfit"), "numerical_uncertainty"}),
+        Mistake{"AnExactMesh",
+                in_study("numerical_uncertainty = { value = \"5 K\"",
+                         "numerical_uncertainty = { value = \"0 K\""),
+                "numerical_uncertainty"}),
     [](const auto& test) { return test.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(

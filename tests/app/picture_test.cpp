@@ -15,10 +15,11 @@ class HangingPicture : public StoredStudy {
     std::filesystem::permissions(folder() / "bin/gnuplot", std::filesystem::perms::owner_all);
     const std::string path = (folder() / "bin").string() + ":" + std::getenv("PATH");
     before_start([path] { ::setenv("PATH", path.c_str(), 1); });
-    write("study.toml",
-          "kind = \"critical-gap\"\nscene = \"shell.toml\"\nmodel_form_uncertainty = \"1 K\"\nearly_time = "
-          "\"0.03 ms\"\ninput_uncertainty = "
-          "\"2 K\"\nconfirm = false\n");
+    write(
+        "study.toml",
+        "kind = \"critical-gap\"\nscene = \"shell.toml\"\nmodel_form_uncertainty = { value = \"1 K\", "
+        "because = \"for a test\" }\nearly_time = "
+        "\"0.03 ms\"\ninput_uncertainty = { value = \"2 K\", because = \"for a test\" }\nconfirm = false\n");
   }
 };
 

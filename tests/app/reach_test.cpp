@@ -31,9 +31,9 @@ TEST_F(Reach, ARunThatCouldNotEndIsRefusedWithKeyAndReason) {
 
 TEST_F(Reach, OneCaseThatIsRefusedIsItsRow) {
   write("study.toml",
-        "kind = \"sweep\"\nscene = \"shell.toml\"\nmodel_form_uncertainty = \"1 K\"\nearly_time = \"0.03 "
-        "ms\"\ninput_uncertainty = \"2 "
-        "K\"\n[axes]\n"
+        "kind = \"sweep\"\nscene = \"shell.toml\"\nmodel_form_uncertainty = { value = \"1 K\", because = "
+        "\"for a test\" }\nearly_time = \"0.03 "
+        "ms\"\ninput_uncertainty = { value = \"2 K\", because = \"for a test\" }\n[axes]\n"
         "\"numerics.time_step_factor\" = [1e-300, 0.5]\ngap = \"0, 0.01 cm\"\n");
   const Outcome outcome = run({"study", "study.toml", "-o", "out", "--json"});
   EXPECT_EQ(outcome.code, 3) << outcome.err;

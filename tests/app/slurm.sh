@@ -169,7 +169,7 @@ END
 kind = "sweep"
 scene = "shell.toml"
 early_time = "0.03 ms"
-input_uncertainty = "2 K"
+input_uncertainty = { value = "2 K", because = "for a test" }
 
 [axes]
 peak_pressure = "30, 40, 50, 60, 70, 80 MPa"

@@ -13,8 +13,8 @@ namespace {
 const std::string small_sweep = R"(kind = "sweep"
 scene = "shell.toml"
 early_time = "0.03 ms"
-input_uncertainty = "2 K"
-model_form_uncertainty = "1 K"
+input_uncertainty = { value = "2 K", because = "for a test" }
+model_form_uncertainty = { value = "1 K", because = "for a test" }
 
 [axes]
 peak_pressure = "40, 50, 60 MPa"

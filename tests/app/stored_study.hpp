@@ -17,8 +17,8 @@ namespace launchsafe::app {
 inline const std::string sweep_study = R"(kind = "sweep"
 scene = "shell.toml"
 early_time = "0.03 ms"
-input_uncertainty = "2 K"
-model_form_uncertainty = "1 K"
+input_uncertainty = { value = "2 K", because = "for a test" }
+model_form_uncertainty = { value = "1 K", because = "for a test" }
 accept = [{ key = "gap.exchange_time", because = "the launch is as much faster" }]
 
 [axes]
@@ -53,8 +53,8 @@ scene = "shell.toml"
 early_time = "0.03 ms"
 gaps = "0, 0.01 cm"
 tolerance = "0.01 cm"
-input_uncertainty = "2 K"
-model_form_uncertainty = "1 K"
+input_uncertainty = { value = "2 K", because = "for a test" }
+model_form_uncertainty = { value = "1 K", because = "for a test" }
 accept = [
   { key = "kinetics.ignition_temperature", because = "the charge ignites in so brief a launch" },
   { key = "gap.exchange_time", because = "the launch is as much faster" },
@@ -92,7 +92,7 @@ numerics.cell_size = "5 mm"
 /// One launch and its safe computation.
 inline const std::string stability_study = R"(kind = "stability"
 scene = "shell.toml"
-numerical_uncertainty = "4 K"
+numerical_uncertainty = { value = "4 K", because = "for a test" }
 
 [[group]]
 name = "load"
@@ -106,8 +106,8 @@ scene = "shell.toml"
 name = "as it is"
 gaps = "0, 0.01 cm"
 early_time = "0.03 ms"
-input_uncertainty = "2 K"
-model_form_uncertainty = "1 K"
+input_uncertainty = { value = "2 K", because = "for a test" }
+model_form_uncertainty = { value = "1 K", because = "for a test" }
 
 [[variant]]
 name = "other cracks"

@@ -10,8 +10,8 @@ const std::string small_study = R"(kind = "critical-gap"
 scene = "shell.toml"
 gaps = "0, 0.01, 0.02 cm"
 early_time = "0.03 ms"
-input_uncertainty = "2 K"
-model_form_uncertainty = "1 K"
+input_uncertainty = { value = "2 K", because = "for a test" }
+model_form_uncertainty = { value = "1 K", because = "for a test" }
 )";
 
 class StudyProgram : public Program {

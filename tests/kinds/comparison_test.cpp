@@ -13,9 +13,10 @@ using namespace launchsafe;
 using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 
-const std::string comparison_start = "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\nname = \"own\"\n" +
-                                     synthetic_statements + "gaps = \"0, 0.02, 0.04 cm\"\n" +
-                                     "numerical_uncertainty = \"1 K\"\n";
+const std::string comparison_start =
+    "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\nname = \"own\"\n" + synthetic_statements +
+    "gaps = \"0, 0.02, 0.04 cm\"\n" +
+    "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n";
 
 StudyFile comparison_of(const std::string& variants, const std::string& keys = {}) {
   return study_of(comparison_start + keys + synthetic_constants + variants);
@@ -107,7 +108,8 @@ TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
   const std::string start =
       "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\nname = \"own\"\n"
       "gaps = \"0, 0.02 cm\"\npeak_pressures = \"496, 450 MPa\"\n"
-      "input_uncertainty = \"1 K\"\nmodel_form_uncertainty = \"1 K\"\n" +
+      "input_uncertainty = { value = \"1 K\", because = \"for a test\" }\nmodel_form_uncertainty = { value = "
+      "\"1 K\", because = \"for a test\" }\n" +
       calibrated("smooth_wall");
   const std::string bonded =
       variant("bonded", "interface.nose.condition = \"bonded\", interface.wall.condition = \"bonded\"");

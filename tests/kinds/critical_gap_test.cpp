@@ -24,9 +24,11 @@ TEST(CriticalGapStudy, WithoutAStatedUncertaintyASmallMarginIsNotSafe) {
 }
 
 TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
-  const CriticalGapResult result = run_critical_gap(
-      study_of(critical_text + gap_keys + "numerical_uncertainty = \"1 K\"\n" + synthetic_constants),
-      synthetic_options());
+  const CriticalGapResult result =
+      run_critical_gap(study_of(critical_text + gap_keys +
+                                "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n" +
+                                synthetic_constants),
+                       synthetic_options());
   ASSERT_EQ(result.cases.size(), 1u);
   const CaseOutcome& outcome = result.cases[0];
   ASSERT_EQ(outcome.critical.kind, CriticalGapKind::value) << outcome.critical.reason;
@@ -63,7 +65,8 @@ TEST(CriticalGapStudy, TheResultDoesNotDependOnTheNumberOfThreads) {
     EXPECT_EQ(a.input.label, b.input.label);
     EXPECT_EQ(a.critical.lower, b.critical.lower);
     EXPECT_EQ(a.critical.upper, b.critical.upper);
-    EXPECT_EQ(a.critical.uncertainty, b.critical.uncertainty);
+    EXPECT_EQ(a.critical.bounds.at_least, b.critical.bounds.at_least);
+    EXPECT_EQ(a.critical.bounds.at_most, b.critical.bounds.at_most);
     for (std::size_t gap = 0; gap < a.verdicts.size(); ++gap) {
       EXPECT_EQ(a.verdicts[gap].maximum.temperature, b.verdicts[gap].maximum.temperature);
       EXPECT_EQ(a.verdicts[gap].judgement.reason, b.verdicts[gap].judgement.reason);
@@ -175,9 +178,11 @@ TEST(CriticalGapStudy, BoundsAreNotConfirmedAndNotNumbers) {
 }
 
 TEST(CriticalGapStudy, TheStatedMeshUncertaintyCanMakeAGapIndeterminate) {
-  const CriticalGapResult result = run_critical_gap(
-      study_of(critical_text + gap_keys + "numerical_uncertainty = \"60 K\"\n" + synthetic_constants),
-      synthetic_options());
+  const CriticalGapResult result =
+      run_critical_gap(study_of(critical_text + gap_keys +
+                                "numerical_uncertainty = { value = \"60 K\", because = \"for a test\" }\n" +
+                                synthetic_constants),
+                       synthetic_options());
   const auto& rows = result.cases[0].verdicts;
   EXPECT_EQ(rows[0].judgement.verdict, Verdict::safe) << rows[0].judgement.reason;
   EXPECT_EQ(rows[3].judgement.verdict, Verdict::indeterminate) << rows[3].judgement.reason;

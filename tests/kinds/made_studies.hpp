@@ -74,7 +74,7 @@ inline study::CaseAnswer value_answer(const study::Study& study, double critical
   answer.critical.value = critical;
   answer.critical.lower = critical - 5e-7;
   answer.critical.upper = critical + 5e-7;
-  answer.critical.uncertainty = 4e-6;
+  set_shares(answer.critical, {{study::ShareKind::computation, critical - 4e-6, critical + 4e-6}});
   return answer;
 }
 

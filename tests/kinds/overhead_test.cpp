@@ -38,8 +38,9 @@ std::string large_sweep(int pressures, int radii) {
   for (int i = 0; i < pressures; ++i) peaks += fmt::format("{}{}", i > 0 ? ", " : "", 300 + 2 * i);
   for (int i = 0; i < radii; ++i) sizes += fmt::format("{}{}", i > 0 ? ", " : "", 10 + i);
   return fmt::format(
-      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\ninput_uncertainty = \"1 K\"\nmodel_form_uncertainty = "
-      "\"1 K\"\n[axes]\ngap = \"0, 0.02 "
+      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\ninput_uncertainty = {{ value = \"1 K\", because = "
+      "\"for a test\" }}\n"
+      "model_form_uncertainty = {{ value = \"1 K\", because = \"for a test\" }}\n[axes]\ngap = \"0, 0.02 "
       "cm\"\n"
       "peak_pressure = \"{} MPa\"\ncrack_radius = \"{} um\"\n{}",
       peaks, sizes, synthetic_constants);

@@ -19,12 +19,17 @@ using namespace launchsafe;
 using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 
+/// An uncertainty that a study states by hand.
+std::string stated(const std::string& key, const std::string& value) {
+  return fmt::format("{} = {{ value = \"{}\", because = \"for a test\" }}\n", key, value);
+}
+
 /// A study that finds the gap 0 safe; more top-level keys before, more overrides after.
 std::string safe_study(const std::string& keys, const std::string& overrides = "") {
   std::string text = keys + critical_kind + "gaps = \"0 cm\"\nconfirm = false\n";
   for (const std::string key :
        {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty", "model_form_uncertainty"}) {
-    if (keys.find(key) == std::string::npos) text += key + " = \"1 K\"\n";
+    if (keys.find(key) == std::string::npos) text += stated(key, "1 K");
   }
   return text + synthetic_constants + overrides;
 }
@@ -85,21 +90,23 @@ TEST(StudyPlausibility, AStatedUncertaintyMustBePlausibleToo) {
   for (const std::string key :
        {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty", "model_form_uncertainty"}) {
     for (const std::string value : {"0 K", "0.01 K"}) {
-      const std::string stated = fmt::format("{} = \"{}\"\n", key, value);
-      const Judgement warned = judgement_in(run_safe_study(stated));
+      const std::string number = key + ".value", statement = stated(key, value);
+      const Judgement warned = judgement_in(run_safe_study(statement));
       EXPECT_EQ(warned.verdict, Verdict::indeterminate) << key;
-      EXPECT_TRUE(says(warned.reason, key + " = ")) << warned.reason;
-      const Judgement accepted = judgement_in(run_safe_study(stated + accept(key, "a test of the search")));
+      EXPECT_TRUE(says(warned.reason, number + " = ")) << warned.reason;
+      const Judgement accepted =
+          judgement_in(run_safe_study(statement + accept(number, "a test of the search")));
       EXPECT_EQ(accepted.verdict, Verdict::safe) << accepted.reason;
-      EXPECT_TRUE(says(accepted.reason, "accepted: " + key)) << accepted.reason;
+      EXPECT_TRUE(says(accepted.reason, "accepted: " + number)) << accepted.reason;
     }
-    EXPECT_FALSE(parse_here(safe_study(key + " = \"1e300 K\"\n"))) << key;
+    EXPECT_FALSE(parse_here(safe_study(stated(key, "1e300 K")))) << key;
   }
 }
 
 TEST(StudyPlausibility, EveryCaseOfASweepIsJudgedOnItsOwnValues) {
   const std::string text =
-      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = \"1 K\"\n" +
+      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = { value = \"1 K\", because = "
+      "\"for a test\" }\n" +
       synthetic_statements + synthetic_constants +
       "[axes]\ngap = \"0 cm\"\n\"gap.skin_thickness\" = \"0.1, 5 mm\"\n";
   const SweepResult result = run_sweep(study_of(text), synthetic_options());

@@ -137,7 +137,7 @@ TEST(ReadSensitivity, TheGapIsTheScenesOnlyOne) {
 }
 
 TEST(ReadSensitivity, UncertainNumericsHaveNoStatedUncertainty) {
-  const std::string uncertainty = "numerical_uncertainty = \"1 K\"\n";
+  const std::string uncertainty = "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n";
   EXPECT_FALSE(study_of(sensitivity_start + uncertainty + crack).study.numerical_uncertainty_assumed);
   const std::string cells =
       input("key = \"numerics.cell_size\"\ndistribution = \"uniform\"\nrange = \"2 to 3 mm\"");

@@ -12,7 +12,8 @@ using namespace launchsafe::study;
 
 /// The group starts at line 4, its own keys at line 6.
 const std::string stability_start =
-    "kind = \"stability\"\nscene = \"stability/small_shell.toml\"\nnumerical_uncertainty = \"4 K\"\n"
+    "kind = \"stability\"\nscene = \"stability/small_shell.toml\"\nnumerical_uncertainty = { value = \"4 "
+    "K\", because = \"for a test\" }\n"
     "[[group]]\nname = \"load\"\n";
 
 std::string cases(const std::string& keys) { return "cases = [ { name = \"high\", " + keys + " } ]\n"; }
@@ -86,7 +87,8 @@ TEST(ReadStability, WhatTheReaderRefusesIsACaseWithoutARun) {
 // The study's scene has a sliding wall, the case's a bonded one.
 TEST(ReadStability, ARefusalOfTheStudysOverridesIsNotTheOneThatACaseExpects) {
   expect_error_in(
-      "kind = \"stability\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = \"4 K\"\n"
+      "kind = \"stability\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = { value = \"4 K\", "
+      "because = \"for a test\" }\n"
       "[[group]]\nname = \"load\"\nrefused = \"bonded\"\n" +
           cases("scene = \"stability/small_shell.toml\", set = { load.peak = \"1 GPa\" }") +
           "[set]\ninterface.wall.friction = 0.1\n",

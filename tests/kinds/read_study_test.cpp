@@ -115,7 +115,8 @@ TEST(ReadStudy, FaultsNameFileLineKeyFoundAndAllowed) {
   expect_error("peak_pressures = \"500, 500 MPa\"", "peak_pressures", "twice");
   expect_error("crack_radii = \"-1 um\"", "crack_radii", "-1");
   expect_error("tolerance = \"0 cm\"", "tolerance", "0 cm");
-  expect_error("numerical_uncertainty = \"-2 K\"", "numerical_uncertainty", "-2");
+  expect_error("numerical_uncertainty = { value = \"-2 K\", because = \"for a test\" }",
+               "numerical_uncertainty.value", "-2");
   expect_error("confirm = \"yes\"", "confirm", "yes");
   expect_error("gap = \"0.01 cm\"", "gap", "kind \"sensitivity\"", "critical-gap");
   expect_error("meshes = \"1 mm\"", "meshes", "kind \"calibration\"", "critical-gap");
@@ -128,6 +129,34 @@ TEST(ReadStudy, FaultsNameFileLineKeyFoundAndAllowed) {
   expect_error("reference = [{ maximum_temperature = \"400 K\" }]", "reference.gap", "missing");
   expect_error("reference = [{ gap = \"0 cm\", temperature = \"400 K\" }]", "reference.temperature",
                "unknown");
+}
+
+// Issue 30, point 12: an uncertainty that a study states by hand says where it comes from, as accept does.
+TEST(ReadStudy, AnUncertaintyThatIsStatedByHandNeedsItsSourceInWords) {
+  for (const std::string key :
+       {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty", "model_form_uncertainty"}) {
+    const scene::InputError bare = error_of(critical_kind + key + " = \"2 K\"\n");
+    EXPECT_EQ(bare.key, key);
+    EXPECT_EQ(bare.line, 3);
+    EXPECT_EQ(bare.suggestion, "{ value = \"2 K\", because = \"...\" }");
+    expect_error(key + " = 2", key, "2 without a source", "in words");
+    expect_error(key + " = {}", key, "without a source", "in words");
+    expect_error(key + " = { value = \"2 K\" }", key + ".value", "without a source", key + " = {");
+    expect_error(key + " = { because = \"for a test\" }", key + ".because", "without a value", key + " = {");
+    expect_error(key + " = { value = \"2 K\", because = \"x\" }", key + ".because", "1 characters",
+                 "in words");
+    expect_error(key + " = { value = \"2 K\", becuase = \"for a test\" }", key + ".becuase", "unknown key");
+  }
+}
+
+TEST(ReadStudy, AStatedUncertaintyIsKeptWithItsSource) {
+  const StudyFile study = study_of(
+      critical_kind + "numerical_uncertainty = { value = \"2 K\", because = \"two meshes of it\" }\n");
+  ASSERT_EQ(study.study.stated.size(), 1u);
+  EXPECT_EQ(study.study.stated[0].key, "numerical_uncertainty");
+  EXPECT_EQ(study.study.stated[0].value, 2.0);
+  EXPECT_EQ(study.study.stated[0].because, "two meshes of it");
+  EXPECT_EQ(study.study.numerical_uncertainty, 2.0);
 }
 
 TEST(ReadStudy, AnUnknownKindNamesTheKindsThereAre) {

@@ -109,7 +109,8 @@ TEST(ReadSweep, WithoutAxesIsTheSceneAlone) {
 TEST(ReadSweep, TakesTheKeysThatJudgeGaps) {
   const StudyFile study = study_of(
       "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\ntolerance = \"2 um\"\nlargest_gap = \"0.2 cm\"\n"
-      "numerical_uncertainty = \"1.5 K\"\n[axes]\npeak_pressure = \"400, 496 MPa\"\n"
+      "numerical_uncertainty = { value = \"1.5 K\", because = \"for a test\" }\n[axes]\npeak_pressure = "
+      "\"400, 496 MPa\"\n"
       "[[reference]]\ngap = \"0 cm\"\nmaximum_temperature = \"416 K\"\n");
   EXPECT_EQ(study.study.tolerance, 2e-6);
   EXPECT_EQ(study.study.largest_gap, 2e-3);
@@ -136,7 +137,8 @@ class SlidingSweep : public launchsafe::testing::TemporaryFolder {};
 TEST_F(SlidingSweep, FrictionMayVaryAndHasNoStatedUncertainty) {
   std::filesystem::copy_file(studies_folder / "scene_155mm.toml", folder() / "slides.toml");
   const auto study = parse_study(
-      "kind = \"sweep\"\nscene = \"slides.toml\"\nnumerical_uncertainty = \"1 K\"\n[axes]\n"
+      "kind = \"sweep\"\nscene = \"slides.toml\"\nnumerical_uncertainty = { value = \"1 K\", because = \"for "
+      "a test\" }\n[axes]\n"
       "interface.wall.friction = [0, 0.3]\n",
       folder() / "study.toml");
   ASSERT_TRUE(study) << study.error().message();
@@ -152,7 +154,7 @@ TEST_F(SlidingSweep, FrictionMayVaryAndHasNoStatedUncertainty) {
 }
 
 TEST(ReadSweep, NumericsOnAnAxisHaveNoStatedUncertainty) {
-  const std::string start = "numerical_uncertainty = \"1 K\"\n";
+  const std::string start = "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n";
   EXPECT_EQ(study_of(start + sweep_text + "peak_pressure = \"400 MPa\"\n").study.numerical_uncertainty, 1.0);
   const StudyFile other = study_of(start + sweep_text + "numerics.cell_size = \"2.5, 5 mm\"\n");
   EXPECT_EQ(other.study.numerical_uncertainty, assumed_numerical_uncertainty);

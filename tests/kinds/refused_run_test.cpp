@@ -35,7 +35,9 @@ class RefusedRun : public launchsafe::testing::TemporaryFolder {
 
 constexpr double one_byte = 1.0, plenty = 1e15;
 
-const std::string gap_text = critical_text + "gaps = \"0, 0.05 cm\"\nnumerical_uncertainty = \"1 K\"\n";
+const std::string gap_text =
+    critical_text +
+    "gaps = \"0, 0.05 cm\"\nnumerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n";
 
 TEST_F(RefusedRun, OfAConfirmationIsJournaled) {
   const auto store = open_store();

@@ -17,9 +17,9 @@ using namespace launchsafe::study;
 using Json = nlohmann::json;
 
 const StudyFile& some_study() {
-  static const StudyFile study =
-      study_of(critical_text + "gaps = \"0, 0.02, 0.04, 0.05 cm\"\nconfirm = false\n" +
-               "numerical_uncertainty = \"1 K\"\n" + synthetic_constants);
+  static const StudyFile study = study_of(
+      critical_text + "gaps = \"0, 0.02, 0.04, 0.05 cm\"\nconfirm = false\n" +
+      "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n" + synthetic_constants);
   return study;
 }
 

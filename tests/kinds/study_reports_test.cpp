@@ -109,15 +109,14 @@ TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
   EXPECT_EQ(ignited->style, report::Style::points) << "no uncertainty is known of it";
   const CriticalGap& critical = result.cases.front().critical;
   ASSERT_EQ(plot.vertical_bands.size(), 1u);
-  // The same words and ends as in a safety report: rounded away from the value, the model form below alone.
-  const double model_form = 1.0 / result.cases.front().critical_slope;
-  const auto measured =
-      report::measured_gap(100.0 * critical.value, 100.0 * critical.uncertainty, 100.0 * model_form);
+  // The same words and ends as in a safety report: rounded away from the value.
+  const auto measured = report::measured_gap(100.0 * critical.value, 100.0 * critical.bounds.at_least,
+                                             100.0 * critical.bounds.at_most);
   ASSERT_TRUE(measured);
   EXPECT_EQ(plot.vertical_bands[0].from, std::max(0.0, measured->lower()));
   EXPECT_EQ(plot.vertical_bands[0].to, measured->upper());
-  EXPECT_LE(plot.vertical_bands[0].from,
-            100.0 * std::max(0.0, critical.value - critical.uncertainty) + 1e-12);
+  EXPECT_LE(plot.vertical_bands[0].from, 100.0 * critical.bounds.at_least + 1e-12);
+  EXPECT_GE(plot.vertical_bands[0].to, 100.0 * critical.bounds.at_most - 1e-12);
   EXPECT_EQ(plot.vertical_bands[0].label, "critical gap: " + measured->text("cm"));
   ASSERT_EQ(plot.vertical_lines.size(), 1u);
 }
@@ -175,7 +174,8 @@ TEST(CriticalGapReport, SixCasesHaveTheirCriticalGapsInAPictureOfTheirOwn) {
   ASSERT_NE(values, nullptr);
   ASSERT_EQ(values->x.size(), 5u);
   EXPECT_EQ(values->style, report::Style::horizontal_bars);
-  EXPECT_NEAR(values->upper[0] - values->x[0], 100.0 * result.cases[0].critical.uncertainty, 1e-12);
+  EXPECT_NEAR(values->upper[0], 100.0 * result.cases[0].critical.bounds.at_most, 1e-12);
+  EXPECT_NEAR(values->lower[0], 100.0 * result.cases[0].critical.bounds.at_least, 1e-12);
   const report::Series* unknown = series_named(gaps, "indeterminate or failed");
   ASSERT_NE(unknown, nullptr);
   EXPECT_EQ(unknown->y, std::vector<double>{5.0}) << "the second from the top";

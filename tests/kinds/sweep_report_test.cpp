@@ -153,6 +153,16 @@ TEST(SweepReport, TheAnswerCountsAndNames) {
   EXPECT_NE(answer(assumed).find("60 K for mesh, step and scaling, assumed"), std::string::npos);
 }
 
+TEST(SweepReport, AnUncertaintyStatedByHandIsToldWithItsSource) {
+  SweepResult stated = made_sweep();
+  stated.study.study.stated = {{"fit_uncertainty", 2.0, "five rows held out"}};
+  EXPECT_NE(answer(stated).find("Stated by hand: fit_uncertainty 2 K, because five rows held out."),
+            std::string::npos);
+  const auto json = nlohmann::json::parse(report_of(stated).json);
+  EXPECT_EQ(json["stated_by_hand"][0]["K"], 2.0);
+  EXPECT_EQ(json["stated_by_hand"][0]["because"], "five rows held out");
+}
+
 TEST(SweepReport, ManyFailuresAreNotAllListed) {
   study::StudyFile file = bare_study(kinds::traits_of("sweep"), {0});
   file.study.axes = {axis(file, "load.steepness", "load.steepness", {8, 9, 10, 11, 12, 13})};
@@ -246,7 +256,7 @@ TEST(SweepPictures, WhatIsNoValueIsHatchedByItsReason) {
 
 TEST(SweepPictures, AGapThatDoesNotExceedItsUncertaintyIsNotSafe) {
   SweepResult result = made_sweep();
-  result.answers[15].critical.uncertainty = 1.0;  // m
+  result.answers[15].critical.bounds.at_least = 0.0;
   const Map map = *pictures(result).pictures[1].plot.map;
   ASSERT_EQ(map.hatched[0].cells.size(), 1u);
   EXPECT_EQ(map.hatched[0].label, "no gap surely safe");

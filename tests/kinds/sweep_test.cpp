@@ -37,7 +37,7 @@ std::string constants_beside(const std::string& axes) {
 
 std::string text_of_sweep(const std::string& axes, const std::string& more = {}) {
   return "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\nlargest_gap = \"0.2 cm\"\n"
-         "numerical_uncertainty = \"1 K\"\n" +
+         "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n" +
          synthetic_statements +
          "accept = [{ key = \"calibration\", because = \"constants of a synthetic launch\" },"
          " { key = \"kinetics.ignition_temperature\", because = \"bounds are sought\" }]\n" +
@@ -152,8 +152,9 @@ TEST(Sweep, BracketsWithoutAChangeAreBoundsAndNoNumbers) {
   EXPECT_EQ(counting.runs(), 1);
   for (const std::size_t bound : {0u, 2u}) {
     EXPECT_TRUE(std::isnan(result.answers[bound].critical.value));
-    EXPECT_TRUE(std::isnan(result.answers[bound].critical.uncertainty));
   }
+  EXPECT_EQ(result.answers[0].critical.bounds.at_least, 0.0);
+  EXPECT_EQ(result.answers[2].critical.bounds.at_most, no_ignition);
   EXPECT_EQ(result.answers[2].critical.lower, 2e-4);
 }
 

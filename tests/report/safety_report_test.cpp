@@ -140,9 +140,9 @@ TEST_F(SafetyReport, ASafeThatItsTemperatureOrCriticalGapContradictsIsRefused) {
   change(colder, [](auto& results) { results["verdicts"][2]["margin_K"] = 300.0; });
   EXPECT_TRUE(has(fault_of({colder}), "0.02 cm is called SAFE")) << fault_of({colder});
   std::filesystem::remove_all(colder);
-  // 0.0195 cm from the critical gap, which is now uncertain by more.
+  // Above a lower bound that is now smaller.
   const path near = copy_of("critical_gap_155mm");
-  change(near, [](auto& results) { results["cases"][0]["critical_gap_uncertainty_cm"] = 0.0196; });
+  change(near, [](auto& results) { results["cases"][0]["critical_gap_at_least_cm"] = 0.0199; });
   EXPECT_TRUE(has(fault_of({near}), "0.02 cm is called SAFE")) << fault_of({near});
   change(near, [](auto& results) { results["cases"][0]["critical_gap_kind"] = "indeterminate"; });
   EXPECT_TRUE(has(fault_of({near}), "0 cm is called SAFE")) << fault_of({near});
@@ -213,6 +213,16 @@ TEST_F(SafetyReport, OfSeveralCasesTheWorstStandsOnPageOneAndEachIsLeftOneOut) {
   ADD_FAILURE() << "no table of rows left out";
 }
 
+TEST_F(SafetyReport, AnUncertaintyStatedByHandStandsOnPageOneWithItsSource) {
+  const path study = copy_of("critical_gap_155mm");
+  change(study, [](auto& results) {
+    results["stated_by_hand"] = {{{"key", "input_uncertainty"}, {"K", 12.5}, {"because", "30 rounds fired"}}};
+  });
+  const std::string page = file_of({study}, "report.md"), one = page.substr(0, page.find("## 2."));
+  EXPECT_TRUE(has(one, "Stated by hand: input uncertainty 12.5 K, because 30 rounds fired."));
+  EXPECT_FALSE(has(one, "the spread of the inputs"));
+}
+
 TEST_F(SafetyReport, ARowOfWhichNothingSaysHowWrongItIsHasNoUncertainty) {
   const path study = copy_of("critical_gap_155mm");
   change(study, [](auto& results) {
@@ -272,6 +282,40 @@ TEST_F(SafetyReport, ASweepByItselfRecommendsNothingAndSaysWhatIsExtrapolated) {
   EXPECT_TRUE(has(page, "Covered are the 133 computed cases alone"));
   EXPECT_TRUE(has(page, "No gap can be recommended: there are no verdicts of one launch"));
   EXPECT_TRUE(has(page, "The calibration is extrapolated in: "));
+}
+
+/// A sweep over temperature, made of that over pressure: 250 MPa stands for 250 K, and so on to 700.
+void make_of_temperature(nlohmann::ordered_json& results) {
+  nlohmann::ordered_json& axis = results["axes"][0];
+  axis["name"] = axis["scene_key"] = "initial_temperature";
+  axis["key"] = "initial_temperature_K";
+  axis["unit"] = "K";
+  for (auto& row : results["cases"]) {
+    row["initial_temperature_K"] = row["peak_pressure_MPa"];
+    row["critical_gap_kind"] = "value";
+    row["critical_gap_at_least_cm"] = row["initial_temperature_K"] == 700.0 ? 0.1234 : 0.2;
+  }
+}
+
+// Issue 30, point 9: under the old load 336 K took a third of the critical gap at 300 K.
+TEST_F(SafetyReport, TellsTheTemperatureOfEverySafeAndTheLeastGapAtTheHottest) {
+  const path sweep = copy_of("sweep_pressure_defect");
+  change(sweep, make_of_temperature);
+  const auto page_one = [](const std::vector<path>& studies) {
+    const std::string page = file_of(studies, "report.md");
+    return page.substr(0, page.find("## 2."));
+  };
+  const std::string one = page_one({shipped("critical_gap_155mm"), sweep});
+  EXPECT_TRUE(has(one, "are SAFE (at 300 K before launch)"));
+  EXPECT_TRUE(has(one, " cm, at 300 K before launch."));
+  EXPECT_TRUE(has(one, "before launch \\[K\\]"));
+  EXPECT_TRUE(has(one, "At 700 K before launch, the hottest of S2, the critical gap is at least 0.1234 cm"));
+  change(sweep, [](auto& results) { results["cases"].back()["critical_gap_at_least_cm"] = nullptr; });
+  EXPECT_TRUE(
+      has(page_one({shipped("critical_gap_155mm"), sweep}), "nothing says how small the critical gap"));
+  change(sweep, [](auto& results) { results["cases"].back()["critical_gap_kind"] = "all-ignite"; });
+  EXPECT_TRUE(has(page_one({shipped("critical_gap_155mm"), sweep}), "the hottest of S2, no gap is safe."));
+  EXPECT_TRUE(has(page_one({sweep}), "are SAFE (at 250 to 700 K before launch)"));
 }
 
 TEST_F(SafetyReport, ASweepOverMoreThanTwoQuantitiesShowsTheMapsThatItDrew) {

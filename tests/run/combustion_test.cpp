@@ -185,6 +185,36 @@ TEST(TwoWayCoupling, IsTheLaunchUntilIgnition) {
     ASSERT_EQ(coupled.mechanics.trace.bottom_pressure[i], launch.trace.bottom_pressure[i]) << i;
 }
 
+// The flame's numbers are typed in here, and the conductive wave that they drive from 300 K is that of
+// materials/burning.cpp; the ignition is the same to the last bit.
+TEST(TwoWayCoupling, TheFlameLivesOnItsOwnDecompositionAndIgnitionDoesNot) {
+  const materials::Charge charge;
+  struct Expected {
+    std::string name;
+    double activation_temperature, frequency, heat;
+  };
+  const CaseResult published = run_with_skin(column(), burning_gap);
+  for (const Expected& each :
+       {Expected{"effective", 2.17e4, 2.01e18, 5.82e6}, Expected{"rdx", 23701.64, 2.02e18, 500.0 * 4184.0},
+        Expected{"comp-b-consistent", 21688.76, 4.62e16, 758.0 * 4184.0}}) {
+    scene::Scene scene = column();
+    scene.combustion.kinetics = each.name;
+    const CaseResult result = run_with_skin(scene, burning_gap);
+    ASSERT_EQ(result.mechanics.status, RunStatus::completed) << result.mechanics.reason;
+    const CombustionHistory& c = *result.gaps.front().combustion;
+    EXPECT_EQ(result.gaps.front().skin.ignition->time, published.gaps.front().skin.ignition->time);
+    materials::KineticsParameters kinetics = scene.charge().kinetics;
+    kinetics.activation_temperature = each.activation_temperature;
+    kinetics.frequency = each.frequency;
+    kinetics.heat_of_reaction = each.heat;
+    const double speed = materials::deflagration_speed(kinetics, charge.conductivity,
+                                                       charge.initial_density(), charge.specific_heat, 300.0);
+    EXPECT_NEAR(c.bulk_flame_speed / speed, 1.0, 1e-6) << each.name;
+    // What is released is the charge's heat of reaction, under each of them.
+    EXPECT_NEAR((c.kept_back.back() + c.released.back()) / (c.burnt_mass.back() * 5.82e6), 1.0, 1e-9);
+  }
+}
+
 TEST(TwoWayCoupling, FullReleaseKeepsNothingBackAndPressesHarder) {
   scene::Scene scene = column();
   const CaseResult published = run_with_skin(scene, burning_gap);

@@ -124,7 +124,8 @@ void add_volume_of_charge_and_gases(Numbers& numbers) {
   for (const double temperature : {2500.0, 4000.0})
     numbers.push_back({fmt::format("gas at {} K", temperature),
                        virial_state(composition_b_gas(), temperature, 200.0).pressure});
-  const KineticsParameters kinetics;
+  KineticsParameters kinetics;
+  kinetics.ignition_temperature = 519.445;
   for (const double temperature : {450.0, 525.0, 700.0}) {
     numbers.push_back(
         {fmt::format("heating at {} K", temperature), arrhenius_heating(kinetics, 1780.0, temperature)});

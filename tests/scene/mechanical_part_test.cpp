@@ -41,9 +41,10 @@ const KeyNames most_dropped = names_in(
     "kinetics.ignition_temperature kinetics.burnt_temperature charge.title elastic.density "
     "elastic.bulk_modulus elastic.shear_modulus elastic.specific_heat elastic.conductivity "
     "elastic.title gap.thickness gap.pressure gap.air gap.exchange gap.skin_thickness "
-    "gap.exchange_time gap.air_density gap.air_specific_heat gap.air_heat_ratio "
-    "gap.air_temperature friction.closure friction.localisation physics.conduction_bound "
-    "physics.reaction_bound combustion.release combustion.duration combustion.stop_pressure");
+    "gap.exchange_time gap.air_specific_heat gap.air_heat_ratio "
+    "gap.air_temperature gap.air_density friction.closure friction.localisation physics.conduction_bound "
+    "physics.reaction_bound combustion.kinetics combustion.release combustion.duration "
+    "combustion.stop_pressure");
 const KeyNames conductivities{"steel.conductivity", "charge.conductivity"};
 const KeyNames of_temperatures{"charge.specific_heat", "friction.closure"};
 const KeyNames of_reaction = names_in(

@@ -127,6 +127,7 @@ TEST(Plausibility, NamesTheKeyOfEveryValueThatNoLaunchHas) {
     std::vector<std::pair<std::string, std::string>> all{{key, value}};
     if (key == "body.base.x") all.insert(all.begin(), {"numerics.cell_size", "0.2 mm"});
     if (key == "load.peak") all.insert(all.begin(), {"load.base", "0 Pa"});
+    if (key == "load.steepness") all.insert(all.begin(), {"load.muzzle_exit", "14 ms"});
     const Scene scene = shipped_with(all).scene;
     EXPECT_TRUE(implausible_keys(scene).contains(key)) << key << " = " << value << "\n"
                                                        << validity_warnings_of(scene);
@@ -139,9 +140,9 @@ TEST(Plausibility, JudgesWhatSeveralKeysMakeTogether) {
       {{"gap.gas_law"}, {{"gap.air_density", "0.7 kg/m3"}}},
       {{"gap.gas_law"}, {{"initial_temperature", "230 K"}, {"gap.air_density", "1.1766 kg/m3"}}},
       {{"gap.heat_law"}, {{"gap.air_heat_ratio", "1.3"}}},
-      {{"load.launch_speed", "load.travel"}, {{"load.peak", "12 MPa"}}},
-      {{"load.travel"}, {{"load.width", "0.2 ms"}}},
-      {{"load.simulated_peak", "load.launch_speed", "load.travel"}, {{"load.duration", "5 ms"}}},
+      {{"load.exit_calibres", "load.launch_speed", "load.travel"}, {{"load.peak", "12 MPa"}}},
+      {{"load.exit_calibres", "load.travel"},
+       {{"load.muzzle_exit", "12 ms"}, {"load.width", "0.21 ms"}}},
       {{"charge.bulk_sound_speed", "charge.poisson_ratio"}, {{"charge.jwl.r1", "16"}}},
       {{"charge.poisson_ratio"}, {{"charge.shear_moduli", "2, 2, 2, 2, 2 MPa"}}},
       {{"charge.heat_capacity"},

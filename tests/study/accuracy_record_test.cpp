@@ -120,6 +120,8 @@ TEST(AccuracyRecord, KnowsASettingByItsValuesAndAShellByWhatErrorsDependOn) {
   scene.numerics.cell_size = 1.25e-3 * (1.0 + 1e-15);  // 0.125 cm is not always 1.25 mm to the last digit
   EXPECT_EQ(why_foreign(record, scene), "");
   EXPECT_NE(recorded_setting(record, scene), nullptr);
+  scene.initial_temperature = 310.0;
+  EXPECT_EQ(why_foreign(record, scene), "") << "coverage_of carries the errors";
   AccuracyRecord old = record;
   old.model_version -= 1;
   EXPECT_NE(why_foreign(old, own_scene()), "");
@@ -129,7 +131,6 @@ TEST(AccuracyRecord, IsForeignToAnotherShellOrClosure) {
   const std::vector<std::function<void(scene::Scene&)>> changes{
       [](auto& s) { s.bodies.front().r_end *= 1.01; },
       [](auto& s) { s.charge().strength.face_friction = 0.0; },
-      [](auto& s) { s.initial_temperature = 310.0; },
       [](auto& s) { s.barrel = scene::Barrel::none; },
       [](auto& s) { s.surface.friction = scene::FrictionClosure::inelastic; },
       [](auto& s) { s.surface.air_model = scene::AirModel::film; },
@@ -227,11 +228,15 @@ TEST_F(RecordedStudy, CarriesABoundToOtherLaunchesOnlySoFar) {
                                {"flaw_sizes = \"0.1 mm\"\n", assumed},
                                {"gaps = \"0, 0.2 cm\"\n", own},
                                {"[set]\nload.steepness = 1.5\n", own},
-                               {"[set]\nload.width = \"1 ms\"\n", assumed},
+                               {"[set]\nload.width = \"1 ms\"\nload.muzzle_exit = \"14 ms\"\n", assumed},
                                {"[set]\nload.peak_time = \"5 ms\"\nload.muzzle_exit = \"9 ms\"\n", assumed},
                                {"[set]\nload.duration = \"30 ms\"\n", assumed},
                                {"[set]\nfriction.localisation = 2699.08\n", 2.0 * own},
-                               {"[set]\nfriction.localisation = 5000\n", assumed}};
+                               {"[set]\nfriction.localisation = 5000\n", assumed},
+                               {"[set]\ninitial_temperature = \"219 K\"\n", own},
+                               // (336/300)^2 = 1.2544 of the recorded 300 K; 366 K are hotter by 22 %.
+                               {"[set]\ninitial_temperature = \"336 K\"\n", own * 1.2544},
+                               {"[set]\ninitial_temperature = \"366 K\"\n", assumed}};
   for (const Expected& launch : launches) {
     const StudyFile study = read(record_key + launch.keys);
     ASSERT_FALSE(study.cases.empty());
@@ -303,9 +308,10 @@ TEST_F(RecordedStudy, RefusesWhatIsNoRecord) {
   ASSERT_FALSE(broken);
   EXPECT_NE(broken.error().file.find("broken.json"), std::string::npos) << broken.error().message();
   EXPECT_EQ(broken.error().key, "format");
-  const auto both = parse(record_key + "numerical_uncertainty = \"1 K\"\n");
+  const auto both =
+      parse(record_key + "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n");
   ASSERT_FALSE(both);
-  EXPECT_EQ(both.error().key, "numerical_uncertainty");
+  EXPECT_EQ(both.error().key, "numerical_uncertainty.value");
 }
 
 }  // namespace

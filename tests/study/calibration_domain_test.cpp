@@ -51,7 +51,7 @@ scene::Interface& interface_of(scene::Scene& scene, const std::string& body) {
 TEST(CalibrationDomain, WhatFollowsIgnitionIsNoPartOfIt) {
   scene::Scene scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
   scene.coupling = scene::Coupling::two_way;
-  scene.combustion = {scene::HeatRelease::full, 2e-3, 1e9};
+  scene.combustion = {scene::HeatRelease::full, "effective", 2e-3, 1e9};
   EXPECT_TRUE(distance_to_calibration(scene, shipped_calibration()).inside());
 }
 

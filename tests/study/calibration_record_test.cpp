@@ -137,7 +137,8 @@ TEST_F(StudyWithRecord, TakesLoadAndConstants) {
 
 TEST_F(StudyWithRecord, KeepsALoadThatTheStudyStates) {
   write(made_calibration());
-  const auto read = study("[set]\nload.peak_time = \"4 ms\"\nload.steepness = 1.5\n");
+  const auto read =
+      study("[set]\nload.peak_time = \"4 ms\"\nload.steepness = 1.5\nload.muzzle_exit = \"11 ms\"\n");
   ASSERT_TRUE(read) << read.error().message();
   EXPECT_EQ(read->scene.scene.load.peak_time, 4e-3);
   EXPECT_EQ(read->scene.scene.load.steepness, 1.5);
@@ -179,7 +180,7 @@ TEST_F(StudyWithRecord, RefusesAFitUncertaintyBelowThatOfTheRecord) {
   write(record);
   const double shown = record.calibration.evidence.fit_uncertainty;
   const auto stated = [](double kelvin) {
-    return "fit_uncertainty = \"" + std::to_string(kelvin) + " K\"\n";
+    return "fit_uncertainty = { value = \"" + std::to_string(kelvin) + " K\", because = \"for a test\" }\n";
   };
   EXPECT_FALSE(study(stated(0.5 * shown)));
   const auto larger = study(stated(2.0 * shown));

@@ -13,7 +13,8 @@ using namespace launchsafe::study;
 
 StudyFile six_gaps() {
   return study_of(critical_text + "gaps = \"0, 0.01, 0.02, 0.03, 0.04, 0.05 cm\"\nconfirm = false\n" +
-                  "numerical_uncertainty = \"1 K\"\n" + synthetic_constants);
+                  "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n" +
+                  synthetic_constants);
 }
 
 CaseAnswer answer_to(const StudyFile& study) {

@@ -215,17 +215,23 @@ TEST(ModelForm, ReadsBackWhatWasWrittenAndRefusesEdits) {
 
 /// The only verdict of a study on a gap (cm) with a model-form statement or record.
 GapVerdict verdict_with(const std::string& gap, const std::string& statement, const ModelFormRecord* record) {
-  StudyFile study = study_of(critical_kind + "fit_uncertainty = \"1 K\"\ninput_uncertainty = \"1 K\"\n" +
-                             "numerical_uncertainty = \"1 K\"\nconfirm = false\n" + statement + "gaps = \"" +
-                             gap + " cm\"\n" + synthetic_constants);
+  StudyFile study =
+      study_of(critical_kind +
+               "fit_uncertainty = { value = \"1 K\", because = \"for a test\" }\ninput_uncertainty = { value "
+               "= \"1 K\", because = \"for a test\" }\n" +
+               "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\nconfirm = false\n" +
+               statement + "gaps = \"" + gap + " cm\"\n" + synthetic_constants);
   if (record != nullptr) study.study.model_form = *record;
   return run_critical_gap(study, synthetic_options()).cases.at(0).verdicts.at(0);
 }
 
 TEST(ModelForm, IsAssumedWhereNothingIsSaid) {
   EXPECT_DOUBLE_EQ(verdict_with("0.01", "", nullptr).uncertainty.model_form, assumed_model_form);
-  EXPECT_DOUBLE_EQ(verdict_with("0.01", "model_form_uncertainty = \"7 K\"\n", nullptr).uncertainty.model_form,
-                   7.0);
+  EXPECT_DOUBLE_EQ(
+      verdict_with("0.01", "model_form_uncertainty = { value = \"7 K\", because = \"for a test\" }\n",
+                   nullptr)
+          .uncertainty.model_form,
+      7.0);
 }
 
 TEST(ModelForm, AModelThatIgnitesEarlierTakesItsShiftFromTheMargin) {

@@ -30,8 +30,9 @@ inline StudyFile study_of(const std::string& text) {
 
 /// What studies of the synthetic launch state, so that its computation alone decides.
 inline const std::string synthetic_statements =
-    "fit_uncertainty = \"1 K\"\ninput_uncertainty = \"1 K\"\n"
-    "model_form_uncertainty = \"1 K\"\n";
+    "fit_uncertainty = { value = \"1 K\", because = \"for a test\" }\ninput_uncertainty = { value = \"1 K\", "
+    "because = \"for a test\" }\n"
+    "model_form_uncertainty = { value = \"1 K\", because = \"for a test\" }\n";
 
 inline const std::string critical_kind = "kind = \"critical-gap\"\nscene = \"scene_155mm.toml\"\n";
 inline const std::string critical_text = critical_kind + synthetic_statements;

@@ -48,6 +48,28 @@ double last(const SkinHistory& history, const trace::BottomTrace& trace, std::si
   return history.temperature[(history.time.size() - 1) * trace.stations.size() + station];
 }
 
+TEST(Ignites, SaysWhatTheWholeHistorySays) {
+  const trace::BottomTrace trace = launch(200, 3, friction_energy);
+  const SkinModel model = plain_model();
+  int ignited = 0, safe = 0;
+  for (int step = 0; step <= 20; ++step) {
+    const double gap = 5e-5 * step;
+    const auto found = ignites(model, trace, gap);
+    ASSERT_TRUE(found) << gap;
+    EXPECT_EQ(*found, integrate_skin(model, trace, gap).ignition.has_value()) << gap;
+    ++(*found ? ignited : safe);
+  }
+  EXPECT_GT(ignited, 2);
+  EXPECT_GT(safe, 2);
+}
+
+TEST(Ignites, SaysNothingWithoutATraceOrWithATemperatureThatIsNone) {
+  EXPECT_FALSE(ignites(plain_model(), {}, 1e-4));
+  trace::BottomTrace trace = launch(50, 1, friction_energy);
+  trace.mean_bottom_pressure[20] = std::nan("");
+  EXPECT_FALSE(ignites(plain_model(), trace, 1e-4));
+}
+
 TEST(SkinHistory, WithoutGapOnlyFrictionHeats) {
   const trace::BottomTrace trace = launch(100, 0, friction_energy);
   SkinModel model = plain_model();

@@ -92,4 +92,44 @@ TEST(Interpolate, WithoutAnAnswerGivesNotANumber) {
   EXPECT_TRUE(std::isnan(interpolate({0.0, 1.0}, {1.0}, 0.5)));
 }
 
+TEST(Trace, StretchedKeepsPressuresAndEnergiesAndTakesLonger) {
+  const BottomTrace whole = example(9), longer = stretched(whole, 1.5);
+  EXPECT_NEAR(integral(longer), 1.5 * integral(whole), 1e-12 * integral(whole));
+  EXPECT_EQ(longer.friction[0], whole.friction[0]);
+  EXPECT_EQ(longer.bottom_pressure, whole.bottom_pressure);
+}
+
+/// a^2/b: 20 and 22 are 10 % apart, and so are 18.18 and 20.
+TEST(Trace, MirroredIsAsFarOnTheOtherSide) {
+  const BottomTrace whole = example(5);
+  BottomTrace raised = whole;
+  for (double& pressure : raised.bottom_pressure) pressure *= 1.1;
+  const auto lowered = mirrored(whole, raised);
+  ASSERT_TRUE(lowered);
+  EXPECT_NEAR(lowered->bottom_pressure[3], whole.bottom_pressure[3] / 1.1, 1e-12);
+  EXPECT_EQ(lowered->chamber_pressure, whole.chamber_pressure);
+  EXPECT_EQ(lowered->friction[0], whole.friction[0]) << "0 stays 0";
+  EXPECT_FALSE(mirrored(whole, example(6)));
+}
+
+TEST(Trace, DelayedHoldsTheStateOfTheInstant) {
+  const BottomTrace whole = example(9);
+  const double instant = whole.time[5], delay = 0.7;
+  const BottomTrace later = delayed(whole, instant, delay);
+  ASSERT_EQ(later.samples(), whole.samples() + 1);
+  EXPECT_NEAR(later.time.back(), whole.time.back() + delay, 1e-12);
+  EXPECT_NEAR(integral(later), integral(whole) + delay * whole.chamber_pressure[5], 1e-9);
+  EXPECT_EQ(later.friction[1][2 * 6], whole.friction[1][2 * 5]);
+}
+
+TEST(Trace, ANegativeDelayLeavesOutWhatLiesBetween) {
+  const BottomTrace whole = example(9);
+  const BottomTrace sooner = delayed(whole, whole.time[6], whole.time[4] - whole.time[6]);
+  ASSERT_EQ(sooner.samples(), whole.samples() - 2) << "the two before the instant";
+  EXPECT_NEAR(sooner.time[4], whole.time[4], 1e-12);
+  EXPECT_EQ(sooner.bottom_pressure[4], whole.bottom_pressure[6]);
+  for (std::size_t k = 1; k < sooner.samples(); ++k) EXPECT_GT(sooner.time[k], sooner.time[k - 1]);
+  EXPECT_EQ(delayed(whole, whole.time.back() + 1.0, 1.0).time, whole.time) << "nothing comes after it";
+}
+
 }  // namespace

@@ -21,6 +21,11 @@ inline double arrhenius_heating(const KineticsParameters& k, double specific_hea
   return k.heat_of_reaction * k.frequency / specific_heat * std::exp(-k.activation_temperature / temperature);
 }
 
+/// s, in which explosive at `from` (K) that loses no heat comes to 2000 K by its own, specific heat in J/(kg
+/// K): the integral of dT/arrhenius_heating, by Simpson's rule in E/(R T), to nine digits. Infinite without
+/// reaction. From 500 K on nearly all of it passes in the first tens of kelvin.
+double adiabatic_runaway_time(const KineticsParameters& kinetics, double specific_heat, double from);
+
 /// Reaction degree of Eq. 38: 0 below T1, linear to 1 at T2.
 double reaction_degree(const KineticsParameters& k, double temperature);
 

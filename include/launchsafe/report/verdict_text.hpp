@@ -22,7 +22,8 @@ std::vector<Column> critical_gap_columns();
 /// The cells under them, put behind those that a row already has.
 void add_critical_gap_cells(const study::CriticalGap& gap, std::vector<Cell>& cells);
 
-/// What every table of verdicts must say: an assumed uncertainty, a charge off the grid lines.
+/// What every table of verdicts must say: an uncertainty that is assumed or stated by hand, a charge off the
+/// grid lines.
 std::vector<std::string> mesh_notes(const study::StudyFile& study);
 /// What temperatures are read over.
 std::string station_note(const study::StudyFile& study);

@@ -16,6 +16,9 @@ inline constexpr const char* foreign_calibration = "calibration";
 
 const std::vector<Key<Acceptance>>& acceptance_keys();
 
+/// Why a text is no reason in words, such as "x" or one of several lines: the fault of `key` at a place.
+std::optional<InputError> check_reason(const std::string& text, const Place& place, const std::string& key);
+
 /// The table "accept" of a file; none if it has none. Faults: a key that is not among `known`, one that
 /// stands there twice, a reason without letters or of several lines.
 Expected<std::vector<Acceptance>> read_acceptances(const toml::table& root,

@@ -40,9 +40,19 @@ struct NamedContact {
   std::vector<Source> sources;  ///< of its keys
 };
 
+/// Activation energy, frequency factor and heat of one reaction of order zero, which belong together. They
+/// ship with the program, and files of users have none.
+struct Decomposition {
+  std::string name;                        ///< a word of combustion.kinetics
+  std::string title;                       ///< of which explosive, for people
+  materials::KineticsParameters kinetics;  ///< E/R, Z and Q; the rest is unused
+  std::vector<Source> sources;             ///< of its keys, as a material names them without "kinetics."
+};
+
 struct NamedMaterials {
   std::vector<NamedMaterial> materials;
   std::vector<NamedContact> contacts;
+  std::vector<Decomposition> decompositions;
 };
 
 /// The key of a scene that names a file of materials and contacts.

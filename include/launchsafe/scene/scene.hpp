@@ -200,8 +200,9 @@ enum class HeatRelease { to_burnt_temperature, full };
 /// What follows ignition in a run with two-way coupling.
 struct Combustion {
   HeatRelease release = HeatRelease::to_burnt_temperature;
-  double duration = 1e-3;      ///< s after the first ignition, at which the run ends
-  double stop_pressure = 2e9;  ///< Pa on the charge's bottom, at which it ends before
+  std::string kinetics = "rdx";  ///< what the flame lives on: a Decomposition by name, or "effective"
+  double duration = 1e-3;        ///< s after the first ignition, at which the run ends
+  double stop_pressure = 2e9;    ///< Pa on the charge's bottom, at which it ends before
 };
 
 struct Scene {

@@ -102,7 +102,16 @@ std::string to_json_text(const AccuracyRecord& record);
 scene::Expected<AccuracyRecord> parse_accuracy_record(const std::string& text, const std::string& file);
 
 /// Why a record says nothing of a scene's shell under this model, or of nothing at all; empty where it does.
+/// At another initial temperature the shell is the same.
 std::string why_foreign(const AccuracyRecord& record, const scene::Scene& scene);
+/// How far the errors of a record are carried to a scene: as coverage_of its launch says, and over the
+/// initial temperature. This moves T max rigidly, as the heat of friction does not depend on it and air heats
+/// by its density times its rise, which does not either. The mechanics knows it by the steel alone, which
+/// yields at the same stress below room temperature and at 3 % less at 345 K. So errors keep their size on a
+/// colder launch, and on a hotter one grow with the square of the ratio of the absolute temperatures (1.32 at
+/// 345 K for a record of 300 K; the friction heat grows with the power 3.6 of the pressure where the steel
+/// yields). A record says nothing of a launch that is hotter by more than a fifth.
+Coverage coverage_of(const AccuracyRecord& record, const scene::Scene& scene);
 /// The recorded setting of a scene, or nullptr.
 const RecordedSetting* recorded_setting(const AccuracyRecord& record, const scene::Scene& scene);
 /// The cheapest setting whose T max is known to `tolerance` (K), or nullptr.

@@ -21,6 +21,7 @@ enum class ShareKind {
   peak_pressure,
   pulse_length,
   initial_temperature,
+  muzzle_exit,
   stated_inputs,
   load_curve,
   computation,
@@ -28,7 +29,7 @@ enum class ShareKind {
   fit,
   model_form
 };
-inline constexpr std::size_t share_kinds = 9;
+inline constexpr std::size_t share_kinds = 10;
 
 struct ShareTraits {
   std::string name;   ///< in files: "peak_pressure"

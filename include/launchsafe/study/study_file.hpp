@@ -81,6 +81,13 @@ struct CitedLimit {
   std::string source;                   ///< who found what, and how
 };
 
+/// An uncertainty that a study states by hand, and on what grounds.
+struct StatedUncertainty {
+  std::string key;      ///< "numerical_uncertainty"
+  double value = 0;     ///< K, of T max
+  std::string because;  ///< the source, in words
+};
+
 /// What a study file says, in SI.
 struct Study {
   KindTraits kind;
@@ -123,6 +130,8 @@ struct Study {
   /// K, of T max by what is not known of the launch, for the study's own scene; NaN: not stated
   double input_uncertainty = not_a_number;
 
+  std::vector<StatedUncertainty> stated;  ///< by hand, as written
+
   /// What the study itself states, rather than its scene, and is not plausible; accepted or not.
   std::vector<scene::Implausible> implausible;
 };
@@ -151,6 +160,11 @@ inline constexpr double assumed_numerical_uncertainty = 60.0;
 /// K, on a grid that does not run along the charge, or with other than one particle a cell: the largest bound
 /// that the record of the 155 mm shell has for such numerics is 99 K.
 inline constexpr double assumed_uncertainty_off_grid = 100.0;
+
+/// K, of T max by constants that were fitted under a load of another shape: so much was the largest misfit of
+/// the 155 mm shell with the power-exponential, fitted to the same rows as the bell (its temperature of 0.04
+/// cm at 10 ms).
+inline constexpr double assumed_other_load_shape = 12.81;
 
 /// K, where no record of other models speaks of a launch: more than any alternative that counts moves T max
 /// of the 155 mm shell, 0.0173 cm at 550 MPa, some 45 K (reports/model_form).
