@@ -74,9 +74,9 @@ std::string sample_note(const SensitivityResult& result, const OutputSensitivity
 
 /// Intervals of equal width; all in the unit shown.
 struct Histogram {
-  double begin = 0, width = 0;
+  double first = 0, width = 0;       ///< the first interval is the one of that number, counted from 0
   std::vector<std::int64_t> counts;  ///< none where there are no two different numbers
-  double edge(std::size_t i) const { return begin + width * static_cast<double>(i); }
+  double edge(std::size_t i) const { return width * (first + static_cast<double>(i)); }
 };
 
 Histogram histogram_of(const OutputSample& sample, double scale) {
@@ -87,9 +87,9 @@ Histogram histogram_of(const OutputSample& sample, double scale) {
   Histogram histogram;
   if (values.empty() || !(values.back() > values.front())) return histogram;
   histogram.width = round_distance((values.back() - values.front()) / most_intervals);
-  histogram.begin = histogram.width * std::floor(values.front() / histogram.width);
+  histogram.first = std::floor(values.front() / histogram.width);
   for (const double value : values) {
-    const double steps = std::max(0.0, std::floor((value - histogram.begin) / histogram.width));
+    const double steps = std::max(0.0, std::floor(value / histogram.width) - histogram.first);
     const auto place = static_cast<std::size_t>(steps);
     if (place >= histogram.counts.size()) histogram.counts.resize(place + 1, 0);
     ++histogram.counts[place];
@@ -112,7 +112,7 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
   panel.x.label = fmt::format("{} [{}]", shown.name, shown.unit);
   panel.y = {.label = "draws", .minimum = 0.0};
   Series steps{.style = Style::steps, .colour = 0};
-  steps.add(histogram.begin, 0.0);
+  steps.add(histogram.edge(0), 0.0);
   for (std::size_t i = 0; i < histogram.counts.size(); ++i)
     steps.add(histogram.edge(i), static_cast<double>(histogram.counts[i]));
   steps.add(histogram.edge(histogram.counts.size()), 0.0);

@@ -205,7 +205,7 @@ TEST(SensitivityReport, WritesItsFilesTheSameEveryTime) {
   ASSERT_TRUE(first) << first.error().message;
   ASSERT_TRUE(second) << second.error().message;
   EXPECT_EQ(first->files, second->files);
-  EXPECT_EQ(first->files.size(), gnuplot_is_there() ? 7u : 4u);
+  EXPECT_EQ(first->files.size(), gnuplot_is_there() ? 10u : 6u);
   for (const std::string& name : first->files)
     EXPECT_EQ(content_of(folder.path / "first" / name), content_of(folder.path / "second" / name)) << name;
 }
