@@ -224,7 +224,11 @@ void free_of_unit(Json& input) {
 /// What stands in a table of a study besides its documented keys.
 Json with_other_tables(Json entry, const std::string& table, const Json& changes) {
   Json& properties = entry["properties"];
-  if (table == "input") free_of_unit(entry);
+  if (table == "input") {
+    free_of_unit(entry);
+    entry["anyOf"] = Json::array({{{"required", entry["required"]}}, {{"required", {"calibration"}}}});
+    entry.erase("required");
+  }
   if (table == "group") {
     // Some cases are of values that are refused.
     for (const char* changed : {"set", "against"}) properties[changed] = {{"type", "object"}};

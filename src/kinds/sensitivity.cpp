@@ -17,6 +17,18 @@ bool SensitivityResult::any_indeterminate() const {
   return std::any_of(outputs.begin(), outputs.end(), [](const auto& each) { return !each.reason.empty(); });
 }
 
+std::vector<SensitivityInput> inputs_of(const Study& study) {
+  const auto& correlated = sensitivity_settings(study).correlated;
+  std::vector<SensitivityInput> inputs;
+  for (std::size_t axis = 0; axis < study.axes.size(); axis += inputs.back().count)
+    inputs.push_back({axis, correlated && correlated->first == axis ? correlated->count : 1});
+  return inputs;
+}
+
+bool samples_inputs(const Study& study, std::size_t evaluation) {
+  return evaluation % (inputs_of(study).size() + 2) < 2;
+}
+
 namespace {
 
 double number_of(const OutputSensitivity& of, const CaseAnswer& answer, const StudyCase& input) {
@@ -40,12 +52,6 @@ bool is_bound(const CaseAnswer& answer) {
          answer.critical.kind == CriticalGapKind::all_ignite;
 }
 
-/// Whether an evaluation is a random sample of the inputs, rather than one made for differences: the blocks A
-/// and B of a Saltelli design.
-bool samples_inputs(const Study& study, std::size_t evaluation) {
-  return evaluation % (study.axes.size() + 2) < 2;
-}
-
 void summarise(const Study& study, OutputSensitivity& output) {
   std::vector<double> sample;
   for (std::size_t i = 0; i < output.values.size(); ++i) {
@@ -65,7 +71,7 @@ void estimate(const Study& study, OutputSensitivity& output) {
   options.level = own.confidence;
   options.resamples = static_cast<std::size_t>(own.resamples);
   options.seed = own.seed;
-  output.sobol = math::sobol_indices(study.axes.size(), output.values, options);
+  output.sobol = math::sobol_indices(inputs_of(study).size(), output.values, options);
   output.reason = output.sobol.reason;
 }
 

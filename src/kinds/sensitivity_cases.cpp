@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace launchsafe::kinds {
 
 using namespace study;
@@ -68,15 +70,38 @@ std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
   };
 }
 
-/// Values (SI) of the inputs at a point of the unit cube, in their order.
-std::vector<double> coordinates_of(const std::vector<Axis>& inputs, const std::vector<double>& unit_point) {
+/// The values of axes that vary together, from the standard normals that belong to a point of the unit cube.
+void set_correlated(const CorrelatedAxes& correlated, const std::vector<Axis>& axes,
+                    const std::vector<double>& unit_point, std::vector<double>& coordinates) {
+  const auto standard = math::Distribution::normal(0.0, 1.0);
+  for (std::size_t i = 0; i < correlated.count; ++i) {
+    double logarithm = 0.0;
+    for (std::size_t j = 0; j <= i; ++j)
+      logarithm += correlated.factor[i * correlated.count + j] *
+                   math::quantile(standard, unit_point[correlated.first + j]);
+    const std::size_t axis = correlated.first + i;
+    coordinates[axis] = axes[axis].distribution->centre * std::exp(logarithm);
+  }
+}
+
+/// Values (SI) of the axes at a point of the unit cube, in their order.
+std::vector<double> coordinates_of(const Study& study, const std::vector<double>& unit_point) {
   std::vector<double> coordinates;
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-    coordinates.push_back(math::quantile(*inputs[i].distribution, unit_point[i]));
+  for (std::size_t i = 0; i < study.axes.size(); ++i)
+    coordinates.push_back(math::quantile(*study.axes[i].distribution, unit_point[i]));
+  if (const auto& correlated = sensitivity_settings(study).correlated)
+    set_correlated(*correlated, study.axes, unit_point, coordinates);
   return coordinates;
 }
 
-std::string input_key(std::size_t input, const char* key) { return fmt::format("input.{}.{}", input, key); }
+bool is_correlated(const Axis& axis) {
+  return axis.distribution->kind == math::Distribution::Kind::log_normal;
+}
+
+/// Another key of the [[input]] that an axis comes from.
+std::string input_key(const Axis& axis, const char* key) {
+  return axis.study_key.substr(0, axis.study_key.rfind('.') + 1) + key;
+}
 
 /// Builds the cases of a design. Most evaluations differ from an earlier one in a single input.
 class DesignBuilder {
@@ -88,12 +113,12 @@ class DesignBuilder {
   /// nullptr.
   Fault add(std::string label, const std::vector<double>& unit_point, const StudyCase* alike) {
     const std::vector<Axis>& inputs = study_.study.axes;
-    std::vector<double> coordinates = coordinates_of(inputs, unit_point);
+    std::vector<double> coordinates = coordinates_of(study_.study, unit_point);
     std::vector<Change> changes;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       if (alike && alike->coordinates[i] == coordinates[i]) continue;
-      if (Fault fault = check_limits(i, coordinates[i])) return fault;
-      changes.push_back(change_of(i, coordinates[i]));
+      if (Fault fault = check_limits(inputs[i], coordinates[i])) return fault;
+      changes.push_back(change_of(inputs[i], coordinates[i]));
     }
     auto scene = with_changes(alike ? alike->scene : start_, changes);
     if (!scene) return scene.error();
@@ -103,18 +128,24 @@ class DesignBuilder {
 
  private:
   /// Beyond four deviations a normal without a range may still leave the limits of its key.
-  Fault check_limits(std::size_t input, double value) const {
-    const scene::KeyDescription& key = study_.study.axes[input].key;
+  Fault check_limits(const Axis& axis, double value) const {
+    const scene::KeyDescription& key = axis.key;
     if (key.limits.contain(value)) return std::nullopt;
-    return fault_at(study_, input_key(input, "deviation"),
+    if (is_correlated(axis))
+      return fault_at(
+          study_, axis.study_key,
+          fmt::format("a sample of {} {}", key.name, scene::format_quantity(value, key.dimension)),
+          "the record of a calibration that knows it better: " + scene::allowed_text(key));
+    return fault_at(study_, input_key(axis, "deviation"),
                     fmt::format("a sample of {}", scene::format_quantity(value, key.dimension)),
                     "a range that cuts the normal off: " + scene::allowed_text(key));
   }
 
-  Change change_of(std::size_t input, double value) const {
-    const scene::KeyDescription& key = study_.study.axes[input].key;
-    const bool cut = study_.places.contains(input_key(input, "range"));
-    const std::string study_key = input_key(input, cut ? "range" : "deviation");
+  Change change_of(const Axis& axis, double value) const {
+    const scene::KeyDescription& key = axis.key;
+    const bool cut = study_.places.contains(input_key(axis, "range"));
+    const std::string study_key =
+        is_correlated(axis) ? axis.study_key : input_key(axis, cut ? "range" : "deviation");
     return {key.name, value, scene::format_value(key, value), study_key, place_of_key(study_, study_key)};
   }
 
@@ -123,21 +154,28 @@ class DesignBuilder {
   SceneFile start_;
 };
 
+std::string name_of_input(const Study& study, const SensitivityInput& input) {
+  return input.count > 1 ? "calibration" : study.axes[input.first].name;
+}
+
 Fault make_saltelli(StudyFile& study) {
   const Study& s = study.study;
   const SensitivitySettings& own = sensitivity_settings(s);
-  const std::size_t rows = static_cast<std::size_t>(own.samples), inputs = s.axes.size();
+  const std::vector<SensitivityInput> each_input = inputs_of(s);
+  const std::size_t rows = static_cast<std::size_t>(own.samples), inputs = each_input.size();
   const double count = static_cast<double>(rows) * static_cast<double>(inputs + 2);
   if (Fault fault =
           check_count(study, "samples", count, fmt::format("{} samples x ({} inputs + 2)", rows, inputs)))
     return fault;
   study.cases.reserve(rows * (inputs + 2));
-  const math::SaltelliDesign design = math::saltelli_design(own.design, rows, inputs, own.seed);
+  std::vector<std::size_t> columns;
+  for (const SensitivityInput& input : each_input) columns.push_back(input.count);
+  const math::SaltelliDesign design = math::saltelli_design(own.design, rows, columns, own.seed);
   DesignBuilder builder(study);
   for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation) {
     const std::size_t row = evaluation / design.blocks(), block = evaluation % design.blocks();
     const bool mixed = block != design.block_a && block != design.block_b;
-    const std::string name = mixed                     ? fmt::format("AB({})", s.axes[block - 2].name)
+    const std::string name = mixed ? fmt::format("AB({})", name_of_input(s, each_input[block - 2]))
                              : block == design.block_a ? "A"
                                                        : "B";
     const StudyCase* alike = mixed ? &study.cases[design.index(design.block_a, row)] : nullptr;
@@ -176,7 +214,12 @@ Kind sensitivity_kind() {
       .read = read_inputs,
       .make_cases = make_sensitivity_cases,
       .run = outcome_of<run_sensitivity, failures_of<SensitivityResult>>,
-      .files = {{"sensitivity.csv"}, {"evaluations.csv"}, {"sensitivity_", ".svg"}},
+      .files = {{"sensitivity.csv"},
+                {"evaluations.csv"},
+                {"quantiles.csv"},
+                {"histogram.csv"},
+                {"histogram.svg"},
+                {"sensitivity_", ".svg"}},
   };
 }
 

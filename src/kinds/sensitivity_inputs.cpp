@@ -2,6 +2,8 @@
 #include "sensitivity_inputs.hpp"
 
 #include "launchsafe/kinds/sensitivity.hpp"
+#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/study_axes.hpp"
 #include "study_keys.hpp"
 
@@ -199,17 +201,109 @@ Fault read_input(InputReader& reader) {
   return std::nullopt;
 }
 
+// --- the constants of a calibration, together ---
+
+/// An [[input]] that names a record has no other key.
+std::vector<scene::Key<std::string>> record_keys() {
+  scene::Key<std::string> key{{.name = "calibration",
+                               .kind = KeyKind::text,
+                               .sentence = "Instead of the other keys: the calibration.json whose fitted "
+                                           "constants vary together, by the covariance of its fit.",
+                               .example = "../reports/calibrate_table8/calibration.json"},
+                              {},
+                              {}};
+  key.set = [](std::string& name, const scene::Value& value) { name = std::get<std::string>(value); };
+  key.get = [](const std::string& name) { return scene::Value(name); };
+  return {key};
+}
+
+/// Whether the study's scene and keys allow constants of a record to vary.
+Fault check_place_of_record(const InputReader& reader) {
+  const StudyFile& study = reader.study;
+  if (sensitivity_settings(study.study).correlated)
+    return reader.fault("calibration", "a second calibration", "one calibration among the inputs");
+  if (!study.study.calibration_record.empty())
+    return reader.fault("calibration", "a calibration beside that of the study",
+                        "one of both: the constants vary around those of the record that an input names",
+                        "leave out calibration = \"" + study.study.calibration_record + "\"");
+  const scene::Load& load = study.scene.scene.load;
+  if (load.curve_time.empty() && load.shape == scene::LoadShape::bell) return std::nullopt;
+  return reader.fault("calibration",
+                      fmt::format("constants of a bell for a scene whose load is {}",
+                                  load.curve_time.empty() ? '"' + scene::word_of(load.shape) + '"'
+                                                          : std::string("a measured curve")),
+                      "a scene with load.shape = \"bell\"");
+}
+
+/// The record, with a covariance.
+scene::Expected<CalibrationRecord> read_covariance(InputReader& reader, const std::filesystem::path& folder,
+                                                   const std::string& name) {
+  const std::string wanted = "the calibration.json of a calibration with load_fitted = true";
+  const auto text = scene::read_text_file(folder / name);
+  if (!text)
+    return reader.fault("calibration", fmt::format("\"{}\", which cannot be read", name),
+                        wanted + ", by its path from the study file's folder", text.error().suggestion);
+  auto record = parse_calibration_record(*text, (folder / name).string());
+  if (!record) return record;
+  reader.study.records.push_back(store::sha256(*text));
+  if (!record->failure.empty())
+    return reader.fault("calibration", "a record without constants: " + record->failure, wanted);
+  if (record->covariance.empty())
+    return reader.fault("calibration", "a record without a covariance: its load was not fitted", wanted);
+  return record;
+}
+
+Fault read_calibrated(InputReader& reader, const std::filesystem::path& folder) {
+  std::string name;
+  auto read = scene::read_table(reader.table, record_keys(), {}, reader.study.file, name);
+  if (!read) return in_table(read.error(), "input");
+  reader.places = std::move(*read);
+  const Place place = reader.place_of("calibration");
+  const std::string study_key = fmt::format("input.{}.calibration", reader.index);
+  reader.study.places[study_key] = place;
+  if (Fault fault = check_place_of_record(reader)) return fault;
+  const auto record = read_covariance(reader, folder, name);
+  if (!record) return record.error();
+  constexpr std::size_t count = fitted_keys.size();
+  auto factor = math::covariance_factor(record->covariance, count);
+  if (!factor)
+    return reader.fault("calibration", "a record whose covariance is not positive definite",
+                        "the record of a calibration whose fit is not singular");
+  Study& study = reader.study.study;
+  settings_of<SensitivitySettings>(study).correlated = {study.axes.size(), count, std::move(*factor)};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string key_name = fitted_keys[i];
+    if (Fault fault = check_free(reader.study, key_name, "as an input", place, "input.calibration"))
+      return fault;
+    const auto key = varied_key(reader.study, key_name, "input.calibration", place);
+    if (!key) return key.error();
+    const double median =
+        std::get<double>(scene::find_key(scene::scene_keys(), key_name)->get(record->calibration.scene));
+    const double deviation = std::sqrt(record->covariance[i * count + i]);
+    study.axes.push_back({key_name, study_key, *key, {}, Distribution::log_normal(median, deviation)});
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-StudyTable input_table() { return table_of("input", input_keys({})); }
+StudyTable input_table() {
+  StudyTable table = table_of("input", input_keys({}));
+  for (scene::DocumentedKey& key : table_of("input", record_keys()).keys)
+    table.keys.push_back(std::move(key));
+  return table;
+}
 
 Fault read_inputs(const StudySource& source, StudyFile& study) {
-  const auto tables = some_tables_of(source.root, "input", study, "with key and distribution");
+  const auto tables =
+      some_tables_of(source.root, "input", study, "with key and distribution, or a calibration");
   if (!tables) return tables.error();
   std::size_t index = 0;
   for (const toml::table* table : *tables) {
     InputReader reader{study, *table, index++, {}, {}};
-    if (Fault fault = read_input(reader)) return fault;
+    Fault fault =
+        table->contains("calibration") ? read_calibrated(reader, source.folder) : read_input(reader);
+    if (fault) return fault;
   }
   return std::nullopt;
 }

@@ -6,6 +6,7 @@
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "sensitivity_samples.hpp"
 #include "sensitivity_text.hpp"
 
 #include <fmt/format.h>
@@ -44,6 +45,23 @@ const ShownOutput& shown_output(SensitivityOutput output) {
   return all.at(static_cast<std::size_t>(output));
 }
 
+std::vector<ShownInput> shown_inputs(const study::Study& study) {
+  const auto keys = shown_axes(study);
+  std::vector<ShownInput> inputs;
+  for (const SensitivityInput& input : inputs_of(study)) {
+    const auto text = [&](std::size_t axis) {
+      return distribution_text(keys[axis], *study.axes[axis].distribution);
+    };
+    ShownInput& shown = inputs.emplace_back(ShownInput{keys[input.first].name, text(input.first)});
+    if (input.count == 1) continue;
+    shown = {"constants of the calibration", "together"};
+    for (std::size_t axis = input.first; axis < input.first + input.count; ++axis)
+      shown.distribution +=
+          fmt::format("{}{} {}", axis == input.first ? ": " : "; ", keys[axis].name, text(axis));
+  }
+  return inputs;
+}
+
 std::string at_gap(const study::Study& study, SensitivityOutput output) {
   if (output == SensitivityOutput::critical_gap) return {};
   return " at a gap of " + centimetres(study.gaps.front());
@@ -62,6 +80,10 @@ std::string method_text(const SensitivityResult& result) {
       own.samples, result.answers.size(), text_of(own.design), interval_text(own));
   if (own.design == math::Design::scrambled_sobol && own.samples < 256)
     text += " Of a Sobol sequence with fewer than 256 rows the intervals often miss weak inputs.";
+  if (own.correlated)
+    text +=
+        " The constants of the calibration vary together, by the covariance of their logarithms in its "
+        "record, and are one input.";
   return text;
 }
 
@@ -114,7 +136,7 @@ Groups ranked(const std::vector<math::InputIndices>& inputs) {
 class OutputAnswer {
  public:
   OutputAnswer(const SensitivityResult& result, const OutputSensitivity& output)
-      : result_(result), output_(output), keys_(shown_axes(result.study.study)) {}
+      : result_(result), output_(output), inputs_(shown_inputs(result.study.study)) {}
 
   std::string text() const {
     std::string what = shown_output(output_.output).phrase;
@@ -137,7 +159,7 @@ class OutputAnswer {
   }
 
   std::string named(std::size_t input) const {
-    return fmt::format("{} ({})", keys_[input].name, estimate_text(output_.sobol.inputs[input].total));
+    return fmt::format("{} ({})", inputs_[input].name, estimate_text(output_.sobol.inputs[input].total));
   }
 
   std::string size() const {
@@ -146,14 +168,14 @@ class OutputAnswer {
 
   /// What the intervals do not tell apart.
   std::string untold(const Groups& groups) const {
-    if (groups.size() == 1 && keys_.size() > 1) {
+    if (groups.size() == 1 && inputs_.size() > 1) {
       return fmt::format(" {} are too few to tell which matters more: the intervals overlap.", size());
     }
     std::vector<std::string> open;
     for (const auto& group : groups) {
       if (group.size() < 2) continue;
       std::vector<std::string> names;
-      for (const std::size_t input : group) names.push_back(keys_[input].name);
+      for (const std::size_t input : group) names.push_back(inputs_[input].name);
       open.push_back(joined(names));
     }
     if (open.empty()) return {};
@@ -163,8 +185,8 @@ class OutputAnswer {
   /// Inputs whose whole interval is small.
   std::string negligible() const {
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < keys_.size(); ++i) {
-      if (output_.sobol.inputs[i].total.upper < negligible_share) names.push_back(keys_[i].name);
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      if (output_.sobol.inputs[i].total.upper < negligible_share) names.push_back(inputs_[i].name);
     }
     if (names.empty()) return {};
     return fmt::format(" Below {}% of the variance, and so without influence here: {}.",
@@ -173,7 +195,7 @@ class OutputAnswer {
 
   const SensitivityResult& result_;
   const OutputSensitivity& output_;
-  std::vector<ShownKey> keys_;
+  std::vector<ShownInput> inputs_;
 };
 
 std::string share_failed(const SensitivityResult& result) {
@@ -205,6 +227,7 @@ std::string answer(const SensitivityResult& result) {
   std::vector<std::string> lines;
   for (const OutputSensitivity& output : result.outputs) lines.push_back(OutputAnswer(result, output).text());
   if (result.outputs.empty()) lines.emplace_back("There are no indices: the study did not come to its end.");
+  lines.push_back(samples_text(result));
   lines.push_back(share_failed(result));
   lines.push_back(limited_text(counts_of(result.answers), "evaluation"));
   return answer_of(std::move(lines), result.study, result.interrupted ? "The study was interrupted." : "");
@@ -221,6 +244,11 @@ Report report_of(const SensitivityResult& result) {
       report.items.push_back(Picture{picture_name(output), sensitivity_plot(result, output),
                                      "sensitivity of " + shown_output(output.output).name});
   }
+  report.items.push_back(ReportTable{quantile_table(result), "quantiles.csv", "quantiles"});
+  if (Plot plot = histogram_plot(result); !plot.panels.empty())
+    report.items.push_back(
+        Picture{"histogram.svg", std::move(plot), "histograms of critical gap and T max over the draws"});
+  report.items.push_back(ReportTable{histogram_table(result), "histogram.csv", "histogram", Shown::file});
   report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
   report.items.push_back(Statement{
       "The indices are those of these distributions: another range of an input gives it another share. Bound "
@@ -232,6 +260,7 @@ Report report_of(const SensitivityResult& result) {
                            {{"method", method_json(result)},
                             {"gap_cm", number(in_centimetres(result.study.study.gaps.front()))},
                             {"inputs", axes_json(result.study.study)},
+                            {"ignition", ignition_json(result)},
                             {"failed", counts_of(result.answers).failed},
                             {"notes", mesh_notes(result.study)}});
   return report;

@@ -34,9 +34,8 @@ std::vector<Column> index_columns() {
 /// Input and distribution, and the numbers where there are any.
 std::vector<Cell> cells_of(const SensitivityResult& result, const OutputSensitivity& output,
                            std::size_t input) {
-  const study::Axis& each = result.study.study.axes[input];
-  const ShownKey key = shown(each);
-  std::vector<Cell> cells{key.name, distribution_text(key, *each.distribution)};
+  const ShownInput shown = shown_inputs(result.study.study)[input];
+  std::vector<Cell> cells{shown.name, shown.distribution};
   if (!output.reason.empty()) return cells;
   const auto& [first, total] = output.sobol.inputs[input];
   for (const math::Estimate& of : {first, total})
@@ -71,13 +70,13 @@ bool total_below_first(const math::InputIndices& indices) {
 
 /// Which inputs show sampling error by such estimates, with their intervals; empty where none does.
 std::string sampling_note(const SensitivityResult& result, const OutputSensitivity& output) {
-  const auto keys = shown_axes(result.study.study);
+  const auto shown = shown_inputs(result.study.study);
   std::string inputs;
   bool apart = false;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
+  for (std::size_t i = 0; i < shown.size(); ++i) {
     const auto& [first, total] = output.sobol.inputs[i];
     if (!total_below_first(output.sobol.inputs[i])) continue;
-    inputs += fmt::format("{}{} (ST {}, S1 {})", inputs.empty() ? "" : ", ", keys[i].name,
+    inputs += fmt::format("{}{} (ST {}, S1 {})", inputs.empty() ? "" : ", ", shown[i].name,
                           estimate_text(total), estimate_text(first));
     apart = apart || total.upper < first.lower;
   }
@@ -106,7 +105,7 @@ Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity
   Table table{"Sensitivity of " + shown.phrase + at_gap(result.study.study, output.output),
               {named_text("input", "input"), named_text("distribution", "distribution")}};
   append(table.columns, index_columns());
-  for (std::size_t i = 0; i < result.study.study.axes.size(); ++i)
+  for (std::size_t i = 0; i < inputs_of(result.study.study).size(); ++i)
     table.rows.push_back(cells_of(result, output, i));
   table.notes = notes_of(result, output);
   return table;
@@ -119,7 +118,7 @@ Table sensitivity_table(const SensitivityResult& result) {
   append(table.columns, index_columns());
   for (const OutputSensitivity& output : result.outputs) {
     const ShownOutput& shown = shown_output(output.output);
-    for (std::size_t i = 0; i < result.study.study.axes.size(); ++i) {
+    for (std::size_t i = 0; i < inputs_of(result.study.study).size(); ++i) {
       std::vector<Cell> cells{shown.key, std::string{}, output.reason};
       for (Cell& cell : cells_of(result, output, i)) cells.push_back(std::move(cell));
       table.rows.push_back(std::move(cells));
@@ -187,8 +186,8 @@ void add_interval(Series& series, double x, double y, const math::Estimate& alon
 // Inputs below each other, the first at the top: first order above total order.
 Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output) {
   constexpr double apart = 0.13;
-  const auto keys = shown_axes(result.study.study);
-  const std::size_t inputs = keys.size();
+  const auto shown = shown_inputs(result.study.study);
+  const std::size_t inputs = shown.size();
   const study::Study& study = result.study.study;
   Plot plot;
   plot.title = fmt::format("Sensitivity of {}{}, N = {}", shown_output(output.output).phrase,
@@ -202,7 +201,7 @@ Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& 
     const bool contradictory = total_below_first(indices);
     if (contradictory)
       plot.subtitle = "* ST below S1 is sampling error: no true total order is below the first order";
-    plot.y.tics.push_back({y, keys[i].name + (contradictory ? " *" : "")});
+    plot.y.tics.push_back({y, shown[i].name + (contradictory ? " *" : "")});
     add_interval(first, indices.first.value, y + apart, indices.first);
     add_interval(total, indices.total.value, y - apart, indices.total);
   }

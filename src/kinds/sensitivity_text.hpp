@@ -4,6 +4,7 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 
 #include <string>
+#include <vector>
 
 namespace launchsafe::kinds {
 
@@ -16,6 +17,13 @@ struct ShownOutput {
   double scale = 1;    ///< units per SI unit
 };
 const ShownOutput& shown_output(SensitivityOutput output);
+
+/// An input as people read it.
+struct ShownInput {
+  std::string name;          ///< "peak pressure"
+  std::string distribution;  ///< "uniform from 400 to 600 MPa"
+};
+std::vector<ShownInput> shown_inputs(const study::Study& study);
 
 /// " at a gap of 0.02 cm", for outputs that belong to the study's gap.
 std::string at_gap(const study::Study& study, SensitivityOutput output);

@@ -38,6 +38,11 @@ double lower_normal_quantile(double p) {
   return -boost::math::erfc_inv(2.0 * std::max(p, smallest)) / root_half;
 }
 
+/// z with the probability u in (0, 1) below it.
+double standard_normal_quantile(double u) {
+  return u < 0.5 ? lower_normal_quantile(u) : -lower_normal_quantile(1.0 - u);
+}
+
 /// The ends of a normal in deviations from its centre.
 struct StandardEnds {
   double lower, upper;
@@ -129,12 +134,17 @@ Distribution Distribution::normal(double centre, double deviation, double lower,
   return {Kind::normal, lower, upper, centre, deviation};
 }
 
+Distribution Distribution::log_normal(double median, double deviation) {
+  return {Kind::log_normal, 0.0, std::numeric_limits<double>::infinity(), median, deviation};
+}
+
 bool is_valid(const Distribution& distribution) {
   const auto& [kind, lower, upper, centre, deviation] = distribution;
   if (!(lower < upper)) return false;
   if (kind == Distribution::Kind::uniform) return std::isfinite(upper - lower);
   if (kind == Distribution::Kind::log_uniform) return lower > 0.0 && std::isfinite(upper / lower);
   if (!std::isfinite(centre) || !std::isfinite(deviation) || !(deviation > 0.0)) return false;
+  if (kind == Distribution::Kind::log_normal) return centre > 0.0;
   const StandardEnds ends = standard_ends(distribution);
   return normal_between(ends.lower, ends.upper) >= 1e-280;
 }
@@ -155,6 +165,9 @@ double quantile(const Distribution& distribution, double u) {
     case Distribution::Kind::normal:
       value = normal_quantile(distribution, u);
       break;
+    case Distribution::Kind::log_normal:
+      value = distribution.centre * std::exp(distribution.deviation * standard_normal_quantile(u));
+      break;
   }
   return std::clamp(value, lower, upper);
 }
@@ -169,6 +182,8 @@ double cumulative(const Distribution& distribution, double x) {
       return (x - lower) / (upper - lower);
     case Distribution::Kind::log_uniform:
       return log_ratio(distribution, x) / log_ratio(distribution, upper);
+    case Distribution::Kind::log_normal:
+      return normal_below(std::log(x / distribution.centre) / distribution.deviation);
     case Distribution::Kind::normal:
       break;
   }
@@ -184,10 +199,28 @@ double mean_of(const Distribution& distribution) {
       return std::midpoint(lower, upper);
     case Distribution::Kind::log_uniform:
       return std::clamp((upper - lower) / log_ratio(distribution, upper), lower, upper);
+    case Distribution::Kind::log_normal:
+      return distribution.centre * std::exp(0.5 * distribution.deviation * distribution.deviation);
     case Distribution::Kind::normal:
       break;
   }
   return std::clamp(normal_mean(distribution), lower, upper);
+}
+
+std::optional<std::vector<double>> covariance_factor(const std::vector<double>& covariance,
+                                                     std::size_t size) {
+  assert(covariance.size() == size * size);
+  std::vector<double> factor(size * size, 0.0);
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      if (covariance[i * size + j] != covariance[j * size + i]) return std::nullopt;
+      double rest = covariance[i * size + j];
+      for (std::size_t k = 0; k < j; ++k) rest -= factor[i * size + k] * factor[j * size + k];
+      if (i == j && !(rest > 0.0)) return std::nullopt;
+      factor[i * size + j] = i == j ? std::sqrt(rest) : rest / factor[j * size + j];
+    }
+  }
+  return factor;
 }
 
 std::uint64_t hashed(std::uint64_t key, std::uint64_t n) {

@@ -196,10 +196,12 @@ std::string too_few_rows(std::size_t used, std::size_t left_out, std::size_t nee
 
 std::vector<double> SaltelliDesign::point(std::size_t block, std::size_t row) const {
   assert(block < blocks() && row < rows);
+  const std::size_t columns = begins.back();
   const std::vector<double>& source = block == block_b ? b : a;
-  const auto start = source.begin() + static_cast<std::ptrdiff_t>(row * inputs);
-  std::vector<double> values(start, start + static_cast<std::ptrdiff_t>(inputs));
-  if (block > block_b) values[block - 2] = b[row * inputs + block - 2];
+  const auto start = source.begin() + static_cast<std::ptrdiff_t>(row * columns);
+  std::vector<double> values(start, start + static_cast<std::ptrdiff_t>(columns));
+  if (block > block_b)
+    for (std::size_t i = begins[block - 2]; i < begins[block - 1]; ++i) values[i] = b[row * columns + i];
   return values;
 }
 
@@ -208,8 +210,14 @@ std::vector<double> SaltelliDesign::point(std::size_t evaluation) const {
 }
 
 SaltelliDesign saltelli_design(Design design, std::size_t rows, std::size_t inputs, std::uint64_t seed) {
-  const std::vector<double> points = unit_points(design, rows, 2 * inputs, seed);
-  SaltelliDesign result{rows, inputs, {}, {}};
+  return saltelli_design(design, rows, std::vector<std::size_t>(inputs, 1), seed);
+}
+
+SaltelliDesign saltelli_design(Design design, std::size_t rows, const std::vector<std::size_t>& columns,
+                               std::uint64_t seed) {
+  SaltelliDesign result{rows, columns.size(), {0}, {}, {}};
+  for (const std::size_t count : columns) result.begins.push_back(result.begins.back() + count);
+  const std::vector<double> points = unit_points(design, rows, 2 * result.begins.back(), seed);
   for (std::size_t k = 0; k < points.size(); ++k) (k % 2 == 0 ? result.a : result.b).push_back(points[k]);
   return result;
 }

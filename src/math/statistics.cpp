@@ -4,6 +4,7 @@
 #include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/beta.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include <algorithm>
@@ -184,6 +185,13 @@ double one_sided_tolerance_factor(int n, double coverage, double confidence) {
 double one_sided_student_factor(int n, double level) {
   if (n < 1 || !(level > 0.0 && level < 1.0)) return not_a_number;
   return boost::math::quantile(boost::math::students_t(n), level);
+}
+
+Interval clopper_pearson(std::size_t count, std::size_t trials, double level) {
+  const double k = static_cast<double>(count), rest = static_cast<double>(trials - count);
+  const double tail = 0.5 * (1.0 - level);
+  return {count == 0 ? 0.0 : boost::math::ibeta_inv(k, rest + 1.0, tail),
+          count == trials ? 1.0 : boost::math::ibetac_inv(k + 1.0, rest, tail)};
 }
 
 namespace {

@@ -109,8 +109,44 @@ void say_accuracy(const StudyEvidence& main, const StudyEvidence* accuracy, Safe
 
 // --- inputs ---
 
-void say_sensitivity(const StudyEvidence* sensitivity, SafetySection& section) {
+/// Whether two studies that differ in these keys are of one launch.
+bool is_same_launch(const std::vector<std::string>& differences) {
+  return std::all_of(differences.begin(), differences.end(), [](const std::string& key) {
+    return key == "title" || key == "gap.thickness" || key.starts_with("numerics.") ||
+           key.starts_with("output.");
+  });
+}
+
+/// The quantiles over the draws, beside the bounds of the same launch.
+void say_quantiles(const StudyEvidence& sensitivity, const JudgedCase* own, SafetySection& section) {
+  const Row& rows = sensitivity.rows("quantiles");
+  const auto ignition = sensitivity.study.find("ignition");
+  if (rows.empty() || ignition == sensitivity.study.end()) return;
+  const auto at = [&](double percent) -> std::string {
+    for (const Row& row : rows)
+      if (number_of(row, "share_percent") == percent) return text_of(row, "critical_gap_reads_as");
+    return "n/a";
+  };
+  const auto percent = [&](const char* key) {
+    return significant(100.0 * number_of(*ignition, key), 3) + " %";
+  };
+  const auto bounds =
+      own != nullptr && is_same_launch(sensitivity.differences) ? measured_gap(*own->critical) : std::nullopt;
+  section.say("budget.quantiles",
+              {{"lowest", at(2.5)},
+               {"low", at(5)},
+               {"middle", at(50)},
+               {"highest", at(97.5)},
+               {"bounds", bounds ? bounds->text("cm") : ""},
+               {"gap", significant(number_of(sensitivity.study, "gap_cm"), 6) + " cm"},
+               {"from", percent("probability_from")},
+               {"to", percent("probability_to")}},
+              origin_of(sensitivity, "quantiles"));
+}
+
+void say_sensitivity(const StudyEvidence* sensitivity, const JudgedCase* own, SafetySection& section) {
   if (sensitivity == nullptr || !sensitivity->finished()) return section.say("budget.no_sensitivity");
+  say_quantiles(*sensitivity, own, section);
   Table table{.columns = {named_text("input", "input"), named_text("distribution", "distribution"),
                           significant_column("first order", "", 2, "first_order"),
                           named_text("interval", "first_order_interval"),
@@ -278,7 +314,7 @@ SafetySection budget_section(const Subject& subject) {
     section.say("budget.none");
   }
   say_accuracy(subject.study, subject.evidence.find("accuracy"), section);
-  say_sensitivity(subject.evidence.find("sensitivity"), section);
+  say_sensitivity(subject.evidence.find("sensitivity"), subject.own_case(), section);
   say_models(subject, section);
   return section;
 }

@@ -78,7 +78,12 @@ ShownKey shown_numbers(const std::string& name, const scene::KeyDescription& key
   return result;
 }
 
+bool is_log_normal(const math::Distribution& distribution) {
+  return distribution.kind == math::Distribution::Kind::log_normal;
+}
+
 std::vector<double> marks_of(const math::Distribution& distribution) {
+  if (is_log_normal(distribution)) return {distribution.centre};
   std::vector<double> values;
   for (const double value : {distribution.lower, distribution.upper}) {
     if (std::isfinite(value)) values.push_back(value);
@@ -142,6 +147,9 @@ std::string values_text(const ShownKey& key, const std::vector<double>& si_value
 std::string distribution_text(const ShownKey& key, const math::Distribution& distribution) {
   const auto number = [&key](double value_si) { return significant(key.value(value_si), 6); };
   const std::string unit = key.unit.empty() ? "" : " " + key.unit;
+  if (is_log_normal(distribution))
+    return fmt::format("log-normal, {}{} +- {} %", number(distribution.centre), unit,
+                       significant(100.0 * distribution.deviation, 3));
   if (distribution.kind != math::Distribution::Kind::normal) {
     const bool uniform = distribution.kind == math::Distribution::Kind::uniform;
     return fmt::format("{} from {} to {}{}", uniform ? "uniform" : "log-uniform", number(distribution.lower),

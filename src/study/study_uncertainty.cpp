@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -46,6 +47,7 @@ void settle_stated(StudyFile& study) {
                    scene::charge_edges_off_grid(study.scene.scene).empty();
   double largest = stated;
   for (StudyCase& each : study.cases) {
+    each.numerical_uncertainty_assumed = !own;
     each.numerical_uncertainty = own ? stated : std::max(stated, assumed_for(each.scene.scene));
     largest = std::max(largest, each.numerical_uncertainty);
   }
@@ -81,12 +83,14 @@ Recorded recorded_for(const AccuracyRecord& record, const scene::Scene& scene) {
   return recorded;
 }
 
-/// "20 of 45 cases: it was made at ...; 4 of 45 cases: ...".
+/// "it was made at ... (20 of 45 cases); ... (4 of 45 cases)": the commonest first.
 std::string counted(const std::map<std::string, std::size_t>& reasons, std::size_t cases) {
   constexpr std::size_t most_named = 3;
+  std::vector<std::pair<std::string, std::size_t>> ordered(reasons.begin(), reasons.end());
+  std::ranges::stable_sort(ordered, std::ranges::greater{}, &std::pair<std::string, std::size_t>::second);
   std::string text;
   std::size_t named = 0;
-  for (const auto& [reason, count] : reasons) {
+  for (const auto& [reason, count] : ordered) {
     if (named++ == most_named) return text + "; and so on";
     if (named > 1) text += "; ";
     text += cases == 1 ? reason : fmt::format("{} ({} of {} cases)", reason, count, cases);
@@ -111,6 +115,7 @@ void settle_recorded(StudyFile& study, const AccuracyRecord& record) {
       each.rise_of_uncertainty = record.rise * recorded.growth * each.numerical_uncertainty / recorded.bound;
       each.covered_gap = recorded.largest_gap;
     }
+    each.numerical_uncertainty_assumed = !applies;
     if (!applies) ++reasons[recorded.reason];
     s.numerical_uncertainty = std::max(s.numerical_uncertainty, each.numerical_uncertainty);
   }

@@ -1,8 +1,10 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/math/sensitivity.hpp"
+#include "launchsafe/study/calibration_record.hpp"
 #include "study/read_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -24,7 +26,7 @@ std::string input(const std::string& rest) { return "[[input]]\n" + rest + "\n";
 const std::string crack =
     input("key = \"crack_radius\"\ndistribution = \"uniform\"\nrange = \"10 to 100 um\"");
 const std::string steepness =
-    input("key = \"load.steepness\"\ndistribution = \"normal\"\nmean = 12\ndeviation = 1");
+    input("key = \"load.steepness\"\ndistribution = \"normal\"\nmean = 1.4\ndeviation = 0.02");
 const std::string flaw =
     input("key = \"charge.flaw_size\"\ndistribution = \"log-uniform\"\nrange = \"0.5 mm to 2 mm\"");
 
@@ -73,8 +75,8 @@ TEST(ReadSensitivity, ReadsInputsAndMethod) {
   EXPECT_EQ(study.axes[0].distribution->lower, 10e-6);
   EXPECT_EQ(study.axes[0].distribution->upper, 100e-6);
   EXPECT_EQ(study.axes[1].distribution->kind, Distribution::Kind::normal);
-  EXPECT_EQ(study.axes[1].distribution->centre, 12.0);
-  EXPECT_EQ(study.axes[1].distribution->deviation, 1.0);
+  EXPECT_EQ(study.axes[1].distribution->centre, 1.4);
+  EXPECT_EQ(study.axes[1].distribution->deviation, 0.02);
   EXPECT_TRUE(std::isinf(study.axes[1].distribution->upper));
   EXPECT_EQ(study.axes[2].distribution->kind, Distribution::Kind::log_uniform);
   EXPECT_EQ(study.axes[2].distribution->lower, 5e-4);
@@ -223,6 +225,98 @@ TEST(ReadSensitivity, TheAnalyticLoadIsNotUncertainUnderAMeasuredCurve) {
   std::ofstream(file) << "time_ms,pressure_MPa\n0,0\n5,400\n18,0\n";
   expect_error_in(sensitivity_start + steepness + "[set]\nload.curve = \"" + file + "\"\n",
                   {5, "input.key", "which a measured curve does not have"});
+}
+
+// --- constants of a calibration, which vary together ---
+
+const std::string shipped_record = LAUNCHSAFE_SOURCE_DIR "/reports/calibrate_table8/calibration.json";
+const std::string calibrated = input("calibration = \"../reports/calibrate_table8/calibration.json\"");
+
+CalibrationRecord read_shipped_record() {
+  return *parse_calibration_record(*scene::read_text_file(shipped_record), shipped_record);
+}
+
+TEST(ReadSensitivity, ACalibrationIsOneInput) {
+  const StudyFile file = study_of(sensitivity_start + "samples = 4\n" + crack + calibrated);
+  ASSERT_EQ(file.study.axes.size(), 6u);
+  ASSERT_EQ(file.cases.size(), 4u * 4u);
+  for (std::size_t row = 0; row < 4; ++row) {
+    const auto at = [&](std::size_t block) { return file.cases[4 * row + block].coordinates; };
+    const auto joined = [](double first, std::vector<double> rest) {
+      rest[0] = first;
+      return rest;
+    };
+    EXPECT_EQ(at(2), joined(at(1)[0], at(0))) << "the crack radius of B";
+    EXPECT_EQ(at(3), joined(at(0)[0], at(1))) << "all five constants of B";
+  }
+  EXPECT_EQ(file.cases[3].label, "sample 1 of AB(calibration)");
+  expect_scenes_of_coordinates(file);
+}
+
+// The errors of deviation and correlation from 512 draws are 1/sqrt(2 x 512) = 3 % and 1/sqrt(512) = 0.044 at
+// most: three of them.
+TEST(ReadSensitivity, TheConstantsOfACalibrationHaveTheCovarianceOfItsRecord) {
+  const StudyFile file = study_of(sensitivity_start + "samples = 256\n" + calibrated);
+  const CalibrationRecord record = read_shipped_record();
+  constexpr std::size_t size = fitted_keys.size();
+  std::vector<std::array<double, size>> draws;
+  for (std::size_t i = 0; i < file.cases.size(); ++i) {
+    if (!samples_inputs(file.study, i)) continue;
+    auto& draw = draws.emplace_back();
+    for (std::size_t k = 0; k < size; ++k)
+      draw[k] = std::log(file.cases[i].coordinates[k] / file.study.axes[k].distribution->centre);
+  }
+  ASSERT_EQ(draws.size(), 512u);
+  const auto covariance = [&](std::size_t i, std::size_t j) {
+    double sum = 0;
+    for (const auto& draw : draws) sum += draw[i] * draw[j];
+    return sum / static_cast<double>(draws.size());
+  };
+  for (std::size_t i = 0; i < size; ++i) {
+    EXPECT_EQ(file.study.axes[i].key.name, fitted_keys[i]);
+    const double expected = std::sqrt(record.covariance[i * size + i]);
+    EXPECT_NEAR(std::sqrt(covariance(i, i)), expected, 0.09 * expected) << fitted_keys[i];
+    for (std::size_t j = 0; j < i; ++j) {
+      const double scale = expected * std::sqrt(record.covariance[j * size + j]);
+      EXPECT_NEAR(covariance(i, j) / scale, record.covariance[i * size + j] / scale, 0.13)
+          << fitted_keys[i] << ", " << fitted_keys[j];
+    }
+  }
+}
+
+TEST(ReadSensitivity, FaultsOfACalibrationAsInputNameFileLineKeyFoundAndAllowed) {
+  expect_input_error("calibration = \"nowhere.json\"",
+                     {5, "input.calibration", "cannot be read", "load_fitted = true"});
+  expect_input_error("calibration = 3", {5, "input.calibration", "3", "a text"});
+  expect_input_error("calibration = \"a.json\"\nrange = \"1 to 2 K\"", {6, "input.range", "unknown"});
+  const std::string width = input("key = \"load.width\"\ndistribution = \"uniform\"\nrange = \"2 to 3 ms\"");
+  expect_error_in(sensitivity_start + calibrated + width,
+                  {7, "input.key", "load.width a second time", "each scene key once"});
+  expect_error_in(sensitivity_start + width + calibrated,
+                  {9, "input.calibration", "load.width a second time", "each scene key once"});
+  expect_error_in(sensitivity_start + calibrated + calibrated,
+                  {7, "input.calibration", "a second calibration", "one calibration"});
+  expect_error_in(sensitivity_start + calibrated + "[set]\nload.width = \"3 ms\"\n",
+                  {5, "input.calibration", "load.width, which [set]", "either"});
+  expect_error_in(sensitivity_start + "calibration = \"" + shipped_record + "\"\n" + calibrated,
+                  {6, "input.calibration", "beside that of the study", "one of both", "leave out"});
+}
+
+TEST(ReadSensitivity, ARecordWithoutCovarianceIsNoInput) {
+  CalibrationRecord record = read_shipped_record();
+  record.load_fitted = false;
+  record.covariance.clear();
+  const std::string file = ::testing::TempDir() + "read_sensitivity_calibration.json";
+  std::ofstream(file) << to_json_text(record);
+  expect_input_error("calibration = \"" + file + "\"",
+                     {5, "input.calibration", "without a covariance", "load_fitted = true"});
+}
+
+TEST(ReadSensitivity, AnotherShapeOfTheLoadHasNotTheConstantsOfTheBell) {
+  const std::string file = ::testing::TempDir() + "read_sensitivity_bell.csv";
+  std::ofstream(file) << "time_ms,pressure_MPa\n0,0\n5,400\n18,0\n";
+  expect_error_in(sensitivity_start + calibrated + "[set]\nload.curve = \"" + file + "\"\n",
+                  {5, "input.calibration", "a measured curve", "load.shape = \"bell\""});
 }
 
 }  // namespace

@@ -92,6 +92,58 @@ TEST(SensitivityReport, WithoutIntervalsNothingIsRanked) {
   EXPECT_NE(answer(result).find("too few to tell"), std::string::npos) << answer(result);
 }
 
+// Evaluations 0, 1, 5, 6, 10, ... are A and B of four rows: critical gaps of 400 um less a micrometre each.
+// Of 8 draws the quantile of 2.5 % is the first and that of 50 % the fourth.
+TEST(SensitivityReport, QuantilesAreThoseOfTheDrawsAlone) {
+  const auto json = json_of(made_sensitivity());
+  const auto& rows = json["quantiles"];
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(rows[0]["share_percent"], 2.5);
+  EXPECT_NEAR(rows[0]["critical_gap_cm"].get<double>(), 0.0384, 1e-12);
+  EXPECT_NEAR(rows[2]["critical_gap_cm"].get<double>(), 0.0390, 1e-12);
+  EXPECT_NEAR(rows[4]["critical_gap_cm"].get<double>(), 0.0400, 1e-12);
+  std::int64_t draws = 0;
+  for (const auto& row : json["histogram"])
+    if (row["output"] == "critical_gap") draws += row["draws"].get<std::int64_t>();
+  EXPECT_EQ(draws, 8);
+}
+
+TEST(SensitivityReport, ACriticalGapThatIsNoNumberHasARankAndNoValue) {
+  SensitivityResult result = made_sensitivity();
+  for (const auto& [evaluation, kind] :
+       {std::pair{0, CriticalGapKind::all_ignite}, std::pair{1, CriticalGapKind::all_safe}}) {
+    const auto i = static_cast<std::size_t>(evaluation);
+    result.answers[i].critical.kind = kind;
+    result.answers[i].critical.value = result.outputs[1].values[i] = study::not_a_number;
+  }
+  const auto json = json_of(result);
+  EXPECT_TRUE(json["quantiles"][0]["critical_gap_cm"].is_null());
+  EXPECT_EQ(json["quantiles"][0]["critical_gap_reads_as"], "ignites without a gap");
+  EXPECT_NEAR(json["quantiles"][2]["critical_gap_cm"].get<double>(), 0.0389, 1e-12);
+  EXPECT_EQ(json["quantiles"][4]["critical_gap_reads_as"], "> 0.1 cm");
+  EXPECT_EQ(json["histogram"][0]["reads_as"], "ignites without a gap");
+  EXPECT_EQ(json["histogram"][0]["draws"], 1);
+  EXPECT_TRUE(json["histogram"][0]["from"].is_null());
+}
+
+// One of eight: 0.3 to 52.7 % (Clopper and Pearson). A draw that failed may have ignited: 2 of 8 give 65.1 %.
+TEST(SensitivityReport, TheProbabilityOfIgnitionHoldsWhateverFailedDrawsWouldHaveDone) {
+  SensitivityResult result = made_sensitivity();
+  result.answers[5].verdicts.front().ignition = result.answers[7].verdicts.front().ignition =
+      NamedIgnition{};  // the second is no draw
+  auto ignition = json_of(result)["ignition"];
+  EXPECT_EQ(ignition["igniting"], 1);
+  EXPECT_EQ(ignition["completed"], 8);
+  EXPECT_NEAR(ignition["probability_from"].get<double>(), 0.0032, 5e-5);
+  EXPECT_NEAR(ignition["probability_to"].get<double>(), 0.5265, 5e-5);
+  EXPECT_TRUE(in_order(answer(result), {"Of 8 launches", "1 ignition", "0.02 cm", "0.316 % to 52.7 %"}));
+  result.answers[6] = broken_answer(result.study.study, "energy drift");
+  ignition = json_of(result)["ignition"];
+  EXPECT_EQ(ignition["completed"], 7);
+  EXPECT_NEAR(ignition["probability_from"].get<double>(), 0.0032, 5e-5);
+  EXPECT_NEAR(ignition["probability_to"].get<double>(), 0.6509, 5e-5);
+}
+
 TEST(SensitivityReport, EveryEvaluationIsARow) {
   const SensitivityResult result = made_sensitivity();
   const Table table = evaluation_table(result);
@@ -153,7 +205,7 @@ TEST(SensitivityReport, WritesItsFilesTheSameEveryTime) {
   ASSERT_TRUE(first) << first.error().message;
   ASSERT_TRUE(second) << second.error().message;
   EXPECT_EQ(first->files, second->files);
-  EXPECT_EQ(first->files.size(), gnuplot_is_there() ? 7u : 4u);
+  EXPECT_EQ(first->files.size(), gnuplot_is_there() ? 10u : 6u);
   for (const std::string& name : first->files)
     EXPECT_EQ(content_of(folder.path / "first" / name), content_of(folder.path / "second" / name)) << name;
 }

@@ -349,4 +349,32 @@ RC_GTEST_PROP(Distribution, QuantilesOfAnyCutNormalAreOrderedInsideAndInverted, 
 
 #endif
 
+// By definition: the logarithm of the quantile is that of the median and so many deviations, 1.959964 at 97.5
+// %.
+TEST(LogNormal, IsNormalInItsLogarithm) {
+  const auto distribution = math::Distribution::log_normal(2.0, 0.1);
+  ASSERT_TRUE(math::is_valid(distribution));
+  EXPECT_DOUBLE_EQ(math::quantile(distribution, 0.5), 2.0);
+  EXPECT_NEAR(math::quantile(distribution, 0.975), 2.0 * std::exp(0.1959964), 1e-6);
+  EXPECT_NEAR(math::cumulative(distribution, math::quantile(distribution, 0.025)), 0.025, 1e-12);
+  EXPECT_DOUBLE_EQ(math::mean_of(distribution), 2.0 * std::exp(0.005));
+  EXPECT_FALSE(math::is_valid(math::Distribution::log_normal(0.0, 0.1)));
+}
+
+// By hand: (2, 0; 1, sqrt(2)) times its transpose is (4, 2; 2, 3).
+TEST(CovarianceFactor, TimesItsTransposeIsTheCovariance) {
+  const auto factor = math::covariance_factor({4, 2, 2, 3}, 2);
+  ASSERT_TRUE(factor);
+  EXPECT_EQ((*factor)[0], 2.0);
+  EXPECT_EQ((*factor)[1], 0.0);
+  EXPECT_EQ((*factor)[2], 1.0);
+  EXPECT_DOUBLE_EQ((*factor)[3], std::sqrt(2.0));
+}
+
+TEST(CovarianceFactor, OfWhatIsNoCovarianceIsNothing) {
+  EXPECT_FALSE(math::covariance_factor({1, 2, 2, 1}, 2)) << "a correlation above 1";
+  EXPECT_FALSE(math::covariance_factor({1, 1, 1, 1}, 2)) << "singular";
+  EXPECT_FALSE(math::covariance_factor({1, 0.5, 0.2, 1}, 2)) << "not symmetric";
+}
+
 }  // namespace

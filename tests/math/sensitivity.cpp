@@ -110,6 +110,16 @@ TEST(SaltelliDesign, TakesOneColumnFromTheOtherSample) {
   }
 }
 
+TEST(SaltelliDesign, TakesAllColumnsOfAnInputTogether) {
+  const auto design = math::saltelli_design(Design::monte_carlo, 3, {1, 2}, 1);
+  ASSERT_EQ(design.blocks(), 4u);
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto a = design.point(design.block_a, row), b = design.point(design.block_b, row);
+    EXPECT_EQ(design.point(design.block_ab(0), row), (std::vector<double>{b[0], a[1], a[2]}));
+    EXPECT_EQ(design.point(design.block_ab(1), row), (std::vector<double>{a[0], b[1], b[2]}));
+  }
+}
+
 TEST(SaltelliDesign, NumbersEvaluationsByWholeRows) {
   const auto design = math::saltelli_design(Design::latin_hypercube, 4, 2, 1);
   EXPECT_EQ(design.evaluations(), 16u);

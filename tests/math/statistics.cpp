@@ -118,4 +118,17 @@ TEST(StudentFactor, IsThatOfTheNumberOfValues) {
   EXPECT_TRUE(std::isnan(math::one_sided_student_factor(0, 0.95)));
 }
 
+// Closed form 1 - 0.025^(1/10) without an event; the others from Clopper and Pearson's tables (n = 10, 95 %).
+TEST(ClopperPearson, IsThatOfTheTables) {
+  const auto expect = [](std::size_t count, double lower, double upper) {
+    const math::Interval interval = math::clopper_pearson(count, 10, 0.95);
+    EXPECT_NEAR(interval.lower, lower, 5e-5) << count;
+    EXPECT_NEAR(interval.upper, upper, 5e-5) << count;
+  };
+  expect(0, 0.0, 1.0 - std::pow(0.025, 0.1));
+  expect(1, 0.0025, 0.4450);
+  expect(5, 0.1871, 0.8129);
+  expect(10, std::pow(0.025, 0.1), 1.0);
+}
+
 }  // namespace

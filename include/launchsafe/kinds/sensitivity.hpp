@@ -8,11 +8,19 @@
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace launchsafe::kinds {
+
+/// Constants that vary together, as the calibration that fitted them found: their logarithms are normal.
+struct CorrelatedAxes {
+  std::size_t first = 0, count = 0;  ///< among Study::axes, which say the median of each and its deviation
+  std::vector<double> factor;        ///< of the covariance of the logarithms (math::covariance_factor)
+};
 
 /// What a study file of this kind says besides; its inputs are Study::axes, with distributions. The indices
 /// are of first and total order (Saltelli 2010, Jansen 1999): samples x (inputs + 2) evaluations.
@@ -22,11 +30,22 @@ struct SensitivitySettings {
   std::uint64_t seed = 1;  ///< of design and bootstrap
   int resamples = 1000;    ///< of the bootstrap
   double confidence = 0.95;
+  std::optional<CorrelatedAxes> correlated = {};
 };
 
 inline const SensitivitySettings& sensitivity_settings(const study::Study& study) {
   return study::settings_of<SensitivitySettings>(study);
 }
+
+/// What has indices of its own: an axis, or those that vary together, since indices need independent inputs.
+struct SensitivityInput {
+  std::size_t first = 0, count = 1;  ///< among Study::axes
+};
+std::vector<SensitivityInput> inputs_of(const study::Study& study);
+
+/// Whether an evaluation is a draw from the distributions of the inputs, rather than one made for
+/// differences: the blocks A and B of a Saltelli design.
+bool samples_inputs(const study::Study& study, std::size_t evaluation);
 
 /// One output of a case as a number.
 enum class SensitivityOutput {

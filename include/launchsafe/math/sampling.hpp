@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace launchsafe::math {
@@ -11,13 +12,16 @@ namespace launchsafe::math {
 /// One uncertain input. A plain value; the functions below assert that it is valid, and whoever reads it from
 /// a user asks `is_valid` first.
 struct Distribution {
-  enum class Kind { uniform, log_uniform, normal };
+  enum class Kind { uniform, log_uniform, normal, log_normal };
 
   Kind kind = Kind::uniform;
-  double lower = 0;      ///< least value, unit of the input; -infinity for a normal not cut off below
-  double upper = 1;      ///< greatest value, unit of the input; infinity for a normal not cut off above
-  double centre = 0;     ///< mean of the normal before it is cut off, unit of the input; others ignore it
-  double deviation = 1;  ///< standard deviation of the normal before it is cut off; others ignore it
+  double lower = 0;  ///< least value, unit of the input; -infinity for a normal not cut off below
+  double upper = 1;  ///< greatest value, unit of the input; infinity for a normal not cut off above
+  /// Mean of the normal before it is cut off, or median of the log-normal, unit of the input; others ignore
+  /// it.
+  double centre = 0;
+  /// Standard deviation of the normal before it is cut off, or of the logarithm of the log-normal.
+  double deviation = 1;
 
   static Distribution uniform(double lower, double upper);
   /// The logarithm is uniform.
@@ -25,11 +29,14 @@ struct Distribution {
   static Distribution normal(double centre, double deviation,
                              double lower = -std::numeric_limits<double>::infinity(),
                              double upper = std::numeric_limits<double>::infinity());
+  /// The logarithm is normal, and not cut off.
+  static Distribution log_normal(double median, double deviation);
 };
 
 /// lower < upper, a finite distance apart (uniform), with lower above 0 and upper/lower finite (log-uniform);
-/// for a normal a finite centre, a finite deviation above 0, and a probability of at least 1e-280 before the
-/// cut between its ends, which an end up to about 35 deviations beyond the centre leaves.
+/// for a log-normal a finite median above 0 and a finite deviation above 0; for a normal a finite centre, a
+/// finite deviation above 0, and a probability of at least 1e-280 before the cut between its ends, which an
+/// end up to about 35 deviations beyond the centre leaves.
 bool is_valid(const Distribution& distribution);
 
 /// The value below which the share u in [0, 1] lies, unit of the input; the ends exactly at u = 0 and 1, and
@@ -42,6 +49,11 @@ double cumulative(const Distribution& distribution, double x);
 /// Expected value, unit of the input; of a normal after it is cut off, to about 1e-16 deviation^2/(upper -
 /// lower).
 double mean_of(const Distribution& distribution);
+
+/// The factor L of a covariance matrix L L^T of `size` variables, row by row, lower triangular: L z has that
+/// covariance where z are independent standard normals. Nothing where the matrix is not symmetric and
+/// positive definite.
+std::optional<std::vector<double>> covariance_factor(const std::vector<double>& covariance, std::size_t size);
 
 /// The n-th output (from 0) of the generator SplitMix64 seeded with `key`: a hash of both numbers (Steele,
 /// Lea and Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014; constants of Vigna's

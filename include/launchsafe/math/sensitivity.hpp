@@ -21,7 +21,7 @@ struct Estimate {
 /// Two independent samples A and B of the inputs and, for each input i, the block AB_i: A with column i taken
 /// from B (Saltelli et al., Comput. Phys. Commun. 181, 2010). The evaluations are numbered row by row, so
 /// that the first evaluations of an unfinished study are whole rows: A, B, AB_0, AB_1, ... of row 0, of row
-/// 1, ...
+/// 1, ... An input may have several columns, which are taken together: variables that depend on each other.
 struct SaltelliDesign {
   static constexpr std::size_t block_a = 0;
   static constexpr std::size_t block_b = 1;
@@ -29,7 +29,8 @@ struct SaltelliDesign {
 
   std::size_t rows = 0;
   std::size_t inputs = 0;
-  std::vector<double> a, b;  ///< points in the open unit cube, row by row
+  std::vector<std::size_t> begins;  ///< of every input its first column, and behind the last their number
+  std::vector<double> a, b;         ///< points in the open unit cube, row by row
 
   std::size_t blocks() const { return inputs + 2; }
   std::size_t evaluations() const { return rows * blocks(); }
@@ -46,6 +47,9 @@ struct SaltelliDesign {
 /// rows, and 256 or more: with fewer a few pairs of its dimensions are correlated, which can double the error
 /// of an index against independent points. A longer design of the same seed then starts with the shorter.
 SaltelliDesign saltelli_design(Design design, std::size_t rows, std::size_t inputs, std::uint64_t seed);
+/// Likewise of inputs with so many columns each, at least one.
+SaltelliDesign saltelli_design(Design design, std::size_t rows, const std::vector<std::size_t>& columns,
+                               std::uint64_t seed);
 
 struct SobolOptions {
   double level = 0.95;            ///< confidence of the intervals, in (0, 1)

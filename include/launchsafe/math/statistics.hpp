@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -49,6 +50,14 @@ double one_sided_tolerance_factor(int n, double coverage, double confidence);
 /// Student's factor: with probability `level` a further value, of a population about 0 of whose values n >= 1
 /// have a root mean square s, is below the factor times s. One-sided; NaN otherwise.
 double one_sided_student_factor(int n, double level);
+
+struct Interval {
+  double lower, upper;
+};
+
+/// Interval that holds a probability with at least the probability `level`, of which `count` of `trials` >= 1
+/// independent trials gave evidence (Clopper and Pearson, Biometrika 26, 1934); two-sided.
+Interval clopper_pearson(std::size_t count, std::size_t trials, double level);
 
 /// Discretisation uncertainty from three systematically refined meshes (Celik et al., J. Fluids Eng. 130,
 /// 2008).

@@ -180,6 +180,7 @@ struct StudyCase {
   bool own_conditions = true;  ///< the load and defect of the study's scene, which the references belong to
   std::vector<double> coordinates;                               ///< SI, of Study::axes
   double numerical_uncertainty = assumed_numerical_uncertainty;  ///< K, of T max with these numerics
+  bool numerical_uncertainty_assumed = false;  ///< neither stated for these numerics nor of a record
   /// K; the rise of T max above the initial temperature for which that was found; NaN where it holds for any.
   /// Hotter skins have proportionally larger errors.
   double rise_of_uncertainty = not_a_number;

@@ -1,0 +1,258 @@
+#include "sensitivity_samples.hpp"
+
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
+#include "launchsafe/report/study_text.hpp"
+#include "sensitivity_text.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double ignition_level = 0.95;
+
+/// Its place in the order of the draws; NaN where nothing is known.
+double ranked(const OutputSensitivity& output, const CaseAnswer& answer, double value) {
+  if (output.output != SensitivityOutput::critical_gap || !answer.completed()) return value;
+  if (answer.critical.kind == CriticalGapKind::all_ignite) return -infinite;
+  return answer.critical.kind == CriticalGapKind::all_safe ? infinite : value;
+}
+
+const OutputSensitivity* output_of(const SensitivityResult& result, SensitivityOutput which) {
+  const auto found = std::find_if(result.outputs.begin(), result.outputs.end(),
+                                  [which](const auto& each) { return each.output == which; });
+  return found == result.outputs.end() ? nullptr : &*found;
+}
+
+/// The outputs whose distribution is told: the margin's is that of T max and of the trigger.
+std::vector<const OutputSensitivity*> told_outputs(const SensitivityResult& result) {
+  std::vector<const OutputSensitivity*> told;
+  for (const auto which : {SensitivityOutput::critical_gap, SensitivityOutput::maximum_temperature})
+    if (const OutputSensitivity* output = output_of(result, which)) told.push_back(output);
+  return told;
+}
+
+/// "0.0278 cm", "ignites without a gap", "> 0.4 cm".
+std::string quantile_text(const SensitivityResult& result, double gap) {
+  if (std::isnan(gap)) return "n/a";
+  if (std::isfinite(gap)) return significant(100.0 * gap, 3) + " cm";
+  return gap < 0 ? "ignites without a gap" : "> " + centimetres(result.study.study.largest_gap);
+}
+
+std::string percent(double share) { return significant(100.0 * share, 3) + " %"; }
+
+std::string title_of(const SensitivityResult& result, const OutputSensitivity& output) {
+  return shown_output(output.output).name + (output.inert ? " without reaction" : "") +
+         at_gap(result.study.study, output.output);
+}
+
+/// What is to be known of the numbers of an output; empty for nothing.
+std::string sample_note(const SensitivityResult& result, const OutputSensitivity& output) {
+  const OutputSample sample = sample_of(result, output);
+  std::string note = fmt::format("{}: {} draws", title_of(result, output), sample.values.size());
+  if (const std::size_t count = sample.ignites_at_zero())
+    note += fmt::format(", of which {} ignite without a gap", count);
+  if (const std::size_t count = sample.none_ignites())
+    note += fmt::format(", of which {} ignite at no gap up to {}", count,
+                        centimetres(result.study.study.largest_gap));
+  if (sample.missing > 0) note += fmt::format("; {} more are not known", sample.missing);
+  return note + ".";
+}
+
+// --- histogram ---
+
+/// Intervals of equal width; all in the unit shown.
+struct Histogram {
+  double first = 0, width = 0;       ///< the first interval is the one of that number, counted from 0
+  std::vector<std::int64_t> counts;  ///< none where there are no two different numbers
+  double edge(std::size_t i) const { return width * (first + static_cast<double>(i)); }
+};
+
+Histogram histogram_of(const OutputSample& sample, double scale) {
+  constexpr double most_intervals = 20.0;
+  std::vector<double> values;
+  for (const double value : sample.values)
+    if (std::isfinite(value)) values.push_back(scale * value);
+  Histogram histogram;
+  if (values.empty() || !(values.back() > values.front())) return histogram;
+  histogram.width = round_distance((values.back() - values.front()) / most_intervals);
+  histogram.first = std::floor(values.front() / histogram.width);
+  for (const double value : values) {
+    const double steps = std::max(0.0, std::floor(value / histogram.width) - histogram.first);
+    const auto place = static_cast<std::size_t>(steps);
+    if (place >= histogram.counts.size()) histogram.counts.resize(place + 1, 0);
+    ++histogram.counts[place];
+  }
+  return histogram;
+}
+
+Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) {
+  const ShownOutput& shown = shown_output(output.output);
+  const OutputSample sample = sample_of(result, output);
+  const Histogram histogram = histogram_of(sample, shown.scale);
+  Plot panel;
+  if (histogram.counts.empty()) return panel;
+  panel.title = title_of(result, output);
+  panel.subtitle = fmt::format("{} draws", sample.values.size());
+  if (const std::size_t count = sample.ignites_at_zero())
+    panel.subtitle += fmt::format("; {} ignite without a gap", count);
+  if (const std::size_t count = sample.none_ignites())
+    panel.subtitle += fmt::format("; {} ignite at no gap", count);
+  panel.x.label = fmt::format("{} [{}]", shown.name, shown.unit);
+  panel.y = {.label = "draws", .minimum = 0.0};
+  Series steps{.style = Style::steps, .colour = 0};
+  steps.add(histogram.edge(0), 0.0);
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i)
+    steps.add(histogram.edge(i), static_cast<double>(histogram.counts[i]));
+  steps.add(histogram.edge(histogram.counts.size()), 0.0);
+  panel.series = {std::move(steps)};
+  for (const double share : quantile_shares)
+    if (const double at = shown.scale * sample.quantile(share); std::isfinite(at))
+      panel.vertical_lines.push_back({at, share == quantile_shares.front() ? "quantiles of the table" : ""});
+  panel.width = 620;
+  panel.height = 460;
+  return panel;
+}
+
+}  // namespace
+
+std::size_t OutputSample::ignites_at_zero() const {
+  return static_cast<std::size_t>(std::count(values.begin(), values.end(), -infinite));
+}
+std::size_t OutputSample::none_ignites() const {
+  return static_cast<std::size_t>(std::count(values.begin(), values.end(), infinite));
+}
+
+double OutputSample::quantile(double share) const {
+  if (values.empty()) return not_a_number;
+  constexpr double round_off = 1e-9;
+  const double rank = std::ceil(share * static_cast<double>(values.size()) - round_off);
+  return values[static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(values.size()))) - 1];
+}
+
+OutputSample sample_of(const SensitivityResult& result, const OutputSensitivity& output) {
+  OutputSample sample;
+  for (std::size_t i = 0; i < output.values.size(); ++i) {
+    if (!samples_inputs(result.study.study, i)) continue;
+    const double value = ranked(output, result.answers[i], output.values[i]);
+    if (std::isnan(value))
+      ++sample.missing;
+    else
+      sample.values.push_back(value);
+  }
+  std::sort(sample.values.begin(), sample.values.end());
+  return sample;
+}
+
+IgnitionShare ignition_share(const SensitivityResult& result) {
+  IgnitionShare share;
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const CaseAnswer& answer = result.answers[i];
+    if (!samples_inputs(result.study.study, i)) continue;
+    ++(answer.completed() ? share.completed : share.failed);
+    if (answer.completed() && answer.verdicts.front().ignition) ++share.igniting;
+  }
+  const std::size_t all = share.completed + share.failed;
+  if (all == 0) return share;
+  share.interval = {math::clopper_pearson(share.igniting, all, ignition_level).lower,
+                    math::clopper_pearson(share.igniting + share.failed, all, ignition_level).upper};
+  return share;
+}
+
+std::string samples_text(const SensitivityResult& result) {
+  const IgnitionShare share = ignition_share(result);
+  if (share.completed + share.failed == 0) return {};
+  std::string text = fmt::format(
+      "Of {} launches drawn from these inputs {} at a gap of {}: a probability of {} to {} (95 %).",
+      share.completed, counted(static_cast<std::int64_t>(share.igniting), "ignition"),
+      centimetres(result.study.study.gaps.front()), percent(share.interval.lower),
+      percent(share.interval.upper));
+  if (share.failed > 0) text += fmt::format(" {} more failed, and may have done either.", share.failed);
+  if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
+    const OutputSample sample = sample_of(result, *gap);
+    text += fmt::format(" Quantiles of the critical gap: 2.5 % at {}, 5 % at {}, half at {}.",
+                        quantile_text(result, sample.quantile(0.025)),
+                        quantile_text(result, sample.quantile(0.05)),
+                        quantile_text(result, sample.quantile(0.5)));
+  }
+  return text;
+}
+
+nlohmann::ordered_json ignition_json(const SensitivityResult& result) {
+  const IgnitionShare share = ignition_share(result);
+  return {{"igniting", share.igniting},
+          {"completed", share.completed},
+          {"failed", share.failed},
+          {"confidence", ignition_level},
+          {"probability_from", number(share.interval.lower)},
+          {"probability_to", number(share.interval.upper)}};
+}
+
+Table quantile_table(const SensitivityResult& result) {
+  Table table{"Quantiles over the draws from the inputs",
+              {significant_column("share at or below", "%", 3, "share_percent"),
+               for_programs(quantity::critical_gap()), named_text("critical gap", "critical_gap_reads_as"),
+               quantity::temperature_max()}};
+  const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap);
+  const OutputSensitivity* temperature = output_of(result, SensitivityOutput::maximum_temperature);
+  if (gap == nullptr || temperature == nullptr) return table;
+  const OutputSample gaps = sample_of(result, *gap), temperatures = sample_of(result, *temperature);
+  for (const double share : quantile_shares) {
+    const double critical = gaps.quantile(share);
+    table.rows.push_back({100.0 * share, optional_number(100.0 * critical), quantile_text(result, critical),
+                          optional_number(temperatures.quantile(share))});
+  }
+  for (const OutputSensitivity* output : {gap, temperature})
+    table.notes.push_back(sample_note(result, *output));
+  table.notes.emplace_back(
+      "Draws are the evaluations A and B of the design; the others are made for differences. A critical gap "
+      "that is no number has its rank and no value. The interval of the probability is that of Clopper and "
+      "Pearson, for independent draws; those of a design that is laid out evenly scatter less.");
+  return table;
+}
+
+Table histogram_table(const SensitivityResult& result) {
+  Table table{"Histogram of the draws",
+              {named_text("output", "output"), named_text("unit", "unit"),
+               significant_column("from", "", 6, "from"), significant_column("to", "", 6, "to"),
+               named_text("without a number", "reads_as"), count_column("draws", "draws")}};
+  for (const OutputSensitivity* output : told_outputs(result)) {
+    const ShownOutput& shown = shown_output(output->output);
+    const OutputSample sample = sample_of(result, *output);
+    const auto without_number = [&](std::size_t count, std::string text) {
+      if (count > 0)
+        table.rows.push_back(
+            {shown.key, shown.unit, Cell(), Cell(), std::move(text), static_cast<std::int64_t>(count)});
+    };
+    without_number(sample.ignites_at_zero(), quantile_text(result, -infinite));
+    const Histogram histogram = histogram_of(sample, shown.scale);
+    for (std::size_t i = 0; i < histogram.counts.size(); ++i)
+      table.rows.push_back({shown.key, shown.unit, histogram.edge(i), histogram.edge(i + 1), std::string{},
+                            histogram.counts[i]});
+    without_number(sample.none_ignites(), quantile_text(result, infinite));
+    without_number(sample.missing, "not known");
+  }
+  return table;
+}
+
+Plot histogram_plot(const SensitivityResult& result) {
+  Plot plot;
+  plot.title = "What the inputs make of critical gap and T max";
+  for (const OutputSensitivity* output : told_outputs(result))
+    if (Plot panel = panel_of(result, *output); !panel.series.empty())
+      plot.panels.push_back(std::move(panel));
+  return plot;
+}
+
+}  // namespace launchsafe::kinds
