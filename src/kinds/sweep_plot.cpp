@@ -5,6 +5,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 
 #include <fmt/format.h>
 
@@ -140,6 +141,8 @@ Plot empty_map(const SweepResult& result, const std::vector<SweptAxis>& axes, co
                                               Hatching::crossed};
   for (std::size_t kind = 0; kind < labels.size(); ++kind)
     map.hatched.push_back({labels[kind], hatchings[kind], {}});
+  if (quantity.value == surely_safe_in_cm)
+    map.hatched.push_back({"computation or model form assumed", Hatching::falling, {}});
   plot.map = std::move(map);
   return plot;
 }
@@ -165,6 +168,10 @@ std::vector<Plot> maps_of(const SweepResult& result, const std::vector<SweptAxis
                              place_in(x.values, x.key.value(input.coordinates[x.index]));
     map.values[cell] = quantity.value(result.answers[i]);
     if (!map.uncertainty.empty()) map.uncertainty[cell] = uncertainty_in_cm(result.answers[i]);
+    const CriticalGap& gap = result.answers[i].critical;
+    if (quantity.value == surely_safe_in_cm && std::isfinite(map.values[cell]) &&
+        !assumed_shares(result.study.study, input, gap.value).empty())
+      map.hatched.back().cells.push_back(cell);
     if (!std::isfinite(map.values[cell]))
       map.hatched[static_cast<std::size_t>(drawn_kind(result.answers[i].critical))].cells.push_back(cell);
   }

@@ -8,6 +8,7 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 
 #include <fmt/format.h>
 
@@ -79,13 +80,16 @@ Table critical_gap_table(const SweepResult& result) {
   const PlacedAnswers answers = answers_of(result);
   Table table = answers.table("Critical gaps");
   append(table.columns, critical_gap_columns());
+  append(table.columns, {named_text("assumed", "assumed_shares")});
   append(table.columns, outer_gap_columns(gaps));
   append(table.columns,
          {quantity::status(), quantity::energy_drift(), for_programs(quantity::steps()),
           for_programs(quantity::particles()), quantity::limiters(), named_text("remark", "reason")});
-  for (const auto& [place, answer] : answers.rows) {
+  for (std::size_t i = 0; i < answers.rows.size(); ++i) {
+    const auto& [place, answer] = answers.rows[i];
     std::vector<Cell>& cells = table.rows.emplace_back(place);
     add_critical_gap_cells(answer->critical, cells);
+    cells.emplace_back(assumed_shares(result.study.study, result.study.cases[i], answer->critical.value));
     for (const std::size_t gap : outer_gaps(gaps))
       cells.push_back(gap < answer->verdicts.size()
                           ? optional_number(answer->verdicts[gap].maximum.temperature)
@@ -95,6 +99,10 @@ Table critical_gap_table(const SweepResult& result) {
   table.notes.emplace_back(
       "Only a critical gap of kind value is a number. T max of a gap that ignites is that of the burning "
       "skin.");
+  table.notes.emplace_back(
+      "Assumed: what the bounds rest on and neither the study nor its records say of the case. What is said "
+      "of "
+      "the uncertainty names why, the commonest reason first.");
   table.notes.push_back(air_energy_note(result, keys));
   return table;
 }

@@ -5,6 +5,7 @@
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/sha256.hpp"
+#include "safety_agreement.hpp"
 #include "safety_sections.hpp"
 
 #include <fmt/format.h>
@@ -329,6 +330,7 @@ store::Result<SafetyEvidence> read_safety_evidence(const std::vector<path>& fold
   }
   if (auto error = check_kinds(evidence)) return *error;
   if (auto error = compare_scenes(evidence)) return *error;
+  if (auto error = check_agreement(evidence)) return *error;
   if (auto error = read_cases(evidence)) return *error;
   return evidence;
 }

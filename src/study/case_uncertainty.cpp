@@ -3,11 +3,13 @@
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/plausibility.hpp"
+#include "launchsafe/study/study_uncertainty.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace launchsafe::study {
 namespace {
@@ -108,6 +110,14 @@ std::optional<double> stated_model_form_share(const Study& study, const StudyCas
   return (stated ? study.model_form_uncertainty : assumed_model_form) * (growth <= 1.0 ? 1.0 : growth);
 }
 
+std::string assumed_shares(const Study& study, const StudyCase& input, double critical_gap) {
+  const bool computation =
+      input.numerical_uncertainty_assumed || critical_gap > input.covered_gap * (1.0 + 1e-9);
+  const bool models = !std::isfinite(study.model_form_uncertainty) && stated_model_form_share(study, input);
+  if (computation) return models ? "computation, model form" : "computation";
+  return models ? "model form" : "";
+}
+
 std::string model_form_text(const Study& study, const StudyCase& input, double gap, bool ignites) {
   if (!study.model_form) return {};
   const scene::Scene& scene = input.scene.scene;
@@ -189,12 +199,10 @@ std::string model_form_uncertainty_text(const StudyFile& study) {
   if (std::isfinite(s.model_form_uncertainty))
     return fmt::format("{:.3g} K, as the study states for its own scene.", s.model_form_uncertainty);
   if (!s.model_form) return "the study names no record of other models, so that " + otherwise + ".";
-  std::size_t outside = 0;
-  std::string reason;
+  std::map<std::string, std::size_t> reasons;
   for (const StudyCase& each : study.cases) {
     const ModelFormShift shift = model_form_shift(*s.model_form, each.scene.scene);
-    if (std::isfinite(shift.gap)) continue;
-    if (outside++ == 0) reason = shift.reason;
+    if (!std::isfinite(shift.gap)) ++reasons[shift.reason];
   }
   std::string text = fmt::format(
       "what a gap thicker by as much as the smallest critical gap of another model is below that of the "
@@ -203,9 +211,9 @@ std::string model_form_uncertainty_text(const StudyFile& study) {
       "there they agree by construction, and the model form is not assessable",
       s.model_form_record, names_of(*s.model_form, true), names_of(*s.model_form, false),
       1e-6 * s.calibration.scene.load.peak);
-  if (outside > 0)
-    text += fmt::format("; where it does not speak of a case ({} of {}: {}) {}", outside, study.cases.size(),
-                        reason, otherwise);
+  if (!reasons.empty())
+    text += fmt::format("; where it does not speak of a case, {}, {}",
+                        commonest_first(reasons, study.cases.size()), otherwise);
   return text + ".";
 }
 

@@ -83,21 +83,6 @@ Recorded recorded_for(const AccuracyRecord& record, const scene::Scene& scene) {
   return recorded;
 }
 
-/// "it was made at ... (20 of 45 cases); ... (4 of 45 cases)": the commonest first.
-std::string counted(const std::map<std::string, std::size_t>& reasons, std::size_t cases) {
-  constexpr std::size_t most_named = 3;
-  std::vector<std::pair<std::string, std::size_t>> ordered(reasons.begin(), reasons.end());
-  std::ranges::stable_sort(ordered, std::ranges::greater{}, &std::pair<std::string, std::size_t>::second);
-  std::string text;
-  std::size_t named = 0;
-  for (const auto& [reason, count] : ordered) {
-    if (named++ == most_named) return text + "; and so on";
-    if (named > 1) text += "; ";
-    text += cases == 1 ? reason : fmt::format("{} ({} of {} cases)", reason, count, cases);
-  }
-  return text;
-}
-
 /// Every case has the bound of its own setting, grown to its own launch. Where the record says nothing of it,
 /// it has the assumed one, or the grown bound if that is larger. Either grows with the rise of T max no later
 /// than the recorded bound by itself would.
@@ -123,7 +108,7 @@ void settle_recorded(StudyFile& study, const AccuracyRecord& record) {
   study.uncertainty_source = reasons.empty()
                                  ? fmt::format("from the accuracy record `{}`", s.accuracy)
                                  : fmt::format("assumed where the accuracy record `{}` does not help: {}",
-                                               s.accuracy, counted(reasons, study.cases.size()));
+                                               s.accuracy, commonest_first(reasons, study.cases.size()));
 }
 
 std::string chosen_text(const RecordedSetting& chosen, double growth, double tolerance) {
@@ -132,6 +117,20 @@ std::string chosen_text(const RecordedSetting& chosen, double growth, double tol
 }
 
 }  // namespace
+
+std::string commonest_first(const std::map<std::string, std::size_t>& reasons, std::size_t cases) {
+  constexpr std::size_t most_named = 3;
+  std::vector<std::pair<std::string, std::size_t>> ordered(reasons.begin(), reasons.end());
+  std::ranges::stable_sort(ordered, std::ranges::greater{}, &std::pair<std::string, std::size_t>::second);
+  std::string text;
+  std::size_t named = 0;
+  for (const auto& [reason, count] : ordered) {
+    if (named++ == most_named) return text + "; and so on";
+    if (named > 1) text += "; ";
+    text += cases == 1 ? reason : fmt::format("{} ({} of {} cases)", reason, count, cases);
+  }
+  return text;
+}
 
 scene::Expected<std::optional<AccuracyRecord>> read_record(const StudyFile& study,
                                                            const std::filesystem::path& folder) {

@@ -263,6 +263,25 @@ TEST(SweepPictures, AGapThatDoesNotExceedItsUncertaintyIsNotSafe) {
   EXPECT_TRUE(std::isnan(map.values[map.hatched[0].cells.front()]));
 }
 
+// By hand: case 15 alone has numerics of which no record speaks.
+TEST(SweepPictures, WhereAShareIsAssumedTheLowerBoundIsHatchedAndTheRowSaysWhich) {
+  SweepResult result = made_sweep();
+  result.study.study.model_form_uncertainty = 1.0;
+  result.study.cases[15].numerical_uncertainty_assumed = true;
+  const auto maps = pictures(result).pictures;
+  const HatchedCells& assumed = maps[1].plot.map->hatched.back();
+  EXPECT_EQ(assumed.label, "computation or model form assumed");
+  EXPECT_EQ(assumed.cells, std::vector<std::size_t>{2 + 6 * 3})
+      << "450 MPa, 50 um: the third of six, the fourth";
+  EXPECT_TRUE(std::isfinite(maps[1].plot.map->values[assumed.cells.front()]));
+  EXPECT_EQ(maps[0].plot.map->hatched.size(), 4u) << "the gap itself is computed";
+  const Table table = critical_gap_table(result);
+  EXPECT_EQ(shown_text(cell(table, 15, "assumed_shares")), "computation");
+  EXPECT_EQ(shown_text(cell(table, 14, "assumed_shares")), "");
+  result.study.study.model_form_uncertainty = study::not_a_number;
+  EXPECT_EQ(shown_text(cell(critical_gap_table(result), 15, "assumed_shares")), "computation, model form");
+}
+
 TEST(SweepPictures, AThirdAxisMakesAMapForEachOfItsValues) {
   const auto made = pictures(made_sweep({0.5e-3, 1e-3, 2e-3}, "charge.flaw_size"));
   ASSERT_EQ(made.pictures.size(), 6u);

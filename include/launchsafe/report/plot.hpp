@@ -85,7 +85,7 @@ struct Band {
 
 enum class Hatching { rising, falling, crossed, dense };
 
-/// Cells of a map that have no value, and why.
+/// Cells of a map that have no value, and why; or what is to be said of those that have one.
 struct HatchedCells {
   std::string label;  ///< in the legend
   Hatching hatching = Hatching::crossed;

@@ -63,7 +63,8 @@ struct SafetyEvidence {
 /// Reads the folders of studies. Every file that a manifest lists must be there as it was written. Errors, a
 /// message each: no study there, a file that was edited or is missing, a model version other than this
 /// program's or another study's, a damaged case, a SAFE that its own numbers or its stored run contradict,
-/// two studies of a kind, studies of different shells.
+/// two studies of a kind, studies of different shells, studies that bound the critical gap of one launch
+/// differently.
 store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace launchsafe::report

@@ -49,6 +49,10 @@ double fit_share(const Study& study, const CalibrationDistance& distance, const 
 /// What the study states of the model form, or assumes where its record does not speak of a case, K.
 /// Nothing where the record does: it gives a shift of the gap.
 std::optional<double> stated_model_form_share(const Study& study, const StudyCase& input);
+/// Which shares of the bounds of a case with a critical gap (m) are assumed, as neither the study nor a
+/// record speaks of it: "computation, model form"; empty for none.
+std::string assumed_shares(const Study& study, const StudyCase& input, double critical_gap);
+
 /// The models that could change the verdict on a gap (m) that ignites or not, for people; empty for none.
 std::string model_form_text(const Study& study, const StudyCase& input, double gap, bool ignites);
 

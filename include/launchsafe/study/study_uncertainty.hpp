@@ -5,6 +5,8 @@
 #include "launchsafe/study/study_faults.hpp"
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 namespace launchsafe::study {
 
@@ -20,6 +22,9 @@ Fault choose_setting(StudyFile& study, const std::optional<AccuracyRecord>& reco
 /// holds, nothing is known, and a large one is assumed, so that no verdict is SAFE on the strength of
 /// silence.
 void settle_uncertainty(StudyFile& study, const std::optional<AccuracyRecord>& record);
+
+/// "it was made at ... (20 of 45 cases); ... (4 of 45 cases)": reasons of some cases, the commonest first.
+std::string commonest_first(const std::map<std::string, std::size_t>& reasons, std::size_t cases);
 
 /// K, of T max of a gap (m) by mesh, step and scaling, where T max is `rise` (K) above the initial
 /// temperature.
