@@ -187,6 +187,9 @@ void say_calibration(const Subject& subject, SafetySection& section) {
 void say_shares(const Subject& subject, SafetySection& section) {
   const JudgedCase* own = subject.own_case();
   if (own == nullptr || !own->completed) return;
+  if (std::all_of(own->verdicts.begin(), own->verdicts.end(),
+                  [](const Row* row) { return has_validity_warning(*row); }))
+    return;  // nothing says how wrong it is
   const Row* largest = nullptr;
   double most = 0.0;
   for (const Row& row : subject.study.rows("gap_shares")) {

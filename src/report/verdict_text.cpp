@@ -193,7 +193,8 @@ Table cited_limit_table(const study::StudyFile& study,
       "the study's scene. The difference is given where the pressures agree within {:.6g} %.",
       100.0 * study::pressure_slack));
   table.notes.emplace_back(
-      "Whether the pressure of a cited limit is that at the breech, at the base or under the charge is not known.");
+      "Whether the pressure of a cited limit is that at the breech, at the base or under the charge is not "
+      "known.");
   if (chosen)
     table.notes.emplace_back(
         "Of several cases at that pressure it is the one with the smallest critical gap.");
@@ -207,7 +208,7 @@ std::string friction_remark(const study::StudyFile& study) {
       "and the ignition temperature ({} K) are calibrated on published rows, as are the shape of the load "
       "and the choice of the model (see `studies/calibrate_table8.toml` and "
       "`studies/model_form/README.md`), so the critical gap of the calibration's own load and defect is a "
-      "fit, not a prediction. What is predicted is how it moves with pressure, defect, load shape and "
+      "fit, not a prediction. What it is computed for is how it moves with pressure, defect, load shape and "
       "design.\n",
       study::to_string(scene.surface.friction), significant(scene.surface.localisation, 6),
       significant(1e3 * scene.surface.exchange_time, 6),

@@ -148,7 +148,7 @@ TEST(StudyPlausibility, TheShellThatNobodyTakesTheConstantsOverForIsNeverSafe) {
   std::ifstream file(studies_folder / "critical_gap_203mm.toml");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const std::string whole =
-      "[set]\nload.muzzle_exit = \"18 ms\"\noutput.snapshots = \"9 ms\"\n";  // as the synthetic launch
+      "[set]\nload.muzzle_exit = \"16 ms\"\noutput.snapshots = \"9 ms\"\n";  // as the synthetic launch
   StudyOptions options = synthetic_options();
   options.runners = synthetic_runners(2.0);
   const CriticalGapResult shipped = run_critical_gap(study_of(text + whole), options);

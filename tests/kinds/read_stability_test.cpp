@@ -62,7 +62,7 @@ TEST(ReadStability, ACaseMayHaveASceneOfItsOwnAndTheStudysUncertainty) {
       study_of(stability_start + cases("scene = \"scene_155mm.toml\", set = { load.peak = \"1 GPa\" }") +
                "[set]\nnumerics.inertial_scaling = 16\n");
   ASSERT_EQ(study.cases.size(), 1u);
-  EXPECT_EQ(study.cases[0].scene.scene.load.duration, 18e-3);
+  EXPECT_EQ(study.cases[0].scene.scene.load.muzzle_exit, 18e-3);
   EXPECT_EQ(study.cases[0].scene.scene.numerics.inertial_scaling, 16.0);
   EXPECT_EQ(study.cases[0].numerical_uncertainty, 4.0);
   EXPECT_FALSE(study.study.numerical_uncertainty_assumed);

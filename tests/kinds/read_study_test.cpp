@@ -99,9 +99,9 @@ TEST(ReadStudy, OverridesAreOfOneMindInWhicheverOrderTheyAreWritten) {
     EXPECT_EQ(error.key, "set.charge.crack_friction") << error.message();
     EXPECT_NE(error.found.find("face_friction = 0"), std::string::npos) << error.message();
   }
-  const std::string shape = "load.shape = \"bell\"\n", width = "load.width = \"2 ms\"\n";
+  const std::string shape = "load.shape = \"bell\"\n", width = "load.width = \"2.5 ms\"\n";
   for (const std::string& both : {shape + width, width + shape})
-    EXPECT_EQ(study_of(critical_kind + "[set]\n" + both).cases.at(0).scene.scene.load.width, 2e-3) << both;
+    EXPECT_EQ(study_of(critical_kind + "[set]\n" + both).cases.at(0).scene.scene.load.width, 2.5e-3) << both;
 }
 
 TEST(ReadStudy, FaultsNameFileLineKeyFoundAndAllowed) {

@@ -41,7 +41,7 @@ TEST(ReadSweep, MakesTheProductOfTheAxesInTheOrderWritten) {
                                    "peak_pressure = \"400, 496 MPa\"\n"
                                    "gap = \"0, 0.02 cm\"\n"
                                    "flaw_size = [\"1 mm\", \"2 mm\"]\n"
-                                   "load.steepness = [12, 10.5, 9]\n"
+                                   "load.steepness = [1.5, 1.4, 1.3]\n"
                                    "crack_radius = \"30 um\"\n");
   EXPECT_EQ(study.study.kind.name, kinds::traits_of("sweep").name);
   EXPECT_EQ(study.study.gaps, (std::vector<double>{0.0, 2e-4}));
@@ -52,11 +52,11 @@ TEST(ReadSweep, MakesTheProductOfTheAxesInTheOrderWritten) {
     EXPECT_EQ(study.study.axes[i].name, names[i]);
     EXPECT_EQ(study.study.axes[i].key.name, keys[i]);
   }
-  EXPECT_EQ(study.study.axes[2].values, (std::vector<double>{12, 10.5, 9}));
+  EXPECT_EQ(study.study.axes[2].values, (std::vector<double>{1.5, 1.4, 1.3}));
   ASSERT_EQ(study.cases.size(), 12u);
   const StudyCase& second = study.cases[1];
-  EXPECT_EQ(second.label, "peak_pressure 400 MPa, flaw_size 0.1 cm, load.steepness 10.5, crack_radius 30 um");
-  EXPECT_EQ(second.coordinates, (std::vector<double>{400e6, 1e-3, 10.5, 30e-6}));
+  EXPECT_EQ(second.label, "peak_pressure 400 MPa, flaw_size 0.1 cm, load.steepness 1.4, crack_radius 30 um");
+  EXPECT_EQ(second.coordinates, (std::vector<double>{400e6, 1e-3, 1.4, 30e-6}));
   EXPECT_EQ(second.peak_pressure, 400e6);
   EXPECT_EQ(second.flaw_size, 1e-3);
   EXPECT_EQ(second.crack_radius, 30e-6);
@@ -64,7 +64,7 @@ TEST(ReadSweep, MakesTheProductOfTheAxesInTheOrderWritten) {
   const scene::Scene& last = study.cases.back().scene.scene;
   EXPECT_EQ(last.load.peak, 496e6);
   EXPECT_EQ(last.charge().strength.flaw_size, 2e-3);
-  EXPECT_EQ(last.load.steepness, 9.0);
+  EXPECT_EQ(last.load.steepness, 1.3);
 }
 
 TEST(ReadSweep, ACaseIsTheSceneWithItsKeys) {
@@ -79,11 +79,11 @@ TEST(ReadSweep, ACaseIsTheSceneWithItsKeys) {
 }
 
 TEST(ReadSweep, TakesKeysDottedQuotedOrAsTables) {
-  const std::string values = "[10, 12]\n";
+  const std::string values = "[1.4, 1.5]\n";
   const std::vector<std::string> ways{
       sweep_text + "load.steepness = " + values, sweep_text + "\"load.steepness\" = " + values,
-      sweep_text + "load = { steepness = [10, 12] }\n", sweep_text + "[axes.load]\nsteepness = " + values,
-      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\naxes = { load.steepness = [10, 12] }\n"};
+      sweep_text + "load = { steepness = [1.4, 1.5] }\n", sweep_text + "[axes.load]\nsteepness = " + values,
+      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\naxes = { load.steepness = [1.4, 1.5] }\n"};
   for (const std::string& text : ways) {
     const StudyFile study = study_of(text);
     ASSERT_EQ(study.study.axes.size(), 1u) << text;
@@ -128,7 +128,7 @@ TEST(ReadSweep, OnlyAnotherLaunchIsNotTheReferences) {
   EXPECT_TRUE(own("friction.localisation = 500"));
   EXPECT_TRUE(own("charge.density = \"1717 kg/m3\""));
   EXPECT_FALSE(own("charge.density = \"1700 kg/m3\""));
-  EXPECT_FALSE(own("load.steepness = 10"));
+  EXPECT_FALSE(own("load.steepness = 1.5"));
   EXPECT_FALSE(own("initial_temperature = \"310 K\""));
 }
 
