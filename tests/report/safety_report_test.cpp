@@ -75,7 +75,7 @@ TEST_F(SafetyReport, ACriterionIsNamedWithItsSourceAndWhatItAllows) {
   const auto criterion = parse_criterion("margin >= 3 uncertainty", "works standard 12");
   ASSERT_TRUE(criterion);
   const std::string page = file_of({shipped("critical_gap_155mm")}, "report.md", *criterion);
-  EXPECT_TRUE(has(page, "Recommended largest gap: 0.01 cm"));
+  EXPECT_TRUE(has(page, "Recommended largest gap, at 300 K before launch: 0.01 cm"));
   EXPECT_TRUE(has(page, "works standard 12"));
 }
 
@@ -279,19 +279,21 @@ TEST_F(SafetyReport, ASweepByItselfRecommendsNothingAndSaysWhatIsExtrapolated) {
   ASSERT_TRUE(criterion);
   const std::string page = file_of({shipped("sweep_pressure_defect")}, "report.md", *criterion);
   EXPECT_TRUE(has(page, "no gap is recommended"));
-  EXPECT_TRUE(has(page, "Covered are the 133 computed cases alone"));
+  EXPECT_TRUE(has(page, "Covered are the 56 computed cases alone"));
   EXPECT_TRUE(has(page, "No gap can be recommended: there are no verdicts of one launch"));
   EXPECT_TRUE(has(page, "The calibration is extrapolated in: "));
 }
 
-/// A sweep over temperature, made of that over pressure: 250 MPa stands for 250 K, and so on to 700.
+/// A sweep over temperature, made of that over pressure: 250 MPa stands for 250 K, and so on to 700; but none
+/// for 300 K, at which the main job has bounds of its own.
 void make_of_temperature(nlohmann::ordered_json& results) {
   nlohmann::ordered_json& axis = results["axes"][0];
   axis["name"] = axis["scene_key"] = "initial_temperature";
   axis["key"] = "initial_temperature_K";
   axis["unit"] = "K";
   for (auto& row : results["cases"]) {
-    row["initial_temperature_K"] = row["peak_pressure_MPa"];
+    const double pressure = row["peak_pressure_MPa"];
+    row["initial_temperature_K"] = pressure == 300.0 ? 299.0 : pressure;
     row["critical_gap_kind"] = "value";
     row["critical_gap_at_least_cm"] = row["initial_temperature_K"] == 700.0 ? 0.1234 : 0.2;
   }
@@ -347,7 +349,7 @@ TEST_F(SafetyReport, ASweepOverMoreThanTwoQuantitiesShowsTheMapsThatItDrew) {
     const std::string size = files.back().find("_2") == std::string::npos ? "0.5 mm" : "1 mm";
     EXPECT_TRUE(has(block["caption"], "at flaw size " + size)) << block["caption"];
     EXPECT_TRUE(has(block["alternative"], "at flaw size " + size)) << block["alternative"];
-    EXPECT_EQ(block["parts"]["cases"], 133) << "19 pressures times 7 cracks";
+    EXPECT_EQ(block["parts"]["cases"], 56) << "14 pressures times 4 cracks";
   }
   EXPECT_EQ(files, (std::vector<std::string>{"safe_gap.svg", "safe_gap_2.svg", "critical_gap.svg",
                                              "critical_gap_2.svg"}));
