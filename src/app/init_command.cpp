@@ -51,11 +51,12 @@ std::string load_lines(const InitArguments& arguments, const std::optional<scene
   return fmt::format(
       "peak = \"{}\"              # largest chamber pressure\n"
       "peak_time = \"{:.4g} ms\"           # time scales as lengths do\n"
+      "width = \"{:.4g} ms\"               # of the bell that the pressure is over time\n"
       "muzzle_exit = \"{:.4g} ms\"         # when the shot leaves the barrel; or muzzle_travel = \"5 m\"\n"
       "# curve = \"pressure.csv\"       # a measured curve instead; launchsafe import-curve makes one of a "
       "gauge's record",
       scene::pressure_text(arguments.peak.value_or(published.peak)), 1e3 * factor * published.peak_time,
-      1e3 * factor * published_exit);
+      1e3 * factor * published.width, 1e3 * factor * published_exit);
 }
 
 NamedTexts files_of(const InitArguments& arguments, const std::optional<scene::PressureCurve>& curve,

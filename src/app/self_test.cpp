@@ -107,6 +107,7 @@ double longitudinal_speed() {
   strip.symmetry = scene::Symmetry::plane_strain;
   strip.frame = scene::Frame::lab;
   strip.load.peak = 1e5;
+  strip.load.shape = scene::LoadShape::power_exponential;
   strip.load.peak_time = 4e-5;
   strip.load.duration = 4e-4;
   mpm::Simulation simulation(strip);
@@ -150,6 +151,7 @@ double energy_imbalance() {
   scene::Scene shell = shell_155();
   shell.load.base = 0.0;
   shell.load.peak = 100e6;
+  shell.load.shape = scene::LoadShape::power_exponential;
   shell.load.peak_time = 2e-4;
   mpm::Simulation simulation(shell);
   double largest = 0.0, scale = 0.0;

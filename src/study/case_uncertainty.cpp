@@ -225,9 +225,10 @@ std::string input_uncertainty_text(const Study& study) {
                 "{:g} of the pressure",
                 study.input_uncertainty, heat_exponent)
           : fmt::format(
-                "the study states none, so that an assumed spread is propagated: the load {:.3g} % higher, "
-                "by a run of its own, and the initial temperature {:.3g} K higher, both together",
-                100.0 * assumed_load_spread, assumed_temperature_spread);
+                "the study states none, so that two standard deviations are assumed of each: the load "
+                "{:.3g} % higher, by a run of its own, its pulse {:.3g} % longer, and the initial "
+                "temperature {:.3g} K higher",
+                100.0 * assumed_load_spread, 100.0 * assumed_pulse_spread, assumed_temperature_spread);
   return spread + ". The noise of a measured curve and what smoothing took from its peak come on top.";
 }
 

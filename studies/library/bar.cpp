@@ -30,6 +30,7 @@ scene::Scene bar_scene(const LinearElastic& glass) {
   // The pressure acts on the face at the largest x: it rises from `base` to `peak` and falls again.
   scene.load.base = 0.0;
   scene.load.peak = peak;
+  scene.load.shape = scene::LoadShape::power_exponential;
   scene.load.peak_time = peak_time;
   scene.load.duration = end_time;
   return scene;

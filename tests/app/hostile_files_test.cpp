@@ -105,7 +105,7 @@ class CurveProgram : public Program {
 TEST_F(CurveProgram, SaysWhatIsNoiseAndWhatSmoothingTakes) {
   std::string curve = "time_us,pressure_MPa\n";
   for (int i = 0; i <= 50; ++i)
-    curve += std::to_string(i) + "," + std::to_string(40 + (i % 2 == 0 ? 4 : -4) * (i % 3)) + "\n";
+    curve += std::to_string(3 * i) + "," + std::to_string(40 + (i % 2 == 0 ? 4 : -4) * (i % 3)) + "\n";
   const Outcome rough = explained(curve);
   EXPECT_EQ(rough.code, 0) << rough.err;
   EXPECT_NE(rough.out.find("roughness"), std::string::npos) << rough.out;

@@ -37,6 +37,7 @@ BENCHMARK(step)->Arg(5000)->Arg(2500)->Arg(1250)->Name("step/cell_um")->Unit(ben
 /// From 0.4 ms on under a pulse of 496 MPa with its peak at 0.5 ms: steel yields and cracks grow.
 void step_under_load(benchmark::State& state) {
   scene::Scene scene = shipped_scene(2.5e-3);
+  scene.load.shape = scene::LoadShape::power_exponential;
   scene.load.peak_time = 5e-4;
   mpm::Simulation simulation(scene);
   time_steps(state, simulation, 2400);

@@ -18,6 +18,7 @@ launchsafe::run::MechanicsResult push_glass_bar(double pressure) {
   bar.bodies = {{"bar", "glass", 0.0, 0.1, 0.0, 0.01}};  // x from 0 to 0.1 m, r from 0 to 0.01 m
   bar.load.base = 0.0;
   bar.load.peak = pressure;
+  bar.load.shape = scene::LoadShape::power_exponential;
   bar.load.duration = bar.load.peak_time = 2e-3;  // s
   return run::run_mechanics(bar);
 }

@@ -17,6 +17,7 @@ inline scene::Scene held_shell() {
   shell.numerics.growth_x = 1.3;
   shell.numerics.growth_r = 1.2;
   shell.load.duration = 2e-3;
+  shell.load.shape = scene::LoadShape::power_exponential;
   shell.load.peak_time = 1e-3;
   return shell;
 }

@@ -77,6 +77,7 @@ scene::Load pulse(double peak, double peak_time) {
   scene::Load load;
   load.base = 0.0;
   load.peak = peak;
+  load.shape = scene::LoadShape::power_exponential;
   load.peak_time = peak_time;
   load.duration = 10.0 * peak_time;
   return load;

@@ -50,6 +50,7 @@ TEST_P(Launches, AccelerateThePressureTimesAreaOverMass) {
 double energy_imbalance(scene::Scene shell) {
   shell.load.base = 0.0;
   shell.load.peak = 100e6;
+  shell.load.shape = scene::LoadShape::power_exponential;
   shell.load.peak_time = 2e-4;
   mpm::Simulation simulation(shell);
   const double end = 4e-4, steps = std::ceil(end / simulation.stable_time_step());

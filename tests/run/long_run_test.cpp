@@ -29,6 +29,7 @@ scene::Scene shell_for(double steps, double pulse, const std::string& keys) {
   scene::Scene scene = file.value().scene;
   const double step = scene::make_plan(scene).time_step;
   scene.load.duration = steps * step;
+  scene.load.shape = scene::LoadShape::power_exponential;
   scene.load.peak_time = 0.2 * pulse * step;
   scene.output.trace_interval = scene::end_time(scene.load) / 100.0;
   return scene;
