@@ -170,7 +170,8 @@ TEST(Documents, TheReadmeFitsOnThreeScreens) {
   std::istringstream page(page_of(source / "README.md"));
   std::size_t lines = 0;
   for (std::string line; std::getline(page, line); ++lines)
-    EXPECT_TRUE(line.size() <= 120 || line.starts_with("    ")) << line;  // of what the program prints as well
+    EXPECT_TRUE(line.size() <= 120 || line.starts_with("    "))
+        << line;  // of what the program prints as well
   EXPECT_LE(lines, 120U);
 }
 

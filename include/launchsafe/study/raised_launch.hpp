@@ -22,9 +22,9 @@ struct RaisedLaunch {
   double thicker = 0;                               ///< m, by which the gap is thicker
 };
 
-/// The random causes of a case, one by one at their ends: the muzzle exit where its scene states a spread; peak
-/// pressure, length of the pulse and initial temperature where the study states no uncertainty of the inputs.
-/// The lower pressure was not run: its trace is the mirror of the raised one (trace::mirrored).
+/// The random causes of a case, one by one at their ends: the muzzle exit where its scene states a spread;
+/// peak pressure, length of the pulse and initial temperature where the study states no uncertainty of the
+/// inputs. The lower pressure was not run: its trace is the mirror of the raised one (trace::mirrored).
 std::vector<RaisedLaunch> raised_inputs(const Study& study, const CaseOutcome& outcome, End end);
 
 /// All causes. `row`: the case at a gap next to its critical one, of which those are taken that are known as

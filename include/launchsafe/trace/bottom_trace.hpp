@@ -48,8 +48,8 @@ BottomTrace thinned(const BottomTrace& trace);
 /// the pressure of a launch quasi-statically. Pressures and energies stay.
 BottomTrace stretched(BottomTrace trace, double factor);
 
-/// The same history in which what follows an instant (s) comes later by `delay` (s): the state of that instant
-/// holds until then. With a negative delay it comes sooner, and what lies between is left out.
+/// The same history in which what follows an instant (s) comes later by `delay` (s): the state of that
+/// instant holds until then. With a negative delay it comes sooner, and what lies between is left out.
 BottomTrace delayed(const BottomTrace& trace, double instant, double delay);
 
 /// A history as far from `trace` as `other` is, on the other side: a^2/b for every pressure and energy a of
