@@ -24,16 +24,13 @@ CaseAnswer without_histories(CaseOutcome& outcome) {
 /// What every verdict of a case has to say, as its input alone shows.
 struct InputStatements {
   std::vector<std::string> validity_warnings;
-  std::string accepted;
+  std::string unaccepted, accepted;
   CalibrationDistance distance;
 };
 
 InputStatements statements_of(const Study& study, const StudyCase& input) {
-  InputStatements statements{input_validity_warnings(study, input), accepted_text(study, input),
-                             distance_to_calibration(input.scene.scene, study.calibration)};
-  for (std::string& each : run::uncovered_load(input.scene.scene.load))
-    statements.validity_warnings.push_back(std::move(each));
-  return statements;
+  return {run::uncovered_load(input.scene.scene.load), unaccepted_text(study, input),
+          accepted_text(study, input), distance_to_calibration(input.scene.scene, study.calibration)};
 }
 
 /// Whether a row that was read says that, and states no less uncertainty than the study and the constants
@@ -45,8 +42,10 @@ bool says(const GapVerdict& row, const InputStatements& statements, const Study&
   };
   const Uncertainty& u = row.uncertainty;
   return std::all_of(statements.validity_warnings.begin(), statements.validity_warnings.end(), is_said) &&
-         row.evidence.accepted == statements.accepted &&
-         row.evidence.optimistic == optimistic_text(input.scene.scene) &&
+         row.evidence.unaccepted == statements.unaccepted && row.evidence.accepted == statements.accepted &&
+         row.evidence.optimistic == optimistic_text(input.scene.scene, study.calibration.scene) &&
+         std::ranges::equal(row.as_calibrated, keys_as_calibrated(statements.distance), {},
+                            &AsCalibrated::key) &&
          row.evidence.extrapolated == extrapolation_text(study, input, row.gap) &&
          !(u.numerical < input.numerical_uncertainty) &&
          !(u.fit < fit_share(study, statements.distance, {})) &&

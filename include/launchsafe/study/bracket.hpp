@@ -4,6 +4,7 @@
 #include "launchsafe/study/gap_share.hpp"
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct CriticalGap {
   std::string reason;  ///< why it is a bound or indeterminate, or what is to be known about the value
   std::vector<GapShare> shares = {};  ///< what makes it uncertain; once known
   GapBounds bounds = {};              ///< that follow; NaN until the shares are known
+  /// Of one that is indeterminate for want of an acceptance alone: what the search found, on which nothing
+  /// rests; NaN otherwise.
+  GapOrBound indicative = std::numeric_limits<double>::quiet_NaN();
   CriticalGap();
 };
 
