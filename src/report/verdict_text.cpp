@@ -190,7 +190,9 @@ std::string reads_as(const study::CriticalGap& gap) {
       break;
   }
   if (std::isnan(gap.indicative)) return "indeterminate";
-  return fmt::format("indeterminate (indicative: {})", gap_or_bound_text(gap.indicative));
+  return fmt::format("indeterminate (indicative: {})", gap.indicative == study::no_ignition
+                                                           ? "none up to the end of the search"
+                                                           : gap_or_bound_text(gap.indicative));
 }
 
 Table cited_limit_table(const study::StudyFile& study,

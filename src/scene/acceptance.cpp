@@ -74,11 +74,11 @@ bool accepts(const Acceptance& acceptance, const KeyDescription& key, const Valu
   return meant && same_value(*meant, value);
 }
 
-/// "{ key = "K", value = "V", because = "..." }", ready to copy.
+/// { key = "K", value = "V", because = "..." }, ready to copy.
 std::string entry_to_write(const std::string& key, const std::string& value) {
-  const KeyDescription text{.kind = KeyKind::text};
-  return fmt::format("{{ key = {}, value = {}, because = \"...\" }}", exact_toml(text, key),
-                     exact_toml(text, value));
+  const bool plain = value.find_first_of("\"\\\n") == std::string::npos;
+  return fmt::format("{{ key = \"{}\", value = {}, because = \"...\" }}", key,
+                     plain ? '"' + value + '"' : exact_toml({.kind = KeyKind::text}, value));
 }
 
 std::optional<InputError> check_value(const Acceptance& acceptance, const KeyDescription& key,

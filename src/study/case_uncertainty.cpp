@@ -41,15 +41,15 @@ std::vector<std::string> extrapolated_in(const Study& study, const StudyCase& in
 
 /// What only averages or removes heat: no ignition under it shows nothing.
 std::vector<std::string> cooling_in(const scene::Scene& scene, const scene::Scene& calibrated) {
-  constexpr double largest_station = 10e-3, thickest_skin = 0.3e-3;  // m
+  constexpr double deepest_station = 10e-3, widest_station = 20e-3, thickest_skin = 0.3e-3;  // m
   constexpr double least_share = 0.5, slack = 1e-9;
   const scene::Surface &ours = scene.surface, &theirs = calibrated.surface;
   std::vector<std::string> found;
   const auto add = [&found](bool cools, std::string name) {
     if (cools) found.push_back(std::move(name));
   };
-  add(ours.station_depth > largest_station + slack, "stations deeper than 10 mm");
-  add(ours.station_width > largest_station + slack, "stations wider than 10 mm");
+  add(ours.station_depth > deepest_station + slack, "stations deeper than 10 mm");
+  add(ours.station_width > widest_station + slack, "stations wider than 20 mm");
   add(ours.skin_thickness > thickest_skin + slack, "a skin above 0.3 mm");
   add(ours.friction == scene::FrictionClosure::none, "no friction heat");
   add(ours.localisation < least_share * theirs.localisation, "a localisation below half the calibrated one");
