@@ -26,11 +26,15 @@ struct InputStatements {
   std::vector<std::string> validity_warnings;
   std::string unaccepted, accepted;
   CalibrationDistance distance;
+  std::vector<std::string> as_calibrated;  ///< keys
 };
 
 InputStatements statements_of(const Study& study, const StudyCase& input) {
+  CalibrationDistance distance = distance_to_calibration(input.scene.scene, study.calibration);
+  std::vector<std::string> keys;
+  if (study.kind.gives_verdicts) keys = keys_as_calibrated(distance);
   return {run::uncovered_load(input.scene.scene.load), unaccepted_text(study, input),
-          accepted_text(study, input), distance_to_calibration(input.scene.scene, study.calibration)};
+          accepted_text(study, input), std::move(distance), std::move(keys)};
 }
 
 /// Whether a row that was read says that, and states no less uncertainty than the study and the constants
@@ -43,9 +47,8 @@ bool says(const GapVerdict& row, const InputStatements& statements, const Study&
   const Uncertainty& u = row.uncertainty;
   return std::all_of(statements.validity_warnings.begin(), statements.validity_warnings.end(), is_said) &&
          row.evidence.unaccepted == statements.unaccepted && row.evidence.accepted == statements.accepted &&
-         row.evidence.optimistic == optimistic_text(input.scene.scene, study.calibration.scene) &&
-         std::ranges::equal(row.as_calibrated, keys_as_calibrated(statements.distance), {},
-                            &AsCalibrated::key) &&
+         row.evidence.optimistic == optimistic_text(study, input.scene.scene) &&
+         std::ranges::equal(row.as_calibrated, statements.as_calibrated, {}, &AsCalibrated::key) &&
          row.evidence.extrapolated == extrapolation_text(study, input, row.gap) &&
          !(u.numerical < input.numerical_uncertainty) &&
          !(u.fit < fit_share(study, statements.distance, {})) &&

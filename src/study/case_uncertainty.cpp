@@ -188,10 +188,11 @@ AcceptancesOfStudy acceptances_of(const StudyFile& study) {
   return all;
 }
 
-std::string optimistic_text(const scene::Scene& scene, const scene::Scene& calibrated) {
+std::string optimistic_text(const Study& study, const scene::Scene& scene) {
   if (scene.surface.air_model == scene::AirModel::film)
     return "no ignition under gap.air = \"film\", an optimistic bound, shows nothing";
-  const std::vector<std::string> cooling = cooling_in(scene, calibrated);
+  if (!study.kind.gives_verdicts) return {};
+  const std::vector<std::string> cooling = cooling_in(scene, study.calibration.scene);
   if (cooling.empty()) return {};
   return fmt::format("no ignition with {} shows nothing: that only averages or removes heat, accepted or not",
                      fmt::join(cooling, ", "));

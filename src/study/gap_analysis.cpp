@@ -129,7 +129,8 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGrou
   row.early_spread = surface::spread_at_time(gap.skin, trace, study.early_time);
   row.margin = scene.charge().kinetics.ignition_temperature - gap.at_stations.temperature;
   row.heated = heated_temperature(scene, trace, gap.gap);
-  row.as_calibrated = as_calibrated(scene, study.calibration.scene, ground.distance, trace, gap.gap);
+  if (study.kind.gives_verdicts)
+    row.as_calibrated = as_calibrated(scene, study.calibration.scene, ground.distance, trace, gap.gap);
   row.air = gap.air;
   row.ignition = named(gap.skin.ignition, trace);
   row.uncertainty.sampling = gap.sampling_error;
@@ -384,7 +385,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
     evidence.validity_warnings = warnings;
     evidence.unaccepted = unaccepted;
     evidence.accepted = accepted;
-    evidence.optimistic = optimistic_text(outcome.input.scene.scene, study.calibration.scene);
+    evidence.optimistic = optimistic_text(study, outcome.input.scene.scene);
     evidence.model_form = model_form_text(study, outcome.input, row.gap, row.ignition.has_value());
     evidence.extrapolated = extrapolation_text(study, outcome.input, row.gap);
     judge_row(outcome.failure, outcome.result.mechanics.limiters, outcome.critical, row);

@@ -75,7 +75,7 @@ TEST(Comparison, AVariantOutsideTheCalibrationIsIndeterminateUntilItAcceptsThat)
   const auto foreign = verdicts(
       bonded + variant("other", "gap.air = \"film\"") +
       "accept = [{ key = \"gap.air\", value = \"film\", because = \"of the other variant alone\" }]\n");
-  EXPECT_EQ(foreign.back().judgement.verdict, Verdict::indeterminate);
+  EXPECT_EQ(foreign.front().judgement.verdict, Verdict::indeterminate);
 }
 
 TEST(Comparison, StationsAreComparedOnASkinThatDoesNotReact) {

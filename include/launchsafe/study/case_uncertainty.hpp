@@ -87,7 +87,7 @@ AcceptancesOfStudy acceptances_of(const StudyFile& study);
 
 /// Why a case that does not ignite is not safe for that, as its model is a bound on that side, or only
 /// averages or removes heat beside the calibrated one; empty for the others.
-std::string optimistic_text(const scene::Scene& scene, const scene::Scene& calibrated);
+std::string optimistic_text(const Study& study, const scene::Scene& scene);
 
 /// What is extrapolated for a gap (m), for its verdict; empty for nothing.
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap);
