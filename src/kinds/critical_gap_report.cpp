@@ -69,6 +69,8 @@ const char* remedy_for(ShareKind kind) {
       return "more measured temperatures to calibrate on";
     case ShareKind::model_form:
       return "measurements of how the shell holds the charge";
+    case ShareKind::accepted:
+      return "a calibration with these constants";
   }
   return "";
 }

@@ -18,6 +18,7 @@ const ShareTraits& traits_of(ShareKind kind) {
       {"sliding", "sliding at the base", knowledge},
       {"fit", "calibrated constants", knowledge},
       {"model_form", "other models", knowledge},
+      {"accepted", "accepted constants, which the calibration has otherwise", knowledge},
   }};
   return traits.at(static_cast<std::size_t>(kind));
 }
