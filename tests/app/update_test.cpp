@@ -42,7 +42,7 @@ TEST_F(ChangedStudy, OfAFileThatItRestsOnIsAnotherStudy) {
 }
 
 TEST_F(ChangedStudy, WithOtherThermalInputNeedsNoRun) {
-  write("study.toml", with(sweep_study, "1, 2 us", "1, 3 us"));
+  write("study.toml", with(sweep_study, "1, 2 us", "1, 1.5 us"));
   const Outcome updated = update();
   EXPECT_EQ(updated.code, 0) << updated.err;
   EXPECT_TRUE(updated.says("re-used 12 mechanical runs, ran 0")) << updated.err;
