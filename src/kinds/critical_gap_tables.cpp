@@ -235,7 +235,8 @@ Table air_model_table(const CriticalGapResult& result) {
   if (!table.rows.empty()) {
     table.notes.push_back(
         "The film conserves energy and conducts into charge and base: an optimistic bound, on which no "
-        "verdict rests. Its temperature is that of the charge's surface, which the base cools.");
+        "verdict rests. Its temperature is that of the hottest depth of the charge: the base cools the "
+        "surface.");
   }
   return table;
 }

@@ -63,6 +63,7 @@ std::string kinds_text(const SweepResult& result, const SweepCounts& counts) {
   text += add(CriticalGapKind::all_safe, fmt::format("more than {} (the end of the search: a bound)",
                                                      centimetres(end_of_search(result))));
   text += add(CriticalGapKind::all_ignite, "below every gap (ignition even at the smallest: a bound)");
+  text += add(CriticalGapKind::several_crossings, "one of several crossings");
   text += add(CriticalGapKind::indeterminate, "indeterminate");
   return text + ".";
 }

@@ -336,6 +336,7 @@ void say_limits(const Subject& subject, SafetySection& section) {
   say_assumptions(subject, section);
   say_launch(subject, section);
   say_without_exit(subject, section);
+  say_probability(subject, section);
 }
 
 }  // namespace launchsafe::report::safety

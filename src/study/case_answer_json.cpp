@@ -108,11 +108,13 @@ json json_of(const CriticalGap& gap) {
 CriticalGap critical_gap_of(const json& value) {
   list_of(value, 6);
   CriticalGap gap;
-  gap.kind = enumerator_of(value.at(0), CriticalGapKind::indeterminate);
+  gap.kind = enumerator_of(value.at(0), CriticalGapKind::several_crossings);
   gap.value = amount_of(value.at(1));
   gap.lower = amount_of(value.at(2));
   gap.upper = amount_of(value.at(3));
   gap.reason = value.at(4).get<std::string>();
+  require((gap.kind == CriticalGapKind::value) == std::isfinite(gap.value),
+          "a critical gap that is no value has one, or the other way round");
   if (gap.kind == CriticalGapKind::value)
     require(gap.lower <= gap.value && gap.value <= gap.upper, "a critical gap is outside its bracket");
   if (!value.at(5).is_null()) set_shares(gap, shares_of(value.at(5)));

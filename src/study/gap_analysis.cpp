@@ -177,7 +177,9 @@ GapVerdict row_at_critical_gap(const Study& study, const CaseOutcome& outcome) {
 void find_bounds_of_critical_gap(const Study& study, CaseOutcome& outcome) {
   CriticalGap& critical = outcome.critical;
   const bool is_film = outcome.input.scene.scene.surface.air_model == scene::AirModel::film;
-  if (!study.kind.bounds_critical_gaps || is_film || critical.kind == CriticalGapKind::indeterminate) return;
+  if (!study.kind.bounds_critical_gaps || is_film || critical.kind == CriticalGapKind::indeterminate ||
+      critical.kind == CriticalGapKind::several_crossings)
+    return;
   if (critical.kind == CriticalGapKind::all_ignite) return set_shares(critical, {});
   const GapVerdict row = row_at_critical_gap(study, outcome);
   std::vector<RaisedLaunch> raised = raised_launches(study, outcome, row, End::towards_ignition);

@@ -44,6 +44,8 @@ Judgement judge_in_gap(const Evidence& evidence, const CriticalGap& critical) {
   switch (critical.kind) {
     case CriticalGapKind::indeterminate:
       return indeterminate("the critical gap is indeterminate: " + critical.reason);
+    case CriticalGapKind::several_crossings:
+      return indeterminate("ignition comes and goes with the gap: " + critical.reason);
     case CriticalGapKind::all_ignite:
       return indeterminate("no ignition here, but at smaller gaps");
     case CriticalGapKind::all_safe:

@@ -17,16 +17,6 @@
 namespace launchsafe::scene {
 namespace {
 
-/// The bell that the publication's numbers imply.
-Load bell() {
-  Load load;
-  load.shape = LoadShape::bell;
-  load.peak_time = 11.49e-3;
-  load.width = 3.03e-3;
-  load.steepness = 1.44;
-  return load;
-}
-
 Load curve(std::vector<double> time, std::vector<double> pressure) {
   Load load;
   load.curve_time = std::move(time);
@@ -57,7 +47,7 @@ void expect_fault(const std::string& lines, const std::vector<std::string>& part
 
 // 11.49 ms + 3.03 ms (ln 100)^(1/1.44) = 20.24 ms, by hand.
 TEST(LaunchEnd, ABellIsOverWhereAHundredthOfItsPeakIsLeft) {
-  const Load load = bell();
+  const Load load = published_bell();
   EXPECT_NEAR(launch_end(load), 20.24e-3, 0.01e-3);
   EXPECT_NEAR(share_left(load, end_time(load)), share_when_over, 1e-12);
   EXPECT_EQ(read_time(load), end_time(load));
@@ -78,7 +68,7 @@ TEST(LaunchEnd, AMeasuredCurveIsOverAtItsLastPoint) {
 }
 
 TEST(LaunchEnd, ADurationCutsALaunchShort) {
-  Load load = bell();
+  Load load = published_bell();
   load.duration = 15e-3;
   EXPECT_EQ(end_time(load), 15e-3);
   EXPECT_TRUE(is_cut_short(load));
@@ -94,9 +84,9 @@ TEST(LaunchEnd, ADurationCutsALaunchShort) {
 
 // exp(-(6.51/3.03)^1.44) = 0.0494 of the peak at 18 ms; 18 ms + 0.5 ms ln 4.94 = 18.80 ms.
 TEST(LaunchEnd, BehindTheExitThePressureDecaysToTheBase) {
-  Load load = bell();
+  Load load = published_bell();
   load.muzzle_exit = 18e-3;
-  const PressureHistory barrel(bell()), history(load);
+  const PressureHistory barrel(published_bell()), history(load);
   EXPECT_EQ(history.at(17.9e-3), barrel.at(17.9e-3));
   EXPECT_NEAR(history.at(18.5e-3) - load.base, (barrel.at(18e-3) - load.base) / std::exp(1.0), 1.0);
   EXPECT_NEAR(end_time(load), 18.80e-3, 0.01e-3);
@@ -115,7 +105,7 @@ TEST(LaunchEnd, BehindTheExitOfAMeasuredCurveThePressureDecaysToNothing) {
 }
 
 TEST(LaunchEnd, TheSpreadOfAnExitGivesItsEarliestAndLatestTime) {
-  Load load = bell();
+  Load load = published_bell();
   EXPECT_FALSE(exit_window(load));
   load.muzzle_exit = 18e-3;
   load.muzzle_exit_spread = 0.3e-3;

@@ -175,8 +175,8 @@ TEST(ModelForm, IsNotKnownWhereTheDefaultHasABoundAlone) {
 TEST(ModelForm, NamesModelsThatCouldChangeAVerdict) {
   const ModelFormRecord record = made_record();
   const scene::Scene scene = at_pressure(500e6);
-  EXPECT_EQ(models_without_ignition(record, scene, 4.5e-4), "late, cold");
-  EXPECT_EQ(models_that_may_ignite(record, scene, 2e-4), "rough");
+  EXPECT_EQ(models_without_ignition(record, scene, 4.5e-4), R"("the model late", "the model cold")");
+  EXPECT_EQ(models_that_may_ignite(record, scene, 2e-4), R"("the model rough")");
   EXPECT_EQ(models_that_may_ignite(record, scene, 0.5e-4), "");
 }
 
@@ -252,7 +252,8 @@ TEST(ModelForm, AnUnsafeNamesTheModelsWithoutIgnition) {
   std::erase_if(record.alternatives, [](const auto& each) { return each.name == "early"; });
   const GapVerdict row = verdict_with("0.045", "", &record);
   ASSERT_EQ(row.judgement.verdict, Verdict::unsafe) << row.judgement.reason;
-  EXPECT_NE(row.judgement.reason.find("under late, cold"), std::string::npos) << row.judgement.reason;
+  EXPECT_NE(row.judgement.reason.find(R"(under "the model late", "the model cold")"), std::string::npos)
+      << row.judgement.reason;
 }
 
 }  // namespace

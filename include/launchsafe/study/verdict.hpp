@@ -60,13 +60,11 @@ struct Judgement {
 /// The contract of a verdict, for a sound run: one that completed with finite temperatures and without
 /// validity warnings.
 ///
-/// | verdict       | condition |
-/// |---------------|-----------|
-/// | UNSAFE        | the gap ignites in the computation as it is stated |
-/// | SAFE          | it does not, and is thinner than the lower bound of the critical gap
-/// (CriticalGap::bounds). Where |               | nothing ignites up to the end of the search, that is the
-/// bound, and the margin must exceed the |               | uncertainty besides | | INDETERMINATE | everything
-/// else, and every run that is not sound |
+/// - UNSAFE: the gap ignites in the computation as it is stated.
+/// - SAFE: it does not, and is thinner than the lower bound of the critical gap (CriticalGap::bounds). Where
+///   nothing ignites up to the end of the search, that is the bound, and the margin must exceed the
+///   uncertainty besides.
+/// - INDETERMINATE: everything else, and every run that is not sound.
 ///
 /// More uncertainty, a wider range or less evidence never moves a verdict towards SAFE. A verdict on a run in
 /// which limiters acted says so.
