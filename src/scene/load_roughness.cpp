@@ -244,13 +244,15 @@ std::optional<Ring> ring_of(const Load& load) {
   std::vector<double> powers(samples / 2, 0.0);
   for (std::size_t i = first; i < powers.size(); ++i) powers[i] = power_at(fast, i);
   const auto top = static_cast<std::size_t>(std::max_element(powers.begin(), powers.end()) - powers.begin());
-  double whole = 0.0, around = 0.0;
+  double whole = 0.0, around = 0.0, centre = 0.0;
   for (std::size_t i = first; i < powers.size(); ++i) {
     const double apart = std::abs(static_cast<double>(i) / static_cast<double>(top) - 1.0);
     whole += powers[i];
-    if (apart <= near) around += powers[i];
+    if (apart > near) continue;
+    around += powers[i];
+    centre += powers[i] * static_cast<double>(i);
   }
-  const Ring ring{static_cast<double>(top) / length, std::sqrt(2.0 * around)};
+  const Ring ring{centre / around / length, std::sqrt(2.0 * around)};
   const bool dominates = around > 0.5 * whole;
   if (!dominates || ring.amplitude < least_share * PressureHistory(load).stated_peak()) return std::nullopt;
   return ring;
