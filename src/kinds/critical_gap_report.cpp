@@ -4,6 +4,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -111,6 +112,7 @@ std::string answer(const CriticalGapResult& result) {
 
 Report report_of(const CriticalGapResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+  report.launch = scene::launch_sentence(result.study.scene.scene);
   const Table verdicts = verdict_table(result);
   report.files.push_back({"verdicts.md", to_markdown(verdicts)});
   report.items = {ReportTable{verdicts, "verdicts.csv", "verdicts"},

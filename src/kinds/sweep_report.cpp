@@ -4,6 +4,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 
 #include <fmt/format.h>
 
@@ -151,6 +152,7 @@ std::string answer(const SweepResult& result) {
 
 Report report_of(const SweepResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+  report.launch = scene::launch_sentence(result.study.scene.scene);
   const Table gaps = critical_gap_table(result);
   Table noted = gaps;
   for (std::string& note : mesh_notes(result.study)) noted.notes.push_back(std::move(note));

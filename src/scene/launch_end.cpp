@@ -120,9 +120,10 @@ std::string end_text(const Scene& scene) {
                      time_text(end), 100.0 * share_left(load, end), why);
 }
 
-std::string launch_text(const Scene& scene) {
+std::string launch_sentence(const Scene& scene) {
   const std::string exit = exit_text(scene);
-  return exit.empty() ? end_text(scene) : exit;
+  return exit.empty() ? "The load drives the shell to " + end_text(scene) + "."
+                      : "The shot leaves the barrel with " + exit + ".";
 }
 
 }  // namespace launchsafe::scene

@@ -148,7 +148,7 @@ std::vector<std::string> acceptable_names(const Scene& scene) {
   visit_keys_of_tables(scene,
                        [&](const auto&, const std::string& name, const auto&) { names.push_back(name); });
   for (const DerivedQuantity& quantity : derived_quantities()) names.push_back(quantity.description.name);
-  names.emplace_back(foreign_calibration);
+  names.insert(names.end(), {foreign_calibration, pressure_of_models});
   return names;
 }
 
@@ -158,7 +158,8 @@ std::vector<std::string> needless_acceptances(const Scene& scene) {
   for (const Acceptance& acceptance : scene.accepted) {
     const bool needed = std::any_of(values.begin(), values.end(),
                                     [&](const Implausible& each) { return each.key == acceptance.key; });
-    if (!needed && acceptance.key != foreign_calibration) needless.push_back(acceptance.key);
+    const bool of_study = acceptance.key == foreign_calibration || acceptance.key == pressure_of_models;
+    if (!needed && !of_study) needless.push_back(acceptance.key);
   }
   return needless;
 }

@@ -241,6 +241,7 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
   if (!accepted) return accepted.error();
   scene.accepted = std::move(*accepted);
   if (auto error = rebuild(file, false)) return *error;
+  if (auto error = check_expected_velocity(file)) return *error;
   return file;
 }
 

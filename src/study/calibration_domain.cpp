@@ -47,6 +47,7 @@ constexpr std::array special_keys{
     NamedRole{"load.peak", Role::condition},
     NamedRole{"load.curve", Role::none},               // its points count
     NamedRole{"load.muzzle_exit_spread", Role::none},  // of what is not known, not of the launch
+    NamedRole{"load.expected_velocity", Role::none},   // a check
     NamedRole{"charge.crack_radius", Role::condition},
     NamedRole{"charge.flaw_size", Role::condition},
     NamedRole{"gap.thickness", Role::none},            // judged row by row

@@ -155,6 +155,7 @@ json json_of(const GapVerdict& row) {
           {"uncertainty", json_of(row.uncertainty)},
           {"ignition", json_of(row.ignition)},
           {"doubt", row.evidence.validity_warnings},  // as stored answers name it
+          {"ring", row.evidence.ring},
           {"accepted", row.evidence.accepted},
           {"optimistic", row.evidence.optimistic},
           {"model_form", row.evidence.model_form},
@@ -174,6 +175,7 @@ GapVerdict row_of(const json& value) {
   row.uncertainty = uncertainty_of(value.at("uncertainty"));
   row.ignition = ignition_of(value.at("ignition"));
   row.evidence.validity_warnings = value.at("doubt").get<std::string>();
+  row.evidence.ring = value.at("ring").get<std::string>();
   row.evidence.accepted = value.at("accepted").get<std::string>();
   row.evidence.optimistic = value.at("optimistic").get<std::string>();
   row.evidence.model_form = value.at("model_form").get<std::string>();

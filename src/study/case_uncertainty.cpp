@@ -42,11 +42,28 @@ double ratio_to_calibration(const Study& study, const StudyCase& input) {
          scene::PressureHistory(study.calibration.scene.load).stated_peak();
 }
 
+/// A peak pressure at which no other model of the launch was looked at: how wrong the one is there nobody
+/// knows, whatever is assumed or stated of it.
+std::optional<scene::Implausible> pressure_beyond_models(const Study& study, const StudyCase& input) {
+  const scene::Scene& scene = input.scene.scene;
+  const scene::Limits compared = compared_pressures(study.model_form);
+  constexpr double round_off = 1e-9;
+  const double peak = scene::PressureHistory(scene.load).stated_peak();
+  if (peak >= compared.lowest * (1.0 - round_off) && peak <= compared.highest * (1.0 + round_off))
+    return std::nullopt;
+  return scene::Implausible{
+      scene::pressure_of_models, scene::pressure_text(peak),
+      fmt::format("{} to {}, because other models of the launch were compared only there",
+                  scene::pressure_text(compared.lowest), scene::pressure_text(compared.highest)),
+      scene::reason_for(scene.accepted, scene::pressure_of_models)};
+}
+
 /// What is not plausible of a case and of what its study states, where that gives verdicts. No stress case of
 /// a stability study may pass because its input is called implausible.
 std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCase& input) {
   if (!study.kind.gives_verdicts) return {};
   std::vector<scene::Implausible> values = study.implausible;
+  if (auto beyond = pressure_beyond_models(study, input)) values.push_back(std::move(*beyond));
   for (scene::Implausible& each : scene::implausible_values(input.scene.scene))
     values.push_back(std::move(each));
   return values;

@@ -1,6 +1,7 @@
 #include "launchsafe/study/gap_analysis.hpp"
 
 #include "launchsafe/run/validity_warnings.hpp"
+#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/raised_launch.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
@@ -371,6 +372,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
   const bool foreign = misses_calibrated_rows(outcome);
   const std::string warnings = validity_warnings_of(study, outcome);
   const std::string accepted = accepted_text(study, outcome.input);
+  const std::string ring = scene::ring_text(outcome.input.scene.scene.load);
   std::vector<double> gaps, temperatures;
   for (GapVerdict& row : outcome.verdicts) {
     row.uncertainty.coupling = coupling;
@@ -382,6 +384,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
     evidence.optimistic = optimistic_text(outcome.input.scene.scene);
     evidence.model_form = model_form_text(study, outcome.input, row.gap, row.ignition.has_value());
     evidence.extrapolated = extrapolation_text(study, outcome.input, row.gap);
+    evidence.ring = ring;
     judge_row(outcome.failure, outcome.result.mechanics.limiters, outcome.critical, row);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);

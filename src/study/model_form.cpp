@@ -186,6 +186,12 @@ ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries,
   return {std::move(record), {}};
 }
 
+scene::Limits compared_pressures(const std::optional<ModelFormRecord>& record) {
+  constexpr double lowest = 400e6, highest = 550e6;
+  if (!record || record->peak_pressures.empty()) return scene::between(lowest, highest);
+  return scene::between(record->peak_pressures.front(), record->peak_pressures.back());
+}
+
 ModelFormShift model_form_shift(const ModelFormRecord& record, const scene::Scene& scene) {
   if (std::string reason = why_outside(record, scene); !reason.empty())
     return {std::nan(""), std::nan(""), std::move(reason)};

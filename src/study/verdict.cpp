@@ -80,6 +80,7 @@ Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
   Judgement judgement = judge_sound(evidence, critical);
   if (!evidence.limited.empty()) judgement.reason += "; limiters acted: " + evidence.limited;
   if (!evidence.noise.empty()) judgement.reason += "; " + evidence.noise;
+  if (!evidence.ring.empty()) judgement.reason += "; " + evidence.ring;
   if (!evidence.accepted.empty()) judgement.reason += "; " + evidence.accepted;
   if (!evidence.model_form.empty()) judgement.reason += "; " + evidence.model_form;
   if (!evidence.extrapolated.empty()) judgement.reason += "; " + evidence.extrapolated;

@@ -66,6 +66,9 @@ because = "a launch that takes milliseconds to compute"
 key = "load.launch_speed"
 because = "a launch that takes milliseconds to compute"
 [[accept]]
+key = "model_form.pressure"
+because = "a launch that takes milliseconds to compute"
+[[accept]]
 key = "load.travel"
 because = "a launch that takes milliseconds to compute"
 [[accept]]

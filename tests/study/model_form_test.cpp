@@ -225,6 +225,15 @@ GapVerdict verdict_with(const std::string& gap, const std::string& statement, co
   return run_critical_gap(study, synthetic_options()).cases.at(0).verdicts.at(0);
 }
 
+// Of the record that ships.
+TEST(ModelForm, WithoutARecordThePressuresOfTheShippedOneCount) {
+  std::ifstream file(LAUNCHSAFE_SOURCE_DIR "/reports/model_form/model_form.json");
+  const auto pressures = nlohmann::json::parse(file).at("peak_pressures_Pa").get<std::vector<double>>();
+  EXPECT_EQ(compared_pressures({}).lowest, pressures.front());
+  EXPECT_EQ(compared_pressures({}).highest, pressures.back());
+  EXPECT_EQ(compared_pressures(made_record()).lowest, 450e6);
+}
+
 TEST(ModelForm, IsAssumedWhereNothingIsSaid) {
   EXPECT_DOUBLE_EQ(verdict_with("0.01", "", nullptr).uncertainty.model_form, assumed_model_form);
   EXPECT_DOUBLE_EQ(

@@ -13,6 +13,8 @@ namespace launchsafe::scene {
 /// Accepts no value but the use of constants outside of what they were calibrated on, which only a study
 /// knows.
 inline constexpr const char* foreign_calibration = "calibration";
+/// Likewise a peak pressure beyond those at which other models of the launch were compared.
+inline constexpr const char* pressure_of_models = "model_form.pressure";
 
 const std::vector<Key<Acceptance>>& acceptance_keys();
 

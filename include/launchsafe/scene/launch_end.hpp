@@ -39,7 +39,8 @@ std::optional<ExitWindow> exit_window(const Load& load);
 std::string exit_text(const Scene& scene);
 /// For people: "799 m/s after 6.2 m of travel, at 19.3 ms, where 1 % of the peak pressure is left".
 std::string end_text(const Scene& scene);
-/// The same of the exit, or of the end where there is none: the launch in short.
-std::string launch_text(const Scene& scene);
+/// The launch in a sentence, of the exit, or of the end where there is none: "The shot leaves the barrel with
+/// 796 m/s ..."
+std::string launch_sentence(const Scene& scene);
 
 }  // namespace launchsafe::scene

@@ -76,6 +76,9 @@ struct Load {
   std::optional<double> muzzle_travel;  ///< m, after which it does; beside `muzzle_exit` only a check of it
   double muzzle_exit_spread = 0.0;      ///< s, 95 % half width of the time of the exit
   double exit_decay = 5e-4;             ///< s, time constant of the pressure after the exit
+  /// m/s at the exit, or at the end where there is none, as a range table has it: a check of what is typed,
+  /// and no part of the launch.
+  std::optional<double> expected_velocity;
   /// kg/m2 of the whole projectile over its base, with which `muzzle_travel` is reached. It follows from the
   /// bodies: `settle_load` sets it, and reading a scene calls that.
   double mass_over_area = 0.0;

@@ -47,6 +47,7 @@ struct Evidence {
   std::string optimistic = {};  ///< why no ignition shows nothing, for people; empty where it shows something
   std::string limited = {};     ///< limiters that acted, for people; empty where none did
   std::string noise = {};       ///< what the noise of a measured curve counts, for people; empty for nothing
+  std::string ring = {};        ///< that a measured curve rings, for people; empty where it does not
   std::string accepted = {};    ///< what is not plausible and why it is meant, for people; empty: nothing
   std::string model_form = {};  ///< models that could change the verdict, for people; empty: none
   std::string extrapolated = {};  ///< what lies outside the calibration's domain, for people; empty: nothing
