@@ -9,6 +9,7 @@
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
 #include "update_rate.hpp"
@@ -40,12 +41,35 @@ std::string line_of(const scene::Implausible& value) {
   return "validity warning: " + scene::validity_warning(value);
 }
 
-/// One sentence for every value that is not plausible, and for every acceptance that accepts nothing.
+/// One sentence for every value that is not plausible.
 std::vector<std::string> plausibility_lines(const scene::Scene& scene) {
   std::vector<std::string> lines;
   for (const scene::Implausible& each : scene::implausible_values(scene)) lines.push_back(line_of(each));
-  for (const std::string& key : scene::needless_acceptances(scene))
-    lines.push_back(fmt::format("accept names {}, whose value is plausible", key));
+  return lines;
+}
+
+/// What a study of the scene alone would have to accept, or does, under the shipped calibration.
+study::AcceptancesOfStudy acceptances_of(const scene::SceneFile& file) {
+  study::StudyFile alone;
+  alone.study.kind.gives_verdicts = scene::has_charge(file.scene);
+  alone.cases.emplace_back().scene = file;
+  return study::acceptances_of(alone);
+}
+
+/// What is to be accepted, ready to copy; and acceptances that accept nothing.
+std::vector<std::string> acceptance_lines(const study::AcceptancesOfStudy& all,
+                                          const std::vector<scene::Acceptance>& accepted) {
+  std::vector<std::string> lines;
+  if (!all.missing.empty())
+    lines.push_back("not accepted; a file that does says, with reasons in words:\n" +
+                    scene::acceptances_to_write(all.missing));
+  for (const scene::Acceptance& each : accepted) {
+    const auto used = [&](const scene::Implausible& value) {
+      return value.key == each.key && value.accepted_value == each.value;
+    };
+    if (!std::ranges::any_of(all.accepted, used))
+      lines.push_back(fmt::format("accept names {} = {}, which nothing needs", each.key, each.value));
+  }
   return lines;
 }
 
@@ -72,9 +96,9 @@ std::vector<std::string> plausibility_lines(const study::StudyFile& study) {
   return lines;
 }
 
-/// Nothing where all is plausible.
-std::string section_of(const std::vector<std::string>& lines) {
-  std::string text = lines.empty() ? "" : "\nPlausibility\n";
+/// Nothing without lines.
+std::string section_of(const char* title, const std::vector<std::string>& lines) {
+  std::string text = lines.empty() ? "" : fmt::format("\n{}\n", title);
   for (const std::string& line : lines) text += "  " + line + "\n";
   return text;
 }
@@ -110,7 +134,9 @@ ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
     if (const auto error = write_where_absent(*arguments.picture, svg)) return console.fail(error->message);
     console.remark(fmt::format("wrote {}", arguments.picture->string()));
   }
-  console.print_text(scene_text(file->scene, *update_rate) + section_of(plausibility_lines(file->scene)));
+  console.print_text(
+      scene_text(file->scene, *update_rate) + section_of("Plausibility", plausibility_lines(file->scene)) +
+      section_of("Acceptances", acceptance_lines(acceptances_of(*file), file->scene.accepted)));
   console.print_json(scene_json(file->scene, *update_rate));
   return ExitCode::done;
 }
@@ -123,7 +149,9 @@ ExitCode explain_study(const std::filesystem::path& path, Console& console) {
   if (!update_rate) return ExitCode::interrupted;
   const study::Forecast forecast = study::forecast_study(*file, {}, *update_rate);
   const std::vector<std::string> lines = plausibility_lines(*file);
-  console.print_text(forecast_text(*file, forecast, {}) + section_of(lines));
+  console.print_text(
+      forecast_text(*file, forecast, {}) + section_of("Plausibility", lines) +
+      section_of("Acceptances", acceptance_lines(study::acceptances_of(*file), file->scene.scene.accepted)));
   nlohmann::ordered_json object = forecast_json(*file, forecast);
   object["implausible"] = lines;
   console.print_json(object);

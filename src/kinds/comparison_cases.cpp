@@ -171,7 +171,7 @@ class VariantMaker {
 
   /// A variant accepts for itself.
   Fault accept_also(const toml::table& table, StudyFile& own) const {
-    auto accepted = scene::read_acceptances(table, scene::acceptable_names(own.scene.scene), study_.file);
+    auto accepted = scene::read_acceptances(table, scene::acceptable_keys(own.scene.scene), study_.file);
     if (!accepted) return in_table(accepted.error(), "variant");
     for (scene::Acceptance& each : *accepted) scene::accept(own.scene.scene.accepted, std::move(each));
     return std::nullopt;

@@ -41,12 +41,12 @@ std::string answer_of(const CaseOutcome& outcome) {
     case CriticalGapKind::indeterminate:
       break;
   }
-  return fmt::format("the critical gap is indeterminate: {}.", gap.reason);
+  return fmt::format("the critical gap is {}: {}.", reads_as(gap), gap.reason);
 }
 
 bool is_within_bounds(const CaseOutcome& outcome, const study::GapVerdict& row) {
   return row.judgement.verdict == study::Verdict::indeterminate && !row.ignition && outcome.completed() &&
-         row.evidence.validity_warnings.empty();
+         row.evidence.validity_warnings.empty() && row.evidence.unaccepted.empty();
 }
 
 /// The cause that lowers the bound most; nothing without any.
@@ -124,6 +124,7 @@ Report report_of(const CriticalGapResult& result) {
   for (ReportTable table : {ReportTable{critical_gap_table(result), "", "cases"},
                             ReportTable{coupled_run_table(result), "", "coupled_runs"},
                             ReportTable{cited_limit_table(result), "", "cited_limits"},
+                            ReportTable{as_calibrated_table(result), "", "as_calibrated", Shown::page},
                             ReportTable{without_exit_table(result), "", "without_exit"},
                             ReportTable{air_model_table(result), "", "air_models"},
                             ReportTable{air_energy_table(result), "", "air_energy"},

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -52,23 +51,6 @@ Fault apply_overrides(const OverrideTable& overrides, StudyFile& study) {
   if (!changed) return changed.error();
   study.scene = std::move(*changed);
   return std::nullopt;
-}
-
-/// A scene accepts the values that stand in it: where the study gives a key others, it has to accept them
-/// itself.
-void drop_acceptances_of_other_values(StudyFile& study) {
-  std::set<std::string> changed;
-  for (const auto& [key, value] : study.overrides) changed.insert(key);
-  for (const Axis& axis : study.study.axes) changed.insert(axis.key.name);
-  // A reason for how the charge is held, or for all that is foreign, was given of the scene's own interfaces.
-  std::set<std::string> dropped = changed;
-  for (const std::string& key : changed) {
-    if (!key.starts_with("interface.")) continue;
-    dropped.insert(scene::foreign_calibration);
-    for (const auto& other : scene::interface_keys())
-      dropped.insert(key.substr(0, key.rfind('.') + 1) + other.name);
-  }
-  std::erase_if(study.scene.scene.accepted, [&](const auto& each) { return dropped.contains(each.key); });
 }
 
 Fault check_scene(const StudyFile& study) {
@@ -119,22 +101,18 @@ Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& 
 }
 
 Fault settle_acceptances(const toml::table& root, const StudyKeys& keys, StudyFile& study) {
-  drop_acceptances_of_other_values(study);
-  std::vector<std::string> known = scene::acceptable_names(study.scene.scene);
-  for (const auto& key : keys) known.push_back(key.name);
+  std::vector<scene::KeyDescription> known = scene::acceptable_keys(study.scene.scene);
+  known.insert(known.end(), keys.begin(), keys.end());
   auto accepted = scene::read_acceptances(root, known, study.file);
   if (!accepted) return accepted.error();
   for (const auto& key : keys) {
     const scene::Value value = key.get(study.study);
     if (!study.places.contains(key.name) || scene::is_plausible(key, value)) continue;
-    study.study.implausible.push_back({key.name, scene::format_value(key, value), scene::plausible_text(key),
-                                       scene::reason_for(*accepted, key.name)});
+    study.study.implausible.push_back(
+        scene::implausible(*accepted, key, key.name, value, scene::plausible_text(key)));
   }
-  for (scene::Acceptance& each : *accepted) {
-    // "calibration" accepts all that is foreign to it, whatever record the study's key of that name names.
-    if (each.key == scene::foreign_calibration || !scene::find_key(keys, each.key))
-      scene::accept(study.scene.scene.accepted, std::move(each));
-  }
+  for (scene::Acceptance& each : *accepted)
+    if (!scene::find_key(keys, each.key)) scene::accept(study.scene.scene.accepted, std::move(each));
   return std::nullopt;
 }
 

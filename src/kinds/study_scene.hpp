@@ -34,8 +34,7 @@ study::Fault settle_scene(const StudySource& source, const std::vector<OverrideT
                           study::StudyFile& study, std::optional<study::AccuracyRecord>& record);
 
 /// The acceptances of a table: those of scene keys go to the study's scene, those of its own keys beside what
-/// it states. What the scene itself accepts goes where the study gives the key other values. Needs the
-/// overrides and what varies.
+/// it states. Needs the overrides.
 study::Fault settle_acceptances(const toml::table& table, const StudyKeys& keys, study::StudyFile& study);
 
 }  // namespace launchsafe::kinds

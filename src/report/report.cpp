@@ -2,6 +2,7 @@
 
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/store/own_files.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 
 #include <fmt/format.h>
 
@@ -79,6 +80,20 @@ store::Result<std::vector<std::string>> draw(const Report& report, const std::fi
   return missing;
 }
 
+/// What verdicts rest on that somebody accepts, or would have to, and where the calibration is extrapolated.
+void add_acceptances(const study::AcceptancesOfStudy& all, nlohmann::ordered_json& head) {
+  const auto add = [&head](const char* member, const std::vector<scene::Implausible>& values) {
+    head[member] = nlohmann::ordered_json::array();
+    for (const scene::Implausible& each : values)
+      head[member].push_back({{"key", each.key},
+                              {"value", each.accepted() ? each.accepted_value : each.value},
+                              {"because", each.because}});
+  };
+  add("accepted", all.accepted);
+  add("not_accepted", all.missing);
+  head["extrapolated"] = all.extrapolated;
+}
+
 /// Makes a folder and writes texts into it, one file each.
 store::MaybeError write_texts(const std::filesystem::path& folder,
                               const std::vector<std::pair<std::string, std::string>>& texts,
@@ -132,6 +147,7 @@ std::string study_json(const study::StudyFile& study, const Report& report,
   head.update(members);
   for (const study::StatedUncertainty& each : study.study.stated)
     head["stated_by_hand"].push_back({{"key", each.key}, {"K", each.value}, {"because", each.because}});
+  if (study.study.kind.gives_verdicts) add_acceptances(study::acceptances_of(study), head);
   std::string text = json_file_text(head);
   text.resize(text.rfind("\n}"));  // open the object again
   std::vector<const ReportTable*> tables;

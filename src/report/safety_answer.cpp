@@ -39,7 +39,7 @@ void say_critical_gap(const Subject& subject, const JudgedCase& each, SafetySect
     return;
   }
   Parts parts{{"case", each.label},
-              {"reason", without_advice(text_of(critical, "reason"))},
+              {"reason", text_of(critical, "reason")},
               {"reads_as", text_of(critical, "critical_gap_reads_as")}};
   section.say("answer." + (kind.empty() ? "indeterminate" : kind), parts, origin, Look::lead);
 }

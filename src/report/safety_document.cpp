@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 
 namespace launchsafe::report {
 
@@ -35,16 +34,7 @@ double number_of(const Row& row, const std::string& key) {
 }
 
 bool has_validity_warning(const Row& verdict) {
-  return text_of(verdict, "reason").find("validity warning") != std::string::npos;
-}
-
-std::string without_advice(std::string reason) {
-  constexpr std::string_view begins = " (accept = [", ends = " takes them)";
-  for (std::size_t begin = 0; (begin = reason.find(begins)) != std::string::npos;) {
-    const std::size_t end = reason.find(ends, begin);
-    reason.erase(begin, end == std::string::npos ? end : end + ends.size() - begin);
-  }
-  return reason;
+  return text_of(verdict, "reason").starts_with("validity warning: ");
 }
 
 InertRows inert_rows(const JudgedCase& each) {
@@ -235,8 +225,7 @@ Table verdict_table(const Subject& subject) {
                     ignited ? Cell() : down(gap.margin, decimals),
                     known ? Cell(rounded_up(gap.uncertainty, decimals)) : Cell(),
                     known && gap.uncertainty > 0 && !ignited ? down(gap.margin / gap.uncertainty, 1) : Cell(),
-                    down(gap.distance, 3),
-                    short_reason(text_of(row, "verdict"), without_advice(text_of(row, "reason"))),
+                    down(gap.distance, 3), short_reason(text_of(row, "verdict"), text_of(row, "reason")),
                     text_of(row, "reason")});
     }
   }

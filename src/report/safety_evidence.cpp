@@ -81,7 +81,7 @@ bool is_of_shell(const std::string& key) {
   if (key == "charge.crack_radius" || key == "charge.flaw_size" || key == "charge.crack_friction")
     return false;
   return key == "body" || key == "symmetry" || key.starts_with("steel.") || key.starts_with("charge.") ||
-         key.starts_with("elastic.");
+         key.starts_with("elastic.") || key.starts_with("material.");
 }
 
 // --- one study ---

@@ -9,7 +9,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <string_view>
 
 namespace launchsafe::report::safety {
 
@@ -130,56 +129,66 @@ bool says(const StudyEvidence& study, const char* key) {
   return study.record.manifest.input_text.find(fmt::format("\n{} = ", key)) != std::string::npos;
 }
 
-/// What is extrapolated, as study/case_uncertainty.cpp words it: items between commas, which may say in
-/// parentheses why they are accepted.
-struct Extrapolated {
-  std::string items, accepted;
-};
+/// "key = value" of rows of the study's acceptances, the first of many.
+std::string values_in(const Row& rows) {
+  constexpr std::size_t most_named = 12;
+  std::vector<std::string> values;
+  for (std::size_t i = 0; i < std::min(rows.size(), most_named); ++i)
+    values.push_back(text_of(rows[i], "key") + " = " + text_of(rows[i], "value"));
+  if (rows.size() > most_named) values.push_back(fmt::format("and {} more", rows.size() - most_named));
+  return fmt::format("{}", fmt::join(values, "; "));
+}
 
-Extrapolated extrapolated_in(const std::vector<const Row*>& rows) {
-  constexpr std::string_view word = "extrapolated: ", accepted_because = " (accepted because ";
-  std::vector<std::string> items, accepted;
-  const auto keep = [](std::vector<std::string>& all, const std::string& each) {
-    if (std::find(all.begin(), all.end(), each) == all.end()) all.push_back(each);
-  };
-  for (const Row* row : rows) {
-    const std::string reason = "; " + text_of(*row, "reason");
-    const std::size_t at = reason.find("; " + std::string(word));
-    if (at == std::string::npos) continue;
-    std::string item;
-    int depth = 0;
-    for (const char letter : reason.substr(at + 2 + word.size()) + ",") {
-      depth += letter == '(' ? 1 : letter == ')' ? -1 : 0;
-      const bool ends = depth == 0 && (letter == ',' || letter == ';');
-      if (!ends) {
-        if (!item.empty() || letter != ' ') item += letter;
-        continue;
-      }
-      const std::size_t because = item.find(accepted_because);
-      if (because != std::string::npos) {
-        keep(accepted, item.substr(because + accepted_because.size(),
-                                   item.size() - because - accepted_because.size() - 1));
-        item.resize(because);
-      }
-      keep(items, item);
-      item.clear();
-      if (letter == ';') break;
-    }
+/// T max with an accepted constant as calibrated: at the thickest gap that is SAFE, or else does not ignite.
+const Row* as_calibrated(const Subject& subject, const std::string& key) {
+  const Row* found = nullptr;
+  bool safe = false;
+  for (const Row& row : subject.study.rows("as_calibrated")) {
+    const bool is_safe = text_of(row, "verdict") == "SAFE";
+    if (text_of(row, "key") != key || text_of(row, "verdict") == "UNSAFE" || (safe && !is_safe)) continue;
+    found = &row;
+    safe = is_safe;
   }
-  return {fmt::format("{}", fmt::join(items, ", ")), fmt::format("{}", fmt::join(accepted, "; "))};
+  return found;
+}
+
+/// Every acceptance, with what it could do.
+void say_accepted(const Subject& subject, SafetySection& section) {
+  const Row& accepted = subject.study.rows("accepted");
+  const Origin origin = subject.origin("accepted");
+  if (!accepted.empty()) section.item("limits.accepted", {{"count", accepted.size()}}, origin);
+  for (const Row& row : accepted) {
+    Parts parts{
+        {"key", text_of(row, "key")}, {"value", text_of(row, "value")}, {"because", text_of(row, "because")}};
+    if (const Row* other = as_calibrated(subject, text_of(row, "key"))) {
+      const auto kelvin = [other](const char* name) {
+        const double value = number_of(*other, name);
+        return part(fixed(value, 0) + " K", value, "K");
+      };
+      const double gap = number_of(*other, "gap_cm");
+      parts["gap"] = part(significant(gap, 6) + " cm", gap, "cm");
+      parts["own"] = kelvin("temperature_max_K");
+      parts["calibrated"] = kelvin("temperature_max_as_calibrated_K");
+      parts["ignites"] = text_of(*other, "ignites") == "yes";
+    }
+    section.item("limits.acceptance", parts, origin);
+  }
 }
 
 void say_calibration(const Subject& subject, SafetySection& section) {
-  const auto rows = all_verdicts(subject);
-  const Origin origin = subject.origin("verdicts");
-  const Extrapolated extrapolated = extrapolated_in(rows);
-  if (!extrapolated.items.empty())
-    section.item("limits.extrapolated", {{"what", extrapolated.items}, {"accepted", extrapolated.accepted}},
-                 origin);
-  if (const std::string foreign = said_after(rows, "the constants were calibrated on another launch (");
-      !foreign.empty())
-    section.item("limits.foreign", {{"what", foreign.substr(0, foreign.find(')'))}}, origin);
-  section.item("limits.calibrated", {{"record", says(subject.study, "calibration")}}, origin);
+  const Origin origin = subject.origin("extrapolated");
+  // A study that an earlier program wrote has no such list.
+  if (!all_verdicts(subject).empty() && !subject.study.study.contains("extrapolated"))
+    section.item("limits.not_listed", {}, subject.origin("verdicts"));
+  std::vector<std::string> extrapolated;
+  for (const Row& each : subject.study.rows("extrapolated")) extrapolated.push_back(each.get<std::string>());
+  if (!extrapolated.empty())
+    section.item("limits.extrapolated", {{"what", fmt::format("{}", fmt::join(extrapolated, ", "))}}, origin);
+  if (const Row& missing = subject.study.rows("not_accepted"); !missing.empty())
+    section.item("limits.not_accepted", {{"what", values_in(missing)}}, subject.origin("not_accepted"));
+  say_accepted(subject, section);
+  section.item("limits.calibrated", {{"record", says(subject.study, "calibration")}},
+               subject.origin("verdicts"));
 }
 
 /// The cause that lowers the bound of the critical gap most.

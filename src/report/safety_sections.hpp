@@ -45,8 +45,6 @@ struct Subject {
 
 /// Whether nothing says how wrong a row is: its uncertainty is then no number to hold a margin against.
 bool has_validity_warning(const Row& verdict);
-/// A reason without what it advises the user of the program to write.
-std::string without_advice(std::string reason);
 
 /// The rows of a case that do not ignite: T max (K) as a function of the gap (cm).
 struct InertRows {

@@ -31,6 +31,21 @@ std::string stated_note(const study::Study& study) {
   return text.empty() ? text : text + ".";
 }
 
+/// What nobody accepts, as a file would say it; the first where many cases have values of their own.
+std::string acceptance_note(const study::StudyFile& study) {
+  constexpr std::size_t most_entries = 12;
+  std::vector<scene::Implausible> missing = study::acceptances_of(study).missing;
+  const std::size_t count = missing.size();
+  missing.resize(std::min(count, most_entries));
+  if (missing.empty()) return {};
+  return fmt::format(
+      "No verdict but UNSAFE rests on what nobody accepts{}. Who takes responsibility writes, with reasons "
+      "in "
+      "words:\n{}",
+      count > most_entries ? fmt::format(" ({} values, the first of which are)", count) : "",
+      scene::acceptances_to_write(missing));
+}
+
 /// The charge off the grid lines, in the scene of a study or in those of its cases, which may have meshes and
 /// bodies of their own.
 std::string off_grid_note(const study::StudyFile& study) {
@@ -140,6 +155,7 @@ std::vector<std::string> mesh_notes(const study::StudyFile& study) {
   }
   if (std::string note = stated_note(study.study); !note.empty()) notes.push_back(std::move(note));
   if (std::string note = off_grid_note(study); !note.empty()) notes.push_back(std::move(note));
+  if (std::string note = acceptance_note(study); !note.empty()) notes.push_back(std::move(note));
   return notes;
 }
 
@@ -156,6 +172,12 @@ double value_of(const study::CriticalGap& gap) {
   return gap.kind == study::CriticalGapKind::value ? gap.value : study::not_a_number;
 }
 
+std::string gap_or_bound_text(study::GapOrBound gap) {
+  if (std::isnan(gap)) return "not known";
+  if (gap == study::no_ignition) return "no ignition";
+  return gap > 0.0 ? significant(100.0 * gap, 4) + " cm" : "ignites without a gap";
+}
+
 std::string reads_as(const study::CriticalGap& gap) {
   switch (gap.kind) {
     case study::CriticalGapKind::value:
@@ -169,7 +191,10 @@ std::string reads_as(const study::CriticalGap& gap) {
     case study::CriticalGapKind::indeterminate:
       break;
   }
-  return "indeterminate";
+  if (std::isnan(gap.indicative)) return "indeterminate";
+  return fmt::format("indeterminate (indicative: {})", gap.indicative == study::no_ignition
+                                                           ? "none up to the end of the search"
+                                                           : gap_or_bound_text(gap.indicative));
 }
 
 Table cited_limit_table(const study::StudyFile& study,
@@ -228,12 +253,6 @@ std::string friction_remark(const study::StudyFile& study) {
 
 std::optional<Measured> measured_gap(const study::CriticalGap& gap) {
   return measured_gap(100.0 * value_of(gap), 100.0 * gap.bounds.at_least, 100.0 * gap.bounds.at_most);
-}
-
-std::string gap_or_bound_text(study::GapOrBound gap) {
-  if (std::isnan(gap)) return "not known";
-  if (gap == study::no_ignition) return "no ignition";
-  return gap > 0.0 ? significant(100.0 * gap, 4) + " cm" : "ignites without a gap";
 }
 
 Table gap_share_table(const std::vector<std::pair<std::string, const study::CriticalGap*>>& cases) {

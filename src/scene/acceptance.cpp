@@ -1,8 +1,11 @@
 #include "launchsafe/scene/acceptance.hpp"
 
+#include "launchsafe/scene/quantity.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -41,23 +44,129 @@ bool is_in_words(const std::string& text) {
   return count >= fewest_letters && letters.size() > 2 && text.find(' ') != std::string::npos;
 }
 
+/// Whether two numbers are one, to the digits in which people read them.
+bool same_number(double a, double b) {
+  constexpr double digits = 1e-5;
+  return a == b || std::abs(a - b) <= digits * std::max(std::abs(a), std::abs(b));
+}
+
+bool same_value(const Value& a, const Value& b) {
+  if (a.index() != b.index()) return false;
+  if (const auto* number = std::get_if<double>(&a)) return same_number(*number, std::get<double>(b));
+  const auto* numbers = std::get_if<std::vector<double>>(&a);
+  if (numbers == nullptr) return a == b;
+  const auto& others = std::get<std::vector<double>>(b);
+  return std::equal(numbers->begin(), numbers->end(), others.begin(), others.end(), same_number);
+}
+
+/// The range of numbers that a text accepts; nothing where it is none.
+std::optional<std::vector<double>> accepted_range(const KeyDescription& key, const std::string& text) {
+  if (key.kind != KeyKind::number || text.find(" to ") == std::string::npos) return std::nullopt;
+  auto range = parse_range(text, key.dimension);
+  return range ? std::optional(std::move(*range)) : std::nullopt;
+}
+
+bool accepts(const Acceptance& acceptance, const KeyDescription& key, const Value& value) {
+  if (acceptance.value == format_value(key, value)) return true;
+  if (const auto range = accepted_range(key, acceptance.value))
+    return (*range)[0] <= std::get<double>(value) && std::get<double>(value) <= (*range)[1];
+  const auto meant = parse_value(acceptance.value, key, {});
+  return meant && same_value(*meant, value);
+}
+
+/// { key = "K", value = "V", because = "..." }, ready to copy.
+std::string entry_to_write(const std::string& key, const std::string& value) {
+  const bool plain = value.find_first_of("\"\\\n") == std::string::npos;
+  return fmt::format("{{ key = \"{}\", value = {}, because = \"...\" }}", key,
+                     plain ? '"' + value + '"' : exact_toml({.kind = KeyKind::text}, value));
+}
+
+std::optional<InputError> check_value(const Acceptance& acceptance, const KeyDescription& key,
+                                      const std::map<std::string, Place>& places) {
+  constexpr double widest = 2.0;
+  if (acceptance.value.empty())
+    return error_at(places.at("key"), "accept.value", "nothing",
+                    fmt::format("the value that is accepted, such as {}: of another one nothing is said",
+                                entry_to_write(acceptance.key, "...")));
+  const Place& place = places.at("value");
+  if (acceptance.value.starts_with("inf")) return std::nullopt;  // as people read what has no bound
+  if (const auto range = accepted_range(key, acceptance.value)) {
+    if ((*range)[0] > 0.0 && (*range)[1] <= widest * (*range)[0]) return std::nullopt;
+    return error_at(place, "accept.value", '"' + acceptance.value + '"',
+                    fmt::format("a value, or a range up to a factor of {:g}", widest));
+  }
+  const auto value = parse_value(acceptance.value, key, place);
+  if (value) return std::nullopt;
+  InputError error = value.error();
+  error.key = "accept.value";
+  return error;
+}
+
 std::optional<InputError> check(const Acceptance& acceptance, const std::map<std::string, Place>& places,
                                 const std::vector<Acceptance>& earlier,
-                                const std::vector<std::string>& known) {
-  if (std::find(known.begin(), known.end(), acceptance.key) == known.end()) {
-    InputError error = unknown_key(places.at("key"), acceptance.key, known);
-    error.found = fmt::format("the unknown key \"{}\"", acceptance.key);
+                                const std::vector<KeyDescription>& known) {
+  const std::string& name = acceptance.key;
+  if (name == "calibration")
+    return error_at(places.at("key"), "accept.key", "\"calibration\", for all that is foreign to it at once",
+                    fmt::format("an entry for each property, with the value that is accepted, such as "
+                                "accept = [{}]; launchsafe explain prints them ready to copy",
+                                entry_to_write(foreign_shell, "...")));
+  const auto key =
+      std::find_if(known.begin(), known.end(), [&](const auto& each) { return each.name == name; });
+  if (key == known.end()) {
+    std::vector<std::string> names;
+    for (const KeyDescription& each : known) names.push_back(each.name);
+    InputError error = unknown_key(places.at("key"), name, names);
+    error.found = fmt::format("the unknown key \"{}\"", name);
     error.key = "accept.key";
     return error;
   }
-  if (!reason_for(earlier, acceptance.key).empty()) {
-    return error_at(places.at("key"), "accept.key", fmt::format("\"{}\" a second time", acceptance.key),
-                    "each key once");
+  const auto same = [&](const Acceptance& each) {
+    return each.key == name && each.value == acceptance.value;
+  };
+  if (std::any_of(earlier.begin(), earlier.end(), same)) {
+    return error_at(places.at("key"), "accept.key", fmt::format("\"{}\" a second time", name),
+                    "each key once, or with several values");
   }
+  if (auto error = check_value(acceptance, *key, places)) return error;
   return check_reason(acceptance.because, places.at("because"), "accept.because");
 }
 
 }  // namespace
+
+Implausible implausible(const std::vector<Acceptance>& accepted, const KeyDescription& key, std::string name,
+                        const Value& value, std::string range) {
+  Implausible found{std::move(name), format_value(key, value), std::move(range), {}, {}};
+  for (const Acceptance& each : accepted) {
+    if (each.key != found.key || found.accepted()) continue;
+    found.accepted_value = each.value;
+    if (accepts(each, key, value)) found.because = each.because;
+  }
+  return found;
+}
+
+std::string value_text(const Implausible& value) {
+  const bool other = !value.accepted() && !value.accepted_value.empty();
+  return fmt::format("{} = {}{}", value.key, value.value,
+                     other ? fmt::format(" (accepted is {})", value.accepted_value) : "");
+}
+
+std::string accepted_text(const std::vector<Implausible>& values) {
+  std::string text;
+  for (const Implausible& each : values) {
+    if (!each.accepted()) continue;
+    text +=
+        fmt::format("{}{}, because {}", text.empty() ? "accepted: " : "; ", value_text(each), each.because);
+  }
+  return text;
+}
+
+std::string acceptances_to_write(const std::vector<Implausible>& values) {
+  std::string text;
+  for (const Implausible& each : values)
+    if (!each.accepted()) text += fmt::format("  {},\n", entry_to_write(each.key, each.value));
+  return text.empty() ? text : "accept = [\n" + text + "]";
+}
 
 std::optional<InputError> check_reason(const std::string& text, const Place& place, const std::string& key) {
   if (is_in_words(text) && !has_invisible(text) && std::none_of(text.begin(), text.end(), is_control))
@@ -73,8 +182,14 @@ const std::vector<Key<Acceptance>>& acceptance_keys() {
   static const std::vector<Key<Acceptance>> keys{
       required(text_key(
           "key", Standing::input,
-          "Key, or quantity that follows from keys, whose value is meant though it is not plausible.",
+          "Key, or quantity that follows from keys, whose value is meant though it is not plausible or not "
+          "the calibrated one.",
           "load.peak", &Acceptance::key)),
+      text_key(
+          "value", Standing::input,
+          "The value that is meant, as it is written or printed, or a range of numbers up to a factor of 2; "
+          "of another value nothing is accepted.",
+          "620 MPa", &Acceptance::value),
       required(text_key("because", Standing::input, "Why, in words; printed beside every verdict.",
                         "proof shots are fired at this pressure", &Acceptance::because)),
   };
@@ -82,10 +197,10 @@ const std::vector<Key<Acceptance>>& acceptance_keys() {
 }
 
 Expected<std::vector<Acceptance>> read_acceptances(const toml::table& root,
-                                                   const std::vector<std::string>& known,
+                                                   const std::vector<KeyDescription>& known,
                                                    const std::string& file) {
   auto tables = read_tables(root, "accept", acceptance_keys(), file,
-                            "tables, such as accept = [{ key = \"gap.exchange_time\", because = \"...\" }]");
+                            "tables, such as accept = [" + entry_to_write("gap.exchange_time", "1 ms") + "]");
   if (!tables) return tables.error();
   std::vector<Acceptance> accepted;
   for (auto& [acceptance, places] : *tables) {
@@ -96,14 +211,10 @@ Expected<std::vector<Acceptance>> read_acceptances(const toml::table& root,
 }
 
 void accept(std::vector<Acceptance>& accepted, Acceptance acceptance) {
-  std::erase_if(accepted, [&](const Acceptance& each) { return each.key == acceptance.key; });
+  std::erase_if(accepted, [&](const Acceptance& each) {
+    return each.key == acceptance.key && each.value == acceptance.value;
+  });
   accepted.push_back(std::move(acceptance));
-}
-
-std::string reason_for(const std::vector<Acceptance>& accepted, const std::string& key) {
-  const auto found =
-      std::find_if(accepted.begin(), accepted.end(), [&](const Acceptance& each) { return each.key == key; });
-  return found == accepted.end() ? std::string{} : found->because;
 }
 
 }  // namespace launchsafe::scene

@@ -1,6 +1,5 @@
 #include "launchsafe/scene/plausibility.hpp"
 
-#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/plan.hpp"
@@ -37,10 +36,15 @@ class Judge {
   explicit Judge(const Scene& scene) : scene_(scene) {}
 
   void key(const KeyDescription& key, const std::string& name, const Value& value) {
-    if (!is_plausible(key, value)) add(name, format_value(key, value), plausible_text(key));
+    if (!is_plausible(key, value)) add(key, name, value, plausible_text(key));
   }
-  void add(const std::string& name, std::string value, std::string range) {
-    found_.push_back({name, std::move(value), std::move(range), reason_for(scene_.accepted, name)});
+  void add(const KeyDescription& key, const std::string& name, const Value& value, std::string range) {
+    found_.push_back(implausible(scene_.accepted, key, name, value, std::move(range)));
+  }
+  /// The value of a key of the scene.
+  void add(const std::string& name, std::string range) {
+    const Key<Scene>& key = *find_key(scene_keys(), name);
+    add(key, name, key.get(scene_), std::move(range));
   }
   std::vector<Implausible> take() { return std::move(found_); }
 
@@ -80,7 +84,7 @@ void judge_switches(const Scene& scene, Judge& judge) {
   Scene free = scene;
   free.physics.conduction = free.physics.bulk_reaction = Switch::automatic;
   const auto forced_off = [&judge](Switch user, const Term& term, const char* key) {
-    if (user == Switch::off && term.in) judge.add(key, "off", "auto, because " + term.reason);
+    if (user == Switch::off && term.in) judge.add(key, "auto, because " + term.reason);
   };
   if (scene.physics.conduction != Switch::off && scene.physics.bulk_reaction != Switch::off) return;
   const Plan plan = make_plan(free);
@@ -92,7 +96,7 @@ void judge_switches(const Scene& scene, Judge& judge) {
 void judge_crack_bound(const Scene& scene, Judge& judge) {
   const materials::ViscoScramParameters& strength = scene.charge().strength;
   if (strength.largest_crack_radius > strength.initial_crack_radius) return;
-  judge.add("charge.largest_crack_radius", length_text(strength.largest_crack_radius),
+  judge.add("charge.largest_crack_radius",
             fmt::format("more than {}, because cracks of charge.crack_radius could not grow",
                         length_text(strength.initial_crack_radius)));
 }
@@ -100,17 +104,7 @@ void judge_crack_bound(const Scene& scene, Judge& judge) {
 }  // namespace
 
 std::string validity_warning(const Implausible& value) {
-  return fmt::format("{} = {} is not plausible ({})", value.key, value.value, value.range);
-}
-
-std::string accepted_text(const std::vector<Implausible>& values) {
-  std::string text;
-  for (const Implausible& each : values) {
-    if (!each.accepted()) continue;
-    text += fmt::format("{}{} = {}, because {}", text.empty() ? "accepted: " : "; ", each.key, each.value,
-                        each.because);
-  }
-  return text;
+  return fmt::format("{} is not plausible ({})", value_text(value), value.range);
 }
 
 bool is_plausible(const KeyDescription& key, const Value& value) {
@@ -142,26 +136,20 @@ std::vector<Implausible> implausible_values(const Scene& scene) {
   return judge.take();
 }
 
-std::vector<std::string> acceptable_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Key<Scene>& key : scene_keys()) names.push_back(key.name);
-  visit_keys_of_tables(scene,
-                       [&](const auto&, const std::string& name, const auto&) { names.push_back(name); });
-  for (const DerivedQuantity& quantity : derived_quantities()) names.push_back(quantity.description.name);
-  names.insert(names.end(), {foreign_calibration, pressure_of_models});
-  return names;
-}
-
-std::vector<std::string> needless_acceptances(const Scene& scene) {
-  const std::vector<Implausible> values = implausible_values(scene);
-  std::vector<std::string> needless;
-  for (const Acceptance& acceptance : scene.accepted) {
-    const bool needed = std::any_of(values.begin(), values.end(),
-                                    [&](const Implausible& each) { return each.key == acceptance.key; });
-    const bool of_study = acceptance.key == foreign_calibration || acceptance.key == pressure_of_models;
-    if (!needed && !of_study) needless.push_back(acceptance.key);
-  }
-  return needless;
+std::vector<KeyDescription> acceptable_keys(const Scene& scene) {
+  std::vector<KeyDescription> keys;
+  const auto add = [&keys](KeyDescription key, const std::string& name) {
+    key.name = name;
+    keys.push_back(std::move(key));
+  };
+  for (const Key<Scene>& key : scene_keys()) add(key, key.name);
+  visit_keys_of_tables(scene, [&](const auto& key, const std::string& name, const auto&) { add(key, name); });
+  for (const DerivedQuantity& quantity : derived_quantities())
+    add(quantity.description, quantity.description.name);
+  for (const char* name : {foreign_shell, foreign_material, foreign_interfaces})
+    add({.kind = KeyKind::text}, name);
+  add({.kind = KeyKind::number, .dimension = Dimension::pressure}, pressure_of_models);
+  return keys;
 }
 
 }  // namespace launchsafe::scene

@@ -230,18 +230,16 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
   auto interfaces = read_interfaces(*table, file.file, contacts, file.places);
   if (!interfaces) return interfaces.error();
   scene.interfaces = std::move(interfaces->interfaces);
-  const std::vector<std::string> names = names_of_values(file);
-  auto sources = read_sources(*table, names, file.file);
+  auto sources = read_sources(*table, names_of_values(file), file.file);
   if (!sources) return sources.error();
   file.sources = std::move(*sources);
   file.sources.insert(file.sources.end(), interfaces->sources.begin(), interfaces->sources.end());
-  std::vector<std::string> acceptable = acceptable_names(scene);
-  acceptable.insert(acceptable.end(), names.begin(), names.end());
-  auto accepted = read_acceptances(*table, acceptable, file.file);
-  if (!accepted) return accepted.error();
-  scene.accepted = std::move(*accepted);
   if (auto error = rebuild(file, false)) return *error;
   if (auto error = check_expected_velocity(file)) return *error;
+  if (!table->contains("accept")) return file;
+  auto accepted = read_acceptances(*table, acceptable_keys(file.scene), file.file);
+  if (!accepted) return accepted.error();
+  file.scene.accepted = std::move(*accepted);
   return file;
 }
 

@@ -330,10 +330,18 @@ Fault check_gaps(const SceneFile& file) {
   return std::nullopt;
 }
 
+/// Of stations: more are no place that anybody looks at, and take minutes to plan.
+constexpr double most_stations = 1000;
+
 /// The stations that nothing is said of are as wide as a charge that is narrower, and end with a shorter one.
 Fault check_stations(const SceneFile& file) {
   if (!has_charge(file.scene)) return std::nullopt;
   const Extent charge = charge_extent(file.scene);
+  const double narrowest = (charge.r_end - charge.r_begin) / most_stations;
+  if (!(file.scene.surface.station_width >= narrowest))
+    return fault_at(file, "station.width", length_text(file.scene.surface.station_width),
+                    fmt::format("at least {}, with which {:g} stations tile the charge's bottom",
+                                length_text(narrowest), most_stations));
   const Surface& surface = file.scene.surface;
   const Surface usual;
   for (const auto& [key, given, preset, largest, what] :
@@ -437,9 +445,9 @@ Fault check_output(const SceneFile& file) {
 }  // namespace
 
 std::optional<InputError> validate(const SceneFile& file) {
-  for (const auto check : {check_names, check_charge_fits, check_overlaps, check_interfaces, check_cell_size,
-                           check_load, check_kinetics, check_jwl, check_steel, check_crack_friction,
-                           check_gaps, check_stations, check_observation_points, check_formulation,
+  for (const auto check : {check_names, check_charge_fits, check_overlaps, check_interfaces, check_stations,
+                           check_cell_size, check_load, check_kinetics, check_jwl, check_steel,
+                           check_crack_friction, check_gaps, check_observation_points, check_formulation,
                            check_inertia, check_refinement, check_coupling, check_output}) {
     if (Fault fault = check(file)) return fault;
   }

@@ -137,6 +137,8 @@ std::string shell_of(const scene::Scene& scene) {
   shell.surface.air_pressure = scene.surface.air_pressure;
   shell.surface.air_model = scene.surface.air_model;
   shell.surface.exchange = scene.surface.exchange;
+  shell.surface.station_width = scene.surface.station_width;
+  shell.surface.station_depth = scene.surface.station_depth;
   shell.output.trace_interval = usual.output.trace_interval;
   shell.output.snapshot_times.clear();
   shell.charge().kinetics = usual.charge().kinetics;
@@ -211,8 +213,9 @@ std::string why_foreign(const AccuracyRecord& record, const scene::Scene& scene)
   scene::Scene as_recorded = scene;
   as_recorded.initial_temperature = record.initial_temperature;
   if (record.shell != shell_of(as_recorded))
-    return "it was made of another shell, material, closure of friction or air, or of a charge that is held "
-           "otherwise";
+    return "it was made of another shell, material, closure of friction, air or stations, or of a charge "
+           "that "
+           "is held otherwise";
   if (record.unvaried.empty()) return {};
   const std::string& key = record.unvaried.front();
   const auto* description = scene::find_key(scene::scene_keys(), key);

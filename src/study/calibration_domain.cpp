@@ -1,6 +1,7 @@
 #include "launchsafe/study/calibration_domain.hpp"
 
-#include "launchsafe/scene/acceptance.hpp"
+#include "foreign_material.hpp"
+#include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/changed_scene.hpp"
 
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -80,13 +80,55 @@ constexpr double same_place = 1e-6;
 
 bool near(double a, double b) { return std::abs(a - b) <= same_place; }
 
-bool same_body(const scene::Body& a, const scene::Body& b) {
-  return a.material == b.material && near(a.x_begin, b.x_begin) && near(a.x_end, b.x_end) &&
-         near(a.r_begin, b.r_begin) && near(a.r_end, b.r_end);
+bool share_place(const scene::Body& a, const scene::Body& b) {
+  return near(a.x_begin, b.x_begin) && near(a.x_end, b.x_end) && near(a.r_begin, b.r_begin) &&
+         near(a.r_end, b.r_end);
 }
 
+/// Whether bodies are of one law at the same places: what the constants of their materials are is compared by
+/// itself, and names are the user's.
 bool same_shell(const Scene& a, const Scene& b) {
+  const auto same_body = [&](const scene::Body& of_a, const scene::Body& of_b) {
+    return share_place(of_a, of_b) && scene::law_of(a, of_a).index() == scene::law_of(b, of_b).index();
+  };
   return std::is_permutation(a.bodies.begin(), a.bodies.end(), b.bodies.begin(), b.bodies.end(), same_body);
+}
+
+/// What another value of the shell is told by: its size, and a digest of its bodies.
+std::string shell_value(const Scene& scene) {
+  std::vector<std::string> bodies;
+  for (const scene::Body& body : scene.bodies) {
+    const auto place = [](double length) { return std::llround(length / same_place); };
+    bodies.push_back(fmt::format("{} {} {} {} {}", scene::law_of(scene, body).index(), place(body.x_begin),
+                                 place(body.x_end), place(body.r_begin), place(body.r_end)));
+  }
+  std::sort(bodies.begin(), bodies.end());
+  const scene::Extent all = scene::extent_of(scene);
+  return fmt::format("{} bodies, {} long, {} in diameter, {}", bodies.size(),
+                     scene::length_text(all.x_end - all.x_begin), scene::length_text(2.0 * all.r_end),
+                     short_digest(fmt::format("{}", fmt::join(bodies, "\n"))));
+}
+
+std::string interfaces_value(const Scene& scene) {
+  std::string text;
+  const auto add = [&text](const char* name, const std::optional<double>& value, scene::Dimension dimension) {
+    if (value) text += fmt::format(", {} {}", name, scene::format_quantity(*value, dimension));
+  };
+  for (const scene::Interface& each : scene::sliding_interfaces(scene)) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", each.body,
+                        each.condition == scene::Condition::sliding ? "sliding" : "bonded");
+    add("friction", each.friction, scene::Dimension::number);
+    add("tension", each.tension_strength, scene::Dimension::pressure);
+    add("shear", each.shear_strength, scene::Dimension::pressure);
+  }
+  return text.empty() ? "bonded for good" : text;
+}
+
+/// Of what is no key of the scene.
+scene::Implausible foreign(const Scene& scene, const char* name, const std::string& value,
+                           std::string calibrated) {
+  return scene::implausible(scene.accepted, {.kind = scene::KeyKind::text}, name, Value(value),
+                            std::move(calibrated));
 }
 
 std::string name_of_condition(const std::string& key) {
@@ -97,14 +139,18 @@ std::string name_of_condition(const std::string& key) {
   return key;
 }
 
-void add_difference(CalibrationDistance& distance, const std::string& key, const Value& value,
-                    const Value& calibrated) {
-  const Role role = role_of(key);
+void add_difference(CalibrationDistance& distance, const Scene& scene, const scene::KeyDescription& key,
+                    const Value& value, const Value& calibrated) {
+  const Role role = role_of(key.name);
+  const auto add_foreign = [&] {
+    distance.foreign.push_back(scene::implausible(scene.accepted, key, key.name, value,
+                                                  "calibrated with " + scene::format_value(key, calibrated)));
+  };
   switch (role) {
     case Role::none:
       return;
     case Role::condition:
-      distance.carried.push_back(name_of_condition(key));
+      distance.carried.push_back(name_of_condition(key.name));
       return;
     case Role::load_shape:
       distance.other_load_shape = true;
@@ -116,24 +162,13 @@ void add_difference(CalibrationDistance& distance, const std::string& key, const
     case Role::hot_below: {
       const bool hotter =
           (std::get<double>(value) > std::get<double>(calibrated)) == (role == Role::hot_above);
-      (hotter ? distance.carried : distance.unknown).push_back(key);
+      if (!hotter) return add_foreign();
+      distance.carried.push_back(key.name);
       return;
     }
     case Role::model:
-      distance.unknown.push_back(key);
-      return;
+      return add_foreign();
   }
-}
-
-/// Many constants of another explosive by its name.
-void summarise_explosive(CalibrationDistance& distance, const Scene& scene, const Scene& calibrated) {
-  const std::string& title = scene.material<scene::Charge>().title;
-  if (title.empty() || title == calibrated.material<scene::Charge>().title) return;
-  const auto is_its = [](const std::string& key) {
-    return key.starts_with("charge.") || key.starts_with("kinetics.");
-  };
-  if (std::erase_if(distance.unknown, is_its) > 0)
-    distance.unknown.push_back(fmt::format("another explosive, {}", title));
 }
 
 const scene::Body* find_body(const Scene& scene, const std::string& name) {
@@ -148,28 +183,18 @@ bool same_interface(const scene::Interface& a, const Scene& scene_of_a, const sc
                     const Scene& scene_of_b, bool same_shell) {
   const scene::Body *body = find_body(scene_of_a, a.body), *other = find_body(scene_of_b, b.body);
   if (body == nullptr || other == nullptr) return false;
-  const bool same = same_shell ? same_body(*body, *other) : body->name == other->name;
+  const bool same = same_shell ? share_place(*body, *other) : body->name == other->name;
   return same && a.condition == b.condition && a.friction == b.friction &&
          a.tension_strength == b.tension_strength && a.shear_strength == b.shear_strength;
 }
 
-/// Faces that slide in one of the scenes and not in the same way in the other.
-void add_other_interfaces(CalibrationDistance& distance, const Scene& scene, const Scene& calibrated,
-                          bool same_shell) {
+/// Whether the same faces slide in both scenes in the same way.
+bool same_interfaces(const Scene& scene, const Scene& calibrated, bool same_shell) {
   const auto ours = scene::sliding_interfaces(scene), theirs = scene::sliding_interfaces(calibrated);
-  std::set<std::string> other;
-  const auto add_missing = [&](const auto& from, const Scene& of_from, const auto& in, const Scene& of_in) {
-    for (const scene::Interface& each : from) {
-      const auto same = [&](const auto& there) {
-        return same_interface(each, of_from, there, of_in, same_shell);
-      };
-      if (std::none_of(in.begin(), in.end(), same)) other.insert(each.body);
-    }
-  };
-  add_missing(ours, scene, theirs, calibrated);
-  add_missing(theirs, calibrated, ours, scene);
-  for (const std::string& body : other)
-    distance.unknown.push_back(fmt::format("interface.{}.condition", body));
+  return std::is_permutation(ours.begin(), ours.end(), theirs.begin(), theirs.end(),
+                             [&](const scene::Interface& one, const scene::Interface& other) {
+                               return same_interface(one, scene, other, calibrated, same_shell);
+                             });
 }
 
 }  // namespace
@@ -192,17 +217,29 @@ Scene calibration_scene() {
 
 Calibration shipped_calibration() { return {calibration_scene(), {}}; }
 
+std::vector<std::string> CalibrationDistance::names() const {
+  std::vector<std::string> names;
+  for (const scene::Implausible& each : foreign) names.push_back(each.key);
+  names.insert(names.end(), carried.begin(), carried.end());
+  return names;
+}
+
 CalibrationDistance distance_to_calibration(const Scene& scene, const Calibration& calibration) {
   const Scene& calibrated = calibration.scene;
   CalibrationDistance distance;
   const bool shells_agree = same_shell(scene, calibrated);
-  if (!shells_agree) distance.unknown.emplace_back("another shell");
+  if (!shells_agree)
+    distance.foreign.push_back(foreign(scene, scene::foreign_shell, shell_value(scene),
+                                       "calibrated with " + shell_value(calibrated)));
   for (const auto& key : scene::scene_keys()) {
     const Value value = key.get(scene), wanted = key.get(calibrated);
-    if (!same_value(value, wanted)) add_difference(distance, key.name, value, wanted);
+    if (!same_value(value, wanted)) add_difference(distance, scene, key, value, wanted);
   }
-  summarise_explosive(distance, scene, calibrated);
-  add_other_interfaces(distance, scene, calibrated, shells_agree);
+  add_other_materials(scene, calibrated, shells_agree ? share_place : nullptr, distance.foreign);
+  summarise_materials(scene, distance.foreign);
+  if (!same_interfaces(scene, calibrated, shells_agree))
+    distance.foreign.push_back(foreign(scene, scene::foreign_interfaces, interfaces_value(scene),
+                                       "calibrated with " + interfaces_value(calibrated)));
   const double peak = scene::PressureHistory(scene.load).stated_peak();
   const bool measured = !scene.load.curve_time.empty() || !calibrated.load.curve_time.empty();
   std::erase_if(distance.carried,

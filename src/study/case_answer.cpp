@@ -24,16 +24,17 @@ CaseAnswer without_histories(CaseOutcome& outcome) {
 /// What every verdict of a case has to say, as its input alone shows.
 struct InputStatements {
   std::vector<std::string> validity_warnings;
-  std::string accepted;
+  std::string unaccepted, accepted;
   CalibrationDistance distance;
+  std::vector<std::string> as_calibrated;  ///< keys
 };
 
 InputStatements statements_of(const Study& study, const StudyCase& input) {
-  InputStatements statements{input_validity_warnings(study, input), accepted_text(study, input),
-                             distance_to_calibration(input.scene.scene, study.calibration)};
-  for (std::string& each : run::uncovered_load(input.scene.scene.load))
-    statements.validity_warnings.push_back(std::move(each));
-  return statements;
+  CalibrationDistance distance = distance_to_calibration(input.scene.scene, study.calibration);
+  std::vector<std::string> keys;
+  if (study.kind.gives_verdicts) keys = keys_as_calibrated(distance);
+  return {run::uncovered_load(input.scene.scene.load), unaccepted_text(study, input),
+          accepted_text(study, input), std::move(distance), std::move(keys)};
 }
 
 /// Whether a row that was read says that, and states no less uncertainty than the study and the constants
@@ -45,8 +46,9 @@ bool says(const GapVerdict& row, const InputStatements& statements, const Study&
   };
   const Uncertainty& u = row.uncertainty;
   return std::all_of(statements.validity_warnings.begin(), statements.validity_warnings.end(), is_said) &&
-         row.evidence.accepted == statements.accepted &&
-         row.evidence.optimistic == optimistic_text(input.scene.scene) &&
+         row.evidence.unaccepted == statements.unaccepted && row.evidence.accepted == statements.accepted &&
+         row.evidence.optimistic == optimistic_text(study, input.scene.scene) &&
+         std::ranges::equal(row.as_calibrated, statements.as_calibrated, {}, &AsCalibrated::key) &&
          row.evidence.extrapolated == extrapolation_text(study, input, row.gap) &&
          !(u.numerical < input.numerical_uncertainty) &&
          !(u.fit < fit_share(study, statements.distance, {})) &&

@@ -103,10 +103,11 @@ json json_of(const CriticalGap& gap) {
           gap.lower,
           gap.upper,
           gap.reason,
-          bounded ? json_of(gap.shares) : json(nullptr)};
+          bounded ? json_of(gap.shares) : json(nullptr),
+          json_of_number(gap.indicative)};
 }
 CriticalGap critical_gap_of(const json& value) {
-  list_of(value, 6);
+  list_of(value, 7);
   CriticalGap gap;
   gap.kind = enumerator_of(value.at(0), CriticalGapKind::several_crossings);
   gap.value = amount_of(value.at(1));
@@ -118,6 +119,7 @@ CriticalGap critical_gap_of(const json& value) {
   if (gap.kind == CriticalGapKind::value)
     require(gap.lower <= gap.value && gap.value <= gap.upper, "a critical gap is outside its bracket");
   if (!value.at(5).is_null()) set_shares(gap, shares_of(value.at(5)));
+  gap.indicative = amount_of(value.at(6));
   return gap;
 }
 
@@ -144,6 +146,20 @@ surface::AirEnergy air_of(const json& value) {
   return air;
 }
 
+json json_of(const std::vector<AsCalibrated>& all) {
+  json list = json::array();
+  for (const AsCalibrated& each : all) list.push_back({each.key, each.temperature, each.ignites});
+  return list;
+}
+std::vector<AsCalibrated> as_calibrated_of(const json& value) {
+  std::vector<AsCalibrated> all;
+  for (const json& each : value) {
+    list_of(each, 3);
+    all.push_back({each.at(0).get<std::string>(), amount_of(each.at(1)), each.at(2).get<bool>()});
+  }
+  return all;
+}
+
 json json_of(const GapVerdict& row) {
   return {{"gap", row.gap},
           {"maximum", json_of(row.maximum)},
@@ -154,7 +170,9 @@ json json_of(const GapVerdict& row) {
           {"air", json_of(row.air)},
           {"uncertainty", json_of(row.uncertainty)},
           {"ignition", json_of(row.ignition)},
+          {"as_calibrated", json_of(row.as_calibrated)},
           {"doubt", row.evidence.validity_warnings},  // as stored answers name it
+          {"unaccepted", row.evidence.unaccepted},
           {"ring", row.evidence.ring},
           {"accepted", row.evidence.accepted},
           {"optimistic", row.evidence.optimistic},
@@ -174,7 +192,9 @@ GapVerdict row_of(const json& value) {
   row.air = air_of(value.at("air"));
   row.uncertainty = uncertainty_of(value.at("uncertainty"));
   row.ignition = ignition_of(value.at("ignition"));
+  row.as_calibrated = as_calibrated_of(value.at("as_calibrated"));
   row.evidence.validity_warnings = value.at("doubt").get<std::string>();
+  row.evidence.unaccepted = value.at("unaccepted").get<std::string>();
   row.evidence.ring = value.at("ring").get<std::string>();
   row.evidence.accepted = value.at("accepted").get<std::string>();
   row.evidence.optimistic = value.at("optimistic").get<std::string>();

@@ -1,6 +1,5 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 
-#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
@@ -10,31 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace launchsafe::study {
 namespace {
-
-/// What a scene says of using the constants in spite of a difference: of its key, or of all of them. Where T
-/// max is read, what it is compared with, and what heats the bottom has to be accepted by itself.
-std::string reason_for(const StudyCase& input, const std::string& difference) {
-  const auto& accepted = input.scene.scene.accepted;
-  const std::string of_key = scene::reason_for(accepted, difference);
-  const bool alone = difference == "kinetics.ignition_temperature" || difference == "gap.air" ||
-                     difference.starts_with("station.");
-  return of_key.empty() && !alone ? scene::reason_for(accepted, scene::foreign_calibration) : of_key;
-}
-
-/// Why the constants say nothing of a case; empty inside the calibration's domain, where a rule carries them,
-/// and where the scene accepts it.
-std::string calibration_warning(const Study& study, const StudyCase& input) {
-  std::vector<std::string> unknown = distance_to_calibration(input.scene.scene, study.calibration).unknown;
-  std::erase_if(unknown, [&](const auto& each) { return !reason_for(input, each).empty(); });
-  if (unknown.empty()) return {};
-  return fmt::format(
-      "extrapolated: the constants were calibrated on another launch ({}), and nothing says how wrong they "
-      "are here (accept = [{{ key = \"{}\", because = \"...\" }}] takes them)",
-      fmt::join(unknown, ", "), scene::foreign_calibration);
-}
 
 /// Peak pressure of a case over that of the launch that the constants were calibrated on.
 double ratio_to_calibration(const Study& study, const StudyCase& input) {
@@ -51,22 +29,50 @@ std::optional<scene::Implausible> pressure_beyond_models(const Study& study, con
   const double peak = scene::PressureHistory(scene.load).stated_peak();
   if (peak >= compared.lowest * (1.0 - round_off) && peak <= compared.highest * (1.0 + round_off))
     return std::nullopt;
-  return scene::Implausible{
-      scene::pressure_of_models, scene::pressure_text(peak),
+  return scene::implausible(
+      scene.accepted, {.kind = keys::KeyKind::number, .dimension = scene::Dimension::pressure},
+      scene::pressure_of_models, keys::Value(peak),
       fmt::format("{} to {}, because other models of the launch were compared only there",
-                  scene::pressure_text(compared.lowest), scene::pressure_text(compared.highest)),
-      scene::reason_for(scene.accepted, scene::pressure_of_models)};
+                  scene::pressure_text(compared.lowest), scene::pressure_text(compared.highest)));
 }
 
-/// What is not plausible of a case and of what its study states, where that gives verdicts. No stress case of
-/// a stability study may pass because its input is called implausible.
+/// What is not plausible of a case and of what its study states, accepted or not.
 std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCase& input) {
-  if (!study.kind.gives_verdicts) return {};
   std::vector<scene::Implausible> values = study.implausible;
   if (auto beyond = pressure_beyond_models(study, input)) values.push_back(std::move(*beyond));
   for (scene::Implausible& each : scene::implausible_values(input.scene.scene))
     values.push_back(std::move(each));
   return values;
+}
+
+/// What lies beyond the calibration's domain for a case, by name: first what is foreign to it.
+std::vector<std::string> extrapolated_in(const Study& study, const StudyCase& input, double gap) {
+  std::vector<std::string> beyond = distance_to_calibration(input.scene.scene, study.calibration).names();
+  if (input.scene.scene.load.smoothing > 0.0) {
+    beyond.push_back("load smoothed over " +
+                     scene::format_quantity(input.scene.scene.load.smoothing, scene::Dimension::time));
+  }
+  if (gap > study.calibration.evidence.largest_gap * (1.0 + 1e-9)) beyond.emplace_back("gap");
+  return beyond;
+}
+
+/// What only averages or removes heat: no ignition under it shows nothing.
+std::vector<std::string> cooling_in(const scene::Scene& scene, const scene::Scene& calibrated) {
+  constexpr double deepest_station = 10e-3, widest_station = 20e-3, thickest_skin = 0.3e-3;  // m
+  constexpr double least_share = 0.5, slack = 1e-9;
+  const scene::Surface &ours = scene.surface, &theirs = calibrated.surface;
+  std::vector<std::string> found;
+  const auto add = [&found](bool cools, std::string name) {
+    if (cools) found.push_back(std::move(name));
+  };
+  add(ours.station_depth > deepest_station + slack, "stations deeper than 10 mm");
+  add(ours.station_width > widest_station + slack, "stations wider than 20 mm");
+  add(ours.skin_thickness > thickest_skin + slack, "a skin above 0.3 mm");
+  add(ours.friction == scene::FrictionClosure::none, "no friction heat");
+  add(ours.localisation < least_share * theirs.localisation, "a localisation below half the calibrated one");
+  add(ours.exchange_time * least_share > theirs.exchange_time,
+      "an exchange slower than half the calibrated one");
+  return found;
 }
 
 /// The alternatives of a record that count, or those that do not.
@@ -151,40 +157,67 @@ LoadCurveErrors load_curve_errors(const scene::Load& load) {
           std::pow(kept, -heat_exponent) - 1.0};
 }
 
-std::vector<std::string> input_validity_warnings(const Study& study, const StudyCase& input) {
-  std::vector<std::string> warnings;
-  if (!study.kind.gives_verdicts) return warnings;
-  for (const scene::Implausible& each : implausible_in(study, input)) {
-    if (!each.accepted()) warnings.push_back(scene::validity_warning(each));
+std::vector<scene::Implausible> to_be_accepted(const Study& study, const StudyCase& input) {
+  // No stress case of a stability study may pass because its input is called implausible.
+  if (!study.kind.gives_verdicts) return {};
+  std::vector<scene::Implausible> values = implausible_in(study, input);
+  for (scene::Implausible& each : distance_to_calibration(input.scene.scene, study.calibration).foreign) {
+    const bool known = std::ranges::any_of(values, [&](const auto& value) { return value.key == each.key; });
+    if (!known) values.push_back(std::move(each));
   }
-  if (auto warning = calibration_warning(study, input); !warning.empty())
-    warnings.push_back(std::move(warning));
-  return warnings;
+  return values;
+}
+
+std::string unaccepted_text(const Study& study, const StudyCase& input) {
+  if (!study.kind.gives_verdicts) return {};
+  std::vector<std::string> warnings, foreign;
+  for (const scene::Implausible& each : implausible_in(study, input))
+    if (!each.accepted()) warnings.push_back(scene::validity_warning(each));
+  for (const scene::Implausible& each : distance_to_calibration(input.scene.scene, study.calibration).foreign)
+    if (!each.accepted()) foreign.push_back(scene::value_text(each));
+  if (!foreign.empty())
+    warnings.push_back(fmt::format(
+        "extrapolated: the constants were calibrated on another launch ({}), and nothing says how wrong they "
+        "are here",
+        fmt::join(foreign, ", ")));
+  return fmt::format("{}", fmt::join(warnings, "; "));
 }
 
 std::string accepted_text(const Study& study, const StudyCase& input) {
-  return scene::accepted_text(implausible_in(study, input));
+  return scene::accepted_text(to_be_accepted(study, input));
 }
 
-std::string optimistic_text(const scene::Scene& scene) {
-  if (scene.surface.air_model != scene::AirModel::film) return {};
-  return "no ignition under gap.air = \"film\", an optimistic bound, shows nothing";
+AcceptancesOfStudy acceptances_of(const StudyFile& study) {
+  AcceptancesOfStudy all;
+  if (!study.study.kind.gives_verdicts) return all;
+  const double largest = study.study.gaps.empty() ? 0.0 : *std::ranges::max_element(study.study.gaps);
+  std::set<std::string> seen;
+  const auto is_new = [&seen](const std::string& said) { return seen.insert(said).second; };
+  for (const StudyCase& input : study.cases) {
+    for (scene::Implausible& each : to_be_accepted(study.study, input)) {
+      const std::string& value = each.accepted() ? each.accepted_value : each.value;
+      if (is_new(fmt::format("{} = {} {}", each.key, value, each.accepted())))
+        (each.accepted() ? all.accepted : all.missing).push_back(std::move(each));
+    }
+    for (std::string& each : extrapolated_in(study.study, input, largest))
+      if (is_new(each)) all.extrapolated.push_back(std::move(each));
+  }
+  return all;
+}
+
+std::string optimistic_text(const Study& study, const scene::Scene& scene) {
+  if (scene.surface.air_model == scene::AirModel::film)
+    return "no ignition under gap.air = \"film\", an optimistic bound, shows nothing";
+  if (!study.kind.gives_verdicts) return {};
+  const std::vector<std::string> cooling = cooling_in(scene, study.calibration.scene);
+  if (cooling.empty()) return {};
+  return fmt::format("no ignition with {} shows nothing: that only averages or removes heat, accepted or not",
+                     fmt::join(cooling, ", "));
 }
 
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap) {
   if (!study.kind.gives_verdicts) return {};
-  const CalibrationDistance distance = distance_to_calibration(input.scene.scene, study.calibration);
-  std::vector<std::string> beyond;
-  for (const std::string& each : distance.unknown) {
-    const std::string because = reason_for(input, each);
-    beyond.push_back(because.empty() ? each : fmt::format("{} (accepted because {})", each, because));
-  }
-  beyond.insert(beyond.end(), distance.carried.begin(), distance.carried.end());
-  if (input.scene.scene.load.smoothing > 0.0) {
-    beyond.push_back("load smoothed over " +
-                     scene::format_quantity(input.scene.scene.load.smoothing, scene::Dimension::time));
-  }
-  if (gap > study.calibration.evidence.largest_gap * (1.0 + 1e-9)) beyond.emplace_back("gap");
+  const std::vector<std::string> beyond = extrapolated_in(study, input, gap);
   return beyond.empty() ? std::string{} : fmt::format("extrapolated: {}", fmt::join(beyond, ", "));
 }
 

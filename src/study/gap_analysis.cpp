@@ -130,6 +130,8 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGrou
   row.early_spread = surface::spread_at_time(gap.skin, trace, study.early_time);
   row.margin = scene.charge().kinetics.ignition_temperature - gap.at_stations.temperature;
   row.heated = heated_temperature(scene, trace, gap.gap);
+  if (study.kind.gives_verdicts)
+    row.as_calibrated = as_calibrated(scene, study.calibration.scene, ground.distance, trace, gap.gap);
   row.air = gap.air;
   row.ignition = named(gap.skin.ignition, trace);
   row.uncertainty.sampling = gap.sampling_error;
@@ -216,12 +218,11 @@ std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
          (confirmation.expected_ignition ? "do" : "do not");
 }
 
-/// All validity warnings of a completed run as one clause.
-std::string validity_warnings_of(const Study& study, const CaseOutcome& outcome) {
+/// All validity warnings of a completed run itself as one clause.
+std::string validity_warnings_of(const CaseOutcome& outcome) {
   if (!outcome.completed()) return {};
-  std::vector<std::string> warnings = input_validity_warnings(study, outcome.input);
-  for (std::string& each : run::validity_warnings(outcome.input.scene.scene, outcome.result.mechanics))
-    warnings.push_back(std::move(each));
+  std::vector<std::string> warnings =
+      run::validity_warnings(outcome.input.scene.scene, outcome.result.mechanics);
   if (outcome.raised && outcome.raised->status != run::RunStatus::completed) {
     warnings.push_back(
         fmt::format("the run with the load raised by {:.3g} %, for the uncertainty of the inputs: {}{}{}",
@@ -302,7 +303,7 @@ std::vector<StationTemperature> station_temperatures(const surface::SkinHistory&
 namespace {
 
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
-  const std::string warnings = validity_warnings_of(study, outcome);
+  const std::string warnings = validity_warnings_of(outcome);
   if (!outcome.completed() || !warnings.empty()) {
     outcome.critical = indeterminate(outcome.completed() ? "validity warning: " + warnings : outcome.failure);
     return;
@@ -311,6 +312,11 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
   outcome.critical = find_critical_gap(
       [&](double gap) { return state_of(surface::ignites(model, outcome.result.mechanics.trace, gap)); },
       largest_gap(study), study.tolerance);
+  if (const std::string unaccepted = unaccepted_text(study, outcome.input); !unaccepted.empty()) {
+    const GapOrBound indicative = gap_or_bound(outcome.critical);
+    outcome.critical = indeterminate("validity warning: " + unaccepted);
+    outcome.critical.indicative = indicative;
+  }
 }
 
 void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
@@ -370,7 +376,8 @@ bool misses_calibrated_rows(const CaseOutcome& outcome) {
 void conclude(const Study& study, CaseOutcome& outcome) {
   const double coupling = coupling_share(outcome);
   const bool foreign = misses_calibrated_rows(outcome);
-  const std::string warnings = validity_warnings_of(study, outcome);
+  const std::string warnings = validity_warnings_of(outcome);
+  const std::string unaccepted = unaccepted_text(study, outcome.input);
   const std::string accepted = accepted_text(study, outcome.input);
   const std::string ring = scene::ring_text(outcome.input.scene.scene.load);
   std::vector<double> gaps, temperatures;
@@ -380,8 +387,9 @@ void conclude(const Study& study, CaseOutcome& outcome) {
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
     Evidence& evidence = row.evidence;
     evidence.validity_warnings = warnings;
+    evidence.unaccepted = unaccepted;
     evidence.accepted = accepted;
-    evidence.optimistic = optimistic_text(outcome.input.scene.scene);
+    evidence.optimistic = optimistic_text(study, outcome.input.scene.scene);
     evidence.model_form = model_form_text(study, outcome.input, row.gap, row.ignition.has_value());
     evidence.extrapolated = extrapolation_text(study, outcome.input, row.gap);
     evidence.ring = ring;

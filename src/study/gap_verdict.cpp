@@ -27,6 +27,7 @@ void judge_row(const std::string& failure, const run::LimiterCounts& limiters, c
   evidence.maximum_temperature = row.maximum.temperature;
   evidence.margin = row.margin;
   evidence.uncertainty = row.uncertainty.total();
+  evidence.calibrated_margin = margin_as_calibrated(row.as_calibrated, row.margin + row.maximum.temperature);
   evidence.limited = run::to_string(limiters);
   constexpr double least_told = 0.1;  // K
   if (row.uncertainty.load_curve >= least_told)

@@ -33,9 +33,7 @@ std::string why_another(const ModelFormEntry& entry) {
   if (!entry.calibration->failure.empty()) return {};
   const CalibrationDistance distance = distance_to_calibration(entry.scene, entry.calibration->calibration);
   if (distance.inside()) return {};
-  return fmt::format("its sweep is not of the calibrated launch ({}{}{})", fmt::join(distance.unknown, ", "),
-                     distance.unknown.empty() || distance.carried.empty() ? "" : ", ",
-                     fmt::join(distance.carried, ", "));
+  return fmt::format("its sweep is not of the calibrated launch ({})", fmt::join(distance.names(), ", "));
 }
 
 /// Whether a difference of two scenes makes them other models of one launch: how the charge is held, the laws
@@ -44,7 +42,7 @@ bool is_of_model(const std::string& difference) {
   constexpr std::array keys{"friction.closure",      "gap.air",
                             "gap.exchange",          "gap.pressure",
                             "charge.crack_friction", "charge.face_friction"};
-  return difference.starts_with("interface.") || difference.starts_with("station.") ||
+  return difference == scene::foreign_interfaces || difference.starts_with("station.") ||
          std::find(keys.begin(), keys.end(), difference) != keys.end();
 }
 
@@ -58,9 +56,7 @@ bool is_calibrated(const std::string& difference) {
 /// Why a model is no alternative to the default: a copy of it, or a model of another launch, or one that was
 /// calibrated on other published rows, or without a finer mesh to compare with.
 std::string why_no_alternative(const ModelFormEntry& own, const ModelFormEntry& other) {
-  const CalibrationDistance distance = distance_to_calibration(other.scene, {own.scene, {}});
-  std::vector<std::string> differences = distance.unknown;
-  differences.insert(differences.end(), distance.carried.begin(), distance.carried.end());
+  std::vector<std::string> differences = distance_to_calibration(other.scene, {own.scene, {}}).names();
   std::erase_if(differences, is_calibrated);
   const auto count = std::erase_if(differences, is_of_model);
   if (!differences.empty()) return fmt::format("it is of another launch ({})", fmt::join(differences, ", "));
@@ -122,11 +118,8 @@ double peak_of(const scene::Scene& scene) { return scene::PressureHistory(scene.
 /// Why a record says nothing of a scene; empty where it does. Over the initial temperature it is not carried:
 /// a colder launch ignites at a gap beyond the rows that all models are calibrated on, and there they part.
 std::string why_outside(const ModelFormRecord& record, const scene::Scene& scene) {
-  const CalibrationDistance distance = distance_to_calibration(scene, {record.scene, {}});
-  std::vector<std::string> other = distance.unknown;
-  for (const std::string& each : distance.carried) {
-    if (each != "peak pressure" && each != "numerics") other.push_back(each);
-  }
+  std::vector<std::string> other = distance_to_calibration(scene, {record.scene, {}}).names();
+  std::erase_if(other, [](const auto& each) { return each == "peak pressure" || each == "numerics"; });
   if (!other.empty()) return fmt::format("it was made for another launch ({})", fmt::join(other, ", "));
   if (const auto interval = interval_of(record.peak_pressures, peak_of(scene))) {
     const double below = record.peak_pressures[interval->below],

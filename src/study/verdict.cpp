@@ -62,10 +62,20 @@ Judgement judge_in_gap(const Evidence& evidence, const CriticalGap& critical) {
 }
 
 Judgement judge_sound(const Evidence& evidence, const CriticalGap& critical) {
-  if (evidence.ignited) return {Verdict::unsafe, "ignition"};
+  const std::string& unaccepted = evidence.unaccepted;
+  if (evidence.ignited)
+    return {Verdict::unsafe, unaccepted.empty() ? "ignition" : "ignition; validity warning: " + unaccepted};
+  if (!unaccepted.empty()) return indeterminate("validity warning: " + unaccepted);
   // Written so that NaN is never safe.
   if (!(evidence.margin > 0.0)) return indeterminate("no margin to the ignition temperature");
   if (!evidence.optimistic.empty()) return indeterminate(evidence.optimistic);
+  if (!(evidence.calibrated_margin > evidence.uncertainty))
+    return indeterminate(
+        std::isfinite(evidence.calibrated_margin)
+            ? fmt::format("with the constants of the surface as calibrated the margin is {}, within the "
+                          "uncertainty, {}",
+                          kelvin(evidence.calibrated_margin, 3), kelvin(evidence.uncertainty, 2))
+            : "ignition with the constants of the surface as calibrated");
   return judge_in_gap(evidence, critical);
 }
 
@@ -81,9 +91,10 @@ Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
   if (!evidence.limited.empty()) judgement.reason += "; limiters acted: " + evidence.limited;
   if (!evidence.noise.empty()) judgement.reason += "; " + evidence.noise;
   if (!evidence.ring.empty()) judgement.reason += "; " + evidence.ring;
-  if (!evidence.accepted.empty()) judgement.reason += "; " + evidence.accepted;
   if (!evidence.model_form.empty()) judgement.reason += "; " + evidence.model_form;
   if (!evidence.extrapolated.empty()) judgement.reason += "; " + evidence.extrapolated;
+  // The user's words come last: what the program says stands before them, whatever they are.
+  if (!evidence.accepted.empty()) judgement.reason += "; " + evidence.accepted;
   return judgement;
 }
 

@@ -9,7 +9,8 @@ class FailingCase : public StoredStudy {
   void write_study(const std::string& axes) const {
     write("study.toml",
           "kind = \"sweep\"\nscene = \"shell.toml\"\naccept = [{ key = \"numerics.energy_drift_limit\", "
-          "because = \"the base is loaded by a shock\" }]\nmodel_form_uncertainty = { value = \"1 K\", "
+          "value = \"1e-6\", because = \"the base is loaded by a shock\" }]\nmodel_form_uncertainty = { "
+          "value = \"1 K\", "
           "because = \"for a test\" }\nearly_time = "
           "\"0.03 ms\"\ninput_uncertainty = { value = \"2 K\", because = \"for a test\" }\n[axes]\n" +
               axes + "\ngap = \"0, 0.01 cm\"\n");

@@ -79,6 +79,17 @@ std::vector<Edit> in_study(std::string from, std::string to) {
   return {{"study.toml", std::move(from), std::move(to)}};
 }
 
+std::string entry(const std::string& key, const std::string& value) {
+  return "accept = [{ key = \"" + key + "\", value = \"" + value + "\", because = \"it is meant so\" }]\n";
+}
+
+/// An edit of the scene beside an acceptance.
+std::vector<Edit> accepted(const std::string& key, const std::string& value, std::string from,
+                           std::string to) {
+  return {{"shell.toml", std::move(from), std::move(to)},
+          {"shell.toml", "title =", entry(key, value) + "title ="}};
+}
+
 class NeverSafe : public Program, public ::testing::WithParamInterface<Mistake> {
  protected:
   void write_edited(const std::vector<Edit>& edits) const {
@@ -151,6 +162,24 @@ TEST_F(NeverSafe, ALoadThatTheRangeTableContradictsIsRefused) {
   EXPECT_TRUE(outcome.says("drives the projectile to 398")) << outcome.err;
 }
 
+TEST_F(NeverSafe, TheAcceptanceOfAllAtOnceIsRefusedWithTheNewForm) {
+  const Outcome outcome = run_edited(in_scene(
+      "title =", "accept = [{ key = \"calibration\", because = \"everything is much alike\" }]\ntitle ="));
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_TRUE(outcome.says("accept = [{ key = \"calibration.shell\", value = ")) << outcome.err;
+}
+
+/// What nobody accepts makes nothing safe, and undoes no ignition.
+TEST_F(NeverSafe, AGapThatIgnitesIsUnsafeWhereAnAcceptanceIsMissing) {
+  run_edited({{"shell.toml", "width = \"5 mm\"", "width = \"7 mm\""},
+              {"study.toml", "confirm = false", "confirm = false\ngaps = \"0, 0.09 cm\""},
+              {"study.toml", "largest_gap = \"0.02 cm\"", "largest_gap = \"0.09 cm\""}});
+  EXPECT_EQ(verdicts("SAFE"), 0);
+  EXPECT_EQ(verdicts("INDETERMINATE"), 1);
+  EXPECT_EQ(verdicts("UNSAFE"), 1);
+  EXPECT_NE(read("out/study.json").find("indeterminate (indicative: 0.0"), std::string::npos);
+}
+
 TEST_P(NeverSafe, Mistaken) {
   const Mistake& mistake = GetParam();
   const Outcome outcome = run_edited(mistake.edits);
@@ -200,41 +229,54 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"AnotherShell",
                 in_scene("x = \"0 to 11.8 cm\",    r = \"0 to 7.75 cm\"",
                          "x = \"1 to 11.8 cm\",    r = \"0 to 7.75 cm\""),
-                "another shell"},
-        Mistake{"WiderStationsUnderAGeneralAcceptance",
-                {{"shell.toml", "width = \"5 mm\"", "width = \"7 mm\""},
-                 {"shell.toml", "title =",
-                  "accept = [{ key = \"calibration\", because = \"everything is much alike\" }]\ntitle ="}},
-                "station.width"},
+                "calibration.shell = 4 bodies"},
+        Mistake{"AnotherShellThanTheAcceptedOne",
+                accepted("calibration.shell", "4 bodies, 73 cm long, 15.5 cm in diameter, 00000000",
+                         "x = \"0 to 11.8 cm\",    r = \"0 to 7.75 cm\"",
+                         "x = \"1 to 11.8 cm\",    r = \"0 to 7.75 cm\""),
+                "(accepted is 4 bodies"},
+        Mistake{"WiderStationsUnderAnAcceptanceOfOthers",
+                accepted("station.width", "6 mm", "width = \"5 mm\"", "width = \"7 mm\""),
+                "station.width = 0.7 cm (accepted is 6 mm)"},
+        Mistake{"WiderStationsUnderAnAcceptanceOfTheirDepth",
+                accepted("station.depth", "7 mm", "width = \"5 mm\"", "width = \"7 mm\""),
+                "station.width = 0.7 cm"},
         Mistake{"StationsOfOneCell", in_scene("cell_size = \"2.5 mm\"", "cell_size = \"3 mm\""),
                 "two are needed"},
-        Mistake{"ASlidingChargeOfTheStudyUnderAGeneralAcceptance",
-                {{"shell.toml", "title =",
-                  "accept = [{ key = \"calibration\", because = \"everything is much alike\" }]\ntitle ="},
+        Mistake{"DeepStationsThatAreAccepted",
+                accepted("station.depth", "56 cm", "depth = \"5 mm\"", "depth = \"56 cm\""),
+                "only averages or removes heat"},
+        Mistake{"NoFrictionHeatThatIsAccepted",
+                accepted("friction.closure", "none", "closure = \"total strain rate\"", "closure = \"none\""),
+                "only averages or removes heat"},
+        Mistake{"AThickSkinThatIsAccepted",
+                accepted("gap.skin_thickness", "1 mm", "skin_thickness = \"0.1 mm\"",
+                         "skin_thickness = \"1 mm\""),
+                "only averages or removes heat"},
+        Mistake{"LittleFrictionHeatThatIsAccepted",
+                accepted("friction.localisation", "250", "[friction]\n", "[friction]\nlocalisation = 250\n"),
+                "only averages or removes heat"},
+        Mistake{"ASecondSteel",
+                {{"shell.toml", "{ name = \"base\",   material = \"steel\"",
+                  "{ name = \"base\",   material = \"hard\""},
+                 {"shell.toml", "[load]",
+                  "[material.hard]\nlaw = \"steel\"\nlike = \"shell-steel\"\nyield_stress = \"1.5 "
+                  "GPa\"\n[load]"}},
+                "material.hard.yield_stress = 1.5 GPa"},
+        Mistake{"ASlidingChargeOfTheStudyUnderAnAcceptanceOfAnother",
+                {{"shell.toml", "title =", entry("calibration.interfaces", "bonded for good") + "title ="},
                  {"study.toml", "confirm = false",
                   "confirm = false\nset = { interface = { wall = { condition = \"sliding\", friction = 0.1 } "
                   "} }"}},
-                "interface.wall.condition"},
-        Mistake{
-            "AnotherFrictionThanTheAcceptedOne",
-            {{"shell.toml", "title =",
-              "accept = [{ key = \"interface.wall.condition\", because = \"sliding with 0.1 is meant\" }]\n"
-              "title ="},
-             {"shell.toml", "[interface.wall]\ncondition = \"sliding\"\nfriction = 0 ",
-              "[interface.wall]\ncondition = \"sliding\"\nfriction = 0.1 "},
-             {"study.toml", "confirm = false",
-              "confirm = false\nset = { interface = { wall = { friction = 0.2 } } }"}},
-            "interface.wall.condition"},
-        Mistake{
-            "FilmUnderAGeneralAcceptance",
-            {{"shell.toml", "title =",
-              "accept = [{ key = \"calibration\", because = \"another lot of the explosive\" }]\ntitle ="},
-             {"shell.toml", "air = \"reservoir\"", "air = \"film\""}},
-            "gap.air"},
-        Mistake{"FilmAcceptedByItself",
-                {{"shell.toml",
-                  "title =", "accept = [{ key = \"gap.air\", because = \"the air was measured\" }]\ntitle ="},
-                 {"shell.toml", "air = \"reservoir\"", "air = \"film\""}},
+                "wall sliding, friction 0.1"},
+        Mistake{"AnotherFrictionThanTheAcceptedOne",
+                {{"shell.toml", "title =",
+                  entry("calibration.interfaces", "nose sliding, friction 0; wall sliding, friction 0.1") +
+                      "title ="},
+                 {"study.toml", "confirm = false",
+                  "confirm = false\nset = { interface = { wall = { friction = 0.2 } } }"}},
+                "wall sliding, friction 0.2"},
+        Mistake{"FilmAcceptedByItself", accepted("gap.air", "film", "air = \"reservoir\"", "air = \"film\""),
                 "optimistic"}),
     [](const auto& test) { return test.param.name; });
 

@@ -44,35 +44,51 @@ trace_interval = "5 us"
 
 [station]
 width = "1.5 cm"
-depth = "1.5 cm"
+depth = "1 cm"
 )" + testing::small_shell + testing::small_shell_base +
                                       testing::small_shell_point + R"(
 [[accept]]
-key = "calibration"
+key = "calibration.shell"
+value = "4 bodies, 5 cm long, 4 cm in diameter, 461b37d6"
+because = "the constants are those of another shell"
+[[accept]]
+key = "calibration.interfaces"
+value = "bonded for good"
 because = "the constants are those of another shell"
 [[accept]]
 key = "station.width"
+value = "1.5 cm"
 because = "two coarse cells"
 [[accept]]
 key = "station.depth"
+value = "1 cm"
 because = "two coarse cells"
 [[accept]]
 key = "load.duration"
+value = "0.15 to 0.3 ms"
 because = "a launch that takes milliseconds to compute"
 [[accept]]
 key = "load.peak_time"
+value = "35 to 36 us"
 because = "a launch that takes milliseconds to compute"
 [[accept]]
 key = "load.launch_speed"
+value = "9 to 15 m/s"
 because = "a launch that takes milliseconds to compute"
 [[accept]]
 key = "model_form.pressure"
 because = "a launch that takes milliseconds to compute"
 [[accept]]
 key = "load.travel"
+value = "0.9 to 1.6 mm"
+because = "a launch that takes milliseconds to compute"
+[[accept]]
+key = "load.travel"
+value = "2 to 4 mm"
 because = "a launch that takes milliseconds to compute"
 [[accept]]
 key = "numerics.energy_drift_limit"
+value = "0.5"
 because = "the base is loaded by a shock, on a coarse mesh"
 )";
 

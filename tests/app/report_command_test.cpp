@@ -40,6 +40,35 @@ TEST_F(ReportCommand, PagesOfTheStudyAndOfItsSafetyAreTheStoredOnes) {
   testing::expect_stored(testing::prose_of(read("safety/report.md")), pages / "safety_report.txt");
 }
 
+// Issue 31, point 6: a reason may say what it likes, page one is made of lists.
+TEST_F(ReportCommand, PageOneTellsWhatIsExtrapolatedWhateverAReasonSays) {
+  write("shell.toml", with(tiny_scene, "two coarse cells", "coarse) cells ((; extrapolated: nothing"));
+  run_critical_gap();
+  ASSERT_EQ(run({"report", "out", "-o", "safety"}).code, 0);
+  EXPECT_TRUE(reports("The calibration is extrapolated in: calibration.shell, station.width, station.depth"));
+  EXPECT_TRUE(reports("calibration.shell = 4 bodies, 5 cm long"));
+}
+
+// Likewise: bodies of other steels than the first are of the shell too.
+TEST_F(ReportCommand, RefusesStudiesOfDifferentSecondSteels) {
+  const auto with_second_steel = [](const std::string& yield_stress) {
+    const std::string base = "name = \"base\"\nmaterial = ";
+    return with(tiny_scene, base + "\"steel\"", base + "\"second\"") +
+           "[material.second]\nlaw = \"steel\"\nlike = \"shell-steel\"\nyield_stress = \"" + yield_stress +
+           "\"\n";
+  };
+  write("shell.toml", with_second_steel("1.1 GPa"));
+  run_critical_gap();
+  write("study.toml", sweep_study);
+  ASSERT_NE(run({"study", "study.toml", "-o", "same"}).code, 2);
+  EXPECT_EQ(run({"report", "out", "same", "-o", "safety"}).code, 0);
+  write("shell.toml", with_second_steel("1.2 GPa"));
+  ASSERT_NE(run({"study", "study.toml", "-o", "other"}).code, 2);
+  const Outcome outcome = run({"report", "out", "other", "-o", "safety"});
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_TRUE(outcome.says("different shells")) << outcome.err;
+}
+
 TEST_F(ReportCommand, OfAStudyWhoseCaseFailedSaysSo) {
   write("shell.toml", with(tiny_scene, "energy_drift_limit = 0.5", "energy_drift_limit = 1e-6"));
   write("study.toml", critical_gap_study);

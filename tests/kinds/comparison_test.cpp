@@ -66,14 +66,16 @@ TEST(Comparison, AVariantOutsideTheCalibrationIsIndeterminateUntilItAcceptsThat)
   const auto verdicts = [](const std::string& text) {
     return run_comparison(comparison_of(text), synthetic_options()).cases[1].answer.verdicts;
   };
-  for (const GapVerdict& row : verdicts(bonded)) EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
-  const auto accepted =
-      verdicts(bonded + "accept = [{ key = \"calibration\", because = \"of this variant alone\" }]\n");
+  for (const GapVerdict& row : verdicts(bonded))
+    EXPECT_EQ(row.judgement.verdict, row.ignition ? Verdict::unsafe : Verdict::indeterminate);
+  const auto accepted = verdicts(bonded +
+                                 "accept = [{ key = \"calibration.interfaces\", value = \"nose sliding, "
+                                 "friction 0\", because = \"of this variant alone\" }]\n");
   EXPECT_EQ(accepted.back().judgement.verdict, Verdict::unsafe) << accepted.back().judgement.reason;
-  const auto foreign =
-      verdicts(bonded + variant("other", "gap.air = \"film\"") +
-               "accept = [{ key = \"calibration\", because = \"of the other variant alone\" }]\n");
-  EXPECT_EQ(foreign.back().judgement.verdict, Verdict::indeterminate);
+  const auto foreign = verdicts(
+      bonded + variant("other", "gap.air = \"film\"") +
+      "accept = [{ key = \"gap.air\", value = \"film\", because = \"of the other variant alone\" }]\n");
+  EXPECT_EQ(foreign.front().judgement.verdict, Verdict::indeterminate);
 }
 
 TEST(Comparison, StationsAreComparedOnASkinThatDoesNotReact) {
@@ -123,11 +125,11 @@ TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
   EXPECT_EQ(record->peak_pressures, (std::vector<double>{450e6, 496e6}));
   ASSERT_EQ(record->alternatives.size(), 1u);
   EXPECT_EQ(record->alternatives[0].critical_gap[1], result.cases[2].answer.critical.value);
-  const ComparisonResult without =
-      run_comparison(study_of(start + bonded +
-                              "accept = [{ key = \"calibration\", because = \"of this variant "
-                              "alone\" }]\n"),
-                     synthetic_options());
+  const ComparisonResult without = run_comparison(
+      study_of(start + bonded +
+               "accept = [{ key = \"calibration.interfaces\", value = \"bonded for good\", because "
+               "= \"of this variant alone\" }]\n"),
+      synthetic_options());
   EXPECT_TRUE(report_of(without).files.empty());
 }
 

@@ -163,10 +163,10 @@ TEST(CriticalGapStudy, ACoupledRunThatBurntConfirmsAnIgnitionUnlessItWasCutOff) 
 TEST(CriticalGapStudy, BoundsAreNotConfirmedAndNotNumbers) {
   StudyOptions options = synthetic_options();
   options.runners = synthetic_runners(1.0);
-  const std::string text =
-      critical_text +
-      "gaps = \"0, 0.001 cm\"\nlargest_gap = \"0.002 cm\"\n"
-      "accept = [{ key = \"largest_gap\", because = \"the search is to end without a gap\" }]\n";
+  const std::string text = critical_text +
+                           "gaps = \"0, 0.001 cm\"\nlargest_gap = \"0.002 cm\"\n"
+                           "accept = [{ key = \"largest_gap\", value = \"0.002 cm\", because = \"the search "
+                           "is to end without a gap\" }]\n";
   const CriticalGapResult cold = run_critical_gap(study_of(text + synthetic_constants), options);
   EXPECT_EQ(cold.cases[0].critical.kind, CriticalGapKind::all_safe);
   EXPECT_TRUE(cold.cases[0].confirmations.empty());

@@ -5,6 +5,7 @@
 #include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <fmt/format.h>
@@ -44,8 +45,20 @@ CriticalGapResult run_safe_study(const std::string& keys, const std::string& ove
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-std::string accept(const std::string& key, const std::string& because) {
-  return fmt::format("accept = [{{ key = \"{}\", because = \"{}\" }}]\n", key, because);
+std::string entry(const std::string& key, const std::string& value, const std::string& because) {
+  return fmt::format("{{ key = \"{}\", value = \"{}\", because = \"{}\" }}", key, value, because);
+}
+
+std::string accept(const std::string& key, const std::string& value, const std::string& because) {
+  return "accept = [" + entry(key, value, because) + "]\n";
+}
+
+/// What of a case is to be accepted, accepted for a reason.
+std::string accept_all(const StudyFile& study, const std::string& because) {
+  std::string entries;
+  for (const scene::Implausible& each : to_be_accepted(study.study, study.cases.front()))
+    entries += entry(each.key, each.value, because) + ", ";
+  return "accept = [" + entries + "]\n";
 }
 
 TEST(StudyPlausibility, AVerdictOnWhatIsPlausibleSaysNothingOfIt) {
@@ -75,10 +88,7 @@ TEST(StudyPlausibility, AnImplausibleValueIsIndeterminateUntilItIsAccepted) {
     EXPECT_TRUE(says(judgement_in(warned).reason, named)) << judgement_in(warned).reason;
     EXPECT_TRUE(says(judgement_in(warned).reason, "not plausible")) << judgement_in(warned).reason;
     EXPECT_EQ(warned.cases[0].critical.kind, CriticalGapKind::indeterminate) << key;
-    const std::string shell =
-        key.starts_with("body.") ? "{ key = \"calibration\", because = \"another shell\" }, " : "";
-    std::string reasons = accept(key, "it was measured so");
-    reasons.insert(reasons.find('[') + 1, shell);
+    const std::string reasons = accept_all(study_of(safe_study("", overrides)), "it was measured so");
     const Judgement accepted = judgement_in(run_safe_study(reasons, overrides));
     EXPECT_FALSE(says(accepted.reason, "not plausible")) << accepted.reason;
     EXPECT_TRUE(says(accepted.reason, "accepted: " + key)) << accepted.reason;
@@ -95,7 +105,7 @@ TEST(StudyPlausibility, AStatedUncertaintyMustBePlausibleToo) {
       EXPECT_EQ(warned.verdict, Verdict::indeterminate) << key;
       EXPECT_TRUE(says(warned.reason, number + " = ")) << warned.reason;
       const Judgement accepted =
-          judgement_in(run_safe_study(statement + accept(number, "a test of the search")));
+          judgement_in(run_safe_study(statement + accept(number, value, "a test of the search")));
       EXPECT_EQ(accepted.verdict, Verdict::safe) << accepted.reason;
       EXPECT_TRUE(says(accepted.reason, "accepted: " + number)) << accepted.reason;
     }
@@ -178,27 +188,28 @@ TEST(StudyPlausibility, TheShellThatNobodyTakesTheConstantsOverForIsNeverSafe) {
   const CriticalGapResult shipped = run_critical_gap(study_of(text + whole), options);
   ASSERT_FALSE(shipped.cases.at(0).verdicts.empty());
   for (const GapVerdict& each : shipped.cases[0].verdicts) {
-    EXPECT_EQ(each.judgement.verdict, Verdict::indeterminate);
+    EXPECT_EQ(each.judgement.verdict, each.ignition ? Verdict::unsafe : Verdict::indeterminate);
     EXPECT_TRUE(says(each.judgement.reason, "calibrated on another launch")) << each.judgement.reason;
   }
-  const std::string taken_over = accept("calibration", "for this test") + text + whole;
+  const std::string taken_over = accept_all(study_of(text + whole), "for this test") + text + whole;
   const Judgement& judgement = judgement_in(run_critical_gap(study_of(taken_over), options));
   EXPECT_EQ(judgement.verdict, Verdict::safe) << judgement.reason;
 }
 
-TEST(StudyPlausibility, AcceptancesOfAStudyReplaceThoseOfItsSceneAndReachEveryCase) {
-  const StudyFile study = study_of(accept("gap.skin_thickness", "a coated charge") + critical_text +
+TEST(StudyPlausibility, AcceptancesOfAStudyReachEveryCase) {
+  const StudyFile study = study_of(accept("gap.skin_thickness", "0.2 mm", "a coated charge") + critical_text +
                                    "peak_pressures = \"400, 496 MPa\"\n");
   for (const StudyCase& each : study.cases) {
     ASSERT_EQ(each.scene.scene.accepted.size(), 1u);
     EXPECT_EQ(each.scene.scene.accepted[0].because, "a coated charge");
   }
-  EXPECT_FALSE(parse_here(accept("gap.skin_thicknes", "a coated charge") + critical_text));
+  EXPECT_FALSE(parse_here(accept("gap.skin_thicknes", "0.2 mm", "a coated charge") + critical_text));
 }
 
 TEST(StudyPlausibility, AnAcceptanceIsNoOtherShellForAnAccuracyRecord) {
   const StudyFile plain = study_of(critical_text);
-  const StudyFile accepted = study_of(accept("gap.skin_thickness", "a coated charge") + critical_text);
+  const StudyFile accepted =
+      study_of(accept("gap.skin_thickness", "0.2 mm", "a coated charge") + critical_text);
   EXPECT_EQ(shell_of(plain.scene.scene), shell_of(accepted.scene.scene));
 }
 

@@ -37,8 +37,8 @@ const std::string wide_search = "largest_gap = \"0.2 cm\"\n";
 /// Up to 0.001 cm nothing ignites: every critical gap is a bound, found at once.
 const std::string no_search = R"(largest_gap = "0.001 cm"
 accept = [
-  { key = "largest_gap", because = "no gap is to be found" },
-  { key = "friction.localisation", because = "the launch is synthetic" },
+  { key = "largest_gap", value = "0.001 cm", because = "no gap is to be found" },
+  { key = "friction.localisation", value = "900 to 1700", because = "the launch is synthetic" },
 ]
 )";
 

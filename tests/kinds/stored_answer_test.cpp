@@ -76,6 +76,12 @@ TEST(StoredAnswer, ThatContradictsItselfIsNone) {
       {"gaps in another order", [](Json& a) { std::swap(a["verdicts"][0], a["verdicts"][1]); }},
       {"a gap less", [](Json& a) { a["verdicts"].erase(3); }},
       {"heated temperatures of another number", [](Json& a) { a["heated"].erase(0); }},
+      {"an acceptance that nobody gave", [](Json& a) { a["verdicts"][0]["accepted"] = "accepted: all"; }},
+      {"nothing that is not accepted", [](Json& a) { a["verdicts"][0].erase("unaccepted"); }},
+      {"constants as calibrated that are not",
+       [](Json& a) {
+         a["verdicts"][0]["as_calibrated"] = {{"", 1.0, false}};
+       }},
       {"no validity warnings", [](Json& a) { a["verdicts"][0].erase("doubt"); }},
       {"no energy of the air", [](Json& a) { a["verdicts"][0].erase("air"); }},
       {"energy of the air with a part too few", [](Json& a) { a["verdicts"][1]["air"].erase(3); }},

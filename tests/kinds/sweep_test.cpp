@@ -39,8 +39,11 @@ std::string text_of_sweep(const std::string& axes, const std::string& more = {})
   return "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\nlargest_gap = \"0.2 cm\"\n"
          "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n" +
          synthetic_statements +
-         "accept = [{ key = \"calibration\", because = \"constants of a synthetic launch\" },"
-         " { key = \"kinetics.ignition_temperature\", because = \"bounds are sought\" }]\n" +
+         "accept = [{ key = \"gap.exchange_time\", value = \"0.3 ms\", because = \"constants of a synthetic "
+         "launch\" },"
+         " { key = \"kinetics.ignition_temperature\", value = \"400 to 700 K\", because = \"bounds are "
+         "sought\" "
+         "}]\n" +
          more + "[axes]\n" + axes + constants_beside(axes);
 }
 

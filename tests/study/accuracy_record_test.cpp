@@ -146,6 +146,16 @@ TEST(AccuracyRecord, IsForeignToAnotherShellOrClosure) {
   }
 }
 
+// Issue 31, point 6.
+TEST(AccuracyRecord, BelongsToItsStations) {
+  for (const double size : {3e-3, 10e-3}) {
+    scene::Scene wide = own_scene(), deep = own_scene();
+    wide.surface.station_width = deep.surface.station_depth = size;
+    EXPECT_NE(shell_of(wide), shell_of(own_scene()));
+    EXPECT_NE(shell_of(deep), shell_of(own_scene()));
+  }
+}
+
 TEST(AccuracyRecord, BelongsToOneWayOfHoldingTheCharge) {
   const auto held_by = [](double friction) {
     scene::Scene scene = own_scene();

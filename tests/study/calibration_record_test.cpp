@@ -200,8 +200,8 @@ TEST_F(StudyWithRecord, DoesNotHoldForAnotherModel) {
   const auto read = study("[set]\ninterface.wall.friction = 0.3\n");
   ASSERT_TRUE(read) << read.error().message();
   const auto distance = distance_to_calibration(read->scene.scene, read->study.calibration);
-  ASSERT_FALSE(distance.unknown.empty());
-  EXPECT_EQ(distance.unknown.front(), "interface.wall.condition");
+  ASSERT_FALSE(distance.foreign.empty());
+  EXPECT_EQ(distance.foreign.front().key, "calibration.interfaces");
 }
 
 TEST_F(StudyWithRecord, RefusesARecordWithoutConstants) {

@@ -1,5 +1,7 @@
 // The shares of a verdict's uncertainty, and the validity warnings of a calibration outside its domain, on a
 // launch in closed form.
+#include "launchsafe/study/case_uncertainty.hpp"
+
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/study/calibration_domain.hpp"
@@ -232,11 +234,15 @@ TEST(CaseUncertainty, AnotherShellIsIndeterminateUnlessItsSceneSaysWhyNot) {
   for (const std::string change :
        {"body.charge.x = \"12 to 67.8 cm\"\nbody.wall.x = \"12 to 67.8 cm\"\nbody.nose.x = \"0 to 12 cm\"\n",
         "friction.closure = \"inelastic\"\n", "charge.density = \"1.65 g/cm3\"\n",
-        "friction.localisation = 400\n"}) {
+        "friction.localisation = 1200\n"}) {
     for (const bool accepted : {false, true}) {
       StudyFile study = study_of(critical_kind + no_confirmation + stated + "[set]\n" + change);
       ASSERT_EQ(study.cases.size(), 1u);
-      if (accepted) study.cases[0].scene.scene.accepted = {{"calibration", "our own firing trials agree"}};
+      if (accepted) {
+        for (const auto& each : to_be_accepted(study.study, study.cases[0]))
+          study.cases[0].scene.scene.accepted.push_back(
+              {each.key, each.value, "our own firing trials agree"});
+      }
       const CriticalGapResult result = run_critical_gap(study, quadratic_options());
       const GapVerdict& row = result.cases.at(0).verdicts.at(0);
       EXPECT_NE(row.judgement.reason.find("extrapolated"), std::string::npos) << row.judgement.reason;
@@ -245,6 +251,57 @@ TEST(CaseUncertainty, AnotherShellIsIndeterminateUnlessItsSceneSaysWhyNot) {
       EXPECT_EQ(row.judgement.reason.find("our own firing trials agree") != std::string::npos, accepted);
     }
   }
+}
+
+/// Issue 31, point 9: accepted or not.
+TEST(CaseUncertainty, WhatOnlyAveragesOrRemovesHeatIsNeverSafe) {
+  for (const std::string change : {"station.depth = \"11 mm\"\n", "station.width = \"25 mm\"\n",
+                                   "gap.skin_thickness = \"0.31 mm\"\n", "friction.closure = \"none\"\n",
+                                   "friction.localisation = 600\n", "gap.exchange_time = \"0.6 ms\"\n"}) {
+    StudyFile study = study_of(critical_kind + no_confirmation + stated + "[set]\n" + change);
+    for (const auto& each : to_be_accepted(study.study, study.cases[0]))
+      study.cases[0].scene.scene.accepted.push_back({each.key, each.value, "our own firing trials agree"});
+    const CriticalGapResult result = run_critical_gap(study, quadratic_options());
+    const Judgement& judgement = result.cases.at(0).verdicts.at(0).judgement;
+    EXPECT_EQ(judgement.verdict, Verdict::indeterminate) << change << judgement.reason;
+    EXPECT_NE(judgement.reason.find("only averages or removes heat"), std::string::npos) << judgement.reason;
+  }
+}
+
+/// The constants that are calibrated decide too where colder ones are accepted, and their T max is told.
+TEST(CaseUncertainty, ColderConstantsOfTheSurfaceMakeNothingSafeThatTheCalibratedOnesDoNot) {
+  const auto rows_with = [](const std::string& change) {
+    StudyFile study = study_of(critical_kind + no_confirmation + stated + "[set]\n" + change);
+    for (const auto& each : to_be_accepted(study.study, study.cases[0]))
+      study.cases[0].scene.scene.accepted.push_back({each.key, each.value, "our own firing trials agree"});
+    return run_critical_gap(study, quadratic_options()).cases.at(0).verdicts;
+  };
+  const std::vector<GapVerdict> own = rows_with(""), colder = rows_with("friction.localisation = 700\n");
+  ASSERT_EQ(own.size(), colder.size());
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    EXPECT_TRUE(own[i].as_calibrated.empty());
+    ASSERT_EQ(colder[i].as_calibrated.size(), 2u);
+    EXPECT_EQ(colder[i].as_calibrated[1].key, "friction.localisation");
+    EXPECT_EQ(colder[i].as_calibrated[0].ignites, own[i].ignition.has_value());
+    EXPECT_NEAR(colder[i].as_calibrated[0].temperature, own[i].maximum.temperature, 1e-9);
+    if (own[i].margin < colder[i].uncertainty.total()) {
+      EXPECT_NE(colder[i].judgement.verdict, Verdict::safe) << colder[i].judgement.reason;
+    }
+  }
+}
+
+/// Issue 31, point 10.
+TEST(CaseUncertainty, AGapThatIgnitesIsUnsafeWhateverNobodyAccepts) {
+  const StudyFile study = study_of(critical_kind + "confirm = false\ngaps = \"0, 0.1 cm\"\n" + stated +
+                                   "[set]\nstation.width = \"7 mm\"\n");
+  const CaseOutcome outcome = run_critical_gap(study, quadratic_options()).cases.at(0);
+  ASSERT_TRUE(outcome.verdicts.at(1).ignition);
+  EXPECT_EQ(outcome.verdicts[0].judgement.verdict, Verdict::indeterminate);
+  EXPECT_EQ(outcome.verdicts[1].judgement.verdict, Verdict::unsafe);
+  EXPECT_NE(outcome.verdicts[1].judgement.reason.find("station.width = 0.7 cm"), std::string::npos);
+  EXPECT_EQ(outcome.critical.kind, CriticalGapKind::indeterminate);
+  EXPECT_GT(outcome.critical.indicative, 0.0);
+  EXPECT_LT(outcome.critical.indicative, 1e-3);
 }
 
 TEST(CaseUncertainty, AStudyWithoutVerdictsNeedsNoSecondRun) {

@@ -89,6 +89,28 @@ TEST(Verdict, IgnitionIsUnsafe) {
   EXPECT_EQ(judge(evidence, critical_at(2e-4, 1e-6)).verdict, Verdict::unsafe);
 }
 
+TEST(Verdict, WhatNobodyAcceptsIsNeverSafeAndUndoesNoIgnition) {
+  Evidence evidence = calm();
+  evidence.unaccepted = "station.width = 7 mm";
+  EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate);
+  evidence.ignited = true;
+  const Judgement judged = judge(evidence, critical_at(2e-4, 1e-6));
+  EXPECT_EQ(judged.verdict, Verdict::unsafe);
+  EXPECT_EQ(judged.reason, "ignition; validity warning: station.width = 7 mm");
+  evidence.validity_warnings = "the load ends above 1 % of its peak";
+  EXPECT_EQ(judge(evidence, critical_at(2e-4, 1e-6)).verdict, Verdict::indeterminate);
+}
+
+TEST(Verdict, SafeNeedsTheMarginOfTheConstantsAsCalibrated) {
+  Evidence evidence = calm();
+  for (const double margin : {0.1, 0.05, -1.0, nan_value, -std::numeric_limits<double>::infinity()}) {
+    evidence.calibrated_margin = margin;
+    EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate) << margin;
+  }
+  evidence.calibrated_margin = 0.2;
+  EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::safe);
+}
+
 TEST(Verdict, WhatIsExtrapolatedStandsInEveryReason) {
   Evidence evidence = calm();
   evidence.extrapolated = "extrapolated: peak pressure";

@@ -46,6 +46,8 @@ report::Table verdict_table(const CriticalGapResult& result);
 report::Table comparison_table(const CriticalGapResult& result);
 /// What makes each critical gap uncertain, cause by cause.
 report::Table gap_share_table(const CriticalGapResult& result);
+/// What the skin of every gap does with its foreign constants as calibrated; no rows where it has none.
+report::Table as_calibrated_table(const CriticalGapResult& result);
 /// Critical gap of every case, with bracket and confirmation.
 report::Table critical_gap_table(const CriticalGapResult& result);
 /// The study's cited limits beside the critical gaps of its cases; without rows where it cites none.

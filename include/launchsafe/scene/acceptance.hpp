@@ -1,5 +1,5 @@
-// What a user says of values that are allowed but not plausible: accept = [{ key = "...", because = "..." }]
-// in a scene or a study.
+// What a user says of values that are allowed but not plausible, or not the calibrated ones:
+// accept = [{ key = "...", value = "...", because = "..." }] in a scene or a study.
 #pragma once
 
 #include "launchsafe/scene/scene.hpp"
@@ -10,11 +10,36 @@
 
 namespace launchsafe::scene {
 
-/// Accepts no value but the use of constants outside of what they were calibrated on, which only a study
-/// knows.
-inline constexpr const char* foreign_calibration = "calibration";
+/// Accepted by these names: bodies, constants of their materials, and what holds the charge, where they are
+/// not those of the calibration. Which they are only a study knows (study/calibration_domain.hpp).
+inline constexpr const char *foreign_shell = "calibration.shell", *foreign_material = "calibration.material",
+                            *foreign_interfaces = "calibration.interfaces";
 /// Likewise a peak pressure beyond those at which other models of the launch were compared.
 inline constexpr const char* pressure_of_models = "model_form.pressure";
+
+/// A value on which no verdict but UNSAFE rests unless the user accepts it: it is not plausible, or not the
+/// calibrated one.
+struct Implausible {
+  std::string key;             ///< of the scene or study, or a quantity that follows from keys
+  std::string value;           ///< as people read it
+  std::string range;           ///< what is plausible, with its reason, or what is calibrated
+  std::string because;         ///< why the user accepts it; empty: he does not
+  std::string accepted_value;  ///< what he says of the key's value, be it this one or not; empty: nothing
+  bool accepted() const { return !because.empty(); }
+};
+
+/// The value of a key, under its full name, with what the user says of it. A number is accepted by itself, in
+/// the digits that people read, or by a range around it.
+Implausible implausible(const std::vector<Acceptance>& accepted, const KeyDescription& key, std::string name,
+                        const Value& value, std::string range);
+
+/// "gap.exchange_time = 100 s", and what the user accepts in its place.
+std::string value_text(const Implausible& value);
+/// "accepted: gap.exchange_time = 100 s, because ...; ..." of those that are; empty if none is.
+std::string accepted_text(const std::vector<Implausible>& values);
+/// The lines of a file, ready to copy but for the reasons, that accept those that are not accepted; empty if
+/// all are.
+std::string acceptances_to_write(const std::vector<Implausible>& values);
 
 const std::vector<Key<Acceptance>>& acceptance_keys();
 
@@ -22,15 +47,13 @@ const std::vector<Key<Acceptance>>& acceptance_keys();
 std::optional<InputError> check_reason(const std::string& text, const Place& place, const std::string& key);
 
 /// The table "accept" of a file; none if it has none. Faults: a key that is not among `known`, one that
-/// stands there twice, a reason without letters or of several lines.
+/// stands there twice with one value, a value that the key cannot have, a range beyond a factor of 2, a
+/// reason without letters or of several lines.
 Expected<std::vector<Acceptance>> read_acceptances(const toml::table& root,
-                                                   const std::vector<std::string>& known,
+                                                   const std::vector<KeyDescription>& known,
                                                    const std::string& file);
 
-/// Adds an acceptance; it replaces an earlier one of the same key.
+/// Adds an acceptance; it replaces an earlier one of the same key and value.
 void accept(std::vector<Acceptance>& accepted, Acceptance acceptance);
-
-/// Why the value of a key is accepted; empty if it is not.
-std::string reason_for(const std::vector<Acceptance>& accepted, const std::string& key);
 
 }  // namespace launchsafe::scene

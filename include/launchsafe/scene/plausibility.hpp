@@ -2,6 +2,7 @@
 // scene says why it is meant.
 #pragma once
 
+#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
@@ -12,19 +13,8 @@
 
 namespace launchsafe::scene {
 
-/// A value that is not plausible.
-struct Implausible {
-  std::string key;      ///< of the scene or study, or a quantity that follows from keys
-  std::string value;    ///< as people read it
-  std::string range;    ///< what is plausible, with its reason
-  std::string because;  ///< why the user accepts it; empty: he does not
-  bool accepted() const { return !because.empty(); }
-};
-
 /// "gap.exchange_time = 100 s is not plausible (0.05 ms to 2 ms, because ...)".
 std::string validity_warning(const Implausible& value);
-/// "accepted: gap.exchange_time = 100 s, because ...; ..." of those that are; empty if none is.
-std::string accepted_text(const std::vector<Implausible>& values);
 
 /// Whether a value is what is expected of its key. NaN never is.
 bool is_plausible(const KeyDescription& key, const Value& value);
@@ -41,10 +31,8 @@ const std::vector<DerivedQuantity>& derived_quantities();
 /// bodies, then derived quantities. They depend on the scene alone, whatever file or study it came from.
 std::vector<Implausible> implausible_values(const Scene& scene);
 
-/// What `accept` may name: scene keys, "body.<name>.x" and ".r", derived quantities.
-std::vector<std::string> acceptable_names(const Scene& scene);
-
-/// Acceptances of values that are plausible anyway.
-std::vector<std::string> needless_acceptances(const Scene& scene);
+/// What `accept` may name: scene keys, "body.<name>.x" and ".r", derived quantities, and what of a
+/// calibration is foreign.
+std::vector<KeyDescription> acceptable_keys(const Scene& scene);
 
 }  // namespace launchsafe::scene

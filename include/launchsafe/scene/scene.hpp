@@ -181,9 +181,11 @@ struct Physics {
   double reaction_bound = 0.1;     ///< K of self-heating over the run
 };
 
-/// What the user says of a value that is allowed but not plausible: that it is meant, and why.
+/// What the user says of a value that is allowed but not plausible, or not the calibrated one: that this
+/// value is meant, and why.
 struct Acceptance {
   std::string key;
+  std::string value;  ///< as people write it; of a number also a range
   std::string because;
 };
 

@@ -4,6 +4,7 @@
 #include "launchsafe/study/gap_share.hpp"
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct CriticalGap {
   std::string reason;                 ///< why it is no value
   std::vector<GapShare> shares = {};  ///< what makes it uncertain; once known
   GapBounds bounds = {};              ///< that follow; NaN until the shares are known
+  /// Of one that is indeterminate for want of an acceptance alone: what the search found, on which nothing
+  /// rests; NaN otherwise.
+  GapOrBound indicative = std::numeric_limits<double>::quiet_NaN();
   CriticalGap();
 };
 

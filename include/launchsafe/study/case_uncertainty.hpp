@@ -69,15 +69,25 @@ struct LoadCurveErrors {
 };
 LoadCurveErrors load_curve_errors(const scene::Load& load);
 
-/// What a case's own input says against a verdict, besides its load (run::uncovered_load): values that are
-/// not plausible and that nobody accepted, constants from elsewhere. Nothing for a study without verdicts.
-std::vector<std::string> input_validity_warnings(const Study& study, const StudyCase& input);
-/// What is not plausible and why it is meant, for its verdict; empty for nothing.
+/// What of a case and of what its study states is not plausible, or foreign to the calibration; accepted or
+/// not. Nothing for a study without verdicts.
+std::vector<scene::Implausible> to_be_accepted(const Study& study, const StudyCase& input);
+/// What of that nobody accepted, for its verdicts; empty for nothing.
+std::string unaccepted_text(const Study& study, const StudyCase& input);
+/// What of that is accepted and why, for its verdicts; empty for nothing.
 std::string accepted_text(const Study& study, const StudyCase& input);
 
-/// Why a case that does not ignite is not safe for that, as its model is a bound on that side; empty for the
-/// others.
-std::string optimistic_text(const scene::Scene& scene);
+/// What all cases of a study rest on, each once.
+struct AcceptancesOfStudy {
+  std::vector<scene::Implausible> accepted;  ///< by key and by what the user writes as its value
+  std::vector<scene::Implausible> missing;   ///< by key and value
+  std::vector<std::string> extrapolated;     ///< as in the reasons of verdicts
+};
+AcceptancesOfStudy acceptances_of(const StudyFile& study);
+
+/// Why a case that does not ignite is not safe for that, as its model is a bound on that side, or only
+/// averages or removes heat beside the calibrated one; empty for the others.
+std::string optimistic_text(const Study& study, const scene::Scene& scene);
 
 /// What is extrapolated for a gap (m), for its verdict; empty for nothing.
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap);

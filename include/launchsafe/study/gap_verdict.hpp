@@ -1,6 +1,7 @@
 // What a study knows of one gap, and of one case with its gaps.
 #pragma once
 
+#include "launchsafe/study/as_calibrated.hpp"
 #include "launchsafe/study/bracket.hpp"
 #include "launchsafe/study/fit.hpp"
 #include "launchsafe/study/options.hpp"
@@ -38,7 +39,8 @@ struct GapVerdict {
   double early_spread = not_a_number;  ///< K, at Study::early_time
   double margin = not_a_number;        ///< K, to the ignition temperature
   double heated = not_a_number;  ///< K, T max of a skin that air and friction heat and that never reacts
-  surface::AirEnergy air;        ///< what the skin took from the air; NaN where nothing was computed
+  std::vector<AsCalibrated> as_calibrated;  ///< with foreign constants of the surface as calibrated
+  surface::AirEnergy air;  ///< what the skin took from the air; NaN where nothing was computed
   Uncertainty uncertainty;
   std::optional<NamedIgnition> ignition;  ///< at an observation point
   Evidence evidence;                      ///< what the judgement rests on

@@ -4,6 +4,7 @@
 #include "launchsafe/study/bracket.hpp"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace launchsafe::study {
@@ -44,6 +45,10 @@ struct Evidence {
   double uncertainty = 0;          ///< K
   /// Why a completed run is no basis (see run::validity_warnings); empty for a sound one.
   std::string validity_warnings = {};
+  /// What of the input is not plausible, or foreign to the calibration, and not accepted; empty for nothing.
+  std::string unaccepted = {};
+  /// K, margin with the constants of the surface as calibrated; infinite where they are.
+  double calibrated_margin = std::numeric_limits<double>::infinity();
   std::string optimistic = {};  ///< why no ignition shows nothing, for people; empty where it shows something
   std::string limited = {};     ///< limiters that acted, for people; empty where none did
   std::string noise = {};       ///< what the noise of a measured curve counts, for people; empty for nothing
@@ -59,13 +64,14 @@ struct Judgement {
 };
 
 /// The contract of a verdict, for a sound run: one that completed with finite temperatures and without
-/// validity warnings.
+/// validity warnings of its own. Every other run is INDETERMINATE.
 ///
-/// - UNSAFE: the gap ignites in the computation as it is stated.
-/// - SAFE: it does not, and is thinner than the lower bound of the critical gap (CriticalGap::bounds). Where
-///   nothing ignites up to the end of the search, that is the bound, and the margin must exceed the
-///   uncertainty besides.
-/// - INDETERMINATE: everything else, and every run that is not sound.
+/// - UNSAFE: the gap ignites in the computation as it is stated, whatever of its input nobody accepts.
+/// - SAFE: all of the input is plausible and of the calibration, or accepted; the gap does not ignite, nor
+///   would it within the uncertainty with the constants of its surface as calibrated; it is thinner than the
+///   lower bound of the critical gap (CriticalGap::bounds). Where nothing ignites up to the end of the search,
+///   that is the bound, and the margin must exceed the uncertainty besides.
+/// - INDETERMINATE: everything else.
 ///
 /// More uncertainty, a wider range or less evidence never moves a verdict towards SAFE. A verdict on a run in
 /// which limiters acted says so.
