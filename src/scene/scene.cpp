@@ -1,5 +1,7 @@
 #include "launchsafe/scene/scene.hpp"
 
+#include "launchsafe/scene/chamber.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,11 +25,11 @@ void enclose(Extent& extent, const Body& body) {
   extent.r_end = std::max(extent.r_end, body.r_end);
 }
 
-/// Area (m2) swept by the body's radial extent: a full ring, or a strip of 1 m depth.
-double cross_section(const Body& body, Symmetry symmetry) {
-  const double width = body.r_end - body.r_begin;
+/// Area (m2) between two radii: a full ring, or a strip of 1 m depth.
+double cross_section(double r_begin, double r_end, Symmetry symmetry) {
+  const double width = r_end - r_begin;
   if (symmetry == Symmetry::plane_strain) return width;
-  return std::numbers::pi * width * (body.r_end + body.r_begin);
+  return std::numbers::pi * width * (r_end + r_begin);
 }
 
 /// Around the bodies that a rule chooses.
@@ -140,7 +142,7 @@ double mass_of(const Scene& scene, std::string_view material) {
   double volume = 0.0;
   for (const Body& body : scene.bodies) {
     if (body.material != material) continue;
-    volume += cross_section(body, scene.symmetry) * (body.x_end - body.x_begin);
+    volume += cross_section(body.r_begin, body.r_end, scene.symmetry) * (body.x_end - body.x_begin);
   }
   const Material* of = find_material(scene, material);
   return of ? volume * initial_density(of->law) : 0.0;
@@ -153,12 +155,9 @@ double total_mass(const Scene& scene) {
 }
 
 double base_area(const Scene& scene) {
-  const Extent all = extent_of(scene);
-  const double tolerance = 1e-9 * (all.x_end - all.x_begin);
   double area = 0.0;
-  for (const Body& body : scene.bodies) {
-    if (body.x_end >= all.x_end - tolerance) area += cross_section(body, scene.symmetry);
-  }
+  for (const ChamberFace& face : chamber_of(scene).faces)
+    if (face.across_x()) area -= face.direction() * cross_section(face.begin, face.end, scene.symmetry);
   return area;
 }
 
@@ -185,6 +184,11 @@ std::string rigid_motion_text(const Scene& scene, double time) {
 }
 
 void settle_load(Scene& scene) {
+  const Chamber chamber = chamber_of(scene);
+  if (chamber.unclear.empty()) {
+    scene.load.obturation = chamber.band;
+    if (acts_on_rear_alone(scene, chamber)) scene.load.obturation.reset();
+  }
   const double area = base_area(scene);
   scene.load.mass_over_area = area > 0.0 ? total_mass(scene) / area : 0.0;
 }

@@ -235,6 +235,12 @@ std::vector<Key<Load>> load_keys() {
                          &Load::exit_decay),
               has_exit),
           between(0.1e-3, 3e-3), "the gas outruns the shot within some calibres"),
+      always_plausible(optional_number_key<Load>("obturation", Dimension::length, between(0, 10),
+                                                 "Place along x of the driving band, up to which the chamber "
+                                                 "pressure acts on all that faces the "
+                                                 "chamber; without it the foremost ring of full radius.",
+                                                 &Load::obturation),
+                       "it has to lie where the shell has its full radius"),
   };
 }
 

@@ -58,6 +58,7 @@ constexpr std::array special_keys{
     NamedRole{"kinetics.set", Role::none},             // its numbers count
     NamedRole{"kinetics.activation_temperature", Role::hot_below},
     NamedRole{"kinetics.ignition_temperature", Role::hot_below},
+    NamedRole{"load.obturation", Role::none},  // same_shell compares it
     NamedRole{"numerics.energy_drift_limit", Role::none},
     NamedRole{"numerics.time_step_factor", Role::none}  // moves T max by less than 0.1 K (reports/accuracy)
 };
@@ -85,6 +86,8 @@ bool same_body(const scene::Body& a, const scene::Body& b) {
 }
 
 bool same_shell(const Scene& a, const Scene& b) {
+  if (a.load.obturation.has_value() != b.load.obturation.has_value()) return false;
+  if (a.load.obturation && !near(*a.load.obturation, *b.load.obturation)) return false;
   return std::is_permutation(a.bodies.begin(), a.bodies.end(), b.bodies.begin(), b.bodies.end(), same_body);
 }
 

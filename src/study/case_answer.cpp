@@ -46,7 +46,7 @@ bool says(const GapVerdict& row, const InputStatements& statements, const Study&
   const Uncertainty& u = row.uncertainty;
   return std::all_of(statements.validity_warnings.begin(), statements.validity_warnings.end(), is_said) &&
          row.evidence.accepted == statements.accepted &&
-         row.evidence.optimistic == optimistic_text(input.scene.scene) &&
+         row.evidence.optimistic.starts_with(optimistic_text(study, input)) &&
          row.evidence.extrapolated == extrapolation_text(study, input, row.gap) &&
          !(u.numerical < input.numerical_uncertainty) &&
          !(u.fit < fit_share(study, statements.distance, {})) &&

@@ -1,6 +1,7 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 
 #include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
@@ -149,9 +150,25 @@ std::string accepted_text(const Study& study, const StudyCase& input) {
   return scene::accepted_text(implausible_in(study, input));
 }
 
-std::string optimistic_text(const scene::Scene& scene) {
-  if (scene.surface.air_model != scene::AirModel::film) return {};
-  return "no ignition under gap.air = \"film\", an optimistic bound, shows nothing";
+std::string optimistic_text(const Study& study, const StudyCase& input) {
+  constexpr double fewest_calibres = 10.0;
+  const scene::Scene& scene = input.scene.scene;
+  if (scene.surface.air_model == scene::AirModel::film)
+    return "no ignition under gap.air = \"film\", an optimistic bound, shows nothing";
+  const double calibres = scene::calibres_until(scene, scene::read_time(scene.load));
+  if (!study.kind.gives_verdicts || calibres >= fewest_calibres) return {};
+  return fmt::format(
+      "no ignition within {:.3g} calibres of travel shows nothing: no barrel is shorter than {:g}", calibres,
+      fewest_calibres);
+}
+
+std::string unheated_text(double friction_rise) {
+  constexpr double least_rise = 1.0;  // K
+  if (friction_rise >= least_rise) return {};
+  return fmt::format(
+      "friction heats the charge's bottom by {:.2g} K over the launch, less than {:g} K: no ignition shows "
+      "nothing",
+      friction_rise, least_rise);
 }
 
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap) {

@@ -213,6 +213,15 @@ std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
          (confirmation.expected_ignition ? "do" : "do not");
 }
 
+/// Why no ignition of a case shows nothing, by its input or by its run.
+std::string why_optimistic(const Study& study, const CaseOutcome& outcome) {
+  const scene::Scene& scene = outcome.input.scene.scene;
+  std::string text = optimistic_text(study, outcome.input);
+  if (!text.empty() || !outcome.completed() || outcome.result.mechanics.trace.samples() == 0) return text;
+  return unheated_text(heated_temperature(scene, outcome.result.mechanics.trace, 0.0) -
+                       scene.initial_temperature);
+}
+
 /// All validity warnings of a completed run as one clause.
 std::string validity_warnings_of(const Study& study, const CaseOutcome& outcome) {
   if (!outcome.completed()) return {};
@@ -369,6 +378,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
   const bool foreign = misses_calibrated_rows(outcome);
   const std::string warnings = validity_warnings_of(study, outcome);
   const std::string accepted = accepted_text(study, outcome.input);
+  const std::string optimistic = why_optimistic(study, outcome);
   std::vector<double> gaps, temperatures;
   for (GapVerdict& row : outcome.verdicts) {
     row.uncertainty.coupling = coupling;
@@ -377,7 +387,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
     Evidence& evidence = row.evidence;
     evidence.validity_warnings = warnings;
     evidence.accepted = accepted;
-    evidence.optimistic = optimistic_text(outcome.input.scene.scene);
+    evidence.optimistic = optimistic;
     evidence.model_form = model_form_text(study, outcome.input, row.gap, row.ignition.has_value());
     evidence.extrapolated = extrapolation_text(study, outcome.input, row.gap);
     judge_row(outcome.failure, outcome.result.mechanics.limiters, outcome.critical, row);

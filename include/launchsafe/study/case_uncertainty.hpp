@@ -75,9 +75,13 @@ std::vector<std::string> input_validity_warnings(const Study& study, const Study
 /// What is not plausible and why it is meant, for its verdict; empty for nothing.
 std::string accepted_text(const Study& study, const StudyCase& input);
 
-/// Why a case that does not ignite is not safe for that, as its model is a bound on that side; empty for the
-/// others.
-std::string optimistic_text(const scene::Scene& scene);
+/// Why a case that does not ignite is not safe for that, whatever it accepts: its model is a bound on that
+/// side, or its launch ends within ten calibres of travel. Empty for the others. No stress case of a
+/// stability study may pass because its launch is short.
+std::string optimistic_text(const Study& study, const StudyCase& input);
+/// Likewise of what its run shows: a bottom that friction does not heat by a kelvin (`friction_rise`, of T
+/// max without a gap, K) was not launched.
+std::string unheated_text(double friction_rise);
 
 /// What is extrapolated for a gap (m), for its verdict; empty for nothing.
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap);
