@@ -189,7 +189,7 @@ void TotalLagrangian::load_across(const scene::ChamberFace& face) {
     const double force = face.direction() * radial_measure(axisymmetric_, r) * lattice.length_r(j);
     for (int k = 0; k < 2; ++k) {
       const int row = w.cell_row + k;
-      chamber_load_.push_back({face.body, row, n.index(column, row), force * w.value[k], 0.0});
+      axial_load_.push_back({face.body, row, n.index(column, row), force * w.value[k]});
     }
   }
 }
@@ -203,8 +203,7 @@ void TotalLagrangian::load_along(const scene::ChamberFace& face) {
     const double from = lines_.x[line], to = lines_.x[line + 1], middle = 0.5 * (from + to);
     if (middle < face.begin || middle > face.end) continue;
     const double force = face.direction() * 0.5 * radial_measure(axisymmetric_, r) * (to - from);
-    for (const int column : {i, i + 1})
-      chamber_load_.push_back({face.body, row, n.index(column, row), 0.0, force});
+    for (const int column : {i, i + 1}) radial_load_.push_back({face.body, row, n.index(column, row), force});
   }
 }
 
@@ -269,11 +268,10 @@ void TotalLagrangian::for_each_bore_share(F&& f) const {
 }
 
 void TotalLagrangian::load_nodes(const StepInput& input) {
-  for (const LoadShare& share : chamber_load_) {
-    NodeSums& sums = nodes_[share.body].written(share.row);
-    sums.force_x[share.index] += input.pressure * share.force_x;
-    sums.force_r[share.index] += input.pressure * share.force_r;
-  }
+  for (const LoadShare& share : axial_load_)
+    nodes_[share.body].written(share.row).force_x[share.index] += input.pressure * share.force;
+  for (const LoadShare& share : radial_load_)
+    nodes_[share.body].written(share.row).force_r[share.index] += input.pressure * share.force;
   for_each_bore_share([&](std::size_t body, std::size_t node, double force) {
     nodes_[body].written(0).force_r[node] += force;
   });
@@ -291,10 +289,9 @@ void TotalLagrangian::load_nodes(const StepInput& input) {
 
 double TotalLagrangian::chamber_flow() const {
   double flow = 0.0;
-  for (const LoadShare& share : chamber_load_) {
-    const Nodes& n = nodes_[share.body];
-    flow += share.force_x * n.velocity_x[share.index] + share.force_r * n.velocity_r[share.index];
-  }
+  for (const LoadShare& share : axial_load_) flow += share.force * nodes_[share.body].velocity_x[share.index];
+  for (const LoadShare& share : radial_load_)
+    flow += share.force * nodes_[share.body].velocity_r[share.index];
   return flow;
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace launchsafe::scene {
 namespace {
@@ -183,12 +184,24 @@ std::string rigid_motion_text(const Scene& scene, double time) {
   return fmt::format("{:.4g} m/s after {:.3g} m of travel", motion.velocity, motion.travel);
 }
 
+namespace {
+
+/// Writes the band where the pressure acts on more than the rearmost faces, or only what is stated says so.
+void settle_band(Scene& scene) {
+  const std::optional<double> stated = std::exchange(scene.load.obturation, std::nullopt);
+  const Chamber usual = chamber_of(scene);
+  scene.load.obturation = stated;
+  const Chamber chamber = stated ? chamber_of(scene) : usual;
+  if (!chamber.unclear.empty()) return;
+  const bool says_nothing =
+      usual.unclear.empty() && usual.band == chamber.band && acts_on_rear_alone(scene, usual);
+  scene.load.obturation = says_nothing ? std::nullopt : std::optional(chamber.band);
+}
+
+}  // namespace
+
 void settle_load(Scene& scene) {
-  const Chamber chamber = chamber_of(scene);
-  if (chamber.unclear.empty()) {
-    scene.load.obturation = chamber.band;
-    if (acts_on_rear_alone(scene, chamber)) scene.load.obturation.reset();
-  }
+  settle_band(scene);
   const double area = base_area(scene);
   scene.load.mass_over_area = area > 0.0 ? total_mass(scene) / area : 0.0;
 }

@@ -18,7 +18,8 @@ duration = "1 ms"
 
 [gap]
 thickness = "0, 0.01 cm"
-)" + testing::small_shell + testing::small_shell_point;
+)" + testing::small_shell + testing::small_shell_point +
+                                       testing::small_shell_base;
 
 /// The text with its first `from` replaced by `to`.
 inline std::string with(std::string text, std::string_view from, std::string_view to) {

@@ -71,12 +71,12 @@ class TotalLagrangian {
     std::size_t body;
     int begin, end;
   };
-  /// Force of the chamber pressure on one node, N per Pa.
+  /// Force of the chamber pressure on one node, along x or r: N per Pa.
   struct LoadShare {
     std::size_t body;
     int row;
     std::size_t index;
-    double force_x, force_r;
+    double force;
   };
 
   Part make_part(const AnyBody& any, const Nodes& nodes) const;
@@ -104,7 +104,7 @@ class TotalLagrangian {
   std::vector<Part> parts_;   ///< by body
   double inertia_ = 0;        ///< kg per radian or metre, of all bodies
   std::vector<Tie> ties_;
-  std::vector<LoadShare> chamber_load_;
+  std::vector<LoadShare> axial_load_, radial_load_;
   std::unique_ptr<Contact> contact_;
   ContactTotals contact_totals_;  ///< of the step
   std::vector<BorePressure> bores_;
