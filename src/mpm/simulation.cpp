@@ -30,9 +30,10 @@ Simulation::Simulation(scene::Scene scene, int threads) : scene_(std::move(scene
   for (const scene::ChamberFace& face : scene::chamber_of(scene_).faces) {
     if (!face.across_x()) continue;
     const Lattice& lattice = particle_fields_of(bodies_[face.body]).lattice;
-    for (int j = 0; j < lattice.rows(); ++j)
-      if (const double r = lattice.r_of(j); r > face.begin && r < face.end)
-        loaded_area_ -= face.direction() * (axisymmetric() ? r : 1.0) * lattice.length_r(j);
+    for (int j = 0; j < lattice.rows(); ++j) {
+      const double r = lattice.r_of(j), area = (axisymmetric() ? r : 1.0) * lattice.length_r(j);
+      if (r > face.begin && r < face.end) loaded_area_ -= face.direction() * area;
+    }
   }
   if (scene_.numerics.formulation == scene::Formulation::total_lagrangian)
     form_.emplace<TotalLagrangian>(scene_, bodies_, threads);

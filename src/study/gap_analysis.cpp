@@ -217,7 +217,8 @@ std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
 std::string why_optimistic(const Study& study, const CaseOutcome& outcome) {
   const scene::Scene& scene = outcome.input.scene.scene;
   std::string text = optimistic_text(study, outcome.input);
-  if (!text.empty() || !outcome.completed() || outcome.result.mechanics.trace.samples() == 0) return text;
+  const bool judged = study.kind.gives_verdicts && outcome.completed();
+  if (!text.empty() || !judged || outcome.result.mechanics.trace.samples() == 0) return text;
   return unheated_text(heated_temperature(scene, outcome.result.mechanics.trace, 0.0) -
                        scene.initial_temperature);
 }

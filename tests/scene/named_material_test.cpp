@@ -49,7 +49,7 @@ TEST(NamedMaterial, ThatShipsGivesANumberAndASourceOfEveryKey) {
 /// What is called comp-b is what scenes have by default: all that was computed and calibrated with it holds.
 TEST(NamedMaterial, CompBAndShellSteelAreTheDefaults) {
   std::string both = of_comp_b;
-  for (int body = 0; body < 2; ++body)
+  for (int body = 0; body < 3; ++body)
     both = with(both, "material = \"steel\"", "material = \"shell-steel\"");
   const SceneFile named = scene_of(both), usual = scene_of(small_scene);
   Scene plain = named.scene;
@@ -141,7 +141,7 @@ TEST(NamedMaterial, OfTwoSteelsKeepTheirNumbersApart) {
 
 TEST(NamedMaterial, OfOneSteelIsTheSteelOfTheScene) {
   std::string text = small_scene;
-  for (int body = 0; body < 2; ++body) text = with(text, "material = \"steel\"", "material = \"hard\"");
+  for (int body = 0; body < 3; ++body) text = with(text, "material = \"steel\"", "material = \"hard\"");
   const SceneFile file = scene_of(text + hard_steel);
   EXPECT_EQ(file.scene.bodies[0].material, "steel");
   EXPECT_DOUBLE_EQ(file.scene.steel().strength.a, 1.2e9);
@@ -214,7 +214,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "cm\"\n",
             "body.booster.material"},
         MaterialFault{"a key of steel beside two named ones",
-                      with(with(small_scene, "\"steel\"", "\"hard\""), "\"steel\"", "\"shell-steel\"") +
+                      with(with(with(small_scene, "\"steel\"", "\"hard\""), "\"steel\"", "\"shell-steel\""),
+                           "\"steel\"", "\"shell-steel\"") +
                           "\n[steel]\nhardening = \"600 MPa\"\n" + hard_steel,
                       "steel.hardening"}),
     [](const auto& instance) {

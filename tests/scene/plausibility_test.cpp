@@ -228,7 +228,7 @@ TEST(Plausibility, AcceptanceOfABodyAndOfADerivedQuantity) {
   const std::string accept =
       "accept = [{ key = \"body.base.x\", because = \"a foil as its base\" }, "
       "{ key = \"gap.gas_law\", because = \"the air was dried\" }]\n";
-  const auto file = parse_scene(accept + small_scene + testing::small_shell_base, "shell.toml");
+  const auto file = parse_scene(accept + small_scene, "shell.toml");
   ASSERT_TRUE(file) << file.error().message();
   EXPECT_EQ(file->scene.accepted.size(), 2u);
 }

@@ -77,7 +77,7 @@ std::string accepted_text(const Study& study, const StudyCase& input);
 
 /// Why a case that does not ignite is not safe for that, whatever it accepts: its model is a bound on that
 /// side, or its launch ends within ten calibres of travel. Empty for the others. No stress case of a
-/// stability study may pass because its launch is short.
+/// stability study may pass because its launch is short or heats nothing.
 std::string optimistic_text(const Study& study, const StudyCase& input);
 /// Likewise of what its run shows: a bottom that friction does not heat by a kelvin (`friction_rise`, of T
 /// max without a gap, K) was not launched.
