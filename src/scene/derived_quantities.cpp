@@ -53,8 +53,7 @@ Number pressure_at_exit(const Scene& scene) {
 }
 Number calibres_to_exit(const Scene& scene) {
   const auto exit = exit_time(scene.load);
-  if (!exit) return std::nullopt;
-  return rigid_motion(scene, *exit).travel / (2.0 * extent_of(scene).r_end);
+  return exit ? Number(calibres_until(scene, *exit)) : std::nullopt;
 }
 
 /// Of an isotropic solid.

@@ -244,6 +244,12 @@ std::vector<Key<Load>> load_keys() {
                             &Load::expected_velocity),
                         [](const Load&) { return false; }),
           "the speed that the load gives is judged by load.launch_speed"),
+      always_plausible(optional_number_key<Load>("obturation", Dimension::length, between(0, 10),
+                                                 "Place along x of the driving band, up to which the chamber "
+                                                 "pressure acts on all that faces the "
+                                                 "chamber; without it the foremost ring of full radius.",
+                                                 &Load::obturation),
+                       "it has to lie where the shell has its full radius"),
   };
 }
 

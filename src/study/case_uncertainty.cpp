@@ -1,5 +1,6 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
@@ -205,14 +206,31 @@ AcceptancesOfStudy acceptances_of(const StudyFile& study) {
   return all;
 }
 
-std::string optimistic_text(const Study& study, const scene::Scene& scene) {
+std::string optimistic_text(const Study& study, const StudyCase& input) {
+  constexpr double fewest_calibres = 10.0;
+  const scene::Scene& scene = input.scene.scene;
   if (scene.surface.air_model == scene::AirModel::film)
     return "no ignition under gap.air = \"film\", an optimistic bound, shows nothing";
   if (!study.kind.gives_verdicts) return {};
   const std::vector<std::string> cooling = cooling_in(scene, study.calibration.scene);
-  if (cooling.empty()) return {};
-  return fmt::format("no ignition with {} shows nothing: that only averages or removes heat, accepted or not",
-                     fmt::join(cooling, ", "));
+  if (!cooling.empty())
+    return fmt::format(
+        "no ignition with {} shows nothing: that only averages or removes heat, accepted or not",
+        fmt::join(cooling, ", "));
+  const double calibres = scene::calibres_until(scene, scene::read_time(scene.load));
+  if (calibres >= fewest_calibres) return {};
+  return fmt::format(
+      "no ignition within {:.3g} calibres of travel shows nothing: no barrel is shorter than {:g}", calibres,
+      fewest_calibres);
+}
+
+std::string unheated_text(double friction_rise) {
+  constexpr double least_rise = 1.0;  // K
+  if (friction_rise >= least_rise) return {};
+  return fmt::format(
+      "friction heats the charge's bottom by {:.2g} K over the launch, less than {:g} K: no ignition shows "
+      "nothing",
+      friction_rise, least_rise);
 }
 
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap) {

@@ -218,6 +218,16 @@ std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
          (confirmation.expected_ignition ? "do" : "do not");
 }
 
+/// Why no ignition of a case shows nothing, by its input or by its run.
+std::string why_optimistic(const Study& study, const CaseOutcome& outcome) {
+  const scene::Scene& scene = outcome.input.scene.scene;
+  std::string text = optimistic_text(study, outcome.input);
+  const bool judged = study.kind.gives_verdicts && outcome.completed();
+  if (!text.empty() || !judged || outcome.result.mechanics.trace.samples() == 0) return text;
+  return unheated_text(heated_temperature(scene, outcome.result.mechanics.trace, 0.0) -
+                       scene.initial_temperature);
+}
+
 /// All validity warnings of a completed run itself as one clause.
 std::string validity_warnings_of(const CaseOutcome& outcome) {
   if (!outcome.completed()) return {};
@@ -380,6 +390,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
   const std::string unaccepted = unaccepted_text(study, outcome.input);
   const std::string accepted = accepted_text(study, outcome.input);
   const std::string ring = scene::ring_text(outcome.input.scene.scene.load);
+  const std::string optimistic = why_optimistic(study, outcome);
   std::vector<double> gaps, temperatures;
   for (GapVerdict& row : outcome.verdicts) {
     row.uncertainty.coupling = coupling;
@@ -389,7 +400,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
     evidence.validity_warnings = warnings;
     evidence.unaccepted = unaccepted;
     evidence.accepted = accepted;
-    evidence.optimistic = optimistic_text(study, outcome.input.scene.scene);
+    evidence.optimistic = optimistic;
     evidence.model_form = model_form_text(study, outcome.input, row.gap, row.ignition.has_value());
     evidence.extrapolated = extrapolation_text(study, outcome.input, row.gap);
     evidence.ring = ring;

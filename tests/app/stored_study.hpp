@@ -96,7 +96,7 @@ numerical_uncertainty = { value = "4 K", because = "for a test" }
 
 [[group]]
 name = "load"
-cases = [ { name = "as it is", set = { load.peak = "50 MPa" }, against = { numerics.time_step_factor = 0.25 } } ]
+cases = [ { name = "as it is", set = { load.peak = "250 MPa" }, against = { numerics.time_step_factor = 0.25 } } ]
 )";
 
 /// A small study of every kind, by the name of the kind.

@@ -19,7 +19,7 @@ class ChangedStudy : public StoredStudy {
 };
 
 TEST_F(ChangedStudy, IsRefusedAndToldOfUpdate) {
-  write("shell.toml", with(tiny_scene, "50 MPa", "55 MPa"));
+  write("shell.toml", with(tiny_scene, "250 MPa", "275 MPa"));
   const auto before = results_in("out");
   const Outcome refused = run({"study", "study.toml", "-o", "out"});
   EXPECT_EQ(refused.code, 2);
@@ -74,10 +74,10 @@ TEST_F(ChangedStudy, UpdateOfTheSameStudyMovesNothing) {
 }
 
 TEST_F(ChangedStudy, ExplainsWhyARunRuns) {
-  write("shell.toml", with(tiny_scene, "peak_time = \"0.035 ms\"", "peak_time = \"0.036 ms\""));
+  write("shell.toml", with(tiny_scene, "peak_time = \"0.35 ms\"", "peak_time = \"0.36 ms\""));
   const Outcome updated = run({"study", "study.toml", "-o", "out", "--update", "--explain"});
   EXPECT_EQ(updated.code, 0) << updated.err;
-  EXPECT_TRUE(updated.says("peak_pressure 50 MPa, crack_radius 20 um, gap.exchange_time 1 us: to run: "))
+  EXPECT_TRUE(updated.says("peak_pressure 250 MPa, crack_radius 20 um, gap.exchange_time 1 us: to run: "))
       << updated.err;
   EXPECT_TRUE(updated.says("peak_time")) << updated.err;
   const Outcome again = run({"study", "study.toml", "-o", "out", "--explain"});

@@ -266,7 +266,7 @@ TEST(Plausibility, AcceptanceOfABodyAndOfADerivedQuantity) {
   const std::string accept =
       "accept = [{ key = \"body.base.x\", value = \"4 to 5 cm\", because = \"a foil as its base\" }, "
       "{ key = \"gap.gas_law\", value = \"0.8\", because = \"the air was dried\" }]\n";
-  const auto file = parse_scene(accept + small_scene + testing::small_shell_base, "shell.toml");
+  const auto file = parse_scene(accept + small_scene, "shell.toml");
   ASSERT_TRUE(file) << file.error().message();
   EXPECT_EQ(file->scene.accepted.size(), 2u);
 }

@@ -50,12 +50,6 @@ TEST(Scene, ExtentsEncloseTheBodies) {
   EXPECT_EQ(extent_of(Scene{}).x_end, 0.0);
 }
 
-TEST(Scene, BaseAreaCountsOnlyFacesAtTheVeryBase) {
-  Scene scene;
-  scene.bodies = {{"rod", "steel", 0.0, 0.1, 0.0, 0.01}, {"ring", "steel", 0.0, 0.2, 0.01, 0.02}};
-  EXPECT_NEAR(base_area(scene), std::numbers::pi * (0.02 * 0.02 - 0.01 * 0.01), 1e-18);
-}
-
 TEST(PressureHistory, PowerExponentialRisesToItsPeakAndFalls) {
   Load load;
   load.shape = LoadShape::power_exponential;

@@ -18,7 +18,8 @@ duration = "1 ms"
 
 [gap]
 thickness = "0, 0.01 cm"
-)" + testing::small_shell + testing::small_shell_point;
+)" + testing::small_shell + testing::small_shell_point +
+                                       testing::small_shell_base;
 
 /// The bell that the published temperatures imply.
 inline Load published_bell() {

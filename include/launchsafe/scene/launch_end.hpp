@@ -22,6 +22,9 @@ double launch_end(const Load& load);
 /// curve is 0.
 double share_left(const Load& load, double time);
 
+/// Travel of the projectile as one rigid body until a time (s), over its diameter.
+double calibres_until(const Scene& scene, double time);
+
 /// Whether the simulation ends before the launch is over.
 bool is_cut_short(const Load& load);
 
