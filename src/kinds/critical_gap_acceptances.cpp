@@ -21,9 +21,9 @@ Table as_calibrated_table(const CriticalGapResult& result) {
                               each.ignites ? "yes" : "no"});
   if (!table.rows.empty())
     table.notes.emplace_back(
-        "The same skin on the same trace, but for this constant. A gap is SAFE only where it would be within "
-        "the "
-        "uncertainty with all of gap and friction as calibrated too.");
+        "The same skin on the same trace, but for this constant. What all of gap and friction together "
+        "change "
+        "lowers the bound of the critical gap.");
   return table;
 }
 

@@ -3,6 +3,7 @@
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/surface/skin.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace launchsafe::study {
@@ -28,15 +29,25 @@ std::vector<std::string> keys_as_calibrated(const CalibrationDistance& distance)
   return keys;
 }
 
+bool has_foreign_surface(const CalibrationDistance& distance) {
+  return std::ranges::any_of(distance.foreign, is_of_surface, &scene::Implausible::key);
+}
+
+scene::Scene with_calibrated_surface(const scene::Scene& scene, const scene::Scene& calibrated,
+                                     const CalibrationDistance& distance) {
+  scene::Scene changed = scene;
+  for (const scene::Implausible& each : distance.foreign)
+    if (is_of_surface(each.key)) set_as_calibrated(each.key, calibrated, changed);
+  return changed;
+}
+
 std::vector<AsCalibrated> as_calibrated(const scene::Scene& scene, const scene::Scene& calibrated,
                                         const CalibrationDistance& distance, const trace::BottomTrace& trace,
                                         double gap) {
   std::vector<AsCalibrated> all;
-  const std::vector<std::string> keys = keys_as_calibrated(distance);
-  for (const std::string& key : keys) {
-    scene::Scene changed = scene;
-    for (const std::string& each : keys)
-      if (key.empty() ? is_of_surface(each) : each == key) set_as_calibrated(each, calibrated, changed);
+  for (const std::string& key : keys_as_calibrated(distance)) {
+    scene::Scene changed = key.empty() ? with_calibrated_surface(scene, calibrated, distance) : scene;
+    if (!key.empty()) set_as_calibrated(key, calibrated, changed);
     const auto skin = surface::integrate_skin(surface::skin_model(changed), trace, gap);
     all.push_back({key, surface::maximum_at_stations(skin, trace).temperature, skin.ignition.has_value()});
   }

@@ -70,6 +70,8 @@ bool has_all_shares(const CriticalGap& critical, const Study& study, const Study
   if (propagates_spread(study) &&
       !(has(ShareKind::peak_pressure) && has(ShareKind::pulse_length) && has(ShareKind::initial_temperature)))
     return false;
+  const bool accepted = study.kind.gives_verdicts && has_foreign_surface(distance);
+  if (accepted && !has(ShareKind::accepted)) return false;
   return (has(ShareKind::computation) || !(input.numerical_uncertainty > 0.0)) &&
          (has(ShareKind::fit) || !(fit_share(study, distance, {}) > 0.0)) &&
          (has(ShareKind::stated_inputs) || !(stated_input_share(study, input) > 0.0)) &&

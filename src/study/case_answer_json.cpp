@@ -89,7 +89,7 @@ std::vector<GapShare> shares_of(const json& value) {
   for (const json& each : value) {
     list_of(each, 3);
     shares.push_back(
-        {enumerator_of(each.at(0), ShareKind::model_form), amount_of(each.at(1)), amount_of(each.at(2))});
+        {enumerator_of(each.at(0), last_share_kind), amount_of(each.at(1)), amount_of(each.at(2))});
   }
   return shares;
 }

@@ -68,6 +68,7 @@ class Causes {
       add_temperature(ShareKind::model_form, *stated);
     else
       add_shift(ShareKind::model_form);
+    add_accepted();
   }
 
   std::vector<RaisedLaunch> take() { return std::move(raised_); }
@@ -105,6 +106,16 @@ class Causes {
     const double factor = 1.0 + friction_share(outcome_) / rise_;
     add(ShareKind::sliding, heated_more(skin_, factor, factor), trace_where_known(factor),
         opening_at_base(outcome_));
+  }
+
+  /// Constants that somebody accepts buy nothing: what the calibrated ones change is not known to be wrong.
+  void add_accepted() {
+    if (!study_.kind.gives_verdicts || !towards()) return;
+    const scene::Scene &scene = outcome_.input.scene.scene, &calibrated = study_.calibration.scene;
+    const CalibrationDistance distance = distance_to_calibration(scene, study_.calibration);
+    if (has_foreign_surface(distance))
+      add(ShareKind::accepted, surface::skin_model(with_calibrated_surface(scene, calibrated, distance)),
+          trace_);
   }
 
   void add_shift(ShareKind kind) {

@@ -34,6 +34,9 @@ Judgement judge_margin(const Evidence& evidence, const CriticalGap& critical) {
   // Written so that NaN is never safe.
   if (!(evidence.margin > evidence.uncertainty))
     return indeterminate(margin_text("within the uncertainty,", evidence));
+  if (!(evidence.calibrated_margin > evidence.uncertainty))
+    return indeterminate(
+        "with the constants of the surface as calibrated the margin is within the uncertainty");
   if (!(evidence.gap <= critical.bounds.at_least))
     return indeterminate("the critical gap may be as small as " + centimetres(critical.bounds.at_least));
   return {Verdict::safe, margin_text("over uncertainty", evidence)};
@@ -69,13 +72,6 @@ Judgement judge_sound(const Evidence& evidence, const CriticalGap& critical) {
   // Written so that NaN is never safe.
   if (!(evidence.margin > 0.0)) return indeterminate("no margin to the ignition temperature");
   if (!evidence.optimistic.empty()) return indeterminate(evidence.optimistic);
-  if (!(evidence.calibrated_margin > evidence.uncertainty))
-    return indeterminate(
-        std::isfinite(evidence.calibrated_margin)
-            ? fmt::format("with the constants of the surface as calibrated the margin is {}, within the "
-                          "uncertainty, {}",
-                          kelvin(evidence.calibrated_margin, 3), kelvin(evidence.uncertainty, 2))
-            : "ignition with the constants of the surface as calibrated");
   return judge_in_gap(evidence, critical);
 }
 

@@ -101,14 +101,14 @@ TEST(Verdict, WhatNobodyAcceptsIsNeverSafeAndUndoesNoIgnition) {
   EXPECT_EQ(judge(evidence, critical_at(2e-4, 1e-6)).verdict, Verdict::indeterminate);
 }
 
-TEST(Verdict, SafeNeedsTheMarginOfTheConstantsAsCalibrated) {
+TEST(Verdict, WithoutACriticalGapInReachTheMarginOfTheConstantsAsCalibratedDecidesToo) {
   Evidence evidence = calm();
   for (const double margin : {0.1, 0.05, -1.0, nan_value, -std::numeric_limits<double>::infinity()}) {
     evidence.calibrated_margin = margin;
-    EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate) << margin;
+    EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::indeterminate) << margin;
   }
   evidence.calibrated_margin = 0.2;
-  EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::safe);
+  EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::safe);
 }
 
 TEST(Verdict, WhatIsExtrapolatedStandsInEveryReason) {

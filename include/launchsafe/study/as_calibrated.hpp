@@ -21,6 +21,12 @@ struct AsCalibrated {
 /// where there are any, then each, then the ignition temperature.
 std::vector<std::string> keys_as_calibrated(const CalibrationDistance& distance);
 
+/// Whether constants of the gap or of friction are among them.
+bool has_foreign_surface(const CalibrationDistance& distance);
+/// The scene with all of these as calibrated, whatever else of it is foreign.
+scene::Scene with_calibrated_surface(const scene::Scene& scene, const scene::Scene& calibrated,
+                                     const CalibrationDistance& distance);
+
 /// The skin of a gap (m) with each of these as calibrated.
 std::vector<AsCalibrated> as_calibrated(const scene::Scene& scene, const scene::Scene& calibrated,
                                         const CalibrationDistance& distance, const trace::BottomTrace& trace,

@@ -27,9 +27,11 @@ enum class ShareKind {
   computation,
   sliding,
   fit,
-  model_form
+  model_form,
+  accepted  ///< constants of gap and friction that are accepted and not the calibrated ones
 };
-inline constexpr std::size_t share_kinds = 10;
+inline constexpr ShareKind last_share_kind = ShareKind::accepted;
+inline constexpr std::size_t share_kinds = 11;
 
 struct ShareTraits {
   std::string name;   ///< in files: "peak_pressure"
