@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(
               "peak_time = ",
               "peek_time = ",
               {":7:", "load.peek_time", "did you mean", "peak_time"}},
-        Fault{"WrongUnit", "\"250 MPa\"", "\"50 ms\"", {":6:", "load.peak", "50 ms", "MPa"}},
+        Fault{"WrongUnit", "\"50 MPa\"", "\"50 ms\"", {":6:", "load.peak", "50 ms", "MPa"}},
         Fault{"CurveWithOnePoint",
               "exponent = 3",
               "curve_time = \"0 ms\"\ncurve_pressure = \"1 MPa\"",

@@ -80,7 +80,7 @@ TEST_F(HostileFileProgram, WhatIsNoRegularFileIsRefusedAtOnce) {
     expect_refused({"run", file, "-o", "out"}, {kind});
     expect_refused({"study", file, "-o", "out"}, {kind});
     expect_refused({"explain", file}, {kind});
-    write("scene.toml", with(tiny_scene, "base = \"0 Pa\"\npeak = \"250 MPa\"", "curve = \"" + file + "\""));
+    write("scene.toml", with(tiny_scene, "base = \"0 Pa\"\npeak = \"50 MPa\"", "curve = \"" + file + "\""));
     expect_refused({"run", "scene.toml", "-o", "out"}, {kind});
     write("study.toml", "kind = \"critical-gap\"\nscene = \"" + file + "\"\n");
     expect_refused({"study", "study.toml", "-o", "out"}, {kind});
@@ -96,7 +96,7 @@ class CurveProgram : public Program {
   Outcome explained(const std::string& curve, const std::string& more = "") {
     write("curve.csv", curve);
     write("scene.toml",
-          with(tiny_scene, "base = \"0 Pa\"\npeak = \"250 MPa\"\npeak_time = \"0.35 ms\"\nexponent = 3",
+          with(tiny_scene, "base = \"0 Pa\"\npeak = \"50 MPa\"\npeak_time = \"0.035 ms\"\nexponent = 3",
                "curve = \"curve.csv\"\n" + more));
     return run({"explain", "scene.toml"});
   }

@@ -94,7 +94,7 @@ TEST_F(RunProgram, ADifferentInputIsRefusedAndTheResultLeftAsItWas) {
   write("shell.toml", tiny_scene);
   ASSERT_EQ(run({"run", "shell.toml", "-o", "out"}).code, 0);
   const std::string before = read("out/shell.h5");
-  write("shell.toml", with(tiny_scene, "250 MPa", "300 MPa"));
+  write("shell.toml", with(tiny_scene, "50 MPa", "60 MPa"));
   const Outcome outcome = run({"run", "shell.toml", "-o", "out"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_TRUE(outcome.says("out/shell.h5")) << outcome.err;

@@ -18,7 +18,7 @@ input_uncertainty = { value = "2 K", because = "for a test" }
 model_form_uncertainty = { value = "1 K", because = "for a test" }
 
 [axes]
-peak_pressure = "40, 50, 300 MPa"
+peak_pressure = "40, 50, 60 MPa"
 gap = "0, 0.01 cm"
 )";
 
@@ -123,7 +123,7 @@ TEST_F(SlurmProgram, AsksForTheMemoryOfAllCasesOfThePlan) {
 
 TEST_F(SlurmProgram, TheTimeFollowsFromTheSlowestShard) {
   write("shell.toml",
-        with(with(tiny_scene, "1.5 ms", "20 ms"), "cell_size = \"5 mm\"", "cell_size = \"0.1 mm\""));
+        with(with(tiny_scene, "0.15 ms", "20 ms"), "cell_size = \"5 mm\"", "cell_size = \"0.1 mm\""));
   const auto minutes = [this](const std::string& jobs) {
     std::filesystem::remove_all(folder() / "out");
     return nlohmann::json::parse(emit({"--jobs", jobs, "--json"}).out)["time_s"].get<double>() / 60.0;
@@ -174,7 +174,7 @@ TEST_F(SlurmProgram, BadInputLeavesNothing) {
 
 TEST_F(SlurmProgram, AFolderOfAnotherStudyIsRefused) {
   ASSERT_NE(run({"study", "sweep.toml", "-o", "out"}).code, 2);
-  write("sweep.toml", with(small_sweep, "300 MPa", "70 MPa"));
+  write("sweep.toml", with(small_sweep, "60 MPa", "70 MPa"));
   EXPECT_EQ(emit().code, 2);
   EXPECT_FALSE(exists("out/slurm"));
 }
