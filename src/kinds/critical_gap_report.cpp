@@ -49,38 +49,6 @@ bool is_within_bounds(const CaseOutcome& outcome, const study::GapVerdict& row) 
          row.evidence.validity_warnings.empty() && row.evidence.unaccepted.empty();
 }
 
-<<<<<<< HEAD
-=======
-/// What would tell more of a cause.
-const char* remedy_for(ShareKind kind) {
-  switch (kind) {
-    case ShareKind::peak_pressure:
-      return "a measured spread of the peak pressure";
-    case ShareKind::pulse_length:
-      return "measured curves of several rounds";
-    case ShareKind::initial_temperature:
-      return "a narrower range of temperatures";
-    case ShareKind::muzzle_exit:
-      return "a measured time of the exit";
-    case ShareKind::stated_inputs:
-      return "a better known launch";
-    case ShareKind::load_curve:
-      return "a gauge with less noise";
-    case ShareKind::computation:
-      return "a finer setting, or a record of its accuracy";
-    case ShareKind::sliding:
-      return "a base that holds the charge";
-    case ShareKind::fit:
-      return "more measured temperatures to calibrate on";
-    case ShareKind::model_form:
-      return "measurements of how the shell holds the charge";
-    case ShareKind::accepted:
-      return "a calibration with these constants";
-  }
-  return "";
-}
-
->>>>>>> accept
 /// The cause that lowers the bound most; nothing without any.
 std::string largest_cause(const study::CriticalGap& gap) {
   const auto moves = [&](const GapShare& share) { return move_towards_ignition(gap.lower, share); };

@@ -66,23 +66,12 @@ struct Judgement {
 /// The contract of a verdict, for a sound run: one that completed with finite temperatures and without
 /// validity warnings of its own. Every other run is INDETERMINATE.
 ///
-<<<<<<< HEAD
 /// - UNSAFE: the gap ignites in the computation as it is stated, whatever of its input nobody accepts.
-/// - SAFE: all of the input is plausible and of the calibration, or accepted; the gap does not ignite, nor
-///   would it within the uncertainty with the constants of its surface as calibrated; it is thinner than the
-///   lower bound of the critical gap (CriticalGap::bounds). Where nothing ignites up to the end of the search,
-///   that is the bound, and the margin must exceed the uncertainty besides.
+/// - SAFE: all of the input is plausible and of the calibration, or accepted; the gap does not ignite, and is
+///   thinner than the lower bound of the critical gap (CriticalGap::bounds). Where nothing ignites up to the
+///   end of the search, that is the bound, and the margin must exceed the uncertainty besides, also with the
+///   constants of the surface as calibrated.
 /// - INDETERMINATE: everything else.
-=======
-/// UNSAFE: the gap ignites in the computation as it is stated, whatever of its input nobody accepts.
-///
-/// SAFE: all of the input is plausible and of the calibration, or accepted; the gap does not ignite, and is
-/// thinner than the lower bound of the critical gap (CriticalGap::bounds). Where nothing ignites up to the
-/// end of the search, that is the bound, and the margin must exceed the uncertainty besides, also with the
-/// constants of the surface as calibrated.
-///
-/// INDETERMINATE: everything else.
->>>>>>> accept
 ///
 /// More uncertainty, a wider range or less evidence never moves a verdict towards SAFE. A verdict on a run in
 /// which limiters acted says so.
