@@ -75,8 +75,10 @@ TEST(StudyPlausibility, AnImplausibleValueIsIndeterminateUntilItIsAccepted) {
     EXPECT_TRUE(says(judgement_in(warned).reason, named)) << judgement_in(warned).reason;
     EXPECT_TRUE(says(judgement_in(warned).reason, "not plausible")) << judgement_in(warned).reason;
     EXPECT_EQ(warned.cases[0].critical.kind, CriticalGapKind::indeterminate) << key;
-    const std::string shell =
-        key.starts_with("body.") ? "{ key = \"calibration\", because = \"another shell\" }, " : "";
+    const std::string shell = key.starts_with("body.")
+                                  ? "{ key = \"calibration\", because = \"another shell\" }, "
+                                    "{ key = \"load.launch_speed\", because = \"it is light\" }, "
+                                  : "";
     std::string reasons = accept(key, "it was measured so");
     reasons.insert(reasons.find('[') + 1, shell);
     const Judgement accepted = judgement_in(run_safe_study(reasons, overrides));
@@ -181,7 +183,11 @@ TEST(StudyPlausibility, TheShellThatNobodyTakesTheConstantsOverForIsNeverSafe) {
     EXPECT_EQ(each.judgement.verdict, Verdict::indeterminate);
     EXPECT_TRUE(says(each.judgement.reason, "calibrated on another launch")) << each.judgement.reason;
   }
-  const std::string taken_over = accept("calibration", "for this test") + text + whole;
+  // 280 MPa also lie below the pressures of other models.
+  const std::string taken_over =
+      "accept = [{ key = \"calibration\", because = \"for this test\" }, "
+      "{ key = \"model_form.pressure\", because = \"for this test\" }]\n" +
+      text + whole;
   const Judgement& judgement = judgement_in(run_critical_gap(study_of(taken_over), options));
   EXPECT_EQ(judgement.verdict, Verdict::safe) << judgement.reason;
 }
