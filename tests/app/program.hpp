@@ -77,6 +77,19 @@ value = "9 to 15 m/s"
 because = "a launch that takes milliseconds to compute"
 [[accept]]
 key = "model_form.pressure"
+value = "50 to 100 MPa"
+because = "a launch that takes milliseconds to compute"
+[[accept]]
+key = "model_form.pressure"
+value = "100 to 200 MPa"
+because = "a launch that takes milliseconds to compute"
+[[accept]]
+key = "model_form.pressure"
+value = "200 to 400 MPa"
+because = "a launch that takes milliseconds to compute"
+[[accept]]
+key = "model_form.pressure"
+value = "550 to 1100 MPa"
 because = "a launch that takes milliseconds to compute"
 [[accept]]
 key = "load.travel"

@@ -173,7 +173,9 @@ TEST(CaseUncertainty, ARaisedLoadThatCannotBeComputedLeavesNothingSafe) {
 TEST(CaseUncertainty, TheErrorOfTheConstantsGrowsWithTheHeat) {
   const double pressure = 496.0 * std::sqrt(1.5);
   const GapVerdict row =
-      first_row(stated + "accept = [{ key = \"model_form.pressure\", because = \"a test of the rule\" }]\n" +
+      first_row(stated +
+                "accept = [{ key = \"model_form.pressure\", value = \"600 to 610 MPa\", "
+                "because = \"a test of the rule\" }]\n" +
                 fmt::format("peak_pressures = \"{} MPa\"\n", pressure));
   EXPECT_NEAR(row.uncertainty.fit, 1.5 * 2.0, 5e-3);
   EXPECT_NEAR(row.uncertainty.input, 1.5 * 1.5 * 3.0, 1e-6);  // the fourth power of the pressure
