@@ -52,7 +52,7 @@ ShardNeeds needs_of(const study::Forecast& whole, int shards, int jobs) {
       own_memories.push_back(whole.runs[i].given_up ? 0.0 : whole.runs[i].memory);
     }
     needs.time = std::max(needs.time, time_on(own_times, jobs));
-    needs.memory = std::max(needs.memory, sum_of_largest(own_memories, jobs));
+    needs.memory = std::max(needs.memory, whole.plan_memory + sum_of_largest(own_memories, jobs));
     if (own_times.empty()) ++needs.idle;
   }
   return needs;

@@ -2,6 +2,7 @@
 
 #include "launchsafe/report/columns.hpp"
 #include "launchsafe/run/cost.hpp"
+#include "launchsafe/scene/chamber.hpp"
 #include "launchsafe/scene/grid_intervals.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/launch_end.hpp"
@@ -185,6 +186,9 @@ nlohmann::ordered_json load_json(const scene::Scene& scene) {
           {"end_s", end_time},
           {"cut_short", scene::is_cut_short(load)},
           {"peak_pa", history.peak()},
+          {"driving_band_m", scene::chamber_of(scene).band},
+          {"driven_area_m2", scene::base_area(scene)},
+          {"driving_force_n", scene::base_area(scene) * history.peak()},
           {"velocity_at_the_end_m_per_s", end.velocity},
           {"travel_at_the_end_m", end.travel},
           {"stated_peak_pa", history.stated_peak()},

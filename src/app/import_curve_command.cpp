@@ -35,7 +35,7 @@ std::string what_was_done(const ImportCurveArguments& arguments, const Import& i
   const std::string quiet = cleaned.quiet_points == 0
                                 ? std::string("as given; no quiet points to see noise in")
                                 : fmt::format("{} {} points before the rise; noise {} (standard deviation)",
-                                              arguments.offset ? "as given;" : "median of",
+                                              arguments.offset ? "as given, and that of" : "median of",
                                               cleaned.quiet_points, pressure_text(cleaned.noise));
   std::string text = fmt::format(
       "record   {} points from {} to {}\noffset   {}, {}\ntrigger  {} above it is passed at {}, which is 0 "

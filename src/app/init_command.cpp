@@ -31,6 +31,10 @@ std::string scaled_length(double published, double factor) {
   return fmt::format("{:g}", std::round(2.0 * published * factor) / 2.0);
 }
 
+constexpr const char* expected_velocity_line =
+    "\n# expected_velocity = \"... m/s\"   # type it from the range table, and a pressure in a wrong unit is "
+    "found";
+
 /// The lines of [load].
 std::string load_lines(const InitArguments& arguments, const std::optional<scene::PressureCurve>& curve) {
   if (curve) {
@@ -70,7 +74,7 @@ NamedTexts files_of(const InitArguments& arguments, const std::optional<scene::P
                           {"length", scaled_length(740, factor)},
                           {"bore", scaled_length(65, factor)},
                           {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
-                          {"load", load_lines(arguments, curve)},
+                          {"load", load_lines(arguments, curve) + expected_velocity_line},
                           {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
   NamedTexts files{{"scene.toml", filled(scene_template, values)},
                    {"critical_gap.toml", filled(study_template, values)},

@@ -17,8 +17,7 @@ namespace {
 using namespace launchsafe;
 using namespace launchsafe::app;
 
-constexpr const char* out_of_memory =
-    "out of memory; a coarser numerics.cell_size, fewer --jobs or a smaller --memory need less";
+constexpr const char* out_of_memory = "out of memory";
 constexpr const char* unknown_error = "internal error: an exception of an unknown kind";
 
 /// Version, commit, compiler, flags and libraries.
@@ -59,12 +58,21 @@ std::string format_of(const CommandLine& line) {
   return fmt::format("launchsafe {}{}{}", line.command, line.command.empty() ? "" : " ", version);
 }
 
+/// What needs less: a run is large for its cells, a study for its cases.
+std::string out_of_memory_in(const std::string& command) {
+  if (command == "run" || command == "explain")
+    return std::string(out_of_memory) + "; a coarser numerics.cell_size needs less";
+  if (command == "study" || command == "emit" || command == "merge")
+    return std::string(out_of_memory) + "; fewer cases in the study, or fewer --jobs, need less";
+  return out_of_memory;
+}
+
 /// Whatever a command throws is its error.
 ExitCode perform_request(const CommandLine& line, Console& console) {
   try {
     return std::visit([&](const auto& request) { return perform(request, console); }, line.request);
   } catch (const std::bad_alloc&) {
-    console.error(out_of_memory);
+    console.error(out_of_memory_in(line.command));
   } catch (const std::exception& error) {
     console.error(fmt::format("internal error: {}", error.what()));
   } catch (...) {

@@ -121,10 +121,6 @@ std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mec
   text += line("status", mechanics.status == run::RunStatus::completed
                              ? run::to_string(mechanics.status)
                              : fmt::format("{}: {}", run::to_string(mechanics.status), mechanics.reason));
-  if (const std::string measured = scene::measured_load_text(scene.load); !measured.empty())
-    text += line("load", measured);
-  if (const std::string exit = scene::exit_text(scene); !exit.empty()) text += line("muzzle exit", exit);
-  text += line("end of the launch", scene::end_text(scene));
   text += line("simulated", scene::time_text(mechanics.end_time));
   std::string masses;
   for (const run::MaterialMass& each : mechanics.masses)
@@ -212,9 +208,19 @@ std::string combustion_text(const scene::Scene& scene, const run::CaseResult& re
   return text;
 }
 
-/// A table of the gaps, then the energy balance, the limiters that acted, and what the run cost.
+/// What a person who knows the gun recognises.
+std::string launch_text(const scene::Scene& scene) {
+  std::string text = "Launch\n";
+  if (const std::string exit = scene::exit_text(scene); !exit.empty()) text += line("muzzle exit", exit);
+  text += line("end of the launch", scene::end_text(scene));
+  if (const std::string measured = scene::measured_load_text(scene.load); !measured.empty())
+    text += line("load", measured);
+  return text + "\n";
+}
+
+/// The launch, a table of the gaps, then the energy balance, the limiters that acted, and what the run cost.
 std::string case_text(const scene::Scene& scene, const run::CaseResult& result) {
-  std::string text;
+  std::string text = launch_text(scene);
   if (!result.gaps.empty()) {
     text += report::to_text(gap_table(scene, result)) + "\n";
     text += report::to_text(air_table(scene, result)) + "\n";

@@ -93,8 +93,9 @@ std::string memory_text(const SlurmStudy& study) {
                        size_text(*study.asked.memory));
   }
   return fmt::format(
-      "{:.1f} MiB are predicted for the cases that run side by side; asked for are a quarter more and {} "
-      "MiB.",
+      "{:.1f} MiB are predicted for the plan and the cases that run side by side; asked for are a quarter "
+      "more "
+      "and {} MiB.",
       study.needs.memory / mebibyte, spare_mebibytes);
 }
 
@@ -146,6 +147,9 @@ NamedTexts slurm_scripts(const SlurmStudy& study) {
   const TextValues values{
       {"folder", shell_quoted(slurm_folder(study.asked.output).string())},
       {"job", job_name(study)},
+      {"journal", study.asked.shards > 1
+                      ? fmt::format("journal.$SLURM_ARRAY_TASK_ID-of-{}.jsonl", study.asked.shards)
+                      : std::string("journal.jsonl")},
       {"jobs", std::to_string(study.asked.jobs)},
       {"least_minutes", std::to_string(least_minutes)},
       {"limits", limits_of(study)},

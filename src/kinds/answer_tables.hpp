@@ -19,6 +19,7 @@ struct SweepCounts {
   std::map<study::CriticalGapKind, std::size_t> critical_gaps{{study::CriticalGapKind::value, 0},
                                                               {study::CriticalGapKind::all_safe, 0},
                                                               {study::CriticalGapKind::all_ignite, 0},
+                                                              {study::CriticalGapKind::several_crossings, 0},
                                                               {study::CriticalGapKind::indeterminate, 0}};
   std::map<study::Verdict, std::size_t> verdicts{
       {study::Verdict::safe, 0}, {study::Verdict::unsafe, 0}, {study::Verdict::indeterminate, 0}};

@@ -30,6 +30,7 @@ double position_of(const CriticalGap& gap) {
     case CriticalGapKind::value:
       return 100.0 * gap.value;
     case CriticalGapKind::all_safe:
+    case CriticalGapKind::several_crossings:
       return 100.0 * gap.lower;
     case CriticalGapKind::all_ignite:
       return 100.0 * gap.upper;
@@ -40,16 +41,17 @@ double position_of(const CriticalGap& gap) {
 }
 
 /// One mark and colour for every kind, in the order of CriticalGapKind.
-constexpr std::array<Mark, 4> kind_marks{Mark::circle, Mark::up_triangle, Mark::down_triangle, Mark::cross};
-constexpr std::array<int, 4> kind_colours{0, 2, 1, 7};
+constexpr std::array<Mark, 5> kind_marks{Mark::circle, Mark::up_triangle, Mark::down_triangle, Mark::cross,
+                                         Mark::diamond};
+constexpr std::array<int, 5> kind_colours{0, 2, 1, 7, 3};
 
 }  // namespace
 
-std::array<std::string, 4> kind_labels(const std::vector<const CriticalGap*>& gaps) {
+std::array<std::string, 5> kind_labels(const std::vector<const CriticalGap*>& gaps) {
   return {"computed value",
           bound_label(gaps, CriticalGapKind::all_safe, "above the searched gaps") + " (bound)",
           bound_label(gaps, CriticalGapKind::all_ignite, "ignites at every gap") + " (bound)",
-          "indeterminate or failed"};
+          "indeterminate or failed", "the first of several crossings"};
 }
 
 CriticalGapKind drawn_kind(const CriticalGap& gap) {

@@ -11,7 +11,7 @@
 namespace launchsafe::kinds {
 
 /// What the marks of every kind mean, in the order of CriticalGapKind.
-std::array<std::string, 4> kind_labels(const std::vector<const study::CriticalGap*>& gaps);
+std::array<std::string, 5> kind_labels(const std::vector<const study::CriticalGap*>& gaps);
 
 /// The critical gaps of outcomes or answers, in their order.
 template <class Case>

@@ -4,6 +4,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,22 +20,24 @@ namespace {
 
 std::string answer_of(const CaseOutcome& outcome) {
   const study::CriticalGap& gap = outcome.critical;
-  const std::string remark = gap.reason.empty() ? "" : " (" + gap.reason + ")";
   switch (gap.kind) {
     case CriticalGapKind::value: {
       const bool confirmed = !outcome.confirmations.empty();
-      return fmt::format("the critical gap is {}{}: {} does not ignite, {} does{}{}.", centimetres(gap.value),
-                         std::isfinite(gap.bounds.at_least)
-                             ? fmt::format(", and at least {}", centimetres(gap.bounds.at_least))
-                             : std::string{},
-                         centimetres(gap.lower), centimetres(gap.upper),
-                         confirmed ? "; coupled runs on both sides agree" : "; not confirmed by coupled runs",
-                         remark);
+      return fmt::format(
+          "the critical gap is {}{}: {} does not ignite, {} does{}.", centimetres(gap.value),
+          std::isfinite(gap.bounds.at_least)
+              ? fmt::format(", and at least {}", centimetres(gap.bounds.at_least))
+              : std::string{},
+          centimetres(gap.lower), centimetres(gap.upper),
+          confirmed ? "; coupled runs on both sides agree" : "; not confirmed by coupled runs");
     }
     case CriticalGapKind::all_safe:
       return fmt::format("the critical gap is more than {}: {}.", centimetres(gap.lower), gap.reason);
     case CriticalGapKind::all_ignite:
       return fmt::format("no gap is safe: {}.", gap.reason);
+    case CriticalGapKind::several_crossings:
+      return fmt::format("there is no one critical gap: ignition begins at {}, but is {}.",
+                         centimetres(gap.lower), gap.reason);
     case CriticalGapKind::indeterminate:
       break;
   }
@@ -46,35 +49,6 @@ bool is_within_bounds(const CaseOutcome& outcome, const study::GapVerdict& row) 
          row.evidence.validity_warnings.empty() && row.evidence.unaccepted.empty();
 }
 
-/// What would tell more of a cause.
-const char* remedy_for(ShareKind kind) {
-  switch (kind) {
-    case ShareKind::peak_pressure:
-      return "a measured spread of the peak pressure";
-    case ShareKind::pulse_length:
-      return "measured curves of several rounds";
-    case ShareKind::initial_temperature:
-      return "a narrower range of temperatures";
-    case ShareKind::muzzle_exit:
-      return "a measured time of the exit";
-    case ShareKind::stated_inputs:
-      return "a better known launch";
-    case ShareKind::load_curve:
-      return "a gauge with less noise";
-    case ShareKind::computation:
-      return "a finer setting, or a record of its accuracy";
-    case ShareKind::sliding:
-      return "a base that holds the charge";
-    case ShareKind::fit:
-      return "more measured temperatures to calibrate on";
-    case ShareKind::model_form:
-      return "measurements of how the shell holds the charge";
-    case ShareKind::accepted:
-      return "a calibration with these constants";
-  }
-  return "";
-}
-
 /// The cause that lowers the bound most; nothing without any.
 std::string largest_cause(const study::CriticalGap& gap) {
   const auto moves = [&](const GapShare& share) { return move_towards_ignition(gap.lower, share); };
@@ -83,7 +57,8 @@ std::string largest_cause(const study::CriticalGap& gap) {
                        [&](const GapShare& a, const GapShare& b) { return moves(a) < moves(b); });
   if (largest == gap.shares.end()) return {};
   return fmt::format(" The largest part, {}, is that of {}; {} would make it smaller.",
-                     centimetres(moves(*largest)), traits_of(largest->kind).title, remedy_for(largest->kind));
+                     centimetres(moves(*largest)), traits_of(largest->kind).title,
+                     traits_of(largest->kind).remedy);
 }
 
 /// Which gaps of every case lie between the lower bound of the critical gap and ignition; empty where none
@@ -137,6 +112,7 @@ std::string answer(const CriticalGapResult& result) {
 
 Report report_of(const CriticalGapResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+  report.launch = scene::launch_sentence(result.study.scene.scene);
   const Table verdicts = verdict_table(result);
   report.files.push_back({"verdicts.md", to_markdown(verdicts)});
   report.items = {ReportTable{verdicts, "verdicts.csv", "verdicts"},

@@ -6,7 +6,6 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
-#include "launchsafe/scene/launch_end.hpp"
 
 #include <fmt/format.h>
 
@@ -70,17 +69,6 @@ std::vector<Cell> comparison_cells(const GapVerdict& row, const study::Reference
 
 }  // namespace
 
-namespace {
-
-/// With what the shot leaves the barrel: what a person who knows the gun recognises.
-std::string launch_note(const scene::Scene& scene) {
-  const std::string exit = scene::exit_text(scene);
-  return exit.empty() ? "The load drives the shell to " + scene::end_text(scene) + "."
-                      : "The shot leaves the barrel with " + exit + ".";
-}
-
-}  // namespace
-
 Table verdict_table(const CriticalGapResult& result) {
   Table table{"Verdicts",
               {quantity::gap(), quantity::peak_pressure(), quantity::crack_radius(), quantity::flaw_size()}};
@@ -94,7 +82,6 @@ Table verdict_table(const CriticalGapResult& result) {
     }
   }
   table.notes = mesh_notes(result.study);
-  table.notes.push_back(launch_note(result.study.scene.scene));
   table.notes.push_back(station_note(result.study));
   return table;
 }
@@ -235,7 +222,8 @@ Table air_model_table(const CriticalGapResult& result) {
   if (!table.rows.empty()) {
     table.notes.push_back(
         "The film conserves energy and conducts into charge and base: an optimistic bound, on which no "
-        "verdict rests. Its temperature is that of the charge's surface, which the base cools.");
+        "verdict rests. Its temperature is that of the hottest depth of the charge: the base cools the "
+        "surface.");
   }
   return table;
 }

@@ -88,6 +88,7 @@ Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& 
     if (Fault fault = apply_overrides(each, study)) return fault;
   }
   if (Fault fault = use_calibration(study, source.folder)) return fault;
+  if (Fault fault = scene::check_expected_velocity(study.scene)) return fault;
   if (Fault fault = read_model_form(study, source.folder)) return fault;
   auto read = read_record(study, source.folder);
   if (!read) return read.error();

@@ -137,8 +137,8 @@ Plot empty_map(const SweepResult& result, const std::vector<SweptAxis>& axes, co
   }
   auto labels = kind_labels(critical_gaps_of(result.answers));
   labels[static_cast<std::size_t>(CriticalGapKind::value)] = quantity.without_value;
-  constexpr std::array<Hatching, 4> hatchings{Hatching::rising, Hatching::dense, Hatching::falling,
-                                              Hatching::crossed};
+  constexpr std::array<Hatching, 5> hatchings{Hatching::rising, Hatching::dense, Hatching::falling,
+                                              Hatching::crossed, Hatching::crossed};
   for (std::size_t kind = 0; kind < labels.size(); ++kind)
     map.hatched.push_back({labels[kind], hatchings[kind], {}});
   if (quantity.value == surely_safe_in_cm)

@@ -4,6 +4,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 
 #include <fmt/format.h>
 
@@ -63,6 +64,7 @@ std::string kinds_text(const SweepResult& result, const SweepCounts& counts) {
   text += add(CriticalGapKind::all_safe, fmt::format("more than {} (the end of the search: a bound)",
                                                      centimetres(end_of_search(result))));
   text += add(CriticalGapKind::all_ignite, "below every gap (ignition even at the smallest: a bound)");
+  text += add(CriticalGapKind::several_crossings, "one of several crossings");
   text += add(CriticalGapKind::indeterminate, "indeterminate");
   return text + ".";
 }
@@ -150,6 +152,7 @@ std::string answer(const SweepResult& result) {
 
 Report report_of(const SweepResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+  report.launch = scene::launch_sentence(result.study.scene.scene);
   const Table gaps = critical_gap_table(result);
   Table noted = gaps;
   for (std::string& note : mesh_notes(result.study)) noted.notes.push_back(std::move(note));

@@ -1,5 +1,7 @@
 #include "launchsafe/mpm/simulation.hpp"
 
+#include "launchsafe/scene/chamber.hpp"
+
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -19,16 +21,20 @@ auto with(Form& form, F&& f) {
 Simulation::Simulation(scene::Scene scene, int threads) : scene_(std::move(scene)), load_(scene_.load) {
   for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
     bodies_.push_back(make_body(scene_, static_cast<int>(i)));
-  const double base = scene::extent_of(scene_).x_end;
   for_each_body([&](const ParticleFields& p) {
     for (const double mass : p.mass) {
       total_mass_ += mass;
       particles_ += mass > 0.0 ? 1 : 0;
     }
-    if (scene_.bodies[static_cast<std::size_t>(p.body)].x_end < base) return;
-    for (int j = 0; j < p.lattice.rows(); ++j)
-      loaded_area_ += (axisymmetric() ? p.lattice.r_of(j) : 1.0) * p.lattice.length_r(j);
   });
+  for (const scene::ChamberFace& face : scene::chamber_of(scene_).faces) {
+    if (!face.across_x()) continue;
+    const Lattice& lattice = particle_fields_of(bodies_[face.body]).lattice;
+    for (int j = 0; j < lattice.rows(); ++j) {
+      const double r = lattice.r_of(j), area = (axisymmetric() ? r : 1.0) * lattice.length_r(j);
+      if (r > face.begin && r < face.end) loaded_area_ -= face.direction() * area;
+    }
+  }
   if (scene_.numerics.formulation == scene::Formulation::total_lagrangian)
     form_.emplace<TotalLagrangian>(scene_, bodies_, threads);
   else
@@ -124,7 +130,7 @@ void Simulation::add_to_energy(const StepTotals& totals, double dt) {
   balance_.kinetic = sum(p.centred_kinetic) - 0.5 * bulk.old_momentum * bulk_velocity;
   const bool lab = scene_.frame == scene::Frame::lab;
   const double bulk_flow = lab ? -loaded_area_ * bulk_velocity : 0.0;
-  energy_.external += pressure * (totals.base_flow - bulk_flow) * dt + totals.bore_work;
+  energy_.external += pressure * (totals.chamber_flow - bulk_flow) * dt + totals.bore_work;
   energy_.external += totals.body_force_work - body_force_on_bodies_ * bulk_velocity * dt;
   energy_.body_force += acceleration * (sum(n.momentum) + totals.contact.momentum) * dt;
   energy_.internal += sum(p.internal) + sum(p.hourglass);

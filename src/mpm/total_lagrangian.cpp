@@ -2,6 +2,7 @@
 
 #include "burning_row.hpp"
 #include "launchsafe/mpm/material_step.hpp"
+#include "launchsafe/scene/chamber.hpp"
 #include "total_lagrangian_row.hpp"
 
 #include <algorithm>
@@ -74,7 +75,7 @@ TotalLagrangian::TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>
     }
   }
   contact_ = std::make_unique<Contact>(scene, lines_, nodes_, ties_);
-  find_base();
+  find_chamber_load();
   share_work();
   reset_grid();
 }
@@ -171,18 +172,38 @@ void TotalLagrangian::share_work() {
   }
 }
 
-void TotalLagrangian::find_base() {
-  const double base = scene::extent_of(scene_).x_end;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (scene_.bodies[b].x_end < base) continue;
-    const Nodes& n = nodes_[b];
-    const Lattice& lattice = particle_fields_of(bodies_[b]).lattice;
-    for (int j = 0; j < lattice.rows(); ++j) {
-      const RowWeights& w = parts_[b].rows[static_cast<std::size_t>(j)];
-      const double area = radial_measure(axisymmetric_, lattice.r_of(j)) * lattice.length_r(j);
-      for (int k = 0; k < 2; ++k)
-        base_.push_back({b, w.cell_row + k, n.index(n.columns - 1, w.cell_row + k), -area * w.value[k]});
+/// On faces at rest: steel turns and stretches too little to matter.
+void TotalLagrangian::find_chamber_load() {
+  for (const scene::ChamberFace& face : scene::chamber_of(scene_).faces)
+    face.across_x() ? load_across(face) : load_along(face);
+}
+
+void TotalLagrangian::load_across(const scene::ChamberFace& face) {
+  const Nodes& n = nodes_[face.body];
+  const Lattice& lattice = particle_fields_of(bodies_[face.body]).lattice;
+  const int column = face.side == scene::BodySide::x_end ? n.columns - 1 : 0;
+  for (int j = 0; j < lattice.rows(); ++j) {
+    const double r = lattice.r_of(j);
+    if (r < face.begin || r > face.end) continue;
+    const RowWeights& w = parts_[face.body].rows[static_cast<std::size_t>(j)];
+    const double force = face.direction() * radial_measure(axisymmetric_, r) * lattice.length_r(j);
+    for (int k = 0; k < 2; ++k) {
+      const int row = w.cell_row + k;
+      axial_load_.push_back({face.body, row, n.index(column, row), force * w.value[k]});
     }
+  }
+}
+
+void TotalLagrangian::load_along(const scene::ChamberFace& face) {
+  const Nodes& n = nodes_[face.body];
+  const int row = face.side == scene::BodySide::r_end ? n.rows - 1 : 0;
+  const double r = lines_.r[static_cast<std::size_t>(n.first_r + row)];
+  for (int i = 0; i + 1 < n.columns; ++i) {
+    const auto line = static_cast<std::size_t>(n.first_x + i);
+    const double from = lines_.x[line], to = lines_.x[line + 1], middle = 0.5 * (from + to);
+    if (middle < face.begin || middle > face.end) continue;
+    const double force = face.direction() * 0.5 * radial_measure(axisymmetric_, r) * (to - from);
+    for (const int column : {i, i + 1}) radial_load_.push_back({face.body, row, n.index(column, row), force});
   }
 }
 
@@ -247,8 +268,10 @@ void TotalLagrangian::for_each_bore_share(F&& f) const {
 }
 
 void TotalLagrangian::load_nodes(const StepInput& input) {
-  for (const LoadShare& share : base_)
+  for (const LoadShare& share : axial_load_)
     nodes_[share.body].written(share.row).force_x[share.index] += input.pressure * share.force;
+  for (const LoadShare& share : radial_load_)
+    nodes_[share.body].written(share.row).force_r[share.index] += input.pressure * share.force;
   for_each_bore_share([&](std::size_t body, std::size_t node, double force) {
     nodes_[body].written(0).force_r[node] += force;
   });
@@ -264,9 +287,11 @@ void TotalLagrangian::load_nodes(const StepInput& input) {
   bond(ties_, nodes_);
 }
 
-double TotalLagrangian::base_flow() const {
+double TotalLagrangian::chamber_flow() const {
   double flow = 0.0;
-  for (const LoadShare& share : base_) flow += share.force * nodes_[share.body].velocity_x[share.index];
+  for (const LoadShare& share : axial_load_) flow += share.force * nodes_[share.body].velocity_x[share.index];
+  for (const LoadShare& share : radial_load_)
+    flow += share.force * nodes_[share.body].velocity_r[share.index];
   return flow;
 }
 
@@ -407,7 +432,7 @@ StepTotals TotalLagrangian::step(const StepInput& input) {
     totals.bulk.old_momentum += parts_[b].inertial_factor * sum(body.old_momentum);
     totals.bulk.momentum += parts_[b].inertial_factor * sum(body.momentum);
   }
-  totals.base_flow = base_flow();
+  totals.chamber_flow = chamber_flow();
   totals.bore_work = bore_work(input.dt);
   totals.body_force_work = body_force_work(input.dt);
   totals.contact = contact_totals_;

@@ -259,7 +259,8 @@ StepTotals UpdatedLagrangian::step(const StepInput& input) {
   const double scaling = scene_.numerics.inertial_scaling;
   totals.bulk = {scaling * total_mass_, scaling * sum(totals.nodes.old_momentum),
                  scaling * sum(totals.nodes.momentum)};
-  for (const LoadShare& share : load_shares_) totals.base_flow += share.force * grid_.velocity_x[share.node];
+  for (const LoadShare& share : load_shares_)
+    totals.chamber_flow += share.force * grid_.velocity_x[share.node];
   for (const LoadShare& share : bore_shares_)
     totals.bore_work += share.force * grid_.velocity_r[share.node] * input.dt;
 

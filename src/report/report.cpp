@@ -114,7 +114,9 @@ store::MaybeError write_texts(const std::filesystem::path& folder,
 }  // namespace
 
 std::string to_markdown(const Report& report, const std::vector<std::string>& missing) {
-  std::string page = fmt::format("# {}\n\n{}\n\n    {}\n", report.title, report.answer, report.command);
+  const std::string launch = report.launch.empty() ? "" : report.launch + "\n\n";
+  std::string page =
+      fmt::format("# {}\n\n{}{}\n\n    {}\n", report.title, launch, report.answer, report.command);
   const auto add = [&page](const std::string& block) {
     if (!block.empty()) page += "\n" + block;
   };
@@ -128,7 +130,7 @@ std::string to_markdown(const Report& report, const std::vector<std::string>& mi
 }
 
 std::string to_text(const Report& report, const std::filesystem::path& folder) {
-  std::string text;
+  std::string text = report.launch.empty() ? "" : report.launch + "\n\n";
   for (const auto& item : report.items) {
     if (const auto* table = std::get_if<ReportTable>(&item)) text += printed(*table, folder);
   }

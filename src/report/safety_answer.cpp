@@ -1,6 +1,7 @@
 // Page one: the answer, and all that a reader of this page alone must know.
 #include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 #include "safety_sections.hpp"
 
 #include <fmt/format.h>
@@ -158,6 +159,8 @@ Parts answer_parts(const Subject& subject) {
 SafetySection answer_section(const Subject& subject) {
   SafetySection section{"answer"};
   const StudyEvidence& study = subject.study;
+  section.say("answer.launch", {{"launch", scene::launch_sentence(subject.scene())}},
+              subject.origin("the scene, in its manifest"), Look::lead);
   if (!study.finished())
     section.say("answer.unfinished", {{"kind", study.kind}, {"command", study.command()}},
                 subject.origin("manifest"), Look::lead);

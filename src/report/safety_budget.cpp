@@ -109,12 +109,17 @@ void say_accuracy(const StudyEvidence& main, const StudyEvidence* accuracy, Safe
 
 // --- inputs ---
 
-/// Whether two studies that differ in these keys are of one launch.
-bool is_same_launch(const std::vector<std::string>& differences) {
+/// Whether a study is of the main one's launch: these keys may differ.
+bool is_of_same_launch(const StudyEvidence& study) {
+  const std::vector<std::string>& differences = study.differences;
   return std::all_of(differences.begin(), differences.end(), [](const std::string& key) {
     return key == "title" || key == "gap.thickness" || key.starts_with("numerics.") ||
            key.starts_with("output.");
   });
+}
+
+std::string percent_of(const Row& row, const char* key) {
+  return significant(100.0 * number_of(row, key), 3) + " %";
 }
 
 /// The quantiles over the draws, beside the bounds of the same launch.
@@ -127,11 +132,8 @@ void say_quantiles(const StudyEvidence& sensitivity, const JudgedCase* own, Safe
       if (number_of(row, "share_percent") == percent) return text_of(row, "critical_gap_reads_as");
     return "n/a";
   };
-  const auto percent = [&](const char* key) {
-    return significant(100.0 * number_of(*ignition, key), 3) + " %";
-  };
   const auto bounds =
-      own != nullptr && is_same_launch(sensitivity.differences) ? measured_gap(*own->critical) : std::nullopt;
+      own != nullptr && is_of_same_launch(sensitivity) ? measured_gap(*own->critical) : std::nullopt;
   section.say("budget.quantiles",
               {{"lowest", at(2.5)},
                {"low", at(5)},
@@ -139,8 +141,8 @@ void say_quantiles(const StudyEvidence& sensitivity, const JudgedCase* own, Safe
                {"highest", at(97.5)},
                {"bounds", bounds ? bounds->text("cm") : ""},
                {"gap", significant(number_of(sensitivity.study, "gap_cm"), 6) + " cm"},
-               {"from", percent("probability_from")},
-               {"to", percent("probability_to")}},
+               {"from", percent_of(*ignition, "probability_from")},
+               {"to", percent_of(*ignition, "probability_to")}},
               origin_of(sensitivity, "quantiles"));
 }
 
@@ -317,6 +319,20 @@ SafetySection budget_section(const Subject& subject) {
   say_sensitivity(subject.evidence.find("sensitivity"), subject.own_case(), section);
   say_models(subject, section);
   return section;
+}
+
+void say_probability(const Subject& subject, SafetySection& section) {
+  const StudyEvidence* sensitivity = subject.evidence.find("sensitivity");
+  if (sensitivity == nullptr || !sensitivity->finished() || !is_of_same_launch(*sensitivity)) return;
+  const auto ignition = sensitivity->study.find("ignition");
+  if (ignition == sensitivity->study.end()) return;
+  section.item("limits.probability",
+               {{"gap", significant(number_of(sensitivity->study, "gap_cm"), 6) + " cm"},
+                {"igniting", number_of(*ignition, "igniting")},
+                {"draws", number_of(*ignition, "completed")},
+                {"from", percent_of(*ignition, "probability_from")},
+                {"to", percent_of(*ignition, "probability_to")}},
+               origin_of(*sensitivity, "ignition"));
 }
 
 SafetySection published_section(const Subject& subject) {

@@ -1,6 +1,5 @@
 // What the answer rests on, and what it does not cover: the rest of page one.
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/scene/launch_end.hpp"
 #include "safety_sections.hpp"
 
 #include <fmt/format.h>
@@ -257,8 +256,6 @@ void say_launch(const Subject& subject, SafetySection& section) {
   Parts parts{{"own", own != nullptr && subject.is_own(*own)},
               {"cases", subject.study.rows("cases").size()},
               {"peak", significant(1e-6 * scene::PressureHistory(scene.load).stated_peak(), 4) + " MPa"},
-              {"launch", scene::end_text(scene)},
-              {"exit", scene::exit_text(scene)},
               {"crack", significant(1e6 * scene.charge().strength.initial_crack_radius, 4) + " µm"},
               {"flaw", significant(1e3 * scene.charge().strength.flaw_size, 3) + " mm"},
               {"temperature", launch_temperature_text(subject)},
@@ -345,6 +342,7 @@ void say_limits(const Subject& subject, SafetySection& section) {
   say_assumptions(subject, section);
   say_launch(subject, section);
   say_without_exit(subject, section);
+  say_probability(subject, section);
 }
 
 }  // namespace launchsafe::report::safety

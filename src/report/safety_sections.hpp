@@ -95,6 +95,9 @@ bool is_confirmed(const Subject& subject, const std::string& label);
 /// What the answer rests on and does not cover: items.
 void say_limits(const Subject& subject, SafetySection& section);
 
+/// How often draws of the sensitivity study's inputs ignite, where it is of the main study's launch: an item.
+void say_probability(const Subject& subject, SafetySection& section);
+
 /// A count that a text tells only where there is something to count.
 Parts count_part(std::size_t count);
 

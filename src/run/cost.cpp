@@ -82,6 +82,7 @@ Cost cost_of(const scene::Scene& scene) {
           .coupled = plan.coupled_work * static_cast<double>(scene.surface.gaps.size()),
           .particles = plan.memory,
           .trace = trace_memory(size),
+          .kept_trace = trace_memory(size) / copies,
           .snapshots = snapshots,
           .skins = skin_memory(scene, size)};
 }

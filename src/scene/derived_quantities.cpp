@@ -53,8 +53,7 @@ Number pressure_at_exit(const Scene& scene) {
 }
 Number calibres_to_exit(const Scene& scene) {
   const auto exit = exit_time(scene.load);
-  if (!exit) return std::nullopt;
-  return rigid_motion(scene, *exit).travel / (2.0 * extent_of(scene).r_end);
+  return exit ? Number(calibres_until(scene, *exit)) : std::nullopt;
 }
 
 /// Of an isotropic solid.
@@ -151,12 +150,16 @@ const std::vector<DerivedQuantity>& derived_quantities() {
                rescaling),
       quantity("load.launch_speed", Dimension::speed,
                "Speed at the muzzle exit, or at the end, of the projectile as one rigid body.",
-               between(50, 2.5e3), "mortars launch with 70 m/s, tank guns with 1.8 km/s", launch_speed),
+               between(300, 1.2e3),
+               "howitzers and guns launch with 300 m/s to 1.2 km/s: low zones, mortars and tank guns are "
+               "accepted with their number",
+               launch_speed),
       quantity("load.travel", Dimension::length,
                "Travel until the muzzle exit, or the end, of the projectile as one rigid body.",
                between(0.5, 15), "mortars have a tube of a metre, guns one of 2 to 11 m", launch_travel),
       quantity("load.exit_pressure", Dimension::number, "Pressure over its peak at a stated muzzle exit.",
-               between(0, 0.35), "no gun lets the shot go at a third of its peak pressure", pressure_at_exit),
+               between(0, 0.25), "guns let the shot go at a tenth to a quarter of their peak pressure",
+               pressure_at_exit),
       quantity("load.exit_calibres", Dimension::number,
                "Travel until a stated muzzle exit over the outer diameter.", between(10, 200),
                "mortars have barrels of 12 calibres or more, howitzers of 20, guns of 40 to 60",

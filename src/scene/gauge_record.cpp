@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::size_t least_quiet_points = 10;
 constexpr double rise_share = 0.02, trigger_share = 0.01, largest_share_below_zero = 0.02;
+/// Of the peak: what a gauge resolves.
+constexpr double resolution_share = 1e-3;
 constexpr double noise_of_trigger = 5.0, noise_below_zero = 10.0;
 
 double median(std::vector<double> values) {
@@ -80,8 +82,20 @@ std::optional<InputError> find_offset(const PressureCurve& record, const GaugeCl
         fmt::format("{} points before the rise, from which no offset can be found", quiet.size()),
         fmt::format("a record with {} of them, or an offset: --offset \"0 MPa\"", 2 * least_quiet_points));
   }
-  cleaned.offset = cleaning.offset.value_or(cleaned.offset);
-  return std::nullopt;
+  if (!cleaning.offset) return std::nullopt;
+  const double found = cleaned.offset;
+  cleaned.offset = *cleaning.offset;
+  if (cleaned.quiet_points == 0) return std::nullopt;
+  const double peak = *std::max_element(record.pressure.begin(), record.pressure.end()) - found;
+  const double allowed = std::max(cleaned.noise, resolution_share * peak);
+  if (std::abs(cleaned.offset - found) <= allowed) return std::nullopt;
+  return error_at(
+      {file}, "--offset",
+      fmt::format("an offset of {}, while the {} points before the rise show {}",
+                  pressure_text(cleaned.offset), cleaned.quiet_points, pressure_text(found)),
+      fmt::format("within {}, the noise of these points or {:g} % of the peak, of that; or no offset, "
+                  "and that is taken",
+                  pressure_text(allowed), 100.0 * resolution_share));
 }
 
 }  // namespace

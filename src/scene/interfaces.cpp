@@ -106,7 +106,8 @@ Expected<Interface> read_interface(const std::string& body, const toml::table& t
   return faces;
 }
 
-/// Whether two bodies share more than an edge of their surfaces.
+}  // namespace
+
 bool share_a_face(const Scene& scene, const Body& a, const Body& b) {
   const double tolerance = length_tolerance(scene);
   const auto meet = [&](double end, double begin) { return std::abs(end - begin) <= tolerance; };
@@ -116,8 +117,6 @@ bool share_a_face(const Scene& scene, const Body& a, const Body& b) {
   const bool sides = meet(a.r_end, b.r_begin) || meet(b.r_end, a.r_begin);
   return (ends && common_r > tolerance) || (sides && common_x > tolerance);
 }
-
-}  // namespace
 
 const std::vector<Key<Interface>>& interface_keys() {
   static const std::vector<Key<Interface>> keys = {

@@ -78,6 +78,10 @@ double share_left(const Load& load, double time) {
   return height > 0.0 ? (history.at(time) - base) / height : 0.0;
 }
 
+double calibres_until(const Scene& scene, double time) {
+  return rigid_motion(scene, time).travel / (2.0 * extent_of(scene).r_end);
+}
+
 bool is_cut_short(const Load& load) {
   if (!load.duration || *load.duration >= launch_end(load) * (1.0 - same_time)) return false;
   if (load.curve_time.empty() || exit_time(load)) return true;
@@ -120,9 +124,10 @@ std::string end_text(const Scene& scene) {
                      time_text(end), 100.0 * share_left(load, end), why);
 }
 
-std::string launch_text(const Scene& scene) {
+std::string launch_sentence(const Scene& scene) {
   const std::string exit = exit_text(scene);
-  return exit.empty() ? end_text(scene) : exit;
+  return exit.empty() ? "The load drives the shell to " + end_text(scene) + "."
+                      : "The shot leaves the barrel with " + exit + ".";
 }
 
 }  // namespace launchsafe::scene

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 namespace launchsafe::scene {
@@ -125,6 +127,37 @@ double rounded_up(double value) {
   return std::ceil(value / unit - 1e-9) * unit;
 }
 
+/// What of a curve is faster than its average over `window` (s), at equal intervals from its first point to
+/// its last; what is faster than these is averaged out too.
+std::vector<double> fast_part(const Load& measured, double window, std::size_t samples) {
+  Load load = without_exit(measured);
+  load.duration.reset();
+  const double begin = load.curve_time.front(),
+               interval = (load.curve_time.back() - begin) / static_cast<double>(samples);
+  if (interval > mean_interval(load)) load.smoothing = std::max(load.smoothing, interval);
+  Load slow = load;
+  slow.smoothing = window;
+  const PressureHistory all(load), average(slow);
+  std::vector<double> fast;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double time = begin + (static_cast<double>(i) + 0.5) * interval;
+    fast.push_back(all.at(time) - average.at(time));
+  }
+  return fast;
+}
+
+/// Mean square at the frequency of so many periods over all values.
+double power_at(const std::vector<double>& values, std::size_t periods) {
+  const std::complex<double> turn = std::polar(
+      1.0, 2.0 * std::numbers::pi * static_cast<double>(periods) / static_cast<double>(values.size()));
+  std::complex<double> sum = 0.0, phase = 1.0;
+  for (const double value : values) {
+    sum += value * phase;
+    phase *= turn;
+  }
+  return 2.0 * std::norm(sum) / std::pow(static_cast<double>(values.size()), 2);
+}
+
 std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
 
 std::string roughness_text(const Load& load) {
@@ -198,10 +231,47 @@ std::optional<double> suggested_smoothing(const Load& load) {
   return std::nullopt;
 }
 
+std::optional<Ring> ring_of(const Load& load) {
+  constexpr std::size_t most_samples = 4096, fewest_points = 64;
+  constexpr double longest_window = 1e-3, near = 0.1, least_share = 2e-3;
+  if (load.curve_time.size() < fewest_points) return std::nullopt;
+  const double length = load.curve_time.back() - load.curve_time.front();
+  const double window = std::min(longest_window, 0.1 * length);
+  if (load.smoothing >= window) return std::nullopt;
+  const std::size_t samples = std::min(most_samples, load.curve_time.size() - 1);
+  const std::vector<double> fast = fast_part(load, window, samples);
+  const auto first = static_cast<std::size_t>(std::ceil(length / window));
+  std::vector<double> powers(samples / 2, 0.0);
+  for (std::size_t i = first; i < powers.size(); ++i) powers[i] = power_at(fast, i);
+  const auto top = static_cast<std::size_t>(std::max_element(powers.begin(), powers.end()) - powers.begin());
+  double whole = 0.0, around = 0.0, centre = 0.0;
+  for (std::size_t i = first; i < powers.size(); ++i) {
+    const double apart = std::abs(static_cast<double>(i) / static_cast<double>(top) - 1.0);
+    whole += powers[i];
+    if (apart > near) continue;
+    around += powers[i];
+    centre += powers[i] * static_cast<double>(i);
+  }
+  const Ring ring{centre / around / length, std::sqrt(2.0 * around)};
+  const bool dominates = around > 0.5 * whole;
+  if (!dominates || ring.amplitude < least_share * PressureHistory(load).stated_peak()) return std::nullopt;
+  return ring;
+}
+
+std::string ring_text(const Load& load) {
+  const auto ring = ring_of(load);
+  if (!ring) return {};
+  return fmt::format(
+      "the record {} rings at {:.3g} kHz with {:.2g} % of its peak, which heats as pressure does",
+      load.curve_file.empty() ? "of the load" : load.curve_file, 1e-3 * ring->frequency,
+      100.0 * ring->amplitude / PressureHistory(load).stated_peak());
+}
+
 std::string measured_load_text(const Load& load) {
   if (load.curve_time.empty()) return {};
-  const std::string smoothing = smoothing_text(load);
-  return smoothing + (smoothing.empty() ? "" : "; ") + roughness_text(load);
+  const std::string smoothing = smoothing_text(load), ring = ring_text(load);
+  return smoothing + (smoothing.empty() ? "" : "; ") + roughness_text(load) + (ring.empty() ? "" : "; ") +
+         ring;
 }
 
 }  // namespace launchsafe::scene

@@ -1,4 +1,5 @@
 // The plan as people read it.
+#include "launchsafe/scene/chamber.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
@@ -44,6 +45,7 @@ std::string load_text(const Scene& scene) {
                            : fmt::format("measured, {} points{}", scene.load.curve_time.size(),
                                          scene.load.rescale_to_peak ? ", rescaled" : ""));
   text += row("peak", pressure_text(peak));
+  text += row("acts", chamber_text(scene, peak));
   if (const std::string exit = exit_text(scene); !exit.empty()) text += row("muzzle exit", exit);
   text += row("end", end_text(scene));
   if (const std::string measured = measured_load_text(scene.load); !measured.empty())

@@ -235,6 +235,7 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
   file.sources = std::move(*sources);
   file.sources.insert(file.sources.end(), interfaces->sources.begin(), interfaces->sources.end());
   if (auto error = rebuild(file, false)) return *error;
+  if (auto error = check_expected_velocity(file)) return *error;
   if (!table->contains("accept")) return file;
   auto accepted = read_acceptances(*table, acceptable_keys(file.scene), file.file);
   if (!accepted) return accepted.error();

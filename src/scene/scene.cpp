@@ -1,5 +1,7 @@
 #include "launchsafe/scene/scene.hpp"
 
+#include "launchsafe/scene/chamber.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace launchsafe::scene {
 namespace {
@@ -23,11 +26,11 @@ void enclose(Extent& extent, const Body& body) {
   extent.r_end = std::max(extent.r_end, body.r_end);
 }
 
-/// Area (m2) swept by the body's radial extent: a full ring, or a strip of 1 m depth.
-double cross_section(const Body& body, Symmetry symmetry) {
-  const double width = body.r_end - body.r_begin;
+/// Area (m2) between two radii: a full ring, or a strip of 1 m depth.
+double cross_section(double r_begin, double r_end, Symmetry symmetry) {
+  const double width = r_end - r_begin;
   if (symmetry == Symmetry::plane_strain) return width;
-  return std::numbers::pi * width * (body.r_end + body.r_begin);
+  return std::numbers::pi * width * (r_end + r_begin);
 }
 
 /// Around the bodies that a rule chooses.
@@ -140,7 +143,7 @@ double mass_of(const Scene& scene, std::string_view material) {
   double volume = 0.0;
   for (const Body& body : scene.bodies) {
     if (body.material != material) continue;
-    volume += cross_section(body, scene.symmetry) * (body.x_end - body.x_begin);
+    volume += cross_section(body.r_begin, body.r_end, scene.symmetry) * (body.x_end - body.x_begin);
   }
   const Material* of = find_material(scene, material);
   return of ? volume * initial_density(of->law) : 0.0;
@@ -153,12 +156,9 @@ double total_mass(const Scene& scene) {
 }
 
 double base_area(const Scene& scene) {
-  const Extent all = extent_of(scene);
-  const double tolerance = 1e-9 * (all.x_end - all.x_begin);
   double area = 0.0;
-  for (const Body& body : scene.bodies) {
-    if (body.x_end >= all.x_end - tolerance) area += cross_section(body, scene.symmetry);
-  }
+  for (const ChamberFace& face : chamber_of(scene).faces)
+    if (face.across_x()) area -= face.direction() * cross_section(face.begin, face.end, scene.symmetry);
   return area;
 }
 
@@ -184,7 +184,24 @@ std::string rigid_motion_text(const Scene& scene, double time) {
   return fmt::format("{:.4g} m/s after {:.3g} m of travel", motion.velocity, motion.travel);
 }
 
+namespace {
+
+/// Writes the band where the pressure acts on more than the rearmost faces, or only what is stated says so.
+void settle_band(Scene& scene) {
+  const std::optional<double> stated = std::exchange(scene.load.obturation, std::nullopt);
+  const Chamber usual = chamber_of(scene);
+  scene.load.obturation = stated;
+  const Chamber chamber = stated ? chamber_of(scene) : usual;
+  if (!chamber.unclear.empty()) return;
+  const bool says_nothing =
+      usual.unclear.empty() && usual.band == chamber.band && acts_on_rear_alone(scene, usual);
+  scene.load.obturation = says_nothing ? std::nullopt : std::optional(chamber.band);
+}
+
+}  // namespace
+
 void settle_load(Scene& scene) {
+  settle_band(scene);
   const double area = base_area(scene);
   scene.load.mass_over_area = area > 0.0 ? total_mass(scene) / area : 0.0;
 }

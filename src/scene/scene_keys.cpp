@@ -235,6 +235,21 @@ std::vector<Key<Load>> load_keys() {
                          &Load::exit_decay),
               has_exit),
           between(0.1e-3, 3e-3), "the gas outruns the shot within some calibres"),
+      // Never written back: it makes no other launch, and a case with another load is none that was typed.
+      always_plausible(
+          written_where(optional_number_key<Load>(
+                            "expected_velocity", Dimension::speed, above_to(0, 5e3),
+                            "Velocity at the muzzle, typed from a range table: a load that drives the "
+                            "projectile to another one, by more than 5 %, is refused.",
+                            &Load::expected_velocity),
+                        [](const Load&) { return false; }),
+          "the speed that the load gives is judged by load.launch_speed"),
+      always_plausible(optional_number_key<Load>("obturation", Dimension::length, between(0, 10),
+                                                 "Place along x of the driving band, up to which the chamber "
+                                                 "pressure acts on all that faces the "
+                                                 "chamber; without it the foremost ring of full radius.",
+                                                 &Load::obturation),
+                       "it has to lie where the shell has its full radius"),
   };
 }
 

@@ -4,6 +4,7 @@
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "validate_end.hpp"
+#include "validate_geometry.hpp"
 
 #include <fmt/format.h>
 
@@ -445,10 +446,13 @@ Fault check_output(const SceneFile& file) {
 }  // namespace
 
 std::optional<InputError> validate(const SceneFile& file) {
-  for (const auto check : {check_names, check_charge_fits, check_overlaps, check_interfaces, check_stations,
-                           check_cell_size, check_load, check_kinetics, check_jwl, check_steel,
-                           check_crack_friction, check_gaps, check_observation_points, check_formulation,
-                           check_inertia, check_refinement, check_coupling, check_output}) {
+  for (const auto check : {check_names,          fault_of_near_edges, check_charge_fits,
+                           check_overlaps,       fault_of_support,    check_interfaces,
+                           check_stations,       check_cell_size,     check_load,
+                           check_kinetics,       check_jwl,           check_steel,
+                           check_crack_friction, check_gaps,          check_observation_points,
+                           check_formulation,    check_inertia,       check_refinement,
+                           check_coupling,       check_output}) {
     if (Fault fault = check(file)) return fault;
   }
   return std::nullopt;

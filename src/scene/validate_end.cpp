@@ -4,13 +4,18 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 
 namespace launchsafe::scene {
 namespace {
 
 /// Largest difference of a stated travel from that which the load gives at the stated exit.
 constexpr double largest_difference_of_travel = 0.05;
+/// Likewise of a velocity that is expected.
+constexpr double largest_difference_of_velocity = 0.05;
 /// s; no launch is longer.
 constexpr double longest_launch = 1.0;
 
@@ -71,7 +76,35 @@ std::optional<InputError> fault_of_exit(const SceneFile& file) {
   return std::nullopt;
 }
 
+/// Which unit was taken for which other one where a velocity, which grows with the pressure, is so many times
+/// the expected one; empty for none.
+std::string unit_taken_for(double ratio) {
+  constexpr std::array<std::pair<const char*, double>, 5> units{
+      {{"psi", 6894.757}, {"bar", 1e5}, {"MPa", 1e6}, {"ksi", 6.894757e6}, {"kgf/mm2", 9.80665e6}}};
+  constexpr double near = 0.06;  // of the logarithm: the expected velocity is known to 5 %
+  std::string text;
+  for (const auto& [typed, size] : units)
+    for (const auto& [meant, true_size] : units)
+      if (typed != meant && std::abs(std::log(size / true_size / ratio)) < near)
+        text += fmt::format("{}{} typed as {}", text.empty() ? "" : ", or ", meant, typed);
+  return text.empty() ? text : fmt::format("; the ratio, {:.3g}, is that of {}", ratio, text);
+}
+
 }  // namespace
+
+std::optional<InputError> check_expected_velocity(const SceneFile& file) {
+  const std::optional<double> expected = file.scene.load.expected_velocity;
+  if (!expected) return std::nullopt;
+  Scene whole = file.scene;
+  whole.load.duration.reset();
+  const double time = read_time(whole.load), velocity = rigid_motion(whole, time).velocity;
+  if (std::abs(*expected - velocity) <= largest_difference_of_velocity * velocity) return std::nullopt;
+  return error_at(place_of_key(file, "load.expected_velocity"), "load.expected_velocity",
+                  fmt::format("{:.4g} m/s, while the load drives the projectile to {}, at {}", *expected,
+                              rigid_motion_text(whole, time), time_text(time)),
+                  fmt::format("within {:g} % of that: this, the pressure, a time or the mass is mistyped{}",
+                              100.0 * largest_difference_of_velocity, unit_taken_for(velocity / *expected)));
+}
 
 std::optional<InputError> fault_of_end(const SceneFile& file) {
   const Load& load = file.scene.load;

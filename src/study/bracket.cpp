@@ -15,13 +15,23 @@ namespace launchsafe::study {
 CriticalGap::CriticalGap() : value(std::numeric_limits<double>::quiet_NaN()), lower(value), upper(value) {}
 
 std::string to_string(CriticalGapKind kind) {
-  constexpr std::array words{"value", "all-safe", "all-ignite", "indeterminate"};
+  constexpr std::array words{"value", "all-safe", "all-ignite", "indeterminate", "several-crossings"};
   return words.at(static_cast<std::size_t>(kind));
 }
 
 GapOrBound gap_or_bound(const CriticalGap& gap) {
-  const std::array<GapOrBound, 4> gaps{gap.value, no_ignition, 0.0, std::numeric_limits<double>::quiet_NaN()};
-  return gaps.at(static_cast<std::size_t>(gap.kind));
+  switch (gap.kind) {
+    case CriticalGapKind::value:
+      return gap.value;
+    case CriticalGapKind::all_safe:
+      return no_ignition;
+    case CriticalGapKind::all_ignite:
+      return 0.0;
+    case CriticalGapKind::indeterminate:
+    case CriticalGapKind::several_crossings:
+      break;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 namespace {
@@ -105,10 +115,10 @@ CriticalGap find_critical_gap(const State& state, double largest, double toleran
   const auto narrow = bisect(state, {gaps[index - 1], gaps[index]}, tolerance / refinement, undefined);
   if (!narrow) return undefined_at(undefined);
   const Bracket bracket = centred(state, *narrow, tolerance);
-  result.kind = CriticalGapKind::value;
+  result.kind = again == states.end() ? CriticalGapKind::value : CriticalGapKind::several_crossings;
   result.lower = bracket.lower;
   result.upper = bracket.upper;
-  result.value = 0.5 * (bracket.lower + bracket.upper);
+  if (result.kind == CriticalGapKind::value) result.value = 0.5 * (bracket.lower + bracket.upper);
   return result;
 }
 
@@ -145,6 +155,7 @@ void set_shares(CriticalGap& gap, std::vector<GapShare> shares) {
       gap.bounds = {0.0, bounds_of(gap.upper, gap.upper, gap.shares).at_most};
       return;
     case CriticalGapKind::indeterminate:
+    case CriticalGapKind::several_crossings:
       gap.bounds = {};
   }
 }

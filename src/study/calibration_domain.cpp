@@ -47,6 +47,7 @@ constexpr std::array special_keys{
     NamedRole{"load.peak", Role::condition},
     NamedRole{"load.curve", Role::none},               // its points count
     NamedRole{"load.muzzle_exit_spread", Role::none},  // of what is not known, not of the launch
+    NamedRole{"load.expected_velocity", Role::none},   // a check
     NamedRole{"charge.crack_radius", Role::condition},
     NamedRole{"charge.flaw_size", Role::condition},
     NamedRole{"gap.thickness", Role::none},            // judged row by row
@@ -58,6 +59,7 @@ constexpr std::array special_keys{
     NamedRole{"kinetics.set", Role::none},             // its numbers count
     NamedRole{"kinetics.activation_temperature", Role::hot_below},
     NamedRole{"kinetics.ignition_temperature", Role::hot_below},
+    NamedRole{"load.obturation", Role::none},  // same_shell compares it
     NamedRole{"numerics.energy_drift_limit", Role::none},
     NamedRole{"numerics.time_step_factor", Role::none}  // moves T max by less than 0.1 K (reports/accuracy)
 };
@@ -87,6 +89,8 @@ bool share_place(const scene::Body& a, const scene::Body& b) {
 /// Whether bodies are of one law at the same places: what the constants of their materials are is compared by
 /// itself, and names are the user's.
 bool same_shell(const Scene& a, const Scene& b) {
+  if (a.load.obturation.has_value() != b.load.obturation.has_value()) return false;
+  if (a.load.obturation && !near(*a.load.obturation, *b.load.obturation)) return false;
   const auto same_body = [&](const scene::Body& of_a, const scene::Body& of_b) {
     return share_place(of_a, of_b) && scene::law_of(a, of_a).index() == scene::law_of(b, of_b).index();
   };

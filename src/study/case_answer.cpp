@@ -47,7 +47,7 @@ bool says(const GapVerdict& row, const InputStatements& statements, const Study&
   const Uncertainty& u = row.uncertainty;
   return std::all_of(statements.validity_warnings.begin(), statements.validity_warnings.end(), is_said) &&
          row.evidence.unaccepted == statements.unaccepted && row.evidence.accepted == statements.accepted &&
-         row.evidence.optimistic == optimistic_text(study, input.scene.scene) &&
+         row.evidence.optimistic.starts_with(optimistic_text(study, input)) &&
          std::ranges::equal(row.as_calibrated, statements.as_calibrated, {}, &AsCalibrated::key) &&
          row.evidence.extrapolated == extrapolation_text(study, input, row.gap) &&
          !(u.numerical < input.numerical_uncertainty) &&

@@ -109,11 +109,13 @@ json json_of(const CriticalGap& gap) {
 CriticalGap critical_gap_of(const json& value) {
   list_of(value, 7);
   CriticalGap gap;
-  gap.kind = enumerator_of(value.at(0), CriticalGapKind::indeterminate);
+  gap.kind = enumerator_of(value.at(0), CriticalGapKind::several_crossings);
   gap.value = amount_of(value.at(1));
   gap.lower = amount_of(value.at(2));
   gap.upper = amount_of(value.at(3));
   gap.reason = value.at(4).get<std::string>();
+  require((gap.kind == CriticalGapKind::value) == std::isfinite(gap.value),
+          "a critical gap that is no value has one, or the other way round");
   if (gap.kind == CriticalGapKind::value)
     require(gap.lower <= gap.value && gap.value <= gap.upper, "a critical gap is outside its bracket");
   if (!value.at(5).is_null()) set_shares(gap, shares_of(value.at(5)));
@@ -171,6 +173,7 @@ json json_of(const GapVerdict& row) {
           {"as_calibrated", json_of(row.as_calibrated)},
           {"doubt", row.evidence.validity_warnings},  // as stored answers name it
           {"unaccepted", row.evidence.unaccepted},
+          {"ring", row.evidence.ring},
           {"accepted", row.evidence.accepted},
           {"optimistic", row.evidence.optimistic},
           {"model_form", row.evidence.model_form},
@@ -192,6 +195,7 @@ GapVerdict row_of(const json& value) {
   row.as_calibrated = as_calibrated_of(value.at("as_calibrated"));
   row.evidence.validity_warnings = value.at("doubt").get<std::string>();
   row.evidence.unaccepted = value.at("unaccepted").get<std::string>();
+  row.evidence.ring = value.at("ring").get<std::string>();
   row.evidence.accepted = value.at("accepted").get<std::string>();
   row.evidence.optimistic = value.at("optimistic").get<std::string>();
   row.evidence.model_form = value.at("model_form").get<std::string>();

@@ -1,5 +1,6 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
@@ -20,9 +21,26 @@ double ratio_to_calibration(const Study& study, const StudyCase& input) {
          scene::PressureHistory(study.calibration.scene.load).stated_peak();
 }
 
+/// A peak pressure at which no other model of the launch was looked at: how wrong the one is there nobody
+/// knows, whatever is assumed or stated of it.
+std::optional<scene::Implausible> pressure_beyond_models(const Study& study, const StudyCase& input) {
+  const scene::Scene& scene = input.scene.scene;
+  const scene::Limits compared = compared_pressures(study.model_form);
+  constexpr double round_off = 1e-9;
+  const double peak = scene::PressureHistory(scene.load).stated_peak();
+  if (peak >= compared.lowest * (1.0 - round_off) && peak <= compared.highest * (1.0 + round_off))
+    return std::nullopt;
+  return scene::implausible(
+      scene.accepted, {.kind = keys::KeyKind::number, .dimension = scene::Dimension::pressure},
+      scene::pressure_of_models, keys::Value(peak),
+      fmt::format("{} to {}, because other models of the launch were compared only there",
+                  scene::pressure_text(compared.lowest), scene::pressure_text(compared.highest)));
+}
+
 /// What is not plausible of a case and of what its study states, accepted or not.
 std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCase& input) {
   std::vector<scene::Implausible> values = study.implausible;
+  if (auto beyond = pressure_beyond_models(study, input)) values.push_back(std::move(*beyond));
   for (scene::Implausible& each : scene::implausible_values(input.scene.scene))
     values.push_back(std::move(each));
   return values;
@@ -188,14 +206,31 @@ AcceptancesOfStudy acceptances_of(const StudyFile& study) {
   return all;
 }
 
-std::string optimistic_text(const Study& study, const scene::Scene& scene) {
+std::string optimistic_text(const Study& study, const StudyCase& input) {
+  constexpr double fewest_calibres = 10.0;
+  const scene::Scene& scene = input.scene.scene;
   if (scene.surface.air_model == scene::AirModel::film)
     return "no ignition under gap.air = \"film\", an optimistic bound, shows nothing";
   if (!study.kind.gives_verdicts) return {};
   const std::vector<std::string> cooling = cooling_in(scene, study.calibration.scene);
-  if (cooling.empty()) return {};
-  return fmt::format("no ignition with {} shows nothing: that only averages or removes heat, accepted or not",
-                     fmt::join(cooling, ", "));
+  if (!cooling.empty())
+    return fmt::format(
+        "no ignition with {} shows nothing: that only averages or removes heat, accepted or not",
+        fmt::join(cooling, ", "));
+  const double calibres = scene::calibres_until(scene, scene::read_time(scene.load));
+  if (calibres >= fewest_calibres) return {};
+  return fmt::format(
+      "no ignition within {:.3g} calibres of travel shows nothing: no barrel is shorter than {:g}", calibres,
+      fewest_calibres);
+}
+
+std::string unheated_text(double friction_rise) {
+  constexpr double least_rise = 1.0;  // K
+  if (friction_rise >= least_rise) return {};
+  return fmt::format(
+      "friction heats the charge's bottom by {:.2g} K over the launch, less than {:g} K: no ignition shows "
+      "nothing",
+      friction_rise, least_rise);
 }
 
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap) {

@@ -65,7 +65,8 @@ std::vector<std::size_t> with_own_defect(const StudyFile& study, std::vector<std
 
 /// m, in which the cases at one pressure are ordered: the smallest that the critical gap may be.
 double smallest_of(const CriticalGap& critical) {
-  return critical.kind == CriticalGapKind::indeterminate ? -1.0 : gap_or_bound(critical);
+  const GapOrBound gap = gap_or_bound(critical);
+  return std::isnan(gap) ? -1.0 : gap;
 }
 
 LimitComparison compare(const StudyFile& study, const std::vector<const CriticalGap*>& critical,

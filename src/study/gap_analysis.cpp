@@ -1,6 +1,7 @@
 #include "launchsafe/study/gap_analysis.hpp"
 
 #include "launchsafe/run/validity_warnings.hpp"
+#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/raised_launch.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
@@ -179,7 +180,9 @@ GapVerdict row_at_critical_gap(const Study& study, const CaseOutcome& outcome) {
 void find_bounds_of_critical_gap(const Study& study, CaseOutcome& outcome) {
   CriticalGap& critical = outcome.critical;
   const bool is_film = outcome.input.scene.scene.surface.air_model == scene::AirModel::film;
-  if (!study.kind.bounds_critical_gaps || is_film || critical.kind == CriticalGapKind::indeterminate) return;
+  if (!study.kind.bounds_critical_gaps || is_film || critical.kind == CriticalGapKind::indeterminate ||
+      critical.kind == CriticalGapKind::several_crossings)
+    return;
   if (critical.kind == CriticalGapKind::all_ignite) return set_shares(critical, {});
   const GapVerdict row = row_at_critical_gap(study, outcome);
   std::vector<RaisedLaunch> raised = raised_launches(study, outcome, row, End::towards_ignition);
@@ -213,6 +216,16 @@ std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
   if (!confirmation.completed) return gap + "did not complete: " + confirmation.failure;
   return gap + (confirmation.ignited ? "ignites" : "does not ignite") + ", the traced temperatures " +
          (confirmation.expected_ignition ? "do" : "do not");
+}
+
+/// Why no ignition of a case shows nothing, by its input or by its run.
+std::string why_optimistic(const Study& study, const CaseOutcome& outcome) {
+  const scene::Scene& scene = outcome.input.scene.scene;
+  std::string text = optimistic_text(study, outcome.input);
+  const bool judged = study.kind.gives_verdicts && outcome.completed();
+  if (!text.empty() || !judged || outcome.result.mechanics.trace.samples() == 0) return text;
+  return unheated_text(heated_temperature(scene, outcome.result.mechanics.trace, 0.0) -
+                       scene.initial_temperature);
 }
 
 /// All validity warnings of a completed run itself as one clause.
@@ -376,6 +389,8 @@ void conclude(const Study& study, CaseOutcome& outcome) {
   const std::string warnings = validity_warnings_of(outcome);
   const std::string unaccepted = unaccepted_text(study, outcome.input);
   const std::string accepted = accepted_text(study, outcome.input);
+  const std::string ring = scene::ring_text(outcome.input.scene.scene.load);
+  const std::string optimistic = why_optimistic(study, outcome);
   std::vector<double> gaps, temperatures;
   for (GapVerdict& row : outcome.verdicts) {
     row.uncertainty.coupling = coupling;
@@ -385,9 +400,10 @@ void conclude(const Study& study, CaseOutcome& outcome) {
     evidence.validity_warnings = warnings;
     evidence.unaccepted = unaccepted;
     evidence.accepted = accepted;
-    evidence.optimistic = optimistic_text(study, outcome.input.scene.scene);
+    evidence.optimistic = optimistic;
     evidence.model_form = model_form_text(study, outcome.input, row.gap, row.ignition.has_value());
     evidence.extrapolated = extrapolation_text(study, outcome.input, row.gap);
+    evidence.ring = ring;
     judge_row(outcome.failure, outcome.result.mechanics.limiters, outcome.critical, row);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);

@@ -8,17 +8,18 @@ namespace launchsafe::study {
 const ShareTraits& traits_of(ShareKind kind) {
   using enum ShareClass;
   static const std::array<ShareTraits, share_kinds> traits{{
-      {"peak_pressure", "peak pressure", random},
-      {"pulse_length", "length of the pulse", random},
-      {"initial_temperature", "initial temperature", random},
-      {"muzzle_exit", "time of the muzzle exit", random},
-      {"stated_inputs", "inputs, as stated", random},
-      {"load_curve", "noise and smoothing of the measured curve", knowledge},
-      {"computation", "computation", knowledge},
-      {"sliding", "sliding at the base", knowledge},
-      {"fit", "calibrated constants", knowledge},
-      {"model_form", "other models", knowledge},
-      {"accepted", "accepted constants, which the calibration has otherwise", knowledge},
+      {"peak_pressure", "peak pressure", random, "a measured spread of the peak pressure"},
+      {"pulse_length", "length of the pulse", random, "measured curves of several rounds"},
+      {"initial_temperature", "initial temperature", random, "a narrower range of temperatures"},
+      {"muzzle_exit", "time of the muzzle exit", random, "a measured time of the exit"},
+      {"stated_inputs", "inputs, as stated", random, "a better known launch"},
+      {"load_curve", "noise and smoothing of the measured curve", knowledge, "a gauge with less noise"},
+      {"computation", "computation", knowledge, "a finer setting, or a record of its accuracy"},
+      {"sliding", "sliding at the base", knowledge, "a base that holds the charge"},
+      {"fit", "calibrated constants", knowledge, "more measured temperatures to calibrate on"},
+      {"model_form", "other models", knowledge, "measurements of how the shell holds the charge"},
+      {"accepted", "accepted constants, which the calibration has otherwise", knowledge,
+       "a calibration with these constants"},
   }};
   return traits.at(static_cast<std::size_t>(kind));
 }

@@ -132,15 +132,16 @@ std::string why_outside(const ModelFormRecord& record, const scene::Scene& scene
 }
 
 template <class Differs>
-std::string names_where(const ModelFormRecord& record, const scene::Scene& scene, Differs differs) {
+std::string titles_where(const ModelFormRecord& record, const scene::Scene& scene, Differs differs) {
   if (!why_outside(record, scene).empty()) return {};
   const PressureInterval interval = *interval_of(record.peak_pressures, peak_of(scene));
-  std::vector<std::string> names;
+  std::vector<std::string> titles;
   for (const ModelAlternative& each : record.alternatives) {
     const GapOrBound a = each.critical_gap[interval.below], b = each.critical_gap[interval.above];
-    if (differs(each, a) || differs(each, b)) names.push_back(each.name);
+    if (differs(each, a) || differs(each, b))
+      titles.push_back(fmt::format("\"{}\"", each.title.empty() ? each.name : each.title));
   }
-  return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{}", fmt::join(titles, ", "));
 }
 
 }  // namespace
@@ -178,6 +179,12 @@ ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries,
   return {std::move(record), {}};
 }
 
+scene::Limits compared_pressures(const std::optional<ModelFormRecord>& record) {
+  constexpr double lowest = 400e6, highest = 550e6;
+  if (!record || record->peak_pressures.empty()) return scene::between(lowest, highest);
+  return scene::between(record->peak_pressures.front(), record->peak_pressures.back());
+}
+
 ModelFormShift model_form_shift(const ModelFormRecord& record, const scene::Scene& scene) {
   if (std::string reason = why_outside(record, scene); !reason.empty())
     return {std::nan(""), std::nan(""), std::move(reason)};
@@ -191,12 +198,12 @@ ModelFormShift model_form_shift(const ModelFormRecord& record, const scene::Scen
 }
 
 std::string models_without_ignition(const ModelFormRecord& record, const scene::Scene& scene, double gap) {
-  return names_where(record, scene,
-                     [gap](const ModelAlternative&, double critical) { return !(critical <= gap); });
+  return titles_where(record, scene,
+                      [gap](const ModelAlternative&, double critical) { return !(critical <= gap); });
 }
 
 std::string models_that_may_ignite(const ModelFormRecord& record, const scene::Scene& scene, double gap) {
-  return names_where(record, scene, [gap](const ModelAlternative& each, double critical) {
+  return titles_where(record, scene, [gap](const ModelAlternative& each, double critical) {
     return !each.not_counted.empty() && !(critical > gap);
   });
 }

@@ -47,6 +47,8 @@ Judgement judge_in_gap(const Evidence& evidence, const CriticalGap& critical) {
   switch (critical.kind) {
     case CriticalGapKind::indeterminate:
       return indeterminate("the critical gap is indeterminate: " + critical.reason);
+    case CriticalGapKind::several_crossings:
+      return indeterminate("ignition comes and goes with the gap: " + critical.reason);
     case CriticalGapKind::all_ignite:
       return indeterminate("no ignition here, but at smaller gaps");
     case CriticalGapKind::all_safe:
@@ -84,6 +86,7 @@ Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
   Judgement judgement = judge_sound(evidence, critical);
   if (!evidence.limited.empty()) judgement.reason += "; limiters acted: " + evidence.limited;
   if (!evidence.noise.empty()) judgement.reason += "; " + evidence.noise;
+  if (!evidence.ring.empty()) judgement.reason += "; " + evidence.ring;
   if (!evidence.model_form.empty()) judgement.reason += "; " + evidence.model_form;
   if (!evidence.extrapolated.empty()) judgement.reason += "; " + evidence.extrapolated;
   // The user's words come last: what the program says stands before them, whatever they are.

@@ -11,7 +11,7 @@ void record(const std::vector<detail::FilmStation>& stations, const std::vector<
             SkinHistory& history) {
   double air = 0.0;
   for (std::size_t s = 0; s < stations.size(); ++s) {
-    history.temperature.push_back(stations[s].surface());
+    history.temperature.push_back(stations[s].hottest());
     // A station without area does not count, whatever it has.
     if (shares[s] > 0.0) air += shares[s] * stations[s].mean_air();
   }

@@ -57,7 +57,7 @@ TEST_F(ExplainedGrid, IsTheEvenOneOfTheUpdatedLagrangianForm) {
         with(brief_scene(), "[numerics]\n", "[numerics]\nformulation = \"updated-lagrangian\"\n"));
   const auto lines = grid_of("even.toml")["x_lines_m"].get<std::vector<double>>();
   const scene::Mesh mesh = scene::fit_mesh(scene_in("even.toml"));
-  ASSERT_EQ(lines.size(), 51u);
+  ASSERT_EQ(lines.size(), 26u);
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) EXPECT_NEAR(lines[i + 1] - lines[i], mesh.dx, 1e-12);
   EXPECT_NE(run({"explain", "even.toml"}).out.find("need not run through edges"), std::string::npos);
 }

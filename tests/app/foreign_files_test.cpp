@@ -127,7 +127,7 @@ TEST_F(OwnFolder, EarlierReportsGoWhereNobodyElsesFilesAre) {
   write("out/earlier-1/report.md", mine);
   write("out/earlier-1/notes.txt", mine);
   fs::create_symlink(folder(), folder() / "out/earlier-2");
-  write("study.toml", with(sweep_study, "1, 2 us", "1, 1.5 us"));
+  write("study.toml", with(sweep_study, "20, 40 us", "20, 60 us"));
   const Outcome updated = run({"study", "study.toml", "-o", "out", "--update"});
   EXPECT_EQ(updated.code, 0) << updated.err;
   EXPECT_EQ(read("out/earlier-1/report.md"), mine);

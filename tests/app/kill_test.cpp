@@ -77,7 +77,7 @@ TEST_F(KilledStudy, TwentyTimesAndMoreComesToTheSameAsOneThatWasLeftAlone) {
 }
 
 TEST_F(KilledStudy, WhileItsReportIsWrittenHasWholeFilesOnly) {
-  write("shell.toml", tiny_scene);
+  write("shell.toml", far_scene());
   ASSERT_EQ(run(command("alone")).code, 0);
   ASSERT_EQ(run(command("out")).code, 0);
   std::filesystem::remove(folder() / "out/report.md");

@@ -96,6 +96,10 @@ TEST_F(OwnShell, OverwritesNothingAndRefusesSenselessWishes) {
   EXPECT_EQ(run({"import-curve", "absent.csv"}).code, 2);
   EXPECT_EQ(run({"import-curve", "gauge.csv", "-o", "curve.txt"}).code, 2);
   EXPECT_EQ(run({"import-curve", "gauge.csv", "--trigger", "-3 MPa"}).code, 2);
+  const Outcome mistaken = run({"import-curve", "gauge.csv", "--offset", "20 MPa", "-o", "other.csv"});
+  EXPECT_EQ(mistaken.code, 2);
+  EXPECT_TRUE(mistaken.says("--offset: found an offset of 20 MPa")) << mistaken.err;
+  EXPECT_FALSE(exists("other.csv"));
   write("pressure.csv", "mine");
   EXPECT_EQ(run({"import-curve", "gauge.csv", "-o", "pressure.csv"}).code, 2);
   EXPECT_EQ(read("pressure.csv"), "mine");

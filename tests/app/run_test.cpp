@@ -13,6 +13,8 @@ TEST_F(RunProgram, PrintsATableAndWritesACaseFile) {
   write("shell.toml", tiny_scene);
   const Outcome outcome = run({"run", "shell.toml", "-o", "out/deep"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.out.starts_with("Launch\n  end of the launch     9.019 m/s after 0.000933 m"))
+      << outcome.out;
   for (const std::string part :
        {"a small shell", "T max [K]", "G1", "ignition", "The energy of the air", "Energy balance", "drift",
         "particles", "steps", "wall time", "million particle updates per second"}) {

@@ -72,7 +72,7 @@ TEST_F(TerminalProgram, ShowsOneLineThatIsRewrittenAndThenRemoved) {
 }
 
 TEST_F(TerminalProgram, ShowsNothingWhenQuiet) {
-  write("shell.toml", tiny_scene);
+  write("shell.toml", far_scene());
   write("study.toml", sweep_study);
   const std::string never = "never shown";
   const std::string text = shown({"study", "study.toml", "-o", "loud"}, never);

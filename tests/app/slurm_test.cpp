@@ -2,6 +2,7 @@
 // stand-ins. tests/app/slurm.sh runs them on a real Slurm.
 #include "program.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cstdlib>
@@ -101,6 +102,23 @@ TEST_F(SlurmProgram, AsksForWhatAShardNeeds) {
         " --shard \"$SLURM_ARRAY_TASK_ID/2\" --jobs 4 --memory 7200MB --time-limit 90s\n"}) {
     EXPECT_TRUE(contains(shard, part)) << part << " in\n" << shard;
   }
+}
+
+// Measured: a sweep of 1000 cases takes 50 kB a case, a study that keeps outcomes 170 kB.
+TEST_F(SlurmProgram, AsksForTheMemoryOfAllCasesOfThePlan) {
+  std::string pressures = "40 MPa";
+  for (int i = 1; i < 300; ++i) pressures = fmt::format("{:.2f}, ", 40.0 - 0.01 * i) + pressures;
+  const std::string kept =
+      "kind = \"critical-gap\"\nscene = \"shell.toml\"\nearly_time = \"0.03 ms\"\nconfirm = false\n"
+      "numerical_uncertainty = { value = \"5 K\", because = \"for a test\" }\npeak_pressures = ";
+  const auto mebibytes = [this](const std::string& study) {
+    std::filesystem::remove_all(folder() / "out");
+    write("sweep.toml", study);
+    return nlohmann::json::parse(emit({"--json"}).out)["memory_MiB"].get<double>();
+  };
+  const double few = mebibytes(small_sweep);
+  EXPECT_GE(mebibytes(with(small_sweep, "40, 50, 60 MPa", pressures)) - few, 297 * 50e3 / 1048576.0);
+  EXPECT_GE(mebibytes(kept + "\"" + pressures + "\"\n") - few, 297 * 170e3 / 1048576.0);
 }
 
 TEST_F(SlurmProgram, TheTimeFollowsFromTheSlowestShard) {
@@ -205,7 +223,12 @@ TEST_F(SlurmProgram, ShardsAndMergeGiveTheReportOfTheWholeStudyFromAnyFolder) {
   }
 }
 
-const std::string a_case_is_stored = ": > out/cases/fake.h5";
+/// What the journal of a shard says of a case that is finished.
+std::string finished_by_shard(int shard) {
+  return fmt::format(R"(echo '{{"case":"0","state":"done","label":"fake"}}' >> out/journal.{}-of-2.jsonl)",
+                     shard);
+}
+const std::string a_case_is_stored = finished_by_shard(1);
 
 TEST_F(SlurmProgram, ATaskWhoseTimeIsNearlyUpIsQueuedAgain) {
   EXPECT_EQ(run_shard_until_told("RUNNING", a_case_is_stored), 75) << read("shell.txt");
@@ -216,6 +239,12 @@ TEST_F(SlurmProgram, ATaskWhoseTimeIsNearlyUpIsQueuedAgain) {
 TEST_F(SlurmProgram, ATaskThatCannotFinishACaseInItsTimeIsNot) {
   EXPECT_EQ(run_shard_until_told("RUNNING", ""), 75) << read("shell.txt");
   EXPECT_TRUE(contains(read("shell.txt"), "raise --time in shard.sbatch")) << read("shell.txt");
+  EXPECT_FALSE(contains(read("calls.txt"), "scontrol")) << read("calls.txt");
+}
+
+TEST_F(SlurmProgram, WhatOtherShardsFinishDoesNotQueueATaskAgain) {
+  const std::string other = finished_by_shard(2) + "; mkdir -p out/cases; : > out/cases/fake.h5";
+  EXPECT_EQ(run_shard_until_told("RUNNING", other), 75) << read("shell.txt");
   EXPECT_FALSE(contains(read("calls.txt"), "scontrol")) << read("calls.txt");
 }
 

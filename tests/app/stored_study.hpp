@@ -22,9 +22,9 @@ model_form_uncertainty = { value = "1 K", because = "for a test" }
 accept = [{ key = "gap.exchange_time", value = "1 to 2 us", because = "the launch is as much faster" }]
 
 [axes]
-peak_pressure = "50, 60, 70, 80 MPa"
+peak_pressure = "250, 260, 270, 280 MPa"
 crack_radius = "20, 30, 40 um"
-"gap.exchange_time" = "1, 2 us"
+"gap.exchange_time" = "20, 40 us"
 gap = "0, 0.01, 0.02 cm"
 )";
 
@@ -39,7 +39,7 @@ resamples = 100
 [[input]]
 key = "peak_pressure"
 distribution = "uniform"
-range = "50 to 80 MPa"
+range = "250 to 280 MPa"
 
 [[input]]
 key = "crack_radius"
@@ -62,7 +62,7 @@ accept = [
 
 [set]
 kinetics.ignition_temperature = "350 K"
-gap.exchange_time = "1 us"
+gap.exchange_time = "20 us"
 )";
 
 /// Two meshes, each a mechanical run; the published temperatures are made up.
@@ -130,7 +130,7 @@ class StoredStudy : public Program {
  protected:
   void SetUp() override {
     Program::SetUp();
-    write("shell.toml", tiny_scene);
+    write("shell.toml", far_scene());
     write("study.toml", sweep_study);
   }
 

@@ -19,7 +19,7 @@ class ChangedStudy : public StoredStudy {
 };
 
 TEST_F(ChangedStudy, IsRefusedAndToldOfUpdate) {
-  write("shell.toml", with(tiny_scene, "50 MPa", "55 MPa"));
+  write("shell.toml", with(far_scene(), "250 MPa", "255 MPa"));
   const auto before = results_in("out");
   const Outcome refused = run({"study", "study.toml", "-o", "out"});
   EXPECT_EQ(refused.code, 2);
@@ -42,7 +42,7 @@ TEST_F(ChangedStudy, OfAFileThatItRestsOnIsAnotherStudy) {
 }
 
 TEST_F(ChangedStudy, WithOtherThermalInputNeedsNoRun) {
-  write("study.toml", with(sweep_study, "1, 2 us", "1, 1.5 us"));
+  write("study.toml", with(sweep_study, "20, 40 us", "20, 60 us"));
   const Outcome updated = update();
   EXPECT_EQ(updated.code, 0) << updated.err;
   EXPECT_TRUE(updated.says("re-used 12 mechanical runs, ran 0")) << updated.err;
@@ -55,11 +55,11 @@ TEST_F(ChangedStudy, WithOtherThermalInputNeedsNoRun) {
 }
 
 TEST_F(ChangedStudy, WithOneMoreValueRunsWhatIsNew) {
-  write("study.toml", with(sweep_study, "70, 80 MPa", "70, 80, 90 MPa"));
+  write("study.toml", with(sweep_study, "270, 280 MPa", "270, 280, 290 MPa"));
   const Outcome updated = update();
   EXPECT_EQ(updated.code, 0) << updated.err;
   EXPECT_TRUE(updated.says("re-used 12 mechanical runs, ran 3 ")) << updated.err;
-  write("study.toml", with(sweep_study, "70, 80 MPa", "70 MPa"));
+  write("study.toml", with(sweep_study, "270, 280 MPa", "270 MPa"));
   const Outcome fewer = update();
   EXPECT_TRUE(fewer.says("re-used 9 mechanical runs, ran 0")) << fewer.err;
   EXPECT_EQ(read("out/earlier-1/report.md"), page_);
@@ -74,21 +74,21 @@ TEST_F(ChangedStudy, UpdateOfTheSameStudyMovesNothing) {
 }
 
 TEST_F(ChangedStudy, ExplainsWhyARunRuns) {
-  write("shell.toml", with(tiny_scene, "peak_time = \"0.035 ms\"", "peak_time = \"0.036 ms\""));
+  write("shell.toml", with(far_scene(), "peak_time = \"0.35 ms\"", "peak_time = \"0.36 ms\""));
   const Outcome updated = run({"study", "study.toml", "-o", "out", "--update", "--explain"});
   EXPECT_EQ(updated.code, 0) << updated.err;
-  EXPECT_TRUE(updated.says("peak_pressure 50 MPa, crack_radius 20 um, gap.exchange_time 1 us: to run: "))
+  EXPECT_TRUE(updated.says("peak_pressure 250 MPa, crack_radius 20 um, gap.exchange_time 20 us: to run: "))
       << updated.err;
   EXPECT_TRUE(updated.says("peak_time")) << updated.err;
   const Outcome again = run({"study", "study.toml", "-o", "out", "--explain"});
-  EXPECT_TRUE(again.says("peak_pressure 80 MPa, crack_radius 40 um, gap.exchange_time 1 us: stored"))
+  EXPECT_TRUE(again.says("peak_pressure 280 MPa, crack_radius 40 um, gap.exchange_time 20 us: stored"))
       << again.err;
 }
 
 TEST_F(ChangedStudy, ManyRunsWithOneReasonAreOneLine) {
-  std::string pressures = "50, 60, 70, 80";
-  for (int i = 0; i < 9; ++i) pressures += ", " + std::to_string(100 + i);
-  write("study.toml", with(sweep_study, "50, 60, 70, 80", pressures));
+  std::string pressures = "250, 260, 270, 280";
+  for (int i = 0; i < 9; ++i) pressures += ", " + std::to_string(300 + i);
+  write("study.toml", with(sweep_study, "250, 260, 270, 280", pressures));
   const Outcome updated = run({"study", "study.toml", "-o", "out", "--update", "--explain"});
   EXPECT_TRUE(updated.says("12 runs: stored")) << updated.err;
   EXPECT_TRUE(updated.says("27 runs: to run: never run here\n")) << updated.err;

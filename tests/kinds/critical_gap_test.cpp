@@ -56,7 +56,7 @@ TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
 
 TEST(CriticalGapStudy, TheResultDoesNotDependOnTheNumberOfThreads) {
   const StudyFile study =
-      study_of(critical_text + gap_keys + "peak_pressures = \"300, 496, 450 MPa\"\n" + synthetic_constants);
+      study_of(critical_text + gap_keys + "peak_pressures = \"410, 496, 450 MPa\"\n" + synthetic_constants);
   const CriticalGapResult one = run_critical_gap(study, synthetic_options(1));
   const CriticalGapResult many = run_critical_gap(study, synthetic_options(4));
   ASSERT_EQ(one.cases.size(), 3u);

@@ -127,6 +127,30 @@ TEST(StudyPlausibility, EveryCaseOfASweepIsJudgedOnItsOwnValues) {
       << result.answers[1].verdicts[0].judgement.reason;
 }
 
+// Models were compared from 400 to 550 MPa (reports/model_form).
+TEST(StudyPlausibility, NothingIsSafeBeyondThePressuresOfOtherModelsWithoutAReason) {
+  const std::string half = "load.peak = \"300 MPa\"\n";
+  const Judgement warned = judgement_in(run_safe_study("", half));
+  EXPECT_EQ(warned.verdict, Verdict::indeterminate);
+  EXPECT_TRUE(says(warned.reason, "model_form.pressure = 300 MPa")) << warned.reason;
+  EXPECT_TRUE(says(warned.reason, "400 MPa to 550 MPa")) << warned.reason;
+  const Judgement accepted =
+      judgement_in(run_safe_study(accept("model_form.pressure", "300 MPa", "a charge of a lower zone"), half));
+  EXPECT_EQ(accepted.verdict, Verdict::safe) << accepted.reason;
+  EXPECT_TRUE(says(accepted.reason, "accepted: model_form.pressure = 300 MPa")) << accepted.reason;
+  EXPECT_EQ(judgement_in(run_safe_study("", "load.peak = \"400 MPa\"\n")).verdict, Verdict::safe);
+}
+
+TEST(StudyPlausibility, WhatAStudySetsHasToGiveTheExpectedVelocityToo) {
+  const std::string expected = "load.expected_velocity = \"800 m/s\"\n";
+  EXPECT_TRUE(parse_here(safe_study("", expected)));
+  const auto mistaken = parse_here(safe_study("", expected + "load.peak = \"248 MPa\"\n"));
+  ASSERT_FALSE(mistaken);
+  EXPECT_TRUE(says(mistaken.error().message(), "load.expected_velocity")) << mistaken.error().message();
+  EXPECT_TRUE(parse_here("peak_pressures = \"248, 496 MPa\"\n" + safe_study("", expected)))
+      << "other launches on purpose";
+}
+
 // Its stress cases ask what the computation makes of them; none may pass because its input is called
 // implausible.
 TEST(StudyPlausibility, AStabilityStudyJudgesWithoutIt) {

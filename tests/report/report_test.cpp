@@ -53,6 +53,13 @@ TEST(Report, ThePageHasItsPartsInOrderWithOneEmptyLineBetween) {
   EXPECT_TRUE(launchsafe::testing::in_order(page, {"10 of 100 rows", "long.csv"}));
 }
 
+TEST(Report, TheLaunchStandsFirst) {
+  Report report = made_report();
+  report.launch = "The shot leaves the barrel with 796 m/s.";
+  EXPECT_TRUE(to_markdown(report).starts_with("# A study\n\n" + report.launch + "\n\nThe answer.\n"));
+  EXPECT_TRUE(to_text(report, "out").starts_with(report.launch + "\n\n"));
+}
+
 TEST(Report, AMissingPictureIsNotLinkedAndIsTold) {
   const std::string page = to_markdown(made_report(), {"curve.svg"});
   EXPECT_FALSE(says(page, "curve.svg"));

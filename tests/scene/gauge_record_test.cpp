@@ -2,6 +2,8 @@
 // with.
 #include "launchsafe/scene/gauge_record.hpp"
 
+#include "launchsafe/scene/quantity.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -80,6 +82,20 @@ TEST(GaugeRecord, WithoutQuietPointsTheOffsetHasToBeGiven) {
   ASSERT_FALSE(result);
   EXPECT_NE(result.error().message().find("--offset"), std::string::npos) << result.error().message();
   EXPECT_EQ(cleaned(record, {.offset = gauge_offset}).offset, gauge_offset);
+}
+
+// The quiet points show 0.4 MPa with a noise of 0.2 MPa; a thousandth of the peak are 0.3 MPa.
+TEST(GaugeRecord, AnOffsetThatTheQuietPointsContradictIsRefused) {
+  for (const double offset : {gauge_offset - 0.25e6, gauge_offset + 0.25e6})
+    EXPECT_EQ(cleaned(gauge_pulse(), {.offset = offset}).offset, offset);
+  for (const double offset : {-8e6, 0.0, 0.8e6, 20e6}) {
+    const auto result = clean(gauge_pulse(), {.offset = offset}, "gauge.csv");
+    ASSERT_FALSE(result) << offset;
+    const std::string message = result.error().message();
+    EXPECT_NE(message.find("--offset"), std::string::npos) << message;
+    EXPECT_NE(message.find("before the rise show 0.4"), std::string::npos) << message;
+    EXPECT_NE(message.find("an offset of " + pressure_text(offset)), std::string::npos) << message;
+  }
 }
 
 TEST(GaugeRecord, ATriggerThatIsNeverPassedIsRefused) {

@@ -67,7 +67,7 @@ TEST(Interfaces, ThatSlideFromTheStartHaveNoStrengths) {
 }
 
 TEST(Interfaces, OfBodiesAwayFromTheChargeAreRefused) {
-  auto text = small_scene + testing::small_shell_base + with(sliding_wall, "wall", "wal");
+  auto text = small_scene + with(sliding_wall, "wall", "wal");
   auto error = error_of(text);
   expect_error(error, line_of(text, "[interface"), "interface.wal", "which no body is called",
                "\"cup\", \"wall\" or \"base\"");
@@ -75,7 +75,7 @@ TEST(Interfaces, OfBodiesAwayFromTheChargeAreRefused) {
   text = small_scene + with(sliding_wall, "wall", "filling");
   expect_error(error_of(text), line_of(text, "[interface"), "interface.filling", "a charge itself", "cup");
   text = small_scene +
-         "[[body]]\nname = \"lid\"\nmaterial = \"steel\"\nx = \"4 to 5 cm\"\nr = \"1.5 to 2 cm\"\n" +
+         "[[body]]\nname = \"lid\"\nmaterial = \"steel\"\nx = \"5 to 6 cm\"\nr = \"0 to 2 cm\"\n" +
          with(sliding_wall, "wall", "lid");
   expect_error(error_of(text), line_of(text, "[interface"), "interface.lid", "does not touch the charge",
                "cup");

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
 namespace launchsafe::scene {
@@ -131,6 +132,47 @@ TEST(LoadRoughness, IsTakenAwayBySmoothing) {
   EXPECT_NE(measured_load_text(rough).find("load.smoothing = \""), std::string::npos);
   EXPECT_NE(measured_load_text(load).find("from the peak"), std::string::npos);
   EXPECT_FALSE(suggested_smoothing(measured(100, pulse)));
+}
+
+/// The pulse with a sine of a frequency (1/s) and a share of the peak, where there is pressure.
+Load ringing(double frequency, double share, std::size_t points, double noise_share = 0.0) {
+  std::mt19937 generator(5);
+  std::normal_distribution<double> noise(0.0, noise_share > 0.0 ? noise_share * 496e6 : 1.0);
+  return measured(points, [&](double time) {
+    const double pressure = pulse(time);
+    const double ring = share * 496e6 * std::sin(2.0 * std::numbers::pi * frequency * time);
+    return std::max(0.0,
+                    pressure + (pressure > 20e6 ? ring : 0.0) + (noise_share > 0.0 ? noise(generator) : 0.0));
+  });
+}
+
+// Expected is the sine that was added. It begins with the pressure, so that its mean square over the record
+// is smaller, and its amplitude is found too small by less than a third.
+TEST(LoadRoughness, NamesTheFrequencyAndTheSizeOfARing) {
+  for (const double frequency : {1.5e3, 3.2e3, 9e3, 20e3})
+    for (const std::size_t points : {1801u, 9001u}) {
+      const auto ring = ring_of(ringing(frequency, 0.015, points));
+      ASSERT_TRUE(ring) << frequency << " " << points;
+      EXPECT_NEAR(ring->frequency, frequency, 1.0 / duration) << points;
+      EXPECT_NEAR(ring->amplitude, 0.0125 * 496e6, 0.2 * 0.0125 * 496e6) << frequency << " " << points;
+    }
+  const auto noisy_ring = ring_of(ringing(3.2e3, 0.015, 9001, 0.01));
+  ASSERT_TRUE(noisy_ring);
+  EXPECT_NEAR(noisy_ring->frequency, 3.2e3, 1.0 / duration);
+  Load load = ringing(3.2e3, 0.015, 1801);
+  load.curve_file = "pressure.csv";
+  EXPECT_NE(measured_load_text(load).find("the record pressure.csv rings at 3.2 kHz"), std::string::npos)
+      << measured_load_text(load);
+}
+
+TEST(LoadRoughness, SeesNoRingInNoisePulsesAndStepsOrBehindAnAverageOverIt) {
+  EXPECT_FALSE(ring_of(Load{}));
+  EXPECT_FALSE(ring_of(noisy(0.01, 100e3)));
+  EXPECT_FALSE(ring_of(noisy(0.05, 20e3)));
+  for (const auto& shape : {pulse, two_humps, step}) EXPECT_FALSE(ring_of(measured(2000, shape)));
+  Load averaged = ringing(3.2e3, 0.015, 1801);
+  averaged.smoothing = 1.0 / 3.2e3;
+  EXPECT_FALSE(ring_of(averaged)) << ring_text(averaged);
 }
 
 }  // namespace

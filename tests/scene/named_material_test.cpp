@@ -49,7 +49,7 @@ TEST(NamedMaterial, ThatShipsGivesANumberAndASourceOfEveryKey) {
 /// What is called comp-b is what scenes have by default: all that was computed and calibrated with it holds.
 TEST(NamedMaterial, CompBAndShellSteelAreTheDefaults) {
   std::string both = of_comp_b;
-  for (int body = 0; body < 2; ++body)
+  for (int body = 0; body < 3; ++body)
     both = with(both, "material = \"steel\"", "material = \"shell-steel\"");
   const SceneFile named = scene_of(both), usual = scene_of(small_scene);
   Scene plain = named.scene;
@@ -141,7 +141,7 @@ TEST(NamedMaterial, OfTwoSteelsKeepTheirNumbersApart) {
 
 TEST(NamedMaterial, OfOneSteelIsTheSteelOfTheScene) {
   std::string text = small_scene;
-  for (int body = 0; body < 2; ++body) text = with(text, "material = \"steel\"", "material = \"hard\"");
+  for (int body = 0; body < 3; ++body) text = with(text, "material = \"steel\"", "material = \"hard\"");
   const SceneFile file = scene_of(text + hard_steel);
   EXPECT_EQ(file.scene.bodies[0].material, "steel");
   EXPECT_DOUBLE_EQ(file.scene.steel().strength.a, 1.2e9);
@@ -164,11 +164,11 @@ TEST(NamedMaterial, IsReadFromAFileOfItsOwn) {
   EXPECT_EQ(missing.error().key, "material_file");
 }
 
-struct Fault {
+struct MaterialFault {
   const char* what;
   std::string text, key;
 };
-class FaultyMaterial : public ::testing::TestWithParam<Fault> {};
+class FaultyMaterial : public ::testing::TestWithParam<MaterialFault> {};
 
 TEST_P(FaultyMaterial, IsRefusedAtItsKey) {
   const auto file = parse_scene(GetParam().text, "shell.toml");
@@ -180,37 +180,44 @@ TEST_P(FaultyMaterial, IsRefusedAtItsKey) {
 INSTANTIATE_TEST_SUITE_P(
     Scenes, FaultyMaterial,
     ::testing::Values(
-        Fault{"a law that there is not", of_own + with(own_mix, "law = \"charge\"", "law = \"explosive\""),
-              "material.my-mix.law"},
-        Fault{"no law", of_own + with(own_mix, "law = \"charge\"\n", ""), "material.my-mix.law"},
-        Fault{"a key of another law", of_own + own_mix + "yield_stress = \"1 GPa\"\n",
-              "material.my-mix.yield_stress"},
-        Fault{"numbers that nobody gives", of_own + with(own_mix, "like = \"comp-b\"\n", ""),
-              "material.my-mix.crack_radius"},
-        Fault{"like a steel", of_own + with(own_mix, "\"comp-b\"", "\"shell-steel\""),
-              "material.my-mix.like"},
-        Fault{"like nothing", of_own + with(own_mix, "\"comp-b\"", "\"comp-c\""), "material.my-mix.like"},
-        Fault{"like itself", of_own + with(own_mix, "\"comp-b\"", "\"my-mix\""), "material.my-mix.like"},
-        Fault{"a number out of range", of_own + with(own_mix, "1.65 g/cm3", "-1 g/cm3"),
-              "material.my-mix.density"},
-        Fault{"a source of a number that it has not",
-              of_own + with(own_mix, "keys = \"density\"", "keys = \"conductivity\""),
-              "material.my-mix.source.keys"},
-        Fault{"a source without words", of_own + with(own_mix, "our certificate 12", " "),
-              "material.my-mix.source.citation"},
-        Fault{"the name of a law",
-              of_own + "\n[material.charge]\nlaw = \"charge\"\nlike = \"comp-b\"\n" + own_mix, "material"},
-        Fault{"the name of a shipped one",
-              of_own + "\n[material.comp-b]\nlaw = \"charge\"\nlike = \"comp-b\"\n" + own_mix, "material"},
-        Fault{"two explosives",
-              of_own + own_mix +
-                  "\n[[body]]\nname = \"booster\"\nmaterial = \"comp-b\"\nx = \"0 to 1 cm\"\nr = \"0 to 1 "
-                  "cm\"\n",
-              "body.booster.material"},
-        Fault{"a key of steel beside two named ones",
-              with(with(small_scene, "\"steel\"", "\"hard\""), "\"steel\"", "\"shell-steel\"") +
-                  "\n[steel]\nhardening = \"600 MPa\"\n" + hard_steel,
-              "steel.hardening"}),
+        MaterialFault{"a law that there is not",
+                      of_own + with(own_mix, "law = \"charge\"", "law = \"explosive\""),
+                      "material.my-mix.law"},
+        MaterialFault{"no law", of_own + with(own_mix, "law = \"charge\"\n", ""), "material.my-mix.law"},
+        MaterialFault{"a key of another law", of_own + own_mix + "yield_stress = \"1 GPa\"\n",
+                      "material.my-mix.yield_stress"},
+        MaterialFault{"numbers that nobody gives", of_own + with(own_mix, "like = \"comp-b\"\n", ""),
+                      "material.my-mix.crack_radius"},
+        MaterialFault{"like a steel", of_own + with(own_mix, "\"comp-b\"", "\"shell-steel\""),
+                      "material.my-mix.like"},
+        MaterialFault{"like nothing", of_own + with(own_mix, "\"comp-b\"", "\"comp-c\""),
+                      "material.my-mix.like"},
+        MaterialFault{"like itself", of_own + with(own_mix, "\"comp-b\"", "\"my-mix\""),
+                      "material.my-mix.like"},
+        MaterialFault{"a number out of range", of_own + with(own_mix, "1.65 g/cm3", "-1 g/cm3"),
+                      "material.my-mix.density"},
+        MaterialFault{"a source of a number that it has not",
+                      of_own + with(own_mix, "keys = \"density\"", "keys = \"conductivity\""),
+                      "material.my-mix.source.keys"},
+        MaterialFault{"a source without words", of_own + with(own_mix, "our certificate 12", " "),
+                      "material.my-mix.source.citation"},
+        MaterialFault{"the name of a law",
+                      of_own + "\n[material.charge]\nlaw = \"charge\"\nlike = \"comp-b\"\n" + own_mix,
+                      "material"},
+        MaterialFault{"the name of a shipped one",
+                      of_own + "\n[material.comp-b]\nlaw = \"charge\"\nlike = \"comp-b\"\n" + own_mix,
+                      "material"},
+        MaterialFault{
+            "two explosives",
+            of_own + own_mix +
+                "\n[[body]]\nname = \"booster\"\nmaterial = \"comp-b\"\nx = \"0 to 1 cm\"\nr = \"0 to 1 "
+                "cm\"\n",
+            "body.booster.material"},
+        MaterialFault{"a key of steel beside two named ones",
+                      with(with(with(small_scene, "\"steel\"", "\"hard\""), "\"steel\"", "\"shell-steel\""),
+                           "\"steel\"", "\"shell-steel\"") +
+                          "\n[steel]\nhardening = \"600 MPa\"\n" + hard_steel,
+                      "steel.hardening"}),
     [](const auto& instance) {
       std::string name = instance.param.what;
       for (char& c : name)

@@ -90,7 +90,7 @@ const Fault faults[] = {
     {"", "numerics.cell_size = \"-1 mm\"\n", "-1 mm", "numerics.cell_size", "-1 mm", "10 um to"},
     {"r = \"0 to 2 cm\"", "r = \"2 to 2 cm\"", "2 to 2", "body.r", "no extent", "lower end"},
     {"r = \"0 to 1.5 cm\"", "r = \"0 to 2.5 cm\"", "2.5 cm", "body.filling.r", "sticks out", "r 0 to 2 cm"},
-    {"x = \"1 to 4 cm\"", "x = \"1 to 5 cm\"", "1 to 5", "body.filling.x", "sticks out", "x 0 to 4 cm"},
+    {"x = \"1 to 4 cm\"", "x = \"1 to 6 cm\"", "1 to 6", "body.filling.x", "sticks out", "x 0 to 5 cm"},
     {"r = \"1.5 to 2 cm\"", "r = \"1.4 to 2 cm\"", "1.4 to", "body.wall.r", "overlaps", "overlap"},
     {"", "numerics.cell_size = \"1.5 cm\"\n", "1.5 cm", "numerics.cell_size", "no particle", "at most 1 cm"},
     {"0, 0.01 cm", "0, 0.01, 0.02, 0.01 cm", "thickness", "gap.thickness", "twice", "once"},

@@ -1,6 +1,7 @@
 #include "launchsafe/scene/scene.hpp"
 
 #include "launchsafe/scene/read_scene.hpp"
+#include "scene_text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -49,12 +50,6 @@ TEST(Scene, ExtentsEncloseTheBodies) {
   EXPECT_EQ(extent_of(Scene{}).x_end, 0.0);
 }
 
-TEST(Scene, BaseAreaCountsOnlyFacesAtTheVeryBase) {
-  Scene scene;
-  scene.bodies = {{"rod", "steel", 0.0, 0.1, 0.0, 0.01}, {"ring", "steel", 0.0, 0.2, 0.01, 0.02}};
-  EXPECT_NEAR(base_area(scene), std::numbers::pi * (0.02 * 0.02 - 0.01 * 0.01), 1e-18);
-}
-
 TEST(PressureHistory, PowerExponentialRisesToItsPeakAndFalls) {
   Load load;
   load.shape = LoadShape::power_exponential;
@@ -71,16 +66,6 @@ TEST(PressureHistory, PowerExponentialRisesToItsPeakAndFalls) {
   for (double t = 0.0; t < 0.0179; t += 1e-4) {
     EXPECT_EQ(history.at(t) < history.at(t + 1e-4), t + 0.5e-4 < load.peak_time) << t;
   }
-}
-
-/// The bell that the published temperatures imply.
-Load published_bell() {
-  Load load;
-  load.shape = LoadShape::bell;
-  load.peak_time = 11.49e-3;
-  load.width = 3.03e-3;
-  load.steepness = 1.44;
-  return load;
 }
 
 // Tabulated by another program, which rounds its parameters: at the flanks that is up to 3 %.

@@ -18,7 +18,18 @@ duration = "1 ms"
 
 [gap]
 thickness = "0, 0.01 cm"
-)" + testing::small_shell + testing::small_shell_point;
+)" + testing::small_shell + testing::small_shell_point +
+                                       testing::small_shell_base;
+
+/// The bell that the published temperatures imply.
+inline Load published_bell() {
+  Load load;
+  load.shape = LoadShape::bell;
+  load.peak_time = 11.49e-3;
+  load.width = 3.03e-3;
+  load.steepness = 1.44;
+  return load;
+}
 
 /// The text with its first `from` replaced by `to`.
 inline std::string with(std::string text, std::string_view from, std::string_view to) {

@@ -64,7 +64,9 @@ TEST(Stations, CountCellsInTheCornerAndWhereTheyAreLongest) {
 
 TEST(Stations, WiderOrDeeperThanTheChargeAreRefusedWhereTheyAreAskedFor) {
   const auto text = [](const std::string& key) {
-    return "body = [ { name = \"charge\", material = \"charge\", x = \"0 to 3 mm\", r = \"0 to 2 mm\" } ]\n"
+    return "body = [ { name = \"charge\", material = \"charge\", x = \"0 to 3 mm\", r = \"0 to 2 mm\" }, "
+           "{ name = \"base\", x = \"3 to 6 mm\", r = \"0 to 2 mm\", material = \"steel\" }, "
+           "{ name = \"wall\", x = \"0 to 6 mm\", r = \"2 to 3 mm\", material = \"steel\" } ]\n"
            "[load]\nduration = \"1 ms\"\npeak_time = \"0.5 ms\"\n[numerics]\ncell_size = \"1 "
            "mm\"\n[station]\n" +
            key;

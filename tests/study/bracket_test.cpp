@@ -61,11 +61,13 @@ TEST(CriticalGapSearch, AnUndefinedGapMakesItIndeterminate) {
   }
 }
 
-TEST(CriticalGapSearch, SafeGapsBeyondTheFirstIgnitionAreNamed) {
+TEST(CriticalGapSearch, SafeGapsBeyondTheFirstIgnitionMakeItSeveralCrossings) {
   const CriticalGap found = find_critical_gap(
       [](double gap) { return gap > 2e-4 && gap < 6e-4 ? GapState::ignites : GapState::safe; }, 1e-3, 1e-6);
-  EXPECT_EQ(found.kind, CriticalGapKind::value);
-  EXPECT_NEAR(found.value, 2e-4, 1e-6);
+  EXPECT_EQ(found.kind, CriticalGapKind::several_crossings);
+  EXPECT_TRUE(std::isnan(found.value));
+  EXPECT_NEAR(found.lower, 2e-4, 1e-6);
+  EXPECT_NEAR(found.upper, 2e-4, 1e-6);
   EXPECT_NE(found.reason.find("not monotone"), std::string::npos);
 }
 

@@ -175,8 +175,8 @@ TEST(ModelForm, IsNotKnownWhereTheDefaultHasABoundAlone) {
 TEST(ModelForm, NamesModelsThatCouldChangeAVerdict) {
   const ModelFormRecord record = made_record();
   const scene::Scene scene = at_pressure(500e6);
-  EXPECT_EQ(models_without_ignition(record, scene, 4.5e-4), "late, cold");
-  EXPECT_EQ(models_that_may_ignite(record, scene, 2e-4), "rough");
+  EXPECT_EQ(models_without_ignition(record, scene, 4.5e-4), R"("the model late", "the model cold")");
+  EXPECT_EQ(models_that_may_ignite(record, scene, 2e-4), R"("the model rough")");
   EXPECT_EQ(models_that_may_ignite(record, scene, 0.5e-4), "");
 }
 
@@ -225,6 +225,15 @@ GapVerdict verdict_with(const std::string& gap, const std::string& statement, co
   return run_critical_gap(study, synthetic_options()).cases.at(0).verdicts.at(0);
 }
 
+// Of the record that ships.
+TEST(ModelForm, WithoutARecordThePressuresOfTheShippedOneCount) {
+  std::ifstream file(LAUNCHSAFE_SOURCE_DIR "/reports/model_form/model_form.json");
+  const auto pressures = nlohmann::json::parse(file).at("peak_pressures_Pa").get<std::vector<double>>();
+  EXPECT_EQ(compared_pressures({}).lowest, pressures.front());
+  EXPECT_EQ(compared_pressures({}).highest, pressures.back());
+  EXPECT_EQ(compared_pressures(made_record()).lowest, 450e6);
+}
+
 TEST(ModelForm, IsAssumedWhereNothingIsSaid) {
   EXPECT_DOUBLE_EQ(verdict_with("0.01", "", nullptr).uncertainty.model_form, assumed_model_form);
   EXPECT_DOUBLE_EQ(
@@ -252,7 +261,8 @@ TEST(ModelForm, AnUnsafeNamesTheModelsWithoutIgnition) {
   std::erase_if(record.alternatives, [](const auto& each) { return each.name == "early"; });
   const GapVerdict row = verdict_with("0.045", "", &record);
   ASSERT_EQ(row.judgement.verdict, Verdict::unsafe) << row.judgement.reason;
-  EXPECT_NE(row.judgement.reason.find("under late, cold"), std::string::npos) << row.judgement.reason;
+  EXPECT_NE(row.judgement.reason.find(R"(under "the model late", "the model cold")"), std::string::npos)
+      << row.judgement.reason;
 }
 
 }  // namespace

@@ -37,8 +37,8 @@ inline const std::string synthetic_statements =
 inline const std::string critical_kind = "kind = \"critical-gap\"\nscene = \"scene_155mm.toml\"\n";
 inline const std::string critical_text = critical_kind + synthetic_statements;
 
-/// The bottom under a smooth load: pressure in proportion to the peak, friction energy that
-/// grows with t^3, highest at the second station in the end.
+/// The bottom under a smooth load: pressure in proportion to the peak, as a charge bears that slides,
+/// friction energy that grows with t^3, highest at the second station in the end.
 inline trace::BottomTrace synthetic_trace(double peak, double friction) {
   constexpr int intervals = 240;
   trace::BottomTrace trace;
@@ -56,8 +56,10 @@ inline trace::BottomTrace synthetic_trace(double peak, double friction) {
     for (int k = 0; k < 16; ++k) mean += pressure(t - dt * (k + 0.5) / 16.0) / 16.0;
     if (sample == 0) mean = pressure(0.0);
     trace.time.push_back(t);
-    for (auto* values : {&trace.bottom_pressure, &trace.chamber_pressure}) values->push_back(pressure(t));
-    for (auto* values : {&trace.mean_bottom_pressure, &trace.mean_chamber_pressure}) values->push_back(mean);
+    trace.bottom_pressure.push_back(pressure(t));
+    trace.mean_bottom_pressure.push_back(mean);
+    trace.chamber_pressure.push_back(496.0 / 140.0 * pressure(t));
+    trace.mean_chamber_pressure.push_back(496.0 / 140.0 * mean);
     trace.steps.push_back(200.0 * sample);
     for (std::size_t closure = 0; closure < 2; ++closure) {
       for (const double share : shares[closure])

@@ -13,7 +13,7 @@ using math::Pack;
 /// Load and numerical parameters of a step.
 struct StepInput {
   double dt = 0;              ///< s
-  double pressure = 0;        ///< on the base, Pa
+  double pressure = 0;        ///< of the chamber, Pa
   double acceleration = 0;    ///< of the frame, m/s2
   double damping_factor = 1;  ///< fraction of the velocity that remains after damping
   double pic_fraction = 0;    ///< fraction of the grid velocity in the particle velocity
@@ -60,7 +60,7 @@ struct StepTotals {
   ParticleTotals particles;
   NodeTotals nodes;
   BulkMotion bulk;
-  double base_flow = 0;        ///< volume that the loaded face displaces per time, m3/s
+  double chamber_flow = 0;     ///< volume by which the faces give way to the chamber's gas, m3/s
   double bore_work = 0;        ///< of bore pressures, J
   double body_force_work = 0;  ///< of body forces on single bodies, J
   ContactTotals contact;

@@ -14,6 +14,7 @@
 #include "launchsafe/mpm/nodes.hpp"
 #include "launchsafe/mpm/step.hpp"
 #include "launchsafe/mpm/team.hpp"
+#include "launchsafe/scene/chamber.hpp"
 #include "launchsafe/scene/scene.hpp"
 
 #include <memory>
@@ -70,7 +71,7 @@ class TotalLagrangian {
     std::size_t body;
     int begin, end;
   };
-  /// Force on one node: of the chamber pressure N per Pa.
+  /// Force of the chamber pressure on one node, along x or r: N per Pa.
   struct LoadShare {
     std::size_t body;
     int row;
@@ -81,9 +82,11 @@ class TotalLagrangian {
   Part make_part(const AnyBody& any, const Nodes& nodes) const;
   void sum_nodal_masses();
   void share_work();
-  void find_base();
+  void find_chamber_load();
+  void load_across(const scene::ChamberFace& face);
+  void load_along(const scene::ChamberFace& face);
   void load_nodes(const StepInput& input);
-  double base_flow() const;
+  double chamber_flow() const;
   double bore_work(double dt) const;
   double body_force_work(double dt) const;
   template <class F>
@@ -101,7 +104,7 @@ class TotalLagrangian {
   std::vector<Part> parts_;   ///< by body
   double inertia_ = 0;        ///< kg per radian or metre, of all bodies
   std::vector<Tie> ties_;
-  std::vector<LoadShare> base_;
+  std::vector<LoadShare> axial_load_, radial_load_;
   std::unique_ptr<Contact> contact_;
   ContactTotals contact_totals_;  ///< of the step
   std::vector<BorePressure> bores_;

@@ -50,6 +50,7 @@ struct Report {
   std::vector<TextFile> files = {};
   std::string json = {};                  ///< study.json; none where empty
   std::vector<std::string> remarks = {};  ///< what pictures leave out, for the end of the page and for people
+  std::string launch = {};                ///< a sentence that stands first: how fast the load makes the shell
 };
 
 /// What a report left in its folder.
@@ -62,7 +63,7 @@ struct WrittenFiles {
 /// The page. `missing`: names of pictures that were not drawn.
 std::string to_markdown(const Report& report, const std::vector<std::string>& missing = {});
 
-/// The tables and the answer. `folder`: where the whole of a long table is.
+/// The launch, the tables and the answer. `folder`: where the whole of a long table is.
 std::string to_text(const Report& report, const std::filesystem::path& folder);
 
 /// Writes tables, files, pictures, report.md and study.json into a folder, which is made. A picture that

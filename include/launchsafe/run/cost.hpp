@@ -15,12 +15,13 @@ inline constexpr double cautious_update_rate = 1e7;
 
 /// What one mechanical run takes.
 struct Cost {
-  double work = 0;       ///< particle updates
-  double coupled = 0;    ///< the same, at most, of the runs on through ignition of all the scene's gaps
-  double particles = 0;  ///< bytes of particles and grid
-  double trace = 0;      ///< bytes of the trace, with the copies that exist while it is stored
-  double snapshots = 0;  ///< bytes of the snapshots, likewise
-  double skins = 0;      ///< bytes of the skin temperatures of all the scene's gaps, where they are kept
+  double work = 0;        ///< particle updates
+  double coupled = 0;     ///< the same, at most, of the runs on through ignition of all the scene's gaps
+  double particles = 0;   ///< bytes of particles and grid
+  double trace = 0;       ///< bytes of the trace, with the copies that exist while it is stored
+  double kept_trace = 0;  ///< bytes of the trace alone
+  double snapshots = 0;   ///< bytes of the snapshots, likewise
+  double skins = 0;       ///< bytes of the skin temperatures of all the scene's gaps, where they are kept
   double memory() const { return particles + trace + snapshots; }          ///< bytes of the mechanics
   double time() const { return (work + coupled) / cautious_update_rate; }  ///< s on a core
 };

@@ -14,6 +14,8 @@ namespace launchsafe::scene {
 /// not those of the calibration. Which they are only a study knows (study/calibration_domain.hpp).
 inline constexpr const char *foreign_shell = "calibration.shell", *foreign_material = "calibration.material",
                             *foreign_interfaces = "calibration.interfaces";
+/// Likewise a peak pressure beyond those at which other models of the launch were compared.
+inline constexpr const char* pressure_of_models = "model_form.pressure";
 
 /// A value on which no verdict but UNSAFE rests unless the user accepts it: it is not plausible, or not the
 /// calibrated one.

@@ -37,7 +37,8 @@ struct CleanedRecord {
 /// The offset is the median of the points before the rise, which is where 2 % of the range is last passed
 /// before the largest pressure; without at least ten such points it has to be given. The trigger is 1 % of
 /// the peak, or five standard deviations of the noise where that is more. Errors, in the sense of the record:
-/// no quiet points and no offset; a trigger that is never passed; a pressure further below zero than ten
+/// no quiet points and no offset; an offset that differs from that of the quiet points by more than their
+/// noise and a thousandth of the peak; a trigger that is never passed; a pressure further below zero than ten
 /// standard deviations of the noise and 2 % of the peak, which is no noise.
 Expected<CleanedRecord> clean(const PressureCurve& record, const GaugeCleaning& cleaning,
                               const std::string& file);

@@ -17,6 +17,9 @@ struct SceneFile;
 /// Keys of one [interface.NAME].
 const std::vector<Key<Interface>>& interface_keys();
 
+/// Whether two bodies share more than an edge of their surfaces.
+bool share_a_face(const Scene& scene, const Body& a, const Body& b);
+
 /// Names of the bodies, no charges themselves, that touch a charge.
 std::vector<std::string> bodies_at_the_charge(const Scene& scene);
 

@@ -22,6 +22,9 @@ double launch_end(const Load& load);
 /// curve is 0.
 double share_left(const Load& load, double time);
 
+/// Travel of the projectile as one rigid body until a time (s), over its diameter.
+double calibres_until(const Scene& scene, double time);
+
 /// Whether the simulation ends before the launch is over.
 bool is_cut_short(const Load& load);
 
@@ -39,7 +42,8 @@ std::optional<ExitWindow> exit_window(const Load& load);
 std::string exit_text(const Scene& scene);
 /// For people: "799 m/s after 6.2 m of travel, at 19.3 ms, where 1 % of the peak pressure is left".
 std::string end_text(const Scene& scene);
-/// The same of the exit, or of the end where there is none: the launch in short.
-std::string launch_text(const Scene& scene);
+/// The launch in a sentence, of the exit, or of the end where there is none: "The shot leaves the barrel with
+/// 796 m/s ..."
+std::string launch_sentence(const Scene& scene);
 
 }  // namespace launchsafe::scene

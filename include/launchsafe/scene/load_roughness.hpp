@@ -43,6 +43,20 @@ double work_lost_to_smoothing(const Load& load);
 /// try.
 std::optional<double> suggested_smoothing(const Load& load);
 
+/// A swing of one frequency on a measured curve: of the gauge, its mount or the gas.
+struct Ring {
+  double frequency = 0;  ///< 1/s
+  double amplitude = 0;  ///< Pa
+};
+/// What is left of a curve beside its moving average over a millisecond (a tenth of a shorter curve) is
+/// searched, by its discrete Fourier transform, for a frequency that has more than half of the power within a
+/// tenth of it; nothing where none has, as in noise, or where its amplitude is below 0.2 % of the peak.
+/// Sought are frequencies from one over that window to 100 kHz or half the rate of the points.
+std::optional<Ring> ring_of(const Load& load);
+/// For people: "the record pressure.csv rings at 3.2 kHz with 1.5 % of its peak, which heats as pressure
+/// does"; empty for none.
+std::string ring_text(const Load& load);
+
 /// What is to be known of a measured curve, for people: what smoothing takes from it, and its roughness;
 /// empty for the analytic load.
 std::string measured_load_text(const Load& load);

@@ -36,6 +36,12 @@ Expected<SceneFile> read_scene(const std::filesystem::path& file);
 /// The same from text; `file` is named in errors, and relative paths start from its folder.
 Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& file);
 
+/// The fault of a `load.expected_velocity` that differs by more than 5 % from what the load gives the
+/// projectile as one rigid body at the exit, or at the end of the launch where there is none. Files are
+/// checked when they are read, and again under what a study sets; cases of its axes are other launches on
+/// purpose.
+std::optional<InputError> check_expected_velocity(const SceneFile& file);
+
 /// The key of a scene by dotted name; "body.<name>.x", ".r" or ".material" of a body that the scene has, for
 /// what holds the charge "interface.<name>.<key>" of a body that touches it, whether or not the scene has
 /// that table, and "material.<name>.<key>" of a material that a body names.

@@ -53,7 +53,8 @@ struct Body {
   double r_begin = 0, r_end = 0;
 };
 
-/// Pressure on the base. Either a measured curve or, over time t, one of the analytic shapes
+/// Pressure of the chamber on what faces it (chamber.hpp). Either a measured curve or, over time t, one of
+/// the analytic shapes
 ///   bell                p0 + (peak - p0) exp(-|(t - t_m)/w|^a)
 ///   power-exponential   p0 + (peak - p0) ((t/t_m) exp(1 - t/t_m))^n, which is p0 before 0.
 /// Where the shot leaves a muzzle, the pressure falls from then on by exp(-t/exit_decay) to p0, of a measured
@@ -76,8 +77,14 @@ struct Load {
   std::optional<double> muzzle_travel;  ///< m, after which it does; beside `muzzle_exit` only a check of it
   double muzzle_exit_spread = 0.0;      ///< s, 95 % half width of the time of the exit
   double exit_decay = 5e-4;             ///< s, time constant of the pressure after the exit
-  /// kg/m2 of the whole projectile over its base, with which `muzzle_travel` is reached. It follows from the
-  /// bodies: `settle_load` sets it, and reading a scene calls that.
+  /// m/s at the exit, or at the end where there is none, as a range table has it: a check of what is typed,
+  /// and no part of the launch.
+  std::optional<double> expected_velocity;
+  /// m, a place along x of the driving band up to which the pressure acts. None: the foremost ring of full
+  /// radius, which `settle_load` writes here where the pressure acts on more than the rearmost faces.
+  std::optional<double> obturation;
+  /// kg/m2 of the whole projectile over the area that the pressure drives, with which `muzzle_travel` is
+  /// reached. It follows from the bodies: `settle_load` sets it, and reading a scene calls that.
   double mass_over_area = 0.0;
 };
 
@@ -299,10 +306,11 @@ double length_tolerance(const Scene& scene);
 /// Masses in kg (axisymmetric: of the whole shell; plane strain: per metre of depth, half model).
 double mass_of(const Scene& scene, std::string_view material);
 double total_mass(const Scene& scene);
-/// Area of the loaded base face (m2; plane strain: m2 per metre of depth, half model).
+/// Area by which the chamber pressure drives the projectile along x (m2; plane strain: m2 per metre of depth,
+/// half model): that of the faces towards the base less that of those towards the nose.
 double base_area(const Scene& scene);
 
-/// Axial acceleration (m/s2) of the whole projectile as one rigid body under a pressure (Pa) on its base.
+/// Axial acceleration (m/s2) of the whole projectile as one rigid body under a pressure (Pa) of the chamber.
 double rigid_acceleration(const Scene& scene, double pressure);
 /// How fast (m/s) and how far (m) the load has driven the whole projectile as one rigid body.
 struct RigidMotion {
@@ -312,10 +320,11 @@ struct RigidMotion {
 RigidMotion rigid_motion(const Scene& scene, double time);
 /// For people: "796 m/s after 5.26 m of travel".
 std::string rigid_motion_text(const Scene& scene, double time);
-/// Sets what of the load follows from the bodies. A program that states a `muzzle_travel` calls it.
+/// Sets what of the load follows from the bodies: its mass over area, and the driving band. A program that
+/// states a `muzzle_travel` calls it.
 void settle_load(Scene& scene);
 
-/// Chamber pressure (Pa) on the base at time t (s); monotone cubic (PCHIP) through a measured curve of at
+/// Chamber pressure (Pa) at time t (s); monotone cubic (PCHIP) through a measured curve of at
 /// least two points at increasing times, held constant outside it. Curves of two or three points are joined
 /// by straight lines. With `smoothing` it is the moving average of that, centred, over a window no longer
 /// than the curve, whose ends are mirrored: impulse is kept, peaks fall. Only then is it rescaled.

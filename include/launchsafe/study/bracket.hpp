@@ -11,20 +11,22 @@
 namespace launchsafe::study {
 
 enum class CriticalGapKind {
-  value,         ///< between `lower` and `upper`
-  all_safe,      ///< more than `lower`, where the search ended: a bound, not a value
-  all_ignite,    ///< ignition even at `upper`, where the search began: a bound, not a value
-  indeterminate  ///< see the reason
+  value,             ///< between `lower` and `upper`
+  all_safe,          ///< more than `lower`, where the search ended: a bound, not a value
+  all_ignite,        ///< ignition even at `upper`, where the search began: a bound, not a value
+  indeterminate,     ///< see the reason
+  several_crossings  ///< gaps beyond some that ignite are safe again; `lower` and `upper` are at the first
+                     ///< crossing
 };
 std::string to_string(CriticalGapKind kind);
 
 /// A critical gap. What a kind does not have is NaN: a bound has no value.
 struct CriticalGap {
   CriticalGapKind kind = CriticalGapKind::indeterminate;
-  double value;        ///< m, middle of the bracket
-  double lower;        ///< m, does not ignite
-  double upper;        ///< m, ignites
-  std::string reason;  ///< why it is a bound or indeterminate, or what is to be known about the value
+  double value;                       ///< m, middle of the bracket
+  double lower;                       ///< m, does not ignite
+  double upper;                       ///< m, ignites
+  std::string reason;                 ///< why it is no value
   std::vector<GapShare> shares = {};  ///< what makes it uncertain; once known
   GapBounds bounds = {};              ///< that follow; NaN until the shares are known
   /// Of one that is indeterminate for want of an acceptance alone: what the search found, on which nothing
@@ -43,7 +45,7 @@ enum class GapState { safe, ignites, undefined };
 
 /// Scans from 0 to `largest` (m) in equal steps, narrows the first change from safe to ignites down, and
 /// centres a bracket of width `tolerance` (m) on it. A gap that is undefined makes the result indeterminate,
-/// one that is safe beyond the change is named in the reason.
+/// one that is safe beyond the change makes it one of several crossings, and the reason names it.
 CriticalGap find_critical_gap(const std::function<GapState(double gap)>& state, double largest,
                               double tolerance);
 

@@ -85,9 +85,13 @@ struct AcceptancesOfStudy {
 };
 AcceptancesOfStudy acceptances_of(const StudyFile& study);
 
-/// Why a case that does not ignite is not safe for that, as its model is a bound on that side, or only
-/// averages or removes heat beside the calibrated one; empty for the others.
-std::string optimistic_text(const Study& study, const scene::Scene& scene);
+/// Why a case that does not ignite is not safe for that, whatever it accepts: its model is a bound on that
+/// side, or only averages or removes heat beside the calibrated one, or its launch ends within ten calibres
+/// of travel. Empty for the others. No stress case of a stability study may pass for the last two.
+std::string optimistic_text(const Study& study, const StudyCase& input);
+/// Likewise of what its run shows: a bottom that friction does not heat by a kelvin (`friction_rise`, of T
+/// max without a gap, K) was not launched.
+std::string unheated_text(double friction_rise);
 
 /// What is extrapolated for a gap (m), for its verdict; empty for nothing.
 std::string extrapolation_text(const Study& study, const StudyCase& input, double gap);

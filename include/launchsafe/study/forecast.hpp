@@ -19,6 +19,7 @@ struct ForecastRun {
   std::size_t cases = 0;  ///< 0 for the run with a raised load that belongs to the run before it
   std::int64_t particles = 0, steps = 0;
   double memory = 0;  ///< bytes
+  double kept = 0;    ///< bytes of its trace, which a study that keeps outcomes has till its end
   double time = 0;    ///< s on a core, predicted; 0 for one that does not run
   int shard = 1;
   bool stored = false;    ///< its result is there
@@ -35,7 +36,8 @@ struct Forecast {
   std::size_t learned_from = 0;   ///< runs in the journal that the rate was learned from; 0: measured now
   double time = 0;                ///< s of wall time, of all that is to run
   double confirmation_time = 0;   ///< s of it, at most, of the confirmations of launches that are to run
-  double memory = 0;              ///< bytes, of the cases that will run side by side
+  double plan_memory = 0;         ///< bytes of all cases of the study and what is kept of them till its end
+  double memory = 0;              ///< bytes, of these and of the cases that will run side by side
   int jobs = 1;
 };
 

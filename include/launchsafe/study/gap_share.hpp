@@ -37,6 +37,7 @@ struct ShareTraits {
   std::string name;   ///< in files: "peak_pressure"
   std::string title;  ///< for people: "peak pressure"
   ShareClass of_class = ShareClass::knowledge;
+  std::string remedy;  ///< what would make it smaller, for people
 };
 const ShareTraits& traits_of(ShareKind kind);
 std::string to_string(ShareClass of_class);

@@ -51,6 +51,10 @@ std::string to_json_text(const ModelFormRecord& record);
 /// Refuses an edited record and one of another model version. `file` is named in errors.
 scene::Expected<ModelFormRecord> parse_model_form(const std::string& text, const std::string& file);
 
+/// The peak pressures (Pa) from the lowest to the highest at which models were compared: those of a record,
+/// or of the one that ships (reports/model_form).
+scene::Limits compared_pressures(const std::optional<ModelFormRecord>& record);
+
 /// How far the alternatives that count move the critical gap from the default's.
 struct ModelFormShift {
   double gap = 0;      ///< m, >= 0, by which the smallest one is below: towards ignition; NaN where not known

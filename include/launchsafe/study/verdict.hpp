@@ -52,6 +52,7 @@ struct Evidence {
   std::string optimistic = {};  ///< why no ignition shows nothing, for people; empty where it shows something
   std::string limited = {};     ///< limiters that acted, for people; empty where none did
   std::string noise = {};       ///< what the noise of a measured curve counts, for people; empty for nothing
+  std::string ring = {};        ///< that a measured curve rings, for people; empty where it does not
   std::string accepted = {};    ///< what is not plausible and why it is meant, for people; empty: nothing
   std::string model_form = {};  ///< models that could change the verdict, for people; empty: none
   std::string extrapolated = {};  ///< what lies outside the calibration's domain, for people; empty: nothing
@@ -65,14 +66,12 @@ struct Judgement {
 /// The contract of a verdict, for a sound run: one that completed with finite temperatures and without
 /// validity warnings of its own. Every other run is INDETERMINATE.
 ///
-/// UNSAFE: the gap ignites in the computation as it is stated, whatever of its input nobody accepts.
-///
-/// SAFE: all of the input is plausible and of the calibration, or accepted; the gap does not ignite, and is
-/// thinner than the lower bound of the critical gap (CriticalGap::bounds). Where nothing ignites up to the
-/// end of the search, that is the bound, and the margin must exceed the uncertainty besides, also with the
-/// constants of the surface as calibrated.
-///
-/// INDETERMINATE: everything else.
+/// - UNSAFE: the gap ignites in the computation as it is stated, whatever of its input nobody accepts.
+/// - SAFE: all of the input is plausible and of the calibration, or accepted; the gap does not ignite, and is
+///   thinner than the lower bound of the critical gap (CriticalGap::bounds). Where nothing ignites up to the
+///   end of the search, that is the bound, and the margin must exceed the uncertainty besides, also with the
+///   constants of the surface as calibrated.
+/// - INDETERMINATE: everything else.
 ///
 /// More uncertainty, a wider range or less evidence never moves a verdict towards SAFE. A verdict on a run in
 /// which limiters acted says so.
