@@ -29,7 +29,8 @@ OtherAnswer answer_on(const Study& study, const surface::SkinModel& model, const
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t i) {
       const auto history = surface::integrate_skin(model, trace, gaps[i]);
-      temperatures[i] = surface::maximum_at_stations(history, trace).temperature;
+      temperatures[i] =
+          std::max(surface::maximum_at_stations(history, trace).temperature, history.hottest_depth);
       states[i] = state_of(history);
     });
   });

@@ -11,9 +11,12 @@ void record(const std::vector<detail::FilmStation>& stations, const std::vector<
             SkinHistory& history) {
   double air = 0.0;
   for (std::size_t s = 0; s < stations.size(); ++s) {
-    history.temperature.push_back(stations[s].hottest());
+    history.temperature.push_back(stations[s].surface());
     // A station without area does not count, whatever it has.
-    if (shares[s] > 0.0) air += shares[s] * stations[s].mean_air();
+    if (!(shares[s] > 0.0)) continue;
+    air += shares[s] * stations[s].mean_air();
+    history.hottest_depth =
+        std::max({history.hottest_depth, stations[s].surface(), stations[s].hottest_depth()});
   }
   history.air_temperature.push_back(air);
 }

@@ -148,9 +148,9 @@ void FilmStation::note(const SkinPoint& ignited, double time) {
 double FilmStation::longest_step() const {
   constexpr double growth = 0.2;
   if (!reacts_) return std::numeric_limits<double>::infinity();
-  const double depth = hottest_depth();
-  const double rate = materials::arrhenius_heating(model_->kinetics, model_->specific_heat, depth);
-  return growth * depth * depth / (rate * model_->kinetics.activation_temperature);
+  const double hottest = hottest_depth();
+  const double rate = materials::arrhenius_heating(model_->kinetics, model_->specific_heat, hottest);
+  return growth * hottest * hottest / (rate * model_->kinetics.activation_temperature);
 }
 
 void FilmStation::close_account() {
@@ -160,16 +160,17 @@ void FilmStation::close_account() {
   energy_.gas = column_.air_enthalpy() - start_.gas;
 }
 
-double FilmStation::hottest_depth() const {
-  double hottest = 0.0;
-  for (std::size_t i = 0; i < warmed_.size(); ++i) hottest = std::max(hottest, column_.temperature(i));
-  return hottest;
-}
-
-double FilmStation::hottest() const {
+double FilmStation::surface() const {
   if (failed_) return not_a_number;
   return point_.ignited ? std::max(point_.temperature, model_->kinetics.burnt_temperature)
-                        : std::max(column_.charge_surface(), hottest_depth());
+                        : column_.charge_surface();
+}
+
+double FilmStation::hottest_depth() const {
+  double hottest = 0.0;
+  if (point_.ignited || failed_) return hottest;
+  for (std::size_t i = 0; i < warmed_.size(); ++i) hottest = std::max(hottest, column_.temperature(i));
+  return hottest;
 }
 
 double FilmStation::mean_air() const { return failed_ ? not_a_number : column_.mean_air(); }

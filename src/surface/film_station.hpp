@@ -17,9 +17,10 @@ class FilmStation {
   /// Over an interval of `length` s with friction heating (K/s). Nothing happens once it has ignited.
   void advance(const IntervalPressure& pressure, double length, double heating);
 
-  /// Of the hottest depth of the charge, its surface among them, K; T2 from ignition on, NaN after a state
-  /// that is not finite.
-  double hottest() const;
+  /// Of the charge's surface, K; T2 from ignition on, NaN after a state that is not finite.
+  double surface() const;
+  /// Of the hottest depth below it, K; 0 once it has ignited.
+  double hottest_depth() const;
   double mean_air() const;  ///< K
   bool ignited() const { return point_.ignited; }
   double ignition_time() const { return point_.ignition_time; }  ///< s after the begin of its interval
@@ -32,7 +33,6 @@ class FilmStation {
   void release_heat(double surface_before, double time, double h);
   void note(const SkinPoint& ignited, double time);
   double longest_step() const;
-  double hottest_depth() const;  // K, without the surface
   void close_account();
 
   const SkinModel* model_;

@@ -49,14 +49,12 @@ struct FilmHistory {
 /// air stays at p0, as in materials::adiabatic_temperature.
 ///
 /// So the thinnest film is not the missing gap of integrate_skin: there friction heats the surface as if
-/// nothing touched it (416 K on the 155 mm shell), here the base takes that heat (308 K), though not from the
-/// depths that it does not reach.
+/// nothing touched it (416 K on the 155 mm shell), here the base takes that heat (308 K).
 ///
-/// The skin's temperature is that of the charge's hottest depth, the surface among them; that of the air is
-/// the mean over its mass, and over the stations by their areas. Arrhenius heat acts in the whole depth of
-/// the charge, and a station ignites where its surface or any depth reaches the trigger: where the base cools
-/// the surface below what friction alone would give, that is inside. From ignition on it is at T2 and its air
-/// as it was then.
+/// The skin's temperature is that of the charge's surface; that of the air is the mean over its mass, and
+/// over the stations by their areas. Arrhenius heat acts in the whole depth of the charge, and a station
+/// ignites where its surface or any depth reaches the trigger: where the base cools the surface below what
+/// friction alone would give, that is inside. From ignition on it is at T2 and its air as it was then.
 FilmHistory integrate_film(const SkinModel& model, const trace::BottomTrace& trace, double gap,
                            const FilmNumerics& numerics = {});
 

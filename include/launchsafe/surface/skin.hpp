@@ -24,8 +24,11 @@ struct SkinHistory {
   double gap = 0;                       ///< m
   std::vector<double> time;             ///< s, those of the trace
   std::vector<double> air_temperature;  ///< K; of a film the mean over its mass and over the stations' areas
-  std::vector<double> temperature;   ///< K, [sample * stations + station]; of the hottest depth under a film
-  std::optional<Ignition> ignition;  ///< the first over the stations that tile the bottom
+  std::vector<double> temperature;      ///< K, [sample * stations + station]; under a film the surface's
+  /// K, at any depth and time of a station that tiles the bottom; under a film, whose base cools the surface.
+  /// 0 elsewhere.
+  double hottest_depth = 0;
+  std::optional<Ignition> ignition;     ///< the first over the stations that tile the bottom
   /// Energy made or lost by a film, relative to all that passed at the worst station (FilmEnergy::residual).
   /// 0 under AirModel::reservoir.
   double energy_residual = 0;
