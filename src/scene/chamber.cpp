@@ -153,7 +153,8 @@ std::vector<Cell> open_cells_of(const CutPlane& plane, int column) {
 Chamber chamber_of(const Scene& scene) {
   if (scene.bodies.empty()) return {};
   const CutPlane plane(scene);
-  std::vector<Cell> behind = open_cells_of(plane, plane.columns() - 1), gas = behind;
+  const std::vector<Cell> behind = open_cells_of(plane, plane.columns() - 1);
+  std::vector<Cell> gas = behind;
   Chamber chamber;
   const auto ring = ring_of_band(plane, scene.load.obturation, length_tolerance(scene));
   if (!ring) {
@@ -168,16 +169,15 @@ Chamber chamber_of(const Scene& scene) {
     });
     if (passes) chamber.unclear = "a shell through which the chamber's gas passes the driving band";
   }
-  chamber.faces = faces_at(plane, chamber.unclear.empty() ? gas : behind);
+  chamber.faces = faces_at(plane, gas);
   const bool is_even = scene.numerics.formulation == Formulation::updated_lagrangian;
-  if (is_even && !acts_on_rear_alone(scene, chamber)) {
+  if (chamber.unclear.empty() && is_even && !acts_on_rear_alone(scene, chamber))
     chamber.unclear = "the formulation \"updated-lagrangian\", which loads the rearmost face alone";
-    chamber.faces = faces_at(plane, behind);
-  }
   for (const ChamberFace& face : chamber.faces)
     if (chamber.unclear.empty() && is_charge(scene, scene.bodies[face.body]))
       chamber.unclear =
           fmt::format("a chamber whose gas reaches the charge \"{}\"", scene.bodies[face.body].name);
+  if (!chamber.unclear.empty()) chamber.faces = faces_at(plane, behind);
   return chamber;
 }
 

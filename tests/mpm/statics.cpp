@@ -127,4 +127,32 @@ TEST_P(Statics, ColumnOfChargeBearsItsOwnWeight) {
   }
 }
 
+/// A disc that seals, and a boom behind it. Gas presses on the boom all around and from behind, and its own
+/// mass hangs on it: radial stress -p, axial stress -(p - rho a l) at a distance l from its end, with a = p
+/// R^2/(rho (R^2 L + r^2 l_boom)) of both.
+TEST(Statics, GasPressesOnABoomFromTheSideAndFromBehind) {
+  constexpr double pressure = 1e6, disc_radius = 0.04, disc = 0.04, boom_radius = 0.02, boom = 0.08;
+  scene::Scene scene = block("steel", disc, disc_radius, 2.5e-3, scene::Formulation::total_lagrangian);
+  scene.bodies.push_back({"boom", "steel", disc, disc + boom, 0.0, boom_radius});
+  scene.load = ramp(pressure, 2e-4);
+  scene.numerics.damping_time = 2e-5;
+  mpm::Simulation simulation(scene);
+  run_to(simulation, 6e-4);
+  const double density = scene.steel().eos.density;
+  const double acceleration =
+      pressure * disc_radius * disc_radius /
+      (density * (disc_radius * disc_radius * disc + boom_radius * boom_radius * boom));
+  const mpm::Body<materials::Steel>& body = simulation.bodies_of<materials::Steel>()[1];
+  const mpm::ParticleFields& p = body.particles;
+  const int middle = p.lattice.columns() / 2;
+  const double behind = disc + boom - p.lattice.x_of(middle);
+  for (int j = 0; j < p.lattice.rows(); ++j) {
+    const std::size_t slot = p.lattice.slot(middle, j);
+    const double radial = body[materials::Steel::stress_rr][slot] - p.pressure[slot];
+    const double axial = body[materials::Steel::stress_xx][slot] - p.pressure[slot];
+    EXPECT_NEAR(radial / -pressure, 1.0, 0.01) << j;
+    EXPECT_NEAR(axial / -(pressure - density * acceleration * behind), 1.0, 0.02) << j;
+  }
+}
+
 }  // namespace

@@ -245,7 +245,10 @@ TEST(ValidityWarnings, AFaceOfTheChargeThatNobodyLooksAt) {
   scene.bodies.push_back(ring);
   EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
   scene.bodies.back().x_end -= 1e-8;  // 10 nm
-  expect_one(validity_warnings(scene, sound_run()), "\"ring\" ends 1e-05 mm before");
+  // Beside it the warning that a bottom so small would have to bear more.
+  const std::vector<std::string> warnings = validity_warnings(scene, sound_run());
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].find("\"ring\" ends 1e-05 mm before"), std::string::npos) << warnings[0];
   // More charge behind all of it is no face.
   scene.bodies.back().x_end = 0.6;
   scene::Body rear = scene.bodies.back();
@@ -360,6 +363,7 @@ TEST(ValidityWarnings, CracksThatNoContinuumLawHolds) {
   scene::Scene thin = shipped_scene();
   thin.charge().strength.initial_crack_radius = 3e-3;
   thin.bodies[1].x_begin = thin.bodies[1].x_end - 2e-3;
+  for (double& pressure : run.trace.bottom_pressure) pressure *= 2.0 / 560.0;  // of so little charge
   expect_one(validity_warnings(thin, run), "more than the charge measures");
 }
 

@@ -26,8 +26,8 @@ struct ChamberFace {
 struct Chamber {
   std::vector<ChamberFace> faces;  ///< in the order of the bodies, each from its begin on
   double band = 0;                 ///< m, base-side end of the ring of full radius that seals the chamber
-  /// What the drawing leaves open, for people; empty where it is clear. Then the rearmost faces alone are
-  /// loaded where the gas would pass the band.
+  /// What the drawing leaves open, for people, and files are refused for; empty where it is clear. Otherwise
+  /// the rearmost faces alone are loaded.
   std::string unclear;
 };
 
