@@ -82,7 +82,8 @@ Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
     return indeterminate(evidence.failure.empty() ? "the run failed" : evidence.failure);
   if (!std::isfinite(evidence.maximum_temperature)) return indeterminate("the temperature is not a number");
   if (!evidence.validity_warnings.empty())
-    return indeterminate("validity warning: " + evidence.validity_warnings);
+    return indeterminate("validity warning: " + evidence.validity_warnings +
+                         (evidence.unaccepted.empty() ? "" : "; " + evidence.unaccepted));
   Judgement judgement = judge_sound(evidence, critical);
   if (!evidence.limited.empty()) judgement.reason += "; limiters acted: " + evidence.limited;
   if (!evidence.noise.empty()) judgement.reason += "; " + evidence.noise;

@@ -100,6 +100,10 @@ key = "load.travel"
 value = "2 to 4 mm"
 because = "a launch that takes milliseconds to compute"
 [[accept]]
+key = "load.travel"
+value = "40 to 60 cm"
+because = "a launch that takes milliseconds to compute"
+[[accept]]
 key = "numerics.energy_drift_limit"
 value = "0.5"
 because = "the base is loaded by a shock, on a coarse mesh"
