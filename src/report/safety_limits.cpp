@@ -256,6 +256,7 @@ void say_launch(const Subject& subject, SafetySection& section) {
   Parts parts{{"own", own != nullptr && subject.is_own(*own)},
               {"cases", subject.study.rows("cases").size()},
               {"peak", significant(1e-6 * scene::PressureHistory(scene.load).stated_peak(), 4) + " MPa"},
+              {"end", scene::end_text(scene)},
               {"crack", significant(1e6 * scene.charge().strength.initial_crack_radius, 4) + " µm"},
               {"flaw", significant(1e3 * scene.charge().strength.flaw_size, 3) + " mm"},
               {"temperature", launch_temperature_text(subject)},
