@@ -109,12 +109,17 @@ void say_accuracy(const StudyEvidence& main, const StudyEvidence* accuracy, Safe
 
 // --- inputs ---
 
-/// Whether a study is of the main one's launch: these keys may differ.
+/// Whether a study is of the main one's launch: these keys may differ, and those that it varies.
 bool is_of_same_launch(const StudyEvidence& study) {
   const std::vector<std::string>& differences = study.differences;
-  return std::all_of(differences.begin(), differences.end(), [](const std::string& key) {
+  const auto is_input = [&study](const std::string& key) {
+    const Row& inputs = study.rows("inputs");
+    return std::any_of(inputs.begin(), inputs.end(),
+                       [&key](const Row& input) { return text_of(input, "scene_key") == key; });
+  };
+  return std::all_of(differences.begin(), differences.end(), [&](const std::string& key) {
     return key == "title" || key == "gap.thickness" || key.starts_with("numerics.") ||
-           key.starts_with("output.");
+           key.starts_with("output.") || is_input(key);
   });
 }
 
@@ -328,8 +333,8 @@ void say_probability(const Subject& subject, SafetySection& section) {
   if (ignition == sensitivity->study.end()) return;
   section.item("limits.probability",
                {{"gap", significant(number_of(sensitivity->study, "gap_cm"), 6) + " cm"},
-                {"igniting", number_of(*ignition, "igniting")},
-                {"draws", number_of(*ignition, "completed")},
+                {"igniting", static_cast<int>(number_of(*ignition, "igniting"))},
+                {"draws", static_cast<int>(number_of(*ignition, "completed"))},
                 {"from", percent_of(*ignition, "probability_from")},
                 {"to", percent_of(*ignition, "probability_to")}},
                origin_of(*sensitivity, "ignition"));

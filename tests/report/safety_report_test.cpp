@@ -245,7 +245,8 @@ TEST_F(SafetyReport, ASweepByItselfRecommendsNothingAndSaysWhatIsExtrapolated) {
   EXPECT_TRUE(has(page, "no gap is recommended"));
   EXPECT_TRUE(has(page, "Covered are the 56 computed cases alone"));
   EXPECT_TRUE(has(page, "No gap can be recommended: there are no verdicts of one launch"));
-  EXPECT_TRUE(has(page, "stands in the reasons of the verdicts alone"));  // written before there was a list
+  EXPECT_TRUE(has(page, "The calibration is extrapolated in: peak pressure, gap, crack radius."));
+  EXPECT_TRUE(has(page, "The verdicts rest on 2 values that somebody accepts"));
 }
 
 /// A sweep over temperature, made of that over pressure: 250 MPa stands for 250 K, and so on to 700; but none
