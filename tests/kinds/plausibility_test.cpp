@@ -134,8 +134,8 @@ TEST(StudyPlausibility, NothingIsSafeBeyondThePressuresOfOtherModelsWithoutAReas
   EXPECT_EQ(warned.verdict, Verdict::indeterminate);
   EXPECT_TRUE(says(warned.reason, "model_form.pressure = 300 MPa")) << warned.reason;
   EXPECT_TRUE(says(warned.reason, "400 MPa to 550 MPa")) << warned.reason;
-  const Judgement accepted =
-      judgement_in(run_safe_study(accept("model_form.pressure", "300 MPa", "a charge of a lower zone"), half));
+  const Judgement accepted = judgement_in(
+      run_safe_study(accept("model_form.pressure", "300 MPa", "a charge of a lower zone"), half));
   EXPECT_EQ(accepted.verdict, Verdict::safe) << accepted.reason;
   EXPECT_TRUE(says(accepted.reason, "accepted: model_form.pressure = 300 MPa")) << accepted.reason;
   EXPECT_EQ(judgement_in(run_safe_study("", "load.peak = \"400 MPa\"\n")).verdict, Verdict::safe);

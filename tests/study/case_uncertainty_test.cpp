@@ -172,11 +172,10 @@ TEST(CaseUncertainty, ARaisedLoadThatCannotBeComputedLeavesNothingSafe) {
 /// Twice the heating has twice the error: the relative errors of the constants are carried to the case.
 TEST(CaseUncertainty, TheErrorOfTheConstantsGrowsWithTheHeat) {
   const double pressure = 496.0 * std::sqrt(1.5);
-  const GapVerdict row =
-      first_row(stated +
-                "accept = [{ key = \"model_form.pressure\", value = \"600 to 610 MPa\", "
-                "because = \"a test of the rule\" }]\n" +
-                fmt::format("peak_pressures = \"{} MPa\"\n", pressure));
+  const GapVerdict row = first_row(stated +
+                                   "accept = [{ key = \"model_form.pressure\", value = \"600 to 610 MPa\", "
+                                   "because = \"a test of the rule\" }]\n" +
+                                   fmt::format("peak_pressures = \"{} MPa\"\n", pressure));
   EXPECT_NEAR(row.uncertainty.fit, 1.5 * 2.0, 5e-3);
   EXPECT_NEAR(row.uncertainty.input, 1.5 * 1.5 * 3.0, 1e-6);  // the fourth power of the pressure
   EXPECT_NE(row.judgement.reason.find("extrapolated: peak pressure"), std::string::npos)

@@ -28,7 +28,7 @@ struct SkinHistory {
   /// K, at any depth and time of a station that tiles the bottom; under a film, whose base cools the surface.
   /// 0 elsewhere.
   double hottest_depth = 0;
-  std::optional<Ignition> ignition;     ///< the first over the stations that tile the bottom
+  std::optional<Ignition> ignition;  ///< the first over the stations that tile the bottom
   /// Energy made or lost by a film, relative to all that passed at the worst station (FilmEnergy::residual).
   /// 0 under AirModel::reservoir.
   double energy_residual = 0;
