@@ -11,8 +11,9 @@ namespace launchsafe::kinds {
 using namespace study;
 
 bool ComparisonResult::any_indeterminate() const {
-  return std::any_of(cases.begin(), cases.end(),
-                     [](const ComparedCase& each) { return is_indeterminate(each.answer); });
+  return std::any_of(cases.begin(), cases.end(), [](const ComparedCase& each) {
+    return each.answer.critical.kind == CriticalGapKind::indeterminate;
+  });
 }
 
 namespace {

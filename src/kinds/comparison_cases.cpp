@@ -3,7 +3,6 @@
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"
-#include "launchsafe/study/study_uncertainty.hpp"
 #include "study_keys.hpp"
 #include "study_outcome.hpp"
 #include "study_scene.hpp"
@@ -140,7 +139,6 @@ class VariantMaker {
                       "a time within the load's duration of every variant");
     }
     if (Fault fault = make_factorial(own, launch_label)) return fault;
-    settle_uncertainty(own, record);
     return take(std::move(variant), own);
   }
 
@@ -150,23 +148,12 @@ class VariantMaker {
     own.study = study_.study;
     own.study.settings.reset();
     own.study.implausible.clear();
-    own.study.numerical_uncertainty = stated("numerical_uncertainty");
-    own.study.numerical_uncertainty_assumed = false;
     own.study.calibration = shipped_calibration();
-    own.study.fit_uncertainty = stated("fit_uncertainty");
     if (!calibration.empty()) own.study.calibration_record = calibration;
     own.file = study_.file;
     own.places = study_.places;
     own.most_cases = study_.most_cases;
     return own;
-  }
-
-  /// What the file says, and not what was settled for the scene itself since.
-  double stated(const char* key) const {
-    const auto& all = study_.study.stated;
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const StatedUncertainty& each) { return each.key == key; });
-    return found == all.end() ? not_a_number : found->value;
   }
 
   /// A variant accepts for itself.
@@ -204,32 +191,14 @@ class VariantMaker {
       study_.cases.push_back(std::move(each));
     }
     variant.judged = std::move(own.study);
-    study_.study.numerical_uncertainty = variants().empty() ? variant.judged.numerical_uncertainty
-                                                            : std::max(study_.study.numerical_uncertainty,
-                                                                       variant.judged.numerical_uncertainty);
-    study_.study.numerical_uncertainty_assumed =
-        study_.study.numerical_uncertainty_assumed || variant.judged.numerical_uncertainty_assumed;
-    note_source(variant.name, own.uncertainty_source);
     study_.records.insert(study_.records.end(), own.records.begin(), own.records.end());
     variants().push_back(std::move(variant));
     return std::nullopt;
   }
 
-  /// Where the numerical uncertainty comes from, by variant where that differs.
-  void note_source(const std::string& name, const std::string& source) {
-    std::string& all = study_.uncertainty_source;
-    if (variants().empty()) {
-      all = source;
-    } else if (source != first_source_) {
-      all += fmt::format("; of {} {}", name, source);
-    }
-    if (variants().empty()) first_source_ = source;
-  }
-
   const StudySource& source_;
   StudyFile& study_;
   StudyKeys keys_;
-  std::string first_source_;
 };
 
 Fault make_comparison_cases(const StudySource& source, StudyFile& study) {
@@ -256,20 +225,15 @@ std::vector<Failure> comparison_failures(const ComparisonResult& result) {
 
 Kind comparison_kind() {
   return {
-      .traits = {.name = "comparison", .gaps_key = "gaps", .own_scenes = true},
-      .keys = joined({gaps_keys(), own_keys(comparison_keys()), judging_keys(), calibration_record_keys(),
-                      uncertainty_keys()}),
+      .traits = {.name = "comparison", .gaps_key = "gaps", .bounds_critical_gaps = false, .own_scenes = true},
+      .keys = joined({gaps_keys(), own_keys(comparison_keys()), search_keys(), calibration_record_keys()}),
       .tables = {table_of("variant", variant_keys())},
       .instead_of = {{"gap", "gaps"}},
       .read = read_comparison,
       .make_cases = make_comparison_cases,
       .run = outcome_of<run_comparison, comparison_failures>,
-      .files = {{"comparison.csv"},
-                {"verdicts.csv"},
-                {"stations.csv"},
-                {"model_form.json"},
-                {"model_form.csv"},
-                {"model_form.svg"}},
+      .files =
+          {{"comparison.csv"}, {"stations.csv"}, {"model_form.json"}, {"model_form.csv"}, {"model_form.svg"}},
   };
 }
 

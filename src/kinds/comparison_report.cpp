@@ -164,7 +164,7 @@ Table stations_side_by_side(const ComparisonResult& result) {
 }  // namespace
 
 std::string answer(const ComparisonResult& result) {
-  std::vector<std::string> lines{fmt::format("{} variants of a scene, {} cases, each judged at {} gaps.",
+  std::vector<std::string> lines{fmt::format("{} variants of a scene, {} cases, each at {} gaps.",
                                              result.variants().size() - 1, result.cases.size(),
                                              result.study.study.gaps.size())};
   for (std::size_t i = 0; i < result.cases.size() && result.cases[i].variant == 0; ++i)
@@ -176,29 +176,19 @@ std::string answer(const ComparisonResult& result) {
 
 Report report_of(const ComparisonResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
-  const study::Study& study = result.study.study;
-  report.items = {
-      ReportTable{comparison_table(result), "comparison.csv", "cases"},
-      ReportTable{verdict_table(study, answers_of(result)), "verdicts.csv", "verdicts", Shown::file},
-      ReportTable{station_table(result), "stations.csv", "stations", Shown::file}};
-  if (study.gaps.size() <= most_gaps) {
-    Table matrix = verdict_matrix(study, answers_of(result));
-    matrix.notes.emplace_back(indeterminate_note);
-    report.items.push_back(ReportTable{.table = std::move(matrix), .rest = "verdicts.csv"});
-  }
+  report.items = {ReportTable{comparison_table(result), "comparison.csv", "cases"},
+                  ReportTable{station_table(result), "stations.csv", "stations", Shown::file}};
   report.items.push_back(
       ReportTable{.table = stations_side_by_side(result), .shown = Shown::page, .rest = "stations.csv"});
   add_model_form(result, report);
   report.items.push_back(Statement{"## Variants\n\n" + changes_text(result.variants())});
   report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
-  report.items.push_back(Statement{uncertainty_remark(result.study) + "\n"});
   report.items.push_back(Statement{station_note(result.study) + "\n"});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
   report.items.push_back(Statement{timing_sentence(result.timing)});
   report.json = study_json(result.study, report,
                            {{"axes", axes_json(result.study.study)},
                             {"early_time_ms", 1e3 * result.study.study.early_time},
-                            {"notes", mesh_notes(result.study)},
                             {"timing", timing_json(result.timing)}});
   return report;
 }

@@ -1,5 +1,6 @@
 #include "launchsafe/kinds/critical_gap.hpp"
 
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"
@@ -27,9 +28,9 @@ namespace {
 
 /// One case on its runs: the mechanics, and those under a raised load where there are.
 CaseOutcome judged(const Study& study, const StudyCase& input, std::vector<FinishedRun> runs) {
-  std::optional<FinishedRun> without_exit;
-  if (study.kind.runs_without_exit && asks_without_exit(input)) {
-    without_exit = std::move(runs.back());
+  std::optional<FinishedRun> longer_launch;
+  if (study.kind.runs_longer_launches && scene::longer_launch(input.scene.scene.load)) {
+    longer_launch = std::move(runs.back());
     runs.pop_back();
   }
   if (const FinishedRun* run = run_without_result(runs))
@@ -46,13 +47,13 @@ CaseOutcome judged(const Study& study, const StudyCase& input, std::vector<Finis
   }
   evaluate(study, outcome);
   evaluate_film(study, outcome);
-  if (without_exit && outcome.completed()) {
-    run::MechanicsResult& mechanics = without_exit->result.mechanics;
-    if (!without_exit->has_result()) {
+  if (longer_launch && outcome.completed()) {
+    run::MechanicsResult& mechanics = longer_launch->result.mechanics;
+    if (!longer_launch->has_result()) {
       mechanics.status = run::RunStatus::interrupted;
-      mechanics.reason = without_exit->failure;
+      mechanics.reason = longer_launch->failure;
     }
-    evaluate_without_exit(study, mechanics, outcome);
+    evaluate_longer_launch(study, mechanics, outcome);
   }
   return outcome;
 }

@@ -63,7 +63,7 @@ std::vector<Failure> critical_gap_failures(const CriticalGapResult& result) {
 
 Kind critical_gap_kind() {
   return {
-      .traits = {.name = "critical-gap", .gaps_key = "gaps", .runs_without_exit = true},
+      .traits = {.name = "critical-gap", .gaps_key = "gaps", .runs_longer_launches = true},
       .keys = joined({reference_keys(), gaps_keys(), own_keys(critical_gap_keys()), judging_keys(),
                       calibration_record_keys(), uncertainty_keys()}),
       .tables = {reference_table(), cited_limit_table()},

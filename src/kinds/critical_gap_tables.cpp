@@ -6,6 +6,7 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 
 #include <fmt/format.h>
 
@@ -235,16 +236,16 @@ Table without_exit_table(const CriticalGapResult& result) {
                number_column("T max, without", "K", 1, "temperature_max_without_exit_K"),
                for_programs(named_text("critical gap, without", "critical_gap_without_exit"))}};
   for (const CaseOutcome& outcome : result.cases) {
-    if (!outcome.without_exit) continue;
+    if (!outcome.longer_launch || scene::is_cut_short(outcome.input.scene.scene.load)) continue;
     for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) {
       const GapVerdict& row = outcome.verdicts[i];
       table.rows.push_back({outcome.input.label, 100.0 * row.gap, optional_number(row.maximum.temperature),
-                            optional_number(outcome.without_exit->maximum_temperature.at(i)),
-                            reads_as(outcome.without_exit->critical)});
+                            optional_number(outcome.longer_launch->maximum_temperature.at(i)),
+                            reads_as(outcome.longer_launch->critical)});
     }
     table.notes.push_back(fmt::format("Critical gap, {}: {} with the muzzle exit, {} without.",
                                       outcome.input.label, reads_as(outcome.critical),
-                                      reads_as(outcome.without_exit->critical)));
+                                      reads_as(outcome.longer_launch->critical)));
   }
   if (!table.rows.empty())
     table.notes.push_back(

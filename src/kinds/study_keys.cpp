@@ -175,8 +175,8 @@ StudyKeys gaps_keys() {
                                  "Gaps to judge; those of the scene if absent.", &Study::gaps)};
 }
 
-StudyKeys judging_keys() {
-  const StudyKeys search{
+StudyKeys search_keys() {
+  return {
       plausibly(study_number("tolerance", Dimension::length, between(1e-9, 1e-3),
                              "Largest width of the bracket of the critical gap.", &Study::tolerance),
                 between(1e-9, 2e-4), "a wider bracket says little of gaps that are tenths of a millimetre"),
@@ -184,10 +184,14 @@ StudyKeys judging_keys() {
                              "Where the search for the critical gap ends.", &Study::largest_gap),
                 between(1e-4, 0.01), "a search that ends at less finds no gap that ignites"),
   };
+}
+
+StudyKeys judging_keys() {
   return joined(
-      {search, stated_uncertainty("numerical_uncertainty",
-                                  "Uncertainty of the maximum temperature from the mesh, from a mesh study.",
-                                  &Study::numerical_uncertainty)});
+      {search_keys(),
+       stated_uncertainty("numerical_uncertainty",
+                          "Uncertainty of the maximum temperature from the mesh, from a mesh study.",
+                          &Study::numerical_uncertainty)});
 }
 
 StudyKeys calibration_record_keys() {

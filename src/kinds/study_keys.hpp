@@ -16,7 +16,9 @@ using StudyKeys = std::vector<scene::Key<study::Study>>;
 const StudyKeys& common_keys();
 /// Gaps to judge, as a list.
 StudyKeys gaps_keys();
-/// Of every kind that judges gaps and seeks the critical one.
+/// Of every kind that seeks the critical gap.
+StudyKeys search_keys();
+/// Of every kind that judges gaps besides.
 StudyKeys judging_keys();
 /// Where the constants of a study come from.
 StudyKeys calibration_record_keys();

@@ -60,9 +60,8 @@ void add_cases_of_verdicts(const StudyEvidence& study, JudgingStudy& judging) {
 }
 
 /// The coordinates of a case say them; `variant`: of these cases alone, where it is not empty.
-void add_cases_of_axes(const StudyEvidence& study, const std::string& variant, JudgingStudy& judging) {
+void add_cases_of_axes(const StudyEvidence& study, JudgingStudy& judging) {
   for (const Row& row : study.rows("cases")) {
-    if (text_of(row, "variant") != variant) continue;
     std::map<std::string, double> values;
     for (const Row& axis : study.rows("axes")) {
       const auto key = scene::describe_key(study.scene, text_of(axis, "scene_key"), {});
@@ -80,9 +79,7 @@ JudgingStudy judging_of(const StudyEvidence& study) {
   const Row& cases = study.rows("cases");
   if (cases.empty()) return judging;
   if (study.kind == "critical-gap") add_cases_of_verdicts(study, judging);
-  if (study.kind == "sweep") add_cases_of_axes(study, "", judging);
-  if (study.kind == "comparison" && study.rows("models").empty())
-    add_cases_of_axes(study, text_of(cases.front(), "variant"), judging);
+  if (study.kind == "sweep") add_cases_of_axes(study, judging);
   return judging;
 }
 

@@ -316,7 +316,7 @@ const StudyEvidence* SafetyEvidence::find(const std::string& kind) const {
 }
 
 const StudyEvidence& SafetyEvidence::main() const {
-  for (const char* kind : {"critical-gap", "sweep", "comparison"})
+  for (const char* kind : {"critical-gap", "sweep"})
     if (const StudyEvidence* study = find(kind)) return *study;
   return studies.front();
 }

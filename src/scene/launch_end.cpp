@@ -99,6 +99,19 @@ Load without_exit(Load load) {
   return load;
 }
 
+std::optional<Load> longer_launch(Load load) {
+  constexpr double most_times_as_long = 10.0;
+  const double end = end_time(load);
+  if (is_cut_short(load)) {
+    load.duration.reset();
+  } else if (exit_time(load) && !load.duration) {
+    load = without_exit(std::move(load));
+  } else {
+    return std::nullopt;
+  }
+  return end_time(load) <= most_times_as_long * end ? std::optional(std::move(load)) : std::nullopt;
+}
+
 std::optional<ExitWindow> exit_window(const Load& load) {
   const std::optional<double> exit = exit_time(load);
   if (!exit) return std::nullopt;

@@ -9,45 +9,54 @@
 namespace launchsafe::study {
 namespace {
 
-/// Of what heats the skin, as far as a trace holds it.
-bool is_of_surface(const std::string& key) { return key.starts_with("gap.") || key.starts_with("friction."); }
-
-void set_as_calibrated(const std::string& name, const scene::Scene& calibrated, scene::Scene& scene) {
-  const auto& key = *scene::find_key(scene::scene_keys(), name);
-  key.set(scene, key.get(calibrated));
+/// Whether a key acts on the skin alone, or in proportion to what the trace holds.
+bool is_of_skin(const std::string& key) {
+  return key.starts_with("gap.") || key.starts_with("friction.") || key == "charge.sliding_friction" ||
+         key == "charge.specific_heat" || key == "charge.conductivity";
 }
+
+bool is_scene_key(const std::string& key) { return scene::find_key(scene::scene_keys(), key) != nullptr; }
 
 }  // namespace
 
-std::vector<std::string> keys_as_calibrated(const CalibrationDistance& distance) {
+std::vector<std::string> skin_keys(const std::vector<scene::Implausible>& to_be_accepted) {
   std::vector<std::string> keys;
-  for (const scene::Implausible& each : distance.foreign)
-    if (is_of_surface(each.key)) keys.push_back(each.key);
-  if (!keys.empty()) keys.insert(keys.begin(), "");
-  for (const scene::Implausible& each : distance.foreign)
-    if (each.key == "kinetics.ignition_temperature") keys.push_back(each.key);
+  for (const scene::Implausible& each : to_be_accepted) {
+    if (is_of_skin(each.key) && is_scene_key(each.key)) keys.push_back(each.key);
+    // Any of the three may be the one that is wrong.
+    if (each.key == "gap.gas_law")
+      keys.insert(keys.end(), {"gap.air_temperature", "gap.air_pressure", "gap.air_density"});
+  }
   return keys;
 }
 
-bool has_foreign_surface(const CalibrationDistance& distance) {
-  return std::ranges::any_of(distance.foreign, is_of_surface, &scene::Implausible::key);
+std::vector<std::string> keys_as_calibrated(const std::vector<scene::Implausible>& to_be_accepted) {
+  std::vector<std::string> keys = skin_keys(to_be_accepted);
+  if (!keys.empty()) keys.insert(keys.begin(), "");
+  for (const scene::Implausible& each : to_be_accepted)
+    if (each.key.starts_with("kinetics.") && is_scene_key(each.key)) keys.push_back(each.key);
+  return keys;
 }
 
-scene::Scene with_calibrated_surface(const scene::Scene& scene, const scene::Scene& calibrated,
-                                     const CalibrationDistance& distance) {
+scene::Scene with_calibrated(const scene::Scene& scene, const scene::Scene& calibrated,
+                             const std::vector<std::string>& keys) {
   scene::Scene changed = scene;
-  for (const scene::Implausible& each : distance.foreign)
-    if (is_of_surface(each.key)) set_as_calibrated(each.key, calibrated, changed);
+  for (const std::string& name : keys) {
+    const auto& key = *scene::find_key(scene::scene_keys(), name);
+    key.set(changed, key.get(calibrated));
+  }
+  if (std::ranges::find(keys, "charge.sliding_friction") != keys.end())
+    changed.surface.localisation *= calibrated.charge().sliding_friction / scene.charge().sliding_friction;
   return changed;
 }
 
 std::vector<AsCalibrated> as_calibrated(const scene::Scene& scene, const scene::Scene& calibrated,
-                                        const CalibrationDistance& distance, const trace::BottomTrace& trace,
-                                        double gap) {
+                                        const std::vector<scene::Implausible>& to_be_accepted,
+                                        const trace::BottomTrace& trace, double gap) {
   std::vector<AsCalibrated> all;
-  for (const std::string& key : keys_as_calibrated(distance)) {
-    scene::Scene changed = key.empty() ? with_calibrated_surface(scene, calibrated, distance) : scene;
-    if (!key.empty()) set_as_calibrated(key, calibrated, changed);
+  for (const std::string& key : keys_as_calibrated(to_be_accepted)) {
+    const std::vector<std::string> keys = key.empty() ? skin_keys(to_be_accepted) : std::vector{key};
+    const scene::Scene changed = with_calibrated(scene, calibrated, keys);
     const auto skin = surface::integrate_skin(surface::skin_model(changed), trace, gap);
     all.push_back({key, surface::maximum_at_stations(skin, trace).temperature, skin.ignition.has_value()});
   }

@@ -32,7 +32,7 @@ struct InputStatements {
 InputStatements statements_of(const Study& study, const StudyCase& input) {
   CalibrationDistance distance = distance_to_calibration(input.scene.scene, study.calibration);
   std::vector<std::string> keys;
-  if (study.kind.gives_verdicts) keys = keys_as_calibrated(distance);
+  if (study.kind.gives_verdicts) keys = keys_as_calibrated(to_be_accepted(study, input));
   return {run::uncovered_load(input.scene.scene.load), unaccepted_text(study, input),
           accepted_text(study, input), std::move(distance), std::move(keys)};
 }
@@ -70,8 +70,7 @@ bool has_all_shares(const CriticalGap& critical, const Study& study, const Study
   if (propagates_spread(study) &&
       !(has(ShareKind::peak_pressure) && has(ShareKind::pulse_length) && has(ShareKind::initial_temperature)))
     return false;
-  const bool accepted = study.kind.gives_verdicts && has_foreign_surface(distance);
-  if (accepted && !has(ShareKind::accepted)) return false;
+  if (!skin_keys(to_be_accepted(study, input)).empty() && !has(ShareKind::accepted)) return false;
   return (has(ShareKind::computation) || !(input.numerical_uncertainty > 0.0)) &&
          (has(ShareKind::fit) || !(fit_share(study, distance, {}) > 0.0)) &&
          (has(ShareKind::stated_inputs) || !(stated_input_share(study, input) > 0.0)) &&

@@ -70,7 +70,9 @@ std::vector<std::string> cooling_in(const scene::Scene& scene, const scene::Scen
   add(ours.station_width > widest_station + slack, "stations wider than 20 mm");
   add(ours.skin_thickness > thickest_skin + slack, "a skin above 0.3 mm");
   add(ours.friction == scene::FrictionClosure::none, "no friction heat");
-  add(ours.localisation < least_share * theirs.localisation, "a localisation below half the calibrated one");
+  add(ours.localisation * scene.charge().sliding_friction <
+          least_share * theirs.localisation * calibrated.charge().sliding_friction,
+      "sliding friction times localisation below half the calibrated product");
   add(ours.exchange_time * least_share > theirs.exchange_time,
       "an exchange slower than half the calibrated one");
   return found;
@@ -88,7 +90,8 @@ std::string names_of(const ModelFormRecord& record, bool counted) {
 }  // namespace
 
 bool propagates_spread(const Study& study) {
-  return study.kind.gives_verdicts && !std::isfinite(study.input_uncertainty);
+  return study.kind.gives_verdicts && study.kind.bounds_critical_gaps &&
+         !std::isfinite(study.input_uncertainty);
 }
 
 std::string label_of_raised(const StudyCase& input) {

@@ -55,14 +55,15 @@ double heated_temperature(const scene::Scene& scene, const BottomTrace& trace, d
 /// What the rows of a case have in common.
 struct CaseGround {
   CalibrationDistance distance;
+  std::vector<scene::Implausible> to_be_accepted;
   LoadCurveErrors load_curve;
   double heated_without_gap = not_a_number;  ///< K
 };
 
 CaseGround ground_of(const Study& study, const CaseOutcome& outcome) {
   const scene::Scene& scene = outcome.input.scene.scene;
-  return {distance_to_calibration(scene, study.calibration), load_curve_errors(scene.load),
-          heated_temperature(scene, outcome.result.mechanics.trace, 0.0)};
+  return {distance_to_calibration(scene, study.calibration), to_be_accepted(study, outcome.input),
+          load_curve_errors(scene.load), heated_temperature(scene, outcome.result.mechanics.trace, 0.0)};
 }
 
 /// K by which T max of a row is higher in a raised launch; infinite where that ignites and the row does not.
@@ -131,7 +132,7 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGrou
   row.margin = scene.charge().kinetics.ignition_temperature - gap.at_stations.temperature;
   row.heated = heated_temperature(scene, trace, gap.gap);
   if (study.kind.gives_verdicts)
-    row.as_calibrated = as_calibrated(scene, study.calibration.scene, ground.distance, trace, gap.gap);
+    row.as_calibrated = as_calibrated(scene, study.calibration.scene, ground.to_be_accepted, trace, gap.gap);
   row.air = gap.air;
   row.ignition = named(gap.skin.ignition, trace);
   row.uncertainty.sampling = gap.sampling_error;
@@ -392,12 +393,13 @@ void conclude(const Study& study, CaseOutcome& outcome) {
   const std::string ring = scene::ring_text(outcome.input.scene.scene.load);
   const std::string optimistic = why_optimistic(study, outcome);
   std::vector<double> gaps, temperatures;
-  for (GapVerdict& row : outcome.verdicts) {
+  for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) {
+    GapVerdict& row = outcome.verdicts[i];
     row.uncertainty.coupling = coupling;
     if (foreign)
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
     Evidence& evidence = row.evidence;
-    evidence.validity_warnings = warnings;
+    evidence.validity_warnings = warnings + when_launch_is_over(outcome, i);
     evidence.unaccepted = unaccepted;
     evidence.accepted = accepted;
     evidence.optimistic = optimistic;

@@ -1,5 +1,6 @@
-// The gaps of a case on other terms than those of its verdicts: with air that conserves energy, and without a
-// muzzle exit.
+// The gaps of a case on other terms than those of its verdicts: with air that conserves energy, and in a
+// launch that goes on for longer.
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
@@ -8,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace launchsafe::study {
 namespace {
@@ -57,15 +59,24 @@ void evaluate_film(const Study& study, CaseOutcome& outcome) {
   outcome.film = answer_on(study, model, trace);
 }
 
-void evaluate_without_exit(const Study& study, const run::MechanicsResult& mechanics, CaseOutcome& outcome) {
-  if (mechanics.status == run::RunStatus::completed && mechanics.trace.samples() > 0) {
-    const scene::Scene barrel = in_barrel_without_end(outcome.input.scene.scene);
-    outcome.without_exit = answer_on(study, surface::skin_model(barrel), mechanics.trace);
+void evaluate_longer_launch(const Study& study, const run::MechanicsResult& mechanics, CaseOutcome& outcome) {
+  const std::optional<scene::Scene> longer = with_longer_launch(outcome.input.scene.scene);
+  if (longer && mechanics.status == run::RunStatus::completed && mechanics.trace.samples() > 0) {
+    outcome.longer_launch = answer_on(study, surface::skin_model(*longer), mechanics.trace);
     return;
   }
   OtherAnswer none{std::vector<double>(study.gaps.size(), not_a_number), {}};
-  none.critical.reason = "the run without muzzle exit: " + failure_of(mechanics);
-  outcome.without_exit = std::move(none);
+  none.critical.reason = "the run of the longer launch: " + failure_of(mechanics);
+  outcome.longer_launch = std::move(none);
+}
+
+std::string when_launch_is_over(const CaseOutcome& outcome, std::size_t gap) {
+  const scene::Scene& scene = outcome.input.scene.scene;
+  if (!outcome.longer_launch || !scene::is_cut_short(scene.load)) return {};
+  const double highest = outcome.longer_launch->maximum_temperature.at(gap);
+  if (!std::isfinite(highest)) return {};
+  return fmt::format("; when it is over T max is {:.1f} K, and the ignition temperature is {:.1f} K", highest,
+                     scene.charge().kinetics.ignition_temperature);
 }
 
 }  // namespace launchsafe::study

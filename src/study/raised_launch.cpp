@@ -112,10 +112,9 @@ class Causes {
   void add_accepted() {
     if (!study_.kind.gives_verdicts || !towards()) return;
     const scene::Scene &scene = outcome_.input.scene.scene, &calibrated = study_.calibration.scene;
-    const CalibrationDistance distance = distance_to_calibration(scene, study_.calibration);
-    if (has_foreign_surface(distance))
-      add(ShareKind::accepted, surface::skin_model(with_calibrated_surface(scene, calibrated, distance)),
-          trace_);
+    const std::vector<std::string> keys = skin_keys(to_be_accepted(study_, outcome_.input));
+    if (!keys.empty())
+      add(ShareKind::accepted, surface::skin_model(with_calibrated(scene, calibrated, keys)), trace_);
   }
 
   void add_shift(ShareKind kind) {

@@ -286,14 +286,12 @@ std::vector<CaseRun> burning_runs(const StudyFile& study, const StudyCase& input
 
 }  // namespace
 
-bool asks_without_exit(const StudyCase& input) {
-  return scene::exit_time(input.scene.scene.load) && !input.scene.scene.load.duration;
-}
-
-scene::Scene in_barrel_without_end(const scene::Scene& scene) {
-  scene::Scene barrel = scene;
-  barrel.load = scene::without_exit(scene.load);
-  return barrel;
+std::optional<scene::Scene> with_longer_launch(const scene::Scene& scene) {
+  std::optional<scene::Load> longer = scene::longer_launch(scene.load);
+  if (!longer) return std::nullopt;
+  scene::Scene other = scene;
+  other.load = std::move(*longer);
+  return other;
 }
 
 std::vector<CaseRuns> case_runs(const StudyFile& study, int shards) {
@@ -321,12 +319,14 @@ std::vector<CaseRuns> case_runs(const StudyFile& study, int shards) {
       cases[i].runs.push_back(mechanics_run(with_raised_load(first.scene.scene), label_of_raised(first)));
     });
   }
-  if (study.study.kind.runs_without_exit) {
+  if (study.study.kind.runs_longer_launches) {
     for (CaseRuns& each : cases) {
       const StudyCase& first = study.cases[each.members.front()];
-      if (asks_without_exit(first))
-        each.runs.push_back(mechanics_run(in_barrel_without_end(first.scene.scene),
-                                          fmt::format("{}, without muzzle exit", first.label)));
+      if (const auto longer = with_longer_launch(first.scene.scene))
+        each.runs.push_back(mechanics_run(
+            *longer, fmt::format("{}, {}", first.label,
+                                 scene::is_cut_short(first.scene.scene.load) ? "until the launch is over"
+                                                                             : "without muzzle exit")));
     }
   }
   std::vector<double> costs;

@@ -5,6 +5,7 @@
 #include "program.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -180,6 +181,17 @@ TEST_F(NeverSafe, AGapThatIgnitesIsUnsafeWhereAnAcceptanceIsMissing) {
   EXPECT_NE(read("out/study.json").find("indeterminate (indicative: 0.0"), std::string::npos);
 }
 
+/// The longer launch is that of the sound study, which leaves at 18 ms.
+TEST_F(NeverSafe, ALaunchThatIsCutShortTellsTheTemperatureWhenItIsOver) {
+  run_edited({});
+  const auto rows = nlohmann::json::parse(read("out/study.json")).at("verdicts");
+  const double highest = rows.at(1).at("temperature_max_K");
+  run_edited(in_scene("[load]", "[load]\nduration = \"14.7 ms\""));
+  EXPECT_NE(read("out/verdicts.csv").find(fmt::format("; when it is over T max is {:.1f} K", highest)),
+            std::string::npos)
+      << read("out/verdicts.csv");
+}
+
 TEST_P(NeverSafe, Mistaken) {
   const Mistake& mistake = GetParam();
   const Outcome outcome = run_edited(mistake.edits);
@@ -314,6 +326,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "only averages or removes heat"},
         Mistake{"LittleFrictionHeatThatIsAccepted",
                 accepted("friction.localisation", "250", "[friction]\n", "[friction]\nlocalisation = 250\n"),
+                "only averages or removes heat"},
+        Mistake{"LittleSlidingFrictionThatIsAccepted",
+                accepted("charge.sliding_friction", "0.035", "[charge]\n",
+                         "[charge]\nsliding_friction = 0.035\n"),
                 "only averages or removes heat"},
         Mistake{"ASecondSteel",
                 {{"shell.toml", "{ name = \"base\",   material = \"steel\"",

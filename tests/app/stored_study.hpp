@@ -109,8 +109,6 @@ scene = "shell.toml"
 name = "as it is"
 gaps = "0, 0.01 cm"
 early_time = "0.03 ms"
-input_uncertainty = { value = "2 K", because = "for a test" }
-model_form_uncertainty = { value = "1 K", because = "for a test" }
 
 [[variant]]
 name = "other cracks"

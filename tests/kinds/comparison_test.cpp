@@ -14,9 +14,7 @@ using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 
 const std::string comparison_start =
-    "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\nname = \"own\"\n" + synthetic_statements +
-    "gaps = \"0, 0.02, 0.04 cm\"\n" +
-    "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n";
+    "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\nname = \"own\"\ngaps = \"0, 0.02, 0.04 cm\"\n";
 
 StudyFile comparison_of(const std::string& variants, const std::string& keys = {}) {
   return study_of(comparison_start + keys + synthetic_constants + variants);
@@ -50,32 +48,23 @@ TEST(Comparison, EveryVariantIsRunUnderEveryPeakPressure) {
   EXPECT_LT(result.cases[1].answer.critical.value, result.cases[0].answer.critical.value);
 }
 
-// What a study states of its mesh is of the scene's own numerics.
-TEST(Comparison, AStatedNumericalUncertaintyIsNotThatOfAVariantWithOtherNumerics) {
-  const StudyFile study = comparison_of(variant("coarse", "numerics.cell_size = \"2.5 mm\"") +
-                                        variant("dense", "charge.crack_radius = \"31 um\""));
-  EXPECT_EQ(study.cases[0].numerical_uncertainty, 1.0);
-  EXPECT_GE(study.cases[1].numerical_uncertainty, assumed_numerical_uncertainty);
-  EXPECT_EQ(study.cases[2].numerical_uncertainty, 1.0);
-  EXPECT_TRUE(study.study.numerical_uncertainty_assumed);
-}
-
 // The constants say nothing of another way to hold the charge, unless the variant itself says why they may.
 TEST(Comparison, AVariantOutsideTheCalibrationIsIndeterminateUntilItAcceptsThat) {
   const std::string bonded = variant("bonded", "interface.wall.condition = \"bonded\"");
-  const auto verdicts = [](const std::string& text) {
-    return run_comparison(comparison_of(text), synthetic_options()).cases[1].answer.verdicts;
+  const auto critical = [](const std::string& text) {
+    return run_comparison(comparison_of(text), synthetic_options()).cases[1].answer.critical;
   };
-  for (const GapVerdict& row : verdicts(bonded))
-    EXPECT_EQ(row.judgement.verdict, row.ignition ? Verdict::unsafe : Verdict::indeterminate);
-  const auto accepted = verdicts(bonded +
+  const CriticalGap unknown = critical(bonded);
+  EXPECT_EQ(unknown.kind, CriticalGapKind::indeterminate);
+  const auto accepted = critical(bonded +
                                  "accept = [{ key = \"calibration.interfaces\", value = \"nose sliding, "
                                  "friction 0\", because = \"of this variant alone\" }]\n");
-  EXPECT_EQ(accepted.back().judgement.verdict, Verdict::unsafe) << accepted.back().judgement.reason;
-  const auto foreign = verdicts(
+  EXPECT_EQ(accepted.kind, CriticalGapKind::value) << accepted.reason;
+  EXPECT_EQ(accepted.value, unknown.indicative);
+  const auto foreign = critical(
       bonded + variant("other", "gap.air = \"film\"") +
       "accept = [{ key = \"gap.air\", value = \"film\", because = \"of the other variant alone\" }]\n");
-  EXPECT_EQ(foreign.front().judgement.verdict, Verdict::indeterminate);
+  EXPECT_EQ(foreign.kind, CriticalGapKind::indeterminate);
 }
 
 TEST(Comparison, StationsAreComparedOnASkinThatDoesNotReact) {
@@ -90,13 +79,13 @@ TEST(Comparison, StationsAreComparedOnASkinThatDoesNotReact) {
   EXPECT_LT(stations[2][1].temperature, 600.0);
 }
 
-TEST(Comparison, TheReportHoldsVariantsVerdictsAndStations) {
+TEST(Comparison, TheReportHoldsVariantsAndStationsAndJudgesNoGap) {
   const ComparisonResult result = run_comparison(
       comparison_of(variant("coarse", "numerics.cell_size = \"2.5 mm\"")), synthetic_options());
   const auto json = nlohmann::json::parse(report_of(result).json);
   EXPECT_EQ(json["kind"], "comparison");
   EXPECT_EQ(json["cases"].size(), 2u);
-  EXPECT_EQ(json["verdicts"].size(), 6u);
+  EXPECT_FALSE(json.contains("verdicts"));
   EXPECT_EQ(json["stations"].size(), 2u * 3u * 3u);
   EXPECT_EQ(json["cases"][1]["critical_gap_difference_cm"], 0.0);
 }
@@ -109,9 +98,7 @@ TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
   };
   const std::string start =
       "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\nname = \"own\"\n"
-      "gaps = \"0, 0.02 cm\"\npeak_pressures = \"496, 450 MPa\"\n"
-      "input_uncertainty = { value = \"1 K\", because = \"for a test\" }\nmodel_form_uncertainty = { value = "
-      "\"1 K\", because = \"for a test\" }\n" +
+      "gaps = \"0, 0.02 cm\"\npeak_pressures = \"496, 450 MPa\"\n" +
       calibrated("smooth_wall");
   const std::string bonded =
       variant("bonded", "interface.nose.condition = \"bonded\", interface.wall.condition = \"bonded\"");

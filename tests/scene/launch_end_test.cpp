@@ -83,6 +83,19 @@ TEST(LaunchEnd, ADurationCutsALaunchShort) {
   EXPECT_TRUE(is_cut_short(quiet));
 }
 
+TEST(LaunchEnd, TheLongerLaunchEndsLaterOrInABarrelWithoutEnd) {
+  Load load = published_bell();
+  EXPECT_FALSE(longer_launch(load));
+  load.muzzle_exit = 18e-3;
+  EXPECT_EQ(end_time(*longer_launch(load)), launch_end(published_bell()));
+  const double over = launch_end(load);
+  load.duration = 15e-3;
+  EXPECT_EQ(end_time(*longer_launch(load)), over);
+  load.muzzle_exit.reset();
+  load.width = 1.0;
+  EXPECT_FALSE(longer_launch(load)) << "more than ten times as long";
+}
+
 // exp(-(6.51/3.03)^1.44) = 0.0494 of the peak at 18 ms; 18 ms + 0.5 ms ln 4.94 = 18.80 ms.
 TEST(LaunchEnd, BehindTheExitThePressureDecaysToTheBase) {
   Load load = published_bell();

@@ -4,6 +4,7 @@
 
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/sweep.hpp"
+#include "launchsafe/study/as_calibrated.hpp"
 #include "launchsafe/study/calibration_domain.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "study/synthetic_launch.hpp"
@@ -277,18 +278,32 @@ TEST(CaseUncertainty, ColderConstantsOfTheSurfaceMakeNothingSafeThatTheCalibrate
       study.cases[0].scene.scene.accepted.push_back({each.key, each.value, "our own firing trials agree"});
     return run_critical_gap(study, quadratic_options()).cases.at(0).verdicts;
   };
-  const std::vector<GapVerdict> own = rows_with(""), colder = rows_with("friction.localisation = 700\n");
-  ASSERT_EQ(own.size(), colder.size());
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    EXPECT_TRUE(own[i].as_calibrated.empty());
-    ASSERT_EQ(colder[i].as_calibrated.size(), 2u);
-    EXPECT_EQ(colder[i].as_calibrated[1].key, "friction.localisation");
-    EXPECT_EQ(colder[i].as_calibrated[0].ignites, own[i].ignition.has_value());
-    EXPECT_NEAR(colder[i].as_calibrated[0].temperature, own[i].maximum.temperature, 1e-9);
-    if (own[i].margin < colder[i].uncertainty.total()) {
-      EXPECT_NE(colder[i].judgement.verdict, Verdict::safe) << colder[i].judgement.reason;
+  const std::vector<GapVerdict> own = rows_with("");
+  for (const std::string change : {"friction.localisation = 700", "charge.specific_heat = \"4000 J/(kg K)\"",
+                                   "gap.air_density = \"0.17 kg/m3\""}) {
+    const std::vector<GapVerdict> colder = rows_with(change + "\n");
+    ASSERT_EQ(own.size(), colder.size());
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      EXPECT_TRUE(own[i].as_calibrated.empty());
+      ASSERT_GE(colder[i].as_calibrated.size(), 2u) << change;
+      EXPECT_TRUE(change.starts_with(colder[i].as_calibrated[1].key)) << change;
+      EXPECT_EQ(colder[i].as_calibrated[0].ignites, own[i].ignition.has_value()) << change;
+      EXPECT_NEAR(colder[i].as_calibrated[0].temperature, own[i].maximum.temperature, 1e-9) << change;
+      if (own[i].margin < colder[i].uncertainty.total()) {
+        EXPECT_NE(colder[i].judgement.verdict, Verdict::safe) << colder[i].judgement.reason;
+      }
     }
   }
+}
+
+/// The trace holds the heat of half the sliding friction.
+TEST(CaseUncertainty, TheLocalisationMakesUpForTheSlidingFrictionOfATrace) {
+  const scene::Scene calibrated = calibration_scene();
+  scene::Scene own = calibrated;
+  own.charge().sliding_friction *= 0.5;
+  const scene::Scene changed = with_calibrated(own, calibrated, {"charge.sliding_friction"});
+  EXPECT_EQ(changed.charge().sliding_friction, calibrated.charge().sliding_friction);
+  EXPECT_DOUBLE_EQ(changed.surface.localisation, 2.0 * calibrated.surface.localisation);
 }
 
 /// Issue 31, point 10.

@@ -17,7 +17,7 @@ const std::string two_cases = critical_text + "peak_pressures = \"450, 496 MPa\"
 /// A study whose launches are not run without their muzzle exit.
 StudyFile plain_study(const std::string& text) {
   StudyFile study = study_of(text);
-  study.study.kind.runs_without_exit = false;
+  study.study.kind.runs_longer_launches = false;
   return study;
 }
 
@@ -61,7 +61,7 @@ TEST(RunCases, RunsUnderARaisedLoadBelongToTheirCase) {
   }
 }
 
-TEST(RunCases, ALaunchWithAMuzzleExitIsAlsoRunInABarrelWithoutEnd) {
+TEST(RunCases, ALaunchIsAlsoRunForLonger) {
   const std::vector<CaseRuns> cases = case_runs(study_of(two_cases), 1);
   ASSERT_EQ(cases.size(), 2u);
   for (const CaseRuns& each : cases) {
@@ -73,7 +73,12 @@ TEST(RunCases, ALaunchWithAMuzzleExitIsAlsoRunInABarrelWithoutEnd) {
     EXPECT_GT(scene::end_time(barrel), scene::end_time(own));
   }
   const StudyFile partial = study_of(two_cases + "[set]\nload.duration = \"18 ms\"\n");
-  for (const CaseRuns& each : case_runs(partial, 1)) EXPECT_EQ(each.runs.size(), 1u);
+  for (const CaseRuns& each : case_runs(partial, 1)) {
+    ASSERT_EQ(each.runs.size(), 2u);
+    EXPECT_FALSE(each.runs[1].scene.load.duration)
+        << "a launch that is cut short is also run until it is over";
+    EXPECT_EQ(each.runs[1].scene.load.muzzle_exit, 18e-3);
+  }
 }
 
 TEST(RunCases, ACaseOfAnotherShardIsNotRun) {

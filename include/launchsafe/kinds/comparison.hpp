@@ -1,4 +1,5 @@
-// The study of kind comparison: the same scene under several named variants, side by side.
+// The study of kind comparison: the same scene under several named variants, side by side. It compares
+// numbers and judges no gap: verdicts are those of critical-gap and sweep, which count what is uncertain.
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
@@ -53,7 +54,7 @@ struct ComparisonResult {
   std::size_t cases_per_variant() const { return study.cases.size() / variants().size(); }
   /// The case of the scene as it is under the same pressure.
   std::size_t counterpart(std::size_t index) const { return index % cases_per_variant(); }
-  bool any_indeterminate() const;  ///< a verdict or a critical gap is
+  bool any_indeterminate() const;  ///< a critical gap is
 };
 
 /// Runs a study of kind comparison. A case's failure is that case's row. Apart from times the result depends

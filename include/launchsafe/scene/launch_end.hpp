@@ -30,6 +30,10 @@ bool is_cut_short(const Load& load);
 
 /// The same load in a barrel without end.
 Load without_exit(Load load);
+/// The load of the same launch where it goes on for longer than it is simulated: until it is over where
+/// `Load::duration` cuts it short, else in a barrel without end where it has a muzzle exit. None for others,
+/// nor for what would go on for more than ten times as long.
+std::optional<Load> longer_launch(Load load);
 
 /// The earliest and the latest time (s) of the exit within its spread; none without an exit.
 struct ExitWindow {

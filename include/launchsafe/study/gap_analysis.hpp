@@ -44,8 +44,11 @@ CaseOutcome without_result(const Study& study, const StudyCase& input, RunOutcom
 
 /// The gaps of the study and the critical gap with air as a film, on the same trace.
 void evaluate_film(const Study& study, CaseOutcome& outcome);
-/// The same in a barrel without end, on the mechanics of that launch.
-void evaluate_without_exit(const Study& study, const run::MechanicsResult& mechanics, CaseOutcome& outcome);
+/// The same of its longer launch, on the mechanics of that one.
+void evaluate_longer_launch(const Study& study, const run::MechanicsResult& mechanics, CaseOutcome& outcome);
+/// What becomes of a gap, by its place in the study, when a launch that is cut short goes on until it is
+/// over: a clause after its validity warnings. Empty for other launches, and where that is not known.
+std::string when_launch_is_over(const CaseOutcome& outcome, std::size_t gap);
 
 /// What the confirmations say about the critical gap: a disagreement makes it indeterminate.
 void apply_confirmations(const Study& study, CaseOutcome& outcome);

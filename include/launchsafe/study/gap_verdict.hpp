@@ -93,9 +93,9 @@ struct CaseOutcome {
   std::optional<GapFit> fit;         ///< over the rows that do not ignite
   /// With air as a film that conserves energy, an optimistic bound: of a completed run with the reservoir.
   std::optional<OtherAnswer> film;
-  /// In a barrel without end, where the launch has a muzzle exit; indeterminate where that run did not
+  /// Of the longer launch (scene::longer_launch), where there is one; indeterminate where that run did not
   /// complete.
-  std::optional<OtherAnswer> without_exit;
+  std::optional<OtherAnswer> longer_launch;
   bool completed() const { return failure.empty(); }
 };
 

@@ -38,15 +38,13 @@ store::CaseIdentity identity_of(const CaseRun& run);
 struct CaseRuns {
   std::vector<std::size_t> members;  ///< of StudyFile::cases; those that differ in thermal keys alone share
   /// The mechanics; then, where the study asks for it, under a raised load, or through the ignition of gaps;
-  /// at last, where `KindTraits::runs_without_exit` and `asks_without_exit` say so, in a barrel without end.
+  /// at last, where `KindTraits::runs_longer_launches` says so, the longer launch if there is one.
   std::vector<CaseRun> runs;
   int shard = 1;
 };
 
-/// Whether a case has a muzzle exit that its launch can be run without.
-bool asks_without_exit(const StudyCase& input);
-/// The same launch without its muzzle exit.
-scene::Scene in_barrel_without_end(const scene::Scene& scene);
+/// A scene with its scene::longer_launch; none where there is none.
+std::optional<scene::Scene> with_longer_launch(const scene::Scene& scene);
 
 /// The runs that a study needs before it seeks critical gaps, in the order of their first cases, divided over
 /// so many shards.

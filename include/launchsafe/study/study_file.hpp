@@ -25,14 +25,15 @@ inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 struct KindTraits {
   std::string name;      ///< as in `kind = "critical-gap"`
   std::string gaps_key;  ///< where a study file has the gaps to judge; empty for a kind that judges none
-  /// SAFE or UNSAFE, for which the uncertainty of fit, inputs and model counts. A stability study judges the
-  /// computation alone, and the others compare numbers.
+  /// Its cases are held against the calibration: what is foreign or not plausible has to be accepted, and the
+  /// uncertainty of fit, inputs and model counts. A stability study judges the computation alone.
   bool gives_verdicts = true;
-  bool bounds_critical_gaps = true;    ///< bounds of the critical gaps are found, which verdicts need
+  /// Bounds of the critical gaps are found, which SAFE needs. A study without them compares numbers.
+  bool bounds_critical_gaps = true;
   bool keeps_answers = false;          ///< what is concluded of a case is stored beside its runs
   bool own_scenes = false;             ///< cases may bring scenes and uncertainties of their own
   bool goes_through_ignition = false;  ///< gaps of cases with two-way coupling are run through ignition too
-  bool runs_without_exit = false;      ///< launches with a muzzle exit are also run in a barrel without end
+  bool runs_longer_launches = false;   ///< the longer launch is run too, where there is one
 };
 
 /// A scene key that the cases of a study vary.
