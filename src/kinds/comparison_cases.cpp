@@ -149,6 +149,7 @@ class VariantMaker {
     own.study.settings.reset();
     own.study.implausible.clear();
     own.study.calibration = shipped_calibration();
+    own.study.fit_uncertainty = not_a_number;  // of its own calibration
     if (!calibration.empty()) own.study.calibration_record = calibration;
     own.file = study_.file;
     own.places = study_.places;
