@@ -193,7 +193,8 @@ std::string accepted_text(const Study& study, const StudyCase& input) {
 
 AcceptancesOfStudy acceptances_of(const StudyFile& study) {
   AcceptancesOfStudy all;
-  if (!study.study.kind.gives_verdicts) return all;
+  // Cases that bring constants of their own are held against those, one by one.
+  if (!study.study.kind.gives_verdicts || study.study.kind.own_scenes) return all;
   const double largest = study.study.gaps.empty() ? 0.0 : *std::ranges::max_element(study.study.gaps);
   std::set<std::string> seen;
   const auto is_new = [&seen](const std::string& said) { return seen.insert(said).second; };

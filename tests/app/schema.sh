@@ -34,7 +34,8 @@ while IFS= read -r file; do
     say "refused: $file"
     grep -v INFO "$folder/log"
   fi
-done < <(find "$studies" -name '*.toml' | sort)
+# A table of decompositions ships and is no file of the user's.
+done < <(find "$studies" -name '*.toml' ! -name decomposition.toml | sort)
 say "$passed shipped files pass, $failed do not"
 
 # broken SCHEMA NAME TEXT: the text is refused.
