@@ -142,12 +142,14 @@ std::string confirmation_text(const CaseOutcome& outcome) {
 Table critical_gap_table(const CriticalGapResult& result) {
   Table table{"Critical gap", {quantity::case_name()}};
   append(table.columns, critical_gap_columns());
+  append(table.columns, critical_gap_bounds_columns());
   append(table.columns,
          {for_programs(named_text("coupled runs", "coupled_runs")), named_text("remark", "reason")});
   for (const CaseOutcome& outcome : result.cases) {
     std::vector<Cell>& cells = table.rows.emplace_back();
     cells.emplace_back(outcome.input.label);
     add_critical_gap_cells(outcome.critical, cells);
+    add_critical_gap_bounds_cells(outcome.critical, cells);
     cells.insert(cells.end(), {confirmation_text(outcome), outcome.critical.reason});
   }
   return table;

@@ -80,6 +80,7 @@ Table critical_gap_table(const SweepResult& result) {
   const PlacedAnswers answers = answers_of(result);
   Table table = answers.table("Critical gaps");
   append(table.columns, critical_gap_columns());
+  append(table.columns, critical_gap_bounds_columns());
   append(table.columns, {named_text("assumed", "assumed_shares")});
   append(table.columns, outer_gap_columns(gaps));
   append(table.columns,
@@ -89,6 +90,7 @@ Table critical_gap_table(const SweepResult& result) {
     const auto& [place, answer] = answers.rows[i];
     std::vector<Cell>& cells = table.rows.emplace_back(place);
     add_critical_gap_cells(answer->critical, cells);
+    add_critical_gap_bounds_cells(answer->critical, cells);
     cells.emplace_back(assumed_shares(result.study.study, result.study.cases[i], answer->critical.value));
     for (const std::size_t gap : outer_gaps(gaps))
       cells.push_back(gap < answer->verdicts.size()

@@ -223,26 +223,20 @@ Table model_table(const StudyEvidence& comparison, const std::vector<const Row*>
   return table_of(pointers_to(models), std::move(columns));
 }
 
-/// Critical gaps under each model, a bar each.
+/// Critical gaps under each model, a point each.
 Plot model_plot(const std::vector<const Row*>& rows, const std::string& pressure) {
   Plot plot;
   plot.title = "Critical gap under each model";
   plot.subtitle = pressure;
-  plot.x = {.label = "critical gap with its uncertainty [cm]", .minimum = 0.0};
+  plot.x = {.label = "critical gap [cm]", .minimum = 0.0};
   plot.height = 150 + 34 * static_cast<int>(rows.size());
-  Series series{.style = Style::horizontal_bars, .colour = 0};
+  Series series{.style = Style::points, .colour = 0};
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double gap = number_of(*rows[i], "critical_gap_cm");
-    const auto bound = [&](const char* key) {
-      const double known = number_of(*rows[i], key);
-      return std::isfinite(known) ? known : gap;
-    };
     const double place = static_cast<double>(rows.size() - i);
     const std::string name = text_of(*rows[i], "variant");
     plot.y.tics.push_back(
         {place, is_value(*rows[i]) ? name : name + ", " + text_of(*rows[i], "critical_gap_reads_as")});
-    if (is_value(*rows[i]))
-      series.add(gap, place, bound("critical_gap_at_least_cm"), bound("critical_gap_at_most_cm"));
+    if (is_value(*rows[i])) series.add(number_of(*rows[i], "critical_gap_cm"), place);
   }
   plot.y.minimum = 0.4;
   plot.y.maximum = static_cast<double>(rows.size()) + 0.6;

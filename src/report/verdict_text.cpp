@@ -131,20 +131,25 @@ void add_verdict_cells(const study::GapVerdict& row, double inert, std::vector<C
 }
 
 std::vector<Column> critical_gap_columns() {
-  return {quantity::critical_gap_kind(),
-          quantity::critical_gap(),
-          quantity::critical_gap_reads_as(),
+  return {quantity::critical_gap_kind(), quantity::critical_gap(), quantity::critical_gap_reads_as(),
           significant_column("no ignition", "cm", 6, "critical_gap_lower_cm"),
-          significant_column("ignites", "cm", 6, "critical_gap_upper_cm"),
-          significant_column("at least", "cm", 3, "critical_gap_at_least_cm"),
+          significant_column("ignites", "cm", 6, "critical_gap_upper_cm")};
+}
+
+std::vector<Column> critical_gap_bounds_columns() {
+  return {significant_column("at least", "cm", 3, "critical_gap_at_least_cm"),
           significant_column("at most", "cm", 3, "critical_gap_at_most_cm")};
 }
 
 void add_critical_gap_cells(const study::CriticalGap& gap, std::vector<Cell>& cells) {
   cells.insert(cells.end(),
                {study::to_string(gap.kind), optional_number(100.0 * value_of(gap)), reads_as(gap),
-                optional_number(100.0 * gap.lower), optional_number(100.0 * gap.upper),
-                optional_number(100.0 * gap.bounds.at_least), optional_number(100.0 * gap.bounds.at_most)});
+                optional_number(100.0 * gap.lower), optional_number(100.0 * gap.upper)});
+}
+
+void add_critical_gap_bounds_cells(const study::CriticalGap& gap, std::vector<Cell>& cells) {
+  cells.insert(cells.end(),
+               {optional_number(100.0 * gap.bounds.at_least), optional_number(100.0 * gap.bounds.at_most)});
 }
 
 std::vector<std::string> mesh_notes(const study::StudyFile& study) {

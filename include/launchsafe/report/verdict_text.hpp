@@ -17,10 +17,13 @@ std::vector<Column> verdict_columns(const study::Study& study);
 /// The cells under them, put behind those that a row already has. `inert`: T max without reaction, K.
 void add_verdict_cells(const study::GapVerdict& row, double inert, std::vector<Cell>& cells);
 
-/// Kind, value, bracket and uncertainty of a critical gap, and how it reads.
+/// Kind, value and bracket of a critical gap, and how it reads.
 std::vector<Column> critical_gap_columns();
+/// Those of its bounds, of a kind that finds them; they follow.
+std::vector<Column> critical_gap_bounds_columns();
 /// The cells under them, put behind those that a row already has.
 void add_critical_gap_cells(const study::CriticalGap& gap, std::vector<Cell>& cells);
+void add_critical_gap_bounds_cells(const study::CriticalGap& gap, std::vector<Cell>& cells);
 
 /// What every table of verdicts must say: an uncertainty that is assumed or stated by hand, a charge off the
 /// grid lines.
