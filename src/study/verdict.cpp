@@ -27,7 +27,8 @@ std::string margin_text(const char* relation, const Evidence& evidence) {
                      kelvin(evidence.uncertainty, 2));
 }
 
-std::string centimetres(double length) { return fmt::format("{:.3g} cm", 100.0 * length); }
+/// A bound of the critical gap (m), to the digits that count.
+std::string bound_text(double length) { return fmt::format("{:.3g} cm", 100.0 * length); }
 
 /// Where nothing ignites up to the end of the search, which a gap may lie at.
 Judgement judge_margin(const Evidence& evidence, const CriticalGap& critical) {
@@ -38,7 +39,7 @@ Judgement judge_margin(const Evidence& evidence, const CriticalGap& critical) {
     return indeterminate(
         "with the constants of the surface as calibrated the margin is within the uncertainty");
   if (!(evidence.gap <= critical.bounds.at_least))
-    return indeterminate("the critical gap may be as small as " + centimetres(critical.bounds.at_least));
+    return indeterminate("the critical gap may be as small as " + bound_text(critical.bounds.at_least));
   return {Verdict::safe, margin_text("over uncertainty", evidence)};
 }
 
@@ -58,10 +59,10 @@ Judgement judge_in_gap(const Evidence& evidence, const CriticalGap& critical) {
   }
   if (std::isnan(at_least)) return indeterminate("the critical gap has no lower bound");
   if (!(evidence.gap < at_least))
-    return indeterminate(at_least > 0.0 ? "the critical gap may be as small as " + centimetres(at_least)
+    return indeterminate(at_least > 0.0 ? "the critical gap may be as small as " + bound_text(at_least)
                                         : std::string("the launch may ignite without a gap"));
   return {Verdict::safe,
-          fmt::format("below {}, the least that the critical gap can be", centimetres(at_least))};
+          fmt::format("below {}, the least that the critical gap can be", bound_text(at_least))};
 }
 
 Judgement judge_sound(const Evidence& evidence, const CriticalGap& critical) {
