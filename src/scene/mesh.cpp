@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace launchsafe::scene {
@@ -22,6 +23,8 @@ class CellDensity {
       : smallest_(smallest),
         largest_(std::max(smallest, largest)),
         growth_(largest_ > smallest_ ? growth : 1.0),
+        log_growth_(std::log(growth_)),
+        reach_((largest_ - smallest_) / (growth_ - 1.0)),
         refined_(std::move(refined)) {
     std::sort(refined_.begin(), refined_.end());
   }
@@ -45,12 +48,13 @@ class CellDensity {
   /// From a refined line to a place beside it; odd in the distance.
   double cells_beside(double distance) const {
     const double d = std::abs(distance);
-    const double reach = (largest_ - smallest_) / (growth_ - 1.0);
-    const double growing = std::log1p((growth_ - 1.0) * std::min(d, reach) / smallest_) / std::log(growth_);
-    return std::copysign(growing + std::max(d - reach, 0.0) / largest_, distance);
+    const double growing = std::log1p((growth_ - 1.0) * std::min(d, reach_) / smallest_) / log_growth_;
+    return std::copysign(growing + std::max(d - reach_, 0.0) / largest_, distance);
   }
 
   double smallest_, largest_, growth_;
+  double log_growth_;
+  double reach_;  ///< m, from a refined line to where cells are as long as the largest
   std::vector<double> refined_;
 };
 
@@ -59,6 +63,7 @@ double position_of(const CellDensity& density, double from, double to, double ce
   double low = from, high = to;
   for (int halving = 0; halving < 60; ++halving) {
     const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
     (density.cells(from, middle) < cells ? low : high) = middle;
   }
   return 0.5 * (low + high);
@@ -107,6 +112,8 @@ std::pair<int, int> cells_beside_anchor(const Mesh& mesh, const Extent& shell) {
   return {cells(mesh.x_anchor - shell.x_begin), cells(shell.x_end - mesh.x_anchor)};
 }
 
+Extent extent_of_body(const Body& body) { return {body.x_begin, body.x_end, body.r_begin, body.r_end}; }
+
 /// Number and lengths of a grid's cells between two of its lines.
 struct CellsBetween {
   int count = 0;
@@ -123,18 +130,40 @@ CellsBetween cells_between(const std::vector<double>& lines, double from, double
   return cells;
 }
 
-CellRange cells_within(const Scene& scene, const Extent& part) {
+/// Those of a part of the scene, by the lines of its grid; the even grid of the updated-Lagrangian form needs
+/// none.
+CellRange cells_within(const Scene& scene, const GridLines& lines, const Extent& part) {
   if (scene.numerics.formulation == Formulation::updated_lagrangian) {
     const Mesh mesh = fit_mesh(scene);
     const int nx = parts_of(part.x_end - part.x_begin, mesh.dx),
               nr = parts_of(part.r_end - part.r_begin, mesh.dr);
     return {nx, nr, mesh.dx, mesh.dx, mesh.dr, mesh.dr};
   }
-  const GridLines lines = grid_lines(scene);
   const double tolerance = length_tolerance(scene);
   const CellsBetween x = cells_between(lines.x, part.x_begin, part.x_end, tolerance);
   const CellsBetween r = cells_between(lines.r, part.r_begin, part.r_end, tolerance);
   return {x.count, r.count, x.shortest, x.longest, r.shortest, r.longest};
+}
+
+GridLines lines_of_lattice(const Scene& scene) {
+  return scene.numerics.formulation == Formulation::total_lagrangian ? grid_lines(scene) : GridLines{};
+}
+
+CellRange cells_of_all(const Scene& scene, const GridLines& lines) {
+  const Extent all = extent_of(scene);
+  if (scene.numerics.formulation == Formulation::total_lagrangian) return cells_within(scene, lines, all);
+  const Mesh mesh = fit_mesh(scene);
+  const auto [before, after] = cells_beside_anchor(mesh, all);
+  return {before + after, parts_of(mesh.radius, mesh.dr), mesh.dx, mesh.dx, mesh.dr, mesh.dr};
+}
+
+ParticleCount particles_in(const Scene& scene, const Body& body, const CellRange& cells) {
+  const int per_cell = scene.numerics.particles_per_cell;
+  if (scene.numerics.formulation == Formulation::total_lagrangian)
+    return {cells.nx * per_cell, cells.nr * per_cell};
+  const Mesh mesh = fit_mesh(scene);
+  return {parts_of((body.x_end - body.x_begin) * per_cell, mesh.dx),
+          parts_of((body.r_end - body.r_begin) * per_cell, mesh.dr)};
 }
 
 }  // namespace
@@ -182,20 +211,25 @@ GridLines particle_edges(const Scene& scene, const Body& body) {
           cut(lines.r, body.r_begin, body.r_end, per_cell, tolerance)};
 }
 
-CellRange cells_of(const Scene& scene) {
-  const Extent all = extent_of(scene);
-  if (scene.numerics.formulation == Formulation::total_lagrangian) return cells_within(scene, all);
-  const Mesh mesh = fit_mesh(scene);
-  const auto [before, after] = cells_beside_anchor(mesh, all);
-  return {before + after, parts_of(mesh.radius, mesh.dr), mesh.dx, mesh.dx, mesh.dr, mesh.dr};
-}
+CellRange cells_of(const Scene& scene) { return cells_of_all(scene, lines_of_lattice(scene)); }
 
 CellRange cells_of_charge(const Scene& scene) {
-  return has_charge(scene) ? cells_within(scene, charge_extent(scene)) : cells_of(scene);
+  if (!has_charge(scene)) return cells_of(scene);
+  return cells_within(scene, lines_of_lattice(scene), charge_extent(scene));
 }
 
 CellRange cells_of(const Scene& scene, const Body& body) {
-  return cells_within(scene, {body.x_begin, body.x_end, body.r_begin, body.r_end});
+  return cells_within(scene, lines_of_lattice(scene), extent_of_body(body));
+}
+
+MeshSize mesh_size(const Scene& scene) {
+  const GridLines lines = lines_of_lattice(scene);
+  MeshSize size{cells_of_all(scene, lines), {}, {}};
+  for (const Body& body : scene.bodies) {
+    size.cells.push_back(cells_within(scene, lines, extent_of_body(body)));
+    size.particles.push_back(particles_in(scene, body, size.cells.back()).total());
+  }
+  return size;
 }
 
 std::int64_t counted(double count) {
@@ -236,20 +270,12 @@ std::string charge_edges_off_grid(const Scene& scene) {
 }
 
 ParticleCount particles_of(const Scene& scene, const Body& body) {
-  const int per_cell = scene.numerics.particles_per_cell;
-  if (scene.numerics.formulation == Formulation::total_lagrangian) {
-    const CellRange cells = cells_of(scene, body);
-    return {cells.nx * per_cell, cells.nr * per_cell};
-  }
-  const Mesh mesh = fit_mesh(scene);
-  return {parts_of((body.x_end - body.x_begin) * per_cell, mesh.dx),
-          parts_of((body.r_end - body.r_begin) * per_cell, mesh.dr)};
+  return particles_in(scene, body, cells_of(scene, body));
 }
 
 std::int64_t particle_count(const Scene& scene) {
-  std::int64_t total = 0;
-  for (const Body& body : scene.bodies) total += particles_of(scene, body).total();
-  return total;
+  const std::vector<std::int64_t> particles = mesh_size(scene).particles;
+  return std::accumulate(particles.begin(), particles.end(), std::int64_t{0});
 }
 
 }  // namespace launchsafe::scene

@@ -182,28 +182,27 @@ double crack_substeps(const Scene& scene, double time_step) {
 }
 
 /// At rest: CFL times the shortest time in which sound crosses a cell, with the inertial factors.
-double time_step_at_rest(const Scene& scene) {
+double time_step_at_rest(const Scene& scene, const MeshSize& mesh) {
   const Numerics& numerics = scene.numerics;
   if (numerics.formulation == Formulation::updated_lagrangian)
-    return numerics.time_step_factor * cells_of(scene).shortest() / longitudinal_speed(scene) *
+    return numerics.time_step_factor * mesh.all.shortest() / longitudinal_speed(scene) *
            std::sqrt(numerics.inertial_scaling);
   double shortest = std::numeric_limits<double>::infinity();
-  for (const Body& body : scene.bodies) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
     const double inertia =
         numerics.inertial_scaling * (is_charge(scene, body) ? 1.0 : numerics.steel_inertia);
-    shortest = std::min(shortest, cells_of(scene, body).shortest() / longitudinal_speed(law_of(scene, body)) *
+    shortest = std::min(shortest, mesh.cells[i].shortest() / longitudinal_speed(law_of(scene, body)) *
                                       std::sqrt(inertia));
   }
   return numerics.time_step_factor * shortest;
 }
 
-void count_particles(const Scene& scene, Plan& plan) {
+void count_particles(const Scene& scene, const MeshSize& mesh, Plan& plan) {
   for (const Material& material : used_materials(scene)) {
     MaterialParticles& count = plan.by_material.emplace_back(MaterialParticles{material.name});
-    for (const Body& body : scene.bodies) {
-      if (body.material != material.name) continue;
-      count.particles += particles_of(scene, body).total();
-    }
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      if (scene.bodies[i].material == material.name) count.particles += mesh.particles[i];
     const double bytes =
         bytes_per_number * (numbers_per_particle + static_cast<double>(state_size(material.law))) +
         (plan.conduction.in ? bytes_of_conduction : 0.0);
@@ -220,10 +219,10 @@ double cracked_particles(const Scene& scene, const Plan& plan) {
   return total;
 }
 
-void count_work(const Scene& scene, const CellRange& cells, Plan& plan) {
-  count_particles(scene, plan);
-  plan.cells = static_cast<std::int64_t>(cells.nx) * cells.nr;
-  plan.time_step = time_step_at_rest(scene);
+void count_work(const Scene& scene, const MeshSize& mesh, Plan& plan) {
+  count_particles(scene, mesh, plan);
+  plan.cells = static_cast<std::int64_t>(mesh.all.nx) * mesh.all.nr;
+  plan.time_step = time_step_at_rest(scene, mesh);
   const double steps = std::ceil(end_time(scene.load) / plan.time_step - 1e-9);
   plan.steps = counted(steps);
   // Measured: a sub-step costs as much as 1.4 whole updates of a particle.
@@ -277,9 +276,9 @@ double bulk_temperature_bound(const Scene& scene) {
 }
 
 Plan make_plan(const Scene& scene) {
-  const CellRange cells = cells_of(scene);
+  const MeshSize mesh = mesh_size(scene);
   Plan plan;
-  plan.conduction = plan_conduction(scene, cells);
+  plan.conduction = plan_conduction(scene, mesh.all);
   plan.bulk_reaction = plan_bulk_reaction(scene);
   plan.air = plan_air(scene);
   plan.cracks = plan_cracks(scene);
@@ -290,7 +289,7 @@ Plan make_plan(const Scene& scene) {
   plan.inertial_scaling = plan_inertial_scaling(scene);
   plan.coupling = plan_coupling(scene);
   plan.snapshots = plan_snapshots(scene);
-  count_work(scene, cells, plan);
+  count_work(scene, mesh, plan);
   return plan;
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace launchsafe::scene {
 
@@ -82,6 +83,14 @@ CellRange cells_of(const Scene& scene);
 CellRange cells_of(const Scene& scene, const Body& body);
 /// Of the part in the charge, which stands for how fine a computation is; of all without a charge.
 CellRange cells_of_charge(const Scene& scene);
+
+/// How large a mesh is, from one look at its grid.
+struct MeshSize {
+  CellRange all;                        ///< as `cells_of` the scene
+  std::vector<CellRange> cells;         ///< as `cells_of` every body, in their order
+  std::vector<std::int64_t> particles;  ///< of every body
+};
+MeshSize mesh_size(const Scene& scene);
 
 /// Particles of all bodies.
 std::int64_t particle_count(const Scene& scene);
