@@ -21,7 +21,8 @@ std::vector<Key<Load>> load_keys() {
           between(1e-3, 0.1), "a shell leaves its tube after some milliseconds"),
       plausibly(number_key("peak", Dimension::pressure, above_to(0, 10e9), Standing::paper,
                            "Largest chamber pressure.", &Load::peak),
-                between(10e6, 1e9), "a mortar has 10 MPa, and no gun tube bears 1 GPa"),
+                between(10e6, 1e9), "a mortar has 10 MPa, and no gun tube bears 1 GPa")
+          .as(ActsOn::mechanics, Part::range),
       plausibly(number_key("base", Dimension::pressure, between(0, 10e9), Standing::assumed,
                            "Chamber pressure at the start.", &Load::base),
                 between(0, 20e6), "before the shell moves there is an igniter's pressure at most"),
@@ -62,7 +63,8 @@ std::vector<Key<Load>> load_keys() {
                                   "pressure.csv", &Load::curve_file),
                          {"curve_time", "curve_pressure"}),
               [](const Load&) { return false; }),
-          "its pressures are judged by load.measured_peak and load.simulated_peak"),
+          "its pressures are judged by load.measured_peak and load.simulated_peak")
+          .as(ActsOn::mechanics, Part::free),
       always_plausible(
           may_be_empty(list_key("curve_time", Dimension::time,
                                 between(-largest_curve_time, largest_curve_time), Standing::assumed,
@@ -104,7 +106,8 @@ std::vector<Key<Load>> load_keys() {
               number_key("muzzle_exit_spread", Dimension::time, between(0, 0.1), Standing::assumed,
                          "Half width (95 %) of the time of the muzzle exit.", &Load::muzzle_exit_spread),
               [](const Load& load) { return load.muzzle_exit_spread > 0.0; }),
-          between(0, 2e-3), "ignition varies by some tenths of a millisecond"),
+          between(0, 2e-3), "ignition varies by some tenths of a millisecond")
+          .as(ActsOn::nothing, Part::free),
       plausibly(
           written_where(
               number_key("exit_decay", Dimension::time, above_to(0, 1), Standing::assumed,
@@ -121,13 +124,15 @@ std::vector<Key<Load>> load_keys() {
                             "projectile to another one, by more than 5 %, is refused.",
                             &Load::expected_velocity),
                         [](const Load&) { return false; }),
-          "the speed that the load gives is judged by load.launch_speed"),
+          "the speed that the load gives is judged by load.launch_speed")
+          .as(ActsOn::nothing, Part::free),
       always_plausible(optional_number_key<Load>("obturation", Dimension::length, between(0, 10),
                                                  "Place along x of the driving band, up to which the chamber "
                                                  "pressure acts on all that faces the "
                                                  "chamber; without it the foremost ring of full radius.",
                                                  &Load::obturation),
-                       "it has to lie where the shell has its full radius"),
+                       "it has to lie where the shell has its full radius")
+          .as(ActsOn::mechanics, Part::constant),
   };
 }
 

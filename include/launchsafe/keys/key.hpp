@@ -83,6 +83,59 @@ struct FormerWord {
   std::string former, present;
 };
 
+/// What another value of an input changes, and what follows from that. Where a launch has no bulk reaction,
+/// conduction, or stored temperatures (scene::mechanical_part), the mechanics does not know them.
+enum class ActsOn {
+  mechanics,   ///< the mechanical run
+  numerics,    ///< likewise, by its error alone
+  trace,       ///< the skin, and what the mechanical run traces for it
+  heat,        ///< the skin, and the mechanical run where temperatures of the charge matter to it
+  conduction,  ///< likewise, where heat is conducted
+  chemistry,   ///< likewise, where the bulk reacts
+  surface,     ///< the skin
+  combustion,  ///< what follows ignition
+  nothing      ///< no number that is computed
+};
+/// Whether a mechanical run may depend on it, in this launch or in another one.
+constexpr bool reaches_mechanics(ActsOn acts_on) { return acts_on < ActsOn::surface; }
+
+/// The part of an input in a record: what the record says where the input has another value.
+enum class Part {
+  constant,       ///< nothing
+  model,          ///< likewise; models of one launch may differ in it
+  calibrated,     ///< nothing, of a constant that every model of a launch is calibrated in
+  range,          ///< its errors carried over: relative ones, or as far as a record of accuracy covers
+  load_shape,     ///< likewise
+  setting,        ///< what it has of this setting: finer or coarser, with another error
+  minor_setting,  ///< likewise; the calibrated constants do not feel it
+  free            ///< all: it is judged elsewhere, or computes nothing
+};
+
+/// Which values of a calibrated constant make a hotter skin or an earlier ignition; over these its relative
+/// error is carried.
+enum class Hotter { nowhere, above, below };
+
+/// Of a setting: whether the limit of ever finer cells is free of the error that it makes, or where it makes
+/// none; neither where that is not known.
+struct Exactness {
+  bool vanishes = false;  ///< with the cells, or it is measured in every case
+  std::optional<Value> value = {};
+};
+
+/// What an input does to results and records. One that says nothing changes everything: forgetting it makes
+/// records void, and never a launch safe.
+struct Role {
+  ActsOn acts_on = ActsOn::mechanics;
+  Part part = Part::constant;
+  Hotter hotter = Hotter::nowhere;
+  Exactness exactness = {};
+};
+inline Role vanishing_setting() { return {ActsOn::numerics, Part::setting, {}, {.vanishes = true}}; }
+inline Role minor_setting() { return {ActsOn::numerics, Part::minor_setting, {}, {.vanishes = true}}; }
+inline Role setting_exact_at(Value value) {
+  return {ActsOn::numerics, Part::setting, {}, {.value = std::move(value)}};
+}
+
 /// All there is to say about a key, apart from where its value goes.
 struct KeyDescription {
   std::string name = {};  ///< dotted, such as "charge.crack_radius"
@@ -101,6 +154,8 @@ struct KeyDescription {
   bool required = false;                    ///< no default: the user must say
   std::vector<std::string> overrides = {};  ///< keys whose earlier value a new one of this takes back
   Plausible plausible = {};
+  std::optional<Role> stated_role = {};  ///< none: it changes everything
+  Role role() const { return stated_role.value_or(Role{}); }
 };
 
 /// A described key bound to a struct.
@@ -112,6 +167,14 @@ struct Key : KeyDescription {
   /// that are stored, stays what it is where the key does nothing.
   std::function<bool(const Owner&)> is_written = {};
   Value default_value() const { return get(Owner{}); }
+  /// The same key in this role.
+  Key as(Role role) && {
+    stated_role = std::move(role);
+    return std::move(*this);
+  }
+  Key as(ActsOn acts_on, Part part, Hotter hotter = Hotter::nowhere) && {
+    return std::move(*this).as(Role{acts_on, part, hotter});
+  }
 };
 
 /// The key of that name, or nullptr.
@@ -320,6 +383,14 @@ std::vector<Key<Owner>> joined(std::initializer_list<std::vector<Key<Owner>>> li
   std::vector<Key<Owner>> all;
   for (const auto& keys : lists) all.insert(all.end(), keys.begin(), keys.end());
   return all;
+}
+
+/// The same keys, in this role where they have none of their own.
+template <class Owner>
+std::vector<Key<Owner>> in_role(const Role& role, std::vector<Key<Owner>> keys) {
+  for (Key<Owner>& key : keys)
+    if (!key.stated_role) key.stated_role = role;
+  return keys;
 }
 
 /// The same key, but without a default: the user must give it.

@@ -86,9 +86,11 @@ inline std::vector<keys::Key<LinearElastic>> LinearElastic::parameters() {
           number("shear_modulus", Dimension::pressure, above_to(0, 1e12), "Shear modulus G.",
                  &LinearElastic::shear),
           number("specific_heat", Dimension::specific_heat, between(50, 1e4), "Specific heat.",
-                 &LinearElastic::specific_heat),
+                 &LinearElastic::specific_heat)
+              .as(keys::ActsOn::heat, keys::Part::constant),
           number("conductivity", Dimension::conductivity, between(0, 1e4), "Thermal conductivity.",
-                 &LinearElastic::conductivity),
+                 &LinearElastic::conductivity)
+              .as(keys::ActsOn::conduction, keys::Part::constant),
       });
 }
 

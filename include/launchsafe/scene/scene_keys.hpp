@@ -7,12 +7,15 @@
 #include "launchsafe/scene/toml_reader.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace launchsafe::scene {
 
 /// Keys of the scene itself, in the order in which they are applied.
 const std::vector<Key<Scene>>& scene_keys();
+/// The role of a key of the scene. One that is none of these, such as "body.wall.x", changes everything.
+keys::Role role_of(std::string_view key);
 /// Those of the charge's bottom among them: gap and air, friction and stations.
 std::vector<Key<Scene>> surface_keys();
 /// Whether a key holds a number of the analytic load that a measured curve takes the place of; `load.peak`
