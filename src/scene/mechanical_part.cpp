@@ -16,7 +16,6 @@ Load without_unused(Load load) {
   // The mechanics knows the time of the exit, however it was stated.
   load.muzzle_exit = exit_time(load);
   load.muzzle_travel.reset();
-  load.muzzle_exit_spread = usual.muzzle_exit_spread;
   if (!load.muzzle_exit) load.exit_decay = usual.exit_decay;
   const bool measured = !load.curve_time.empty(), bell = load.shape == LoadShape::bell;
   if (measured || bell) load.exponent = usual.exponent;
@@ -32,17 +31,6 @@ Load without_unused(Load load) {
   return load;
 }
 
-/// The bottom pressure of a trace never falls below the air's initial pressure. The closure heats the bulk of
-/// the charge.
-Surface surface_part(const Surface& surface, bool temperatures_matter) {
-  Surface part;
-  part.air.initial_pressure = surface.air.initial_pressure;
-  part.station_width = surface.station_width;
-  part.station_depth = surface.station_depth;
-  if (temperatures_matter) part.friction = surface.friction;
-  return part;
-}
-
 Switch decided(const Term& term) { return term.in ? Switch::on : Switch::off; }
 
 /// The plan's decisions instead of what they rest on.
@@ -54,27 +42,43 @@ void settle_physics(const Plan& plan, Physics& physics) {
   physics.reaction_bound = usual.reaction_bound;
 }
 
-/// What of a law acts through heat alone, at its default where that heat is left out.
-template <class Law>
-void drop_heat(Law& law, bool conducts, bool temperatures_matter) {
-  static const std::vector<Key<Law>> keys = Law::parameters();
-  for (const Key<Law>& key : keys) {
-    const bool unused =
-        (key.dimension == Dimension::conductivity && !conducts) ||
-        (key.dimension == Dimension::specific_heat && !Law::heats_itself && !temperatures_matter);
-    if (unused) key.set(law, key.default_value());
+/// Which inputs do not reach the mechanics of a launch.
+class Unfelt {
+ public:
+  Unfelt(const Plan& plan, bool stores_temperatures)
+      : conducts_(plan.conduction.in),
+        reacts_(plan.bulk_reaction.in),
+        temperatures_matter_(conducts_ || reacts_ || stores_temperatures) {}
+
+  /// Sets them to their defaults, where they have one.
+  template <class Owner>
+  void drop(const std::vector<Key<Owner>>& keys, Owner& owner) const {
+    for (const Key<Owner>& key : keys) {
+      const bool felt = key.standing == Standing::input || !contains(key.role().acts_on);
+      if (!felt && key.get(owner) != key.default_value()) key.set(owner, key.default_value());
+    }
   }
-}
+
+ private:
+  bool contains(ActsOn acts_on) const {
+    if (acts_on == ActsOn::heat) return !temperatures_matter_;
+    if (acts_on == ActsOn::conduction) return !conducts_;
+    if (acts_on == ActsOn::chemistry) return !reacts_;
+    return !keys::reaches_mechanics(acts_on);
+  }
+  bool conducts_, reacts_, temperatures_matter_;
+};
 
 /// What no body is made of stands at its default.
-void settle_materials(Scene& part, bool conducts, bool temperatures_matter) {
+void settle_materials(Scene& part, const Unfelt& unfelt) {
   for (Material& material : part.materials) {
     const bool used = std::any_of(part.bodies.begin(), part.bodies.end(),
                                   [&](const Body& body) { return body.material == material.name; });
     std::visit(
         [&]<class Law>(Law& law) {
+          static const std::vector<Key<Law>> keys = Law::parameters();
           if (!used) law = Law{};
-          drop_heat(law, conducts, temperatures_matter);
+          unfelt.drop(keys, law);
         },
         material.law);
   }
@@ -122,19 +126,13 @@ Scene mechanical_part(const Scene& scene) {
   });
   std::erase_if(part.output.snapshot_events,
                 [](Event event) { return event == Event::ignition || event == Event::burnt; });
-  // Temperatures of the charge act on the mechanics only through conduction into the steel, and are stored in
-  // snapshots.
-  const bool temperatures_matter =
-      plan.conduction.in || plan.bulk_reaction.in || part.output.asks_for_snapshots();
   clear_remarks(part);
   part.accepted.clear();
-  part.coupling = Coupling::one_way;  // until ignition nothing acts back
-  part.combustion = {};
   part.interfaces = sliding_interfaces(scene);
   part.load = without_unused(std::move(part.load));
-  part.surface = surface_part(scene.surface, temperatures_matter);
-  settle_materials(part, plan.conduction.in, temperatures_matter);
-  if (!plan.bulk_reaction.in) part.charge().kinetics = Charge{}.kinetics;
+  const Unfelt unfelt(plan, part.output.asks_for_snapshots());
+  unfelt.drop(scene_keys(), part);
+  settle_materials(part, unfelt);
   settle_physics(plan, part.physics);
   std::sort(part.output.snapshot_times.begin(), part.output.snapshot_times.end());
   clear_signs_of_zeros(part);
