@@ -38,8 +38,10 @@ double sum_of_largest(std::vector<double> values, int count) {
 /// Of the whole study, with nothing stored. A run takes as long again for every coupled run that may
 /// confirm it.
 ShardNeeds needs_of(const study::Forecast& whole, int shards, int jobs) {
-  const double runs = static_cast<double>(std::max<std::size_t>(1, whole.runs.size()));
+  const double runs = static_cast<double>(std::max<std::size_t>(1, whole.run_count));
   const double repeats = 1.0 + static_cast<double>(whole.confirmations) / runs;
+  // Where the forecast has some of the runs alone, each stands for so many.
+  const double each_for = runs / static_cast<double>(std::max<std::size_t>(1, whole.runs.size()));
   std::vector<double> times;
   for (const study::ForecastRun& run : whole.runs) times.push_back(repeats * run.time);
   const std::vector<int> shard_of_run = study::shards_of(times, shards);
@@ -51,9 +53,9 @@ ShardNeeds needs_of(const study::Forecast& whole, int shards, int jobs) {
       own_times.push_back(times[i]);
       own_memories.push_back(whole.runs[i].given_up ? 0.0 : whole.runs[i].memory);
     }
-    needs.time = std::max(needs.time, time_on(own_times, jobs));
+    needs.time = std::max(needs.time, each_for * time_on(own_times, jobs));
     needs.memory = std::max(needs.memory, whole.plan_memory + sum_of_largest(own_memories, jobs));
-    if (own_times.empty()) ++needs.idle;
+    if (own_times.empty() && whole.runs.size() == whole.run_count) ++needs.idle;
   }
   return needs;
 }

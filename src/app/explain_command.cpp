@@ -52,7 +52,9 @@ std::vector<std::string> plausibility_lines(const scene::Scene& scene) {
 study::AcceptancesOfStudy acceptances_of(const scene::SceneFile& file) {
   study::StudyFile alone;
   alone.study.kind.gives_verdicts = scene::has_charge(file.scene);
-  alone.cases.emplace_back().scene = file;
+  study::StudyCase only;
+  only.scene = file;
+  alone.cases.add(std::move(only));
   return study::acceptances_of(alone);
 }
 

@@ -38,24 +38,30 @@ std::string forecast_line(std::string_view label, const std::string& value) {
 
 /// What the runs of a forecast add up to.
 struct Totals {
-  std::size_t cases = 0, stored = 0, refused = 0, to_run = 0;
+  std::size_t stored = 0, refused = 0, to_run = 0;
   double updates = 0;  ///< of particles, in the runs that are left
 };
 
 Totals totals_of(const Forecast& forecast) {
   Totals totals;
   for (const ForecastRun& run : forecast.runs) {
-    totals.cases += run.cases;
     ++(run.refused ? totals.refused : run.stored || run.given_up ? totals.stored : totals.to_run);
     if (!run.stored && !run.given_up)
       totals.updates += static_cast<double>(run.particles) * static_cast<double>(run.steps);
   }
+  for (std::size_t* count : {&totals.stored, &totals.refused, &totals.to_run})
+    *count = forecast.of_all(*count);
+  if (!forecast.runs.empty())
+    totals.updates *= static_cast<double>(forecast.run_count) / static_cast<double>(forecast.runs.size());
   return totals;
 }
 
 std::string runs_text(const Forecast& forecast) {
   const Totals totals = totals_of(forecast);
-  std::string text = fmt::format("{} for {}", forecast.runs.size(), report::counted(totals.cases, "case"));
+  std::string text = fmt::format("{} for {}", forecast.run_count,
+                                 report::counted(static_cast<std::int64_t>(forecast.cases), "case"));
+  if (forecast.runs.size() < forecast.run_count)
+    text += fmt::format("; what follows is estimated from {} of them", forecast.runs.size());
   if (totals.refused > 0) text += fmt::format("; {} refused", totals.refused);
   if (totals.stored > 0 || totals.refused > 0)
     text += fmt::format("; {} stored, {} to run", totals.stored, totals.to_run);
@@ -76,7 +82,7 @@ std::string confirmation_text(const scene::Scene& scene, const Forecast& forecas
 std::string time_text(const Forecast& forecast, const std::filesystem::path& folder) {
   const Totals totals = totals_of(forecast);
   if (totals.refused > 0 && totals.to_run == 0) return "none: nothing is left that may run";
-  if (totals.stored == forecast.runs.size()) return "next to none: every mechanical run is stored";
+  if (totals.stored == forecast.run_count) return "next to none: every mechanical run is stored";
   const std::string origin =
       forecast.learned_from == 0
           ? "measured now"
@@ -113,8 +119,9 @@ nlohmann::ordered_json forecast_json(const study::StudyFile& file, const Forecas
   const Totals totals = totals_of(forecast);
   return {{"title", file.study.title},
           {"kind", file.study.kind.name},
-          {"cases", totals.cases},
-          {"mechanical_runs", forecast.runs.size()},
+          {"cases", forecast.cases},
+          {"mechanical_runs", forecast.run_count},
+          {"estimated_from_runs", forecast.runs.size()},
           {"stored", totals.stored},
           {"to_run", totals.to_run},
           {"refused", totals.refused},

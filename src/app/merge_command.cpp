@@ -82,14 +82,14 @@ ExitCode perform(const MergeArguments& arguments, Console& console) {
     return code;
   options.store = &session.store();
   constexpr double any_rate = 1.0;
-  const study::Forecast forecast = study::forecast_study(*file, options, any_rate);
+  const study::Forecast forecast = study::forecast_study(*file, options, any_rate, study::largest_case_count);
   if (const auto missing = missing_runs(forecast); !missing.empty())
     return refuse_without(
         missing, fmt::format("{} of {} mechanical runs", missing.size(), forecast.runs.size()), console);
   const kinds::StudyOutcome result = kinds::run_study(*file, options);
   if (const auto missing = missing_runs(result); !missing.empty())
     return refuse_without(missing, fmt::format("{} runs", missing.size()), console);
-  return session.conclude(result, *file, options);
+  return session.conclude(result, options.shard);
 }
 
 }  // namespace launchsafe::app

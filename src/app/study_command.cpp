@@ -118,7 +118,7 @@ ExitCode perform(const StudyArguments& arguments, Console& console) {
     for (const std::string& line : reason_lines(study::forecast_study(*file, options, any_rate)))
       console.remark(line);
   }
-  return session.conclude(run_with_progress(*file, options, console), *file, options);
+  return session.conclude(run_with_progress(*file, options, console), options.shard);
 }
 
 }  // namespace launchsafe::app

@@ -38,15 +38,6 @@ std::string records_of(const study::StudyFile& file) {
   return fmt::format("\n\n# SHA-256 of the files that it rests on\n{}\n", fmt::join(file.records, "\n"));
 }
 
-/// What a study took from its accuracy record: another record is another input.
-std::string recorded_uncertainties(const study::StudyFile& file) {
-  if (file.study.accuracy.empty()) return {};
-  std::string text = "\n\n# numerical uncertainties from the accuracy record, K\n";
-  for (const study::StudyCase& each : file.cases)
-    text += fmt::format("{} at a rise of {}\n", each.numerical_uncertainty, each.rise_of_uncertainty);
-  return text;
-}
-
 std::string scenes_of_cases(const study::StudyFile& file) {
   if (!file.study.kind.own_scenes) return {};
   std::string text;
@@ -58,9 +49,8 @@ std::string scenes_of_cases(const study::StudyFile& file) {
 
 store::Manifest study_manifest(const study::StudyFile& file, int jobs) {
   return store::make_manifest(
-      fmt::format("# model version {}\n{}\n\n# scene\n{}{}{}{}", run::model_version, values_of(file.file),
-                  scene::to_toml(file.scene.scene), recorded_uncertainties(file), records_of(file),
-                  scenes_of_cases(file)),
+      fmt::format("# model version {}\n{}\n\n# scene\n{}{}{}", run::model_version, values_of(file.file),
+                  scene::to_toml(file.scene.scene), records_of(file), scenes_of_cases(file)),
       jobs);
 }
 

@@ -4,7 +4,6 @@
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/sha256.hpp"
-#include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
 #include "shell_words.hpp"
 #include "signals.hpp"
@@ -14,7 +13,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <future>
 
 namespace launchsafe::app {
 namespace {
@@ -92,27 +90,20 @@ void StudySession::print_remarks() {
   for (; remarks_printed_ < remarks.size(); ++remarks_printed_) console_.remark(remarks[remarks_printed_]);
 }
 
-ExitCode StudySession::report_interruption(const study::StudyFile& file, const study::StudyOptions& options) {
-  // Counting takes its time where there are many cases, and so does the disk.
-  constexpr double any_rate = 1.0;
-  auto counting =
-      std::async(std::launch::async, [&] { return study::forecast_study(file, options, any_rate); });
-  const bool all_kept = kept();
-  const study::Forecast forecast = counting.get();
-  if (!all_kept) return ExitCode::failed;
-  const auto stored = std::count_if(forecast.runs.begin(), forecast.runs.end(),
-                                    [](const study::ForecastRun& run) { return run.stored; });
-  console_.error(fmt::format("interrupted; {} of {} are kept in {}; to go on: {}", stored,
-                             report::counted(forecast.runs.size(), "mechanical run"),
+ExitCode StudySession::report_interruption() {
+  if (!kept()) return ExitCode::failed;
+  const auto stored =
+      std::ranges::count(store_->entries(), store::CaseState::done, &store::JournalEntry::state);
+  console_.error(fmt::format("interrupted; {} kept in {}; to go on: {}",
+                             stored == 1 ? "1 run is" : fmt::format("{} runs are", stored),
                              request_.folder.string(), request_.command));
   return ExitCode::interrupted;
 }
 
-ExitCode StudySession::conclude(const kinds::StudyOutcome& result, const study::StudyFile& file,
-                                const study::StudyOptions& options) {
-  if (result.interrupted) return report_interruption(file, options);
+ExitCode StudySession::conclude(const kinds::StudyOutcome& result, const study::Shard& shard) {
+  if (result.interrupted) return report_interruption();
   if (!kept()) return ExitCode::failed;
-  return options.shard.whole() ? deliver_whole(result) : deliver_shard(result, options.shard);
+  return shard.whole() ? deliver_whole(result) : deliver_shard(result, shard);
 }
 
 ExitCode StudySession::deliver_shard(const kinds::StudyOutcome& result, const study::Shard& shard) {

@@ -40,13 +40,12 @@ class StudySession {
 
   /// Keeps what is to be kept and reports the outcome of the study: what an interruption left, what a shard
   /// did, or report, tables and answer of the whole.
-  ExitCode conclude(const kinds::StudyOutcome& result, const study::StudyFile& file,
-                    const study::StudyOptions& options);
+  ExitCode conclude(const kinds::StudyOutcome& result, const study::Shard& shard);
 
  private:
   /// Whether all that was to be kept is on disk; prints why not.
   bool kept();
-  ExitCode report_interruption(const study::StudyFile& file, const study::StudyOptions& options);
+  ExitCode report_interruption();
   ExitCode deliver_shard(const kinds::StudyOutcome& result, const study::Shard& shard);
   ExitCode deliver_whole(const kinds::StudyOutcome& result);
   /// Remarks edited files of an earlier report, which keep their content under another name.

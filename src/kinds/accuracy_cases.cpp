@@ -106,8 +106,9 @@ Fault add_case(StudyFile& study, const std::vector<Change>& changes, KnownScenes
   auto scene = with_changes(study.scene, changes);
   if (!scene) return scene.error();
   if (!known.insert(scene::to_toml(scene->scene)).second) return std::nullopt;
-  study.cases.push_back(case_of(label_of(changes), std::move(*scene)));
-  study.cases.back().own_conditions = true;
+  StudyCase made = case_of(label_of(changes), std::move(*scene));
+  made.own_conditions = true;
+  study.cases.add(std::move(made));
   return std::nullopt;
 }
 
@@ -226,7 +227,7 @@ Fault add_variant(const StudySource& source, std::size_t index, StudyFile& study
   if (!variant) return variant.error();
   for (StudyCase each : variant->cases) {
     each.label = *name + ": " + each.label;
-    study.cases.push_back(std::move(each));
+    study.cases.add(std::move(each));
   }
   study.records.insert(study.records.end(), variant->records.begin(), variant->records.end());
   study.records.push_back(store::sha256(scene::to_toml(variant->scene.scene)));
@@ -260,10 +261,10 @@ std::vector<scene::Key<AccuracySettings>> accuracy_keys() {
 
 std::vector<Failure> accuracy_failures(const AccuracyResult& result) {
   std::vector<Failure> failures;
-  auto input = result.study.cases.begin();
+  std::size_t index = 0;
   for (const VariantAccuracy& variant : result.variants)
     for (const AccuracyRow& row : variant.rows)
-      add_failure(failures, (input++)->label, row.answer.outcome, row.answer.failure);
+      add_failure(failures, result.study.cases.label(index++), row.answer.outcome, row.answer.failure);
   return failures;
 }
 

@@ -47,7 +47,7 @@ std::vector<NamedKinetics> kinetics_of(const StudyFile& study) {
 
 void run_meshes(CalibrationResult& result, const StudyOptions& options) {
   StudyFile study = result.study;
-  for (std::size_t i = 0; i < result.runs.size(); ++i) study.cases[i] = result.runs[i].input;
+  for (std::size_t i = 0; i < result.runs.size(); ++i) study.cases.replace(i, result.runs[i].input);
   run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
     CalibrationRun& run = result.runs[i];
     run.outcome = finished.front().outcome;

@@ -119,9 +119,7 @@ Fault read_calibration(const StudySource& source, StudyFile& study) {
   return add_axis(study, "numerics.cell_size", "meshes", own.meshes);
 }
 
-std::string mesh_label(const StudyCase& made, const std::string&) {
-  return fmt::format("{:.6g} mm", 1e3 * made.cell_size);
-}
+std::string mesh_label(const StudyCase& made) { return fmt::format("{:.6g} mm", 1e3 * made.cell_size); }
 
 Fault make_calibration_cases(const StudySource&, StudyFile& study) {
   if (const auto targets = calibration_targets(study); !targets) return targets.error();

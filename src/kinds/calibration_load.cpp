@@ -118,7 +118,8 @@ class LoadTrials {
     std::vector<CaseRuns> cases;
     std::vector<scene::Load> tried;
     for (const auto& [numbers, load] : untried) {
-      cases.push_back({{}, {mechanics_run(scene_under(load), label_of(load))}, options_.shard.index});
+      CaseRun run = mechanics_run(scene_under(load), label_of(load));
+      cases.push_back({{}, {planned_run(std::move(run))}, options_.shard.index});
       tried.push_back(load);
     }
     std::vector<FinishedRun> finished(tried.size());

@@ -186,10 +186,10 @@ class VariantMaker {
       return fault_at(study_, "variant", fmt::format("\"{}\", which is the scene as it is", variant.name),
                       "a variant with set or calibration");
     variant.scene = own.scene.scene;
-    for (StudyCase& each : own.cases) {
+    for (StudyCase each : own.cases) {
       each.label = variant.name + ": " + each.label;
       each.own_conditions = each.own_conditions && variants().empty();
-      study_.cases.push_back(std::move(each));
+      study_.cases.add(std::move(each));
     }
     variant.judged = std::move(own.study);
     study_.records.insert(study_.records.end(), own.records.begin(), own.records.end());
@@ -217,7 +217,7 @@ Fault make_comparison_cases(const StudySource& source, StudyFile& study) {
 std::vector<Failure> comparison_failures(const ComparisonResult& result) {
   std::vector<Failure> failures;
   for (std::size_t i = 0; i < result.cases.size(); ++i)
-    add_failure(failures, result.study.cases[i].label, result.cases[i].answer.outcome,
+    add_failure(failures, result.study.cases.label(i), result.cases[i].answer.outcome,
                 result.cases[i].answer.failure);
   return failures;
 }

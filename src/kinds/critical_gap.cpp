@@ -101,7 +101,7 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
       CaseRun run = skin_run(outcome.input.scene.scene, gap, label_with_skin(outcome, gap));
       run.launch = &outcome.result.mechanics;
       if (run.launch->checkpoints) run.cost = continued_cost(run);
-      runs.push_back({{}, {std::move(run)}, options.shard.index});
+      runs.push_back({{}, {planned_run(std::move(run))}, options.shard.index});
       places.emplace_back(&outcome, side);
     }
   }
@@ -121,13 +121,12 @@ CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& o
       [&](CriticalGapResult& result) {
         ProgressTracker tracker(options.progress);
         result.cases.resize(study.cases.size());
-        std::vector<CaseRuns> runs = case_runs(study, options.shard.count);
-        for (CaseRuns& each : runs) each.runs.front().checkpoints = confirm;
+        const std::vector<CaseRuns> runs = case_runs(study, options.shard.count, confirm);
         run_cases(runs, options, tracker, result.timing,
                   [&](std::size_t i, std::vector<FinishedRun>& finished) {
                     for (const std::size_t member : runs[i].members) {
                       result.cases[member] = judged(study.study, study.cases[member], finished);
-                      result.cases[member].hash = runs[i].runs.front().hash;
+                      result.cases[member].hash = finished.front().hash;
                     }
                   });
         if (confirm) run_confirmations(result, options, tracker);

@@ -13,8 +13,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
 #include <set>
+#include <unordered_map>
 #include <utility>
 
 namespace launchsafe::kinds {
@@ -119,10 +119,11 @@ Fault read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys
 }
 
 /// Labels have six digits; cases that they do not tell apart are numbered.
-void tell_cases_apart(std::vector<StudyCase>& cases) {
-  std::map<std::string, int> seen;
-  for (StudyCase& each : cases)
-    if (const int before = seen[each.label]++; before > 0) each.label += fmt::format(" ({})", before + 1);
+void tell_cases_apart(Cases& cases) {
+  std::unordered_map<std::string, int> seen;
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    if (const int before = seen[cases.label(i)]++; before > 0)
+      cases.relabel(i, fmt::format("{} ({})", cases.label(i), before + 1));
 }
 
 /// What varies, and the cases that follow.

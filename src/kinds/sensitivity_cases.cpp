@@ -16,7 +16,7 @@ using namespace study;
 
 namespace {
 
-using scene::Dimension, scene::SceneFile;
+using scene::Dimension;
 
 /// Whole numbers that a double holds exactly.
 constexpr double largest_seed = 9007199254740992.0;
@@ -98,61 +98,21 @@ bool is_correlated(const Axis& axis) {
   return axis.distribution->kind == math::Distribution::Kind::log_normal;
 }
 
-/// Another key of the [[input]] that an axis comes from.
-std::string input_key(const Axis& axis, const char* key) {
-  return axis.study_key.substr(0, axis.study_key.rfind('.') + 1) + key;
-}
-
-/// Builds the cases of a design. Most evaluations differ from an earlier one in a single input.
-class DesignBuilder {
- public:
-  explicit DesignBuilder(StudyFile& study)
-      : study_(study), maker_(study), start_(without_places(study.scene)) {}
-
-  /// The next evaluation at a point of the unit cube; `alike` is an earlier one that it resembles, or
-  /// nullptr.
-  Fault add(std::string label, const std::vector<double>& unit_point, const StudyCase* alike) {
-    const std::vector<Axis>& inputs = study_.study.axes;
-    std::vector<double> coordinates = coordinates_of(study_.study, unit_point);
-    std::vector<Change> changes;
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-      if (alike && alike->coordinates[i] == coordinates[i]) continue;
-      if (Fault fault = check_limits(inputs[i], coordinates[i])) return fault;
-      changes.push_back(change_of(inputs[i], coordinates[i]));
-    }
-    auto scene = with_changes(alike ? alike->scene : start_, changes);
-    if (!scene) return scene.error();
-    maker_.add(std::move(label), std::move(coordinates), std::move(*scene));
-    return std::nullopt;
-  }
-
- private:
-  /// Beyond four deviations a normal without a range may still leave the limits of its key.
-  Fault check_limits(const Axis& axis, double value) const {
+/// Beyond four deviations a normal without a range may still leave the limits of its key.
+Fault check_limits(const StudyFile& study, const std::vector<double>& coordinates) {
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const Axis& axis = study.study.axes[i];
     const scene::KeyDescription& key = axis.key;
-    if (key.limits.contain(value)) return std::nullopt;
+    if (key.limits.contain(coordinates[i])) continue;
+    const std::string value = scene::format_quantity(coordinates[i], key.dimension);
     if (is_correlated(axis))
-      return fault_at(
-          study_, axis.study_key,
-          fmt::format("a sample of {} {}", key.name, scene::format_quantity(value, key.dimension)),
-          "the record of a calibration that knows it better: " + scene::allowed_text(key));
-    return fault_at(study_, input_key(axis, "deviation"),
-                    fmt::format("a sample of {}", scene::format_quantity(value, key.dimension)),
+      return fault_at(study, axis.study_key, fmt::format("a sample of {} {}", key.name, value),
+                      "the record of a calibration that knows it better: " + scene::allowed_text(key));
+    return fault_at(study, axis.values_key, fmt::format("a sample of {}", value),
                     "a range that cuts the normal off: " + scene::allowed_text(key));
   }
-
-  Change change_of(const Axis& axis, double value) const {
-    const scene::KeyDescription& key = axis.key;
-    const bool cut = study_.places.contains(input_key(axis, "range"));
-    const std::string study_key =
-        is_correlated(axis) ? axis.study_key : input_key(axis, cut ? "range" : "deviation");
-    return {key.name, value, scene::format_value(key, value), study_key, place_of_key(study_, study_key)};
-  }
-
-  StudyFile& study_;
-  CaseMaker maker_;
-  SceneFile start_;
-};
+  return std::nullopt;
+}
 
 std::string name_of_input(const Study& study, const SensitivityInput& input) {
   return input.count > 1 ? "calibration" : study.axes[input.first].name;
@@ -167,23 +127,23 @@ Fault make_saltelli(StudyFile& study) {
   if (Fault fault =
           check_count(study, "samples", count, fmt::format("{} samples x ({} inputs + 2)", rows, inputs)))
     return fault;
-  study.cases.reserve(rows * (inputs + 2));
   std::vector<std::size_t> columns;
   for (const SensitivityInput& input : each_input) columns.push_back(input.count);
   const math::SaltelliDesign design = math::saltelli_design(own.design, rows, columns, own.seed);
-  DesignBuilder builder(study);
-  for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation) {
-    const std::size_t row = evaluation / design.blocks(), block = evaluation % design.blocks();
-    const bool mixed = block != design.block_a && block != design.block_b;
-    const std::string name = mixed ? fmt::format("AB({})", name_of_input(s, each_input[block - 2]))
-                             : block == design.block_a ? "A"
-                                                       : "B";
-    const StudyCase* alike = mixed ? &study.cases[design.index(design.block_a, row)] : nullptr;
-    if (Fault fault =
-            builder.add(fmt::format("sample {} of {}", row + 1, name), design.point(evaluation), alike))
-      return fault;
-  }
-  return std::nullopt;
+  const auto coordinates = [&](std::size_t evaluation) {
+    return coordinates_of(s, design.point(evaluation));
+  };
+  for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation)
+    if (Fault fault = check_limits(study, coordinates(evaluation))) return fault;
+  return add_varied_cases(
+      study, design.evaluations(), coordinates, [&](std::size_t evaluation, const StudyCase&) {
+        const std::size_t block = evaluation % design.blocks();
+        const bool mixed = block != design.block_a && block != design.block_b;
+        return fmt::format("sample {} of {}", evaluation / design.blocks() + 1,
+                           mixed ? fmt::format("AB({})", name_of_input(s, each_input[block - 2]))
+                           : block == design.block_a ? "A"
+                                                     : "B");
+      });
 }
 
 Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {

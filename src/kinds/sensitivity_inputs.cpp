@@ -197,7 +197,12 @@ Fault read_input(InputReader& reader) {
   if (Fault fault = check_given(reader)) return fault;
   if (Fault fault = check_distribution(reader)) return fault;
   reader.study.study.axes.push_back(
-      {std::move(name), fmt::format("input.{}.key", reader.index), *key, {}, reader.text.distribution});
+      {std::move(name),
+       fmt::format("input.{}.key", reader.index),
+       *key,
+       {},
+       reader.text.distribution,
+       fmt::format("input.{}.{}", reader.index, reader.given("range") ? "range" : "deviation")});
   return std::nullopt;
 }
 

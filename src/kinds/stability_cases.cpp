@@ -128,7 +128,7 @@ Fault add_run(const CaseReader& reader, const std::string& label, SceneFile scen
   const double own = reader.launch.numerical_uncertainty;
   made.numerical_uncertainty = std::isfinite(own) ? own : reader.study.study.numerical_uncertainty;
   run = reader.study.cases.size();
-  reader.study.cases.push_back(std::move(made));
+  reader.study.cases.add(std::move(made));
   return std::nullopt;
 }
 
@@ -217,7 +217,6 @@ Fault make_stability_cases(const StudySource& source, StudyFile& study) {
                     "the uncertainty that verdicts of the table are judged with: with a large one assumed "
                     "nothing could be WRONG");
   }
-  study.uncertainty_source = "as the study states";
   const toml::node* node = source.root.get("group");
   const std::string allowed = "at least one table, written [[group]], with a case that has a run";
   if (node && !node->is_array_of_tables())

@@ -99,12 +99,8 @@ Fault read_sweep(const StudySource& source, StudyFile& study) {
   return read_axes(source.root, study);
 }
 
-std::string label_of_changes(const StudyCase& made, const std::string& changes) {
-  return changes.empty() ? launch_label(made, changes) : changes;
-}
-
 Fault make_sweep_cases(const StudySource&, StudyFile& study) {
-  return make_factorial(study, label_of_changes);
+  return make_factorial(study, [&study](const StudyCase& made) { return axes_label(study.study, made); });
 }
 
 }  // namespace

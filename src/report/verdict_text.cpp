@@ -7,6 +7,7 @@
 #include "launchsafe/scene/stations.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/cited_limits.hpp"
+#include "launchsafe/study/study_uncertainty.hpp"
 
 #include <fmt/format.h>
 
@@ -154,10 +155,9 @@ void add_critical_gap_bounds_cells(const study::CriticalGap& gap, std::vector<Ce
 
 std::vector<std::string> mesh_notes(const study::StudyFile& study) {
   std::vector<std::string> notes;
-  if (study.study.numerical_uncertainty_assumed) {
+  if (const auto numerical = study::numerical_uncertainty_of(study); numerical.assumed)
     notes.push_back(fmt::format("The uncertainty includes up to {} K for mesh, step and scaling, {}.",
-                                significant(study.study.numerical_uncertainty, 3), study.uncertainty_source));
-  }
+                                significant(numerical.largest, 3), numerical.source));
   if (std::string note = stated_note(study.study); !note.empty()) notes.push_back(std::move(note));
   if (std::string note = off_grid_note(study); !note.empty()) notes.push_back(std::move(note));
   if (std::string note = acceptance_note(study); !note.empty()) notes.push_back(std::move(note));
@@ -285,6 +285,7 @@ Table gap_share_table(const std::vector<std::pair<std::string, const study::Crit
 }
 
 std::string uncertainty_remark(const study::StudyFile& study) {
+  const study::NumericalUncertainty numerical = study::numerical_uncertainty_of(study);
   return fmt::format(
       "A verdict is judged in gap: SAFE is a gap below the lower bound of the critical gap. Kelvins are told "
       "besides, and decide where nothing ignites up to the end of the search; one that is infinite says that "
@@ -295,9 +296,8 @@ std::string uncertainty_remark(const study::StudyFile& study) {
       "runs, where the charge slides on the base what the temperatures leave out of that (the heat of "
       "friction, and the gap's growth where the base opens), and {} K for mesh, step and scaling, {}. Of the "
       "fit: {} Of the inputs: {} Of the model form: {}",
-      significant(study.study.numerical_uncertainty, 3), study.uncertainty_source,
-      study::fit_uncertainty_text(study.study), study::input_uncertainty_text(study.study),
-      study::model_form_uncertainty_text(study));
+      significant(numerical.largest, 3), numerical.source, study::fit_uncertainty_text(study.study),
+      study::input_uncertainty_text(study.study), study::model_form_uncertainty_text(study));
 }
 
 std::string used_for(const study::Reference& published) {

@@ -1,5 +1,6 @@
 #include "launchsafe/study/answer_cases.hpp"
 
+#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/version.hpp"
 
@@ -13,9 +14,9 @@
 namespace launchsafe::study {
 namespace {
 
-/// What of a study influences an answer, as text; and the build, since answers are cheap to draw again, while
+/// Of what of a study influences an answer, and of the build, since answers are cheap to draw again, while
 /// one of an older program may be wrong.
-std::string analysis_text(const Study& study) {
+std::string digest_of_analysis(const Study& study) {
   std::string text = fmt::format(
       "# answer of launchsafe {} {}\n{} {} {} {} {} {} {} {}\n", version::number, version::commit,
       fmt::join(study.gaps, ","), study.tolerance, study.largest_gap, study.fit_uncertainty,
@@ -32,20 +33,32 @@ std::string analysis_text(const Study& study) {
   if (study.model_form) text += to_json_text(*study.model_form);
   for (const scene::Implausible& each : study.implausible)
     text += fmt::format("{} {} {}\n", each.key, each.value, each.because);
-  return text;
+  return store::sha256(text);
 }
 
 /// The stored answer to a case, if it is there and can be one. What is not is drawn again from the mechanics.
-std::optional<CaseAnswer> stored_answer(const StudyFile& study, std::size_t index, const std::string& key,
+std::optional<CaseAnswer> stored_answer(const Study& study, const StudyCase& input, const std::string& key,
                                         const StudyOptions& options) {
   if (options.store == nullptr) return std::nullopt;
   const auto line = options.store->answer(key);
   if (!line) return std::nullopt;
   auto answer = answer_from_json(*line);
-  if (!answer || !fits(*answer, study.study, study.cases[index])) return std::nullopt;
+  if (!answer || !fits(*answer, study, input)) return std::nullopt;
   // References are not stored: they are the study's.
-  attach_references(study.study, study.cases[index], answer->verdicts);
+  attach_references(study, input, answer->verdicts);
   return answer;
+}
+
+/// The key of the stored answer of a case whose first run has this hash: all that determines it. `analysis`:
+/// digest of what of the study does.
+std::string answer_key(const std::string& analysis, const StudyCase& input, const std::string& run) {
+  scene::Scene scene = input.scene.scene;
+  scene::clear_remarks(scene);
+  scene.surface.gaps = {};
+  return store::CaseIdentity(run + analysis + (input.own_conditions ? "own" : "other") +
+                             fmt::format(" {} {}\n", input.numerical_uncertainty, input.rise_of_uncertainty) +
+                             scene::to_toml(scene))
+      .hash();
 }
 
 /// Takes from the store the answers that are there, and draws the others from runs.
@@ -55,8 +68,8 @@ class AnswerRunner {
       : study_(study),
         options_(options),
         timing_(timing),
+        analysis_(digest_of_analysis(study.study)),
         cases_(case_runs(study, options.shard.count)),
-        keys_(answer_keys(study, cases_)),
         answers_(study.cases.size()) {}
 
   std::vector<CaseAnswer> answer_all() {
@@ -70,19 +83,25 @@ class AnswerRunner {
   }
 
  private:
-  /// A damaged result is computed again, also where its answers are known.
-  bool is_stored(const CaseRuns& runs) const {
-    return options_.store != nullptr &&
-           std::all_of(runs.runs.begin(), runs.runs.end(),
-                       [this](const CaseRun& run) { return options_.store->holds(run.hash); });
+  void fetch_stored() {
+    if (options_.store == nullptr || options_.store->entries().empty()) return;
+    tbb::parallel_for(std::size_t{0}, cases_.size(), [this](std::size_t i) {
+      if (cases_[i].shard == options_.shard.index && !stop_requested(options_)) fetch_answers(cases_[i]);
+    });
   }
 
-  void fetch_stored() {
-    tbb::parallel_for(std::size_t{0}, cases_.size(), [this](std::size_t i) {
-      if (cases_[i].shard != options_.shard.index || !is_stored(cases_[i])) return;
-      for (const std::size_t each : cases_[i].members)
-        answers_[each] = stored_answer(study_, each, keys_[each], options_);
-    });
+  /// A damaged result is computed again, also where its answers are known.
+  void fetch_answers(const CaseRuns& runs) {
+    std::string first;
+    for (const PlannedRun& planned : runs.runs) {
+      const std::string hash = planned.make().hash;
+      if (!options_.store->holds(hash)) return;
+      if (first.empty()) first = hash;
+    }
+    for (const std::size_t each : runs.members) {
+      const StudyCase input = study_.cases[each];
+      answers_[each] = stored_answer(study_.study, input, answer_key(analysis_, input, first), options_);
+    }
   }
 
   /// The runs behind which some case still needs an answer.
@@ -105,13 +124,12 @@ class AnswerRunner {
     // Cores that find no further run help here. A thread that waits for them must not start another run.
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t i) {
-        if (!answers_[members[i]]) answers_[members[i]] = answer(members[i], runs);
+        if (!answers_[members[i]]) answers_[members[i]] = answer(study_.cases[members[i]], runs);
       });
     });
   }
 
-  CaseAnswer answer(std::size_t index, const std::vector<FinishedRun>& runs) {
-    const StudyCase& input = study_.cases[index];
+  CaseAnswer answer(const StudyCase& input, const std::vector<FinishedRun>& runs) {
     const bool judged = run_without_result(runs) == nullptr;
     if (judged && stop_requested(options_))
       return failed_answer(study_.study, input, RunOutcome::interrupted,
@@ -119,39 +137,20 @@ class AnswerRunner {
     CaseAnswer answer = answer_from(study_.study, input, runs);
     if (!judged || was_cut_off(runs.front())) return answer;
     if (options_.store != nullptr && std::none_of(runs.begin(), runs.end(), was_cut_off))
-      options_.store->save_answer(keys_[index], to_json_line(answer));
+      options_.store->save_answer(answer_key(analysis_, input, runs.front().hash), to_json_line(answer));
     return answer;
   }
 
   const StudyFile& study_;
   const StudyOptions& options_;
   Timing& timing_;
+  std::string analysis_;
   std::vector<CaseRuns> cases_;
-  std::vector<std::string> keys_;
   std::vector<std::optional<CaseAnswer>> answers_;
   std::vector<std::vector<std::size_t>> open_;  ///< members of the cases that are run
 };
 
 }  // namespace
-
-std::vector<std::string> answer_keys(const StudyFile& study, const std::vector<CaseRuns>& runs) {
-  const std::string analysis = analysis_text(study.study);
-  std::vector<std::string> keys(study.cases.size());
-  tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t i) {
-    for (const std::size_t member : runs[i].members) {
-      const StudyCase& input = study.cases[member];
-      scene::Scene scene = input.scene.scene;
-      scene::clear_remarks(scene);
-      scene.surface.gaps = {};
-      keys[member] = store::CaseIdentity(
-                         runs[i].runs.front().hash + analysis + (input.own_conditions ? "own" : "other") +
-                         fmt::format(" {} {}\n", input.numerical_uncertainty, input.rise_of_uncertainty) +
-                         scene::to_toml(scene))
-                         .hash();
-    }
-  });
-  return keys;
-}
 
 bool was_cut_off(const FinishedRun& run) {
   return run.outcome == RunOutcome::timed_out || run.outcome == RunOutcome::interrupted;

@@ -1,13 +1,13 @@
 #include "launchsafe/study/forecast.hpp"
 
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <queue>
 #include <sstream>
@@ -145,84 +145,94 @@ ForecastRun forecast_run(const CaseRun& needed, const StudyOptions& options, con
   return run;
 }
 
-/// s on a core, at most, of the coupled runs that follow the launches which are to run. What follows a stored
-/// launch is as a rule stored too.
-std::vector<double> confirmation_times(const StudyFile& study, const std::vector<CaseRuns>& cases,
-                                       const std::vector<std::vector<ForecastRun>>& runs,
-                                       double update_rate) {
-  std::vector<double> times;
-  if (study.confirmations_per_case == 0) return times;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (runs[i].front().stored || runs[i].front().given_up) continue;
-    const scene::Scene& scene = study.cases[cases[i].members.front()].scene.scene;
-    const double cost = continued_cost(skin_run(scene, study.study.largest_gap, {}));
-    times.insert(times.end(), study.confirmations_per_case, cost / update_rate);
-  }
-  return times;
+/// s on a core, at most, of the coupled runs that follow the launch of a case which is to run. What follows a
+/// stored launch is as a rule stored too.
+double confirmation_time(const StudyFile& study, const CaseRuns& runs, double update_rate) {
+  const StudyCase input = study.cases[runs.members.front()];
+  return continued_cost(skin_run(input.scene.scene, study.study.largest_gap, {})) / update_rate;
 }
 
 /// Bytes of a study's cases and of what is kept of them till the report: the answers, or whole outcomes with
-/// the traces of their runs. Measured beside the traces, on studies of 200 and 1000 cases: 50 and 170 kB a
-/// case.
-double memory_of_plan(const StudyFile& study, const std::vector<ForecastRun>& runs) {
+/// the traces of their runs. Measured beside the traces, on studies of 200 and 1000 cases.
+double memory_of_plan(const StudyFile& study, const Forecast& forecast) {
   const bool keeps_outcomes = !study.study.kind.keeps_answers;
   // A point of a measured curve has a time and a pressure, as they are and as they were given.
   const double of_case = keeps_outcomes ? 200e3 : 60e3, of_point = 4 * 8.0;
-  double bytes = 0;
-  for (const StudyCase& each : study.cases)
-    bytes += of_case + of_point * static_cast<double>(each.scene.scene.load.curve_time.size());
+  const auto points = static_cast<double>(study.scene.scene.load.curve_time.size());
+  double bytes =
+      static_cast<double>(study.cases.size()) * (of_case + (keeps_outcomes ? of_point * points : 0.0));
   if (keeps_outcomes)
-    for (const ForecastRun& run : runs) bytes += run.kept;
+    for (const ForecastRun& run : forecast.runs) bytes += run.kept;
   return bytes;
+}
+
+/// Of so many cases, evenly spread over all of them.
+std::vector<CaseRuns> some_of(std::vector<CaseRuns> cases, std::size_t most) {
+  if (cases.size() <= most) return cases;
+  std::vector<CaseRuns> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(std::move(cases[i * cases.size() / most]));
+  return some;
 }
 
 }  // namespace
 
 std::optional<scene::InputError> all_out_of_reach(const StudyFile& study, const run::Reach& reach) {
-  for (const StudyCase& input : study.cases) {
+  for (const StudyCase& input : study.cases)
     if (!run::out_of_reach(input.scene.scene, reach)) return std::nullopt;
-  }
   return study.cases.empty() ? std::nullopt : run::out_of_reach(study.cases.front().scene, reach);
 }
 
-Forecast forecast_study(const StudyFile& study, const StudyOptions& options, double update_rate) {
+std::size_t Forecast::of_all(std::size_t runs_like_that) const {
+  if (runs.empty()) return 0;
+  return static_cast<std::size_t>(
+      std::llround(static_cast<double>(runs_like_that) * static_cast<double>(run_count) /
+                   static_cast<double>(runs.size())));
+}
+
+Forecast forecast_study(const StudyFile& study, const StudyOptions& options, double update_rate,
+                        std::size_t most_cases) {
   Forecast forecast;
   forecast.update_rate = update_rate;
   learn_rate(forecast, options);
   const Reasons reasons(options.store);
-  std::vector<CaseRuns> cases = case_runs(study, options.shard.count);
-  const bool drawn = options.store != nullptr && study.study.kind.keeps_answers;
-  const auto keys = drawn ? answer_keys(study, cases) : std::vector<std::string>{};
-  std::erase_if(cases, [&](const CaseRuns& each) { return each.shard != options.shard.index; });
+  std::vector<CaseRuns> all = case_runs(study, options.shard.count);
+  std::erase_if(all, [&](const CaseRuns& each) { return each.shard != options.shard.index; });
+  for (const CaseRuns& each : all) {
+    forecast.cases += each.members.size();
+    forecast.run_count += each.runs.size();
+  }
+  forecast.confirmations = study.confirmations_per_case * all.size();
+  const std::vector<CaseRuns> cases = some_of(std::move(all), most_cases);
   std::vector<std::vector<ForecastRun>> runs(cases.size());
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
-    for (const CaseRun& each : cases[i].runs) {
-      runs[i].push_back(forecast_run(each, options, reasons, forecast.update_rate));
+    for (const PlannedRun& each : cases[i].runs) {
+      runs[i].push_back(forecast_run(each.make(), options, reasons, forecast.update_rate));
       runs[i].back().shard = cases[i].shard;
     }
-    ForecastRun& first = runs[i].front();
-    first.cases = cases[i].members.size();
-    first.answered =
-        first.stored && std::all_of(cases[i].members.begin(), cases[i].members.end(), [&](auto member) {
-          return !drawn || options.store->answer(keys[member]).has_value();
-        });
-    if (first.stored && !first.answered) first.why = "stored; its gaps are judged anew";
+    runs[i].front().cases = cases[i].members.size();
   });
-  for (const auto& each : runs) forecast.runs.insert(forecast.runs.end(), each.begin(), each.end());
-  std::vector<double> times, memories;
-  for (const ForecastRun& run : forecast.runs) {
-    if (run.stored || run.given_up) continue;
-    times.push_back(run.time);
-    memories.push_back(run.memory);
+  std::vector<double> times, confirmation_times, memories;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (study.confirmations_per_case > 0 && !runs[i].front().stored && !runs[i].front().given_up)
+      confirmation_times.insert(confirmation_times.end(), study.confirmations_per_case,
+                                confirmation_time(study, cases[i], forecast.update_rate));
+    for (ForecastRun& run : runs[i]) {
+      if (!run.stored && !run.given_up) {
+        times.push_back(run.time);
+        memories.push_back(run.memory);
+      }
+      forecast.runs.push_back(std::move(run));
+    }
   }
-  forecast.jobs = std::max(1, std::min(jobs_of(options), static_cast<int>(forecast.runs.size())));
-  forecast.confirmations = study.confirmations_per_case * cases.size();
-  forecast.confirmation_time =
-      time_on(confirmation_times(study, cases, runs, forecast.update_rate), forecast.jobs);
-  forecast.time = time_on(times, forecast.jobs) + forecast.confirmation_time;
+  forecast.jobs = std::max(1, std::min(jobs_of(options), static_cast<int>(forecast.run_count)));
+  const double share = forecast.runs.empty() ? 1.0
+                                             : static_cast<double>(forecast.run_count) /
+                                                   static_cast<double>(forecast.runs.size());
+  forecast.confirmation_time = share * time_on(confirmation_times, forecast.jobs);
+  forecast.time = share * time_on(times, forecast.jobs) + forecast.confirmation_time;
   std::sort(memories.rbegin(), memories.rend());
   memories.resize(std::min<std::size_t>(memories.size(), static_cast<std::size_t>(forecast.jobs)));
-  forecast.plan_memory = memory_of_plan(study, forecast.runs);
+  forecast.plan_memory = memory_of_plan(study, forecast);
   forecast.memory = forecast.plan_memory;
   for (const double memory : memories) forecast.memory += memory;
   return forecast;

@@ -7,12 +7,11 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <iterator>
+#include <memory>
 #include <mutex>
 #include <unordered_map>
 
@@ -22,12 +21,12 @@ namespace {
 using store::CaseState, store::JournalEntry;
 
 FinishedRun without_result(RunOutcome outcome, std::string failure) {
-  return {outcome, std::move(failure), {}};
+  return {outcome, std::move(failure), {}, {}};
 }
 
 /// Of a result that was just computed, or of one that is stored.
 FinishedRun with_result(run::CaseResult result, RunOutcome outcome) {
-  FinishedRun run{outcome, failure_of(result.mechanics), std::move(result)};
+  FinishedRun run{outcome, failure_of(result.mechanics), std::move(result), {}};
   if (run.result.mechanics.status == run::RunStatus::timed_out) run.outcome = RunOutcome::timed_out;
   if (run.result.mechanics.status == run::RunStatus::interrupted) run.outcome = RunOutcome::interrupted;
   return run;
@@ -62,7 +61,7 @@ class CaseLoop {
   }
 
   void run() {
-    std::vector<Task> tasks;
+    std::vector<WaitingTask> tasks;
     std::vector<std::pair<std::size_t, std::size_t>> places;
     for (std::size_t i = 0; i < cases_.size(); ++i) {
       if (cases_[i].shard != options_.shard.index) {
@@ -70,7 +69,7 @@ class CaseLoop {
         continue;
       }
       for (std::size_t j = 0; j < cases_[i].runs.size(); ++j) {
-        tasks.push_back(task_of(i, j));
+        tasks.push_back({cases_[i].runs[j].cost, [this, i, j] { return task_of(i, j); }});
         places.emplace_back(i, j);
         tracker_.expect(1, tasks.back().cost);
       }
@@ -79,7 +78,7 @@ class CaseLoop {
     for (std::size_t task = 0; task < tasks.size(); ++task) {
       const auto [i, j] = places[task];
       if (outcomes[task].refused) {
-        note_refusal(cases_[i].runs[j], outcomes[task].failure);
+        note_refusal(cases_[i].runs[j].make(), outcomes[task].failure);
         finish(i, j, without_result(RunOutcome::refused, "the run failed: " + outcomes[task].failure));
       } else if (!outcomes[task].started) {
         finish(i, j, without_result(RunOutcome::interrupted, "not run: the study was interrupted before"));
@@ -97,21 +96,24 @@ class CaseLoop {
   /// Cheap where the result is stored.
   Task task_of(std::size_t i, std::size_t j) {
     constexpr double reading_share = 1e-3;
-    const CaseRun& run = cases_[i].runs[j];
-    const auto work = [this, i, j](const Allotment& allotment) { finish(i, j, perform(i, j, allotment)); };
-    if (options_.store != nullptr && options_.store->holds(run.hash))
-      return {reading_share * run.cost, work, 0.0, {}};
-    if (std::string refusal = refusal_of(run.scene, options_); !refusal.empty())
+    const auto run = std::make_shared<const CaseRun>(cases_[i].runs[j].make());
+    const auto work = [this, i, j, run](const Allotment& allotment) {
+      finish(i, j, perform(i, *run, allotment));
+    };
+    if (options_.store != nullptr && options_.store->holds(run->hash))
+      return {reading_share * run->cost, work, 0.0, {}};
+    if (std::string refusal = refusal_of(run->scene, options_); !refusal.empty())
       return {1.0, work, 0.0, std::move(refusal)};
-    return {run.cost, work, run::cost_of(run.scene).memory(), {}};
+    return {run->cost, work, run::cost_of(run->scene).memory(), {}};
   }
 
-  FinishedRun perform(std::size_t i, std::size_t j, const Allotment& allotment) {
+  FinishedRun perform(std::size_t i, const CaseRun& run, const Allotment& allotment) {
     if (open_[i].spoilt)
       return without_result(RunOutcome::interrupted, "not run: the first run of its case did not complete");
-    FinishedRun run = load_or_compute(cases_[i].runs[j], allotment);
-    count(run);
-    return run;
+    FinishedRun finished = load_or_compute(run, allotment);
+    finished.hash = run.hash;
+    count(finished);
+    return finished;
   }
 
   FinishedRun load_or_compute(const CaseRun& run, const Allotment& allotment) {
@@ -231,6 +233,11 @@ CaseRun planned(scene::Scene scene, std::optional<double> gap, std::string label
 
 }  // namespace
 
+PlannedRun planned_run(CaseRun run) {
+  const double cost = run.cost;
+  return {[run = std::move(run)] { return run; }, cost};
+}
+
 Runners simulation_runners() { return {run::run_mechanics, run::run_with_skin}; }
 
 CaseRun mechanics_run(const scene::Scene& scene, std::string label) {
@@ -272,17 +279,16 @@ const FinishedRun* run_without_result(const std::vector<FinishedRun>& runs) {
 
 namespace {
 
-/// The runs of a case through ignition, one a gap of its scene; none with one-way coupling, or where the kind
-/// does not ask for them.
-std::vector<CaseRun> burning_runs(const StudyFile& study, const StudyCase& input) {
-  std::vector<CaseRun> runs;
+/// The gaps of a case that are run through ignition; none with one-way coupling, or where the kind does not
+/// ask for them.
+std::vector<double> burning_gaps(const StudyFile& study, const StudyCase& input) {
   const scene::Scene& scene = input.scene.scene;
-  if (!study.study.kind.goes_through_ignition || scene.coupling == scene::Coupling::one_way) return runs;
-  for (const double gap : scene.surface.gaps)
-    runs.push_back(
-        skin_run(scene, gap, fmt::format("{}, through ignition at {:.6g} cm", input.label, 100.0 * gap)));
-  return runs;
+  if (!study.study.kind.goes_through_ignition || scene.coupling == scene::Coupling::one_way) return {};
+  return scene.surface.gaps;
 }
+
+/// Of so many cases at the most the runs are planned before they are begun.
+constexpr std::size_t most_planned_before = 512;
 
 }  // namespace
 
@@ -294,41 +300,103 @@ std::optional<scene::Scene> with_longer_launch(const scene::Scene& scene) {
   return other;
 }
 
-std::vector<CaseRuns> case_runs(const StudyFile& study, int shards) {
-  std::vector<CaseRun> own(study.cases.size());
-  tbb::parallel_for(std::size_t{0}, own.size(), [&](std::size_t i) {
-    own[i] = mechanics_run(study.cases[i].scene.scene, study.cases[i].label);
+namespace {
+
+/// Whether cases that differ in the axes alone that reach the mechanics surely differ in their runs: not
+/// where a launch decides whether the mechanics knows a key.
+bool tells_runs_apart(const std::vector<Axis>& axes) {
+  return std::ranges::none_of(axes, [](const Axis& axis) {
+    const keys::ActsOn acts_on = axis.key.role().acts_on;
+    return keys::reaches_mechanics(acts_on) && acts_on != keys::ActsOn::mechanics &&
+           acts_on != keys::ActsOn::numerics;
   });
+}
+
+/// What cases that share their runs have in common, and no others.
+std::string key_of_runs(const StudyFile& study, std::size_t index) {
+  const std::vector<Axis>& axes = study.study.axes;
+  const std::vector<double>& coordinates = study.cases.coordinates(index);
+  if (!study.cases.has_own_scene(index) && !study.study.kind.goes_through_ignition &&
+      tells_runs_apart(axes)) {
+    std::string key;
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      if (keys::reaches_mechanics(axes[i].key.role().acts_on)) key += fmt::format("{} ", coordinates[i]);
+    return key;
+  }
+  const StudyCase input = study.cases[index];
+  std::string key = mechanics_run(input.scene.scene, {}).hash;
+  // A case that burns shares its launch alone with no other.
+  for (const double gap : burning_gaps(study, input)) key += skin_run(input.scene.scene, gap, {}).hash;
+  return key;
+}
+
+/// The cases that share runs, in the order of their first ones.
+std::vector<CaseRuns> cases_by_runs(const StudyFile& study) {
+  std::vector<std::string> keys(study.cases.size());
+  tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) { keys[i] = key_of_runs(study, i); });
   std::vector<CaseRuns> cases;
   std::unordered_map<std::string, std::size_t> known;
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    std::vector<CaseRun> burning = burning_runs(study, study.cases[i]);
-    // A case that burns shares its launch alone with no other.
-    std::string key = own[i].hash;
-    for (const CaseRun& each : burning) key += each.hash;
-    const auto [found, is_new] = known.try_emplace(key, cases.size());
-    if (is_new) {
-      cases.push_back({{}, {std::move(own[i])}, 1});
-      std::move(burning.begin(), burning.end(), std::back_inserter(cases.back().runs));
-    }
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const auto [found, is_new] = known.try_emplace(std::move(keys[i]), cases.size());
+    if (is_new) cases.emplace_back();
     cases[found->second].members.push_back(i);
   }
-  if (propagates_spread(study.study)) {
-    tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
-      const StudyCase& first = study.cases[cases[i].members.front()];
-      cases[i].runs.push_back(mechanics_run(with_raised_load(first.scene.scene), label_of_raised(first)));
-    });
-  }
-  if (study.study.kind.runs_longer_launches) {
-    for (CaseRuns& each : cases) {
-      const StudyCase& first = study.cases[each.members.front()];
-      if (const auto longer = with_longer_launch(first.scene.scene))
-        each.runs.push_back(mechanics_run(
-            *longer, fmt::format("{}, {}", first.label,
-                                 scene::is_cut_short(first.scene.scene.load) ? "until the launch is over"
-                                                                             : "without muzzle exit")));
+  return cases;
+}
+
+/// The run of the mechanics of a case, of its longer launch if there is one.
+CaseRun longer_run(const StudyCase& input) {
+  return mechanics_run(*with_longer_launch(input.scene.scene),
+                       fmt::format("{}, {}", input.label,
+                                   scene::is_cut_short(input.scene.scene.load) ? "until the launch is over"
+                                                                               : "without muzzle exit"));
+}
+
+/// The runs of the first of the cases that share them.
+void plan_runs(const StudyFile& study, bool checkpoints, CaseRuns& cases) {
+  const std::size_t first = cases.members.front();
+  const StudyFile* of = &study;
+  cases.runs.push_back({[of, first, checkpoints] {
+    const StudyCase input = of->cases[first];
+    CaseRun run = mechanics_run(input.scene.scene, input.label);
+    run.checkpoints = checkpoints;
+    return run;
+  }});
+  if (study.study.kind.goes_through_ignition)
+    for (const double gap : burning_gaps(study, study.cases[first]))
+      cases.runs.push_back({[of, first, gap] {
+        const StudyCase input = of->cases[first];
+        return skin_run(input.scene.scene, gap,
+                        fmt::format("{}, through ignition at {:.6g} cm", input.label, 100.0 * gap));
+      }});
+  if (propagates_spread(study.study))
+    cases.runs.push_back({[of, first] {
+      const StudyCase input = of->cases[first];
+      return mechanics_run(with_raised_load(input.scene.scene), label_of_raised(input));
+    }});
+  if (study.study.kind.runs_longer_launches && with_longer_launch(study.cases[first].scene.scene))
+    cases.runs.push_back({[of, first] { return longer_run(of->cases[first]); }});
+}
+
+void predict_costs(std::vector<CaseRuns>& cases) {
+  const std::size_t every = (cases.size() + most_planned_before - 1) / most_planned_before;
+  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
+    if (i % every != 0) return;
+    for (PlannedRun& run : cases[i].runs) run.cost = run.make().cost;
+  });
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (std::size_t j = 0; j < cases[i].runs.size(); ++j) {
+      const std::vector<PlannedRun>& alike = cases[i - i % every].runs;
+      cases[i].runs[j].cost = alike[std::min(j, alike.size() - 1)].cost;
     }
-  }
+}
+
+}  // namespace
+
+std::vector<CaseRuns> case_runs(const StudyFile& study, int shards, bool checkpoints) {
+  std::vector<CaseRuns> cases = cases_by_runs(study);
+  for (CaseRuns& each : cases) plan_runs(study, checkpoints, each);
+  predict_costs(cases);
   std::vector<double> costs;
   for (const CaseRuns& each : cases) costs.push_back(each.runs.front().cost);
   const std::vector<int> shard = shards_of(costs, shards);

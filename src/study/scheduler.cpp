@@ -82,7 +82,13 @@ void perform(const Task& task, int threads, TaskOutcome& outcome, ProgressTracke
 /// The tasks that wait, the most costly first, and the memory that is left for them.
 class Queue {
  public:
-  Queue(const std::vector<Task>& tasks, double memory) : tasks_(tasks), limit_(memory), free_(memory) {
+  struct Taken {
+    std::size_t index = 0;
+    Task task;
+  };
+
+  Queue(const std::vector<WaitingTask>& tasks, double memory)
+      : tasks_(tasks), made_(tasks.size()), limit_(memory), free_(memory) {
     waiting_.resize(tasks.size());
     std::iota(waiting_.begin(), waiting_.end(), std::size_t{0});
     // Reversed: the back is taken first, and taking it is cheap.
@@ -93,23 +99,25 @@ class Queue {
 
   /// The next task that fits, its memory taken; waits for one to fit. Nothing when none is left or `stop` is
   /// set.
-  std::optional<std::size_t> take(const std::atomic<bool>* stop) {
+  std::optional<Taken> take(const std::atomic<bool>* stop) {
     std::unique_lock lock(mutex_);
     while (!waiting_.empty() && !(stop != nullptr && stop->load(std::memory_order_relaxed))) {
       // One that is refused is taken at once.
-      const auto fits = [this](std::size_t task) {
+      const auto fits = [this](std::size_t index) {
+        const Task& task = made(index);
         // Sums of rounded numbers may end a bit short of the limit that they began with.
-        return tasks_[task].memory <= free_ || running_ == 0 || is_refused(task);
+        return task.memory <= free_ || running_ == 0 || is_refused(task);
       };
       const auto found = std::find_if(waiting_.rbegin(), waiting_.rend(), fits);
       if (found != waiting_.rend()) {
-        const std::size_t task = *found;
+        Taken taken{*found, std::move(*made_[*found])};
+        made_[*found].reset();
         waiting_.erase(std::next(found).base());
-        if (!is_refused(task)) {
-          free_ -= tasks_[task].memory;
+        if (!is_refused(taken.task)) {
+          free_ -= taken.task.memory;
           ++running_;
         }
-        return task;
+        return taken;
       }
       // With a time limit, since a signal handler that sets `stop` cannot notify.
       changed_.wait_for(lock, std::chrono::milliseconds(100));
@@ -123,20 +131,30 @@ class Queue {
     return std::max(1, jobs / static_cast<int>(std::clamp<std::size_t>(running_ + waiting_.size(), 1, 1024)));
   }
 
-  void give_back(std::size_t task) {
+  void give_back(const Task& task) {
     const std::lock_guard lock(mutex_);
-    free_ += tasks_[task].memory;
+    free_ += task.memory;
     --running_;
     changed_.notify_all();
   }
 
   /// It must not be begun, or does not fit even alone.
-  bool is_refused(std::size_t task) const {
-    return !tasks_[task].refusal.empty() || tasks_[task].memory > limit_;
-  }
+  bool is_refused(const Task& task) const { return !task.refusal.empty() || task.memory > limit_; }
 
  private:
-  const std::vector<Task>& tasks_;
+  const Task& made(std::size_t index) {
+    std::optional<Task>& task = made_[index];
+    if (task) return *task;
+    try {
+      task = tasks_[index].make();
+    } catch (const std::exception& error) {
+      task = Task{tasks_[index].cost, {}, 0.0, error.what()};
+    }
+    return *task;
+  }
+
+  const std::vector<WaitingTask>& tasks_;
+  std::vector<std::optional<Task>> made_;  ///< those that did not fit
   double limit_, free_;
   std::size_t running_ = 0;
   std::vector<std::size_t> waiting_;
@@ -156,7 +174,7 @@ TaskOutcome refusal(const Task& task, double limit, ProgressTracker& tracker) {
 
 }  // namespace
 
-std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, const Resources& resources,
+std::vector<TaskOutcome> run_tasks(const std::vector<WaitingTask>& tasks, const Resources& resources,
                                    ProgressTracker& tracker, const std::atomic<bool>* stop) {
   std::vector<TaskOutcome> outcomes(tasks.size());
   constexpr double usable_share = 0.9;
@@ -165,13 +183,15 @@ std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, const Resourc
   Queue queue(tasks, memory);
   const int jobs = resources.jobs > 0 ? resources.jobs : available_cores();
   const auto pull = [&] {
-    while (const auto task = queue.take(stop)) {
-      if (queue.is_refused(*task)) {
-        outcomes[*task] = refusal(tasks[*task], memory, tracker);
+    while (const auto taken = queue.take(stop)) {
+      const auto& [index, task] = *taken;
+      tracker.expect(0, task.cost - tasks[index].cost);
+      if (queue.is_refused(task)) {
+        outcomes[index] = refusal(task, memory, tracker);
         continue;
       }
-      perform(tasks[*task], queue.threads_of_one(jobs), outcomes[*task], tracker);
-      queue.give_back(*task);
+      perform(task, queue.threads_of_one(jobs), outcomes[index], tracker);
+      queue.give_back(task);
     }
   };
   const int most = static_cast<int>(std::min<std::size_t>(std::max<std::size_t>(tasks.size(), 1), 1024));

@@ -3,7 +3,11 @@
 #include "launchsafe/study/study_axes.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
+#include <atomic>
+#include <cassert>
+#include <memory>
 #include <utility>
 
 namespace launchsafe::study {
@@ -11,37 +15,75 @@ namespace {
 
 using scene::SceneFile;
 
-/// What one value of an axis does to scene and label.
-struct Step {
-  Change change;
-  double value = 0;  ///< SI
-  std::string label;
-};
-using Steps = std::vector<Step>;
-
-Steps steps_of(const StudyFile& study, const Axis& axis) {
-  Steps steps;
-  for (const double value : axis.values) {
-    const std::string text = scene::format_value(axis.key, value);
-    steps.push_back({{axis.key.name, value, text, axis.study_key, place_of_key(study, axis.study_key)},
-                     value,
-                     axis.name + " " + text});
-  }
-  return steps;
-}
-
 /// Whether other values of a key make another launch, and not only another computation of the same one.
 bool is_condition(const scene::KeyDescription& key) {
   return key.standing != scene::Standing::calibrated && !key.name.starts_with("numerics.") &&
          !key.name.starts_with("output.") && !key.name.starts_with("physics.");
 }
 
-/// One step of every axis: the place in their product, the last axis fastest.
-std::vector<const Step*> steps_at(const std::vector<Steps>& axes, std::size_t place) {
-  std::vector<const Step*> steps(axes.size());
-  for (std::size_t i = axes.size(); i-- > 0; place /= axes[i].size())
-    steps[i] = &axes[i][place % axes[i].size()];
-  return steps;
+/// What varied cases are made from.
+struct Start {
+  SceneFile scene;
+  std::vector<Axis> axes;
+  std::vector<bool> condition;  ///< of the axes: another value is another launch
+  double peak = 0;              ///< Pa, of the scene
+};
+
+/// There may be many cases, and nothing can be wrong with a geometry that no case changes: its places are
+/// left out.
+Start start_of(const StudyFile& study) {
+  Start start{
+      study.scene, study.study.axes, {}, scene::PressureHistory(study.scene.scene.load).stated_peak()};
+  start.scene.places.clear();
+  for (const Axis& axis : start.axes) start.condition.push_back(is_condition(axis.key));
+  return start;
+}
+
+std::vector<Change> changes_of(const StudyFile& study, const std::vector<double>& coordinates) {
+  std::vector<Change> changes;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const Axis& axis = study.study.axes[i];
+    const std::string& key = axis.values_key.empty() ? axis.study_key : axis.values_key;
+    changes.push_back({axis.key.name, coordinates[i], scene::format_value(axis.key, coordinates[i]), key,
+                       place_of_key(study, key)});
+  }
+  return changes;
+}
+
+/// Whether a case is of the load and defect of the study's scene.
+bool is_own(const Start& start, const StudyCase& made) {
+  const materials::ViscoScramParameters& own = start.scene.scene.charge().strength;
+  for (std::size_t i = 0; i < made.coordinates.size(); ++i)
+    if (start.condition[i] && made.coordinates[i] != number_in(start.scene, start.axes[i].key.name))
+      return false;
+  return made.peak_pressure == start.peak && made.crack_radius == own.initial_crack_radius &&
+         made.flaw_size == own.flaw_size;
+}
+
+StudyCase varied_case(const Start& start, std::vector<double> coordinates, SceneFile scene) {
+  StudyCase made = case_of({}, std::move(scene));
+  made.pressure_ratio = made.peak_pressure / start.peak;
+  made.coordinates = std::move(coordinates);
+  made.own_conditions = is_own(start, made);
+  return made;
+}
+
+/// A case that was found valid.
+StudyCase known_case(const Start& start, const std::vector<double>& coordinates) {
+  std::vector<scene::KeyChange> changes;
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    changes.push_back({start.axes[i].key.name, coordinates[i], {}});
+  auto scene = scene::with_keys(start.scene, changes);
+  assert(scene);
+  return varied_case(start, coordinates, std::move(*scene));
+}
+
+/// One value of every axis: the place in their product, the last axis fastest.
+std::vector<double> values_at(const std::vector<Axis>& axes, std::size_t place) {
+  std::vector<double> values(axes.size());
+  for (std::size_t i = axes.size(); i-- > 0; place /= axes[i].values.size())
+    values[i] = axes[i].values[place % axes[i].values.size()];
+  return values;
 }
 
 }  // namespace
@@ -59,70 +101,63 @@ StudyCase case_of(std::string label, SceneFile scene) {
   return made;
 }
 
-SceneFile without_places(SceneFile scene) {
-  scene.places.clear();
-  return scene;
+Fault add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf& coordinates_of,
+                       const LabelOf& label_of) {
+  const auto start = std::make_shared<const Start>(start_of(study));
+  struct Point {
+    std::string label;
+    std::vector<double> coordinates;
+  };
+  std::vector<Point> points(count);
+  std::atomic<std::size_t> first_fault = count;
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    if (i > first_fault) return;
+    std::vector<double> coordinates = coordinates_of(i);
+    auto scene = with_changes(start->scene, changes_of(study, coordinates));
+    if (!scene) {
+      for (std::size_t known = first_fault; i < known;)
+        if (first_fault.compare_exchange_weak(known, i)) break;
+      return;
+    }
+    const StudyCase made = varied_case(*start, std::move(coordinates), std::move(*scene));
+    points[i] = {label_of(i, made), made.coordinates};
+  });
+  if (first_fault < count)
+    return with_changes(start->scene, changes_of(study, coordinates_of(first_fault))).error();
+  study.cases.reserve(count);
+  for (Point& point : points) study.cases.add(std::move(point.label), std::move(point.coordinates));
+  study.cases.make_with(
+      [start](const std::vector<double>& coordinates) { return known_case(*start, coordinates); });
+  return std::nullopt;
 }
 
-CaseMaker::CaseMaker(StudyFile& study)
-    : study_(study), own_peak_(scene::PressureHistory(study.scene.scene.load).stated_peak()) {
-  for (const Axis& axis : study.study.axes) {
-    own_.push_back(number_in(study.scene, axis.key.name));
-    condition_.push_back(is_condition(axis.key));
-  }
-}
-
-void CaseMaker::add(std::string label, std::vector<double> coordinates, SceneFile scene) {
-  StudyCase made = case_of(std::move(label), std::move(scene));
-  made.pressure_ratio = made.peak_pressure / own_peak_;
-  made.coordinates = std::move(coordinates);
-  made.own_conditions = is_own(made);
-  study_.cases.push_back(std::move(made));
-}
-
-bool CaseMaker::is_own(const StudyCase& made) const {
-  const materials::ViscoScramParameters& own = study_.scene.scene.charge().strength;
-  for (std::size_t i = 0; i < made.coordinates.size(); ++i) {
-    if (condition_[i] && made.coordinates[i] != own_[i]) return false;
-  }
-  return made.peak_pressure == own_peak_ && made.crack_radius == own.initial_crack_radius &&
-         made.flaw_size == own.flaw_size;
-}
-
-std::string launch_label(const StudyCase& made, const std::string&) {
+std::string launch_label(const StudyCase& made) {
   return fmt::format("{:.6g} MPa, {:.6g} um, {:.6g} mm", 1e-6 * made.peak_pressure, 1e6 * made.crack_radius,
                      1e3 * made.flaw_size);
 }
 
-Fault make_factorial(StudyFile& study, LabelOf label) {
-  std::vector<Steps> axes;
+std::string axes_label(const Study& study, const StudyCase& made) {
+  if (study.axes.empty()) return launch_label(made);
+  std::string text;
+  for (std::size_t i = 0; i < study.axes.size(); ++i)
+    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", study.axes[i].name,
+                        scene::format_value(study.axes[i].key, made.coordinates[i]));
+  return text;
+}
+
+Fault make_factorial(StudyFile& study, const std::function<std::string(const StudyCase&)>& label_of) {
+  const std::vector<Axis>& axes = study.study.axes;
   double count = 1.0;
   std::vector<std::string> sizes;
-  for (const Axis& axis : study.study.axes) {
-    axes.push_back(steps_of(study, axis));
+  for (const Axis& axis : axes) {
     count *= static_cast<double>(axis.values.size());
     sizes.push_back(fmt::format("{} of {}", axis.values.size(), axis.study_key));
   }
-  const std::string key = axes.empty() ? std::string{} : study.study.axes.front().study_key;
+  const std::string key = axes.empty() ? std::string{} : axes.front().study_key;
   if (Fault fault = check_count(study, key, count, fmt::format("{}", fmt::join(sizes, " x ")))) return fault;
-  study.cases.reserve(static_cast<std::size_t>(count));
-  const SceneFile start = without_places(study.scene);
-  CaseMaker maker(study);
-  for (std::size_t place = 0; place < static_cast<std::size_t>(count); ++place) {
-    std::vector<Change> changes;
-    std::vector<double> coordinates;
-    std::string text;
-    for (const Step* step : steps_at(axes, place)) {
-      changes.push_back(step->change);
-      coordinates.push_back(step->value);
-      text += (text.empty() ? "" : ", ") + step->label;
-    }
-    auto scene = with_changes(start, changes);
-    if (!scene) return scene.error();
-    maker.add({}, std::move(coordinates), std::move(*scene));
-    study.cases.back().label = label(study.cases.back(), text);
-  }
-  return std::nullopt;
+  return add_varied_cases(
+      study, static_cast<std::size_t>(count), [&](std::size_t place) { return values_at(axes, place); },
+      [&](std::size_t, const StudyCase& made) { return label_of(made); });
 }
 
 Fault check_count(const StudyFile& study, const std::string& key, double count, const std::string& what) {

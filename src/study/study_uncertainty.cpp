@@ -2,6 +2,7 @@
 
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/changed_scene.hpp"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 #include <utility>
 
 namespace launchsafe::study {
@@ -31,6 +33,11 @@ bool has_other_interfaces(const StudyFile& study) {
   return has_other(study, [](const std::string& key) { return key.starts_with("interface."); });
 }
 
+/// K; 0 where nothing is stated.
+double stated_of(const Study& study) {
+  return std::isfinite(study.numerical_uncertainty) ? study.numerical_uncertainty : 0.0;
+}
+
 /// K, where nothing is known of the numerics of a scene.
 double assumed_for(const scene::Scene& scene) {
   const bool as_calibrated =
@@ -40,22 +47,14 @@ double assumed_for(const scene::Scene& scene) {
 
 /// Where a study states a number itself. It belongs to the scene's own numerics and interfaces on a grid that
 /// runs along the charge's edges.
-void settle_stated(StudyFile& study) {
-  Study& s = study.study;
-  const double stated = std::isfinite(s.numerical_uncertainty) ? s.numerical_uncertainty : 0.0;
+Cases::Complete with_stated(const StudyFile& study) {
+  const double stated = stated_of(study.study);
   const bool own = stated > 0.0 && !has_other_numerics(study) && !has_other_interfaces(study) &&
                    scene::charge_edges_off_grid(study.scene.scene).empty();
-  double largest = stated;
-  for (StudyCase& each : study.cases) {
-    each.numerical_uncertainty_assumed = !own;
-    each.numerical_uncertainty = own ? stated : std::max(stated, assumed_for(each.scene.scene));
-    largest = std::max(largest, each.numerical_uncertainty);
-  }
-  s.numerical_uncertainty = largest;
-  s.numerical_uncertainty_assumed = largest > stated;
-  study.uncertainty_source = s.numerical_uncertainty_assumed
-                                 ? "assumed, as the study states none for these settings"
-                                 : "as the study states";
+  return [stated, own](StudyCase& made) {
+    made.numerical_uncertainty_assumed = !own;
+    made.numerical_uncertainty = own ? stated : std::max(stated, assumed_for(made.scene.scene));
+  };
 }
 
 /// What a record says of a scene.
@@ -86,29 +85,18 @@ Recorded recorded_for(const AccuracyRecord& record, const scene::Scene& scene) {
 /// Every case has the bound of its own setting, grown to its own launch. Where the record says nothing of it,
 /// it has the assumed one, or the grown bound if that is larger. Either grows with the rise of T max no later
 /// than the recorded bound by itself would.
-void settle_recorded(StudyFile& study, const AccuracyRecord& record) {
-  Study& s = study.study;
-  s.numerical_uncertainty = 0.0;
-  std::map<std::string, std::size_t> reasons;
-  for (StudyCase& each : study.cases) {
-    const Recorded recorded = recorded_for(record, each.scene.scene);
-    const bool known = std::isfinite(recorded.bound);
-    const bool applies = known && recorded.reason.empty();
-    each.numerical_uncertainty = applies ? recorded.bound : assumed_for(each.scene.scene);
-    if (known) {
-      each.numerical_uncertainty = std::max(each.numerical_uncertainty, recorded.bound);
-      each.rise_of_uncertainty = record.rise * recorded.growth * each.numerical_uncertainty / recorded.bound;
-      each.covered_gap = recorded.largest_gap;
-    }
-    each.numerical_uncertainty_assumed = !applies;
-    if (!applies) ++reasons[recorded.reason];
-    s.numerical_uncertainty = std::max(s.numerical_uncertainty, each.numerical_uncertainty);
+void complete_recorded(const AccuracyRecord& record, StudyCase& made) {
+  const Recorded recorded = recorded_for(record, made.scene.scene);
+  const bool known = std::isfinite(recorded.bound);
+  const bool applies = known && recorded.reason.empty();
+  made.numerical_uncertainty = applies ? recorded.bound : assumed_for(made.scene.scene);
+  if (known) {
+    made.numerical_uncertainty = std::max(made.numerical_uncertainty, recorded.bound);
+    made.rise_of_uncertainty = record.rise * recorded.growth * made.numerical_uncertainty / recorded.bound;
+    made.covered_gap = recorded.largest_gap;
   }
-  s.numerical_uncertainty_assumed = !reasons.empty();
-  study.uncertainty_source = reasons.empty()
-                                 ? fmt::format("from the accuracy record `{}`", s.accuracy)
-                                 : fmt::format("assumed where the accuracy record `{}` does not help: {}",
-                                               s.accuracy, commonest_first(reasons, study.cases.size()));
+  made.numerical_uncertainty_assumed = !applies;
+  if (!applies) made.why_assumed = recorded.reason;
 }
 
 std::string chosen_text(const RecordedSetting& chosen, double growth, double tolerance) {
@@ -132,7 +120,7 @@ std::string commonest_first(const std::map<std::string, std::size_t>& reasons, s
   return text;
 }
 
-scene::Expected<std::optional<AccuracyRecord>> read_record(const StudyFile& study,
+scene::Expected<std::optional<AccuracyRecord>> read_record(StudyFile& study,
                                                            const std::filesystem::path& folder) {
   const std::string& name = study.study.accuracy;
   if (name.empty()) return std::optional<AccuracyRecord>{};
@@ -143,6 +131,7 @@ scene::Expected<std::optional<AccuracyRecord>> read_record(const StudyFile& stud
   const auto text =
       read_named_file(study, folder, "accuracy", name, "the accuracy.json of an accuracy study");
   if (!text) return text.error();
+  study.records.push_back(store::sha256(*text));
   auto record = parse_accuracy_record(*text, (folder / name).string());
   if (!record) return record.error();
   return std::optional<AccuracyRecord>(std::move(*record));
@@ -194,11 +183,29 @@ double numerical_share(const StudyCase& input, double gap, double rise) {
 }
 
 void settle_uncertainty(StudyFile& study, const std::optional<AccuracyRecord>& record) {
-  if (record) {
-    settle_recorded(study, *record);
-  } else {
-    settle_stated(study);
+  if (!record) return study.cases.complete_with(with_stated(study));
+  const auto shared = std::make_shared<const AccuracyRecord>(*record);
+  study.cases.complete_with([shared](StudyCase& made) { complete_recorded(*shared, made); });
+}
+
+NumericalUncertainty numerical_uncertainty_of(const StudyFile& study) {
+  NumericalUncertainty all{stated_of(study.study), false, {}};
+  std::map<std::string, std::size_t> reasons;
+  for (const StudyCase& each : study.cases) {
+    all.largest = std::max(all.largest, each.numerical_uncertainty);
+    if (each.numerical_uncertainty_assumed) ++reasons[each.why_assumed];
   }
+  const std::string& record = study.study.accuracy;
+  if (record.empty()) {
+    all.assumed = all.largest > stated_of(study.study);
+    all.source = all.assumed ? "assumed, as the study states none for these settings" : "as the study states";
+    return all;
+  }
+  all.assumed = !reasons.empty();
+  all.source = all.assumed ? fmt::format("assumed where the accuracy record `{}` does not help: {}", record,
+                                         commonest_first(reasons, study.cases.size()))
+                           : fmt::format("from the accuracy record `{}`", record);
+  return all;
 }
 
 }  // namespace launchsafe::study

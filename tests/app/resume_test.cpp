@@ -23,7 +23,7 @@ TEST_P(StoppedStudy, NamesTheCommandThatCompletesIt) {
   const Outcome stopped = wait();
   EXPECT_EQ(stopped.code, 75) << stopped.err;
   EXPECT_TRUE(stopped.out.empty());
-  EXPECT_TRUE(testing::in_order(stopped.err, {" of 12 ", output})) << stopped.err;
+  EXPECT_TRUE(testing::in_order(stopped.err, {" kept in ", output})) << stopped.err;
   const std::string mark = "to go on: ";
   const std::size_t at = stopped.err.find(mark);
   ASSERT_NE(at, std::string::npos);

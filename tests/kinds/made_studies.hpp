@@ -131,7 +131,8 @@ inline kinds::SweepResult swept(study::StudyFile file, const Answerer& answerer)
     input.coordinates = place;
     input.label = "case " + std::to_string(file.cases.size() + 1);
     input.scene = file.scene;
-    file.cases.push_back(std::move(input));
+    input.numerical_uncertainty = file.study.numerical_uncertainty;
+    file.cases.add(std::move(input));
     result.answers.push_back(answerer(file.study, place));
   }
   result.study = std::move(file);
@@ -184,7 +185,8 @@ inline kinds::SensitivityResult made_sensitivity() {
     each.label = "sample " + std::to_string(i / 5 + 1);
     each.coordinates = {400e6 + 10e6 * static_cast<double>(i), 30e-6, 1e-3};
     each.scene = file.scene;
-    file.cases.push_back(std::move(each));
+    each.numerical_uncertainty = file.study.numerical_uncertainty;
+    file.cases.add(std::move(each));
     result.answers.push_back(i == 2 ? broken_answer(file.study, "energy drift 0.2 at 3 ms")
                                     : value_answer(file.study, 4e-4 - 1e-6 * static_cast<double>(i)));
   }

@@ -1,6 +1,7 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/math/sensitivity.hpp"
 #include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/study_uncertainty.hpp"
 #include "study/read_error.hpp"
 
 #include <algorithm>
@@ -140,10 +141,10 @@ TEST(ReadSensitivity, TheGapIsTheScenesOnlyOne) {
 
 TEST(ReadSensitivity, UncertainNumericsHaveNoStatedUncertainty) {
   const std::string uncertainty = "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n";
-  EXPECT_FALSE(study_of(sensitivity_start + uncertainty + crack).study.numerical_uncertainty_assumed);
+  EXPECT_FALSE(numerical_uncertainty_of(study_of(sensitivity_start + uncertainty + crack)).assumed);
   const std::string cells =
       input("key = \"numerics.cell_size\"\ndistribution = \"uniform\"\nrange = \"2 to 3 mm\"");
-  EXPECT_TRUE(study_of(sensitivity_start + uncertainty + cells).study.numerical_uncertainty_assumed);
+  EXPECT_TRUE(numerical_uncertainty_of(study_of(sensitivity_start + uncertainty + cells)).assumed);
 }
 
 TEST(ReadSensitivity, FaultsOfKeysNameFileLineKeyFoundAndAllowed) {

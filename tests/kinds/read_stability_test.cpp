@@ -65,7 +65,7 @@ TEST(ReadStability, ACaseMayHaveASceneOfItsOwnAndTheStudysUncertainty) {
   EXPECT_EQ(study.cases[0].scene.scene.load.muzzle_exit, 18e-3);
   EXPECT_EQ(study.cases[0].scene.scene.numerics.inertial_scaling, 16.0);
   EXPECT_EQ(study.cases[0].numerical_uncertainty, 4.0);
-  EXPECT_FALSE(study.study.numerical_uncertainty_assumed);
+  EXPECT_FALSE(study.cases[0].numerical_uncertainty_assumed);
 }
 
 TEST(ReadStability, WhatTheReaderRefusesIsACaseWithoutARun) {

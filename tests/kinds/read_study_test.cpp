@@ -86,8 +86,8 @@ TEST(ReadStudy, MakesTheProductOfPressuresAndDefects) {
 TEST(ReadStudy, OverridesSceneKeys) {
   const StudyFile study =
       study_of(critical_kind + "[set]\nnumerics.inertial_scaling = 16\n\"gap.exchange_time\" = \"0.5 ms\"\n");
-  EXPECT_EQ(study.cases.at(0).scene.scene.numerics.inertial_scaling, 16.0);
-  EXPECT_EQ(study.cases.at(0).scene.scene.surface.exchange_time, 5e-4);
+  EXPECT_EQ(study.cases[0].scene.scene.numerics.inertial_scaling, 16.0);
+  EXPECT_EQ(study.cases[0].scene.scene.surface.exchange_time, 5e-4);
   EXPECT_EQ(study.overrides.size(), 2u);
 }
 
@@ -101,7 +101,7 @@ TEST(ReadStudy, OverridesAreOfOneMindInWhicheverOrderTheyAreWritten) {
   }
   const std::string shape = "load.shape = \"bell\"\n", width = "load.width = \"2.5 ms\"\n";
   for (const std::string& both : {shape + width, width + shape})
-    EXPECT_EQ(study_of(critical_kind + "[set]\n" + both).cases.at(0).scene.scene.load.width, 2.5e-3) << both;
+    EXPECT_EQ(study_of(critical_kind + "[set]\n" + both).cases[0].scene.scene.load.width, 2.5e-3) << both;
 }
 
 TEST(ReadStudy, FaultsNameFileLineKeyFoundAndAllowed) {

@@ -1,5 +1,6 @@
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/study/study_uncertainty.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/read_error.hpp"
 
@@ -92,7 +93,7 @@ TEST(ReadSweep, TakesKeysDottedQuotedOrAsTables) {
   }
   const StudyFile beside = study_of(sweep_text + "gap = \"0.01 cm\"\n\"gap.exchange_time\" = \"0.3 ms\"\n");
   EXPECT_EQ(beside.study.gaps, std::vector<double>{1e-4});
-  EXPECT_EQ(beside.cases.at(0).coordinates, std::vector<double>{3e-4});
+  EXPECT_EQ(beside.cases[0].coordinates, std::vector<double>{3e-4});
 }
 
 TEST(ReadSweep, WithoutAxesIsTheSceneAlone) {
@@ -114,15 +115,15 @@ TEST(ReadSweep, TakesTheKeysThatJudgeGaps) {
       "[[reference]]\ngap = \"0 cm\"\nmaximum_temperature = \"416 K\"\n");
   EXPECT_EQ(study.study.tolerance, 2e-6);
   EXPECT_EQ(study.study.largest_gap, 2e-3);
-  EXPECT_EQ(study.study.numerical_uncertainty, 1.5);
+  EXPECT_EQ(numerical_uncertainty_of(study).largest, 1.5);
   EXPECT_EQ(study.study.references.size(), 1u);
-  EXPECT_FALSE(study.cases.at(0).own_conditions);
-  EXPECT_TRUE(study.cases.at(1).own_conditions);
+  EXPECT_FALSE(study.cases[0].own_conditions);
+  EXPECT_TRUE(study.cases[1].own_conditions);
 }
 
 TEST(ReadSweep, OnlyAnotherLaunchIsNotTheReferences) {
   const auto own = [](const std::string& axis) {
-    return study_of(sweep_text + axis + "\n").cases.at(0).own_conditions;
+    return study_of(sweep_text + axis + "\n").cases[0].own_conditions;
   };
   EXPECT_TRUE(own("numerics.cell_size = \"5 mm\""));
   EXPECT_TRUE(own("friction.localisation = 500"));
@@ -150,21 +151,22 @@ TEST_F(SlidingSweep, FrictionMayVaryAndHasNoStatedUncertainty) {
   };
   EXPECT_EQ(friction_of_wall(study->cases[0]), 0.0);
   EXPECT_EQ(friction_of_wall(study->cases[1]), 0.3);
-  EXPECT_EQ(study->study.numerical_uncertainty, assumed_numerical_uncertainty);
+  EXPECT_EQ(numerical_uncertainty_of(*study).largest, assumed_numerical_uncertainty);
 }
 
 TEST(ReadSweep, NumericsOnAnAxisHaveNoStatedUncertainty) {
   const std::string start = "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n";
-  EXPECT_EQ(study_of(start + sweep_text + "peak_pressure = \"400 MPa\"\n").study.numerical_uncertainty, 1.0);
+  EXPECT_EQ(numerical_uncertainty_of(study_of(start + sweep_text + "peak_pressure = \"400 MPa\"\n")).largest,
+            1.0);
   const StudyFile other = study_of(start + sweep_text + "numerics.cell_size = \"2.5, 5 mm\"\n");
-  EXPECT_EQ(other.study.numerical_uncertainty, assumed_numerical_uncertainty);
-  EXPECT_TRUE(other.study.numerical_uncertainty_assumed);
+  EXPECT_EQ(numerical_uncertainty_of(other).largest, assumed_numerical_uncertainty);
+  EXPECT_TRUE(numerical_uncertainty_of(other).assumed);
   // An even grid with cells of 5 mm does not run along the charge; a lattice always does.
   const StudyFile off_grid = study_of(
       start + sweep_text + "numerics.cell_size = \"2.5, 5 mm\"\n" +
       "[set]\nnumerics.formulation = \"updated-lagrangian\"\nnumerics.growth_x = 1\nnumerics.growth_r = 1\n"
       "interface.nose.condition = \"bonded\"\ninterface.wall.condition = \"bonded\"\n");
-  EXPECT_EQ(off_grid.study.numerical_uncertainty, assumed_uncertainty_off_grid);
+  EXPECT_EQ(numerical_uncertainty_of(off_grid).largest, assumed_uncertainty_off_grid);
 }
 
 TEST(ReadSweep, ChangesThatNeedEachOtherAreOneScene) {
@@ -248,8 +250,8 @@ TEST(ReadSweep, TheAnalyticLoadDoesNotVaryUnderAMeasuredCurve) {
   expect_error_in(sweep_text + "load.steepness = 10\n" + curve, {4, "axes.load.steepness", "measured curve"});
   const StudyFile study =
       study_of(sweep_text + "peak_pressure = \"300 MPa\"\n" + curve + "load.rescale_to_peak = true\n");
-  EXPECT_EQ(study.cases.at(0).peak_pressure, 300e6);
-  EXPECT_TRUE(study_of(sweep_text + curve).cases.at(0).own_conditions);
+  EXPECT_EQ(study.cases[0].peak_pressure, 300e6);
+  EXPECT_TRUE(study_of(sweep_text + curve).cases[0].own_conditions);
 }
 
 TEST(ReadSweep, ThereIsAMostOfCases) {

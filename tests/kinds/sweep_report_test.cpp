@@ -147,9 +147,7 @@ TEST(SweepReport, TheAnswerCountsAndNames) {
   EXPECT_TRUE(in_order(text, {"5 cases", "crack bound 60"}));
   EXPECT_EQ(text.find("assumed"), std::string::npos);
   SweepResult assumed = made_sweep();
-  assumed.study.study.numerical_uncertainty = 60;
-  assumed.study.study.numerical_uncertainty_assumed = true;
-  assumed.study.uncertainty_source = "assumed, as the study states none";
+  assumed.study.cases.complete_with([](study::StudyCase& made) { made.numerical_uncertainty = 60; });
   EXPECT_NE(answer(assumed).find("60 K for mesh, step and scaling, assumed"), std::string::npos);
 }
 
@@ -267,7 +265,9 @@ TEST(SweepPictures, AGapThatDoesNotExceedItsUncertaintyIsNotSafe) {
 TEST(SweepPictures, WhereAShareIsAssumedTheLowerBoundIsHatchedAndTheRowSaysWhich) {
   SweepResult result = made_sweep();
   result.study.study.model_form_uncertainty = 1.0;
-  result.study.cases[15].numerical_uncertainty_assumed = true;
+  result.study.cases.complete_with([](study::StudyCase& made) {
+    if (made.label == "case 16") made.numerical_uncertainty_assumed = true;
+  });
   const auto maps = pictures(result).pictures;
   const HatchedCells& assumed = maps[1].plot.map->hatched.back();
   EXPECT_EQ(assumed.label, "computation or model form assumed");

@@ -343,7 +343,7 @@ TEST_F(StoredSweep, ForeseesWhatHasToRunAndWhy) {
   Counting counting;
   run(study, counting);
   const Forecast after = foresee_in_store(study);
-  for (const ForecastRun& each : after.runs) EXPECT_TRUE(each.stored && each.answered) << each.why;
+  for (const ForecastRun& each : after.runs) EXPECT_TRUE(each.stored) << each.why;
   EXPECT_EQ(after.time, 0.0);
   EXPECT_EQ(after.learned_from, 4u);
   // The synthetic runs say that they took 1 s each.

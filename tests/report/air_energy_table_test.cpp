@@ -109,11 +109,11 @@ TEST(SweepReport, SaysWhatTheSkinTookWhereItTookMost) {
 // The made sweep has 496 MPa and 30 um, the scene's own, with 0.0395 cm, and no 506 MPa.
 TEST(SweepReport, CitedLimitsStandBesideTheNearestPressure) {
   kinds::SweepResult result = made_sweep();
-  for (study::StudyCase& each : result.study.cases) {
-    each.peak_pressure = each.coordinates[0];
-    each.crack_radius = each.coordinates[1];
-    each.flaw_size = 1e-3;
-  }
+  result.study.cases.complete_with([](study::StudyCase& made) {
+    made.peak_pressure = made.coordinates[0];
+    made.crack_radius = made.coordinates[1];
+    made.flaw_size = 1e-3;
+  });
   result.study.study.cited_limits = {{0.38e-3, 500e6, "tests"}, {0.381e-3, 506e6, "a simulated pressure"}};
   const auto rows = to_json(cited_limit_table(result))["rows"];
   ASSERT_EQ(rows.size(), 2u);

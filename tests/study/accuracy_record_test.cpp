@@ -199,7 +199,7 @@ TEST_F(RecordedStudy, TakesTheUncertaintyOfItsOwnSetting) {
   const StudyFile own = read(record_key);
   EXPECT_NEAR(own.cases.front().numerical_uncertainty, own_bound, 1e-6);
   EXPECT_NEAR(own.cases.front().rise_of_uncertainty, recorded_rise, 1e-6);
-  EXPECT_FALSE(own.study.numerical_uncertainty_assumed);
+  EXPECT_FALSE(numerical_uncertainty_of(own).assumed);
   const StudyFile other = read(record_key + "[set]\nnumerics.inertial_scaling = 16\n");
   EXPECT_NEAR(other.cases.front().numerical_uncertainty, scaled_bound, 1e-6);
 }
@@ -207,7 +207,7 @@ TEST_F(RecordedStudy, TakesTheUncertaintyOfItsOwnSetting) {
 TEST_F(RecordedStudy, AssumesTheUsualForASettingThatIsNotRecorded) {
   const StudyFile study = read(record_key + "[set]\nnumerics.inertial_scaling = 4\n");
   EXPECT_EQ(study.cases.front().numerical_uncertainty, assumed_numerical_uncertainty);
-  EXPECT_TRUE(study.study.numerical_uncertainty_assumed);
+  EXPECT_TRUE(numerical_uncertainty_of(study).assumed);
 }
 
 /// All runs had a scaling of 16: their record said nothing of its 8 K.
@@ -215,8 +215,8 @@ TEST_F(RecordedStudy, AssumesTheUsualWhereTheReferenceHasTheSameError) {
   write(sharing(inexact[0]));
   const StudyFile study = read(record_key + "[set]\nnumerics.inertial_scaling = 16\n");
   EXPECT_EQ(study.cases.front().numerical_uncertainty, assumed_numerical_uncertainty);
-  EXPECT_NE(study.uncertainty_source.find("numerics.inertial_scaling = 16"), std::string::npos)
-      << study.uncertainty_source;
+  const std::string source = numerical_uncertainty_of(study).source;
+  EXPECT_NE(source.find("numerics.inertial_scaling = 16"), std::string::npos) << source;
   EXPECT_FALSE(parse(record_key, {100.0}));
 }
 
@@ -252,7 +252,7 @@ TEST_F(RecordedStudy, CarriesABoundToOtherLaunchesOnlySoFar) {
     ASSERT_FALSE(study.cases.empty());
     const StudyCase& first = study.cases.front();
     EXPECT_NEAR(first.numerical_uncertainty, launch.uncertainty, 1e-3) << launch.keys;
-    EXPECT_EQ(study.study.numerical_uncertainty_assumed, launch.uncertainty == assumed) << launch.keys;
+    EXPECT_EQ(numerical_uncertainty_of(study).assumed, launch.uncertainty == assumed) << launch.keys;
     // From the recorded rise on the bound would grow in proportion, whatever it is now.
     EXPECT_NEAR(first.numerical_uncertainty / first.rise_of_uncertainty, own / recorded_rise, 1e-6)
         << launch.keys;
@@ -278,7 +278,7 @@ TEST_F(RecordedStudy, AGrownBoundBeyondTheRangeIsNotReplacedByASmallerAssumption
   ASSERT_GT(bound, assumed_numerical_uncertainty);
   const StudyFile study = read(record_key + "peak_pressures = \"992 MPa\"\n");
   EXPECT_NEAR(study.cases.front().numerical_uncertainty, 4.0 * bound, 1e-3);
-  EXPECT_TRUE(study.study.numerical_uncertainty_assumed);
+  EXPECT_TRUE(numerical_uncertainty_of(study).assumed);
 }
 
 TEST_F(RecordedStudy, AToleranceReplacesTheSettingAndSaysWhich) {

@@ -86,7 +86,8 @@ TEST(CalibrationRecord, KeepsTheCovarianceOfALoadThatWasFitted) {
 TEST(CalibrationRecord, NoConstantsAreFittedToARunWithAValidityWarning) {
   StudyFile study = study_of(fitted_load);
   study.scene.scene.numerics.inertial_scaling = 1e6;  // matters: run::validity_warnings says so
-  for (StudyCase& each : study.cases) each.scene.scene.numerics.inertial_scaling = 1e6;
+  for (std::size_t i = 0; i < study.cases.size(); ++i)
+    change_case(study, i, [](StudyCase& each) { each.scene.scene.numerics.inertial_scaling = 1e6; });
   const auto record = record_of(run_calibration(study, squared_pressure_options()));
   ASSERT_TRUE(record);
   EXPECT_NE(record->failure.find("validity warning"), std::string::npos) << record->failure;

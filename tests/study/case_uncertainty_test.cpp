@@ -54,6 +54,14 @@ StudyOptions quadratic_options() {
   return options;
 }
 
+/// Accepts what the first case has to have accepted.
+void accept_all(StudyFile& study) {
+  change_case(study, 0, [&](StudyCase& input) {
+    for (const auto& each : to_be_accepted(study.study, input))
+      input.scene.scene.accepted.push_back({each.key, each.value, "our own firing trials agree"});
+  });
+}
+
 const std::string no_confirmation = "confirm = false\ngaps = \"0, 0.02 cm\"\n";
 const std::string stated =
     "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\nfit_uncertainty = { value = \"2 "
@@ -211,7 +219,11 @@ TEST(CaseUncertainty, AnotherLoadShapeCountsWhatAnotherFamilyOfLoadsMissed) {
 /// What its noise heats is told in kelvin; averaging over a window takes the noise out, and is named.
 TEST(CaseUncertainty, ARoughCurveIsToldInKelvinAndItsSmoothingByName) {
   StudyFile study = study_of(critical_kind + no_confirmation + stated);
-  scene::Load& load = study.cases.at(0).scene.scene.load;
+  scene::Load load = study.cases[0].scene.scene.load;
+  const auto under_load = [&] {
+    change_case(study, 0, [&](StudyCase& input) { input.scene.scene.load = load; });
+    return run_critical_gap(study, quadratic_options()).cases.at(0).verdicts.at(0);
+  };
   scene::Load clean;
   clean.steepness = 2.0;             // a round peak, from which an average takes little
   for (int i = 0; i <= 1000; ++i) {  // until the load is over
@@ -220,12 +232,12 @@ TEST(CaseUncertainty, ARoughCurveIsToldInKelvinAndItsSmoothingByName) {
     load.curve_pressure.push_back(scene::PressureHistory(clean).at(time) *
                                   (1.0 + 0.004 * ((i * 7919) % 13 - 6) / 6.0));
   }
-  const GapVerdict rough = run_critical_gap(study, quadratic_options()).cases.at(0).verdicts.at(0);
+  const GapVerdict rough = under_load();
   EXPECT_GT(rough.uncertainty.load_curve, 5.0);
   EXPECT_NE(rough.judgement.reason.find("of the measured curve count"), std::string::npos)
       << rough.judgement.reason;
   load.smoothing = 0.5e-3;
-  const GapVerdict smooth = run_critical_gap(study, quadratic_options()).cases.at(0).verdicts.at(0);
+  const GapVerdict smooth = under_load();
   EXPECT_LT(smooth.uncertainty.load_curve, 0.5 * rough.uncertainty.load_curve);
   EXPECT_NE(smooth.judgement.reason.find("load smoothed over 0.5 ms"), std::string::npos)
       << smooth.judgement.reason;
@@ -241,9 +253,7 @@ TEST(CaseUncertainty, AnotherShellIsIndeterminateUnlessItsSceneSaysWhyNot) {
       StudyFile study = study_of(critical_kind + no_confirmation + stated + "[set]\n" + change);
       ASSERT_EQ(study.cases.size(), 1u);
       if (accepted) {
-        for (const auto& each : to_be_accepted(study.study, study.cases[0]))
-          study.cases[0].scene.scene.accepted.push_back(
-              {each.key, each.value, "our own firing trials agree"});
+        accept_all(study);
       }
       const CriticalGapResult result = run_critical_gap(study, quadratic_options());
       const GapVerdict& row = result.cases.at(0).verdicts.at(0);
@@ -261,8 +271,7 @@ TEST(CaseUncertainty, WhatOnlyAveragesOrRemovesHeatIsNeverSafe) {
                                    "gap.skin_thickness = \"0.31 mm\"\n", "friction.closure = \"none\"\n",
                                    "friction.localisation = 600\n", "gap.exchange_time = \"0.6 ms\"\n"}) {
     StudyFile study = study_of(critical_kind + no_confirmation + stated + "[set]\n" + change);
-    for (const auto& each : to_be_accepted(study.study, study.cases[0]))
-      study.cases[0].scene.scene.accepted.push_back({each.key, each.value, "our own firing trials agree"});
+    accept_all(study);
     const CriticalGapResult result = run_critical_gap(study, quadratic_options());
     const Judgement& judgement = result.cases.at(0).verdicts.at(0).judgement;
     EXPECT_EQ(judgement.verdict, Verdict::indeterminate) << change << judgement.reason;
@@ -274,8 +283,7 @@ TEST(CaseUncertainty, WhatOnlyAveragesOrRemovesHeatIsNeverSafe) {
 TEST(CaseUncertainty, ColderConstantsOfTheSurfaceMakeNothingSafeThatTheCalibratedOnesDoNot) {
   const auto rows_with = [](const std::string& change) {
     StudyFile study = study_of(critical_kind + no_confirmation + stated + "[set]\n" + change);
-    for (const auto& each : to_be_accepted(study.study, study.cases[0]))
-      study.cases[0].scene.scene.accepted.push_back({each.key, each.value, "our own firing trials agree"});
+    accept_all(study);
     return run_critical_gap(study, quadratic_options()).cases.at(0).verdicts;
   };
   const std::vector<GapVerdict> own = rows_with("");

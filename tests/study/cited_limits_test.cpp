@@ -102,7 +102,8 @@ TEST(CitedLimits, ABoundHasNoDifference) {
 /// of which nothing is known.
 TEST(CitedLimits, ABoundBelowEveryNumberStandsBesideTheLimit) {
   StudyFile study = four_cases();
-  for (StudyCase& each : study.cases) each.crack_radius *= 2.0;  // none has the scene's own defect
+  for (std::size_t i = 0; i < study.cases.size(); ++i)  // none has the scene's own defect
+    change_case(study, i, [](StudyCase& each) { each.crack_radius *= 2.0; });
   const CriticalGap known = value(3.8e-4);
   CriticalGap ignites, unknown;
   ignites.kind = CriticalGapKind::all_ignite;

@@ -31,8 +31,8 @@ std::map<std::string, RunOutcome> outcomes_of(const StudyFile& study, const Stud
   run_cases(cases, options, tracker, timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
     const std::lock_guard lock(mutex);
     for (std::size_t j = 0; j < runs.size(); ++j) {
-      const bool is_new = outcomes.emplace(cases[i].runs[j].label, runs[j].outcome).second;
-      EXPECT_TRUE(is_new) << "judged twice: " << cases[i].runs[j].label;
+      const bool is_new = outcomes.emplace(cases[i].runs[j].make().label, runs[j].outcome).second;
+      EXPECT_TRUE(is_new) << "judged twice: " << cases[i].runs[j].make().label;
     }
   });
   return outcomes;
@@ -56,17 +56,19 @@ TEST(RunCases, RunsUnderARaisedLoadBelongToTheirCase) {
   ASSERT_EQ(cases.size(), 2u);
   for (const CaseRuns& each : cases) {
     ASSERT_EQ(each.runs.size(), 2u);
-    EXPECT_NE(each.runs[0].hash, each.runs[1].hash);
-    EXPECT_NEAR(each.runs[1].scene.load.peak, 1.04 * each.runs[0].scene.load.peak, 1.0);
+    const CaseRun own = each.runs[0].make(), raised = each.runs[1].make();
+    EXPECT_NE(own.hash, raised.hash);
+    EXPECT_NEAR(raised.scene.load.peak, 1.04 * own.scene.load.peak, 1.0);
   }
 }
 
 TEST(RunCases, ALaunchIsAlsoRunForLonger) {
-  const std::vector<CaseRuns> cases = case_runs(study_of(two_cases), 1);
+  const StudyFile study = study_of(two_cases);
+  const std::vector<CaseRuns> cases = case_runs(study, 1);
   ASSERT_EQ(cases.size(), 2u);
   for (const CaseRuns& each : cases) {
     ASSERT_EQ(each.runs.size(), 2u);
-    const scene::Load &own = each.runs[0].scene.load, &barrel = each.runs[1].scene.load;
+    const scene::Load own = each.runs[0].make().scene.load, barrel = each.runs[1].make().scene.load;
     EXPECT_EQ(own.muzzle_exit, 18e-3);
     EXPECT_FALSE(barrel.muzzle_exit);
     EXPECT_EQ(barrel.peak, own.peak);
@@ -75,9 +77,9 @@ TEST(RunCases, ALaunchIsAlsoRunForLonger) {
   const StudyFile partial = study_of(two_cases + "[set]\nload.duration = \"18 ms\"\n");
   for (const CaseRuns& each : case_runs(partial, 1)) {
     ASSERT_EQ(each.runs.size(), 2u);
-    EXPECT_FALSE(each.runs[1].scene.load.duration)
-        << "a launch that is cut short is also run until it is over";
-    EXPECT_EQ(each.runs[1].scene.load.muzzle_exit, 18e-3);
+    const scene::Load longer = each.runs[1].make().scene.load;
+    EXPECT_FALSE(longer.duration) << "a launch that is cut short is also run until it is over";
+    EXPECT_EQ(longer.muzzle_exit, 18e-3);
   }
 }
 
@@ -116,7 +118,8 @@ TEST(RunCases, AStudyThatIsStoppedLeavesItsRunsInterrupted) {
 
 /// What judging throws, with or without a word, is the failure of its case, told to the judge itself.
 TEST(RunCases, AJudgeThatThrowsIsCalledOnceMoreWithTheReason) {
-  const std::vector<CaseRuns> cases = case_runs(plain_study(two_cases), 1);
+  const StudyFile study = plain_study(two_cases);
+  const std::vector<CaseRuns> cases = case_runs(study, 1);
   for (const std::string why : {"not a number", ""}) {
     std::atomic<int> thrown{0}, failed{0};
     ProgressTracker tracker({});

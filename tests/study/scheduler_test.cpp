@@ -12,6 +12,12 @@
 
 namespace {
 
+std::vector<WaitingTask> waiting(const std::vector<Task>& tasks) {
+  std::vector<WaitingTask> all;
+  for (const Task& task : tasks) all.push_back({task.cost, [&task] { return task; }});
+  return all;
+}
+
 using namespace launchsafe::study;
 
 Task task_of(double cost, std::function<void()> work) {
@@ -24,7 +30,7 @@ TEST(Scheduler, StartsTheMostCostlyFirst) {
   for (const int cost : {2, 5, 1, 4, 3})
     tasks.push_back(task_of(cost, [&order, cost] { order.push_back(cost); }));
   ProgressTracker tracker({});
-  run_tasks(tasks, {1}, tracker);
+  run_tasks(waiting(tasks), {1}, tracker);
   EXPECT_EQ(order, (std::vector<int>{5, 4, 3, 2, 1}));
 }
 
@@ -39,7 +45,7 @@ TEST(Scheduler, AFailureIsThatTasksAlone) {
     }));
   }
   ProgressTracker tracker({});
-  const auto outcomes = run_tasks(tasks, {2}, tracker);
+  const auto outcomes = run_tasks(waiting(tasks), {2}, tracker);
   EXPECT_EQ(done, 6);
   EXPECT_EQ(outcomes[3].failure, "broken");
   EXPECT_EQ(outcomes[5].failure, "an unknown exception");
@@ -61,7 +67,7 @@ TEST(Scheduler, NeverRunsMoreThanTheJobsAskedFor) {
       }));
     }
     ProgressTracker tracker({});
-    run_tasks(tasks, {jobs}, tracker);
+    run_tasks(waiting(tasks), {jobs}, tracker);
     EXPECT_LE(most, jobs);
   }
 }
@@ -71,7 +77,7 @@ TEST(Scheduler, StartsNothingAfterTheStopFlag) {
   std::vector<Task> tasks;
   for (int i = 0; i < 4; ++i) tasks.push_back(task_of(4 - i, [&stop, i] { stop = i == 1; }));
   ProgressTracker tracker({});
-  const auto outcomes = run_tasks(tasks, {1}, tracker, &stop);
+  const auto outcomes = run_tasks(waiting(tasks), {1}, tracker, &stop);
   EXPECT_TRUE(outcomes[0].started);
   EXPECT_TRUE(outcomes[1].started);
   EXPECT_FALSE(outcomes[2].started);
@@ -89,7 +95,7 @@ TEST(Scheduler, ReportsProgressThatEndsAtOne) {
                      }});
     tracker.expect(1, tasks.back().cost);
   }
-  run_tasks(tasks, {1}, tracker);
+  run_tasks(waiting(tasks), {1}, tracker);
   ASSERT_FALSE(reports.empty());
   EXPECT_TRUE(std::is_sorted(reports.begin() + 3, reports.end(),
                              [](const Progress& a, const Progress& b) { return a.fraction < b.fraction; }));
@@ -110,7 +116,7 @@ TEST(Scheduler, ARefusedTaskFailsWithItsReasonAndTheOthersRun) {
   std::vector<Task> tasks{task_of(1, [&] { ++done; }), task_of(1, [&] { ++done; })};
   tasks[0].refusal = "it would take 90 days";
   ProgressTracker tracker({});
-  const auto outcomes = run_tasks(tasks, {1}, tracker);
+  const auto outcomes = run_tasks(waiting(tasks), {1}, tracker);
   EXPECT_EQ(done, 1);
   EXPECT_TRUE(outcomes[0].refused);
   EXPECT_FALSE(outcomes[0].started);
@@ -145,7 +151,7 @@ TEST(Scheduler, NeverTakesMoreThanTheMemoryLimit) {
   use.awaited = 5.0;  // several at a time all the same
   for (int i = 0; i < 20; ++i) use.add(1 + i % 3, 1.0 + i % 4);
   ProgressTracker tracker({});
-  const auto outcomes = run_tasks(use.tasks, {4, 5.0}, tracker);
+  const auto outcomes = run_tasks(waiting(use.tasks), {4, 5.0}, tracker);
   for (const TaskOutcome& outcome : outcomes) EXPECT_TRUE(outcome.started && outcome.failure.empty());
   EXPECT_EQ(use.most, 5.0);
 }
@@ -155,7 +161,7 @@ TEST(Scheduler, RefusesATaskThatIsTooLargeEvenAlone) {
   use.add(2, 9e9);
   use.add(1, 1e9);
   ProgressTracker tracker({});
-  const auto outcomes = run_tasks(use.tasks, {2, 5e9}, tracker);
+  const auto outcomes = run_tasks(waiting(use.tasks), {2, 5e9}, tracker);
   EXPECT_TRUE(launchsafe::testing::in_order(outcomes[0].failure, {"9 GB", "5 GB"}));
   EXPECT_TRUE(outcomes[1].failure.empty());
   EXPECT_EQ(use.most, 1e9);

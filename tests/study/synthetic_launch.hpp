@@ -28,6 +28,14 @@ inline StudyFile study_of(const std::string& text) {
   return study ? *study : StudyFile{};
 }
 
+/// The study with a case otherwise.
+template <class Change>
+void change_case(StudyFile& study, std::size_t index, Change change) {
+  StudyCase changed = study.cases[index];
+  change(changed);
+  study.cases.replace(index, std::move(changed));
+}
+
 /// What studies of the synthetic launch state, so that its computation alone decides.
 inline const std::string synthetic_statements =
     "fit_uncertainty = { value = \"1 K\", because = \"for a test\" }\ninput_uncertainty = { value = \"1 K\", "

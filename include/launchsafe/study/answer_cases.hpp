@@ -11,9 +11,6 @@
 
 namespace launchsafe::study {
 
-/// The key of the stored answer of every case: all that determines it. `runs`: those of the study.
-std::vector<std::string> answer_keys(const StudyFile& study, const std::vector<CaseRuns>& runs);
-
 /// An answer for every case; one that was not run, failed or belongs to another shard says so.
 std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing);
 

@@ -23,14 +23,17 @@ struct ForecastRun {
   double time = 0;    ///< s on a core, predicted; 0 for one that does not run
   int shard = 1;
   bool stored = false;    ///< its result is there
-  bool answered = false;  ///< and so are the answers of all its cases
   bool given_up = false;  ///< it was timed out, or failed and may not be computed: that is its row
   bool refused = false;   ///< given up because it is out of reach (run::out_of_reach)
   std::string why;        ///< why it is used again or has to run
 };
 
 struct Forecast {
-  std::vector<ForecastRun> runs;  ///< those of the shard asked for
+  std::size_t cases = 0;          ///< of the shard asked for
+  std::size_t run_count = 0;      ///< mechanical runs of these
+  std::vector<ForecastRun> runs;  ///< of them; of many some, evenly spread, from which all else is estimated
+  /// Of all runs, what is the case for so many of `runs`.
+  std::size_t of_all(std::size_t runs_like_that) const;
   std::size_t confirmations = 0;  ///< coupled runs that may follow, at most
   double update_rate = 0;         ///< particle updates per second on a core that the prediction rests on
   std::size_t learned_from = 0;   ///< runs in the journal that the rate was learned from; 0: measured now
@@ -45,6 +48,8 @@ struct Forecast {
 std::optional<scene::InputError> all_out_of_reach(const StudyFile& study, const run::Reach& reach);
 
 /// `update_rate` (particle updates per second on a core) is used where the journal knows no better.
-Forecast forecast_study(const StudyFile& study, const StudyOptions& options, double update_rate);
+/// `most_cases`: of so many the runs are planned.
+Forecast forecast_study(const StudyFile& study, const StudyOptions& options, double update_rate,
+                        std::size_t most_cases = 1000);
 
 }  // namespace launchsafe::study

@@ -34,12 +34,20 @@ double continued_cost(const CaseRun& run);
 /// What determines the result of a run: model version, kind of run, and scene.
 store::CaseIdentity identity_of(const CaseRun& run);
 
+/// A run of a study that waits: it is made when it is its turn.
+struct PlannedRun {
+  std::function<CaseRun()> make;
+  double cost = 1;  ///< predicted particle updates, > 0: of the run, or of one like it
+};
+/// Of a run that is there already.
+PlannedRun planned_run(CaseRun run);
+
 /// Runs that are judged together, and the cases of the study that are judged on them.
 struct CaseRuns {
   std::vector<std::size_t> members;  ///< of StudyFile::cases; those that differ in thermal keys alone share
   /// The mechanics; then, where the study asks for it, under a raised load, or through the ignition of gaps;
   /// at last, where `KindTraits::runs_longer_launches` says so, the longer launch if there is one.
-  std::vector<CaseRun> runs;
+  std::vector<PlannedRun> runs;
   int shard = 1;
 };
 
@@ -47,14 +55,17 @@ struct CaseRuns {
 std::optional<scene::Scene> with_longer_launch(const scene::Scene& scene);
 
 /// The runs that a study needs before it seeks critical gaps, in the order of their first cases, divided over
-/// so many shards.
-std::vector<CaseRuns> case_runs(const StudyFile& study, int shards);
+/// so many shards. The study has to outlive them. What a run costs is predicted of a few hundred, evenly
+/// spread, and taken for those that follow each. `checkpoints`: of the mechanics of every case.
+std::vector<CaseRuns> case_runs(const StudyFile& study, int shards, bool checkpoints = false);
+std::vector<CaseRuns> case_runs(StudyFile&& study, int shards, bool checkpoints = false) = delete;
 
 /// What became of one run.
 struct FinishedRun {
   RunOutcome outcome = RunOutcome::failed;
   std::string failure;     ///< why it is no basis for a verdict; empty for a completed run
   run::CaseResult result;  ///< no gaps for the mechanics alone; empty unless the run began or was stored
+  std::string hash;        ///< of its identity, likewise
   /// Whether there is a result, if perhaps of a run that broke off or ended by itself before its time.
   bool has_result() const;
 };

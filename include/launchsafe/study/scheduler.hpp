@@ -62,6 +62,12 @@ struct Task {
   std::string refusal = {};  ///< why it must not be begun: that is its failure; empty for one that may
 };
 
+/// A task that waits, which is made when it is its turn to be begun: there may be a million.
+struct WaitingTask {
+  double cost = 1;             ///< about that of the task
+  std::function<Task()> make;  ///< quick; what it throws is the reason why the task is refused
+};
+
 /// What became of one task.
 struct TaskOutcome {
   bool started = false;  ///< false when the stop flag came first, or when it was refused
@@ -75,11 +81,11 @@ struct Resources {
   double memory_limit = 0;  ///< bytes of all running tasks together; <= 0: nine tenths of available_memory()
 };
 
-/// Runs all tasks, the most costly first. A task that would not fit into the memory limit beside those that
-/// run waits, and less costly ones that fit go first; one that is too large even alone fails. Never throws
-/// for a task's exception. Where there are fewer tasks left than jobs, they share the jobs' threads. Once
-/// `stop` is set no further task starts. Outcomes are in the order of the tasks.
-std::vector<TaskOutcome> run_tasks(const std::vector<Task>& tasks, const Resources& resources,
+/// Runs all tasks, those first that wait with the largest cost. A task that would not fit into the memory
+/// limit beside those that run waits, and less costly ones that fit go first; one that is too large even
+/// alone fails. Never throws for a task's exception. Where there are fewer tasks left than jobs, they share
+/// the jobs' threads. Once `stop` is set no further task starts. Outcomes are in the order of the tasks.
+std::vector<TaskOutcome> run_tasks(const std::vector<WaitingTask>& tasks, const Resources& resources,
                                    ProgressTracker& tracker, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace launchsafe::study

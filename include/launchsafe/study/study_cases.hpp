@@ -4,6 +4,8 @@
 #include "launchsafe/study/changed_scene.hpp"
 #include "launchsafe/study/study_faults.hpp"
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,32 +14,23 @@ namespace launchsafe::study {
 /// A case of a valid scene, of another launch than the study's until somebody says so.
 StudyCase case_of(std::string label, scene::SceneFile scene);
 
-/// The same scene without the places of its geometry: there may be many cases, and nothing can be wrong with
-/// a geometry that no case changes.
-scene::SceneFile without_places(scene::SceneFile scene);
+/// What to call a case by its place among those that are added.
+using LabelOf = std::function<std::string(std::size_t index, const StudyCase& made)>;
+/// The values of the axes (SI) of a case by its place.
+using CoordinatesOf = std::function<std::vector<double>(std::size_t index)>;
 
-/// Puts cases into StudyFile::cases that differ in the keys of Study::axes.
-class CaseMaker {
- public:
-  explicit CaseMaker(StudyFile& study);
-  void add(std::string label, std::vector<double> coordinates, scene::SceneFile scene);
+/// Adds so many cases that have Study::axes otherwise than the study's scene. Every one is made once, to be
+/// checked: the fault is that of the first that cannot be. Both functions are called from several threads.
+Fault add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf& coordinates_of,
+                       const LabelOf& label_of);
 
- private:
-  bool is_own(const StudyCase& made) const;
-
-  StudyFile& study_;
-  double own_peak_;              ///< Pa
-  std::vector<double> own_;      ///< of the axes in the study's scene, SI
-  std::vector<bool> condition_;  ///< of the axes: another value is another launch
-};
-
-/// What to call a case of a factorial; `changes` is "peak_pressure 496 MPa, crack_radius 30 um".
-using LabelOf = std::string (*)(const StudyCase& made, const std::string& changes);
 /// "496 MPa, 30 um, 1 mm": peak pressure, crack radius, flaw size.
-std::string launch_label(const StudyCase& made, const std::string& changes);
+std::string launch_label(const StudyCase& made);
+/// "peak_pressure 496 MPa, crack_radius 30 um"; as `launch_label` for a study without axes.
+std::string axes_label(const Study& study, const StudyCase& made);
 
 /// The full factorial of Study::axes, the last one fastest.
-Fault make_factorial(StudyFile& study, LabelOf label);
+Fault make_factorial(StudyFile& study, const std::function<std::string(const StudyCase& made)>& label_of);
 
 /// A fault at `key` where a study would have more cases than it may; `what` says how they come about.
 Fault check_count(const StudyFile& study, const std::string& key, double count, const std::string& what);

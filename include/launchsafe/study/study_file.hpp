@@ -6,6 +6,7 @@
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/calibration_domain.hpp"
+#include "launchsafe/study/cases.hpp"
 #include "launchsafe/study/model_form.hpp"
 
 #include <any>
@@ -18,8 +19,6 @@
 #include <vector>
 
 namespace launchsafe::study {
-
-inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// What the engine has to know of a kind of study.
 struct KindTraits {
@@ -43,6 +42,7 @@ struct Axis {
   scene::KeyDescription key;   ///< of the scene key
   std::vector<double> values;  ///< SI, in the order written; none where there is a distribution
   std::optional<math::Distribution> distribution = {};  ///< SI, of a value that is not known exactly
+  std::string values_key = {};  ///< what in the study file bounds its values; empty: `study_key`
 };
 
 /// What a published number was used for: nothing; it was seen when a form of the model was picked; numbers
@@ -108,10 +108,7 @@ struct Study {
   std::vector<Axis> axes;     ///< of a full factorial the last is the fastest; none for other kinds
   double tolerance = 1e-6;    ///< m, largest width of the bracket of the critical gap
   double largest_gap = 1e-3;  ///< m, where the search for the critical gap ends
-  /// K, of the maximum temperature, from a mesh study. `assumed_numerical_uncertainty` where the file states
-  /// none, or states one that does not apply; of several cases with settings of their own the largest.
-  double numerical_uncertainty = not_a_number;
-  bool numerical_uncertainty_assumed = false;
+  double numerical_uncertainty = not_a_number;  ///< K, of T max, from a mesh study; NaN: not stated
 
   // kinds that may use the record of a calibration
   std::string calibration_record;                   ///< path from the study file's folder; empty: none
@@ -155,9 +152,6 @@ Settings& settings_of(Study& study) {
   return *settings;
 }
 
-/// K. By so much was T max of the 155 mm shell seen to move between meshes of 1 to 10 mm with one set of
-/// constants.
-inline constexpr double assumed_numerical_uncertainty = 60.0;
 /// K, on a grid that does not run along the charge, or with other than one particle a cell: the largest bound
 /// that the record of the 155 mm shell has for such numerics is 99 K.
 inline constexpr double assumed_uncertainty_off_grid = 100.0;
@@ -171,26 +165,6 @@ inline constexpr double assumed_other_load_shape = 12.81;
 /// of the 155 mm shell, 0.0173 cm at 550 MPa, some 45 K (reports/model_form).
 inline constexpr double assumed_model_form = 50.0;
 
-/// One mechanical run of a study: a complete, valid scene.
-struct StudyCase {
-  std::string label;           ///< "496 MPa, 30 um, 1 mm", or "2.5 mm" for the mesh of a calibration
-  double peak_pressure = 0;    ///< Pa
-  double crack_radius = 0;     ///< m
-  double flaw_size = 0;        ///< m
-  double cell_size = 0;        ///< m
-  bool own_conditions = true;  ///< the load and defect of the study's scene, which the references belong to
-  std::vector<double> coordinates;                               ///< SI, of Study::axes
-  double numerical_uncertainty = assumed_numerical_uncertainty;  ///< K, of T max with these numerics
-  bool numerical_uncertainty_assumed = false;  ///< neither stated for these numerics nor of a record
-  /// K; the rise of T max above the initial temperature for which that was found; NaN where it holds for any.
-  /// Hotter skins have proportionally larger errors.
-  double rise_of_uncertainty = not_a_number;
-  /// m, up to which that holds; beyond, it is the assumed one at the least.
-  double covered_gap = std::numeric_limits<double>::infinity();
-  double pressure_ratio = 1.0;  ///< peak pressure over that of the study's scene
-  scene::SceneFile scene;
-};
-
 /// Largest number of cases of a study.
 inline constexpr std::size_t largest_case_count = 1'000'000;
 
@@ -201,11 +175,10 @@ struct StudyFile {
   std::map<std::string, scene::Place> places;    ///< of every key the user gave
   std::map<std::string, std::string> overrides;  ///< [set]: scene key, value as people read it
   scene::SceneFile scene;                        ///< with the overrides
-  std::string uncertainty_source;                ///< where the numerical uncertainty comes from, a clause
   /// SHA-256 of every file that the study rests on besides its scene: another one is another study.
   std::vector<std::string> records;
-  std::string chosen_setting;    ///< what a tolerance picked from an accuracy record, for people; else empty
-  std::vector<StudyCase> cases;  ///< in the order that the kind says
+  std::string chosen_setting;  ///< what a tolerance picked from an accuracy record, for people; else empty
+  Cases cases;                 ///< in the order that the kind says
   std::size_t most_cases = largest_case_count;  ///< a study with more is refused
   std::size_t confirmations_per_case = 0;       ///< coupled runs that may follow once its gaps are judged
 };
