@@ -16,7 +16,7 @@ struct StudyRequest {
   /// K; the cheapest setting of the study's accuracy record whose T max is known to that replaces the
   /// scene's.
   std::optional<double> tolerance;
-  std::size_t most_cases = study::largest_case_count;  ///< more are refused; each takes some 10 kB
+  std::size_t most_cases = study::largest_case_count;  ///< more are refused
 };
 
 /// Reads and validates a study file and its scene. Nothing is computed. Never throws.
