@@ -149,12 +149,8 @@ std::vector<bool> inert_gaps(const VariantAccuracy& variant) {
 
 /// Whether a case differs from the study's scene in more than a setting.
 bool is_other_model(const scene::Scene& scene, const scene::Scene& own) {
-  scene::Scene same = scene, all = own;
-  for (scene::Scene* each : {&same, &all}) scene::clear_remarks(*each);
-  for (const auto& key : scene::scene_keys()) {
-    if (belongs_to_setting(key.name)) key.set(same, key.get(own));
-  }
-  return scene::to_toml(same) != scene::to_toml(all);
+  return std::ranges::any_of(differences(scene, own),
+                             [](const Difference& each) { return !belongs_to_setting(each.key); });
 }
 
 /// Which row is what.
@@ -192,9 +188,10 @@ AccuracyRecord record_of(const VariantAccuracy& variant) {
   AccuracyRecord record;
   record.title = variant.study.study.title;
   record.model_version = run::model_version;
-  record.shell = shell_of(scene);
-  record.initial_temperature = scene.initial_temperature;
-  record.launch = launch_of(scene, variant.study.study.gaps);
+  record.scene = scene;
+  scene::clear_remarks(record.scene);
+  record.scene.accepted.clear();
+  record.scene.surface.gaps = variant.study.study.gaps;
   for (const AccuracyRow& row : variant.rows) {
     const RecordedSetting& setting = row.setting;
     // 0.25 cm is not always 2.5 mm to the last digit.

@@ -1,9 +1,8 @@
 #include "launchsafe/study/accuracy_record.hpp"
 
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/changed_scene.hpp"
+#include "launchsafe/study/record_domain.hpp"
 
 #include <fmt/format.h>
 
@@ -55,7 +54,7 @@ std::vector<InexactKey> inexact_keys(const AccuracyRecord& record) {
   std::vector<InexactKey> inexact;
   if (record.settings.empty()) return inexact;
   for (const auto& [key, own] : record.settings.front().setting) {
-    const Exactness exactness = exactness_of(key);
+    const keys::Exactness exactness = scene::role_of(key).exactness;
     if (exactness.vanishes) continue;
     if (exactness.value && same_value(own, *exactness.value)) continue;
     inexact.push_back(inexact_key(record, key, own, exactness.value));
@@ -96,22 +95,21 @@ double rise_of(const AccuracyRecord& record) {
   for (const RecordedSetting& each : record.settings) {
     if (!each.reference || each.temperature.empty()) continue;
     const double hottest = *std::max_element(each.temperature.begin(), each.temperature.end());
-    rise = std::min(rise, hottest - record.initial_temperature);
+    rise = std::min(rise, hottest - record.scene.initial_temperature);
   }
   return std::isfinite(rise) ? rise : 0.0;
 }
 
 }  // namespace
 
-bool belongs_to_setting(const std::string& key) {
-  if (key == "numerics.energy_drift_limit") return false;  // it judges and computes nothing
-  return key.starts_with("numerics.") || key == "frame" || key == "output.trace_interval";
+bool belongs_to_setting(const scene::KeyDescription& key) {
+  return key.role().part == keys::Part::setting || key.role().part == keys::Part::minor_setting;
 }
 
 Setting setting_of(const scene::Scene& scene) {
   Setting setting;
   for (const auto& key : scene::scene_keys()) {
-    if (belongs_to_setting(key.name)) setting[key.name] = key.get(scene);
+    if (belongs_to_setting(key)) setting[key.name] = key.get(scene);
   }
   return setting;
 }
@@ -122,63 +120,10 @@ bool same_setting(const Setting& a, const Setting& b) {
          });
 }
 
-std::string shell_of(const scene::Scene& scene) {
-  scene::Scene shell = scene;
-  const scene::Scene usual;
-  scene::clear_remarks(shell);
-  shell.accepted.clear();
-  shell.interfaces = scene::sliding_interfaces(scene);
-  shell.frame = usual.frame;
-  shell.load = usual.load;
-  shell.numerics = usual.numerics;
-  shell.physics = usual.physics;
-  shell.surface = usual.surface;
-  shell.surface.friction = scene.surface.friction;
-  shell.surface.air_pressure = scene.surface.air_pressure;
-  shell.surface.air_model = scene.surface.air_model;
-  shell.surface.exchange = scene.surface.exchange;
-  shell.surface.station_width = scene.surface.station_width;
-  shell.surface.station_depth = scene.surface.station_depth;
-  shell.output.trace_interval = usual.output.trace_interval;
-  shell.output.snapshot_times.clear();
-  shell.charge().kinetics = usual.charge().kinetics;
-  shell.charge().strength.initial_crack_radius = usual.charge().strength.initial_crack_radius;
-  shell.charge().strength.flaw_size = usual.charge().strength.flaw_size;
-  return store::sha256(scene::to_toml(shell));
-}
-
-Exactness exactness_of(const std::string& key) {
-  static const std::map<std::string, Exactness> known{
-      // What these stand for shrinks with the cells: the cells, the particles, which are a share of one, the
-      // time step, a share of the time that sound takes through one, and the stiffness against hourglassing,
-      // which acts on what smooth fields lose as the square of the cell. Both formulations have one limit.
-      {"numerics.cell_size", {true, {}}},
-      {"numerics.particles_per_cell", {true, {}}},
-      {"numerics.time_step_factor", {true, {}}},
-      {"numerics.hourglass_stiffness", {true, {}}},
-      {"numerics.formulation", {true, {}}},
-      // Where cells do not grow, at growth_x and growth_r 1, these say nothing.
-      {"numerics.largest_cell", {true, {}}},
-      {"numerics.refined_x", {true, {}}},
-      {"numerics.refined_r", {true, {}}},
-      // A sampling error, measured in every case.
-      {"output.trace_interval", {true, {}}},
-      // Cells far away stay as large as they may where the smallest are refined.
-      {"numerics.growth_x", {false, 1.0}},
-      {"numerics.growth_r", {false, 1.0}},
-      {"numerics.steel_inertia", {false, 1.0}},
-      {"numerics.inertial_scaling", {false, 1.0}},
-      {"numerics.damping_time", {false, 0.0}},
-      {"numerics.pic_fraction", {false, 0.0}},
-      {"frame", {false, "co-moving"}}};
-  const auto found = known.find(key);
-  return found == known.end() ? Exactness{} : found->second;
-}
-
 RecordedReference reference_of(const AccuracyRecord& record) {
   const std::vector<InexactKey> inexact = inexact_keys(record);
   RecordedReference reference;
-  for (std::size_t gap = 0; gap < record.launch.gaps.size(); ++gap) {
+  for (std::size_t gap = 0; gap < record.scene.surface.gaps.size(); ++gap) {
     reference.temperature.push_back(reference_value_of(
         record, inexact, [gap](const RecordedSetting& each) { return each.temperature[gap]; }));
   }
@@ -197,6 +142,7 @@ void find_bounds(const RecordedReference& reference, RecordedSetting& setting) {
 }
 
 void find_bounds(AccuracyRecord& record) {
+  record.launch = launch_of(record.scene, record.scene.surface.gaps);
   record.rise = rise_of(record);
   record.unvaried.clear();
   for (const InexactKey& each : inexact_keys(record)) {
@@ -207,15 +153,9 @@ void find_bounds(AccuracyRecord& record) {
 }
 
 std::string why_foreign(const AccuracyRecord& record, const scene::Scene& scene) {
-  if (record.model_version != run::model_version)
-    return fmt::format("it was made with model version {}, and this is {}", record.model_version,
-                       run::model_version);
-  scene::Scene as_recorded = scene;
-  as_recorded.initial_temperature = record.initial_temperature;
-  if (record.shell != shell_of(as_recorded))
-    return "it was made of another shell, material, closure of friction, air or stations, or of a charge "
-           "that "
-           "is held otherwise";
+  const auto other = distance_to_record(RecordKind::accuracy, scene, record.scene).names();
+  if (!other.empty())
+    return fmt::format("it was made of another shell or model ({})", fmt::join(other, ", "));
   if (record.unvaried.empty()) return {};
   const std::string& key = record.unvaried.front();
   const auto* description = scene::find_key(scene::scene_keys(), key);
@@ -227,11 +167,11 @@ std::string why_foreign(const AccuracyRecord& record, const scene::Scene& scene)
 Coverage coverage_of(const AccuracyRecord& record, const scene::Scene& scene) {
   constexpr double hottest = 1.2, round_off = 1e-9;
   Coverage coverage = coverage_of(record.launch, launch_of(scene, {}));
-  const double ratio = scene.initial_temperature / record.initial_temperature;
+  const double ratio = scene.initial_temperature / record.scene.initial_temperature;
   coverage.growth *= std::pow(std::max(1.0, ratio), 2);
   if (coverage.reason.empty() && !(ratio <= hottest * (1.0 + round_off)))
     coverage.reason = fmt::format("it was made at {:.4g} K, and {:.4g} K are hotter by more than a fifth",
-                                  record.initial_temperature, scene.initial_temperature);
+                                  record.scene.initial_temperature, scene.initial_temperature);
   return coverage;
 }
 

@@ -19,7 +19,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr RecordFormat accuracy_format{
-    "launchsafe accuracy record 2", "accuracy.json", "a study of kind accuracy", {"format", "digest"}};
+    "launchsafe accuracy record 3", "accuracy.json", "a study of kind accuracy", {"format", "digest"}};
 constexpr std::size_t fewest_reference_meshes = 3;
 /// K. Skins are integrated to about this; no mesh study says less of a temperature.
 constexpr double smallest_bound = 1e-4;
@@ -50,7 +50,7 @@ Setting setting_from(const ordered_json& object, const std::string& path, Record
   Setting setting;
   std::vector<std::string> keys;
   for (const auto& key : scene::scene_keys()) {
-    if (belongs_to_setting(key.name)) keys.push_back(key.name);
+    if (belongs_to_setting(key)) keys.push_back(key.name);
   }
   if (!reader.has_keys(object, path, keys)) return setting;
   for (const std::string& key : keys) {
@@ -72,28 +72,10 @@ Setting setting_from(const ordered_json& object, const std::string& path, Record
   return setting;
 }
 
-void describe_launch(RecordObject& object, RecordedLaunch& launch) {
-  using scene::above_to, scene::between;
-  constexpr std::size_t most_gaps = 100'000;
-  object.value("peak_pressure_Pa", launch.peak_pressure, above_to(0, 10e9));
-  object.value("duration_s", launch.duration, above_to(0, 1));
-  object.value("rise_time_s", launch.rise_time, above_to(0, 1e6));
-  object.value("roughness", launch.roughness, between(0, 1e3));
-  object.value("crack_radius_m", launch.crack_radius, between(0, 1));
-  object.value("flaw_size_m", launch.flaw_size, between(0, 1));
-  object.value("gaps_m", launch.gaps, between(0, widest_gap), 1, most_gaps);
-  object.value("localisation", launch.localisation, between(0, 1e6));
-  object.value("air_heating_K_per_s_m", launch.air_heating, between(0, 1e15));
-  object.value("shape", launch.shape, between(0, 1), shape_instants, shape_instants);
-  const std::set<double> different(launch.gaps.begin(), launch.gaps.end());
-  if (object.reading() && different.size() != launch.gaps.size())
-    object.reader().refuse("launch.gaps_m", "a gap twice", "each gap once");
-}
-
 /// JSON writes what is not finite as null.
 void describe_setting(RecordObject& object, RecordedSetting& each, const AccuracyRecord& record) {
   using scene::above_to, scene::between;
-  const std::size_t gaps = record.launch.gaps.size();
+  const std::size_t gaps = record.scene.surface.gaps.size();
   object.value("label", each.label);
   object.value("temperature_bound_K", each.temperature_bound,
                OrNone{between(smallest_bound, 10 * highest_recorded_temperature)});
@@ -102,7 +84,7 @@ void describe_setting(RecordObject& object, RecordedSetting& each, const Accurac
   object.value("reference", each.reference);
   object.value("cell_m", each.cell, above_to(0, 1));
   object.value("temperature_K", each.temperature,
-               between(record.initial_temperature - 1.0, highest_recorded_temperature), gaps, gaps);
+               between(record.scene.initial_temperature - 1.0, highest_recorded_temperature), gaps, gaps);
   object.value("critical_gap_m", each.critical_gap, OrNone{between(0, widest_gap)});
   if (object.reading())
     each.setting = setting_from(object["setting"], object.path_of("setting"), object.reader());
@@ -170,10 +152,11 @@ void check_bounds(const AccuracyRecord& record, RecordReader& reader) {
 
 void describe_accuracy(RecordObject& object, AccuracyRecord& record) {
   object.value("title", record.title);
-  object.value("model_version", record.model_version, 1, std::numeric_limits<int>::max());
-  object.value("shell", record.shell);
-  object.value("initial_temperature_K", record.initial_temperature, scene::between(200, 500));
-  object.part("launch", record.launch, describe_launch);
+  object.model_version(record.model_version, "make it anew");
+  object.scene(record.scene, "the scene of the accuracy study");
+  const std::vector<double>& gaps = record.scene.surface.gaps;
+  if (object.reading() && std::set<double>(gaps.begin(), gaps.end()).size() != gaps.size())
+    object.reader().refuse("scene", "a gap twice", "each gap once");
   // More settings would take long to compare with each other.
   object.list("settings", record.settings, 0, 3000, "an array of at most 3000 settings",
               [&](RecordObject& own, RecordedSetting& each) { describe_setting(own, each, record); });

@@ -4,25 +4,26 @@
 #include "launchsafe/surface/skin.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace launchsafe::study {
 namespace {
 
-/// Whether a key acts on the skin alone, or in proportion to what the trace holds.
-bool is_of_skin(const std::string& key) {
-  return key.starts_with("gap.") || key.starts_with("friction.") || key == "charge.sliding_friction" ||
-         key == "charge.specific_heat" || key == "charge.conductivity";
-}
+using keys::ActsOn;
 
-bool is_scene_key(const std::string& key) { return scene::find_key(scene::scene_keys(), key) != nullptr; }
+/// Whether a key acts on the skin of a given trace, or in proportion to what the trace holds.
+bool is_of_skin(const std::string& key) {
+  constexpr std::array felt{ActsOn::trace, ActsOn::heat, ActsOn::conduction, ActsOn::surface};
+  return std::ranges::find(felt, scene::role_of(key).acts_on) != felt.end();
+}
 
 }  // namespace
 
 std::vector<std::string> skin_keys(const std::vector<scene::Implausible>& to_be_accepted) {
   std::vector<std::string> keys;
   for (const scene::Implausible& each : to_be_accepted) {
-    if (is_of_skin(each.key) && is_scene_key(each.key)) keys.push_back(each.key);
+    if (is_of_skin(each.key)) keys.push_back(each.key);
     // Any of the three may be the one that is wrong.
     if (each.key == "gap.gas_law")
       keys.insert(keys.end(), {"gap.air_temperature", "gap.air_pressure", "gap.air_density"});
@@ -34,7 +35,7 @@ std::vector<std::string> keys_as_calibrated(const std::vector<scene::Implausible
   std::vector<std::string> keys = skin_keys(to_be_accepted);
   if (!keys.empty()) keys.insert(keys.begin(), "");
   for (const scene::Implausible& each : to_be_accepted)
-    if (each.key.starts_with("kinetics.") && is_scene_key(each.key)) keys.push_back(each.key);
+    if (scene::role_of(each.key).acts_on == ActsOn::chemistry) keys.push_back(each.key);
   return keys;
 }
 

@@ -25,12 +25,12 @@ CaseAnswer without_histories(CaseOutcome& outcome) {
 struct InputStatements {
   std::vector<std::string> validity_warnings;
   std::string unaccepted, accepted;
-  CalibrationDistance distance;
+  RecordDistance distance;
   std::vector<std::string> as_calibrated;  ///< keys
 };
 
 InputStatements statements_of(const Study& study, const StudyCase& input) {
-  CalibrationDistance distance = distance_to_calibration(input.scene.scene, study.calibration);
+  RecordDistance distance = distance_to_calibration(input.scene.scene, study.calibration);
   std::vector<std::string> keys;
   if (study.kind.gives_verdicts) keys = keys_as_calibrated(to_be_accepted(study, input));
   return {run::uncovered_load(input.scene.scene.load), unaccepted_text(study, input),
@@ -59,7 +59,7 @@ bool says(const GapVerdict& row, const InputStatements& statements, const Study&
 
 /// Whether the shares of a critical gap that was read are all there that the study's case must have.
 bool has_all_shares(const CriticalGap& critical, const Study& study, const StudyCase& input,
-                    const CalibrationDistance& distance) {
+                    const RecordDistance& distance) {
   const bool is_film = input.scene.scene.surface.air_model == scene::AirModel::film;
   const bool bounded = critical.kind == CriticalGapKind::value || critical.kind == CriticalGapKind::all_safe;
   if (!study.kind.bounds_critical_gaps || is_film || !bounded) return true;

@@ -109,7 +109,7 @@ scene::Scene with_raised_load(const scene::Scene& scene) {
   return raised;
 }
 
-double fit_share(const Study& study, const CalibrationDistance& distance, const Rises& rises) {
+double fit_share(const Study& study, const RecordDistance& distance, const Rises& rises) {
   if (!study.kind.gives_verdicts) return 0.0;
   const CalibrationEvidence& evidence = study.calibration.evidence;
   double fit = std::isfinite(study.fit_uncertainty) ? study.fit_uncertainty : evidence.fit_uncertainty;

@@ -54,7 +54,7 @@ double heated_temperature(const scene::Scene& scene, const BottomTrace& trace, d
 
 /// What the rows of a case have in common.
 struct CaseGround {
-  CalibrationDistance distance;
+  RecordDistance distance;
   std::vector<scene::Implausible> to_be_accepted;
   LoadCurveErrors load_curve;
   double heated_without_gap = not_a_number;  ///< K

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -31,36 +30,25 @@ ModelFormOrError refused(std::string error) { return {std::nullopt, std::move(er
 /// Why a scene is not that of the calibrated model; empty where it is.
 std::string why_another(const ModelFormEntry& entry) {
   if (!entry.calibration->failure.empty()) return {};
-  const CalibrationDistance distance = distance_to_calibration(entry.scene, entry.calibration->calibration);
+  const RecordDistance distance = distance_to_calibration(entry.scene, entry.calibration->calibration);
   if (distance.inside()) return {};
   return fmt::format("its sweep is not of the calibrated launch ({})", fmt::join(distance.names(), ", "));
-}
-
-/// Whether a difference of two scenes makes them other models of one launch: how the charge is held, the laws
-/// of heat at its bottom, friction of cracks, stations.
-bool is_of_model(const std::string& difference) {
-  constexpr std::array keys{"friction.closure",      "gap.air",
-                            "gap.exchange",          "gap.pressure",
-                            "charge.crack_friction", "charge.face_friction"};
-  return difference == scene::foreign_interfaces || difference.starts_with("station.") ||
-         std::find(keys.begin(), keys.end(), difference) != keys.end();
-}
-
-/// Whether it is of what every model is calibrated in, or of the numerics.
-bool is_calibrated(const std::string& difference) {
-  constexpr std::array keys{"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature",
-                            "load shape", "numerics"};
-  return std::find(keys.begin(), keys.end(), difference) != keys.end();
 }
 
 /// Why a model is no alternative to the default: a copy of it, or a model of another launch, or one that was
 /// calibrated on other published rows, or without a finer mesh to compare with.
 std::string why_no_alternative(const ModelFormEntry& own, const ModelFormEntry& other) {
-  std::vector<std::string> differences = distance_to_calibration(other.scene, {own.scene, {}}).names();
-  std::erase_if(differences, is_calibrated);
-  const auto count = std::erase_if(differences, is_of_model);
-  if (!differences.empty()) return fmt::format("it is of another launch ({})", fmt::join(differences, ", "));
-  if (count == 0) return "it is the same model as " + own.name;
+  bool other_model = false;
+  std::vector<std::string> of_launch;
+  for (const Difference& each : differences(other.scene, own.scene)) {
+    const keys::Part part = each.key.role().part;
+    if (part == keys::Part::model) other_model = true;
+    // Every model has its own load and constants, and may have its own numerics.
+    else if (part == keys::Part::constant || part == keys::Part::range)
+      of_launch.push_back(each.key.name);
+  }
+  if (!of_launch.empty()) return fmt::format("it is of another launch ({})", fmt::join(of_launch, ", "));
+  if (!other_model) return "it is the same model as " + own.name;
   if (own.calibration->references_digest != other.calibration->references_digest)
     return "it was calibrated on other published rows than " + own.name;
   if (other.calibration->failure.empty() && !std::isfinite(other.calibration->stations.finer))
@@ -118,8 +106,7 @@ double peak_of(const scene::Scene& scene) { return scene::PressureHistory(scene.
 /// Why a record says nothing of a scene; empty where it does. Over the initial temperature it is not carried:
 /// a colder launch ignites at a gap beyond the rows that all models are calibrated on, and there they part.
 std::string why_outside(const ModelFormRecord& record, const scene::Scene& scene) {
-  std::vector<std::string> other = distance_to_calibration(scene, {record.scene, {}}).names();
-  std::erase_if(other, [](const auto& each) { return each == "peak pressure" || each == "numerics"; });
+  const auto other = distance_to_record(RecordKind::model_form, scene, record.scene).names();
   if (!other.empty()) return fmt::format("it was made for another launch ({})", fmt::join(other, ", "));
   if (const auto interval = interval_of(record.peak_pressures, peak_of(scene))) {
     const double below = record.peak_pressures[interval->below],

@@ -17,8 +17,9 @@ using scene::SceneFile;
 
 /// Whether other values of a key make another launch, and not only another computation of the same one.
 bool is_condition(const scene::KeyDescription& key) {
-  return key.standing != scene::Standing::calibrated && !key.name.starts_with("numerics.") &&
-         !key.name.starts_with("output.") && !key.name.starts_with("physics.");
+  const keys::Part part = key.role().part;
+  return key.standing != scene::Standing::calibrated && part != keys::Part::setting &&
+         part != keys::Part::minor_setting && part != keys::Part::free;
 }
 
 /// What varied cases are made from.

@@ -17,20 +17,23 @@
 namespace launchsafe::study {
 namespace {
 
-/// Whether any case has a key of a kind otherwise than the scene as it was written.
-bool has_other(const StudyFile& study, bool (*is_of_the_kind)(const std::string& key)) {
-  const auto varies = [=](const auto& each) { return is_of_the_kind(each.key.name); };
-  const Study& s = study.study;
-  return std::any_of(study.overrides.begin(), study.overrides.end(),
-                     [=](const auto& each) { return is_of_the_kind(each.first); }) ||
-         std::any_of(s.axes.begin(), s.axes.end(), varies);
+/// Whether any case has an input of a kind otherwise than the scene as it was written.
+bool has_other(const StudyFile& study, bool (*is_of_the_kind)(const scene::KeyDescription& key)) {
+  const auto varies = [=](const Axis& each) { return is_of_the_kind(each.key); };
+  const auto overrides = [&](const auto& each) {
+    const auto key = scene::describe_key(study.scene, each.first, {});
+    return !key || is_of_the_kind(*key);
+  };
+  return std::ranges::any_of(study.overrides, overrides) || std::ranges::any_of(study.study.axes, varies);
 }
 
 bool has_other_numerics(const StudyFile& study) { return has_other(study, belongs_to_setting); }
 
-/// The mesh has another error where the charge is held otherwise.
-bool has_other_interfaces(const StudyFile& study) {
-  return has_other(study, [](const std::string& key) { return key.starts_with("interface."); });
+/// The mesh has another error in another model of the mechanics: where the charge is held otherwise, say.
+bool has_other_model(const StudyFile& study) {
+  return has_other(study, [](const scene::KeyDescription& key) {
+    return key.role().part == keys::Part::model && key.role().acts_on == keys::ActsOn::mechanics;
+  });
 }
 
 /// K; 0 where nothing is stated.
@@ -45,11 +48,11 @@ double assumed_for(const scene::Scene& scene) {
   return as_calibrated ? assumed_numerical_uncertainty : assumed_uncertainty_off_grid;
 }
 
-/// Where a study states a number itself. It belongs to the scene's own numerics and interfaces on a grid that
+/// Where a study states a number itself. It belongs to the scene's own numerics and model on a grid that
 /// runs along the charge's edges.
 Cases::Complete with_stated(const StudyFile& study) {
   const double stated = stated_of(study.study);
-  const bool own = stated > 0.0 && !has_other_numerics(study) && !has_other_interfaces(study) &&
+  const bool own = stated > 0.0 && !has_other_numerics(study) && !has_other_model(study) &&
                    scene::charge_edges_off_grid(study.scene.scene).empty();
   return [stated, own](StudyCase& made) {
     made.numerical_uncertainty_assumed = !own;

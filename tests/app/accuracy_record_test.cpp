@@ -72,7 +72,7 @@ TEST_F(AccuracyRecordProgram, IsRefusedOnceItWasEdited) {
     std::vector<std::string> says;
   };
   const std::vector<Edit> edits{
-      {"accuracy record 2", "accuracy record 1", {"format", "anew"}},
+      {"accuracy record 3", "accuracy record 2", {"format", "anew"}},
       {"\"model_version\": " + std::to_string(run::model_version),
        "\"model_version\": 4294967297",
        {"model_version", "4294967297"}},

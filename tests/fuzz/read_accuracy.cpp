@@ -2,11 +2,14 @@
 // be what the program writes, claim nothing that does not follow from it, and set numerics only; whatever is
 // not must say why.
 #include "fuzz_input.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "record_text.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 namespace {
 
@@ -26,7 +29,8 @@ void check_record(const study::AccuracyRecord& record) {
     fuzz::require(!(each.temperature_bound < least) && !(each.temperature_bound > most),
                   "a bound is plausible", written);
     for (const auto& [key, value] : each.setting)
-      fuzz::require(study::belongs_to_setting(key), "a setting sets numerics", written);
+      fuzz::require(study::belongs_to_setting(*scene::find_key(scene::scene_keys(), key)),
+                    "a setting sets numerics", written);
     fuzz::require(!nearest || each.temperature_bound >= nearest->temperature_bound,
                   "the most accurate setting is so", written);
   }
@@ -37,11 +41,20 @@ void read(const std::string& text) {
   record ? check_record(*record) : fuzz::require_told(record.error());
 }
 
+const std::string& small_scene() {
+  static const std::string text = [] {
+    std::ifstream stream(LAUNCHSAFE_FUZZ_SCENE, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  }();
+  return text;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   read(text);
   read(fuzz::with_digest(text));
+  read(fuzz::with_scene(text, small_scene()));
   return 0;
 }

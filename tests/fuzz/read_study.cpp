@@ -1,11 +1,10 @@
 // Studies from any bytes. An input is the text of a study and, after lines "%%%%", that of its scene,
 // scene.toml, and that of an accuracy record, accuracy.json. Whatever is read must have cases fit to be
-// computed; whatever is not must say why. "@shell" in the record stands for the digest of the scene's shell,
-// which no fuzzer guesses; such a record gets the digest of its content, too.
+// computed; whatever is not must say why. "@scene" in the record stands for that scene as the program
+// writes it, which no fuzzer guesses; such a record gets the digest of its content, too.
 #include "launchsafe/kinds/read_study.hpp"
 
 #include "fuzz_input.hpp"
-#include "launchsafe/study/accuracy_record.hpp"
 #include "record_text.hpp"
 
 #include <cmath>
@@ -36,15 +35,6 @@ void check_study(const study::StudyFile& file) {
   check_case(file.cases.back());
 }
 
-std::string with_digests(std::string record, const std::string& scene_text) {
-  constexpr std::string_view shell_mark = "@shell";
-  const std::size_t at = record.find(shell_mark);
-  if (at == std::string::npos) return record;
-  const auto file = scene::parse_scene(scene_text, "scene.toml");
-  if (file) record.replace(at, shell_mark.size(), study::shell_of(file->scene));
-  return fuzz::with_digest(record);
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -56,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto parts = fuzz::parts_of(data, size);
   folder.write("scene.toml", parts.size() > 1 ? parts[1] : usual_scene);
   if (parts.size() > 2) {
-    folder.write("accuracy.json", with_digests(parts[2], parts[1]));
+    folder.write("accuracy.json", fuzz::with_scene(parts[2], parts[1]));
   } else {
     folder.remove("accuracy.json");
   }

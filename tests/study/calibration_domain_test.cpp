@@ -184,7 +184,7 @@ TEST(CalibrationDomain, NamesWhatLiesOutside) {
   for (const Change& each : changes) {
     scene::Scene scene = shipped_scene();
     each.change(scene);
-    const CalibrationDistance distance = distance_to_calibration(scene, shipped_calibration());
+    const RecordDistance distance = distance_to_calibration(scene, shipped_calibration());
     const auto said = [](const std::vector<std::string>& names) {
       return names.empty() ? "" : names.front();
     };

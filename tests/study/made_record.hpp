@@ -53,9 +53,8 @@ inline AccuracyRecord made_record() {
   AccuracyRecord record;
   record.title = "made up";
   record.model_version = run::model_version;
-  record.shell = shell_of(own_scene());
-  record.initial_temperature = own_scene().initial_temperature;
-  record.launch = launch_of(own_scene(), {0.0, 2e-4, 4e-4});
+  record.scene = own_scene();
+  record.scene.surface.gaps = {0.0, 2e-4, 4e-4};
   double time = 1280.0;
   for (const double cell : {0.3125e-3, 0.625e-3, 1.25e-3}) {
     scene::Scene scene = own_scene();

@@ -115,7 +115,7 @@ TEST(ModelForm, RefusesAModelOfAnotherLaunch) {
   made.calibrations.back().calibration.scene.initial_temperature -= 20.0;
   const auto form = made.form();
   EXPECT_FALSE(form.record);
-  EXPECT_NE(form.error.find("initial temperature"), std::string::npos) << form.error;
+  EXPECT_NE(form.error.find("initial_temperature"), std::string::npos) << form.error;
 }
 
 TEST(ModelForm, RefusesAModelCalibratedOnOtherRows) {

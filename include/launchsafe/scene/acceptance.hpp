@@ -11,7 +11,7 @@
 namespace launchsafe::scene {
 
 /// Accepted by these names: bodies, constants of their materials, and what holds the charge, where they are
-/// not those of the calibration. Which they are only a study knows (study/calibration_domain.hpp).
+/// not those of the calibration. Which they are only a study knows (study/record_domain.hpp).
 inline constexpr const char *foreign_shell = "calibration.shell", *foreign_material = "calibration.material",
                             *foreign_interfaces = "calibration.interfaces";
 /// Likewise a peak pressure beyond those at which other models of the launch were compared.

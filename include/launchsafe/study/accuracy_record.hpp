@@ -14,22 +14,13 @@
 
 namespace launchsafe::study {
 
-/// The scene keys that make a computation finer or coarser, and nothing else: `numerics.*`, the frame and the
-/// trace interval, with their values.
+/// Whether an input belongs to a setting: it makes a computation finer or coarser, and nothing else.
+bool belongs_to_setting(const scene::KeyDescription& key);
+/// The scene keys of a setting with their values.
 using Setting = std::map<std::string, scene::Value>;
 Setting setting_of(const scene::Scene& scene);
-/// Whether a scene key belongs to a setting.
-bool belongs_to_setting(const std::string& key);
 /// Equal but for the round-off of units.
 bool same_setting(const Setting& a, const Setting& b);
-
-/// Whether the limit of the reference meshes is free of the error of a key of a setting, or may be off where
-/// they have another value than the exact one.
-struct Exactness {
-  bool vanishes = false;              ///< the limit is free of it, or it is measured in every case
-  std::optional<scene::Value> value;  ///< the exact one; none where no value is known to be exact
-};
-Exactness exactness_of(const std::string& key);
 
 /// One setting that ran soundly: its outcome, how good it thus is, and what it costs.
 struct RecordedSetting {
@@ -52,27 +43,27 @@ struct RecordedSetting {
 struct AccuracyRecord {
   std::string title;  ///< of the accuracy study
   int model_version = 0;
-  std::string shell;               ///< `shell_of` the scene
-  double initial_temperature = 0;  ///< K
-  RecordedLaunch launch;
+  scene::Scene scene;                     ///< with the gaps at which T max was compared
   std::vector<RecordedSetting> settings;  ///< the reference meshes first, finest first
 
   // found by `find_bounds`
+  RecordedLaunch launch;  ///< of the scene
   /// Keys at which the reference meshes are not exact and of which no setting tells what that changes: no
   /// error of this record is known.
   std::vector<std::string> unvaried;
   double rise = 0;  ///< K, of T max above the initial temperature, for which the bounds were found
 };
 
-/// Finds bounds, rise and unvaried keys of a record from what its settings gave. A setting is compared with
-/// the limit of the reference meshes, which differ in the cell size alone and share all other keys with the
-/// scene of the accuracy study. So the comparison tells the error of whatever the setting has otherwise than
-/// the meshes: its cell, a scaling of 16 beside their 1. It tells nothing of what the meshes themselves have
-/// wrong (see Exactness). Where they have a key at another value than the exact one, the limit is off by what
-/// that changes, and so is every bound. That is known where two settings differ in this key alone, one having
-/// the meshes' value and one the exact one: it counts as three times the largest such difference, as for any
-/// limit that two values point to (see math::Extrapolation). Otherwise the key is unvaried and no bound is
-/// known. Needs at least three reference meshes, each setting with as many temperatures as there are gaps.
+/// Finds launch, bounds, rise and unvaried keys of a record from what its settings gave. A setting is
+/// compared with the limit of the reference meshes, which differ in the cell size alone and share all other
+/// keys with the scene of the accuracy study. So the comparison tells the error of whatever the setting has
+/// otherwise than the meshes: its cell, a scaling of 16 beside their 1. It tells nothing of what the meshes
+/// themselves have wrong (see keys::Exactness). Where they have a key at another value than the exact one,
+/// the limit is off by what that changes, and so is every bound. That is known where two settings differ in
+/// this key alone, one having the meshes' value and one the exact one: it counts as three times the largest
+/// such difference, as for any limit that two values point to (see math::Extrapolation). Otherwise the key is
+/// unvaried and no bound is known. Needs at least three reference meshes, each setting with as many
+/// temperatures as there are gaps.
 void find_bounds(AccuracyRecord& record);
 
 /// The reference of a record, which its meshes tend to.
@@ -87,10 +78,6 @@ void find_bounds(const RecordedReference& reference, RecordedSetting& setting);
 /// K; skins of explosives stay below. A setting that gives more is not recorded.
 inline constexpr double highest_recorded_temperature = 5000.0;
 
-/// Digest of what the errors of a setting depend on besides the setting and the launch: bodies, materials,
-/// symmetry, barrel, observation points, the closures of friction, air and exchange, the initial temperature.
-std::string shell_of(const scene::Scene& scene);
-
 /// A record as text, with the SHA-256 of its content.
 std::string to_json_text(const AccuracyRecord& record);
 /// A record from text; `file` is named in errors. Refused is what the program cannot have written: a text
@@ -101,8 +88,8 @@ std::string to_json_text(const AccuracyRecord& record);
 /// forgers.
 scene::Expected<AccuracyRecord> parse_accuracy_record(const std::string& text, const std::string& file);
 
-/// Why a record says nothing of a scene's shell under this model, or of nothing at all; empty where it does.
-/// At another initial temperature the shell is the same.
+/// Why a record says nothing of a scene, whatever its setting and launch; empty where it may. At another
+/// initial temperature, say, the shell is the same.
 std::string why_foreign(const AccuracyRecord& record, const scene::Scene& scene);
 /// How far the errors of a record are carried to a scene: as coverage_of its launch says, and over the
 /// initial temperature. This moves T max rigidly, as the heat of friction does not depend on it and air heats

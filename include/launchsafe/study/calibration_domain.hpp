@@ -1,11 +1,8 @@
 // Where the constants that scenes start from were calibrated, and what of a scene lies outside of that.
 #pragma once
 
-#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/scene.hpp"
-
-#include <string>
-#include <vector>
+#include "launchsafe/study/record_domain.hpp"
 
 namespace launchsafe::study {
 
@@ -32,19 +29,7 @@ scene::Scene calibration_scene();
 /// That launch with its evidence: what holds where a study names no record of another calibration.
 Calibration shipped_calibration();
 
-/// How a scene differs from the one of a calibration.
-struct CalibrationDistance {
-  /// What nothing carries the constants over, each with what the scene says of it: keys of the scene, and
-  /// scene::foreign_shell, foreign_material (where several constants differ), foreign_interfaces.
-  std::vector<scene::Implausible> foreign;
-  /// Differences over which the relative errors of the constants are carried, for people: "peak pressure".
-  std::vector<std::string> carried;
-  bool other_load_shape = false;  ///< among `carried`
-  bool other_numerics = false;    ///< among `carried`: the constants hold the mesh error of their own grid
-  bool inside() const { return foreign.empty() && carried.empty(); }
-  /// The names of both, those that are foreign first.
-  std::vector<std::string> names() const;
-};
-CalibrationDistance distance_to_calibration(const scene::Scene& scene, const Calibration& calibration);
+/// What of a scene lies outside of a calibration.
+RecordDistance distance_to_calibration(const scene::Scene& scene, const Calibration& calibration);
 
 }  // namespace launchsafe::study

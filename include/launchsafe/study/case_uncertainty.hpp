@@ -44,7 +44,7 @@ struct Rises {
 /// to the case's own rises. Another load shape was held out in no row but those at another time, and other
 /// numerics have another mesh error than the constants absorbed: both add to it. 0 for a study without
 /// verdicts.
-double fit_share(const Study& study, const CalibrationDistance& distance, const Rises& rises);
+double fit_share(const Study& study, const RecordDistance& distance, const Rises& rises);
 
 /// What the study states of the model form, or assumes where its record does not speak of a case, K.
 /// Nothing where the record does: it gives a shift of the gap.
