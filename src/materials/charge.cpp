@@ -34,14 +34,12 @@ std::vector<Key<ViscoScramParameters>> crack_keys() {
                            "Mean crack radius c(0) before launch; 0 leaves the cracks out.",
                            &ViscoScramParameters::initial_crack_radius),
                 between(1e-6, 5e-3),
-                "grains are micrometres to millimetres large, and 0 would leave the cracks out")
-          .as(ActsOn::mechanics, Part::range),
+                "grains are micrometres to millimetres large, and 0 would leave the cracks out", over_range),
       plausibly(number_key("flaw_size", Dimension::length, between(0, 1), Standing::paper,
                            "Flaw size a, which cracks are measured against; 0 leaves the cracks out.",
                            &ViscoScramParameters::flaw_size),
                 between(1e-5, 1e-2),
-                "flaws are as far apart as grains to pebbles, and 0 would leave the cracks out")
-          .as(ActsOn::mechanics, Part::range),
+                "flaws are as far apart as grains to pebbles, and 0 would leave the cracks out", over_range),
       plausibly(
           number_key("largest_crack_radius", Dimension::length, above_to(0, 1), Standing::assumed,
                      "Crack radius at which growth stops.", &ViscoScramParameters::largest_crack_radius),
@@ -66,10 +64,9 @@ std::vector<Key<ViscoScramParameters>> crack_keys() {
                                 "toughness; 0 leaves it out.",
                                 &ViscoScramParameters::face_friction),
                      {"crack_friction"}),
-          between(0, 0.8), "dry crystals rub with 0.3 to 0.6; 0 holds no crack back")
-          .as(ActsOn::mechanics, Part::model),
-      always_plausible(overriding(crack_friction_key(), {"face_friction"}), "without it cracks grow sooner")
-          .as(ActsOn::mechanics, Part::model),
+          between(0, 0.8), "dry crystals rub with 0.3 to 0.6; 0 holds no crack back", of_model),
+      always_plausible(overriding(crack_friction_key(), {"face_friction"}), "without it cracks grow sooner",
+                       of_model),
       plausibly(list_key("shear_moduli", Dimension::pressure, above_to(0, 1e12), Standing::paper,
                          "Shear moduli G_n of the Maxwell elements.", &ViscoScramParameters::shear_moduli,
                          maxwell_elements),
@@ -118,17 +115,17 @@ std::vector<Key<Charge>> heat_keys() {
                 between(1e5, 5e7), "explosives tear at 1 to 10 MPa"),
       plausibly(number_key("specific_heat", Dimension::specific_heat, between(100, 1e4), Standing::paper,
                            "Specific heat.", &Charge::specific_heat),
-                between(900, 2.2e3), "explosives have 1.0 to 1.4 kJ/(kg K), the published model 1.78")
-          .as(ActsOn::heat, Part::constant),
+                between(900, 2.2e3), "explosives have 1.0 to 1.4 kJ/(kg K), the published model 1.78",
+                Role{ActsOn::heat}),
       plausibly(number_key("conductivity", Dimension::conductivity, between(0, 1e4), Standing::paper,
                            "Thermal conductivity.", &Charge::conductivity),
-                between(0.05, 1), "explosives have 0.1 to 0.5 W/(m K)")
-          .as(ActsOn::conduction, Part::constant),
+                between(0.05, 1), "explosives have 0.1 to 0.5 W/(m K)",
+                Role{ActsOn::conduction}),
       plausibly(
           number_key("sliding_friction", Dimension::number, between(0, 10), Standing::paper,
                      "Coefficient mu_d of the friction that heats the charge.", &Charge::sliding_friction),
-          between(0.1, 0.8), "solids rub with 0.1 to 0.8, and 0 would leave this heat out")
-          .as(ActsOn::trace, Part::constant),
+          between(0.1, 0.8), "solids rub with 0.1 to 0.8, and 0 would leave this heat out",
+          Role{ActsOn::trace}),
   };
 }
 
@@ -156,8 +153,7 @@ std::vector<Key<KineticsParameters>> kinetics_keys() {
   return {
       always_plausible(
           overriding(kinetics_set_key(), {"heat_of_reaction", "frequency", "activation_temperature"}),
-          "the numbers that it stands for are judged")
-          .as(ActsOn::chemistry, Part::free),
+          "the numbers that it stands for are judged", Role{ActsOn::chemistry, Part::free}),
       plausibly(
           then(number_key("heat_of_reaction", Dimension::specific_energy, between(0, 1e8), Standing::paper,
                           "Heat Q that the reaction releases.", &KineticsParameters::heat_of_reaction),
@@ -171,14 +167,14 @@ std::vector<Key<KineticsParameters>> kinetics_keys() {
                                 Standing::calibrated, "Activation energy over the gas constant, E/R.",
                                 &KineticsParameters::activation_temperature),
                      rename),
-                between(1.2e4, 3.2e4), "explosives are fitted with 25 to 60 kcal/mol")
-          .as(ActsOn::chemistry, Part::constant, Hotter::below),
+                between(1.2e4, 3.2e4), "explosives are fitted with 25 to 60 kcal/mol",
+                Role{ActsOn::chemistry, Part::constant, Hotter::below}),
       plausibly(
           number_key("ignition_temperature", Dimension::temperature, above_to(0, 2e3), Standing::calibrated,
                      "Temperature T1 that triggers ignition.", &KineticsParameters::ignition_temperature),
           between(480, 560),
-          "Composition B explodes within seconds at 551 K, and published launches ask for 515 to 528 K")
-          .as(ActsOn::chemistry, Part::calibrated, Hotter::below),
+          "Composition B explodes within seconds at 551 K, and published launches ask for 515 to 528 K",
+          Role{ActsOn::chemistry, Part::calibrated, Hotter::below}),
       plausibly(number_key("burnt_temperature", Dimension::temperature, above_to(0, 1e4), Standing::paper,
                            "Temperature T2 at which the reaction is complete.",
                            &KineticsParameters::burnt_temperature),

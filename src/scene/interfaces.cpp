@@ -126,27 +126,24 @@ const std::vector<Key<Interface>>& interface_keys() {
                             "free to part. Bodies without a table are bonded.",
                             {{"bonded", Condition::bonded}, {"sliding", Condition::sliding}},
                             &Interface::condition)),
-          "launches are published with bonded charges, and shells are loaded with and without a bond")
-          .as(ActsOn::mechanics, Part::model),
+          "launches are published with bonded charges, and shells are loaded with and without a bond",
+          of_model),
       plausibly(
           optional_number_key<Interface>(
               "friction", Dimension::number, between(0, largest_friction),
               "Coulomb's coefficient between the faces; to be given where they can slide, 0 for smooth ones.",
               &Interface::friction),
-          between(0, 1), "explosives on metals and lacquers are measured between 0.05 and 0.6")
-          .as(ActsOn::mechanics, Part::model),
+          between(0, 1), "explosives on metals and lacquers are measured between 0.05 and 0.6", of_model),
       plausibly(
           optional_number_key<Interface>("tension_strength", Dimension::pressure, above_to(0, 1e12),
                                          "Tension at which the bond breaks for good; none: it never does.",
                                          &Interface::tension_strength),
-          above_to(0, 100e6), "no explosive or lacquer bears more")
-          .as(ActsOn::mechanics, Part::model),
+          above_to(0, 100e6), "no explosive or lacquer bears more", of_model),
       plausibly(
           optional_number_key<Interface>("shear_strength", Dimension::pressure, above_to(0, 1e12),
                                          "Shear at which the bond breaks for good; none: it never does.",
                                          &Interface::shear_strength),
-          above_to(0, 100e6), "no explosive or lacquer bears more")
-          .as(ActsOn::mechanics, Part::model),
+          above_to(0, 100e6), "no explosive or lacquer bears more", of_model),
   };
   return keys;
 }

@@ -9,6 +9,22 @@ bool has_exit(const Load& load) { return load.muzzle_exit || load.muzzle_travel;
 
 bool is_bell(const Load& load) { return load.shape == LoadShape::bell; }
 
+/// The key of a number that a measured curve takes the place of.
+Key<Load> analytic(Key<Load> key) {
+  key.is_replaced = [](const Load& load) { return !load.curve_time.empty(); };
+  return key;
+}
+
+/// The peak, to which a measured curve may be scaled.
+Key<Load> peak_key() {
+  Key<Load> key =
+      plausibly(number_key("peak", Dimension::pressure, above_to(0, 10e9), Standing::paper,
+                           "Largest chamber pressure.", &Load::peak),
+                between(10e6, 1e9), "a mortar has 10 MPa, and no gun tube bears 1 GPa", over_range);
+  key.is_replaced = [](const Load& load) { return !load.curve_time.empty() && !load.rescale_to_peak; };
+  return key;
+}
+
 }  // namespace
 
 std::vector<Key<Load>> load_keys() {
@@ -19,17 +35,14 @@ std::vector<Key<Load>> load_keys() {
                                     "beginning alone; without it the launch is simulated until it is over.",
                                     &Load::duration),
           between(1e-3, 0.1), "a shell leaves its tube after some milliseconds"),
-      plausibly(number_key("peak", Dimension::pressure, above_to(0, 10e9), Standing::paper,
-                           "Largest chamber pressure.", &Load::peak),
-                between(10e6, 1e9), "a mortar has 10 MPa, and no gun tube bears 1 GPa")
-          .as(ActsOn::mechanics, Part::range),
-      plausibly(number_key("base", Dimension::pressure, between(0, 10e9), Standing::assumed,
-                           "Chamber pressure at the start.", &Load::base),
-                between(0, 20e6), "before the shell moves there is an igniter's pressure at most"),
-      plausibly(number_key("peak_time", Dimension::time, above_to(0, 1), Standing::assumed,
-                           "Time of the largest chamber pressure.", &Load::peak_time),
-                between(0.2e-3, 0.05), "propellant burns for some milliseconds"),
-      always_plausible(
+      peak_key(),
+      analytic(plausibly(number_key("base", Dimension::pressure, between(0, 10e9), Standing::assumed,
+                                    "Chamber pressure at the start.", &Load::base),
+                         between(0, 20e6), "before the shell moves there is an igniter's pressure at most")),
+      analytic(plausibly(number_key("peak_time", Dimension::time, above_to(0, 1), Standing::assumed,
+                                    "Time of the largest chamber pressure.", &Load::peak_time),
+                         between(0.2e-3, 0.05), "propellant burns for some milliseconds")),
+      analytic(always_plausible(
           written_where(
               overriding(word_key("shape", Standing::assumed,
                                   "base + (peak - base) exp(-|(t - peak_time)/width|^steepness), or "
@@ -39,21 +52,24 @@ std::vector<Key<Load>> load_keys() {
                                   &Load::shape),
                          {"width", "steepness", "exponent"}),
               [](const Load& load) { return !is_bell(load); }),
-          "whether a launch is covered is judged by its pressures"),
-      plausibly(written_where(number_key("width", Dimension::time, above_to(0, 1), Standing::assumed,
-                                         "Time from the peak of a bell to where e times less is left of it.",
-                                         &Load::width),
-                              is_bell),
-                between(0.2e-3, 0.02), "propellant burns for some milliseconds"),
-      plausibly(written_where(
-                    number_key("steepness", Dimension::number, above_to(0, 100), Standing::assumed,
-                               "How abruptly a bell rises and falls: 2 is that of Gauss.", &Load::steepness),
-                    is_bell),
-                between(1.1, 6), "gentler pulses have a cusp at their peak, steeper ones are boxes"),
-      plausibly(written_where(number_key("exponent", Dimension::number, above_to(0, 1000), Standing::assumed,
-                                         "How steeply a power-exponential rises and falls.", &Load::exponent),
-                              [](const Load& load) { return !is_bell(load); }),
-                between(1, 50), "gentler or steeper pulses than these no propellant makes"),
+          "whether a launch is covered is judged by its pressures")),
+      analytic(plausibly(
+          written_where(
+              number_key("width", Dimension::time, above_to(0, 1), Standing::assumed,
+                         "Time from the peak of a bell to where e times less is left of it.", &Load::width),
+              is_bell),
+          between(0.2e-3, 0.02), "propellant burns for some milliseconds")),
+      analytic(plausibly(
+          written_where(
+              number_key("steepness", Dimension::number, above_to(0, 100), Standing::assumed,
+                         "How abruptly a bell rises and falls: 2 is that of Gauss.", &Load::steepness),
+              is_bell),
+          between(1.1, 6), "gentler pulses have a cusp at their peak, steeper ones are boxes")),
+      analytic(plausibly(
+          written_where(number_key("exponent", Dimension::number, above_to(0, 1000), Standing::assumed,
+                                   "How steeply a power-exponential rises and falls.", &Load::exponent),
+                        [](const Load& load) { return !is_bell(load); }),
+          between(1, 50), "gentler or steeper pulses than these no propellant makes")),
       // The points of a measured curve are written back; the file they came from need not exist any more.
       always_plausible(
           written_where(
@@ -63,8 +79,7 @@ std::vector<Key<Load>> load_keys() {
                                   "pressure.csv", &Load::curve_file),
                          {"curve_time", "curve_pressure"}),
               [](const Load&) { return false; }),
-          "its pressures are judged by load.measured_peak and load.simulated_peak")
-          .as(ActsOn::mechanics, Part::free),
+          "its pressures are judged by load.measured_peak and load.simulated_peak", judged_elsewhere),
       always_plausible(
           may_be_empty(list_key("curve_time", Dimension::time,
                                 between(-largest_curve_time, largest_curve_time), Standing::assumed,
@@ -106,8 +121,7 @@ std::vector<Key<Load>> load_keys() {
               number_key("muzzle_exit_spread", Dimension::time, between(0, 0.1), Standing::assumed,
                          "Half width (95 %) of the time of the muzzle exit.", &Load::muzzle_exit_spread),
               [](const Load& load) { return load.muzzle_exit_spread > 0.0; }),
-          between(0, 2e-3), "ignition varies by some tenths of a millisecond")
-          .as(ActsOn::nothing, Part::free),
+          between(0, 2e-3), "ignition varies by some tenths of a millisecond", remark),
       plausibly(
           written_where(
               number_key("exit_decay", Dimension::time, above_to(0, 1), Standing::assumed,
@@ -124,15 +138,13 @@ std::vector<Key<Load>> load_keys() {
                             "projectile to another one, by more than 5 %, is refused.",
                             &Load::expected_velocity),
                         [](const Load&) { return false; }),
-          "the speed that the load gives is judged by load.launch_speed")
-          .as(ActsOn::nothing, Part::free),
+          "the speed that the load gives is judged by load.launch_speed", remark),
       always_plausible(optional_number_key<Load>("obturation", Dimension::length, between(0, 10),
                                                  "Place along x of the driving band, up to which the chamber "
                                                  "pressure acts on all that faces the "
                                                  "chamber; without it the foremost ring of full radius.",
                                                  &Load::obturation),
-                       "it has to lie where the shell has its full radius")
-          .as(ActsOn::mechanics, Part::constant),
+                       "it has to lie where the shell has its full radius", Role{}),
   };
 }
 

@@ -9,28 +9,6 @@
 namespace launchsafe::scene {
 namespace {
 
-/// Without the numbers of the load that its shape does not have, or that a measured curve takes the place of.
-Load without_unused(Load load) {
-  load.curve_file.clear();
-  const Load usual;
-  // The mechanics knows the time of the exit, however it was stated.
-  load.muzzle_exit = exit_time(load);
-  load.muzzle_travel.reset();
-  if (!load.muzzle_exit) load.exit_decay = usual.exit_decay;
-  const bool measured = !load.curve_time.empty(), bell = load.shape == LoadShape::bell;
-  if (measured || bell) load.exponent = usual.exponent;
-  if (measured || !bell) {
-    load.width = usual.width;
-    load.steepness = usual.steepness;
-  }
-  if (!measured) return load;
-  load.shape = usual.shape;
-  load.base = usual.base;
-  load.peak_time = usual.peak_time;
-  if (!load.rescale_to_peak) load.peak = usual.peak;
-  return load;
-}
-
 Switch decided(const Term& term) { return term.in ? Switch::on : Switch::off; }
 
 /// The plan's decisions instead of what they rest on.
@@ -50,12 +28,13 @@ class Unfelt {
         reacts_(plan.bulk_reaction.in),
         temperatures_matter_(conducts_ || reacts_ || stores_temperatures) {}
 
-  /// Sets them to their defaults, where they have one.
+  /// Sets them, and what does nothing anyway, to their defaults, where they have one.
   template <class Owner>
   void drop(const std::vector<Key<Owner>>& keys, Owner& owner) const {
     for (const Key<Owner>& key : keys) {
-      const bool felt = key.standing == Standing::input || !contains(key.role().acts_on);
-      if (!felt && key.get(owner) != key.default_value()) key.set(owner, key.default_value());
+      const bool felt = key.is_used(owner) && !contains(key.role().acts_on);
+      if (!felt && key.standing != Standing::input && key.get(owner) != key.default_value())
+        key.set(owner, key.default_value());
     }
   }
 
@@ -129,7 +108,9 @@ Scene mechanical_part(const Scene& scene) {
   clear_remarks(part);
   part.accepted.clear();
   part.interfaces = sliding_interfaces(scene);
-  part.load = without_unused(std::move(part.load));
+  // The mechanics knows the time of the exit, however it was stated.
+  part.load.muzzle_exit = exit_time(scene.load);
+  part.load.muzzle_travel.reset();
   const Unfelt unfelt(plan, part.output.asks_for_snapshots());
   unfelt.drop(scene_keys(), part);
   settle_materials(part, unfelt);

@@ -22,15 +22,6 @@ bool is_plausible_word(const Plausible& plausible, const std::string& word) {
          std::find(plausible.words.begin(), plausible.words.end(), word) != plausible.words.end();
 }
 
-/// What does nothing: keys that a scene written back does not have, and numbers of the analytic load under a
-/// measured curve.
-bool is_unused(const Scene& scene, const Key<Scene>& key) {
-  if (key.is_written && !key.is_written(scene)) return true;
-  if (scene.load.curve_time.empty()) return false;
-  if (key.name == "load.peak") return !scene.load.rescale_to_peak;
-  return is_of_analytic_shape(key.name);
-}
-
 class Judge {
  public:
   explicit Judge(const Scene& scene) : scene_(scene) {}
@@ -122,7 +113,7 @@ bool is_plausible(const KeyDescription& key, const Value& value) {
 std::vector<Implausible> implausible_values(const Scene& scene) {
   Judge judge(scene);
   for (const Key<Scene>& key : scene_keys()) {
-    if (!is_unused(scene, key)) judge.key(key, key.name, key.get(scene));
+    if (key.is_used(scene)) judge.key(key, key.name, key.get(scene));
   }
   judge_crack_bound(scene, judge);
   judge_switches(scene, judge);

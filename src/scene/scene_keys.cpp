@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <set>
 #include <string>
 #include <utility>
 
@@ -21,13 +20,12 @@ using Keys = std::vector<Key<Scene>>;
 template <class Law>
 Key<Scene> title_key() {
   return always_plausible(
-             written_where(text_key<Scene>(
-                               fmt::format("{}.title", Law::name), Standing::assumed,
-                               "What the material is, for reports.", "PBX 9501",
-                               [](auto& scene) -> auto& { return scene.template material<Law>().title; }),
-                           [](const Scene& scene) { return !scene.material<Law>().title.empty(); }),
-             "it is for people")
-      .as(ActsOn::nothing, Part::free);
+      written_where(
+          text_key<Scene>(
+              fmt::format("{}.title", Law::name), Standing::assumed, "What the material is, for reports.",
+              "PBX 9501", [](auto& scene) -> auto& { return scene.template material<Law>().title; }),
+          [](const Scene& scene) { return !scene.material<Law>().title.empty(); }),
+      "it is for people", remark);
 }
 
 /// The keys of a law as those of the scene's first material of it.
@@ -59,8 +57,7 @@ Keys general_keys() {
   return {
       always_plausible(text_key("title", Standing::assumed, "What this scene is, for reports.",
                                 "155 mm shell, Composition B", &Scene::title),
-                       "it is for people")
-          .as(ActsOn::nothing, Part::free),
+                       "it is for people", remark),
       always_plausible(
           word_key("symmetry", Standing::paper,
                    "Full shell of revolution, or a slice of unit depth (half model).",
@@ -71,8 +68,8 @@ Keys general_keys() {
           word_key("frame", Standing::assumed,
                    "Grid that accelerates with the projectile, or a grid at rest that it flies through.",
                    {{"co-moving", Frame::co_moving}, {"lab", Frame::lab}}, &Scene::frame),
-          "a run at rest that errs gets a validity warning by the distance that it flew")
-          .as(keys::setting_exact_at("co-moving")),
+          "a run at rest that errs gets a validity warning by the distance that it flew",
+          setting_exact_at("co-moving")),
       always_plausible(
           word_key("barrel", Standing::assumed,
                    "Frictionless rigid barrel around the outer surface, or a free outer surface.",
@@ -87,8 +84,7 @@ Keys general_keys() {
                  air.initial_temperature = s.initial_temperature;
                  air.density = materials::air_density(air.initial_temperature, air.initial_pressure);
                }),
-          between(219, 345), "shells are stored and fired from -54 to 71 degC")
-          .as(ActsOn::mechanics, Part::range),
+          between(219, 345), "shells are stored and fired from -54 to 71 degC", over_range),
       always_plausible(
           written_where(
               word_key("coupling", Standing::assumed,
@@ -96,8 +92,7 @@ Keys general_keys() {
                        "explosive turned to gas that acts on charge and shell, or ends with the launch.",
                        {{"one-way", Coupling::one_way}, {"two-way", Coupling::two_way}}, &Scene::coupling),
               couples_back),
-          "until ignition both are the same")
-          .as(ActsOn::combustion, Part::free),
+          "until ignition both are the same", of_combustion),
   };
 }
 
@@ -147,87 +142,79 @@ std::vector<Key<Numerics>> numerics_keys() {
                                 {{"total-lagrangian", Formulation::total_lagrangian},
                                  {"updated-lagrangian", Formulation::updated_lagrangian}},
                                 &Numerics::formulation),
-                       "constants are calibrated for one of them")
-          .as(keys::vanishing_setting()),
+                       "constants are calibrated for one of them", vanishing_setting),
       plausibly(number_key("cell_size", Dimension::length, between(1e-5, 1), Standing::assumed,
                            "Largest cell length at the refined lines, and everywhere on an even grid; the "
                            "grid is fitted to the bodies with cells no longer than this.",
                            &Numerics::cell_size),
-                between(1e-4, 1e-2), "shells are some cells thick, and cells hold many grains")
-          .as(keys::vanishing_setting()),
+                between(1e-4, 1e-2), "shells are some cells thick, and cells hold many grains",
+                vanishing_setting),
       plausibly(
           number_key("growth_x", Dimension::number, between(1, 2), Standing::assumed,
                      "Ratio of neighbouring cells along x away from the refined lines; 1 is an even grid.",
                      &Numerics::growth_x),
-          between(1, 1.5), "cells that grow faster were never compared with a reference")
-          .as(keys::setting_exact_at(1.0)),
+          between(1, 1.5), "cells that grow faster were never compared with a reference",
+          setting_exact_at(1.0)),
       plausibly(
           number_key("growth_r", Dimension::number, between(1, 2), Standing::assumed,
                      "Ratio of neighbouring cells along r away from the refined lines; 1 is an even grid.",
                      &Numerics::growth_r),
-          between(1, 1.5), "cells that grow faster were never compared with a reference")
-          .as(keys::setting_exact_at(1.0)),
+          between(1, 1.5), "cells that grow faster were never compared with a reference",
+          setting_exact_at(1.0)),
       plausibly(number_key("largest_cell", Dimension::length, between(1e-5, 1), Standing::assumed,
                            "Length up to which cells grow; along r no further than station.width.",
                            &Numerics::largest_cell),
-                between(1e-4, 2e-2), "shells are some cells thick")
-          .as(keys::vanishing_setting()),
+                between(1e-4, 2e-2), "shells are some cells thick", vanishing_setting),
       always_plausible(
           may_be_empty(list_key("refined_x", Dimension::length, between(-10, 10), Standing::assumed,
                                 "Places along x where cells are smallest; empty for the charge's bottom.",
                                 &Numerics::refined_x)),
-          "they only say where cells are small")
-          .as(keys::vanishing_setting()),
+          "they only say where cells are small", vanishing_setting),
       always_plausible(
           may_be_empty(list_key("refined_r", Dimension::length, between(0, 10), Standing::assumed,
                                 "Radii where cells are smallest; empty for the charge's edges.",
                                 &Numerics::refined_r)),
-          "they only say where cells are small")
-          .as(keys::vanishing_setting()),
+          "they only say where cells are small", vanishing_setting),
       plausibly(number_key("hourglass_stiffness", Dimension::number, between(0, 10), Standing::assumed,
                            "Stiffness against hourglassing with one particle a cell, as a share of the shear "
                            "stiffness, in a charge of a fifth of it.",
                            &Numerics::hourglass_stiffness),
                 between(0.03, 1),
-                "without it neighbours alternate, and more than the shear stiffness holds bending back")
-          .as(keys::vanishing_setting()),
+                "without it neighbours alternate, and more than the shear stiffness holds bending back",
+                vanishing_setting),
       plausibly(number_key("particles_per_cell", Dimension::count, between(1, 16), Standing::assumed,
                            "Particles per cell in each direction.", &Numerics::particles_per_cell),
-                between(1, 4), "more were never compared with a reference")
-          .as(keys::vanishing_setting()),
+                between(1, 4), "more were never compared with a reference", vanishing_setting),
       plausibly(number_key("time_step_factor", Dimension::number, above_to(0, 2), Standing::assumed,
                            "Time step over the time sound takes through a cell (CFL); steps are proved "
                            "stable up to 0.68, updated-Lagrangian ones up to 0.57.",
                            &Numerics::time_step_factor),
-                between(0.01, 0.68), "steps are proved stable up to 0.68, updated-Lagrangian ones to 0.57")
-          .as(keys::minor_setting()),
+                between(0.01, 0.68), "steps are proved stable up to 0.68, updated-Lagrangian ones to 0.57",
+                minor_setting),
       plausibly(
           number_key(
               "inertial_scaling", Dimension::number, between(1, 1e4), Standing::assumed,
               "Factor on the inertia of the motion relative to the accelerating frame; an accuracy knob.",
               &Numerics::inertial_scaling),
-          between(1, 100), "larger ones moved temperatures by tens of kelvin")
-          .as(keys::setting_exact_at(1.0)),
+          between(1, 100), "larger ones moved temperatures by tens of kelvin", setting_exact_at(1.0)),
       plausibly(
           number_key("steel_inertia", Dimension::number, between(1, 100), Standing::assumed,
                      "Factor on the inertia of what is no charge, beside inertial_scaling; an accuracy knob.",
                      &Numerics::steel_inertia),
-          between(1, 10), "larger ones were never compared with a reference")
-          .as(keys::setting_exact_at(1.0)),
+          between(1, 10), "larger ones were never compared with a reference", setting_exact_at(1.0)),
       zero_or_plausibly(number_key("damping_time", Dimension::time, between(0, 1), Standing::assumed,
                                    "Decay time of the relative velocity; \"0 ms\" for no damping.",
                                    &Numerics::damping_time),
-                        between(1e-3, 1), "a faster one takes out motion that the load makes")
-          .as(keys::setting_exact_at(0.0)),
+                        between(1e-3, 1), "a faster one takes out motion that the load makes",
+                        setting_exact_at(0.0)),
       plausibly(number_key("pic_fraction", Dimension::number, between(0, 1), Standing::assumed,
                            "Share of PIC in the velocity update; 0 is pure FLIP.", &Numerics::pic_fraction),
-                between(0, 0.02), "a larger share takes out motion as damping does")
-          .as(keys::setting_exact_at(0.0)),
+                between(0, 0.02), "a larger share takes out motion as damping does", setting_exact_at(0.0)),
       plausibly(number_key("energy_drift_limit", Dimension::number, above_to(0, 100), Standing::assumed,
                            "Energy drift, as a share of the energy scale, past which a run is indeterminate.",
                            &Numerics::energy_drift_limit),
-                between(1e-4, 0.1), "a run that invents or loses a tenth of its energy is broken")
-          .as(ActsOn::numerics, Part::free),
+                between(1e-4, 0.1), "a run that invents or loses a tenth of its energy is broken",
+                Role{ActsOn::numerics, Part::free}),
   };
 }
 
@@ -235,19 +222,16 @@ std::vector<Key<Output>> output_keys() {
   return {
       plausibly(number_key("trace_interval", Dimension::time, above_to(0, 1), Standing::assumed,
                            "Interval between samples of the bottom trace.", &Output::trace_interval),
-                between(1e-8, 5e-4), "the load changes within a millisecond")
-          .as(keys::minor_setting()),
+                between(1e-8, 5e-4), "the load changes within a millisecond", minor_setting),
       always_plausible(may_be_empty(list_key("snapshots", Dimension::time, between(0, 1), Standing::assumed,
                                              "Times at which the fields of all particles are stored.",
                                              &Output::snapshot_times)),
-                       "they change nothing of the launch")
-          .as(ActsOn::mechanics, Part::free),
+                       "they change nothing of the launch", judged_elsewhere),
       always_plausible(written_where(words_key("snapshot_events", Standing::assumed,
                                                "Events at which they are stored too; empty for none.",
                                                event_words(), &Output::snapshot_events),
                                      [](const Output& output) { return !output.snapshot_events.empty(); }),
-                       "they change nothing of the launch")
-          .as(ActsOn::mechanics, Part::free),
+                       "they change nothing of the launch", judged_elsewhere),
   };
 }
 
@@ -258,31 +242,27 @@ std::vector<Key<Physics>> physics_keys() {
       always_plausible(word_key("conduction", Standing::assumed,
                                 "Heat conduction between particles: as the plan decides, or forced.",
                                 switches, &Physics::conduction),
-                       "only \"off\" where the plan has it in gives a validity warning")
-          .as(ActsOn::mechanics, Part::free),
+                       "only \"off\" where the plan has it in gives a validity warning", judged_elsewhere),
       always_plausible(word_key("bulk_reaction", Standing::assumed,
                                 "Reaction heat in the bulk of the charge: as the plan decides, or forced.",
                                 switches, &Physics::bulk_reaction),
-                       "only \"off\" where the plan has it in gives a validity warning")
-          .as(ActsOn::mechanics, Part::free),
+                       "only \"off\" where the plan has it in gives a validity warning", judged_elsewhere),
       plausibly(number_key("conduction_bound", Dimension::number, at_least(0), Standing::assumed,
                            "Diffusion length over cell size below which conduction is left out.",
                            &Physics::conduction_bound),
-                between(0, 0.5), "heat that reaches the next cell is not to be left out")
-          .as(ActsOn::mechanics, Part::free),
+                between(0, 0.5), "heat that reaches the next cell is not to be left out", judged_elsewhere),
       plausibly(
           number_key("reaction_bound", Dimension::temperature_difference, at_least(0), Standing::assumed,
                      "Self-heating over the run below which the bulk reaction is left out.",
                      &Physics::reaction_bound),
-          between(0, 1), "self-heating by a kelvin is not to be left out")
-          .as(ActsOn::mechanics, Part::free),
+          between(0, 1), "self-heating by a kelvin is not to be left out", judged_elsewhere),
   };
 }
 
 /// They do nothing, and are no part of what identifies a run, without two-way coupling.
 Keys written_combustion_keys() {
-  Keys keys = keys::keys_of_part("combustion.", &Scene::combustion,
-                                 keys::in_role({ActsOn::combustion, Part::free}, combustion_keys()));
+  Keys keys =
+      keys::keys_of_part("combustion.", &Scene::combustion, keys::in_role(of_combustion, combustion_keys()));
   for (Key<Scene>& key : keys) key = written_where(std::move(key), couples_back);
   return keys;
 }
@@ -317,12 +297,6 @@ const std::vector<std::string>& event_words() {
   return words;
 }
 
-bool is_of_analytic_shape(const std::string& key) {
-  static const std::set<std::string> keys{"load.base",  "load.peak_time", "load.shape",
-                                          "load.width", "load.steepness", "load.exponent"};
-  return keys.contains(key);
-}
-
 const std::vector<Key<Scene>>& scene_keys() {
   static const Keys keys = all_scene_keys();
   return keys;
@@ -337,15 +311,13 @@ const std::vector<Key<Body>>& body_keys() {
   static const std::vector<Key<Body>> keys = {
       always_plausible(
           required(text_key("name", Standing::input, "Name of the body, unique.", "wall", &Body::name)),
-          "it is for people")
-          .as(ActsOn::nothing, Part::free),
+          "it is for people", remark),
       always_plausible(
           required(text_key(
               "material", Standing::input,
               "What the body is made of: a law, whose table gives the numbers, or a material by name.",
               "comp-b", &Body::material)),
-          "the numbers of each are judged")
-          .as(ActsOn::mechanics, Part::free),
+          "the numbers of each are judged", judged_elsewhere),
       plausibly(required(range_key("x", Dimension::length, between(0, 10), Standing::input,
                                    "Axial extent, from the nose to the base.", &Body::x_begin, &Body::x_end)),
                 between(5e-4, 2), "parts of shells are half a millimetre to two metres long"),
@@ -360,16 +332,13 @@ const std::vector<Key<ObservationPoint>>& observation_point_keys() {
   static const std::vector<Key<ObservationPoint>> keys = {
       always_plausible(required(text_key("name", Standing::input, "Name of the point, unique.", "G2",
                                          &ObservationPoint::name)),
-                       "it is for people")
-          .as(ActsOn::mechanics, Part::free),
+                       "it is for people", judged_elsewhere),
       always_plausible(required(number_key("x", Dimension::length, between(0, 10), Standing::input,
                                            "Axial position at rest.", &ObservationPoint::x)),
-                       "it has to lie at the charge's bottom")
-          .as(ActsOn::mechanics, Part::free),
+                       "it has to lie at the charge's bottom", judged_elsewhere),
       always_plausible(required(number_key("r", Dimension::length, between(0, 10), Standing::input,
                                            "Radial position at rest.", &ObservationPoint::r)),
-                       "it has to lie at the charge's bottom")
-          .as(ActsOn::mechanics, Part::free),
+                       "it has to lie at the charge's bottom", judged_elsewhere),
   };
   return keys;
 }

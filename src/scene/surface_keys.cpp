@@ -13,36 +13,34 @@ std::vector<Key<Surface>> gap_keys() {
       always_plausible(list_key("thickness", Dimension::length, between(0, 0.01), Standing::paper,
                                 "Gaps between charge and base; all are judged on one run of the mechanics.",
                                 &Surface::gaps),
-                       "each gap is judged for itself, and a larger one is hotter")
-          .as(ActsOn::surface, Part::free),
+                       "each gap is judged for itself, and a larger one is hotter",
+                       Role{ActsOn::surface, Part::free}),
       always_plausible(
           word_key("pressure", Standing::assumed,
                    "What compresses the air: the charge's bottom stress or the chamber.",
                    {{"charge-bottom", AirPressure::charge_bottom}, {"chamber", AirPressure::chamber}},
                    &Surface::air_pressure),
-          "both are readings of the published model")
-          .as(ActsOn::surface, Part::model),
+          "both are readings of the published model", of_skin_model),
       always_plausible(
           word_key(
               "air", Standing::paper,
               "Air that stays on its adiabat, or a film that conducts into charge and base, the optimistic "
               "bound; in the film no exchange, skin or air density counts.",
               {{"reservoir", AirModel::reservoir}, {"film", AirModel::film}}, &Surface::air_model),
-          "both are models of the air; constants are calibrated for one of them")
-          .as(ActsOn::surface, Part::model),
+          "both are models of the air; constants are calibrated for one of them", of_skin_model),
       plausibly(
           word_key("exchange", Standing::derived,
                    "Heat exchange as a rate, or the printed share in each time step, which depends on it.",
                    {{"rate", Exchange::rate}, {"per-step", Exchange::per_step}}, &Surface::exchange),
-          std::vector<std::string>{"rate"}, "the printed share in each step depends on the step")
-          .as(ActsOn::surface, Part::model),
+          std::vector<std::string>{"rate"}, "the printed share in each step depends on the step",
+          of_skin_model),
       plausibly(number_key("skin_thickness", Dimension::length, above_to(0, 0.01), Standing::paper,
                            "Thickness of the charge's skin that the air heats.", &Surface::skin_thickness),
                 between(3e-5, 1.5e-4), "heat goes 40 um deep in a launch, and the published skin is 0.1 mm"),
       plausibly(number_key("exchange_time", Dimension::time, above_to(0, 100), Standing::calibrated,
                            "Time constant of the exchange between air and skin.", &Surface::exchange_time),
-                between(1.5e-4, 6e-4), "published temperatures ask for 0.3 ms, whatever mesh and closure")
-          .as(ActsOn::surface, Part::calibrated, Hotter::below),
+                between(1.5e-4, 6e-4), "published temperatures ask for 0.3 ms, whatever mesh and closure",
+                Role{ActsOn::surface, Part::calibrated, Hotter::below}),
   };
 }
 
@@ -64,21 +62,20 @@ std::vector<Key<materials::AirParameters>> air_keys() {
                                 "given.",
                                 &AirParameters::initial_temperature),
                      take_density_from_gas_law),
-                between(219, 345), "shells are stored and fired from -54 to 71 degC")
-          .as(ActsOn::surface, Part::range),
+                between(219, 345), "shells are stored and fired from -54 to 71 degC",
+                Role{ActsOn::surface, Part::range}),
       plausibly(then(number_key("pressure", Dimension::pressure, above_to(0, 10e6), Standing::assumed,
                                 "Pressure of the air before launch.", &AirParameters::initial_pressure),
                      take_density_from_gas_law),
-                between(5e4, 1.2e5), "it lies between those at 5500 m of altitude and at the ground")
-          .as(ActsOn::trace, Part::range),
+                between(5e4, 1.2e5), "it lies between those at 5500 m of altitude and at the ground",
+                Role{ActsOn::trace, Part::range}),
       // After what it follows from, so that one that is given stays.
       plausibly(
           number_key("density", Dimension::density, between(0.01, 100), Standing::literature,
                      "Density of the air before launch; follows from its temperature and pressure by the "
                      "gas law unless given.",
                      &AirParameters::density),
-          between(0.6, 1.7), "air has 1.2 kg/m3 at the ground")
-          .as(ActsOn::surface, Part::range),
+          between(0.6, 1.7), "air has 1.2 kg/m3 at the ground", Role{ActsOn::surface, Part::range}),
   };
 }
 
@@ -98,15 +95,15 @@ std::vector<Key<Surface>> friction_keys() {
                                   closure_words(), &Surface::friction),
                          {"literal", "total strain rate"}),
                 std::vector<std::string>{"total strain rate", "inelastic"},
-                "without friction heat the published temperatures are missed by 80 K")
-          .as(ActsOn::heat, Part::model),
+                "without friction heat the published temperatures are missed by 80 K",
+                Role{ActsOn::heat, Part::model}),
       plausibly(
           number_key("localisation", Dimension::number, between(0, 1e6), Standing::calibrated,
                      "Crack spacing over the thickness of the sliding layer: factor on the friction heat.",
                      &Surface::localisation),
           between(250, 2.5e3),
-          "published temperatures ask for 1100 to 2000, however the shell holds the charge")
-          .as(ActsOn::surface, Part::calibrated, Hotter::above),
+          "published temperatures ask for 1100 to 2000, however the shell holds the charge",
+          Role{ActsOn::surface, Part::calibrated, Hotter::above}),
   };
 }
 
@@ -132,13 +129,12 @@ std::vector<Key<Surface>> station_keys() {
 
 std::vector<Key<Scene>> surface_keys() {
   using keys::in_role, keys::keys_of_part;
-  return keys::joined(
-      {keys_of_part("gap.", &Scene::surface, in_role({ActsOn::surface}, gap_keys())),
-       keys_of_part<Scene>(
-           "gap.air_", [](auto& scene) -> auto& { return scene.surface.air; },
-           in_role({ActsOn::surface}, air_keys())),
-       keys_of_part("friction.", &Scene::surface, friction_keys()),
-       keys_of_part("station.", &Scene::surface, in_role({ActsOn::mechanics, Part::model}, station_keys()))});
+  return keys::joined({keys_of_part("gap.", &Scene::surface, in_role({ActsOn::surface}, gap_keys())),
+                       keys_of_part<Scene>(
+                           "gap.air_", [](auto& scene) -> auto& { return scene.surface.air; },
+                           in_role({ActsOn::surface}, air_keys())),
+                       keys_of_part("friction.", &Scene::surface, friction_keys()),
+                       keys_of_part("station.", &Scene::surface, in_role(of_model, station_keys()))});
 }
 
 std::string_view word_of(FrictionClosure closure) {

@@ -61,13 +61,11 @@ void collect_leaves(const toml::table& table, const std::string& prefix, std::ve
 /// The peak matters under a measured curve that is rescaled to it; the other numbers of the analytic shape
 /// never do.
 Fault check_load_axis(const StudyFile& study, const std::string& key, const std::string& scene_key) {
-  const scene::Load& load = study.scene.scene.load;
-  if (load.curve_time.empty()) return std::nullopt;
-  if (scene_key == "load.peak" && !load.rescale_to_peak) {
+  const auto* known = scene::find_key(scene::scene_keys(), scene_key);
+  if (known == nullptr || !known->is_replaced || !known->is_replaced(study.scene.scene)) return std::nullopt;
+  if (scene_key == "load.peak")
     return fault_at(study, key, "peak pressures for a measured curve that is not rescaled",
                     "peak pressures with load.rescale_to_peak = true in the scene");
-  }
-  if (!scene::is_of_analytic_shape(scene_key)) return std::nullopt;
   return fault_at(study, key, scene_key + ", which a measured curve does not have",
                   "a scene without a measured curve, or a key that has an effect");
 }

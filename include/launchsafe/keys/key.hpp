@@ -130,8 +130,12 @@ struct Role {
   Hotter hotter = Hotter::nowhere;
   Exactness exactness = {};
 };
-inline Role vanishing_setting() { return {ActsOn::numerics, Part::setting, {}, {.vanishes = true}}; }
-inline Role minor_setting() { return {ActsOn::numerics, Part::minor_setting, {}, {.vanishes = true}}; }
+// Those that many inputs have.
+inline const Role remark{ActsOn::nothing, Part::free}, judged_elsewhere{ActsOn::mechanics, Part::free},
+    of_combustion{ActsOn::combustion, Part::free}, over_range{ActsOn::mechanics, Part::range},
+    of_model{ActsOn::mechanics, Part::model}, of_skin_model{ActsOn::surface, Part::model},
+    vanishing_setting{ActsOn::numerics, Part::setting, {}, {.vanishes = true}},
+    minor_setting{ActsOn::numerics, Part::minor_setting, {}, {.vanishes = true}};
 inline Role setting_exact_at(Value value) {
   return {ActsOn::numerics, Part::setting, {}, {.value = std::move(value)}};
 }
@@ -166,15 +170,12 @@ struct Key : KeyDescription {
   /// Whether the owner written back has the key; empty: always. What a key came later than, such as results
   /// that are stored, stays what it is where the key does nothing.
   std::function<bool(const Owner&)> is_written = {};
+  /// Where the key is written, and others take its place; empty: nowhere.
+  std::function<bool(const Owner&)> is_replaced = {};
+  bool is_used(const Owner& owner) const {
+    return (!is_written || is_written(owner)) && !(is_replaced && is_replaced(owner));
+  }
   Value default_value() const { return get(Owner{}); }
-  /// The same key in this role.
-  Key as(Role role) && {
-    stated_role = std::move(role);
-    return std::move(*this);
-  }
-  Key as(ActsOn acts_on, Part part, Hotter hotter = Hotter::nowhere) && {
-    return std::move(*this).as(Role{acts_on, part, hotter});
-  }
 };
 
 /// The key of that name, or nullptr.
@@ -369,10 +370,12 @@ auto keys_of_part(const std::string& prefix, Member member,
       set(std::invoke(member, whole), value);
     };
     own.get = [member, get = key.get](const Whole& whole) { return get(std::invoke(member, whole)); };
-    if (key.is_written)
-      own.is_written = [member, is_written = key.is_written](const Whole& whole) {
-        return is_written(std::invoke(member, whole));
-      };
+    const auto lift = [member](const auto& condition) -> std::function<bool(const Whole&)> {
+      if (!condition) return {};
+      return [member, condition](const Whole& whole) { return condition(std::invoke(member, whole)); };
+    };
+    own.is_written = lift(key.is_written);
+    own.is_replaced = lift(key.is_replaced);
   }
   return lifted;
 }
@@ -400,29 +403,38 @@ Key<Owner> required(Key<Owner> key) {
   return key;
 }
 
-/// The same key with what is plausible of it, and why.
+namespace detail {
 template <class Owner>
-Key<Owner> plausibly(Key<Owner> key, Limits limits, std::string because) {
-  key.plausible = {.limits = limits, .because = std::move(because)};
+Key<Owner> judged(Key<Owner> key, Plausible plausible, std::optional<Role> role) {
+  key.plausible = std::move(plausible);
+  key.stated_role = std::move(role);
   return key;
+}
+}  // namespace detail
+
+/// The same key with what is plausible of it, why, and its role.
+template <class Owner>
+Key<Owner> plausibly(Key<Owner> key, Limits limits, std::string because, std::optional<Role> role = {}) {
+  return detail::judged(std::move(key), {.limits = limits, .because = std::move(because)}, std::move(role));
 }
 /// The same key, of which also 0 is plausible, where it stands for "none".
 template <class Owner>
-Key<Owner> zero_or_plausibly(Key<Owner> key, Limits limits, std::string because) {
-  key.plausible = {.limits = limits, .or_zero = true, .because = std::move(because)};
-  return key;
+Key<Owner> zero_or_plausibly(Key<Owner> key, Limits limits, std::string because,
+                             std::optional<Role> role = {}) {
+  return detail::judged(std::move(key), {.limits = limits, .or_zero = true, .because = std::move(because)},
+                        std::move(role));
 }
 /// The same word or flag ("true"), of which only these are plausible, and why.
 template <class Owner>
-Key<Owner> plausibly(Key<Owner> key, std::vector<std::string> words, std::string because) {
-  key.plausible = {.words = std::move(words), .because = std::move(because)};
-  return key;
+Key<Owner> plausibly(Key<Owner> key, std::vector<std::string> words, std::string because,
+                     std::optional<Role> role = {}) {
+  return detail::judged(std::move(key), {.words = std::move(words), .because = std::move(because)},
+                        std::move(role));
 }
 /// The same key, of which all that is allowed is plausible, and why.
 template <class Owner>
-Key<Owner> always_plausible(Key<Owner> key, std::string because) {
-  key.plausible = {.because = std::move(because)};
-  return key;
+Key<Owner> always_plausible(Key<Owner> key, std::string because, std::optional<Role> role = {}) {
+  return detail::judged(std::move(key), {.because = std::move(because)}, std::move(role));
 }
 
 /// The same key with something that follows from it done to its owner after it is set.

@@ -71,10 +71,10 @@ class LinearElastic::Integrator {
 inline std::vector<keys::Key<LinearElastic>> LinearElastic::parameters() {
   using keys::above_to, keys::between, keys::Dimension;
   const auto number = [](const char* key, Dimension dimension, keys::Limits limits, const char* sentence,
-                         auto member) {
+                         auto member, keys::Role role = {}) {
     return keys::always_plausible(
         keys::number_key(key, dimension, limits, keys::Standing::assumed, sentence, member),
-        "it is for checks against closed forms, and no published launch is of it");
+        "it is for checks against closed forms, and no published launch is of it", role);
   };
   return keys::keys_of_part<LinearElastic>(
       "elastic.", std::identity{},
@@ -86,11 +86,9 @@ inline std::vector<keys::Key<LinearElastic>> LinearElastic::parameters() {
           number("shear_modulus", Dimension::pressure, above_to(0, 1e12), "Shear modulus G.",
                  &LinearElastic::shear),
           number("specific_heat", Dimension::specific_heat, between(50, 1e4), "Specific heat.",
-                 &LinearElastic::specific_heat)
-              .as(keys::ActsOn::heat, keys::Part::constant),
+                 &LinearElastic::specific_heat, {keys::ActsOn::heat}),
           number("conductivity", Dimension::conductivity, between(0, 1e4), "Thermal conductivity.",
-                 &LinearElastic::conductivity)
-              .as(keys::ActsOn::conduction, keys::Part::constant),
+                 &LinearElastic::conductivity, {keys::ActsOn::conduction}),
       });
 }
 

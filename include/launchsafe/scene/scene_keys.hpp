@@ -18,9 +18,6 @@ const std::vector<Key<Scene>>& scene_keys();
 keys::Role role_of(std::string_view key);
 /// Those of the charge's bottom among them: gap and air, friction and stations.
 std::vector<Key<Scene>> surface_keys();
-/// Whether a key holds a number of the analytic load that a measured curve takes the place of; `load.peak`
-/// may scale the curve, and is none.
-bool is_of_analytic_shape(const std::string& key);
 /// Keys of one [[body]].
 const std::vector<Key<Body>>& body_keys();
 /// Keys of one [[observation_point]].
