@@ -76,7 +76,7 @@ TEST_F(AccuracyRecordProgram, IsRefusedOnceItWasEdited) {
       {"\"model_version\": " + std::to_string(run::model_version),
        "\"model_version\": 4294967297",
        {"model_version", "4294967297"}},
-      {"\"peak_pressure_Pa\": 5", "\"peak_pressure_Pa\": 9", {"digest", "edited"}},
+      {"load.peak = \\\"5", "load.peak = \\\"9", {"digest", "edited"}},
       {"\"temperature_bound_K\": ", "\"temperature_bound_K\": 0.0, \"x\": ", {"settings.0.x"}},
       {"\"temperature_bound_K\": ", "\"temperature_bound_K\": 0.0, \"temperature_bound_K\": ", {"twice"}},
       {"\"frame\":", "\"load.peak\": 1000000.0, \"frame\":", {"settings.0.setting.load.peak"}},
