@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build
-  libeigen3-dev libboost-dev libtbb-dev libhdf5-dev libssl-dev libcli11-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev
+  libeigen3-dev libboost-dev libtbb-dev libhdf5-dev libsqlite3-dev libssl-dev libcli11-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev
   libkainjow-mustache-dev
   gnuplot-nox
 )

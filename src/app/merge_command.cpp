@@ -20,13 +20,11 @@ ExitCode import_folders(const std::vector<std::filesystem::path>& folders, Study
     const auto imported = session.store().import_from(folder);
     session.print_remarks();
     if (!imported) {
-      const auto& [kind, message] = imported.error();
-      const bool folder_is_wrong =
-          kind == store::Error::Kind::conflict || kind == store::Error::Kind::missing;
-      return folder_is_wrong ? console.refuse(message) : console.fail(message);
+      const bool is_missing = imported.error().kind == store::Error::Kind::missing;
+      return is_missing ? console.refuse(imported.error().message) : console.end_with(imported.error());
     }
-    console.remark(fmt::format("{}: copied {} cases and {} answers, {} cases were there already",
-                               folder.string(), imported->cases, imported->answers, imported->already_there));
+    console.remark(fmt::format("{}: copied {} cases, {} were there already", folder.string(), imported->cases,
+                               imported->already_there));
   }
   return ExitCode::done;
 }

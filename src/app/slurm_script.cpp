@@ -147,9 +147,9 @@ NamedTexts slurm_scripts(const SlurmStudy& study) {
   const TextValues values{
       {"folder", shell_quoted(slurm_folder(study.asked.output).string())},
       {"job", job_name(study)},
-      {"journal", study.asked.shards > 1
-                      ? fmt::format("journal.$SLURM_ARRAY_TASK_ID-of-{}.jsonl", study.asked.shards)
-                      : std::string("journal.jsonl")},
+      {"status", study.asked.shards > 1
+                     ? fmt::format("status.$SLURM_ARRAY_TASK_ID-of-{}.json", study.asked.shards)
+                     : std::string("status.json")},
       {"jobs", std::to_string(study.asked.jobs)},
       {"least_minutes", std::to_string(least_minutes)},
       {"limits", limits_of(study)},

@@ -43,7 +43,10 @@ study::StudyOptions options_of(const StudyArguments& arguments, int jobs, store:
 kinds::StudyOutcome run_with_progress(const study::StudyFile& file, study::StudyOptions options,
                                       const Console& console) {
   Progress progress(progress_style(console.quiet()));
-  options.progress = [&progress](const study::Progress& state) { progress.show(progress_line(state)); };
+  options.progress = [&progress, store = options.store](const study::Progress& state) {
+    progress.show(progress_line(state));
+    store->tell_progress(state.done, state.running, state.total);
+  };
   return kinds::run_study(file, options);
 }
 
@@ -59,8 +62,8 @@ std::optional<scene::InputError> refusal_of(const study::StudyFile& file, const 
 /// Whether runs of the past tell how fast this machine is.
 bool knows_rate(const store::CaseStore* store) {
   if (store == nullptr) return false;
-  const std::vector<store::JournalEntry> entries = store->entries();
-  return std::any_of(entries.begin(), entries.end(), [](const store::JournalEntry& entry) {
+  const std::vector<store::RunRecord> entries = store->records();
+  return std::any_of(entries.begin(), entries.end(), [](const store::RunRecord& entry) {
     return entry.state == store::CaseState::done && entry.wall_time > 0 && entry.predicted_updates > 0;
   });
 }
@@ -83,7 +86,7 @@ void remark_obstacle(const study::StudyFile& file, const StudyArguments& argumen
 ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, Console& console) {
   remark_obstacle(file, arguments, console);
   const auto store = store_for(arguments);
-  if (!store) return console.fail(store.error().message);
+  if (!store) return console.end_with(store.error());
   const std::optional<double> update_rate =
       knows_rate(store->get()) ? 0.0 : measured_update_rate(file.cases.front().scene.scene, console);
   if (!update_rate) return ExitCode::interrupted;

@@ -154,8 +154,7 @@ std::string listed(const std::vector<std::string>& names) {
 }  // namespace
 
 bool holds_store(const path& folder) {
-  for (const std::string& name : names_in(folder))
-    if (name == "journal.jsonl" || (name.starts_with("journal.") && name.ends_with(".jsonl"))) return true;
+  if (!store::results_files_in(folder).empty()) return true;
   for (const path file : names_in(folder / "cases"))
     if (file.extension() == ".h5" && store::is_case_hash(file.stem().string())) return true;
   return false;

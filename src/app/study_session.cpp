@@ -64,7 +64,7 @@ ExitCode StudySession::open() {
   if (!opened) return console_.end_with(opened.error());
   store_ = std::move(*opened);
   print_remarks();
-  // Until the lock was ours somebody else may have been at work here.
+  // Until the store was ours somebody else may have been at work here.
   if (const auto late =
           obstacle_in_folder(request_.folder, request_.kind, request_.manifest, request_.update))
     return console_.refuse(*late);
@@ -151,6 +151,8 @@ ExitCode StudySession::write_files(const kinds::StudyOutcome& result) {
     return ExitCode::done;
   }
   if (const ExitCode code = keep_edited_files(); code != ExitCode::done) return code;
+  store_->replace_tables(report::plain_tables(result.report));
+  if (!kept()) return ExitCode::failed;
   const auto written = report::write_report(result.report, request_.folder, {.stop = &stop_requested()});
   if (!written) return console_.end_with(written.error());
   for (const std::string& remark : written->remarks) console_.remark(remark);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <type_traits>
 
 namespace launchsafe::report {
 namespace {
@@ -164,6 +165,49 @@ std::string study_json(const study::StudyFile& study, const Report& report,
     std::erase_if(tables, [&](const ReportTable* table) { return table->member == member; });
   }
   return text + "\n}\n";
+}
+
+namespace {
+
+store::SqlValue sql_value(const Cell& cell) {
+  return std::visit(
+      [](const auto& value) -> store::SqlValue {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>)
+          return store::to_sql(value);
+        return value;
+      },
+      cell);
+}
+
+/// Adds the rows of a table, and its columns where the table before has others.
+void add_rows(store::PlainTable& all, const Table& table) {
+  std::vector<std::size_t> places;
+  for (const Column& column : table.columns) {
+    const auto found = std::find(all.columns.begin(), all.columns.end(), column.name);
+    places.push_back(static_cast<std::size_t>(found - all.columns.begin()));
+    if (found == all.columns.end()) all.columns.push_back(column.name);
+  }
+  for (const auto& cells : table.rows) {
+    store::SqlRow& row = all.rows.emplace_back();
+    row.resize(all.columns.size());
+    for (std::size_t i = 0; i < places.size(); ++i) row[places[i]] = sql_value(cells[i]);
+  }
+  for (store::SqlRow& row : all.rows) row.resize(all.columns.size());
+}
+
+}  // namespace
+
+std::vector<store::PlainTable> plain_tables(const Report& report) {
+  std::vector<store::PlainTable> tables;
+  for (const auto& item : report.items) {
+    const auto* table = std::get_if<ReportTable>(&item);
+    if (table == nullptr || table->member.empty() || table->table.columns.empty()) continue;
+    auto found = std::find_if(tables.begin(), tables.end(),
+                              [&](const store::PlainTable& each) { return each.name == table->member; });
+    if (found == tables.end()) found = tables.insert(found, {table->member, {}, {}});
+    add_rows(*found, for_programs(table->table));
+  }
+  return tables;
 }
 
 store::Result<WrittenFiles> write_report(const Report& report, const std::filesystem::path& folder,

@@ -174,7 +174,7 @@ store::MaybeError read_journal(StudyEvidence& study) {
   if (!std::filesystem::exists(study.folder / "cases")) return {};
   const auto opened = store::CaseStore::open_to_read(study.folder, study.record.manifest.model_version);
   if (!opened) return opened.error();
-  study.runs = (*opened)->entries();
+  study.runs = (*opened)->records();
   return {};
 }
 

@@ -297,7 +297,7 @@ void say_unfinished(const Subject& subject, SafetySection& section) {
       continue;
     }
     std::map<store::CaseState, std::size_t> states;
-    for (const store::JournalEntry& entry : study.runs) ++states[entry.state];
+    for (const store::RunRecord& entry : study.runs) ++states[entry.state];
     section.item("limits.unfinished",
                  {{"study", study.label},
                   {"kind", study.kind},

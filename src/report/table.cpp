@@ -246,6 +246,18 @@ std::string to_csv(const Table& table) {
   return csv;
 }
 
+Table for_programs(const Table& table) {
+  Table part;
+  const auto keys = keys_of(table);
+  const auto places = places_for(table, Audience::programs);
+  for (const std::size_t place : places) part.columns.push_back({.name = keys[place], .unit = {}});
+  for (const auto& row : table.rows) {
+    auto& cells = part.rows.emplace_back();
+    for (const std::size_t place : places) cells.push_back(cell_at(row, place));
+  }
+  return part;
+}
+
 nlohmann::ordered_json to_json(const Table& table) {
   const auto keys = keys_of(table);
   const auto places = places_for(table, Audience::programs);

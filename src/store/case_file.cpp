@@ -17,7 +17,7 @@
 namespace launchsafe::store {
 namespace {
 
-constexpr std::string_view format_name = "launchsafe case file";
+constexpr std::string_view format_name = case_file_begin;
 constexpr std::string_view format_version = "1";
 
 // --- the user block: what the bytes after it must be ---

@@ -7,6 +7,7 @@
 #include <hdf5.h>
 #include <nlohmann/json.hpp>
 #include <openssl/opensslv.h>
+#include <sqlite3.h>
 #include <toml++/impl/version.h>
 #include <unistd.h>
 
@@ -43,6 +44,7 @@ std::vector<LibraryVersion> library_versions() {
       {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"Boost", dotted(BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
       {"HDF5", hdf5_version()},
+      {"SQLite", sqlite3_libversion()},
       {"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
       {"toml++", dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
       {"nlohmann-json",

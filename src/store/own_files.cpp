@@ -1,14 +1,17 @@
 #include "launchsafe/store/own_files.hpp"
 
-#include "journal.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
+#include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "posix_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cerrno>
+#include <functional>
 #include <optional>
 
 namespace launchsafe::store {
@@ -18,6 +21,14 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view line_begin = R"({"file":)";
 
+/// Calls `take` with every line that ends in a newline; a last one without was cut short.
+void for_each_line(std::string_view text, const std::function<void(std::string_view)>& take) {
+  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
+    take(text.substr(0, end));
+    text.remove_prefix(end + 1);
+  }
+}
+
 std::string line_of(const WrittenFile& file) {
   const nlohmann::ordered_json line{{"file", file.name}, {"sha256", file.sha256}};
   return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -26,16 +37,18 @@ std::string line_of(const WrittenFile& file) {
 /// Whether a record's word is taken for a name: one in its folder, and none of the store's own.
 bool may_be_recorded(const std::string& name) {
   if (name.empty() || name == "." || name == ".." || fs::path(name).filename() != name) return false;
-  const auto begins_with = [&name](const char* begin) { return name.starts_with(begin); };
-  return name != "cases" && name != "slurm" && !begins_with("lock") && !begins_with("journal") &&
-         !begins_with("answers");
+  return name != "slurm" && name != own_files_name && !is_store_name(name);
 }
 
 std::optional<WrittenFile> written_file(std::string_view line) {
   if (!line.starts_with(line_begin)) return {};
   const auto object = nlohmann::json::parse(line, nullptr, false);
   if (!object.is_object()) return {};
-  WrittenFile file{text_member(object, "file"), text_member(object, "sha256")};
+  const auto text = [&object](const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+  };
+  WrittenFile file{text("file"), text("sha256")};
   if (!may_be_recorded(file.name) || file.sha256.empty()) return {};
   return file;
 }
@@ -43,16 +56,26 @@ std::optional<WrittenFile> written_file(std::string_view line) {
 /// Whether any line is one of ours; a single one that a kill cut short has no end.
 bool is_journal_of_files(std::string_view content) {
   if (content.find('\n') == std::string_view::npos) return content.starts_with(line_begin);
-  return any_line(content, [](std::string_view line) { return written_file(line).has_value(); });
+  bool any = false;
+  for_each_line(content, [&any](std::string_view line) { any = any || written_file(line); });
+  return any;
 }
 
 MaybeError append(const fs::path& folder, const std::string& lines) {
   if (lines.empty()) return {};
   const fs::path path = folder / own_files_name;
   if (MaybeError error = obstacle_in_place(path, is_journal_of_files)) return error;
-  AppendedFile journal(path);
-  if (MaybeError error = journal.append(lines)) return error;
-  return journal.sync();
+  Result<Descriptor> file = open_in_place(path, O_APPEND);
+  if (!file) return file.error();
+  struct stat status {};
+  char last = '\n';
+  if (::fstat(file->number(), &status) != 0 ||
+      (status.st_size > 0 && ::pread(file->number(), &last, 1, status.st_size - 1) != 1) ||
+      // A line that a kill cut short must not swallow the beginning of ours.
+      !write_all(file->number(), (last == '\n' ? "" : "\n") + lines) || ::fdatasync(file->number()) != 0 ||
+      !sync_folder(folder))
+    return write_error(path, errno);
+  return {};
 }
 
 Error not_ours(const fs::path& path, FileState state) {
@@ -72,9 +95,7 @@ Result<OwnFiles> OwnFiles::read(const fs::path& folder) {
   if (!text && text.error().kind != Error::Kind::missing) return text.error();
   if (!text) return files;
   for_each_line(*text, [&files](std::string_view line) {
-    const std::optional<WrittenFile> file = written_file(line);
-    if (file) files.add(*file);
-    return file.has_value();
+    if (const auto file = written_file(line)) files.add(*file);
   });
   return files;
 }

@@ -56,6 +56,7 @@ MaybeError obstacle_in_place(const std::filesystem::path& path,
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0) return {};
   if (const std::string_view fault = fault_of(status); !fault.empty()) return refusal(path, fault);
+  if (!is_ours) return {};
   const Result<std::string> content = read_file(path);
   if (!content) return content.error();
   if (content->empty() || is_ours(*content)) return {};

@@ -55,7 +55,8 @@ inline constexpr std::string_view foreign_file = "was not written by launchsafe"
 Result<Descriptor> open_in_place(const std::filesystem::path& path, int flags);
 
 /// Why a file may not be written in place; nothing when it is not there, or when it is a regular file of one
-/// name and `is_ours` holds for its content. Changes nothing. Errors: conflict, unreadable.
+/// name and `is_ours`, where it is given, holds for its content. Changes nothing. Errors: conflict,
+/// unreadable.
 MaybeError obstacle_in_place(const std::filesystem::path& path,
                              const std::function<bool(std::string_view content)>& is_ours);
 

@@ -2,6 +2,7 @@
 
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
+#include "launchsafe/study/stored_answer.hpp"
 #include "launchsafe/version.hpp"
 
 #include <fmt/format.h>
@@ -40,9 +41,7 @@ std::string digest_of_analysis(const Study& study) {
 std::optional<CaseAnswer> stored_answer(const Study& study, const StudyCase& input, const std::string& key,
                                         const StudyOptions& options) {
   if (options.store == nullptr) return std::nullopt;
-  const auto line = options.store->answer(key);
-  if (!line) return std::nullopt;
-  auto answer = answer_from_json(*line);
+  auto answer = read_answer(*options.store, key);
   if (!answer || !fits(*answer, study, input)) return std::nullopt;
   // References are not stored: they are the study's.
   attach_references(study, input, answer->verdicts);
@@ -137,7 +136,7 @@ class AnswerRunner {
     CaseAnswer answer = answer_from(study_.study, input, runs);
     if (!judged || was_cut_off(runs.front())) return answer;
     if (options_.store != nullptr && std::none_of(runs.begin(), runs.end(), was_cut_off))
-      options_.store->save_answer(answer_key(analysis_, input, runs.front().hash), to_json_line(answer));
+      save_answer(*options_.store, answer_key(analysis_, input, runs.front().hash), answer);
     return answer;
   }
 

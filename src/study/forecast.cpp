@@ -15,7 +15,7 @@
 namespace launchsafe::study {
 namespace {
 
-using store::CaseState, store::JournalEntry;
+using store::CaseState, store::RunRecord;
 
 /// The lines of one text that the other does not have, "key = value" each.
 std::vector<std::string> lines_only_in(const std::string& text, const std::string& other) {
@@ -30,7 +30,7 @@ std::vector<std::string> lines_only_in(const std::string& text, const std::strin
 }
 
 /// What is different from a stored case of the same label.
-std::string difference(const std::string& input, const JournalEntry& before, store::CaseStore& store) {
+std::string difference(const std::string& input, const RunRecord& before, store::CaseStore& store) {
   const auto stored = store.input_of(before.hash);
   if (!stored) return "never run here";
   constexpr std::size_t most = 3;
@@ -48,24 +48,24 @@ class Reasons {
  public:
   explicit Reasons(store::CaseStore* store) : store_(store) {
     if (store_ == nullptr) return;
-    for (JournalEntry& entry : store_->entries()) {
+    for (RunRecord& entry : store_->records()) {
       if (entry.state == CaseState::done) by_label_.insert_or_assign(entry.label, std::move(entry));
     }
   }
 
   std::string why_run(const CaseRun& needed) const {
     if (store_ == nullptr) return "nothing is stored";
-    if (const auto entry = store_->last_entry(needed.hash)) return why_again(*entry);
+    if (const auto entry = store_->record_of(needed.hash)) return why_again(*entry);
     const auto same_label = by_label_.find(needed.label);
     if (same_label == by_label_.end()) return "never run here";
     return difference(identity_of(needed).input(), same_label->second, *store_);
   }
 
  private:
-  static std::string why_again(const JournalEntry& entry) {
+  static std::string why_again(const RunRecord& entry) {
     switch (entry.state) {
       case CaseState::done:
-        return "its file is gone, or was damaged and set aside";
+        return "its file is gone or damaged";
       case CaseState::failed:
         return "failed before: " + entry.reason;
       case CaseState::timed_out:
@@ -77,13 +77,13 @@ class Reasons {
   }
 
   store::CaseStore* store_;
-  std::map<std::string, JournalEntry> by_label_;
+  std::map<std::string, RunRecord> by_label_;
 };
 
 /// True for a run that would not be tried now: it was timed out under a limit no smaller than today's, or it
 /// failed and nothing may be computed.
 bool is_given_up(const std::string& hash, const StudyOptions& options) {
-  const auto entry = options.store ? options.store->last_entry(hash) : std::nullopt;
+  const auto entry = options.store ? options.store->record_of(hash) : std::nullopt;
   if (!entry) return false;
   if (entry->state == CaseState::failed) return !options.compute;
   return entry->state == CaseState::timed_out &&
@@ -95,7 +95,7 @@ void learn_rate(Forecast& forecast, const StudyOptions& options) {
   if (options.store == nullptr) return;
   double updates = 0, seconds = 0;
   std::size_t runs = 0;
-  for (const JournalEntry& entry : options.store->entries()) {
+  for (const RunRecord& entry : options.store->records()) {
     if (entry.state != CaseState::done || !(entry.wall_time > 0)) continue;
     updates += entry.predicted_updates;
     seconds += entry.wall_time;

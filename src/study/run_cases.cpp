@@ -18,7 +18,7 @@
 namespace launchsafe::study {
 namespace {
 
-using store::CaseState, store::JournalEntry;
+using store::CaseState, store::RunRecord;
 
 FinishedRun without_result(RunOutcome outcome, std::string failure) {
   return {outcome, std::move(failure), {}, {}};
@@ -32,8 +32,8 @@ FinishedRun with_result(run::CaseResult result, RunOutcome outcome) {
   return run;
 }
 
-JournalEntry entry_for(const CaseRun& run, CaseState state, std::string reason) {
-  JournalEntry entry;
+RunRecord entry_for(const CaseRun& run, CaseState state, std::string reason) {
+  RunRecord entry;
   entry.hash = run.hash;
   entry.state = state;
   entry.label = run.label;
@@ -123,7 +123,7 @@ class CaseLoop {
         if (auto stored = options_.store->load(run.hash))
           return with_result(std::move(*stored), RunOutcome::reused);
       }
-      const auto before = options_.store->last_entry(run.hash);
+      const auto before = options_.store->record_of(run.hash);
       if (before && before->state == CaseState::timed_out &&
           (!options_.compute || options_.time_limit <= before->time_limit)) {
         run::CaseResult result;
@@ -162,7 +162,7 @@ class CaseLoop {
     CaseState state = CaseState::done;
     if (computed.outcome == RunOutcome::interrupted) state = CaseState::interrupted;
     if (computed.outcome == RunOutcome::timed_out) state = CaseState::timed_out;
-    JournalEntry entry = entry_for(run, state, state == CaseState::done ? std::string{} : mechanics.reason);
+    RunRecord entry = entry_for(run, state, state == CaseState::done ? std::string{} : mechanics.reason);
     entry.wall_time = mechanics.wall_time;
     entry.processor_time = mechanics.processor_time;
     if (state == CaseState::timed_out) entry.time_limit = options_.time_limit;
@@ -175,7 +175,7 @@ class CaseLoop {
   /// Once: a study that is started again and again refuses the same run each time.
   void note_refusal(const CaseRun& run, const std::string& reason) {
     if (options_.store == nullptr || !options_.compute) return;
-    const auto before = options_.store->last_entry(run.hash);
+    const auto before = options_.store->record_of(run.hash);
     if (before && before->state == CaseState::failed && before->reason == reason) return;
     options_.store->note(entry_for(run, CaseState::failed, reason));
   }

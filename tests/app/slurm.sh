@@ -208,13 +208,13 @@ finish() {
 exit_code_of() { scontrol --oneliner show job "$1" | sed -n 's/.* ExitCode=\([0-9]*\):.*/\1/p' | sort -u; }
 
 expect_equal_reports() {
-  diff --recursive --brief --exclude=manifest.json --exclude='journal*' --exclude='answers*' --exclude='lock*' \
+  diff --recursive --brief --exclude=manifest.json --exclude='journal*' --exclude='study*.db' --exclude='status*' \
     --exclude=slurm "$folder/$1/plain" "$folder/$1/out" || fail "the reports differ"
   say "$(find "$folder/$1/plain" -type f | wc -l) files of the plain study, equal ones from the cluster"
 }
 
 log_of_task() { echo "$folder/$1/out/slurm/launchsafe-sweep-$2.log"; }
-has_stored() { grep --quiet '"done"' "$folder/$1/out/journal.$2-of-3.jsonl"; }
+has_stored() { grep --quiet '"runs_stored": [1-9]' "$folder/$1/out/status.$2-of-3.json"; }
 expect_line() { grep --quiet --fixed-strings "$2" "$1" || fail "$1 does not say: $2"; }
 
 # --- what is tested ---

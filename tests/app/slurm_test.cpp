@@ -49,22 +49,23 @@ class SlurmProgram : public Program {
   }
 
   /// A program of Slurm that notes how it was called and prints something.
-  void stand_in(const std::string& name, const std::string& printed) const {
-    write("bin/" + name, "#!/bin/sh\necho \"" + name + " $*\" >> calls.txt\necho '" + printed + "'\n");
+  void stand_in(const std::string& name, const std::string& printed, const std::string& also = "") const {
+    write("bin/" + name,
+          "#!/bin/sh\necho \"" + name + " $*\" >> calls.txt\n" + also + "\necho '" + printed + "'\n");
     std::filesystem::permissions(folder() / "bin" / name, std::filesystem::perms::owner_all);
   }
 
   /// Runs a shard of two long cases as Slurm would, and after half a second has it told that its time is
-  /// nearly up; `meanwhile` is done just before.
+  /// nearly up; `meanwhile` is done before the script asks for the state of the job.
   int run_shard_until_told(const std::string& job_state, const std::string& meanwhile) {
     write("shell.toml", long_scene());
     EXPECT_EQ(emit().code, 0);
-    stand_in("squeue", job_state);
+    stand_in("squeue", job_state, meanwhile);
     stand_in("scontrol", "");
     return shell(
         "export SLURM_ARRAY_JOB_ID=7 SLURM_ARRAY_TASK_ID=1\n"
-        "sh out/slurm/shard.sbatch & sleep 0.5\n" +
-        meanwhile + "\nkill -USR1 $!; wait $!\n");
+        "sh out/slurm/shard.sbatch & sleep 0.5\n"
+        "kill -USR1 $!; wait $!\n");
   }
 
   std::string script(const std::string& name) const { return read("out/slurm/" + name); }
@@ -223,10 +224,9 @@ TEST_F(SlurmProgram, ShardsAndMergeGiveTheReportOfTheWholeStudyFromAnyFolder) {
   }
 }
 
-/// What the journal of a shard says of a case that is finished.
+/// What the status of a shard says once a case is finished.
 std::string finished_by_shard(int shard) {
-  return fmt::format(R"(echo '{{"case":"0","state":"done","label":"fake"}}' >> out/journal.{}-of-2.jsonl)",
-                     shard);
+  return fmt::format(R"(echo '"runs_stored": 1' > out/status.{}-of-2.json)", shard);
 }
 const std::string a_case_is_stored = finished_by_shard(1);
 

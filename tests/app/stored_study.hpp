@@ -1,10 +1,11 @@
 // Studies whose folders are looked into and compared.
 #pragma once
 
+#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/case_file.hpp"
+#include "launchsafe/store/case_store.hpp"
+#include "launchsafe/store/own_files.hpp"
 #include "program.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <map>
@@ -140,9 +141,8 @@ class StoredStudy : public Program {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder() / name)) {
       const std::string file = std::filesystem::relative(entry.path(), folder() / name).string();
-      const bool own = file == "manifest.json" || file.starts_with("journal") ||
-                       file.starts_with("answers") || file.starts_with("lock") ||
-                       file.starts_with("earlier-") || file.find(".damaged-") != std::string::npos;
+      const bool own = file == "manifest.json" || store::is_store_name(file) ||
+                       file == store::own_files_name || file.starts_with("earlier-");
       if (entry.is_regular_file() && !own) files[file] = read(name + "/" + file);
     }
     return files;
@@ -161,18 +161,24 @@ class StoredStudy : public Program {
     }
   }
 
-  /// How often the journals say that each case is done.
-  std::map<std::string, int> done_cases(const std::string& name) const {
-    std::map<std::string, int> done;
-    for (const auto& entry : std::filesystem::directory_iterator(folder() / name)) {
-      if (!entry.path().filename().string().starts_with("journal")) continue;
-      std::istringstream lines(read(name + "/" + entry.path().filename().string()));
-      for (std::string line; std::getline(lines, line);) {
-        const auto object = nlohmann::json::parse(line, nullptr, false);
-        if (object.is_object() && object.value("state", "") == "done") ++done[object.value("case", "")];
-      }
-    }
+  /// The hashes of the cases that are done; of a folder where no study is running.
+  std::set<std::string> done_cases(const std::string& name) const {
+    std::set<std::string> done;
+    const auto opened = store::CaseStore::open_to_read(folder() / name, run::model_version);
+    EXPECT_TRUE(opened) << (opened ? "" : opened.error().message);
+    if (!opened) return done;
+    for (const store::RunRecord& record : (*opened)->records())
+      if (record.state == store::CaseState::done) done.insert(record.hash);
     return done;
+  }
+
+  /// The files of cases, which are whole, and when each was written.
+  std::map<std::string, std::filesystem::file_time_type> case_files(const std::string& name) const {
+    std::map<std::string, std::filesystem::file_time_type> files;
+    std::error_code gone;
+    for (const auto& entry : std::filesystem::directory_iterator(folder() / name / "cases", gone))
+      if (entry.path().extension() == ".h5") files[entry.path().stem()] = entry.last_write_time(gone);
+    return files;
   }
 
   /// The files of whole cases; whatever is there under such a name has to be one.
@@ -191,7 +197,7 @@ class StoredStudy : public Program {
 
   /// Waits until a case is done, so that what follows meets a study that is running.
   void wait_for_a_case(const std::string& name) const {
-    wait_until([&] { return exists(name) && !done_cases(name).empty(); });
+    wait_until([&] { return !case_files(name).empty(); });
   }
 };
 

@@ -26,8 +26,8 @@ class RefusedRun : public launchsafe::testing::TemporaryFolder {
     options.memory_limit = memory;
     return options;
   }
-  static std::vector<store::JournalEntry> refused(const store::CaseStore& store) {
-    std::vector<store::JournalEntry> entries = store.entries();
+  static std::vector<store::RunRecord> refused(const store::CaseStore& store) {
+    std::vector<store::RunRecord> entries = store.records();
     std::erase_if(entries, [](const auto& entry) { return entry.state == store::CaseState::done; });
     return entries;
   }

@@ -3,6 +3,7 @@
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/study/forecast.hpp"
+#include "launchsafe/study/stored_answer.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"
 
@@ -90,7 +91,7 @@ class Counting {
 
 std::vector<std::string> lines_of(const SweepResult& result) {
   std::vector<std::string> lines;
-  for (const CaseAnswer& answer : result.answers) lines.push_back(to_json_line(answer));
+  for (const CaseAnswer& answer : result.answers) lines.push_back(bytes_of(answer));
   return lines;
 }
 
@@ -255,7 +256,7 @@ TEST_F(StoredSweep, WhereNothingMayBeComputedOnlyWhatIsStoredCounts) {
   EXPECT_EQ(result.answers[2].outcome, RunOutcome::not_stored);
   EXPECT_FALSE((*store)->flush());
   // Nothing was journaled that did not happen.
-  EXPECT_EQ((*store)->entries().size(), 2u);
+  EXPECT_EQ((*store)->records().size(), 2u);
 }
 
 TEST_F(StoredSweep, ComputesADamagedCaseAgain) {

@@ -1,4 +1,4 @@
-// What becomes of case files that are not what the journal says.
+// What becomes of case files that are not what their records say.
 #include "child_process.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
@@ -27,46 +27,48 @@ class DamagedCase : public StoreFixture {
 
   void overwrite(const std::string& bytes) const { std::ofstream(file_of(0), std::ios::binary) << bytes; }
 
-  std::filesystem::path aside(int number) const {
-    return where() / "cases" / fmt::format("{}.damaged-{}", hash_, number);
-  }
-
-  void expect_set_aside(const std::string& bytes) const {
+  /// The file does not count, stays until there is a new result, and is replaced by that.
+  void expect_replaced(const std::string& bytes) const {
     overwrite(bytes);
-    const auto store = opened();
-    EXPECT_FALSE(store->holds(hash_));
-    EXPECT_FALSE(std::filesystem::exists(file_of(0)));
-    EXPECT_EQ(*read_file(aside(1)), bytes);
-    EXPECT_TRUE(any_contains(store->remarks(), file_of(0).string())) << "the remark names the file";
-    EXPECT_TRUE(any_contains(store->remarks(), aside(1).filename().string()));
+    {
+      const auto store = opened();
+      EXPECT_FALSE(store->holds(hash_));
+      EXPECT_EQ(*read_file(file_of(0)), bytes);
+      EXPECT_TRUE(any_contains(store->remarks(), file_of(0).string())) << "the remark names the file";
+      save(*store, 0);
+      ASSERT_FALSE(store->flush());
+      EXPECT_TRUE(store->holds(hash_));
+    }
+    EXPECT_EQ(*read_file(file_of(0)), whole_);
+    EXPECT_TRUE(opened()->holds(hash_));
   }
 
   std::string whole_;
   const std::string hash_ = identity_of(0).hash();
 };
 
-TEST_F(DamagedCase, ATruncatedFileIsSetAside) { expect_set_aside(whole_.substr(0, whole_.size() - 1)); }
+TEST_F(DamagedCase, ATruncatedFileIsReplaced) { expect_replaced(whole_.substr(0, whole_.size() - 1)); }
 
-TEST_F(DamagedCase, AnEmptyFileIsSetAside) { expect_set_aside(""); }
+TEST_F(DamagedCase, AnEmptyFileIsReplaced) { expect_replaced(""); }
 
-TEST_F(DamagedCase, SomethingElseInItsPlaceIsSetAside) { expect_set_aside(std::string(whole_.size(), 'x')); }
+TEST_F(DamagedCase, SomethingElseInItsPlaceIsReplaced) { expect_replaced(std::string(whole_.size(), 'x')); }
 
 TEST_F(DamagedCase, AFlippedBitIsSeen) {
   std::string flipped = whole_;
   flipped[whole_.size() / 2] ^= 4;
-  expect_set_aside(flipped);
+  expect_replaced(flipped);
 }
 
-TEST_F(DamagedCase, TheResultOfAnotherCaseIsSetAside) {
+TEST_F(DamagedCase, TheResultOfAnotherCaseIsReplaced) {
   {
     const auto store = opened();
     save(*store, 1);
   }
   const std::string other = *read_file(file_of(1));
-  expect_set_aside(other);
+  expect_replaced(other);
 }
 
-TEST_F(DamagedCase, LoadingSetsAsideWhatKeptItsSizeAndTime) {
+TEST_F(DamagedCase, LoadingFindsWhatKeptItsSizeAndTime) {
   struct stat before {};
   ASSERT_EQ(::stat(file_of(0).c_str(), &before), 0);
   std::string flipped = whole_;
@@ -80,38 +82,16 @@ TEST_F(DamagedCase, LoadingSetsAsideWhatKeptItsSizeAndTime) {
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, Error::Kind::corrupt);
   EXPECT_FALSE(store->holds(hash_));
-  EXPECT_TRUE(std::filesystem::exists(aside(1)));
+  save(*store, 0);
+  EXPECT_TRUE(store->load(hash_));
 }
 
-TEST_F(DamagedCase, AskingForTheInputSetsAsideToo) {
+TEST_F(DamagedCase, AskingForTheInputFindsItToo) {
   overwrite("garbage");
   const auto store = opened();
   const auto input = store->input_of(hash_);
   ASSERT_FALSE(input);
   EXPECT_EQ(input.error().kind, Error::Kind::corrupt);
-  EXPECT_TRUE(std::filesystem::exists(aside(1)));
-}
-
-TEST_F(DamagedCase, EveryDamagedFileKeepsAPlaceOfItsOwn) {
-  const auto store = opened();
-  for (int number = 1; number <= 3; ++number) {
-    overwrite(fmt::format("garbage {}", number));
-    EXPECT_FALSE(store->holds(hash_));
-    EXPECT_EQ(*read_file(aside(number)), fmt::format("garbage {}", number));
-  }
-}
-
-TEST_F(DamagedCase, CanBeComputedAgain) {
-  overwrite("garbage");
-  {
-    const auto store = opened();
-    EXPECT_FALSE(store->holds(hash_));
-    save(*store, 0);
-    ASSERT_FALSE(store->flush());
-    EXPECT_TRUE(store->holds(hash_));
-  }
-  EXPECT_EQ(*read_file(file_of(0)), whole_);
-  EXPECT_EQ(*read_file(aside(1)), "garbage");
 }
 
 TEST_F(DamagedCase, AFileThatWasOnlyCopiedIsTrustedAfterOneLook) {
@@ -123,29 +103,29 @@ TEST_F(DamagedCase, AFileThatWasOnlyCopiedIsTrustedAfterOneLook) {
   }
   struct stat status {};
   ASSERT_EQ(::stat(file_of(0).c_str(), &status), 0);
-  const auto entry = opened()->last_entry(hash_);
+  const auto entry = opened()->record_of(hash_);
   EXPECT_EQ(entry->file_time, status.st_mtim.tv_sec * 1'000'000'000 + status.st_mtim.tv_nsec);
   EXPECT_EQ(entry->label, "case 0");
 }
 
-TEST_F(DamagedCase, AWholeFileThatWasNotJournaledIsHeld) {
-  std::filesystem::remove(where() / "journal.jsonl");
+TEST_F(DamagedCase, AWholeFileWithoutARecordIsHeld) {
+  std::filesystem::remove(results());
   {
     const auto store = opened();
-    EXPECT_FALSE(store->last_entry(hash_));
+    EXPECT_FALSE(store->record_of(hash_));
     EXPECT_TRUE(store->holds(hash_));
-    EXPECT_EQ(store->last_entry(hash_)->state, CaseState::done);
-    EXPECT_EQ(store->last_entry(hash_)->model_version, model_version);
+    EXPECT_EQ(store->record_of(hash_)->state, CaseState::done);
+    EXPECT_EQ(store->record_of(hash_)->model_version, model_version);
   }
-  EXPECT_TRUE(opened()->last_entry(hash_)) << "it was journaled";
+  EXPECT_TRUE(opened()->record_of(hash_)) << "it was recorded";
 }
 
 TEST_F(DamagedCase, AFileThatMayNotBeReadIsNotHeldAndStays) {
-  std::filesystem::remove(where() / "journal.jsonl");
+  std::filesystem::remove(results());
   for (const auto& path : {folder(), where(), where() / "cases"})
     std::filesystem::permissions(path, std::filesystem::perms::all);
   std::filesystem::permissions(file_of(0), std::filesystem::perms::none);
-  for (const char* name : {"lock"}) std::filesystem::remove(where() / name);
+  std::filesystem::remove(where() / "status.json");
   EXPECT_TRUE(holds_without_privileges([&] {
     const auto store = try_open(where());
     return store && !(*store)->holds(hash_) && !(*store)->remarks().empty() &&

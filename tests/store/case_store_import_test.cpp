@@ -20,11 +20,11 @@ class Import : public StoreFixture {
     const auto other = opened_at(there(), "1-of-2");
     for (int number = 0; number < 3; ++number) save(*other, number);
     note(*other, 5, CaseState::timed_out);
-    other->save_answer("0a", "{\"of\": \"another folder\"}");
+    save_answer(*other, 1, "of another folder");
   }
 
   static void note(CaseStore& store, int number, CaseState state) {
-    JournalEntry entry = entry_of(number);
+    RunRecord entry = record_of(number);
     entry.hash = identity_of(number).hash();
     entry.state = state;
     entry.reason = "for a reason";
@@ -44,28 +44,26 @@ TEST_F(Import, CopiesWholeResultsWithTheirEntriesAndAnswers) {
     ASSERT_TRUE(imported) << imported.error().message;
     EXPECT_EQ(imported->cases, 2U);
     EXPECT_EQ(imported->already_there, 1U);
-    EXPECT_EQ(imported->answers, 1U);
     expect_same(result_of(2), *store->load(identity_of(2).hash()));
   }
   const auto store = opened();
   for (int number = 0; number < 3; ++number) EXPECT_TRUE(store->holds(identity_of(number).hash()));
   EXPECT_EQ(store->load(identity_of(0).hash())->mechanics.wall_time, 61.5);
-  EXPECT_EQ(store->last_entry(identity_of(0).hash())->label, "case 0");
-  EXPECT_EQ(store->last_entry(identity_of(5).hash())->state, CaseState::timed_out);
-  EXPECT_EQ(store->answer("0a"), "{\"of\": \"another folder\"}");
+  EXPECT_EQ(store->record_of(identity_of(0).hash())->label, "case 0");
+  EXPECT_EQ(store->record_of(identity_of(5).hash())->state, CaseState::timed_out);
+  EXPECT_EQ(answer_in(*store, 1), "of another folder");
   EXPECT_EQ(*read_file(file_of(0)), *read_file(file_there(0)));
 }
 
 TEST_F(Import, TwiceIsAsGoodAsOnce) {
   const auto store = opened();
   ASSERT_TRUE(store->import_from(there()));
-  const std::string journal = *read_file(where() / "journal.jsonl");
+  const auto records = store->records();
   const auto again = store->import_from(there());
   ASSERT_TRUE(again);
   EXPECT_EQ(again->cases, 0U);
   EXPECT_EQ(again->already_there, 3U);
-  EXPECT_EQ(again->answers, 0U);
-  EXPECT_EQ(*read_file(where() / "journal.jsonl"), journal);
+  EXPECT_EQ(store->records().size(), records.size());
 }
 
 TEST_F(Import, OfItselfDoesNothing) {
@@ -73,14 +71,14 @@ TEST_F(Import, OfItselfDoesNothing) {
   const auto store = opened();
   const auto imported = store->import_from(folder() / "study" / ".." / "study");
   ASSERT_TRUE(imported);
-  EXPECT_EQ(imported->cases + imported->already_there + imported->answers, 0U);
+  EXPECT_EQ(imported->cases + imported->already_there, 0U);
 }
 
 TEST_F(Import, AttemptsElsewhereSayNothingOfACaseThatIsDone) {
   const auto store = opened();
   save(*store, 5);
   ASSERT_TRUE(store->import_from(there()));
-  EXPECT_EQ(store->last_entry(identity_of(5).hash())->state, CaseState::done);
+  EXPECT_EQ(store->record_of(identity_of(5).hash())->state, CaseState::done);
 }
 
 TEST_F(Import, RefusesResultsOfAnotherModelAndCopiesNothing) {
@@ -90,8 +88,8 @@ TEST_F(Import, RefusesResultsOfAnotherModelAndCopiesNothing) {
   ASSERT_FALSE(imported);
   EXPECT_EQ(imported.error().kind, Error::Kind::conflict);
   EXPECT_NE(imported.error().message.find("model version 7"), std::string::npos) << imported.error().message;
-  EXPECT_TRUE((*newer)->entries().empty());
-  EXPECT_FALSE((*newer)->answer("0a"));
+  EXPECT_TRUE((*newer)->records().empty());
+  EXPECT_FALSE(answer_in(**newer, 1));
   EXPECT_TRUE(std::filesystem::is_empty(where() / "cases"));
 }
 
@@ -106,10 +104,14 @@ TEST_F(Import, LeavesDamagedFilesWhereTheyAreAndNamesThem) {
   EXPECT_TRUE(any_contains(store->remarks(), file_there(1).string()));
 }
 
-TEST_F(Import, WorksWhileTheOtherFolderIsWrittenTo) {
+TEST_F(Import, IsRefusedWhileAnotherProcessWritesThere) {
   const auto other = opened_at(there(), "1-of-2");
   const auto store = opened();
-  EXPECT_TRUE(store->import_from(there()));
+  const auto imported = store->import_from(there());
+  ASSERT_FALSE(imported);
+  EXPECT_EQ(imported.error().kind, Error::Kind::conflict);
+  EXPECT_NE(imported.error().message.find(host_name()), std::string::npos) << imported.error().message;
+  EXPECT_TRUE(store->records().empty());
 }
 
 TEST_F(Import, AFolderWithoutAStoreIsMissing) {

@@ -75,14 +75,49 @@ TEST_F(StoreLockTest, ClearsItselfWhenItsOwnerIsKilled) {
   EXPECT_EQ(conflict(), "");
 }
 
-TEST_F(StoreLockTest, IsReleasedWithTheStoreAndItsFileStaysEmpty) {
+TEST_F(StoreLockTest, IsReleasedWithTheStore) {
   {
     const auto store = opened();
-    EXPECT_NE(read_file(where() / "lock")->find(host_name()), std::string::npos);
+    EXPECT_NE(read_file(where() / "status.json")->find(host_name()), std::string::npos);
     EXPECT_NE(conflict(), "") << "also to the same process";
+    EXPECT_NE(conflict(), "") << "and asking does not give it away";
+    Holder other(where(), "");
+    EXPECT_FALSE(other.holds());
   }
-  EXPECT_EQ(*read_file(where() / "lock"), "");
+  EXPECT_NE(read_file(where() / "status.json")->find("\"ended\": true"), std::string::npos);
   EXPECT_EQ(conflict(), "");
+}
+
+TEST_F(StoreLockTest, AReaderIsToldWhoWritesAndHowFarItIs) {
+  fill(2);
+  {
+    const auto store = opened();
+    store->tell_progress(3, 1, 12);
+    const auto reader = CaseStore::open_to_read(where(), model_version);
+    ASSERT_FALSE(reader);
+    EXPECT_EQ(reader.error().kind, Error::Kind::conflict);
+    EXPECT_NE(reader.error().message.find("3 of 12 runs done"), std::string::npos) << reader.error().message;
+    const std::string status = *read_file(where() / "status.json");
+    EXPECT_NE(status.find("\"runs_stored\": 2"), std::string::npos) << status;
+    EXPECT_NE(status.find("\"runs_running\": 1"), std::string::npos) << status;
+  }
+  const auto reader = CaseStore::open_to_read(where(), model_version);
+  ASSERT_TRUE(reader);
+  EXPECT_EQ((*reader)->records().size(), 2U);
+  EXPECT_EQ(conflict(), "") << "who only looks holds nothing";
+}
+
+TEST_F(StoreLockTest, AReaderNeedsNoRightToWrite) {
+  fill(2);
+  for (const auto& path : {folder(), where(), where() / "cases"})
+    std::filesystem::permissions(path, std::filesystem::perms(0555));
+  const bool reads = holds_without_privileges([&] {
+    const auto reader = CaseStore::open_to_read(where(), model_version);
+    return reader && (*reader)->records().size() == 2 && (*reader)->holds(identity_of(1).hash());
+  });
+  for (const auto& path : {folder(), where(), where() / "cases"})
+    std::filesystem::permissions(path, std::filesystem::perms(0755));
+  EXPECT_TRUE(reads);
 }
 
 TEST_F(StoreLockTest, DifferentPartsCoexist) {
@@ -98,7 +133,6 @@ TEST_F(StoreLockTest, APartExcludesTheWholeAndIsNamed) {
   Holder second(where(), "2-of-3");
   std::string message = conflict();
   EXPECT_NE(message.find(first.name()), std::string::npos) << message;
-  EXPECT_NE(message.find(second.name()), std::string::npos) << message;
   first.kill();
   message = conflict();
   EXPECT_NE(message.find(second.name()), std::string::npos) << message;
@@ -114,20 +148,27 @@ TEST_F(StoreLockTest, TheWholeAndEqualPartsExcludeAPart) {
   }
 }
 
-TEST_F(StoreLockTest, PartsWriteTheirOwnJournalsAndReadAll) {
+TEST_F(StoreLockTest, PartsWriteTheirOwnFilesAndTheWholeTakesAllOver) {
   for (int part = 1; part <= 2; ++part) {
     const auto store = opened(fmt::format("{}-of-2", part));
     save(*store, part);
-    store->save_answer(fmt::format("0{}", part), "answer");
+    save_answer(*store, part, fmt::format("answer {}", part));
   }
-  EXPECT_TRUE(std::filesystem::exists(where() / "journal.1-of-2.jsonl"));
-  EXPECT_TRUE(std::filesystem::exists(where() / "answers.2-of-2.jsonl"));
-  EXPECT_FALSE(std::filesystem::exists(where() / "journal.jsonl"));
-  const auto whole = opened();
-  for (int part = 1; part <= 2; ++part) {
-    EXPECT_TRUE(whole->holds(identity_of(part).hash()));
-    EXPECT_EQ(whole->answer(fmt::format("0{}", part)), "answer");
-  }
+  EXPECT_TRUE(std::filesystem::exists(where() / "study.1-of-2.db"));
+  EXPECT_TRUE(std::filesystem::exists(where() / "study.2-of-2.db"));
+  EXPECT_FALSE(std::filesystem::exists(results()));
+  const auto check = [this](CaseStore& whole) {
+    for (int part = 1; part <= 2; ++part) {
+      EXPECT_EQ(whole.record_of(identity_of(part).hash())->label, fmt::format("case {}", part));
+      EXPECT_TRUE(whole.holds(identity_of(part).hash()));
+      EXPECT_EQ(answer_in(whole, part), fmt::format("answer {}", part));
+    }
+  };
+  check(**CaseStore::open_to_read(where(), model_version));
+  EXPECT_FALSE(std::filesystem::exists(results())) << "who only looks makes no file";
+  check(*opened());
+  check(*opened());
+  check(*opened("1-of-3"));
 }
 
 TEST_F(StoreLockTest, AFolderThatCannotBeMadeIsAnError) {

@@ -15,15 +15,6 @@ namespace {
 using namespace launchsafe::testing;
 using CaseStoreTest = StoreFixture;
 
-void append(const std::filesystem::path& path, std::string_view text) {
-  std::ofstream(path, std::ios::binary | std::ios::app) << text;
-}
-
-std::size_t lines_of(const std::filesystem::path& path) {
-  const std::string text = *read_file(path);
-  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
-
 TEST_F(CaseStoreTest, NamesACaseByItsInput) {
   const CaseIdentity identity("abc");
   EXPECT_EQ(identity.input(), "abc");
@@ -50,7 +41,7 @@ TEST_F(CaseStoreTest, RemembersAfterItWasClosed) {
   for (int number = 0; number < 3; ++number) {
     const std::string hash = identity_of(number).hash();
     EXPECT_TRUE(store->holds(hash));
-    const auto entry = store->last_entry(hash);
+    const auto entry = store->record_of(hash);
     ASSERT_TRUE(entry);
     EXPECT_EQ(entry->state, CaseState::done);
     EXPECT_EQ(entry->label, "case " + std::to_string(number));
@@ -62,20 +53,19 @@ TEST_F(CaseStoreTest, RemembersAfterItWasClosed) {
     EXPECT_EQ(entry->file_size, std::filesystem::file_size(file_of(number)));
     expect_same(result_of(number), *store->load(hash));
   }
-  EXPECT_EQ(store->entries().size(), 3U);
+  EXPECT_EQ(store->records().size(), 3U);
   EXPECT_EQ(store->remarks(), std::vector<std::string>{});
-  EXPECT_EQ(lines_of(where() / "journal.jsonl"), 3U) << "nothing is journaled twice";
 }
 
 TEST_F(CaseStoreTest, EqualCasesAreEqualFiles) {
   const auto first = opened_at(folder() / "first"), second = opened_at(folder() / "second");
-  first->save(identity_of(1), sample_scene(), result_of(1), entry_of(1));
+  first->save(identity_of(1), sample_scene(), result_of(1), record_of(1));
   ASSERT_FALSE(first->flush());
   // HDF5's time stamps and those of a manifest have a resolution of one second.
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   run::CaseResult slower = result_of(1);
   slower.mechanics.wall_time = 99;
-  JournalEntry entry = entry_of(1);
+  RunRecord entry = record_of(1);
   entry.wall_time = 99;
   second->save(identity_of(1), sample_scene(), slower, entry);
   ASSERT_FALSE(second->flush());
@@ -100,7 +90,7 @@ TEST_F(CaseStoreTest, AMissingCaseIsToldFromADamagedOne) {
   const auto result = store->load(identity_of(1).hash());
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, Error::Kind::missing);
-  EXPECT_FALSE(store->last_entry(identity_of(1).hash()));
+  EXPECT_FALSE(store->record_of(identity_of(1).hash()));
 }
 
 TEST_F(CaseStoreTest, AResultThatDoesNotFitTogetherEndsTheWriting) {
@@ -108,31 +98,27 @@ TEST_F(CaseStoreTest, AResultThatDoesNotFitTogetherEndsTheWriting) {
   const auto store = CaseStore::open(where(), {"", model_version, [&](const Error&) { ++failures; }});
   run::CaseResult result = result_of(1);
   result.mechanics.trace.chamber_pressure.pop_back();
-  (*store)->save(identity_of(1), sample_scene(), result, entry_of(1));
+  (*store)->save(identity_of(1), sample_scene(), result, record_of(1));
   EXPECT_TRUE((*store)->flush());
   EXPECT_EQ(failures, 1);
   EXPECT_FALSE((*store)->holds(identity_of(1).hash()));
 }
 
-// --- the journal ---
+// --- attempts ---
 
-TEST_F(CaseStoreTest, JournalsAttemptsThatLeftNoResult) {
+TEST_F(CaseStoreTest, RecordsAttemptsThatLeftNoResult) {
   {
     const auto store = opened();
-    JournalEntry entry = entry_of(1);
+    RunRecord entry = record_of(1);
     entry.hash = identity_of(1).hash();
     entry.state = CaseState::timed_out;
     entry.reason = "60 s had passed";
     entry.time_limit = 60;
     entry.predicted_updates = not_a_number;
     store->note(entry);
-    EXPECT_EQ(store->last_entry(entry.hash)->state, CaseState::timed_out);
+    EXPECT_EQ(store->record_of(entry.hash)->state, CaseState::timed_out);
   }
-  const std::string line = *read_file(where() / "journal.jsonl");
-  EXPECT_TRUE(line.starts_with("{\"case\":\"" + identity_of(1).hash() + "\",\"state\":\"timed-out\""))
-      << line;
-  EXPECT_NE(line.find("\"predicted_updates\":null"), std::string::npos) << line;
-  const auto entry = opened()->last_entry(identity_of(1).hash());
+  const auto entry = opened()->record_of(identity_of(1).hash());
   ASSERT_TRUE(entry);
   EXPECT_EQ(entry->state, CaseState::timed_out);
   EXPECT_EQ(entry->reason, "60 s had passed");
@@ -145,93 +131,52 @@ TEST_F(CaseStoreTest, TheNewestEntryOfACaseCounts) {
   {
     const auto store = opened();
     for (const CaseState state : {CaseState::failed, CaseState::interrupted}) {
-      JournalEntry entry;
+      RunRecord entry;
       entry.hash = "00ff";
       entry.state = state;
       store->note(entry);
     }
   }
   const auto store = opened();
-  EXPECT_EQ(store->last_entry("00ff")->state, CaseState::interrupted);
-  EXPECT_EQ(store->entries().size(), 1U);
+  EXPECT_EQ(store->record_of("00ff")->state, CaseState::interrupted);
+  EXPECT_EQ(store->records().size(), 1U);
 }
 
-TEST_F(CaseStoreTest, ALineThatAKillCutShortHurtsNoOther) {
-  fill(2);
-  append(where() / "journal.jsonl", R"({"case":"00ff","state":"do)");
-  append(where() / "answers.jsonl", identity_of(9).hash() + " 0123456789abcdef {\"x\":");
+// --- tables ---
+
+TEST_F(CaseStoreTest, WhatCanBeDrawnAgainIsThereAfterAFlush) {
   {
     const auto store = opened();
-    EXPECT_FALSE(store->last_entry("00ff"));
-    EXPECT_FALSE(store->answer(identity_of(9).hash()));
-    save(*store, 2);
-    store->save_answer("00aa", "after");
+    save_answer(*store, 1, "one");
+    EXPECT_EQ(answer_in(*store, 1), "one") << "seen at once";
+    save_answer(*store, 1, "another");
+    ASSERT_FALSE(store->flush());
   }
-  const auto store = opened();
-  for (int number = 0; number < 3; ++number) EXPECT_TRUE(store->last_entry(identity_of(number).hash()));
-  EXPECT_EQ(store->entries().size(), 3U);
-  EXPECT_EQ(store->answer("00aa"), "after");
-  EXPECT_TRUE(any_contains(store->remarks(), "journal.jsonl: 1 "));
+  EXPECT_EQ(answer_in(*opened(), 1), "another");
 }
 
-// An editor who knows how lines are checked can make them pass; the journal knows better.
-TEST_F(CaseStoreTest, AnEditedAnswerWithARecomputedChecksumCountsForNothing) {
+TEST_F(CaseStoreTest, TablesForOtherProgramsAreReplacedTogether) {
+  const PlainTable cases{"cases", {"case", "gap_cm"}, {{std::string("a"), 0.5}, {std::string("b"), {}}}};
   {
     const auto store = opened();
-    store->save_answer("01", "INDETERMINATE");
-    store->save_answer("02", "two");
+    store->replace_tables({{"verdicts", {"verdict"}, {{std::string("SAFE")}}}, cases});
+    store->replace_tables({cases, {"runs", {"steps"}, {{std::int64_t{12}}}}});
+    save(*store, 1);
   }
-  std::string text = rehashed_line("01", "SAFE") + rehashed_line("02", "two") + rehashed_line("03", "SAFE");
-  ASSERT_FALSE(write_file_atomically(where() / "answers.jsonl", text, IfExists::replace));
-  const auto store = opened();
-  EXPECT_FALSE(store->answer("01"));
-  EXPECT_EQ(store->answer("02"), "two");
-  EXPECT_FALSE(store->answer("03"));
-  EXPECT_TRUE(any_contains(store->remarks(), "answers.jsonl: 2 "));
+  auto file = Database::copy_of(results());
+  ASSERT_TRUE(file);
+  EXPECT_FALSE(file->has_table("verdicts"));
+  EXPECT_EQ(*file->rows("SELECT * FROM cases WHERE gap_cm > 0.1"), std::vector<SqlRow>{cases.rows[0]});
+  EXPECT_EQ(file->rows("SELECT steps FROM runs")->front(), SqlRow{std::int64_t{12}});
+  EXPECT_EQ(opened()->records().size(), 1U);
 }
 
-TEST_F(CaseStoreTest, ADamagedLineIsIgnoredAndRemarked) {
-  {
-    const auto store = opened();
-    store->save_answer("01", "one");
-    store->save_answer("02", "two");
-    store->save_answer("03", "three");
-  }
-  std::string text = *read_file(where() / "answers.jsonl");
-  text.replace(text.find("two"), 3, "tvo");
-  ASSERT_FALSE(write_file_atomically(where() / "answers.jsonl", text, IfExists::replace));
-  append(where() / "journal.jsonl", std::string(4, '\0') + "\n[1]\n{\"case\":\"0f\",\"state\":\"odd\"}\n");
+TEST_F(CaseStoreTest, SomethingWrongInATableEndsTheWritingAndChangesNothing) {
   const auto store = opened();
-  EXPECT_EQ(store->answer("01"), "one");
-  EXPECT_FALSE(store->answer("02"));
-  EXPECT_EQ(store->answer("03"), "three");
-  EXPECT_TRUE(any_contains(store->remarks(), "answers.jsonl: 1 "));
-  EXPECT_TRUE(any_contains(store->remarks(), "journal.jsonl: 3 "));
-}
-
-// --- answers ---
-
-TEST_F(CaseStoreTest, KeepsTheLastAnswerOfAKey) {
-  {
-    const auto store = opened();
-    EXPECT_FALSE(store->answer("0a"));
-    store->save_answer("0a", R"({"x": 1})");
-    store->save_answer("0b", "");
-    EXPECT_EQ(store->answer("0a"), R"({"x": 1})");
-    store->save_answer("0a", R"({"x": 2})");
-    EXPECT_EQ(store->answer("0a"), R"({"x": 2})");
-  }
-  const auto store = opened();
-  EXPECT_EQ(store->answer("0a"), R"({"x": 2})");
-  EXPECT_EQ(store->answer("0b"), "");
-  EXPECT_FALSE(store->answer("0c"));
-}
-
-TEST_F(CaseStoreTest, AnAnswerOfTwoLinesEndsTheWriting) {
-  const auto store = opened();
-  store->save_answer("0a", "one\ntwo");
+  store->replace_tables({{"cases", {"case"}, {{std::string("a")}}}});
+  store->replace_tables({{"cases", {"case", "case"}, {}}});
   EXPECT_TRUE(store->flush());
-  EXPECT_FALSE(store->answer("0a"));
+  store->read([](Database& database) { EXPECT_EQ(database.rows("SELECT * FROM cases")->size(), 1U); });
 }
 
 }  // namespace

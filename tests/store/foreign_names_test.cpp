@@ -3,6 +3,7 @@
 #include "store_fixture.hpp"
 
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -31,6 +32,16 @@ class ForeignNames : public StoreFixture {
     std::ofstream(path, std::ios::binary) << text;
   }
 
+  /// A database as another program, or another version of this one, makes it.
+  static void make_database(const fs::path& path, int application, int version) {
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+    const std::string statements = fmt::format(
+        "PRAGMA application_id = {}; PRAGMA user_version = {}; CREATE TABLE t (x)", application, version);
+    EXPECT_EQ(sqlite3_exec(database, statements.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(database);
+  }
+
   /// Everything below a folder: its kind, and the content of regular files and links.
   static std::map<std::string, std::string> tree(const fs::path& folder) {
     std::map<std::string, std::string> found;
@@ -56,9 +67,9 @@ class ForeignNames : public StoreFixture {
   }
 };
 
-/// A store makes its folder of cases first, so that an empty journal beside none is somebody else's.
+/// A store makes its folder of cases first, so that an empty results file beside none is somebody else's.
 TEST_F(ForeignNames, MayBeThoseOfEmptyFiles) {
-  for (const std::string name : {"journal.jsonl", "answers.jsonl", "lock"}) {
+  for (const std::string name : {"study.db", "status.json"}) {
     write(where() / name, "");
     expect_refused(name, "an empty file", "");
     fs::remove(where() / name);
@@ -79,8 +90,8 @@ TEST_F(ForeignNames, MayBeThoseOfCases) {
 TEST_F(ForeignNames, AreRefusedAndLeftAsTheyAre) {
   const std::map<std::string, std::function<void(const fs::path&)>> ways{
       {"text", [](const fs::path& path) { write(path, "do not lose me\n"); }},
-      {"text without an end of line", [](const fs::path& path) { write(path, "{\"case\":\"mine\"}"); }},
-      {"lines of another program", [](const fs::path& path) { write(path, "{\"case\": 1}\n{\"a\": 2}\n"); }},
+      {"JSON", [](const fs::path& path) { write(path, "{\"format\":\"mine\"}"); }},
+      {"a database of another program", [](const fs::path& path) { make_database(path, 7, 1); }},
       {"a link to a file", [&](const fs::path& path) { fs::create_symlink(theirs(), path); }},
       {"a link to nowhere", [&](const fs::path& path) { fs::create_symlink(folder() / "gone", path); }},
       {"a second name of a file", [&](const fs::path& path) { fs::create_hard_link(theirs(), path); }},
@@ -89,8 +100,8 @@ TEST_F(ForeignNames, AreRefusedAndLeftAsTheyAre) {
   };
   for (const std::string part : {"", "1-of-2"}) {
     const std::string dotted = part.empty() ? "" : "." + part;
-    for (const std::string& name : {"lock" + dotted, std::string("lock"), "journal" + dotted + ".jsonl",
-                                    "answers" + dotted + ".jsonl"}) {
+    for (const std::string& name :
+         {"study" + dotted + ".db", "study" + dotted + ".db-journal", "status" + dotted + ".json"}) {
       for (const auto& [how, make] : ways) {
         make(where() / name);
         expect_refused(name, how, part);
@@ -111,29 +122,43 @@ TEST_F(ForeignNames, AFolderOfCasesHasToBeOne) {
 
 // A file of another name than the store needs is nobody's business here.
 TEST_F(ForeignNames, OtherFilesDoNotMatter) {
-  for (const char* name : {"lock.txt", "journal", "answers.json", "journal.jsonl.bak"})
+  for (const char* name : {"study.toml", "journal", "status.txt", "study.db.bak"})
     write(where() / name, "mine");
   ASSERT_TRUE(opened());
-  for (const char* name : {"lock.txt", "journal", "answers.json", "journal.jsonl.bak"})
+  for (const char* name : {"study.toml", "journal", "status.txt", "study.db.bak"})
     EXPECT_EQ(*read_file(where() / name), "mine");
 }
 
 TEST_F(ForeignNames, WhatAKillLeftOfOurOwnIsUsedAgain) {
-  fill(2);
-  opened()->save_answer("0123456789abcdef0123456789abcdef", "text");
-  const std::string journal = *read_file(where() / "journal.jsonl");
-  const std::string answers = *read_file(where() / "answers.jsonl");
-  for (const std::size_t length : {std::size_t{0}, std::size_t{50}, journal.find('\n'),
-                                   journal.find('\n') + 1, journal.size() - 1, journal.size()}) {
-    write(where() / "journal.jsonl", journal.substr(0, length));
-    EXPECT_TRUE(try_open(where())) << length;
-  }
-  for (const std::size_t length : {std::size_t{0}, std::size_t{40}, answers.size() - 1, answers.size()}) {
-    write(where() / "answers.jsonl", answers.substr(0, length));
-    EXPECT_TRUE(try_open(where())) << length;
-  }
-  write(where() / "lock", "somewhere process 123 since 2026-01-02T03:04:05Z\n");
+  fs::create_directory(where() / "cases");
+  for (const char* name : {"study.db", "study.db-journal"}) write(where() / name, "");
   EXPECT_TRUE(try_open(where()));
+  write(where() / "study.db-journal", std::string(512, '\0'));
+  EXPECT_TRUE(try_open(where()));
+}
+
+TEST_F(ForeignNames, AResultsFileOfAnotherFormatIsRefusedWithWhatToDo) {
+  make_database(results(), 0x4c534146, 2);
+  const auto store = try_open(where());
+  ASSERT_FALSE(store);
+  EXPECT_NE(store.error().message.find("format 2"), std::string::npos) << store.error().message;
+  EXPECT_NE(store.error().message.find("run the study anew"), std::string::npos) << store.error().message;
+}
+
+TEST_F(ForeignNames, ADamagedResultsFileIsRefusedAndStaysAsItIs) {
+  fill(20);
+  std::string bytes = *read_file(results());
+  for (std::size_t i = 4096; i < bytes.size(); i += 64) bytes[i] = 'x';
+  write(results(), bytes);
+  for (const auto& store : {try_open(where()), CaseStore::open_to_read(where(), model_version)}) {
+    ASSERT_FALSE(store);
+    EXPECT_EQ(store.error().kind, Error::Kind::corrupt);
+    EXPECT_NE(store.error().message.find("move it away"), std::string::npos) << store.error().message;
+  }
+  EXPECT_TRUE(*read_file(results()) == bytes);
+  fs::remove(results());
+  const auto store = opened();
+  for (int number = 0; number < 20; ++number) EXPECT_TRUE(store->holds(identity_of(number).hash()));
 }
 
 TEST_F(ForeignNames, LeftoversAreOnlyThoseThatWeMade) {

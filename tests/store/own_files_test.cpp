@@ -54,7 +54,7 @@ TEST_F(OwnFile, IsNeverOneOutsideTheFolderOrOfTheStore) {
   const std::string journal = (folder() / own_files_name).string();
   for (const std::string& name :
        {theirs.string(), std::string("../theirs.txt"), std::string("."), std::string(".."),
-        std::string("cases"), std::string("lock"), std::string("journal.jsonl")})
+        std::string("cases"), std::string("study.db"), std::string("study.1-of-2.db-journal")})
     std::ofstream(journal, std::ios::app) << R"({"file":")" << name << R"(","sha256":"00"})"
                                           << "\n";
   const auto own = OwnFiles::read(folder());

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "launchsafe/store/case_store.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "sample_case.hpp"
 #include "temporary_folder.hpp"
 
@@ -24,8 +23,8 @@ inline run::CaseResult result_of(int number) {
   return result;
 }
 
-inline store::JournalEntry entry_of(int number) {
-  store::JournalEntry entry;
+inline store::RunRecord record_of(int number) {
+  store::RunRecord entry;
   entry.label = fmt::format("case {}", number);
   entry.wall_time = 61.5;
   entry.processor_time = 60.25;
@@ -34,12 +33,26 @@ inline store::JournalEntry entry_of(int number) {
 }
 
 inline void save(store::CaseStore& store, int number) {
-  store.save(identity_of(number), sample_scene(), result_of(number), entry_of(number));
+  store.save(identity_of(number), sample_scene(), result_of(number), record_of(number));
 }
 
-/// The line of an answer, with the checksum that anybody can compute: 16 digits of the SHA-256 of the text.
-inline std::string rehashed_line(const std::string& key, const std::string& text) {
-  return key + " " + store::sha256(text).substr(0, 16) + " " + text + "\n";
+/// An answer of two columns, as a module above the store keeps its own.
+inline void save_answer(store::CaseStore& store, int number, const std::string& text) {
+  store.write([&](store::Database& database) {
+    auto error =
+        database.run("CREATE TABLE IF NOT EXISTS stored_marks (mark INTEGER PRIMARY KEY, text TEXT) STRICT");
+    if (!error)
+      error = database.run("INSERT OR REPLACE INTO stored_marks VALUES (?, ?)", {std::int64_t{number}, text});
+    return error;
+  });
+}
+inline std::optional<std::string> answer_in(const store::CaseStore& store, int number) {
+  std::optional<std::string> text;
+  store.read([&](store::Database& database) {
+    const auto rows = database.rows("SELECT text FROM stored_marks WHERE mark = ?", {std::int64_t{number}});
+    if (rows && !rows->empty()) text = std::get<std::string>(rows->front().front());
+  });
+  return text;
 }
 
 class StoreFixture : public TemporaryFolder {
@@ -47,6 +60,7 @@ class StoreFixture : public TemporaryFolder {
   static constexpr int model_version = 7;
 
   std::filesystem::path where() const { return folder() / "study"; }
+  std::filesystem::path results() const { return where() / "study.db"; }
   std::filesystem::path file_of(int number) const {
     return where() / "cases" / (identity_of(number).hash() + ".h5");
   }

@@ -4,6 +4,7 @@
 
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
+#include "launchsafe/store/case_store.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -65,6 +66,9 @@ std::string to_markdown(const Report& report, const std::vector<std::string>& mi
 
 /// The launch, the tables and the answer. `folder`: where the whole of a long table is.
 std::string to_text(const Report& report, const std::filesystem::path& folder);
+
+/// The tables of study.json for a results file, by their names there.
+std::vector<store::PlainTable> plain_tables(const Report& report);
 
 /// Writes tables, files, pictures, report.md and study.json into a folder, which is made. A picture that
 /// gnuplot does not draw is a remark, and none after it is tried. Errors: conflict, write_failed.

@@ -41,6 +41,9 @@ struct Table {
   std::vector<std::string> notes = {};       ///< sentences under the table; in text and Markdown only
 };
 
+/// The columns that programs read, named by their keys; every row is whole.
+Table for_programs(const Table& table);
+
 /// A cell as people read it.
 std::string cell_text(const Cell& cell, const Column& column);
 /// "T max [K]".

@@ -15,6 +15,9 @@
 
 namespace launchsafe::store {
 
+/// The first bytes of every case file.
+inline constexpr std::string_view case_file_begin = "launchsafe case file";
+
 /// Writes a case file at `path` and, when there are snapshots, `path` with the extension .xdmf beside it, by
 /// which ParaView opens the particles, each as a cell, as a time series. Never overwrites a different result:
 /// a file with another input hash at `path` is a conflict, and so is an .xdmf that this program did not write

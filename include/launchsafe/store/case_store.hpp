@@ -1,18 +1,18 @@
-// The folder of a study: one file a case, a journal of what became of every attempt, the answers drawn from
-// the cases, and a lock. Killing the process at any instant loses at most what was in flight.
+// The folder of a study: one results file, and one file a case beside it. Killing the process at any instant
+// loses at most what was in flight.
 //
-//   DIR/cases/HASH.h5          the result of one case, named by what determines it, whole or not there
-//   DIR/cases/HASH.damaged-1   a file that was truncated or damaged, set aside
-//   DIR/journal[.PART].jsonl   one line an attempt and one an answer, only ever appended to
-//   DIR/answers[.PART].jsonl   small texts derived from cases, each with its checksum; what the journal
-//                              does not know as it is counts for nothing
-//   DIR/lock[.PART]            held by the process that writes; names host and process
+//   DIR/study[.PART].db     SQLite: runs, answers drawn from them, events, and the tables of the report
+//   DIR/cases/HASH.h5       the result of one case, named by what determines it, whole or not there
+//   DIR/status[.PART].json  who writes and how far it is; for whoever watches
 //
-// PART is "1-of-4" for a shard and absent for a whole study; whoever reads, reads the files of every part.
+// PART is "1-of-4" for a shard and absent for a whole study, which takes over what the parts stored. A result
+// is on disk under its name before its row is committed. A results file is held by the process that writes
+// it.
 #pragma once
 
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/scene.hpp"
+#include "launchsafe/store/database.hpp"
 #include "launchsafe/store/result.hpp"
 
 #include <cstdint>
@@ -46,15 +46,15 @@ bool is_case_hash(std::string_view text);
 enum class CaseState { done, failed, timed_out, interrupted };
 std::string to_string(CaseState state);
 
-/// One line of the journal.
-struct JournalEntry {
+/// The newest attempt on a case.
+struct RunRecord {
   std::string hash;
   CaseState state = CaseState::done;
   std::string label;   ///< of the case, for people
   std::string reason;  ///< why it is not done
   int model_version = 0;
   double wall_time = 0;          ///< s, of the run
-  double processor_time = 0;     ///< s, of the run; 0 where an older program did not note it
+  double processor_time = 0;     ///< s, of the run
   double predicted_updates = 0;  ///< particle updates that the plan foresaw, from which cost models learn
   double time_limit = 0;         ///< s, of a case that was timed out
   std::string host;
@@ -65,77 +65,89 @@ struct JournalEntry {
 
 struct StoreOptions {
   std::string part;       ///< "1-of-4" of a shard; empty for a whole study
-  int model_version = 0;  ///< goes into the journal
+  int model_version = 0;  ///< goes into the records
   /// Called once, from any thread, when something cannot be written: the study has to end.
   std::function<void(const Error&)> on_failure;
 };
 
-/// Any thread may call any member. What was saved or noted is seen at once by whoever asks, and outlives this
-/// process from then on. Nothing is taken any more once something could not be written.
+/// A table for other programs: every row has a value for every column, perhaps nothing.
+struct PlainTable {
+  std::string name;
+  std::vector<std::string> columns;
+  std::vector<SqlRow> rows;
+};
+
+/// Any thread may call any member. What was saved or noted is seen at once by whoever asks. Nothing is taken
+/// any more once something could not be written.
 class CaseStore {
  public:
-  /// Makes the folder, takes the lock, reads all journals and answers, and deletes what a killed writer of
-  /// this part left half written. A line that a kill cut short is ignored, as are lines with a wrong
-  /// checksum and answers that the journal does not know. The lock ends with its process, however that ends;
-  /// where the file system knows no locks, a remark says so. Errors: conflict (another living process holds
-  /// the lock of this part or of the whole, or of any part for a whole study; named with host and process; or
-  /// a file has a name that the store needs and is none of ours: then nothing was made or changed),
-  /// write_failed, unreadable.
+  /// Makes the folder and its results file, or goes on with it, and takes it for this process alone. A whole
+  /// study takes over what parts stored in the folder; a part, what a whole study did. Deletes what a killed
+  /// writer of this part left half written. Errors: conflict (another living process writes this part or the
+  /// whole, or any part for a whole study; named with host and process; or a file has a name that the store
+  /// needs and is none of ours, or is of another format: then nothing was made or changed), corrupt (the
+  /// results file is damaged; it stays as it is), write_failed, unreadable.
   static Result<std::unique_ptr<CaseStore>> open(const std::filesystem::path& folder,
                                                  const StoreOptions& options);
-  /// A store that only looks: no lock, no repair, nothing is set aside or written, also while another process
-  /// writes there or where nothing may be written. What a writing store would do is said in `remarks`. Only
-  /// const members, `holds` and `load` may be called. Errors: unreadable.
+  /// A store that only looks at what the last commits left in the files of all parts, also where nothing may
+  /// be written: nothing is held, repaired or replaced. Only const members, `holds` and `load` may be called.
+  /// Errors: conflict (a process writes there; named with host, process and how far it is), corrupt,
+  /// unreadable.
   static Result<std::unique_ptr<CaseStore>> open_to_read(const std::filesystem::path& folder,
                                                          int model_version);
-  /// Flushes, then releases the lock.
+  /// Flushes, then releases the results file.
   ~CaseStore();
   CaseStore(const CaseStore&) = delete;
   CaseStore& operator=(const CaseStore&) = delete;
 
-  /// The newest entry on a case; nothing where none was ever attempted.
-  std::optional<JournalEntry> last_entry(const std::string& hash) const;
-  /// The newest entries of all cases, in the order of their hashes.
-  std::vector<JournalEntry> entries() const;
+  /// The newest attempt on a case; nothing where there was none.
+  std::optional<RunRecord> record_of(const std::string& hash) const;
+  /// Those of all cases, in the order of their hashes.
+  std::vector<RunRecord> records() const;
 
-  /// Whether the whole result of a case is there. A file of the size and
-  /// modification time that the journal states is trusted; any other is read and checked, and journaled if it
-  /// is whole but was not (a kill after the rename). A damaged one is set aside, see `remarks`.
+  /// Whether the whole result of a case is there. A file of the size and modification time that its record
+  /// states is trusted; any other is read and checked, and recorded if it is whole but was not (a kill before
+  /// the commit). A damaged one does not count, see `remarks`, and the next result takes its place.
   bool holds(const std::string& hash);
-  /// The result of a case that is held, checked against its checksum, with the wall time from the journal.
-  /// Errors: missing; corrupt (it was set aside); unreadable.
+  /// The result of a case that is held, checked against its checksum, with the wall time from its record.
+  /// Errors: missing; corrupt (from now on it does not count); unreadable.
   Result<run::CaseResult> load(const std::string& hash);
   /// The text that determined a stored case. Errors as of `load`.
-  Result<std::string> input_of(const std::string& hash) const;
+  Result<std::string> input_of(const std::string& hash);
 
-  /// Writes a result: the file under a temporary name, synced, renamed; then the journal, synced. Host, times
-  /// and wall time go to the journal only, so that equal cases are equal files, bit by bit. `entry` gives
-  /// label, wall time and prediction; the rest is filled in, also a model version and a wall time of 0. A
-  /// result whose arrays do not fit together counts as something that cannot be written.
+  /// Writes a result: the file under a temporary name, synced, renamed; then its record, committed. Host,
+  /// times and wall time go to the record only, so that equal cases are equal files, bit by bit. `record`
+  /// gives label, wall time and prediction; the rest is filled in, also a model version and a wall time of 0.
+  /// A result whose arrays do not fit together counts as something that cannot be written.
   void save(const CaseIdentity& identity, const scene::Scene& scene, run::CaseResult result,
-            JournalEntry entry);
-  /// Journals an attempt that left no result. That it outlives a power cut is for `flush`.
-  void note(JournalEntry entry);
+            RunRecord record);
+  /// Records an attempt that left no result.
+  void note(RunRecord record);
 
-  /// A text derived from a case, under a key of the caller's (hexadecimal digits): one line, such as JSON.
-  /// The last one of a key counts. Only `flush` makes sure that it outlives a power cut: it can be drawn
-  /// again.
-  std::optional<std::string> answer(const std::string& key) const;
-  void save_answer(const std::string& key, const std::string& text);
+  /// Changes tables of the caller's in the results file. What can be drawn again is committed together with
+  /// what comes after it, at the latest with the first change after a second, or by `flush`.
+  void write(const std::function<MaybeError(Database&)>& change);
+  /// Looks into them.
+  void read(const std::function<void(Database&)>& look) const;
+  /// Puts these in the place of all tables for other programs, at once.
+  void replace_tables(const std::vector<PlainTable>& tables);
 
-  /// Waits until attempts and answers are on disk too. The first thing that could not be written, if any.
+  /// Commits what is pending. The first thing that could not be written, if any.
   MaybeError flush();
 
-  /// What a person should know of what was found: files set aside, lines ignored.
+  /// For status.json, at most once a second: how many runs are done, are running, are asked for.
+  void tell_progress(std::size_t done, std::size_t running, std::size_t total);
+  /// What a person should know of what was found, such as damaged files.
   std::vector<std::string> remarks() const;
   const std::filesystem::path& folder() const;
 
-  /// Copies what another folder holds and this one does not: whole case files with their journal entries, and
-  /// answers; of cases that are done in neither, the newest attempt. Damaged files there are left where they
-  /// are and named in `remarks`. The other folder is not locked. Errors: conflict (a result there is of
-  /// another model version; nothing was copied), missing (no such store), unreadable, write_failed.
+  /// Takes over what another folder holds and this one does not: whole case files (as a second name of the
+  /// same file where the file system can), their records, answers; of cases that are done in neither, the
+  /// newest attempt. Damaged files there are left where they are and named in `remarks`. Errors: conflict (a
+  /// result there is of another model version, or a process writes there; nothing was copied), missing (no
+  /// such store), corrupt, unreadable, write_failed.
   struct Imported {
-    std::size_t cases = 0, already_there = 0, answers = 0;
+    std::size_t cases = 0, already_there = 0;
   };
   Result<Imported> import_from(const std::filesystem::path& other);
 
@@ -144,5 +156,10 @@ class CaseStore {
   explicit CaseStore(std::unique_ptr<Content> content);
   std::unique_ptr<Content> content_;
 };
+
+/// The results files in a folder, of the whole and of parts.
+std::vector<std::filesystem::path> results_files_in(const std::filesystem::path& folder);
+/// Whether a file of this name in a study's folder belongs to its store.
+bool is_store_name(std::string_view name);
 
 }  // namespace launchsafe::store

@@ -14,6 +14,7 @@ struct Error {
     missing,       ///< there is no such file or program
     unreadable,    ///< it is there and could not be read (permission, device)
     corrupt,       ///< truncated, damaged, or not of this format: set it aside and compute again
+    held,          ///< another process writes it
     conflict,      ///< a different result is already there; nothing was written
     write_failed,  ///< nothing was written under the target name
     failed         ///< a program that was called failed

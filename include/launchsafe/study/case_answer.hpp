@@ -37,13 +37,6 @@ CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::Mech
 /// The answer of a case without a result.
 CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome outcome, std::string failure);
 
-/// One line of JSON that reads back to exactly the same answer; not finite numbers become NaN. It holds what
-/// verdicts rest on, and no verdict.
-std::string to_json_line(const CaseAnswer& answer);
-/// Judges the rows again on what the line says. Nothing for a text that is no answer: an unknown enumerator,
-/// a list of another length, a negative amount, numbers that contradict each other.
-std::optional<CaseAnswer> answer_from_json(const std::string& line);
-
 /// Whether an answer that was read can be that of the study's case: its gaps, and margins and times that the
 /// case's scene allows.
 bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input);

@@ -1,0 +1,182 @@
+#include "case_store_files.hpp"
+
+#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/case_file.hpp"
+#include "launchsafe/store/case_store.hpp"
+#include "store_status.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace launchsafe::store {
+namespace {
+
+constexpr std::string_view stem = "study", ending = ".db";
+
+/// Whether a name is STEM + ENDING or STEM.PART + ENDING, where a part is "1-of-4".
+bool is_of_any_part(std::string_view name, std::string_view begin, std::string_view end) {
+  if (!name.starts_with(begin) || !name.ends_with(end) || name.size() < begin.size() + end.size())
+    return false;
+  const std::string_view part = name.substr(begin.size(), name.size() - begin.size() - end.size());
+  return part.empty() || (part.starts_with('.') && part.find("-of-") != std::string_view::npos);
+}
+
+/// Whatever has the name of a case but is no file.
+MaybeError obstacle_among_cases(const StoreNames& names) {
+  std::error_code ignored;
+  for (const std::string& hash : stored_hashes(names, ignored)) {
+    const std::filesystem::path path = names.case_file(hash);
+    if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, ignored)))
+      return refusal(path, "is no plain file");
+  }
+  return {};
+}
+
+/// Whether the content of a file is that of SQLite's rollback journal: its mark, or zeros once it is done
+/// with.
+bool is_rollback_journal(std::string_view content) {
+  constexpr std::string_view mark = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
+  const std::string_view begin = content.substr(0, mark.size());
+  return begin == mark || begin.find_first_not_of('\0') == std::string_view::npos;
+}
+
+/// A store makes its folder of cases before anything else: an empty file of a store's name beside none is not
+/// its own.
+MaybeError obstacle_before_first(const StoreNames& names) {
+  std::error_code failed;
+  if (std::filesystem::exists(names.cases(), failed)) return {};
+  for (const std::filesystem::path& path : {names.results(), names.status()}) {
+    if (std::filesystem::is_regular_file(path, failed) && std::filesystem::file_size(path, failed) == 0)
+      return refusal(path, foreign_file);
+  }
+  return {};
+}
+
+MaybeError obstacle_in_results(const StoreNames& names) {
+  const std::filesystem::path path = names.results();
+  if (MaybeError error = obstacle_in_place(path, {})) return error;
+  if (MaybeError error = obstacle_in_place(path.string() + "-journal", is_rollback_journal)) return error;
+  std::error_code failed;
+  const MaybeError error = std::filesystem::exists(path, failed) ? Database::obstacle(path) : MaybeError();
+  return error ? told_who_writes(*error, path) : error;
+}
+
+}  // namespace
+
+bool is_store_name(std::string_view name) {
+  return name == "cases" || is_of_any_part(name, stem, ending) || is_of_any_part(name, stem, ".db-journal") ||
+         is_of_any_part(name, "status", ".json");
+}
+
+std::vector<std::filesystem::path> results_files_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code status;
+  for (const std::string& name : list_folder(folder, status))
+    if (is_of_any_part(name, stem, ending)) files.push_back(folder / name);
+  return files;
+}
+
+std::vector<std::string> stored_hashes(const StoreNames& names, std::error_code& status) {
+  std::vector<std::string> hashes;
+  for (const std::string& name : list_folder(names.cases(), status)) {
+    const std::filesystem::path file(name);
+    if (file.extension() == ".h5" && is_case_hash(file.stem().string())) hashes.push_back(file.stem());
+  }
+  return hashes;
+}
+
+MaybeError obstacle_of_older(const std::filesystem::path& folder) {
+  if (!results_files_in(folder).empty()) return {};
+  std::error_code status;
+  for (const std::string& name : list_folder(folder, status)) {
+    if (!is_of_any_part(name, "journal", ".jsonl")) continue;
+    return Error{
+        Error::Kind::conflict,
+        fmt::format("{} holds results of an earlier version of launchsafe ({}), which this one does not "
+                    "read; run the study anew into another folder",
+                    folder.string(), name)};
+  }
+  return {};
+}
+
+MaybeError obstacle_in(const StoreNames& names) {
+  struct stat status {};
+  if (::lstat(names.cases().c_str(), &status) == 0 && !S_ISDIR(status.st_mode))
+    return refusal(names.cases(), "is no folder");
+  if (MaybeError error = obstacle_of_older(names.folder)) return error;
+  if (MaybeError error = obstacle_among_cases(names)) return error;
+  if (MaybeError error = obstacle_before_first(names)) return error;
+  if (MaybeError error = obstacle_in_place(names.status(), is_status)) return error;
+  return obstacle_in_results(names);
+}
+
+Error told_who_writes(const Error& error, const std::filesystem::path& results) {
+  if (error.kind != Error::Kind::held) return error;
+  std::string part = results.stem().string().substr(stem.size());
+  if (!part.empty()) part.erase(0, 1);
+  const StoreNames names{results.parent_path(), part};
+  return {Error::Kind::conflict,
+          fmt::format("{} is in use by {}", names.folder.string(), writer_in(names.status()))};
+}
+
+void remove_leftovers_of(const StoreNames& names) {
+  std::error_code status;
+  for (const std::string& temporary : list_folder(names.cases(), status)) {
+    const std::optional<std::string> name = name_behind(temporary);
+    if (!name || !is_case_hash(name->substr(0, name->find('.')))) continue;
+    // A part excludes whole studies and others of its own name.
+    const bool ours = names.part.empty() || name->ends_with("." + names.mark()) ||
+                      name->ends_with("." + StoreNames{}.mark());
+    if (ours) remove_leftover(names.cases() / temporary);
+  }
+}
+
+bool belongs_to(const Manifest& manifest, const std::string& hash) {
+  return !hash.empty() && manifest.input_sha256.starts_with(hash);
+}
+
+Error of_file(const std::filesystem::path& path, const Error& error) {
+  return {error.kind, fmt::format("{}: {}", path.string(), error.message)};
+}
+
+Error of_another_case(const std::filesystem::path& path) {
+  return {Error::Kind::corrupt, fmt::format("{}: it is the result of another case", path.string())};
+}
+
+Result<CheckedFile> read_checked(const std::filesystem::path& path, const std::string& hash) {
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  Result<Manifest> manifest = manifest_of(*bytes);
+  if (!manifest) return of_file(path, manifest.error());
+  if (!belongs_to(*manifest, hash)) return of_another_case(path);
+  return CheckedFile{std::move(*bytes), std::move(*manifest)};
+}
+
+bool began_as_case(const std::filesystem::path& path) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, failed))) return false;
+  const Result<std::string> bytes = read_file(path);
+  return bytes && bytes->starts_with(case_file_begin);
+}
+
+Result<std::vector<std::string>> whole_ones(const StoreNames& names, const std::vector<std::string>& hashes,
+                                            int model_version, std::vector<std::string>& remarks) {
+  std::vector<std::string> whole;
+  for (const std::string& hash : hashes) {
+    const Result<CheckedFile> file = read_checked(names.case_file(hash), hash);
+    if (!file && file.error().kind != Error::Kind::corrupt) return file.error();
+    if (!file) {
+      remarks.push_back(file.error().message + "; it was left there");
+    } else if (file->manifest.model_version != model_version) {
+      return Error{Error::Kind::conflict,
+                   fmt::format("{} is a result of model version {}, this program's is {}; nothing was copied",
+                               names.case_file(hash).string(), file->manifest.model_version, model_version)};
+    } else {
+      whole.push_back(hash);
+    }
+  }
+  return whole;
+}
+
+}  // namespace launchsafe::store

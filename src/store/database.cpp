@@ -1,0 +1,307 @@
+#include "launchsafe/store/database.hpp"
+
+#include "launchsafe/store/sha256.hpp"
+
+#include <sqlite3.h>
+
+#include <bit>
+#include <string>
+
+namespace launchsafe::store {
+namespace {
+
+constexpr int application_id = 0x4c534146;  // "LSAF", by which a results file of ours is known
+constexpr int schema_version = 1;
+constexpr int patience = 500;  // ms, for a reader that is about to be done
+
+Error::Kind kind_of(int code) {
+  switch (code & 0xff) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return Error::Kind::held;
+    case SQLITE_CORRUPT:
+      return Error::Kind::corrupt;
+    case SQLITE_CANTOPEN:
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+      return Error::Kind::unreadable;
+    case SQLITE_FULL:
+    case SQLITE_IOERR:
+    case SQLITE_READONLY:
+      return Error::Kind::write_failed;
+    default:
+      return Error::Kind::failed;
+  }
+}
+
+void bind(sqlite3_stmt* statement, int place, const SqlValue& value) {
+  if (const auto* count = std::get_if<std::int64_t>(&value)) {
+    sqlite3_bind_int64(statement, place, *count);
+  } else if (const auto* number = std::get_if<double>(&value)) {
+    sqlite3_bind_double(statement, place, *number);
+  } else if (const auto* text = std::get_if<std::string>(&value)) {
+    sqlite3_bind_text64(statement, place, text->data(), text->size(), SQLITE_STATIC, SQLITE_UTF8);
+  } else {
+    sqlite3_bind_null(statement, place);
+  }
+}
+
+SqlValue column_of(sqlite3_stmt* statement, int place) {
+  switch (sqlite3_column_type(statement, place)) {
+    case SQLITE_INTEGER:
+      return std::int64_t{sqlite3_column_int64(statement, place)};
+    case SQLITE_FLOAT:
+      return sqlite3_column_double(statement, place);
+    case SQLITE_NULL:
+      return std::monostate();
+    default: {
+      const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement, place));
+      const auto bytes = static_cast<std::size_t>(sqlite3_column_bytes(statement, place));
+      return text == nullptr ? std::string() : std::string(text, bytes);
+    }
+  }
+}
+
+}  // namespace
+
+void append_bytes(std::string& bytes, const SqlValue& value) {
+  bytes += static_cast<char>('0' + value.index());
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    bytes += fmt::format("{}:{}", text->size(), *text);
+  } else if (!std::holds_alternative<std::monostate>(value)) {
+    const auto* number = std::get_if<double>(&value);
+    const auto bits = number != nullptr ? std::bit_cast<std::uint64_t>(*number)
+                                        : static_cast<std::uint64_t>(std::get<std::int64_t>(value));
+    for (int shift = 0; shift < 64; shift += 8) bytes += static_cast<char>(bits >> shift & 0xff);
+  }
+}
+
+void Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
+void Database::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+
+Database::Database(std::filesystem::path path, Handle handle)
+    : path_(std::move(path)), handle_(std::move(handle)) {}
+
+Error Database::error(int code) const {
+  const Error::Kind kind = kind_of(code);
+  const bool is_told = sqlite3_errcode(handle_.get()) != SQLITE_OK;
+  std::string text =
+      fmt::format("{}: {}", path_.string(), is_told ? sqlite3_errmsg(handle_.get()) : sqlite3_errstr(code));
+  if ((code & 0xff) == SQLITE_NOTADB)
+    return {Error::Kind::conflict,
+            fmt::format("{} is no results file of launchsafe, or its beginning is damaged, and nothing is "
+                        "overwritten; move it away or name another folder",
+                        path_.string())};
+  if (kind == Error::Kind::corrupt)
+    text += "; it is damaged: move it away, and the study goes on with the case files beside it";
+  return {kind, std::move(text)};
+}
+
+// --- opening ---
+
+Result<Database> Database::connect(const std::filesystem::path& path, int flags) {
+  sqlite3* opened = nullptr;
+  const int code = sqlite3_open_v2(path.c_str(), &opened, flags | SQLITE_OPEN_NOFOLLOW, nullptr);
+  Database database(path, Handle(opened));
+  if (code != SQLITE_OK) return database.error(code);
+  sqlite3_extended_result_codes(opened, 1);
+  sqlite3_busy_timeout(opened, patience);
+  return database;
+}
+
+Result<Database> Database::open(const std::filesystem::path& path) {
+  auto database = connect(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  if (!database) return database;
+  if (MaybeError error = database->check_format()) return *error;
+  if (MaybeError error = database->lock_and_prepare()) return *error;
+  return database;
+}
+
+MaybeError Database::obstacle(const std::filesystem::path& path) {
+  auto database = connect(path, SQLITE_OPEN_READWRITE);
+  return database ? database->check_format() : database.error();
+}
+
+Result<Database> Database::in_memory(const std::filesystem::path& path) {
+  auto database = connect(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_MEMORY);
+  if (!database) return database;
+  database->path_ = path;
+  if (MaybeError error = database->make_tables()) return *error;
+  return database;
+}
+
+/// Reads only. A file without anything in it is one to be.
+MaybeError Database::check_format() {
+  const auto id = rows("PRAGMA application_id"), version = rows("PRAGMA user_version"),
+             tables = rows("SELECT count(*) FROM sqlite_schema");
+  for (const auto* each : {&id, &version, &tables})
+    if (!*each) return each->error();
+  const auto number = [](const auto& found) { return std::get<std::int64_t>(found->front().front()); };
+  if (number(id) == 0 && number(tables) == 0) return {};
+  if (number(id) != application_id)
+    return Error{Error::Kind::conflict, fmt::format("{} was not written by launchsafe, and nothing is "
+                                                    "overwritten; move it away or name another folder",
+                                                    path_.string())};
+  if (number(version) != schema_version)
+    return Error{
+        Error::Kind::conflict,
+        fmt::format("{} is a results file of format {}, and this program's is {}; run the study anew "
+                    "into another folder",
+                    path_.string(), number(version), schema_version)};
+  return {};
+}
+
+/// Takes the lock, which no commit gives back, and makes what is missing.
+MaybeError Database::lock_and_prepare() {
+  for (const char* statement : {"PRAGMA locking_mode = EXCLUSIVE", "PRAGMA synchronous = FULL"})
+    if (const auto done = rows(statement); !done) return done.error();
+  for (const char* statement : {"BEGIN EXCLUSIVE", "COMMIT"})
+    if (MaybeError error = run(statement)) return error;
+  // A log beside the file (WAL) does not work on shared disks.
+  if (const auto mode = rows("PRAGMA journal_mode = DELETE"); !mode) return mode.error();
+  if (MaybeError error = check_pages("main")) return error;
+  return has_table("stored_texts") ? MaybeError() : make_tables();
+}
+
+MaybeError Database::make_tables() {
+  const std::string id = fmt::format("PRAGMA application_id = {}", application_id),
+                    version = fmt::format("PRAGMA user_version = {}", schema_version);
+  for (const std::string& statement :
+       {std::string("BEGIN IMMEDIATE"), id, version,
+        std::string("CREATE TABLE stored_texts (number INTEGER PRIMARY KEY, text TEXT NOT NULL) STRICT"),
+        std::string("CREATE TABLE stored_events (time TEXT, host TEXT, process INTEGER, what TEXT) STRICT"),
+        std::string("COMMIT")})
+    if (MaybeError error = run(statement)) return error;
+  return {};
+}
+
+MaybeError Database::check_pages(const std::string& schema) {
+  const auto found = rows(fmt::format("PRAGMA {}.quick_check(1)", schema));
+  if (!found) return found.error();
+  if (!found->empty() && found->front() == SqlRow{std::string("ok")}) return {};
+  return error(SQLITE_CORRUPT);
+}
+
+Result<Database> Database::copy_of(const std::filesystem::path& path) {
+  auto database = in_memory(path);
+  if (!database) return database;
+  if (MaybeError error = database->copy_into("main", path)) return *error;
+  // A kill at the very beginning leaves an empty file.
+  if (!database->has_table("stored_texts"))
+    if (MaybeError error = database->make_tables()) return *error;
+  return database;
+}
+
+MaybeError Database::copy_into(const std::string& schema, const std::filesystem::path& source) {
+  // What a killed writer left is rolled back, for which the file is written to; where it cannot be, it opens
+  // to be read.
+  auto file = connect(source, SQLITE_OPEN_READWRITE);
+  if (!file) return file.error();
+  if (MaybeError error = file->check_format()) return error;
+  sqlite3_backup* backup = sqlite3_backup_init(handle_.get(), schema.c_str(), file->handle_.get(), "main");
+  if (backup == nullptr) return error(sqlite3_errcode(handle_.get()));
+  const int code = sqlite3_backup_step(backup, -1);
+  sqlite3_backup_finish(backup);
+  if (code != SQLITE_DONE) return file->error(code);
+  return check_pages(schema);
+}
+
+// --- statements ---
+
+Result<sqlite3_stmt*> Database::prepared(const std::string& statement) {
+  Statement& known = statements_[statement];
+  if (known) return known.get();
+  sqlite3_stmt* made = nullptr;
+  const int code =
+      sqlite3_prepare_v3(handle_.get(), statement.c_str(), -1, SQLITE_PREPARE_PERSISTENT, &made, nullptr);
+  if (code != SQLITE_OK) return error(code);
+  known.reset(made);
+  return made;
+}
+
+Result<std::vector<SqlRow>> Database::rows(const std::string& statement, const SqlRow& values) {
+  const auto found = prepared(statement);
+  if (!found) return found.error();
+  for (std::size_t i = 0; i < values.size(); ++i) bind(*found, static_cast<int>(i) + 1, values[i]);
+  std::vector<SqlRow> rows;
+  int code = SQLITE_ROW;
+  while ((code = sqlite3_step(*found)) == SQLITE_ROW) {
+    SqlRow& row = rows.emplace_back(static_cast<std::size_t>(sqlite3_column_count(*found)));
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] = column_of(*found, static_cast<int>(i));
+  }
+  MaybeError failure;
+  if (code != SQLITE_DONE) failure = error(code);
+  sqlite3_reset(*found);
+  if (failure) return *failure;
+  return rows;
+}
+
+MaybeError Database::run(const std::string& statement, const SqlRow& values) {
+  const auto done = rows(statement, values);
+  return done ? MaybeError() : done.error();
+}
+
+bool Database::has_table(const std::string& name) {
+  const auto found = rows("SELECT 1 FROM sqlite_schema WHERE name = ?", {name});
+  return found && !found->empty();
+}
+
+bool Database::in_transaction() const { return sqlite3_get_autocommit(handle_.get()) == 0; }
+
+Result<std::int64_t> Database::number_of_text(const std::string& text) {
+  if (text.empty()) return std::int64_t{0};
+  constexpr std::size_t digits = 15;  // 60 bits: a positive number
+  const std::int64_t number = std::stoll(sha256(text).substr(0, digits), nullptr, 16);
+  if (const auto known = texts_.find(number); known != texts_.end() && known->second == text) return number;
+  if (MaybeError error = run("INSERT OR IGNORE INTO stored_texts VALUES (?, ?)", {number, text}))
+    return *error;
+  texts_.insert_or_assign(number, text);
+  return number;
+}
+
+Result<std::string> Database::text_of_number(std::int64_t number) {
+  if (number == 0) return std::string();
+  if (const auto known = texts_.find(number); known != texts_.end()) return known->second;
+  const auto found = rows("SELECT text FROM stored_texts WHERE number = ?", {number});
+  if (!found) return found.error();
+  if (found->empty())
+    return Error{Error::Kind::corrupt, fmt::format("{}: the text {} is missing", path_.string(), number)};
+  return texts_[number] = std::get<std::string>(found->front().front());
+}
+
+void Database::roll_back() {
+  texts_.clear();
+  run("ROLLBACK");
+}
+
+MaybeError Database::take_rows_of(const std::filesystem::path& other) {
+  if (MaybeError error = run("ATTACH ':memory:' AS other")) return error;
+  MaybeError failure = copy_into("other", other);
+  if (!failure) failure = take_attached_rows();
+  if (in_transaction()) roll_back();
+  const MaybeError detached = run("DETACH other");
+  return failure ? failure : detached;
+}
+
+MaybeError Database::take_attached_rows() {
+  const auto tables =
+      rows("SELECT name, sql FROM other.sqlite_schema WHERE type = 'table' AND name GLOB 'stored_*'");
+  if (!tables) return tables.error();
+  if (MaybeError error = run("BEGIN IMMEDIATE")) return error;
+  for (const SqlRow& table : *tables) {
+    const auto name = std::get<std::string>(table[0]);
+    if (!has_table(name)) {
+      if (MaybeError error = run(std::get<std::string>(table[1]))) return error;
+    }
+    const std::string newer =
+        "INSERT OR REPLACE INTO main.stored_runs SELECT theirs.* FROM other.stored_runs AS theirs LEFT JOIN "
+        "main.stored_runs AS ours USING (hash) WHERE ours.hash IS NULL OR (theirs.state = 'done') > "
+        "(ours.state "
+        "= 'done') OR ((theirs.state = 'done') = (ours.state = 'done') AND theirs.end_time > ours.end_time)";
+    const std::string more = fmt::format("INSERT OR IGNORE INTO main.{0} SELECT * FROM other.{0}", name);
+    if (MaybeError error = run(name == "stored_runs" ? newer : more)) return error;
+  }
+  return run("COMMIT");
+}
+
+}  // namespace launchsafe::store

@@ -1,0 +1,327 @@
+#include "launchsafe/study/stored_answer.hpp"
+
+#include "launchsafe/store/sha256.hpp"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace launchsafe::study {
+namespace {
+
+using store::Database, store::MaybeError, store::Result, store::SqlColumn, store::SqlTable, store::SqlValue;
+
+/// The part of an answer that is one row.
+struct AnswerRow {
+  std::string key;
+  std::int64_t check = 0;  ///< of the bytes of the answer
+  CaseAnswer answer;
+  bool bounded = false;  ///< bounds of the critical gap were sought
+};
+
+struct GapRow {
+  GapVerdict verdict;
+  double heated = not_a_number;  ///< K
+};
+
+/// Of an amount, which is not negative but may be NaN.
+template <class Row, class Member>
+SqlColumn<Row> amount(std::string name, Member member) {
+  return store::not_negative(store::sql_column<Row>(std::move(name), member));
+}
+
+/// Of an enumerator that is not beyond the last one.
+template <class Row, class Member, class Enumeration>
+SqlColumn<Row> choice(std::string name, Member member, Enumeration last) {
+  SqlColumn<Row> column = store::not_negative(store::sql_column<Row>(std::move(name), member));
+  column.set = [set = column.set, last](Row& row, const SqlValue& stored) {
+    const std::int64_t* number = std::get_if<std::int64_t>(&stored);
+    return number != nullptr && *number <= static_cast<std::int64_t>(last) && set(row, stored);
+  };
+  return column;
+}
+
+const SqlTable<AnswerRow>& answer_table() {
+  using Row = AnswerRow;
+  static const SqlTable<Row> table{
+      "stored_answers",
+      {"answer"},
+      "answer",
+      {store::sql_column<Row>("key", &Row::key), store::sql_column<Row>("check_sum", &Row::check),
+       store::repeated_text<Row>(
+           "failure", [](auto& row) -> auto& { return row.answer.failure; }),
+       choice<Row>(
+           "run_status", [](auto& row) -> auto& { return row.answer.run.status; }, run::last_status),
+       amount<Row>(
+           "steps", [](auto& row) -> auto& { return row.answer.run.steps; }),
+       amount<Row>(
+           "particles", [](auto& row) -> auto& { return row.answer.run.particles; }),
+       amount<Row>(
+           "energy_drift", [](auto& row) -> auto& { return row.answer.run.energy_drift; }),
+       amount<Row>(
+           "crack_at_bound", [](auto& row) -> auto& { return row.answer.run.limiters.crack_at_bound; }),
+       amount<Row>(
+           "tension_cutoff", [](auto& row) -> auto& { return row.answer.run.limiters.tension_cutoff; }),
+       amount<Row>(
+           "hugoniot_guard", [](auto& row) -> auto& { return row.answer.run.limiters.hugoniot_guard; }),
+       choice<Row>(
+           "critical_gap_kind", [](auto& row) -> auto& { return row.answer.critical.kind; },
+           CriticalGapKind::several_crossings),
+       amount<Row>(
+           "critical_gap_m", [](auto& row) -> auto& { return row.answer.critical.value; }),
+       amount<Row>(
+           "critical_gap_lower_m", [](auto& row) -> auto& { return row.answer.critical.lower; }),
+       amount<Row>(
+           "critical_gap_upper_m", [](auto& row) -> auto& { return row.answer.critical.upper; }),
+       store::repeated_text<Row>(
+           "critical_gap_reason", [](auto& row) -> auto& { return row.answer.critical.reason; }),
+       amount<Row>(
+           "critical_gap_indicative_m", [](auto& row) -> auto& { return row.answer.critical.indicative; }),
+       store::sql_column<Row>("bounded", &Row::bounded)}};
+  return table;
+}
+
+/// A temperature, its time and its place.
+template <class Member>
+void add_peak(std::vector<SqlColumn<GapRow>>& columns, const std::string& name, Member member) {
+  columns.push_back(amount<GapRow>(
+      name + "_temperature_K", [member](auto& row) -> auto& {
+        return std::invoke(member, row.verdict).temperature;
+      }));
+  columns.push_back(amount<GapRow>(
+      name + "_time_s", [member](auto& row) -> auto& { return std::invoke(member, row.verdict).time; }));
+  columns.push_back(store::sql_column<GapRow>(
+      name + "_point", [member](auto& row) -> auto& { return std::invoke(member, row.verdict).point; }));
+}
+
+/// A column that is empty where the gap does not ignite.
+template <class Member>
+SqlColumn<GapRow> of_ignition(std::string name, Member member) {
+  SqlColumn<GapRow> column = store::sql_column<GapRow>(
+      std::move(name), [member](auto& row) -> auto& { return std::invoke(member, *row.verdict.ignition); });
+  column.get = [get = column.get](const GapRow& row) { return row.verdict.ignition ? get(row) : SqlValue(); };
+  column.set = [set = column.set](GapRow& row, const SqlValue& stored) {
+    if (std::holds_alternative<std::monostate>(stored)) return true;
+    if (!row.verdict.ignition) row.verdict.ignition.emplace();
+    return set(row, stored);
+  };
+  return column;
+}
+
+std::vector<SqlColumn<GapRow>> gap_columns() {
+  using Row = GapRow;
+  std::vector<SqlColumn<Row>> columns{amount<Row>(
+      "gap_m", [](auto& row) -> auto& { return row.verdict.gap; })};
+  add_peak(columns, "maximum", &GapVerdict::maximum);
+  add_peak(columns, "until_exit", &GapVerdict::until_exit);
+  add_peak(columns, "early", &GapVerdict::early);
+  const std::vector<SqlColumn<Row>> more{
+      amount<Row>(
+          "spread_K", [](auto& row) -> auto& { return row.verdict.spread; }),
+      amount<Row>(
+          "early_spread_K", [](auto& row) -> auto& { return row.verdict.early_spread; }),
+      store::sql_column<Row>(
+          "margin_K", [](auto& row) -> auto& { return row.verdict.margin; }),
+      amount<Row>("heated_temperature_K", &Row::heated),
+      amount<Row>(
+          "air_taken_J_per_m2", [](auto& row) -> auto& { return row.verdict.air.taken; }),
+      amount<Row>(
+          "air_supplied_J_per_m2", [](auto& row) -> auto& { return row.verdict.air.supplied; }),
+      amount<Row>(
+          "air_stored_J_per_m2", [](auto& row) -> auto& { return row.verdict.air.stored; }),
+      amount<Row>(
+          "air_isothermal_J_per_m2", [](auto& row) -> auto& { return row.verdict.air.isothermal; }),
+      amount<Row>(
+          "sampling_K", [](auto& row) -> auto& { return row.verdict.uncertainty.sampling; }),
+      amount<Row>(
+          "integration_K", [](auto& row) -> auto& { return row.verdict.uncertainty.integration; }),
+      amount<Row>(
+          "coupling_K", [](auto& row) -> auto& { return row.verdict.uncertainty.coupling; }),
+      amount<Row>(
+          "numerical_K", [](auto& row) -> auto& { return row.verdict.uncertainty.numerical; }),
+      amount<Row>(
+          "fit_K", [](auto& row) -> auto& { return row.verdict.uncertainty.fit; }),
+      amount<Row>(
+          "input_K", [](auto& row) -> auto& { return row.verdict.uncertainty.input; }),
+      amount<Row>(
+          "load_curve_K", [](auto& row) -> auto& { return row.verdict.uncertainty.load_curve; }),
+      amount<Row>(
+          "model_form_K", [](auto& row) -> auto& { return row.verdict.uncertainty.model_form; }),
+      amount<Row>(
+          "sliding_K", [](auto& row) -> auto& { return row.verdict.uncertainty.sliding; }),
+      of_ignition("ignition_cause", &NamedIgnition::cause),
+      store::not_negative(of_ignition("ignition_time_s", &NamedIgnition::time)),
+      of_ignition("ignition_point", &NamedIgnition::point),
+      of_ignition("ignition_chemical_share", &NamedIgnition::chemical_share)};
+  columns.insert(columns.end(), more.begin(), more.end());
+  const std::pair<const char*, std::string Evidence::*> texts[] = {
+      {"validity_warnings", &Evidence::validity_warnings},
+      {"unaccepted", &Evidence::unaccepted},
+      {"ring", &Evidence::ring},
+      {"accepted", &Evidence::accepted},
+      {"optimistic", &Evidence::optimistic},
+      {"model_form", &Evidence::model_form},
+      {"extrapolated", &Evidence::extrapolated}};
+  for (const auto& [name, member] : texts)
+    columns.push_back(store::repeated_text<Row>(
+        name, [text = member](auto& row) -> auto& { return row.verdict.evidence.*text; }));
+  return columns;
+}
+
+const SqlTable<GapRow>& gap_table() {
+  static const SqlTable<GapRow> table{
+      "stored_gaps", {"answer", "position"}, "answer, position", gap_columns()};
+  return table;
+}
+
+const SqlTable<GapShare>& share_table() {
+  static const SqlTable<GapShare> table{
+      "stored_shares",
+      {"answer", "position"},
+      "answer, position",
+      {choice<GapShare>("kind", &GapShare::kind, last_share_kind),
+       amount<GapShare>("raised_m", &GapShare::raised), amount<GapShare>("lowered_m", &GapShare::lowered)}};
+  return table;
+}
+
+const SqlTable<AsCalibrated>& as_calibrated_table() {
+  static const SqlTable<AsCalibrated> table{
+      "stored_as_calibrated",
+      {"answer", "gap", "position"},
+      "answer, gap, position",
+      {store::repeated_text<AsCalibrated>("constant", &AsCalibrated::key),
+       amount<AsCalibrated>("temperature_K", &AsCalibrated::temperature),
+       store::sql_column<AsCalibrated>("ignites", &AsCalibrated::ignites)}};
+  return table;
+}
+
+/// An answer as rows.
+struct Rows {
+  AnswerRow answer;
+  std::vector<GapRow> gaps;
+};
+
+Rows rows_of(const CaseAnswer& answer) {
+  const bool bounded = !std::isnan(answer.critical.bounds.at_least) || !answer.critical.shares.empty();
+  Rows rows{{.key = {}, .check = 0, .answer = answer, .bounded = bounded}, {}};
+  for (std::size_t i = 0; i < answer.verdicts.size(); ++i)
+    rows.gaps.push_back({answer.verdicts[i], answer.heated_temperature[i]});
+  return rows;
+}
+
+constexpr std::size_t number_digits = 15;  // 60 bits: a positive number
+std::int64_t number_of(const std::string& hexadecimal) {
+  return std::stoll(hexadecimal.substr(0, number_digits), nullptr, 16);
+}
+
+std::int64_t check_of(const CaseAnswer& answer) { return number_of(store::sha256(bytes_of(answer))); }
+
+MaybeError make_tables(Database& database) {
+  if (database.has_table(answer_table().name)) return {};
+  for (const std::string& statement :
+       {gap_table().create_statement(), share_table().create_statement(),
+        as_calibrated_table().create_statement(), answer_table().create_statement()})
+    if (MaybeError error = database.run(statement)) return error;
+  return {};
+}
+
+template <class Row>
+MaybeError put_all(Database& database, const SqlTable<Row>& table, std::vector<std::int64_t> keys,
+                   const std::vector<Row>& rows) {
+  for (keys.push_back(0); const Row& row : rows) {
+    if (MaybeError error = table.put(database, keys, row)) return error;
+    ++keys.back();
+  }
+  return {};
+}
+
+/// Whether its numbers contradict each other.
+bool is_sound(const CaseAnswer& answer) {
+  const CriticalGap& gap = answer.critical;
+  const bool is_value = gap.kind == CriticalGapKind::value;
+  if (is_value != std::isfinite(gap.value)) return false;
+  if (is_value && !(gap.lower <= gap.value && gap.value <= gap.upper)) return false;
+  for (const GapVerdict& row : answer.verdicts) {
+    if (row.air.supplied < row.air.stored) return false;
+    if (row.ignition && row.ignition->cause > surface::IgnitionCause::arrhenius) return false;
+  }
+  return answer.run.status == run::RunStatus::completed || !answer.completed();
+}
+
+}  // namespace
+
+std::string bytes_of(const CaseAnswer& answer) {
+  const Rows rows = rows_of(answer);
+  std::string bytes;
+  answer_table().append_bytes_of(rows.answer, bytes);
+  for (const GapRow& row : rows.gaps) {
+    gap_table().append_bytes_of(row, bytes);
+    for (const AsCalibrated& each : row.verdict.as_calibrated)
+      as_calibrated_table().append_bytes_of(each, bytes);
+  }
+  for (const GapShare& share : answer.critical.shares) share_table().append_bytes_of(share, bytes);
+  return bytes;
+}
+
+MaybeError save_answer(Database& database, const std::string& key, const CaseAnswer& answer) {
+  if (MaybeError error = make_tables(database)) return error;
+  const std::int64_t number = number_of(key);
+  for (const std::string& table : {gap_table().name, share_table().name, as_calibrated_table().name})
+    if (MaybeError error = database.run("DELETE FROM " + table + " WHERE answer = ?", {number})) return error;
+  Rows rows = rows_of(answer);
+  rows.answer.key = key;
+  rows.answer.check = check_of(answer);
+  if (MaybeError error = answer_table().put(database, {number}, rows.answer)) return error;
+  if (MaybeError error = put_all(database, gap_table(), {number}, rows.gaps)) return error;
+  if (MaybeError error = put_all(database, share_table(), {number}, answer.critical.shares)) return error;
+  for (std::size_t i = 0; i < answer.verdicts.size(); ++i)
+    if (MaybeError error = put_all(database, as_calibrated_table(), {number, static_cast<std::int64_t>(i)},
+                                   answer.verdicts[i].as_calibrated))
+      return error;
+  return {};
+}
+
+void save_answer(store::CaseStore& store, const std::string& key, const CaseAnswer& answer) {
+  store.write([&](Database& database) { return save_answer(database, key, answer); });
+}
+
+std::optional<CaseAnswer> read_answer(Database& database, const std::string& key) {
+  const std::int64_t number = number_of(key);
+  auto found = answer_table().select(database, {number});
+  if (!found || found->size() != 1 || found->front().key != key) return std::nullopt;
+  AnswerRow& row = found->front();
+  CaseAnswer answer = std::move(row.answer);
+  auto gaps = gap_table().select(database, {number});
+  auto shares = share_table().select(database, {number});
+  if (!gaps || !shares) return std::nullopt;
+  for (GapRow& each : *gaps) {
+    auto as_calibrated =
+        as_calibrated_table().select(database, {number, static_cast<std::int64_t>(answer.verdicts.size())});
+    if (!as_calibrated) return std::nullopt;
+    each.verdict.as_calibrated = std::move(*as_calibrated);
+    answer.heated_temperature.push_back(each.heated);
+    answer.verdicts.push_back(std::move(each.verdict));
+  }
+  if (row.bounded) set_shares(answer.critical, std::move(*shares));
+  if (check_of(answer) != row.check || !is_sound(answer)) return std::nullopt;
+  for (GapVerdict& each : answer.verdicts)
+    judge_row(answer.failure, answer.run.limiters, answer.critical, each);
+  return answer;
+}
+
+std::optional<CaseAnswer> read_answer(const store::CaseStore& store, const std::string& key) {
+  std::optional<CaseAnswer> answer;
+  store.read([&](Database& database) { answer = read_answer(database, key); });
+  return answer;
+}
+
+bool has_answer(const store::CaseStore& store, const std::string& key) {
+  bool is_there = false;
+  store.read([&](Database& database) {
+    const auto found = database.rows("SELECT 1 FROM stored_answers WHERE answer = ?", {number_of(key)});
+    is_there = found && !found->empty();
+  });
+  return is_there;
+}
+
+}  // namespace launchsafe::study
