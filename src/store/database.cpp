@@ -1,5 +1,6 @@
 #include "launchsafe/store/database.hpp"
 
+#include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/sha256.hpp"
 
 #include <sqlite3.h>
@@ -101,11 +102,21 @@ Error Database::error(int code) const {
 
 Result<Database> Database::connect(const std::filesystem::path& path, int flags) {
   sqlite3* opened = nullptr;
-  const int code = sqlite3_open_v2(path.c_str(), &opened, flags | SQLITE_OPEN_NOFOLLOW, nullptr);
+  // SQLite would refuse a link to a folder too, which may be one.
+  std::error_code failed;
+  const std::filesystem::path folder = std::filesystem::canonical(folder_of(path), failed);
+  const std::filesystem::path followed =
+      failed || flags & SQLITE_OPEN_MEMORY ? path : folder / path.filename();
+  const int code = sqlite3_open_v2(followed.c_str(), &opened, flags | SQLITE_OPEN_NOFOLLOW, nullptr);
   Database database(path, Handle(opened));
   if (code != SQLITE_OK) return database.error(code);
   sqlite3_extended_result_codes(opened, 1);
   sqlite3_busy_timeout(opened, patience);
+  // A file from somebody else runs nothing of its own.
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  for (const int feature :
+       {SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_TRUSTED_SCHEMA})
+    sqlite3_db_config(opened, feature, 0, nullptr);
   return database;
 }
 

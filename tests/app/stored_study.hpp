@@ -7,6 +7,8 @@
 #include "launchsafe/store/own_files.hpp"
 #include "program.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <map>
 #include <set>

@@ -2,6 +2,7 @@
 // edits at random.
 #include "launchsafe/study/stored_answer.hpp"
 
+#include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <gtest/gtest.h>
@@ -32,13 +33,18 @@ const CaseAnswer& some_answer() {
 
 /// What a study would take an answer for that it finds stored; `edit` changes the file before.
 std::optional<CaseAnswer> accepted(const CaseAnswer& stored, const std::string& edit = {}) {
-  auto database = store::Database::in_memory("answers");
-  EXPECT_FALSE(save_answer(*database, "0a", stored));
-  if (!edit.empty()) {
-    const auto error = database->run(edit);
-    EXPECT_FALSE(error) << error->message;
+  const launchsafe::testing::SharedFolder folder;
+  const std::filesystem::path path = folder.path / "study.db";
+  {
+    auto file = store::Database::open(path);
+    EXPECT_FALSE(save_answer(*file, "0a", stored));
+    if (!edit.empty()) {
+      const auto error = file->run(edit);
+      EXPECT_FALSE(error) << error->message;
+    }
   }
-  auto answer = read_answer(*database, "0a");
+  auto file = store::Database::copy_of(path);
+  auto answer = read_answer(*file, "0a");
   if (answer && !fits(*answer, some_study().study, some_study().cases.front())) return std::nullopt;
   return answer;
 }
