@@ -310,12 +310,14 @@ MaybeError CaseStore::Content::write_file(const std::string& hash, std::string_v
   const std::string name = hash + "." + names.mark();
   MaybeError error = write_file_atomically(path, bytes, IfExists::refuse, name);
   if (!error || error->kind != Error::Kind::conflict) return error;
-  // Another thread may have stored the same result meanwhile; a damaged one of ours has done its time.
+  // Another thread may have stored the same result meanwhile; a damaged one has done its time.
   if (read_checked(path, hash)) return {};
+  if (began_as_case(path)) return write_file_atomically(path, bytes, IfExists::replace, name);
   const std::optional<RunRecord> record = record_of(hash);
-  if ((record && record->state == CaseState::done) || began_as_case(path))
-    return write_file_atomically(path, bytes, IfExists::replace, name);
-  return Error{Error::Kind::write_failed, error->message};
+  if (!record || record->state != CaseState::done) return Error{Error::Kind::write_failed, error->message};
+  // Somebody put something else in the place of ours, which is kept.
+  if (const auto kept = move_to_numbered_name(path, path.string() + ".edited"); !kept) return kept.error();
+  return write_file_atomically(path, bytes, IfExists::refuse, name);
 }
 
 void CaseStore::Content::keep(const Result<std::string>& bytes, RunRecord record) {

@@ -93,6 +93,9 @@ Error Database::error(int code) const {
             fmt::format("{} is no results file of launchsafe, or its beginning is damaged, and nothing is "
                         "overwritten; move it away or name another folder",
                         path_.string())};
+  if (code == SQLITE_IOERR_LOCK || code == SQLITE_IOERR_RDLOCK)
+    text +=
+        "; its file system knows no locks, without which two programs may write at once: name another folder";
   if (kind == Error::Kind::corrupt)
     text += "; it is damaged: move it away, and the study goes on with the case files beside it";
   return {kind, std::move(text)};

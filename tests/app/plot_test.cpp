@@ -123,9 +123,9 @@ TEST_F(Plotted, WritesNumbersAsTablesWithoutGnuplot) {
             "out/histories_0.01cm.csv\n");
   EXPECT_TRUE(outcome.says("no table of air: ")) << outcome.err;
   EXPECT_TRUE(read("out/pressure.csv").starts_with("time_ms,chamber_MPa,bottom_MPa\r\n0,"));
-  const auto json = nlohmann::json::parse(
+  const auto object = nlohmann::json::parse(
       run({"plot", "shell.h5", "-o", "out", "--csv", "--json", "--what", "pressure"}).out);
-  EXPECT_EQ(json["tables"][0]["file"], "out/pressure.csv");
+  EXPECT_EQ(object["tables"][0]["file"], "out/pressure.csv");
 }
 
 }  // namespace

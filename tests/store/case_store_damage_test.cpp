@@ -51,7 +51,11 @@ TEST_F(DamagedCase, ATruncatedFileIsReplaced) { expect_replaced(whole_.substr(0,
 
 TEST_F(DamagedCase, AnEmptyFileIsReplaced) { expect_replaced(""); }
 
-TEST_F(DamagedCase, SomethingElseInItsPlaceIsReplaced) { expect_replaced(std::string(whole_.size(), 'x')); }
+TEST_F(DamagedCase, SomethingElseInItsPlaceIsReplacedAndKept) {
+  const std::string theirs(whole_.size(), 'x');
+  expect_replaced(theirs);
+  EXPECT_TRUE(*read_file(file_of(0).string() + ".edited-1") == theirs);
+}
 
 TEST_F(DamagedCase, AFlippedBitIsSeen) {
   std::string flipped = whole_;
