@@ -92,8 +92,7 @@ void StudySession::print_remarks() {
 
 ExitCode StudySession::report_interruption() {
   if (!kept()) return ExitCode::failed;
-  const auto stored =
-      std::ranges::count(store_->entries(), store::CaseState::done, &store::JournalEntry::state);
+  const auto stored = std::ranges::count(store_->records(), store::CaseState::done, &store::RunRecord::state);
   console_.error(fmt::format("interrupted; {} kept in {}; to go on: {}",
                              stored == 1 ? "1 run is" : fmt::format("{} runs are", stored),
                              request_.folder.string(), request_.command));

@@ -169,8 +169,8 @@ store::MaybeError check_verdicts(const StudyEvidence& study) {
   return {};
 }
 
-/// An unfinished study has told of its runs in its journal alone.
-store::MaybeError read_journal(StudyEvidence& study) {
+/// An unfinished study has told of its runs in its results file alone.
+store::MaybeError read_runs(StudyEvidence& study) {
   if (!std::filesystem::exists(study.folder / "cases")) return {};
   const auto opened = store::CaseStore::open_to_read(study.folder, study.record.manifest.model_version);
   if (!opened) return opened.error();
@@ -205,7 +205,7 @@ store::Result<StudyEvidence> read_study(const path& folder, std::size_t number) 
   if (auto error = check_files(study)) return *error;
   if (auto error = read_study_json(study)) return *error;
   if (auto error = check_verdicts(study)) return *error;
-  if (auto error = read_journal(study)) return *error;
+  if (auto error = read_runs(study)) return *error;
   return study;
 }
 

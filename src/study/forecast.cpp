@@ -43,7 +43,7 @@ std::string difference(const std::string& input, const RunRecord& before, store:
   return text;
 }
 
-/// Why runs have to run, from what the journal says.
+/// Why runs have to run, from what is recorded.
 class Reasons {
  public:
   explicit Reasons(store::CaseStore* store) : store_(store) {
@@ -90,7 +90,7 @@ bool is_given_up(const std::string& hash, const StudyOptions& options) {
          (!options.compute || options.time_limit <= entry->time_limit);
 }
 
-/// Particle updates per second that the journal's runs came to.
+/// Particle updates per second that the recorded runs came to.
 void learn_rate(Forecast& forecast, const StudyOptions& options) {
   if (options.store == nullptr) return;
   double updates = 0, seconds = 0;

@@ -315,13 +315,4 @@ std::optional<CaseAnswer> read_answer(const store::CaseStore& store, const std::
   return answer;
 }
 
-bool has_answer(const store::CaseStore& store, const std::string& key) {
-  bool is_there = false;
-  store.read([&](Database& database) {
-    const auto found = database.rows("SELECT 1 FROM stored_answers WHERE answer = ?", {number_of(key)});
-    is_there = found && !found->empty();
-  });
-  return is_there;
-}
-
 }  // namespace launchsafe::study

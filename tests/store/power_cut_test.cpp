@@ -153,7 +153,7 @@ TEST_F(PowerCut, LosesNothingThatTheStoreHadTaken) {
     EXPECT_EQ(store->remarks(), std::vector<std::string>{});
   }
   EXPECT_GT(losses, 20) << "most cuts lose something that was written";
-  EXPECT_GT(most, 3U);
+  EXPECT_GE(most, 3U);
 }
 
 }  // namespace

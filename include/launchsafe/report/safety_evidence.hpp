@@ -25,7 +25,7 @@ struct StudyEvidence {
   scene::SceneFile scene;                       ///< what was simulated, with what the study sets
   nlohmann::json study;                         ///< study.json; null while the study is not finished
   std::map<std::string, std::string> drawings;  ///< its maps as it drew them, SVG by file name
-  std::vector<store::RunRecord> runs;           ///< of the folder's journal; none where it was left out
+  std::vector<store::RunRecord> runs;           ///< of the folder's results file; none without one
   /// Scene keys whose values differ from those of the report's main study.
   std::vector<std::string> differences;
   bool finished() const { return study.is_object(); }

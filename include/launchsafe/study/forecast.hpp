@@ -36,7 +36,7 @@ struct Forecast {
   std::size_t of_all(std::size_t runs_like_that) const;
   std::size_t confirmations = 0;  ///< coupled runs that may follow, at most
   double update_rate = 0;         ///< particle updates per second on a core that the prediction rests on
-  std::size_t learned_from = 0;   ///< runs in the journal that the rate was learned from; 0: measured now
+  std::size_t learned_from = 0;   ///< recorded runs that the rate was learned from; 0: measured now
   double time = 0;                ///< s of wall time, of all that is to run
   double confirmation_time = 0;   ///< s of it, at most, of the confirmations of launches that are to run
   double plan_memory = 0;         ///< bytes of all cases of the study and what is kept of them till its end
@@ -47,7 +47,7 @@ struct Forecast {
 /// Why a study is not begun at all: every one of its cases is out of reach. The error of the first.
 std::optional<scene::InputError> all_out_of_reach(const StudyFile& study, const run::Reach& reach);
 
-/// `update_rate` (particle updates per second on a core) is used where the journal knows no better.
+/// `update_rate` (particle updates per second on a core) is used where no recorded run knows better.
 /// `most_cases`: of so many the runs are planned.
 Forecast forecast_study(const StudyFile& study, const StudyOptions& options, double update_rate,
                         std::size_t most_cases = 1000);

@@ -10,7 +10,7 @@
 
 namespace launchsafe::study {
 
-/// Stores an answer in the place of one with the same key, which are hexadecimal digits (see `answer_keys`).
+/// Stores an answer in the place of one with the same key, which are hexadecimal digits.
 void save_answer(store::CaseStore& store, const std::string& key, const CaseAnswer& answer);
 store::MaybeError save_answer(store::Database& database, const std::string& key, const CaseAnswer& answer);
 
@@ -19,9 +19,6 @@ store::MaybeError save_answer(store::Database& database, const std::string& key,
 /// enumerator, a negative amount, numbers that contradict each other.
 std::optional<CaseAnswer> read_answer(const store::CaseStore& store, const std::string& key);
 std::optional<CaseAnswer> read_answer(store::Database& database, const std::string& key);
-
-/// Whether there is an answer with that key, perhaps one that cannot be.
-bool has_answer(const store::CaseStore& store, const std::string& key);
 
 /// All that is stored of an answer.
 std::string bytes_of(const CaseAnswer& answer);
