@@ -83,7 +83,7 @@ class AnswerRunner {
 
  private:
   void fetch_stored() {
-    if (options_.store == nullptr || options_.store->entries().empty()) return;
+    if (options_.store == nullptr || options_.store->records().empty()) return;
     tbb::parallel_for(std::size_t{0}, cases_.size(), [this](std::size_t i) {
       if (cases_[i].shard == options_.shard.index && !stop_requested(options_)) fetch_answers(cases_[i]);
     });
