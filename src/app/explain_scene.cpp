@@ -1,6 +1,6 @@
 #include "explain_scene.hpp"
 
-#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/table.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/scene/chamber.hpp"
 #include "launchsafe/scene/grid_intervals.hpp"
@@ -19,8 +19,6 @@
 namespace launchsafe::app {
 namespace {
 
-using report::count_column, report::significant_column, report::text_column;
-
 /// The first of them where they are many.
 std::string list_of(const std::vector<std::string>& names) {
   constexpr std::size_t most_named = 4;
@@ -31,42 +29,64 @@ std::string list_of(const std::vector<std::string>& names) {
   return text;
 }
 
+/// An interval of the grid in one direction.
+struct IntervalRow {
+  const char* along;
+  scene::GridInterval interval;
+};
+
 report::Table interval_table(const scene::Scene& scene) {
-  report::Table table{
-      .title = {},
-      .columns = {text_column("along"), significant_column("from", "mm", 7, {}),
-                  significant_column("to", "mm", 7, {}), count_column("cells", {}),
-                  significant_column("smallest", "mm", 4, {}), significant_column("largest", "mm", 4, {}),
-                  text_column("edge before, of"), text_column("edge behind, of")},
-      .rows = {}};
-  const scene::GridIntervals intervals = scene::grid_intervals(scene);
-  const auto add = [&table](const char* direction, const std::vector<scene::GridInterval>& all) {
-    for (const scene::GridInterval& each : all)
-      table.rows.push_back({direction, 1e3 * each.from, 1e3 * each.to, std::int64_t{each.cells},
-                            1e3 * each.shortest, 1e3 * each.longest, list_of(each.edge_before),
-                            list_of(each.edge_behind)});
+  using scene::GridInterval;
+  const auto length = [](const char* heading, int digits, double GridInterval::*member) {
+    return report::Quantity<IntervalRow>(
+        {heading, heading, keys::significant(digits, keys::millimetre), "Of the interval or its cells."},
+        [member](const IntervalRow& row) { return row.interval.*member; });
   };
-  add("x", intervals.x);
-  add("r", intervals.r);
+  const auto edge = [](const char* name, const char* heading, std::vector<std::string> GridInterval::*member) {
+    return report::Quantity<IntervalRow>({name, heading, keys::text(), "Bodies whose edge is there."},
+                                         [member](const IntervalRow& row) { return list_of(row.interval.*member); });
+  };
+  const report::Quantities<IntervalRow> quantities{
+      {{"along", "along", keys::text(), "Direction."}, &IntervalRow::along},
+      length("from", 7, &GridInterval::from),
+      length("to", 7, &GridInterval::to),
+      {{"cells", "cells", keys::count(), "Cells of the interval."},
+       [](const IntervalRow& row) { return row.interval.cells; }},
+      length("smallest", 4, &GridInterval::shortest),
+      length("largest", 4, &GridInterval::longest),
+      edge("edge_before", "edge before, of", &GridInterval::edge_before),
+      edge("edge_behind", "edge behind, of", &GridInterval::edge_behind)};
+  const scene::GridIntervals intervals = scene::grid_intervals(scene);
+  std::vector<IntervalRow> rows;
+  for (const GridInterval& each : intervals.x) rows.push_back({"x", each});
+  for (const GridInterval& each : intervals.r) rows.push_back({"r", each});
+  report::Table table = report::table_of({}, quantities, rows);
   if (scene.numerics.formulation == scene::Formulation::updated_lagrangian)
     table.notes = {"The grid is even and need not run through edges of bodies."};
   return table;
 }
 
+/// A body, or the whole grid, with its cells.
+struct BodyRow {
+  std::string name;
+  scene::CellRange cells;
+  std::int64_t particles;
+};
+
 report::Table body_table(const scene::Scene& scene) {
-  report::Table table{
-      .title = {},
-      .columns = {text_column("body"), count_column("cells in x", {}), count_column("in r", {}),
-                  count_column("cells", {}), count_column("particles", {})},
-      .rows = {}};
-  const auto add = [&table](const std::string& name, const scene::CellRange& cells, std::int64_t particles) {
-    table.rows.push_back(
-        {name, std::int64_t{cells.nx}, std::int64_t{cells.nr}, std::int64_t{cells.nx} * cells.nr, particles});
-  };
+  const report::Quantities<BodyRow> quantities{
+      {{"body", "body", keys::text(), "The body."}, &BodyRow::name},
+      {{"cells_in_x", "cells in x", keys::count(), "Its cells along x."},
+       [](const BodyRow& row) { return row.cells.nx; }},
+      {{"in_r", "in r", keys::count(), "Its cells along r."}, [](const BodyRow& row) { return row.cells.nr; }},
+      {{"cells", "cells", keys::count(), "Its cells."},
+       [](const BodyRow& row) { return std::int64_t{row.cells.nx} * row.cells.nr; }},
+      {{"particles", "particles", keys::count(), "Its particles."}, &BodyRow::particles}};
+  std::vector<BodyRow> rows;
   for (const scene::Body& body : scene.bodies)
-    add(body.name, scene::cells_of(scene, body), scene::particles_of(scene, body).total());
-  add("whole grid", scene::cells_of(scene), scene::particle_count(scene));
-  return table;
+    rows.push_back({body.name, scene::cells_of(scene, body), scene::particles_of(scene, body).total()});
+  rows.push_back({"whole grid", scene::cells_of(scene), scene::particle_count(scene)});
+  return report::table_of({}, quantities, rows);
 }
 
 /// Every line two columns further right.

@@ -1,7 +1,7 @@
 #include "forecast_text.hpp"
 
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/report/table.hpp"
+#include "launchsafe/report/quantities.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,16 +20,17 @@ std::string state_of(const ForecastRun& run) {
 }
 
 report::Table run_table(const Forecast& forecast) {
-  report::Table table;
-  table.columns = {report::text_column("mechanical run"), {.name = "cases", .unit = ""},
-                   {.name = "particles", .unit = ""},     {.name = "steps", .unit = ""},
-                   {.name = "memory", .unit = "MB"},      {.name = "time", .unit = "s"},
-                   {.name = "shard", .unit = ""},         report::text_column("state")};
-  for (const ForecastRun& run : forecast.runs) {
-    table.rows.push_back({run.label, static_cast<std::int64_t>(run.cases), run.particles, run.steps,
-                          run.memory / 1e6, run.time, static_cast<std::int64_t>(run.shard), state_of(run)});
-  }
-  return table;
+  using keys::fixed;
+  const report::Quantities<ForecastRun> quantities{
+      {{"mechanical_run", "mechanical run", keys::text(), "The run."}, &ForecastRun::label},
+      {{"cases", "cases", keys::count(), "Cases that share it."}, &ForecastRun::cases},
+      {report::quantity::particles(), &ForecastRun::particles},
+      {report::quantity::steps(), &ForecastRun::steps},
+      {report::quantity::memory(), &ForecastRun::memory},
+      {{"time", "time", fixed(1, keys::second), "Time that it takes, as estimated."}, &ForecastRun::time},
+      {{"shard", "shard", keys::count(), "Shard that runs it."}, &ForecastRun::shard},
+      {{"state", "state", keys::text(), "Whether it is stored, or why it runs."}, state_of}};
+  return report::table_of({}, quantities, forecast.runs);
 }
 
 std::string forecast_line(std::string_view label, const std::string& value) {

@@ -2,7 +2,7 @@
 #include "commands.hpp"
 #include "explain_scene.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/run/run_case.hpp"
@@ -27,6 +27,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <string_view>
@@ -53,41 +54,16 @@ std::string_view cause_of(const surface::Ignition& ignition) {
 
 std::string ignition_text(const std::optional<surface::Ignition>& ignition, const trace::BottomTrace& trace) {
   if (!ignition) return "none";
-  return fmt::format("{} at {:.3f} ms, {}", cause_of(*ignition), 1e3 * ignition->time,
+  return fmt::format("{} at {}, {}", cause_of(*ignition),
+                     report::in_words(ignition->time, keys::fixed(3, keys::millisecond)),
                      place_of(trace, ignition->station));
-}
-
-/// Three cells: temperature, place, time in ms; empty where there is no such place.
-void add_maximum(std::vector<report::Cell>& row, const surface::Maximum& maximum,
-                 const trace::BottomTrace& trace, bool exists) {
-  if (!exists) {
-    row.insert(row.end(), 3, report::Cell{});
-    return;
-  }
-  row.emplace_back(maximum.temperature);
-  row.emplace_back(place_of(trace, maximum.station));
-  row.emplace_back(1e3 * maximum.time);
-}
-
-std::vector<report::Column> gap_columns(bool points) {
-  std::vector<report::Column> columns{report::significant_column("gap", "cm", 5, {}),
-                                      {.name = "T max", .unit = "K"},
-                                      report::text_column("at"),
-                                      {.name = "time", .unit = "ms", .decimals = 2}};
-  if (points) {
-    columns.push_back({.name = "T max at points", .unit = "K"});
-    columns.push_back(report::text_column("where"));
-    columns.push_back({.name = "when", .unit = "ms", .decimals = 2});
-  }
-  columns.push_back(report::text_column("ignition"));
-  return columns;
 }
 
 std::string line(std::string_view label, const std::string& value) {
   return fmt::format("  {:<22}{}\n", label, value);
 }
 
-std::string kilojoules(double joules) { return fmt::format("{:.6g} kJ", joules / 1e3); }
+std::string kilojoules(double joules) { return report::in_words(joules, keys::significant(6, keys::kilojoule)); }
 
 std::string energy_text(const run::EnergyBalance& energy) {
   std::string text = "Energy balance at the end\n";
@@ -100,7 +76,8 @@ std::string energy_text(const run::EnergyBalance& energy) {
   if (energy.contact != 0.0) text += line("friction and contact", kilojoules(energy.contact));
   text += line("external work", kilojoules(energy.external));
   text += line("frame's body force", kilojoules(energy.body_force));
-  text += line("drift", fmt::format("{:.3g} % of {}", 100.0 * energy.drift(), kilojoules(energy.scale())));
+  text += line("drift", fmt::format("{} of {}", report::in_words(energy.drift(), keys::significant(3, keys::percent)),
+                                     kilojoules(energy.scale())));
   return text;
 }
 
@@ -140,17 +117,61 @@ report::Table air_table(const scene::Scene& scene, const run::CaseResult& result
   return report::air_energy_table(scene.surface.air_model, gaps);
 }
 
+/// A maximum, and the trace that knows its place; nothing of one that does not exist.
+struct MaximumRow {
+  const surface::Maximum* maximum;
+  const trace::BottomTrace* trace;
+};
+
+/// `heading`: what temperature, place and instant are called.
+report::Quantities<MaximumRow> maximum_quantities(const std::array<const char*, 3>& heading) {
+  const auto if_there = [](auto get) {
+    return [get](const MaximumRow& row) {
+      return row.maximum != nullptr ? keys::cell_of(get(row)) : report::Cell();
+    };
+  };
+  using namespace report::quantity;
+  return {{headed(heading[0], temperature_max()),
+           if_there([](const MaximumRow& row) { return row.maximum->temperature; })},
+          {headed(heading[1], temperature_max_place()),
+           if_there([](const MaximumRow& row) { return place_of(*row.trace, row.maximum->station); })},
+          {headed(heading[2], temperature_max_time()),
+           if_there([](const MaximumRow& row) { return row.maximum->time; })}};
+}
+
+/// One gap of a run.
+struct GapRow {
+  const run::GapResult* gap;
+  const trace::BottomTrace* trace;
+
+  MaximumRow at_stations() const { return {trace->stations.empty() ? nullptr : &gap->at_stations, trace}; }
+  MaximumRow at_points() const { return {&gap->at_points, trace}; }
+};
+
+report::Quantities<GapRow> gap_quantities(bool points) {
+  report::Quantities<GapRow> quantities = keys::joined<GapRow>(
+      {{{report::quantity::gap(), [](const GapRow& row) { return row.gap->gap; }}},
+       report::of_part<GapRow>(&GapRow::at_stations, maximum_quantities({"T max", "at", "time"}))});
+  if (points)
+    quantities = keys::joined<GapRow>(
+        {quantities,
+         report::of_part<GapRow>(&GapRow::at_points, maximum_quantities({"T max at points", "where", "when"}))});
+  quantities.emplace_back(
+      report::Column{"ignition", "ignition", keys::text(), "Cause, instant and station of ignition."},
+      [](const GapRow& row) { return ignition_text(row.gap->skin.ignition, *row.trace); });
+  return quantities;
+}
+
 nlohmann::ordered_json maximum_json(const surface::Maximum& maximum, const trace::BottomTrace& trace) {
-  return {{"temperature_max_K", maximum.temperature},
-          {"temperature_max_place", place_of(trace, maximum.station)},
-          {"temperature_max_time_ms", 1e3 * maximum.time}};
+  return report::json_of(maximum_quantities({"T max", "at", "time"}), MaximumRow{&maximum, &trace});
 }
 
 nlohmann::ordered_json ignition_json(const std::optional<surface::Ignition>& ignition,
                                      const trace::BottomTrace& trace) {
   if (!ignition) return nullptr;
   return {{"ignition_cause", study::to_string(ignition->cause)},
-          {"ignition_time_ms", 1e3 * ignition->time},
+          {report::quantity::ignition_time().key(),
+           report::shown_value(ignition->time, report::quantity::ignition_time().form)},
           {"ignition_place", place_of(trace, ignition->station)},
           {"ignition_chemical_share", ignition->chemical_share}};
 }
@@ -158,7 +179,7 @@ nlohmann::ordered_json ignition_json(const std::optional<surface::Ignition>& ign
 nlohmann::ordered_json gap_json(const run::GapResult& gap, const run::MechanicsResult& mechanics) {
   const trace::BottomTrace& trace = mechanics.trace;
   const bool observed = has_observation_points(trace);
-  nlohmann::ordered_json object{{"gap_cm", scene::in_unit(gap.gap, Dimension::length, "cm")}};
+  nlohmann::ordered_json object{{"gap_cm", report::shown_gap(gap.gap)}};
   object["maximum"] = maximum_json(gap.at_stations, trace);
   object["at_observation_points"] =
       observed ? maximum_json(gap.at_points, trace) : nlohmann::ordered_json(nullptr);
@@ -178,15 +199,9 @@ nlohmann::ordered_json energy_json(const run::EnergyBalance& energy) {
 /// A row a gap: highest temperatures, where and when, ignition.
 report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result) {
   const trace::BottomTrace& trace = result.mechanics.trace;
-  const bool points = has_observation_points(trace);
-  report::Table table{scene.title, gap_columns(points), {}};
-  for (const run::GapResult& gap : result.gaps) {
-    std::vector<report::Cell> row{scene::in_unit(gap.gap, Dimension::length, "cm")};
-    add_maximum(row, gap.at_stations, trace, !trace.stations.empty());
-    if (points) add_maximum(row, gap.at_points, trace, true);
-    row.emplace_back(ignition_text(gap.skin.ignition, trace));
-    table.rows.push_back(std::move(row));
-  }
+  std::vector<GapRow> rows;
+  for (const run::GapResult& gap : result.gaps) rows.push_back({&gap, &trace});
+  report::Table table = report::table_of(scene.title, gap_quantities(has_observation_points(trace)), rows);
   if (const std::string edges = scene::charge_edges_off_grid(scene); !edges.empty())
     table.notes.push_back("The charge lies off the grid lines (" + edges +
                           "): calibrated constants do not carry over from a grid that fits.");
@@ -239,7 +254,7 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result) 
 nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResult& result) {
   const run::MechanicsResult& mechanics = result.mechanics;
   nlohmann::ordered_json object{{"title", scene.title},       {"status", run::to_string(mechanics.status)},
-                                {"reason", mechanics.reason}, {"end_time_ms", 1e3 * mechanics.end_time},
+                                {"reason", mechanics.reason}, {"end_time_ms", report::shown_value(mechanics.end_time, report::quantity::time(2).form)},
                                 {"load", load_json(scene)},   {"gaps", nlohmann::ordered_json::array()}};
   for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
   object["combustion"] = report::to_json(report::combustion_table(scene, result))["rows"];

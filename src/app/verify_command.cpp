@@ -1,6 +1,6 @@
 // launchsafe verify: numbers that an installed program must reproduce.
 #include "commands.hpp"
-#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/table.hpp"
 #include "self_test.hpp"
 #include "signals.hpp"
 
@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <set>
 
 namespace launchsafe::app {
@@ -25,18 +26,22 @@ struct Check {
   bool pass() const { return error() <= test.tolerance; }
 };
 
-report::Table table_of(const std::vector<Check>& checks, std::size_t failed) {
-  const auto number = [](const char* name, int digits) {
-    return report::significant_column(name, "", digits, {});
+report::Table check_table(const std::vector<Check>& checks, std::size_t failed) {
+  using keys::text, keys::significant;
+  const auto of_test = [](auto member) {
+    return [member](const Check& check) { return std::invoke(member, check.test); };
   };
-  report::Table table;
-  table.columns = {report::text_column("check"), number("computed", 9),  number("expected", 9),
-                   number("error", 3),           number("tolerance", 3), report::text_column("unit"),
-                   report::text_column("result")};
-  for (const Check& check : checks)
-    table.rows.push_back({check.test.group + ": " + check.test.name, check.computed, check.test.expected,
-                          check.error(), check.test.tolerance, check.test.unit,
-                          std::string(check.pass() ? "pass" : "FAIL")});
+  const report::Quantities<Check> quantities{
+      {{"check", "check", text(), "What is checked."},
+       [](const Check& check) { return check.test.group + ": " + check.test.name; }},
+      {{"computed", "computed", significant(9), "What the program computed."}, &Check::computed},
+      {{"expected", "expected", significant(9), "What it must compute."}, of_test(&SelfTest::expected)},
+      {{"error", "error", significant(3), "Their difference."}, &Check::error},
+      {{"tolerance", "tolerance", significant(3), "The largest allowed."}, of_test(&SelfTest::tolerance)},
+      {{"unit", "unit", text(), "Unit of the numbers."}, of_test(&SelfTest::unit)},
+      {{"result", "result", text(), "pass or FAIL."},
+       [](const Check& check) { return check.pass() ? "pass" : "FAIL"; }}};
+  report::Table table = report::table_of({}, quantities, checks);
   table.notes = {fmt::format("{} of {} checks pass.", checks.size() - failed, checks.size())};
   return table;
 }
@@ -84,7 +89,7 @@ ExitCode perform(const VerifyArguments& arguments, Console& console) {
                     arguments.filter, fmt::join(groups, ", ")));
   const auto failed = static_cast<std::size_t>(
       std::count_if(checks.begin(), checks.end(), [](const Check& check) { return !check.pass(); }));
-  console.print_text(report::to_text(table_of(checks, failed)));
+  console.print_text(report::to_text(check_table(checks, failed)));
   console.print_json(json_of(checks, failed));
   return failed == 0 ? ExitCode::done : ExitCode::cases_failed;
 }

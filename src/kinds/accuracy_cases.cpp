@@ -296,6 +296,7 @@ Kind accuracy_kind() {
                 {"points.csv"},
                 {"variants.csv"},
                 {"error_against_time.svg"}},
+      .results = accuracy_results,
   };
 }
 

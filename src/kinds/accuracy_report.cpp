@@ -1,6 +1,6 @@
 // The answer, the picture, the page and the files of an accuracy study.
 #include "launchsafe/kinds/accuracy.hpp"
-#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
@@ -18,8 +18,9 @@ using namespace study;
 using namespace report;
 namespace {
 
-std::string kelvin(double value) { return significant(value, 2) + " K"; }
-std::string in_cm(double length, int digits) { return significant(100.0 * length, digits) + " cm"; }
+std::string kelvins(double value) { return in_words(value, keys::significant(2, kelvin)); }
+std::string in_cm(double length, int digits) { return in_words(length, keys::significant(digits, centimetre)); }
+std::string seconds(double time, int digits = 3) { return in_words(time, keys::significant(digits, second)); }
 
 const char* limit_text(bool unjustified) {
   return unjustified ? "that of the finest mesh (no extrapolation is justified)" : "the limit";
@@ -46,8 +47,8 @@ std::string wrongness(const VariantAccuracy& variant, const AccuracyRow& own) {
   std::string text = fmt::format(
       "With the setting of the scene, T max is off by at most about {} over the compared gaps; its "
       "distance from {} is {}.",
-      kelvin(own.setting.temperature_bound), limit_text(variant.any_indeterminate()),
-      kelvin(own.largest_temperature_error));
+      kelvins(own.setting.temperature_bound), limit_text(variant.any_indeterminate()),
+      kelvins(own.largest_temperature_error));
   if (std::isfinite(own.setting.critical_gap_bound)) {
     text += fmt::format(" Its critical gap, {}, is off by at most about {}; {} is {} ({} {}).",
                         in_cm(own.setting.critical_gap, 4), in_cm(own.setting.critical_gap_bound, 2),
@@ -77,14 +78,14 @@ std::string belief(const VariantAccuracy& variant) {
       "justified at {} of {} gaps; elsewhere the finest grid stands for it, with a wider uncertainty "
       "(`reference.csv`). An uncertainty is a grid convergence index: of made series it holds the limit of "
       "smooth ones always, of those with 2 % noise in their errors in nine of ten or more. {} of {} settings "
-      "ran soundly, with an energy drift of at most {} %.",
+      "ran soundly, with an energy drift of at most {}.",
       accuracy_settings(variant.study.study).reference_cell_sizes.size(), justified, limits.size(), sound,
-      variant.rows.size(), significant(100.0 * drift, 2));
+      variant.rows.size(), in_words(drift, keys::significant(2, percent)));
   if (inexactness > 0)
     text += fmt::format(
         " The grids share numerics that are not exact; by what settings tell of that, it adds up to {} to "
         "every bound of T max.",
-        kelvin(inexactness));
+        kelvins(inexactness));
   return text + "\n";
 }
 
@@ -93,17 +94,17 @@ std::string halving(const VariantAccuracy& variant, const AccuracyRow& own) {
   const double half = 0.5 * own.setting.temperature_bound;
   if (const RecordedSetting* setting = cheapest_within(variant.record, half)) {
     return fmt::format(
-        "The cheapest setting here with half the bound is {}: {} for {} s of processor time a run, {} "
-        "times the {} s of the scene's setting.",
-        setting->label, kelvin(setting->temperature_bound), significant(setting->processor_time, 3),
+        "The cheapest setting here with half the bound is {}: {} for {} of processor time a run, {} "
+        "times the {} of the scene's setting.",
+        setting->label, kelvins(setting->temperature_bound), seconds(setting->processor_time),
         significant(setting->processor_time / own.setting.processor_time, 2),
-        significant(own.setting.processor_time, 3));
+        seconds(own.setting.processor_time));
   }
   return fmt::format(
       "No setting here halves the bound: {} of it are the uncertainty of the reference itself, which "
       "finer reference meshes would reduce; cells half as large cost 8 times the processor time in a "
       "run of two dimensions.",
-      kelvin(variant.reference_uncertainty()));
+      kelvins(variant.reference_uncertainty()));
 }
 
 std::string cheapest_text(const VariantAccuracy& variant) {
@@ -113,8 +114,8 @@ std::string cheapest_text(const VariantAccuracy& variant) {
     const RecordedSetting* setting = cheapest_within(variant.record, tolerance);
     if (setting == nullptr || setting == last) continue;
     last = setting;
-    text += fmt::format("- T max within {:g} K: {} ({}, {} s)\n", tolerance, setting->label,
-                        kelvin(setting->temperature_bound), significant(setting->processor_time, 3));
+    text += fmt::format("- T max within {:g} K: {} ({}, {})\n", tolerance, setting->label,
+                        kelvins(setting->temperature_bound), seconds(setting->processor_time));
   }
   return text;
 }
@@ -161,8 +162,10 @@ Plot error_plot(const VariantAccuracy& variant) {
   const bool bounded = variant.record.unvaried.empty();
   Plot plot;
   plot.title = variant.name.empty() ? "Error of T max against processor time" : variant.name;
-  plot.x = {"processor time of a run [s]", Scale::logarithmic};
-  plot.y = {bounded ? "error of T max [K]" : "distance of T max from the reference [K]", Scale::logarithmic};
+  plot.x = {headed("processor time of a run", quantity::processor_time()).label(), Scale::logarithmic};
+  plot.y = {headed(bounded ? "error of T max" : "distance of T max from the reference", quantity::temperature_max())
+                .label(),
+            Scale::logarithmic};
   plot.width = 1100;
   plot.height = 640;
   plot.subtitle = bounded ? "marks: bound of the error; bars: down to the distance from the reference"
@@ -190,7 +193,7 @@ Plot error_plot(const VariantAccuracy& variant) {
   const double uncertainty = variant.reference_uncertainty();
   if (std::isfinite(uncertainty) && uncertainty > 0)
     plot.horizontal_lines = {
-        {uncertainty, fmt::format("reference uncertain by {} K", significant(uncertainty, 2))}};
+        {uncertainty, "reference uncertain by " + kelvins(uncertainty)}};
   return plot;
 }
 

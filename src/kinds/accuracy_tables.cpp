@@ -1,6 +1,5 @@
 // The tables of an accuracy study.
 #include "launchsafe/kinds/accuracy.hpp"
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
@@ -15,58 +14,104 @@ using namespace study;
 using namespace report;
 namespace {
 
-std::string gap_text(double gap) { return fmt::format("{:.6g}", 100.0 * gap); }
+using keys::fixed, keys::significant, keys::text;
 
-/// How a row begins where there are several variants.
-std::vector<Field> start_of_row(const AccuracyResult& result, const VariantAccuracy& variant) {
-  if (result.variants.size() == 1) return {};
-  return {{named_text("variant", "variant"), variant.name}};
+std::string gap_text(double gap) { return digits_of(gap, quantity::gap().form); }
+
+const std::vector<double>& gaps_of(const VariantAccuracy& variant) { return variant.study.study.gaps; }
+const std::vector<double>& times_of(const VariantAccuracy& variant) {
+  return accuracy_settings(variant.study.study).times;
+}
+const std::vector<double>& cell_sizes_of(const VariantAccuracy& variant) {
+  return accuracy_settings(variant.study.study).reference_cell_sizes;
 }
 
-/// A table whose first columns are there even where no variant has a row.
-Table table_with(const AccuracyResult& result, const std::vector<Column>& first) {
-  Table table;
-  if (result.variants.size() != 1) table.columns.push_back(named_text("variant", "variant"));
-  append(table.columns, first);
-  return table;
+/// The one that stands at the place of `key` in a list of keys; none where that is not there.
+double value_at(const std::vector<double>& values, const std::vector<double>& keys, double key) {
+  const auto place = static_cast<std::size_t>(std::ranges::find(keys, key) - keys.begin());
+  return place < values.size() ? values[place] : not_a_number;
 }
 
-/// What one variant says of quantities, a row each, scaled to the unit that people read.
-struct QuantityTable {
-  const AccuracyResult& result;
+/// What all variants with a reference have, each once: they may differ.
+template <class List>
+std::vector<double> all_of_variants(const AccuracyResult& result, List list) {
+  std::vector<double> all;
+  for (const VariantAccuracy& variant : result.variants) {
+    if (!variant.reference) continue;
+    for (const double each : list(variant))
+      if (std::ranges::find(all, each) == all.end()) all.push_back(each);
+  }
+  return all;
+}
+
+/// The rows of all variants begin with its name where there are several.
+template <class Row>
+Quantities<Row> with_variants(const AccuracyResult& result, Quantities<Row> quantities) {
+  if (result.variants.size() == 1) return quantities;
+  return keys::joined<Row>(
+      {{{quantity::variant(), [](const Row& row) { return row.variant->name; }}}, std::move(quantities)});
+}
+
+/// A compared quantity, and what the reference meshes say of it.
+struct ReferenceRow {
+  const VariantAccuracy* variant;
+  Column what;
+  const ReferenceValue* value;
+};
+
+/// Numbers are in the unit of the row.
+Quantities<ReferenceRow> reference_quantities(const std::vector<double>& sizes) {
+  const auto in_unit = [](auto get) {
+    return [get](const ReferenceRow& row) { return shown_value(get(*row.value), row.what.form); };
+  };
+  const auto if_justified = [](auto get) {
+    return [get](const ReferenceRow& row) {
+      return row.value->limit.justified ? std::optional(get(row)) : std::nullopt;
+    };
+  };
+  Quantities<ReferenceRow> quantities{
+      {quantity::subject(), [](const ReferenceRow& row) { return row.what.heading; }},
+      {quantity::unit(), [](const ReferenceRow& row) { return row.what.form.unit; }}};
+  for (const double size : sizes) {
+    const std::string cells = digits_of(size, quantity::cell_size().form);
+    quantities.emplace_back(
+        Column{"cells_" + cells + "_mm", cells + " mm", significant(7), "Value on that reference mesh."},
+        [size](const ReferenceRow& row) {
+          return shown_value(value_at(row.value->values, cell_sizes_of(*row.variant), size), row.what.form);
+        });
+  }
+  return keys::joined<ReferenceRow>(
+      {quantities,
+       {{{"order", "order", fixed(2), "Order at which the meshes converge; none where no limit is justified."},
+         if_justified([](const ReferenceRow& row) { return row.value->limit.order; })},
+        {{"extrapolated", "extrapolated", significant(7), "Limit of the meshes; none where none is justified."},
+         if_justified(in_unit([](const ReferenceValue& value) { return value.limit.value; }))},
+        {{"uncertainty", "uncertainty", significant(2), "By how much the reference may be off."},
+         in_unit([](const ReferenceValue& value) { return value.limit.uncertainty; })},
+        {{"method", "by", text(), "How the limit was found, or why there is none."},
+         [](const ReferenceRow& row) {
+           const math::Extrapolation& limit = row.value->limit;
+           return limit.justified ? limit.method : "no extrapolation: " + limit.reason;
+         }}}});
+}
+
+/// The quantities of one variant with a reference, a row each.
+struct ReferenceRows {
   const VariantAccuracy& variant;
-  Table& table;
+  std::vector<ReferenceRow>& rows;
 
-  void add(const std::string& name, const std::string& unit, double scale, const ReferenceValue& value) {
-    if (value.values.empty()) return;
-    const math::Extrapolation& limit = value.limit;
-    std::vector<Field> fields = start_of_row(result, variant);
-    append(fields, {{named_text("quantity", "quantity"), name}, {named_text("unit", "unit"), unit}});
-    for (std::size_t i = 0; i < value.values.size(); ++i) {
-      const double size = accuracy_settings(variant.study.study).reference_cell_sizes[i];
-      const std::string cells = fmt::format("{:.6g}", 1e3 * size);
-      fields.push_back(
-          {significant_column(cells + " mm", "", 7, "cells_" + cells + "_mm"), scale * value.values[i]});
-    }
-    append(fields, {{number_column("order", "", 2, "order"), limit.justified ? limit.order : not_a_number},
-                    {significant_column("extrapolated", "", 7, "extrapolated"),
-                     limit.justified ? scale * limit.value : not_a_number},
-                    {significant_column("uncertainty", "", 2, "uncertainty"), scale * limit.uncertainty},
-                    {named_text("by", "method"),
-                     limit.justified ? limit.method : "no extrapolation: " + limit.reason}});
-    add_row(table, std::move(fields));
+  void add(std::string heading, Form form, const ReferenceValue& value) const {
+    if (!value.values.empty()) rows.push_back({&variant, {.heading = std::move(heading), .form = std::move(form)}, &value});
   }
 };
 
 /// A table of quantities, of which `add` adds those of a variant with a reference.
 Table quantity_table(const AccuracyResult& result,
-                     void (*add)(QuantityTable& to, const AccuracyReference& reference)) {
-  Table table = table_with(result, {named_text("quantity", "quantity"), named_text("unit", "unit")});
-  for (const VariantAccuracy& variant : result.variants) {
-    QuantityTable to{result, variant, table};
-    if (variant.reference) add(to, *variant.reference);
-  }
-  return table;
+                     void (*add)(const ReferenceRows& to, const AccuracyReference& reference)) {
+  std::vector<ReferenceRow> rows;
+  for (const VariantAccuracy& variant : result.variants)
+    if (variant.reference) add({variant, rows}, *variant.reference);
+  return table_of({}, with_variants(result, reference_quantities(all_of_variants(result, cell_sizes_of))), rows);
 }
 
 std::string remark_of(const AccuracyRow& row) {
@@ -81,122 +126,187 @@ std::string remark_of(const AccuracyRow& row) {
   return text;
 }
 
+/// One setting of a variant.
+struct SettingRow {
+  const VariantAccuracy* variant;
+  const AccuracyRow* row;
+};
+
+template <class Member>
+auto of_row(Member member) {
+  return [member](const SettingRow& row) { return std::invoke(member, *row.row); };
+}
+template <class Member>
+auto of_setting(Member member) {
+  return [member](const SettingRow& row) { return std::invoke(member, row.row->setting); };
+}
+/// One of a list, of which there is one for every gap, or time, of the variant.
+template <class Keys>
+auto of_list(std::vector<double> AccuracyRow::*list, Keys keys, double key) {
+  return [=](const SettingRow& row) { return value_at(row.row->*list, keys(*row.variant), key); };
+}
+
+Column temperature_bound() {
+  return {"temperature_bound", "T bound", fixed(2, kelvin), "By how much T max may be off, over all gaps."};
+}
+Column critical_gap_bound() {
+  return {"critical_gap_bound", "its bound", significant(2, centimetre), "By how much that may be off."};
+}
+Column processor_time() { return {"processor_time", "processor time", fixed(1, second), "Of the run."}; }
+
+/// An error at every gap.
+Quantities<SettingRow> by_gap(const std::vector<double>& gaps, const std::string& heading,
+                              const std::string& name, const Form& form,
+                              std::vector<double> AccuracyRow::*list) {
+  Quantities<SettingRow> quantities;
+  for (const double gap : gaps)
+    quantities.emplace_back(Column{name + "_" + gap_text(gap) + "_cm", heading + " at " + centimetres(gap), form,
+                                   "Error at that gap."},
+                            of_list(list, gaps_of, gap));
+  return quantities;
+}
+
+/// What settings are compared at: gaps, those of them whose time of ignition is, and instants.
+struct ComparedAt {
+  std::vector<double> gaps, igniting_gaps, times;
+};
+
 /// The cost of a setting and its errors.
-void add_setting(const VariantAccuracy& variant, const AccuracyRow& row, std::vector<Field>& fields) {
-  const study::Study& study = variant.study.study;
-  const RecordedSetting& setting = row.setting;
-  append(fields, {{named_text("setting", "setting"), setting.label},
-                  {significant_column("cell", "mm", 3, "cell_mm"), 1e3 * setting.cell},
-                  {number_column("processor time", "s", 1, "processor_time_s"), setting.processor_time},
-                  {number_column("wall time", "s", 1, "wall_time_s"), row.wall_time},
-                  {significant_column("particle steps", "", 3, "particle_steps"), row.particle_steps},
-                  {number_column("memory", "MB", 1, "memory_MB"), row.memory / 1e6}});
-  for (std::size_t i = 0; i < study.gaps.size(); ++i) {
-    const std::string gap = gap_text(study.gaps[i]);
-    fields.push_back(
-        {number_column("T error at " + gap + " cm", "K", 2, "temperature_error_" + gap + "_cm_K"),
-         number_at(row.temperature_error, i)});
-  }
-  append(fields,
-         {{number_column("T bound", "K", 2, "temperature_bound_K"), setting.temperature_bound},
-          {quantity::critical_gap(), 100.0 * setting.critical_gap},
-          {significant_column("its error", "cm", 2, "critical_gap_error_cm"), 100.0 * row.critical_gap_error},
-          {significant_column("its bound", "cm", 2, "critical_gap_bound_cm"),
-           100.0 * setting.critical_gap_bound},
-          {number_column("p(t)", "%", 2, "bottom_pressure_error_percent"), 100.0 * row.pressure_error},
-          {number_column("p peak", "%", 2, "bottom_pressure_peak_error_percent"),
-           100.0 * row.peak_pressure_error}});
-  for (std::size_t i = 0; i < study.gaps.size(); ++i) {
-    // A gap whose time can be compared ignites on all reference meshes.
-    if (variant.reference->ignition_time[i].values.empty()) continue;
-    const std::string gap = gap_text(study.gaps[i]);
-    fields.push_back(
-        {number_column("ignition at " + gap + " cm", "ms", 3, "ignition_time_error_" + gap + "_cm_ms"),
-         number_at(row.ignition_time_error, i, 1e3)});
-  }
-  const std::vector<double>& times = accuracy_settings(study).times;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const std::string at = fmt::format("{:.6g} ms", 1e3 * times[i]);
-    const std::string key = fmt::format("temperature_error_{:.6g}_ms_K", 1e3 * times[i]);
-    fields.push_back(
-        {for_programs(number_column("T error at " + at, "K", 2, key)), number_at(row.error_at_times, i)});
-  }
-  append(fields, {{quantity::energy_drift(), row.answer.run.energy_drift},
-                  {named_text("remark", "remark"), remark_of(row)}});
+Quantities<SettingRow> setting_quantities(const ComparedAt& at) {
+  Quantities<SettingRow> quantities{
+      {{"setting", "setting", text(), "What is set otherwise than in the scene."},
+       of_setting(&RecordedSetting::label)},
+      {{"cell", "cell", significant(3, millimetre), "Size of the charge's smallest cells, as computed."},
+       of_setting(&RecordedSetting::cell)},
+      {processor_time(), of_setting(&RecordedSetting::processor_time)},
+      {quantity::wall_time(), of_row(&AccuracyRow::wall_time)},
+      {{"particle_steps", "particle steps", significant(3), "Particles times steps."},
+       of_row(&AccuracyRow::particle_steps)},
+      {quantity::memory(), of_row(&AccuracyRow::memory)}};
+  quantities = keys::joined<SettingRow>(
+      {quantities,
+       by_gap(at.gaps, "T error", "temperature_error", fixed(2, kelvin), &AccuracyRow::temperature_error),
+       {{temperature_bound(), of_setting(&RecordedSetting::temperature_bound)},
+        {quantity::critical_gap(), of_setting(&RecordedSetting::critical_gap)},
+        {{"critical_gap_error", "its error", significant(2, centimetre), "Critical gap minus the reference."},
+         of_row(&AccuracyRow::critical_gap_error)},
+        {critical_gap_bound(), of_setting(&RecordedSetting::critical_gap_bound)},
+        {{"bottom_pressure_error", "p(t)", fixed(2, percent),
+          "Relative L2 difference of the bottom pressure from the finest mesh."},
+         of_row(&AccuracyRow::pressure_error)},
+        {{"bottom_pressure_peak_error", "p peak", fixed(2, percent), "Relative error of its peak."},
+         of_row(&AccuracyRow::peak_pressure_error)}},
+       by_gap(at.igniting_gaps, "ignition", "ignition_time_error", fixed(3, millisecond),
+              &AccuracyRow::ignition_time_error)});
+  for (const double time : at.times)
+    quantities.emplace_back(
+        for_programs(Column{"temperature_error_" + digits_of(time, significant(6, millisecond)) + "_ms",
+                            "T error at " + milliseconds(time), fixed(2, kelvin),
+                            "Error of the hottest point then, first gap, without reaction."}),
+        of_list(&AccuracyRow::error_at_times, times_of, time));
+  return keys::joined<SettingRow>(
+      {quantities,
+       {{quantity::energy_drift(), of_row([](const AccuracyRow& row) { return row.answer.run.energy_drift; })},
+        {{"remark", "remark", text(), "What is to be known of the setting."}, of_row(remark_of)}}});
 }
 
 /// How wrong the own setting of a variant is: nothing but its name where that setting did not run soundly.
-std::vector<Field> variant_fields(const VariantAccuracy& variant) {
-  static const AccuracyRow none;
-  const AccuracyRow* found = variant.baseline();
-  const AccuracyRow* own = found ? found : &none;
-  const RecordedSetting* half = cheapest_within(variant.record, 0.5 * own->setting.temperature_bound);
-  const AccuracyRow* worst = own;
-  for (const AccuracyRow& row : variant.rows)
-    if (!row.other_model && row.largest_temperature_error > worst->largest_temperature_error) worst = &row;
-  std::vector<Field> fields{
-      {named_text("variant", "variant"), variant.name},
-      {number_column("T bound", "K", 2, "temperature_bound_K"), own->setting.temperature_bound},
-      {number_column("T distance", "K", 2, "temperature_distance_K"), own->largest_temperature_error},
-      {quantity::critical_gap(), 100.0 * own->setting.critical_gap},
-      {significant_column("its bound", "cm", 2, "critical_gap_bound_cm"),
-       100.0 * own->setting.critical_gap_bound},
-      {number_column("reference uncertain by", "K", 2, "reference_uncertainty_K"),
-       variant.reference_uncertainty()},
-      {number_column("processor time", "s", 1, "processor_time_s"), own->setting.processor_time},
-      {named_text("cheapest with half the bound", "half_bound_setting"), half ? half->label : "none here"},
-      {number_column("its time", "s", 1, "half_bound_processor_time_s"),
-       half ? half->processor_time : not_a_number},
-      {named_text("most distant setting", "most_distant_setting"), worst->setting.label},
-      {number_column("its distance", "K", 2, "most_distant_K"), worst->largest_temperature_error}};
-  if (found == nullptr) {
-    const std::string reason =
-        variant.reference ? "its own setting did not run soundly" : variant.no_reference;
-    fields.front().cell = variant.name + ": " + reason;
-    for (std::size_t i = 1; i < fields.size(); ++i) fields[i].cell = {};
-  }
-  return fields;
+struct VariantRow {
+  const VariantAccuracy* variant;
+  const AccuracyRow* own;                        ///< nullptr where it did not run soundly
+  const RecordedSetting* half_bound = nullptr;   ///< the cheapest with half the bound
+  const AccuracyRow* most_distant = nullptr;
+};
+
+VariantRow row_of(const VariantAccuracy& variant) {
+  VariantRow row{&variant, variant.baseline()};
+  if (row.own == nullptr) return row;
+  row.half_bound = cheapest_within(variant.record, 0.5 * row.own->setting.temperature_bound);
+  row.most_distant = row.own;
+  for (const AccuracyRow& each : variant.rows)
+    if (!each.other_model && each.largest_temperature_error > row.most_distant->largest_temperature_error)
+      row.most_distant = &each;
+  return row;
+}
+
+Quantities<VariantRow> variant_quantities() {
+  /// Of its own setting, or of the most distant one, where they are known.
+  const auto of_own = [](auto get) {
+    return [get](const VariantRow& row) { return row.own ? keys::cell_of(get(row)) : Cell(); };
+  };
+  return {
+      {quantity::variant(),
+       [](const VariantRow& row) {
+         if (row.own != nullptr) return row.variant->name;
+         return row.variant->name + ": " +
+                (row.variant->reference ? "its own setting did not run soundly" : row.variant->no_reference);
+       }},
+      {temperature_bound(), of_own([](const VariantRow& row) { return row.own->setting.temperature_bound; })},
+      {{"temperature_distance", "T distance", fixed(2, kelvin), "Distance of T max from the reference."},
+       of_own([](const VariantRow& row) { return row.own->largest_temperature_error; })},
+      {quantity::critical_gap(), of_own([](const VariantRow& row) { return row.own->setting.critical_gap; })},
+      {critical_gap_bound(), of_own([](const VariantRow& row) { return row.own->setting.critical_gap_bound; })},
+      {{"reference_uncertainty", "reference uncertain by", fixed(2, kelvin),
+        "By how much the reference of T max may itself be off."},
+       of_own([](const VariantRow& row) { return row.variant->reference_uncertainty(); })},
+      {processor_time(), of_own([](const VariantRow& row) { return row.own->setting.processor_time; })},
+      {{"half_bound_setting", "cheapest with half the bound", text(), "The cheapest setting with half the bound."},
+       of_own([](const VariantRow& row) {
+         return row.half_bound ? row.half_bound->label : std::string("none here");
+       })},
+      {{"half_bound_processor_time", "its time", fixed(1, second), "Its processor time."},
+       of_own([](const VariantRow& row) {
+         return row.half_bound ? row.half_bound->processor_time : not_a_number;
+       })},
+      {{"most_distant_setting", "most distant setting", text(), "The setting farthest from the reference."},
+       of_own([](const VariantRow& row) { return row.most_distant->setting.label; })},
+      {{"most_distant", "its distance", fixed(2, kelvin), "Its distance of T max."},
+       of_own([](const VariantRow& row) { return row.most_distant->largest_temperature_error; })}};
 }
 
 }  // namespace
 
 Table reference_table(const AccuracyResult& result) {
-  return quantity_table(result, [](QuantityTable& to, const AccuracyReference& reference) {
+  return quantity_table(result, [](const ReferenceRows& to, const AccuracyReference& reference) {
     const study::Study& study = to.variant.study.study;
     for (std::size_t gap = 0; gap < study.gaps.size(); ++gap) {
-      const std::string at = " at " + gap_text(study.gaps[gap]) + " cm";
-      to.add((reference.inert[gap] ? "T max without reaction" : "T max") + at, "K", 1.0,
+      const std::string at = " at " + centimetres(study.gaps[gap]);
+      to.add((reference.inert[gap] ? "T max without reaction" : "T max") + at, quantity::temperature_max().form,
              reference.temperature[gap]);
-      to.add("ignition time" + at, "ms", 1e3, reference.ignition_time[gap]);
+      to.add("ignition time" + at, quantity::ignition_time().form, reference.ignition_time[gap]);
     }
-    to.add("critical gap", "cm", 100.0, reference.critical_gap);
-    to.add("peak pressure of the charge bottom", "MPa", 1e-6, reference.peak_pressure);
+    to.add("critical gap", quantity::critical_gap().form, reference.critical_gap);
+    to.add("peak pressure of the charge bottom", quantity::pressure().form, reference.peak_pressure);
     for (std::size_t i = 0; i < reference.at_times.size(); ++i)
-      to.add(fmt::format("T without reaction at {:.6g} ms, gap {} cm",
-                         1e3 * accuracy_settings(study).times[i], gap_text(study.gaps.front())),
-             "K", 1.0, reference.at_times[i]);
+      to.add(fmt::format("T without reaction at {}, gap {}", milliseconds(accuracy_settings(study).times[i]),
+                         centimetres(study.gaps.front())),
+             quantity::temperature_max().form, reference.at_times[i]);
   });
 }
 
 Table point_table(const AccuracyResult& result) {
-  return quantity_table(result, [](QuantityTable& to, const AccuracyReference& reference) {
-    const std::string gap = ", gap " + gap_text(to.variant.study.study.gaps.front()) + " cm";
+  return quantity_table(result, [](const ReferenceRows& to, const AccuracyReference& reference) {
+    const std::string gap = ", gap " + centimetres(to.variant.study.study.gaps.front());
     for (std::size_t i = 0; i < reference.points.size(); ++i)
-      to.add(to.variant.rows.front().points[i].name + gap, "K", 1.0, reference.points[i]);
+      to.add(to.variant.rows.front().points[i].name + gap, quantity::temperature_max().form, reference.points[i]);
   });
 }
 
 Table setting_table(const AccuracyResult& result) {
-  Table table = table_with(result, {named_text("setting", "setting")});
-  table.title = "Error against run time";
-  for (const VariantAccuracy& variant : result.variants) {
-    if (!variant.reference) continue;
-    for (const AccuracyRow& row : variant.rows) {
-      std::vector<Field> fields = start_of_row(result, variant);
-      add_setting(variant, row, fields);
-      add_row(table, std::move(fields));
-    }
-  }
+  std::vector<SettingRow> rows;
+  for (const VariantAccuracy& variant : result.variants)
+    if (variant.reference)
+      for (const AccuracyRow& row : variant.rows) rows.push_back({&variant, &row});
+  // A gap whose time can be compared ignites on all reference meshes.
+  const auto igniting_gaps_of = [](const VariantAccuracy& variant) {
+    std::vector<double> gaps;
+    for (std::size_t i = 0; i < gaps_of(variant).size(); ++i)
+      if (!variant.reference->ignition_time[i].values.empty()) gaps.push_back(gaps_of(variant)[i]);
+    return gaps;
+  };
+  const ComparedAt at{all_of_variants(result, gaps_of), all_of_variants(result, igniting_gaps_of),
+                      all_of_variants(result, times_of)};
+  Table table = table_of("Error against run time", with_variants(result, setting_quantities(at)), rows);
   table.notes.push_back(
       "Errors are this minus the extrapolated value (where none is justified, the finest mesh); p(t) is the "
       "relative L2 difference of the bottom pressure from the finest mesh. Bounds: the "
@@ -206,14 +316,22 @@ Table setting_table(const AccuracyResult& result) {
 }
 
 Table variant_table(const AccuracyResult& result) {
-  Table table;
-  table.title = "How wrong each variant is with its own setting";
-  for (const VariantAccuracy& variant : result.variants) add_row(table, variant_fields(variant));
+  std::vector<VariantRow> rows;
+  for (const VariantAccuracy& variant : result.variants) rows.push_back(row_of(variant));
+  Table table = table_of("How wrong each variant is with its own setting", variant_quantities(), rows);
   table.notes.push_back(
       "A bound is the distance from the finest grid and the uncertainty of the reference, the largest over "
       "the gaps; a distance is that from the limit of the grids, or from the finest where no limit is "
       "justified, and of settings with a validity warning too.");
   return table;
+}
+
+std::vector<ResultTable> accuracy_results() {
+  const auto reference = keys::described(reference_quantities({1e-3}));
+  return {{"settings", "accuracy.csv", keys::described(setting_quantities({{0.0}, {0.0}, {1e-3}}))},
+          {"variants", "variants.csv", keys::described(variant_quantities())},
+          {"reference", "reference.csv", reference},
+          {"points", "points.csv", reference}};
 }
 
 }  // namespace launchsafe::kinds

@@ -1,6 +1,5 @@
 #include "answer_tables.hpp"
 
-#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
@@ -68,44 +67,14 @@ std::string answer_of(std::vector<std::string> lines, const StudyFile& study,
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-std::vector<Cell> axis_cells(const std::vector<ShownKey>& keys, const StudyCase& input) {
-  std::vector<Cell> cells(keys.size());
-  for (std::size_t i = 0; i < std::min(keys.size(), input.coordinates.size()); ++i)
-    cells[i] = keys[i].value(input.coordinates[i]);
-  return cells;
+std::vector<AnsweredCase> answered(const StudyFile& study, const std::vector<CaseAnswer>& answers) {
+  std::vector<AnsweredCase> cases;
+  for (std::size_t i = 0; i < answers.size(); ++i) cases.push_back({&study.cases[i], &answers[i]});
+  return cases;
 }
 
-Table PlacedAnswers::table(std::string title) const { return {std::move(title), columns}; }
-
-Table verdict_table(const Study& study, const PlacedAnswers& answers) {
-  Table table = answers.table("Verdicts");
-  append(table.columns, {quantity::gap()});
-  append(table.columns, verdict_columns(study));
-  for (const auto& [place, answer] : answers.rows) {
-    for (std::size_t i = 0; i < answer->verdicts.size(); ++i) {
-      std::vector<Cell>& cells = table.rows.emplace_back();
-      cells.reserve(table.columns.size());
-      cells.insert(cells.end(), place.begin(), place.end());
-      cells.emplace_back(in_centimetres(answer->verdicts[i].gap));
-      const bool known = i < answer->heated_temperature.size();
-      add_verdict_cells(answer->verdicts[i], known ? answer->heated_temperature[i] : not_a_number, cells);
-    }
-  }
-  return table;
-}
-
-Table verdict_matrix(const Study& study, const PlacedAnswers& answers) {
-  Table table = answers.table("Verdicts by gap");
-  for (const double gap : study.gaps)
-    table.columns.push_back(named_text(centimetres(gap), fmt::format("gap_{:.6g}_cm", in_centimetres(gap))));
-  for (const auto& [place, answer] : answers.rows) {
-    std::vector<Cell>& cells = table.rows.emplace_back(place);
-    for (const GapVerdict& row : answer->verdicts) {
-      const Verdict verdict = row.judgement.verdict;
-      cells.emplace_back(verdict == Verdict::indeterminate ? "INDET." : study::to_string(verdict));
-    }
-  }
-  return table;
+Quantities<AnsweredCase> answered_axes(const Study& study) {
+  return of_part<AnsweredCase>(&AnsweredCase::input, axis_quantities(study));
 }
 
 }  // namespace launchsafe::kinds

@@ -52,25 +52,15 @@ std::string answer_of(std::vector<std::string> lines, const study::StudyFile& st
 inline constexpr const char* interrupted_note =
     "The study was interrupted: cases without a run are indeterminate.";
 
-/// The values of the axes of a case, as cells.
-std::vector<report::Cell> axis_cells(const std::vector<report::ShownKey>& keys,
-                                     const study::StudyCase& input);
-
-/// The answers of a study, each with the cells that its rows begin with, under columns of their own.
-struct PlacedAnswers {
-  struct Row {
-    std::vector<report::Cell> place;
-    const study::CaseAnswer* answer;
-  };
-  std::vector<report::Column> columns;
-  std::vector<Row> rows;
-  report::Table table(std::string title) const;  ///< with the columns of the places and without rows
+/// A case with its answer, and where it lies.
+struct AnsweredCase {
+  const study::StudyCase* input;
+  const study::CaseAnswer* answer;
 };
+std::vector<AnsweredCase> answered(const study::StudyFile& study,
+                                   const std::vector<study::CaseAnswer>& answers);
+report::Quantities<AnsweredCase> answered_axes(const study::Study& study);
 
-/// A row for every gap of every case, for other programs.
-report::Table verdict_table(const study::Study& study, const PlacedAnswers& answers);
-/// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
-report::Table verdict_matrix(const study::Study& study, const PlacedAnswers& answers);
 /// Columns of a matrix on the page.
 inline constexpr std::size_t most_gaps = 30;
 /// What the matrix calls INDET.

@@ -153,6 +153,7 @@ Kind calibration_kind() {
                 {"hold_outs.csv"},
                 {"case_", ".h5"},
                 {"case_", ".xdmf"}},
+      .results = calibration_results,
   };
 }
 

@@ -3,6 +3,7 @@
 #include "calibration_numbers.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 
 #include <fmt/format.h>
 
@@ -19,24 +20,42 @@ bool has_load(const CalibrationResult& result) { return result.load && result.lo
 }  // namespace
 
 std::string load_sentence(const FittedLoad& load) {
-  return fmt::format(" The load has its peak at {} ms, a width of {} ms and a steepness of {}.",
-                     significant(1e3 * load.peak_time, 6), significant(1e3 * load.width, 6),
-                     significant(load.steepness, 6));
+  return fmt::format(" The load has its peak at {}, a width of {} and a steepness of {}.",
+                     milliseconds(load.peak_time), milliseconds(load.width), in_words(load.steepness, keys::significant(6)));
 }
 
-Table fitted_table(const CalibrationResult& result) {
-  Table table;
-  if (!has_load(result)) return table;
-  table.title = "How well the calibrated rows determine what is fitted";
-  table.columns = {text_column("key"),
-                   number_column("standard deviation", "%", 2, "standard_deviation_percent")};
-  for (const std::string key : fitted_keys)
-    table.columns.push_back(number_column("with " + key, "", 2, "correlation_" + key));
-  for (std::size_t i = 0; i < fitted_keys.size(); ++i) {
-    std::vector<Cell> cells{std::string(fitted_keys[i]), 100.0 * result.load->deviation(i)};
-    for (std::size_t j = 0; j < fitted_keys.size(); ++j) cells.emplace_back(result.load->correlation(i, j));
-    table.rows.push_back(std::move(cells));
+namespace {
+
+/// One of the fitted keys.
+struct FittedRow {
+  const FittedLoad* load;
+  std::size_t place;
+};
+
+Quantities<FittedRow> fitted_quantities() {
+  Quantities<FittedRow> quantities{
+      {{"key", "key", keys::text(), "Key of the scene."},
+       [](const FittedRow& row) { return std::string(fitted_keys[row.place]); }},
+      {{"standard_deviation", "standard deviation", keys::fixed(2, percent), "Of its logarithm."},
+       [](const FittedRow& row) { return row.load->deviation(row.place); }}};
+  for (std::size_t other = 0; other < fitted_keys.size(); ++other) {
+    const std::string key(fitted_keys[other]);
+    quantities.emplace_back(Column{"correlation_" + key, "with " + key, keys::fixed(2), "Correlation with it."},
+                            [other](const FittedRow& row) { return row.load->correlation(row.place, other); });
   }
+  return quantities;
+}
+
+}  // namespace
+
+std::vector<Column> fitted_columns() { return keys::described(fitted_quantities()); }
+
+Table fitted_table(const CalibrationResult& result) {
+  if (!has_load(result)) return {};
+  std::vector<FittedRow> rows;
+  for (std::size_t i = 0; i < fitted_keys.size(); ++i) rows.push_back({&*result.load, i});
+  Table table =
+      table_of("How well the calibrated rows determine what is fitted", fitted_quantities(), rows);
   table.notes.push_back(
       "Correlations of their logarithms. The weights of the fit count as standard deviations of what is "
       "published, and larger ones where more than them is left.");
@@ -47,19 +66,20 @@ std::string fit_text(const CalibrationResult& result) {
   if (!has_load(result)) return {};
   const FittedLoad& load = *result.load;
   std::string text = fmt::format(
-      "The five are fitted to {} published numbers by least squares, with weights of {} K and {} ms. What is "
+      "The five are fitted to {} published numbers by least squares, with weights of {} and {}. What is "
       "left has a sum of squares of {:.2f}; the condition of the fit, in their logarithms, is {:.0f}. It "
       "took {} "
       "mechanical runs.",
-      load.numbers, temperature_weight, 1e3 * instant_weight, load.sum_of_squares, load.condition, load.runs);
+      load.numbers, in_words(temperature_weight, keys::significant(6, kelvin)), milliseconds(instant_weight),
+      load.sum_of_squares, load.condition, load.runs);
   const std::string& frozen = settings_of<CalibrationSettings>(result.study.study).frozen_at;
   if (!frozen.empty()) text += fmt::format(" Rule and weights were frozen before the fit, at {}.", frozen);
   if (std::isfinite(load.base_gain)) {
     text += fmt::format(
-        " As a sixth unknown the pressure at the start, `load.base`, would change by {:.2g} MPa and take "
+        " As a sixth unknown the pressure at the start, `load.base`, would change by {} and take "
         "{:.2g} "
         "from the sum of squares.",
-        1e-6 * load.base_change, load.base_gain);
+        in_words(load.base_change, keys::significant(2, megapascal)), load.base_gain);
   }
   return text + "\n";
 }
@@ -69,31 +89,38 @@ std::string misfits_text(const CalibrationResult& result) {
   const MisfitBound misfits = misfit_bound(*result.recommended());
   if (misfits.count == 0) return {};
   return fmt::format(
-      "The {} temperatures that nothing was fitted to are missed by {:.3g} K (RMS). The largest of so few is "
+      "The {} temperatures that nothing was fitted to are missed by {} (RMS). The largest of so few is "
       "no "
-      "bound: with Student's factor for {}, {:.3f}, 95 % of such misfits are below {:.3g} K. That, or half "
+      "bound: with Student's factor for {}, {:.3f}, 95 % of such misfits are below {}. That, or half "
       "the "
       "distance of the two temperatures between which T1 lies if it is larger, is the fit uncertainty that "
       "the "
       "record gives to other studies.\n",
-      misfits.count, misfits.root_mean_square, misfits.count, misfits.factor, misfits.bound());
+      misfits.count, in_words(misfits.root_mean_square, keys::significant(3, kelvin)), misfits.count,
+      misfits.factor, in_words(misfits.bound(), keys::significant(3, kelvin)));
 }
 
 nlohmann::ordered_json load_json(const CalibrationResult& result) {
   if (!result.load) return nullptr;
-  const FittedLoad& load = *result.load;
-  return {{"peak_time_ms", number(1e3 * load.peak_time)},
-          {"width_ms", number(1e3 * load.width)},
-          {"steepness", number(load.steepness)},
-          {"numbers", load.numbers},
-          {"sum_of_squares", number(load.sum_of_squares)},
-          {"condition", number(load.condition)},
-          {"covariance_of_logarithms", load.covariance},
-          {"base_change_MPa", number(1e-6 * load.base_change)},
-          {"base_gain", number(load.base_gain)},
-          {"runs", load.runs},
-          {"frozen_at", settings_of<CalibrationSettings>(result.study.study).frozen_at},
-          {"reason", load.failure}};
+  const Quantities<FittedLoad> quantities{
+      {quantity::load_peak_time(), &FittedLoad::peak_time},
+      {quantity::load_width(), &FittedLoad::width},
+      {quantity::load_steepness(), &FittedLoad::steepness},
+      {{"numbers", "numbers", count(), "Published numbers that were fitted to."}, &FittedLoad::numbers},
+      {{"sum_of_squares", "sum of squares", keys::fixed(2), "Of what is left, over the weights."},
+       &FittedLoad::sum_of_squares},
+      {{"condition", "condition", keys::fixed(0), "Of the fit, in logarithms."}, &FittedLoad::condition},
+      {{"base_change", "change of the base", keys::significant(2, megapascal),
+        "By which load.base would move as a sixth unknown."},
+       &FittedLoad::base_change},
+      {{"base_gain", "gain", keys::significant(2), "By which the sum of squares would fall."},
+       &FittedLoad::base_gain},
+      {{"runs", "runs", count(), "Mechanical runs that it took."}, &FittedLoad::runs},
+      {quantity::reason(), &FittedLoad::failure}};
+  nlohmann::ordered_json json = json_of(quantities, *result.load);
+  json["covariance_of_logarithms"] = result.load->covariance;
+  json["frozen_at"] = settings_of<CalibrationSettings>(result.study.study).frozen_at;
+  return json;
 }
 
 }  // namespace launchsafe::kinds

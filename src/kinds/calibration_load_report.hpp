@@ -14,6 +14,7 @@ std::string load_sentence(const FittedLoad& load);
 /// What the calibrated rows determine: the five, their standard deviations and correlations. No rows where no
 /// load was fitted.
 report::Table fitted_table(const CalibrationResult& result);
+std::vector<report::Column> fitted_columns();
 
 /// What was settled before, condition of the fit, and what a sixth unknown would do. Empty likewise.
 std::string fit_text(const CalibrationResult& result);

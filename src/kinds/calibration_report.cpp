@@ -1,7 +1,6 @@
 // Tables, page and files of a calibration.
 #include "calibration_load_report.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/study/calibration_record.hpp"
@@ -33,37 +32,55 @@ std::string bracket_check(const study::Study& study, const CalibrationRow& row) 
   return value >= own.ignition_lowest && value <= own.ignition_highest ? "inside" : "outside";
 }
 
-/// Constants and what they miss, of every mesh, closure and kinetics: what is printed on stdout.
+using keys::fixed, keys::significant, keys::text;
+
+/// What tells one calibration from another.
+Quantities<CalibrationRow> calibration_setting_quantities() {
+  return {{quantity::cell_size(), &CalibrationRow::cell_size},
+          {quantity::closure(), [](const CalibrationRow& row) { return study::to_string(row.closure); }},
+          {quantity::kinetics(), &CalibrationRow::kinetics}};
+}
+
+Quantities<Constants> constant_quantities() {
+  return {{quantity::localisation(), &Constants::localisation},
+          {quantity::exchange_time(), &Constants::exchange_time},
+          {quantity::ignition_temperature(), &Constants::ignition_temperature}};
+}
+
+Quantities<CalibrationRow> calibration_quantities(const study::Study& study) {
+  const auto fitted = [](auto member) {
+    return [member](const CalibrationRow& row) { return std::invoke(member, row.calibrated); };
+  };
+  const auto left_over = [](const char* name, const char* heading, const char* meaning) {
+    return for_programs(
+        Column{std::string(name) + "_computed_minus_published", heading, fixed(2, kelvin), meaning});
+  };
+  return keys::joined<CalibrationRow>(
+      {calibration_setting_quantities(),
+       of_part<CalibrationRow>([](const CalibrationRow& row) { return &row.calibrated.constants; },
+                               constant_quantities()),
+       {{{"ignition_lowest", "T1 from", fixed(2, kelvin), "T max, untriggered, of the largest safe gap."},
+         fitted(&CalibratedConstants::ignition_lowest)},
+        {{"ignition_highest", "to", fixed(2, kelvin), "T max, untriggered, of the smallest igniting gap."},
+         fitted(&CalibratedConstants::ignition_highest)},
+        {{"published_bracket", "published bracket", text(), "Whether T1 lies in the published bracket."},
+         [study](const CalibrationRow& row) { return bracket_check(study, row); }},
+        {left_over("zero_gap", "without gap", "What the fit leaves of T max without a gap."),
+         fitted(&CalibratedConstants::zero_gap_misfit)},
+        {left_over("wide_gap", "wide gap", "What the fit leaves of T max at the wide gap."),
+         fitted(&CalibratedConstants::wide_gap_misfit)},
+        {{"rms", "RMS", fixed(2, kelvin), "Root mean square over temperatures that nothing was fitted to."},
+         &CalibrationRow::root_mean_square},
+        {{"spread_rms", "RMS of spreads", fixed(2, kelvin), "The same over the spreads."},
+         &CalibrationRow::spread_root_mean_square},
+        {quantity::selection_rms(), &CalibrationRow::selection_root_mean_square},
+        {{"remark", "remark", text(), "What is to be known of the row."}, remark_of}}});
+}
+
+/// What is printed on stdout.
 Table calibration_table(const CalibrationResult& result) {
-  Table table;
-  table.title = "Calibrated constants, and how far they miss what nothing was fitted to";
-  table.columns = {quantity::cell_size(),
-                   quantity::closure(),
-                   quantity::kinetics(),
-                   quantity::localisation(),
-                   quantity::exchange_time(),
-                   quantity::ignition_temperature(),
-                   number_column("T1 from", "K", 2, "ignition_lowest_K"),
-                   number_column("to", "K", 2, "ignition_highest_K"),
-                   text_column("published bracket"),
-                   for_programs(number_column("without gap", "K", 2, "zero_gap_computed_minus_published_K")),
-                   for_programs(number_column("wide gap", "K", 2, "wide_gap_computed_minus_published_K")),
-                   number_column("RMS", "K", 2, "rms_K"),
-                   number_column("RMS of spreads", "K", 2, "spread_rms_K"),
-                   quantity::selection_rms(),
-                   text_column("remark")};
-  for (const CalibrationRow& row : result.rows) {
-    const CalibratedConstants& fitted = row.calibrated;
-    table.rows.push_back({1e3 * row.cell_size, study::to_string(row.closure), row.kinetics,
-                          optional_number(fitted.constants.localisation),
-                          optional_number(1e3 * fitted.constants.exchange_time),
-                          optional_number(fitted.constants.ignition_temperature),
-                          optional_number(fitted.ignition_lowest), optional_number(fitted.ignition_highest),
-                          bracket_check(result.study.study, row), optional_number(fitted.zero_gap_misfit),
-                          optional_number(fitted.wide_gap_misfit), optional_number(row.root_mean_square),
-                          optional_number(row.spread_root_mean_square),
-                          optional_number(row.selection_root_mean_square), remark_of(row)});
-  }
+  Table table = table_of("Calibrated constants, and how far they miss what nothing was fitted to",
+                         calibration_quantities(result.study.study), result.rows);
   table.notes.push_back(
       "RMS: over the temperatures that nothing was fitted to, computed minus published. T1 is the middle "
       "between the "
@@ -71,26 +88,50 @@ Table calibration_table(const CalibrationResult& result) {
   return table;
 }
 
+/// A published number beside what one row computes, or where a maximum is.
+template <class Compared>
+struct RowOf {
+  const CalibrationRow* row;
+  const Compared* compared;
+};
+template <class Compared>
+std::vector<RowOf<Compared>> rows_of(const CalibrationRow& row, const std::vector<Compared>& all) {
+  std::vector<RowOf<Compared>> rows;
+  for (const Compared& each : all) rows.push_back({&row, &each});
+  return rows;
+}
+template <class Compared>
+Quantities<RowOf<Compared>> with_setting(const Quantities<Compared>& quantities) {
+  return keys::joined<RowOf<Compared>>(
+      {of_part<RowOf<Compared>>(&RowOf<Compared>::row, calibration_setting_quantities()),
+       of_part<RowOf<Compared>>(&RowOf<Compared>::compared, quantities)});
+}
+
+/// Numbers are in the unit of the row.
+Quantities<ComparedNumber> compared_quantities() {
+  const auto form = [](const ComparedNumber& row) { return fixed(2, row.in_seconds ? millisecond : kelvin); };
+  const auto in_unit = [form](auto member) {
+    return [=](const ComparedNumber& row) { return shown_value(std::invoke(member, row), form(row)); };
+  };
+  return {{quantity::subject(), &ComparedNumber::quantity},
+          {quantity::gap(), &ComparedNumber::gap},
+          {{"computed", "computed", fixed(2), "Computed number."}, in_unit(&ComparedNumber::computed)},
+          {always({"published", "published", fixed(2), "Published number."}), in_unit(&ComparedNumber::published)},
+          {{"computed_minus_published", "computed - published", fixed(2), "Their difference."},
+           in_unit(&ComparedNumber::misfit)},
+          {quantity::unit(), [form](const ComparedNumber& row) { return form(row).unit; }},
+          {{"line_minus_published", "line - published", fixed(2),
+            "The same of a straight line through the two fitted rows, the rival of the model."},
+           [](const ComparedNumber& row) { return row.line - row.published; }},
+          {quantity::used_for(), &ComparedNumber::use}};
+}
+
 /// Every published number beside what one row computes: with what it was used for, and the model's rival.
 Table compared_table(const CalibrationResult& result, const CalibrationRow& row) {
-  Table table;
-  table.title = fmt::format("Against the published results: {} mm, {}, {}",
-                            significant(1e3 * row.cell_size, 6), study::to_string(row.closure), row.kinetics);
-  table.columns = {text_column("quantity"),
-                   quantity::gap(),
-                   number_column("computed", "", 2, "computed"),
-                   number_column("published", "", 2, "published"),
-                   number_column("computed - published", "", 2, "computed_minus_published"),
-                   text_column("unit"),
-                   number_column("line - published", "", 2, "line_minus_published"),
-                   quantity::used_for()};
-  for (const ComparedNumber& each : row.compared) {
-    const double scale = each.in_seconds ? 1e3 : 1.0;
-    table.rows.push_back({each.quantity, 100.0 * each.gap, optional_number(scale * each.computed),
-                          scale * each.published, optional_number(scale * each.misfit()),
-                          std::string(each.in_seconds ? "ms" : "K"),
-                          optional_number(each.line - each.published), study::to_string(each.use)});
-  }
+  Table table = table_of(
+      fmt::format("Against the published results: {}, {}, {}", in_words(row.cell_size, quantity::cell_size().form),
+                  study::to_string(row.closure), row.kinetics),
+      compared_quantities(), row.compared);
   for (const Placement& each : row.placements) {
     table.notes.push_back(fmt::format("Place of {} at {}: computed {}, published {}.", each.quantity,
                                       centimetres(each.gap), each.computed, each.published));
@@ -107,46 +148,50 @@ Table compared_table(const CalibrationResult& result, const CalibrationRow& row)
   return table;
 }
 
+Quantities<SelectionMisfit> selection_quantities() {
+  return {{quantity::subject(), &SelectionMisfit::quantity},
+          {{"computed_minus_published", "computed - published", fixed(2, kelvin), "Difference."},
+           &SelectionMisfit::misfit}};
+}
+
 /// The differences of the recommended row from published results by which a model is chosen among others; no
 /// rows without any.
 Table selection_table(const CalibrationResult& result) {
-  Table table;
   const CalibrationRow* row = result.recommended();
-  if (!row) return table;
-  table.title = "Differences that choose among models";
-  table.columns = {text_column("quantity"),
-                   number_column("computed - published", "K", 2, "computed_minus_published_K")};
-  for (const SelectionMisfit& each : row->selection)
-    table.rows.push_back({each.quantity, optional_number(each.misfit)});
+  if (!row) return {};
+  Table table = table_of("Differences that choose among models", selection_quantities(), row->selection);
   table.notes.push_back(
-      fmt::format("Their root mean square is {} K. A spread is the root mean square over the gaps; a hottest "
+      fmt::format("Their root mean square is {}. A spread is the root mean square over the gaps; a hottest "
                   "place is the temperature of the published place minus the highest.",
-                  significant(row->selection_root_mean_square, 4)));
+                  in_words(row->selection_root_mean_square, significant(4, kelvin))));
   return table;
 }
 
 /// What the constants do from mesh to mesh.
-Table convergence_table(const CalibrationResult& result) {
-  Table table{"From the coarsest to the finest mesh",
-              {quantity::closure(), quantity::kinetics(),
-               number_column("localisation", "%", 1, "localisation_change_percent"),
-               number_column("exchange time", "%", 1, "exchange_time_change_percent")}};
-  for (const Convergence& each : result.convergence) {
-    table.rows.push_back({study::to_string(each.closure), each.kinetics,
-                          optional_number(100.0 * each.localisation_change),
-                          optional_number(100.0 * each.exchange_time_change)});
-  }
-  return table;
+Quantities<Convergence> convergence_quantities() {
+  return {{quantity::closure(), [](const Convergence& each) { return study::to_string(each.closure); }},
+          {quantity::kinetics(), &Convergence::kinetics},
+          {{"localisation_change", "localisation", fixed(1, percent), "Change from the coarsest to the finest mesh."},
+           &Convergence::localisation_change},
+          {{"exchange_time_change", "exchange time", fixed(1, percent), "The same of the exchange time."},
+           &Convergence::exchange_time_change}};
+}
+
+Quantities<Placement> placement_quantities() {
+  return {{quantity::subject(), &Placement::quantity},
+          {quantity::gap(), &Placement::gap},
+          {{"computed", "computed", text(), "Station where it was computed."}, &Placement::computed},
+          {{"published", "published", text(), "Where it was published to be."}, &Placement::published}};
 }
 
 /// How far the stations move from mesh to mesh. Empty where that was not seen.
 std::string stations_text(const CalibrationResult& result) {
   if (!std::isfinite(result.stations.finer)) return {};
   return fmt::format(
-      "With these constants no station without a gap changes by more than {:.2f} K on the next finer mesh, "
-      "and by more than {:.2f} K from the next coarser one: the stations {} by the rule of "
+      "With these constants no station without a gap changes by more than {} on the next finer mesh, "
+      "and by more than {} from the next coarser one: the stations {} by the rule of "
       "`studies/model_form/README.md`.\n",
-      result.stations.finer, result.stations.coarser,
+      in_words(result.stations.finer, fixed(2, kelvin)), in_words(result.stations.coarser, fixed(2, kelvin)),
       result.stations.converges() ? "converge" : "do not converge");
 }
 
@@ -157,16 +202,18 @@ Json recommendation_json(const CalibrationResult& result) {
 }
 
 Json in_scene_json(const CalibrationResult& result) {
-  return {{"closure", study::to_string(result.study.scene.scene.surface.friction)},
-          {"localisation", number(result.in_scene.localisation)},
-          {"exchange_time_ms", number(1e3 * result.in_scene.exchange_time)},
-          {"ignition_temperature_K", number(result.in_scene.ignition_temperature)}};
+  Json json{{"closure", study::to_string(result.study.scene.scene.surface.friction)}};
+  json.update(json_of(constant_quantities(), result.in_scene));
+  return json;
 }
 
 Json stations_json(const study::StationConvergence& stations) {
-  return {{"change_to_finer_K", number(stations.finer)},
-          {"change_from_coarser_K", number(stations.coarser)},
-          {"converge", stations.converges()}};
+  Json json = json_of<study::StationConvergence>(
+      {{named("change_to_finer", quantity::change_to_finer()), &study::StationConvergence::finer},
+       {named("change_from_coarser", quantity::change_from_coarser()), &study::StationConvergence::coarser}},
+      stations);
+  json["converge"] = stations.converges();
+  return json;
 }
 
 Table run_table(const CalibrationResult& result) {
@@ -176,73 +223,54 @@ Table run_table(const CalibrationResult& result) {
   return report::run_table(runs);
 }
 
-/// The columns and cells that tell one calibration from another.
-std::vector<Column> row_columns() {
-  return {quantity::cell_size(), quantity::closure(), quantity::kinetics()};
-}
-std::vector<Cell> row_cells(const CalibrationRow& row) {
-  return {1e3 * row.cell_size, study::to_string(row.closure), row.kinetics};
-}
-
-/// Where maxima were computed and published, of all rows.
-Table placement_table(const CalibrationResult& result) {
-  Table table;
-  table.columns = row_columns();
-  append(table.columns,
-         {text_column("quantity"), quantity::gap(), text_column("computed"), text_column("published")});
-  for (const CalibrationRow& row : result.rows) {
-    for (const Placement& each : row.placements) {
-      std::vector<Cell>& cells = table.rows.emplace_back(row_cells(row));
-      cells.insert(cells.end(), {each.quantity, 100.0 * each.gap, each.computed, each.published});
-    }
-  }
-  return table;
+/// What `list` of all rows has, in one table, for other programs.
+template <class Compared>
+Table table_of_all(const CalibrationResult& result, const Quantities<Compared>& quantities,
+                   std::vector<Compared> CalibrationRow::*list) {
+  std::vector<RowOf<Compared>> rows;
+  for (const CalibrationRow& row : result.rows)
+    for (const auto& each : rows_of(row, row.*list)) rows.push_back(each);
+  return table_of({}, with_setting(quantities), rows);
 }
 
-/// All compared numbers of all rows in one table, for other programs.
-Table all_compared(const CalibrationResult& result) {
-  Table table;
-  for (const CalibrationRow& row : result.rows) {
-    const Table one = compared_table(result, row);
-    if (table.columns.empty()) {
-      table.columns = row_columns();
-      append(table.columns, one.columns);
-    }
-    for (const std::vector<Cell>& cells : one.rows) {
-      std::vector<Cell>& extended = table.rows.emplace_back(row_cells(row));
-      extended.insert(extended.end(), cells.begin(), cells.end());
-    }
-  }
-  return table;
+/// A constant that was calibrated, beside that of the scene.
+struct ConstantRow {
+  std::string key, calibrated, in_scene;
+  double difference = not_a_number;  ///< as a share of the calibrated one
+};
+
+Quantities<ConstantRow> scene_quantities() {
+  return {{{"key", "key", text(), "Key of the scene."}, &ConstantRow::key},
+          {{"calibrated", "calibrated", text(), "Its calibrated value."}, &ConstantRow::calibrated},
+          {{"in_the_scene_now", "in the scene now", text(), "What the scene has."}, &ConstantRow::in_scene},
+          {{"difference", "difference", fixed(2, percent), "By how much the scene's is above the calibrated."},
+           &ConstantRow::difference}};
 }
 
 }  // namespace
 
 Table constants_table(const CalibrationResult& result) {
-  Table table;
-  if (!result.recommended()) return table;
+  if (!result.recommended()) return {};
   const CalibrationRow& row = *result.recommended();
   const Constants &fitted = row.calibrated.constants, &now = result.in_scene;
-  const std::string closure_now = study::to_string(result.study.scene.scene.surface.friction);
-  table.title = "Constants the scene should hold";
-  table.columns = {text_column("key"), text_column("calibrated"), text_column("in the scene now"),
-                   number_column("difference", "%", 2, "difference_percent")};
-  const auto add = [&table](std::string key, double value, double held, double scale, const char* unit) {
-    table.rows.push_back({std::move(key), significant(scale * value, 6) + unit,
-                          significant(scale * held, 6) + unit, 100.0 * (held - value) / value});
+  std::vector<ConstantRow> rows{{"friction.closure", study::to_string(row.closure),
+                                 study::to_string(result.study.scene.scene.surface.friction)}};
+  const auto add = [&rows](std::string key, double value, double held, const keys::Unit& unit = {}) {
+    rows.push_back({std::move(key), in_words(value, significant(6, unit)), in_words(held, significant(6, unit)),
+                    (held - value) / value});
   };
-  table.rows.push_back({"friction.closure", study::to_string(row.closure), closure_now, Cell()});
-  add("friction.localisation", fitted.localisation, now.localisation, 1.0, "");
-  add("gap.exchange_time", fitted.exchange_time, now.exchange_time, 1e3, " ms");
+  add("friction.localisation", fitted.localisation, now.localisation);
+  add("gap.exchange_time", fitted.exchange_time, now.exchange_time, millisecond);
   if (result.load && result.load->failure.empty()) {
     const scene::Load& held = result.study.scene.scene.load;
-    add("load.peak_time", result.load->peak_time, held.peak_time, 1e3, " ms");
-    add("load.width", result.load->width, held.width, 1e3, " ms");
-    add("load.steepness", result.load->steepness, held.steepness, 1.0, "");
+    add("load.peak_time", result.load->peak_time, held.peak_time, millisecond);
+    add("load.width", result.load->width, held.width, millisecond);
+    add("load.steepness", result.load->steepness, held.steepness);
   }
-  add("kinetics.ignition_temperature", fitted.ignition_temperature, now.ignition_temperature, 1.0, " K");
-  table.notes.push_back(fmt::format("They belong to cells of {} mm and the scene's other settings.",
-                                    significant(1e3 * row.cell_size, 6)));
+  add("kinetics.ignition_temperature", fitted.ignition_temperature, now.ignition_temperature, kelvin);
+  Table table = table_of("Constants the scene should hold", scene_quantities(), rows);
+  table.notes.push_back(fmt::format("They belong to cells of {} and the scene's other settings.",
+                                    in_words(row.cell_size, quantity::cell_size().form)));
   return table;
 }
 
@@ -252,11 +280,10 @@ std::string answer(const CalibrationResult& result) {
     const Constants& fitted = row->calibrated.constants;
     if (result.load) text += load_sentence(*result.load);
     text += fmt::format(
-        " The scene should hold \"{}\": at {} mm, localisation {}, exchange time {} ms, ignition "
-        "temperature {} K.",
-        study::to_string(row->closure), significant(1e3 * row->cell_size, 6),
-        significant(fitted.localisation, 6), significant(1e3 * fitted.exchange_time, 6),
-        significant(fitted.ignition_temperature, 6));
+        " The scene should hold \"{}\": at {}, localisation {}, exchange time {}, ignition temperature {}.",
+        study::to_string(row->closure), in_words(row->cell_size, quantity::cell_size().form),
+        in_words(fitted.localisation, quantity::localisation().form), milliseconds(fitted.exchange_time),
+        in_words(fitted.ignition_temperature, significant(6, kelvin)));
   }
   return text.empty() ? "No calibration: no run was made." : text;
 }
@@ -274,13 +301,15 @@ Report report_of(const CalibrationResult& result) {
   Table selection = selection_table(result);
   if (selection.rows.size() < 2) selection.rows.clear();
   report.items.push_back(ReportTable{std::move(selection), "", "selection", Shown::page});
-  report.items.push_back(ReportTable{convergence_table(result), "", "convergence"});
+  report.items.push_back(ReportTable{
+      table_of("From the coarsest to the finest mesh", convergence_quantities(), result.convergence), "",
+      "convergence"});
   for (std::size_t row = 0; row < result.rows.size(); ++row) {
     const Shown shown = result.recommendation.row == row ? Shown::page_and_terminal : Shown::page;
     report.items.push_back(ReportTable{.table = compared_table(result, result.rows[row]), .shown = shown});
   }
-  report.items.push_back(ReportTable{all_compared(result), "compared.csv", "compared", Shown::file});
-  report.items.push_back(ReportTable{placement_table(result), "", "placements", Shown::file});
+  report.items.push_back(ReportTable{table_of_all(result, compared_quantities(), &CalibrationRow::compared), "compared.csv", "compared", Shown::file});
+  report.items.push_back(ReportTable{table_of_all(result, placement_quantities(), &CalibrationRow::placements), "", "placements", Shown::file});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
   report.items.push_back(ReportTable{run_table(result), "", "runs", Shown::page});
   report.items.push_back(Statement{timing_sentence(result.timing)});
@@ -291,6 +320,17 @@ Report report_of(const CalibrationResult& result) {
                             {"stations", stations_json(result.stations)},
                             {"timing", timing_json(result.timing)}});
   return report;
+}
+
+std::vector<ResultTable> calibration_results() {
+  return {{"constants", "", keys::described(scene_quantities())},
+          {"fitted", "", fitted_columns()},
+          {"calibrations", "calibration.csv", keys::described(calibration_quantities({}))},
+          {"selection", "", keys::described(selection_quantities())},
+          {"convergence", "", keys::described(convergence_quantities())},
+          {"compared", "compared.csv", keys::described(with_setting(compared_quantities()))},
+          {"placements", "", keys::described(with_setting(placement_quantities()))},
+          {"runs", "", run_columns()}};
 }
 
 }  // namespace launchsafe::kinds

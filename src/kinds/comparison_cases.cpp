@@ -228,13 +228,14 @@ Kind comparison_kind() {
   return {
       .traits = {.name = "comparison", .gaps_key = "gaps", .bounds_critical_gaps = false, .own_scenes = true},
       .keys = joined({gaps_keys(), own_keys(comparison_keys()), search_keys(), calibration_record_keys()}),
-      .tables = {table_of("variant", variant_keys())},
+      .tables = {study_table_of("variant", variant_keys())},
       .instead_of = {{"gap", "gaps"}},
       .read = read_comparison,
       .make_cases = make_comparison_cases,
       .run = outcome_of<run_comparison, comparison_failures>,
       .files =
           {{"comparison.csv"}, {"stations.csv"}, {"model_form.json"}, {"model_form.csv"}, {"model_form.svg"}},
+      .results = comparison_results,
   };
 }
 

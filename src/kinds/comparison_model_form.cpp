@@ -1,6 +1,5 @@
 #include "comparison_model_form.hpp"
 
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
@@ -27,14 +26,16 @@ struct ModelForm {
   double largest_gap;  ///< m, where the searches ended
 };
 
-std::string megapascals(double pressure) { return significant(1e-6 * pressure, 6); }
+using keys::significant, keys::text;
+
+std::string megapascals(double pressure) { return digits_of(pressure, quantity::peak_pressure().form); }
 
 /// "0.0395", "none to 0.3", "ignites without a gap" or "not known"; cm.
 std::string gap_text(study::GapOrBound gap, double largest) {
   if (std::isnan(gap)) return "not known";
-  if (gap == study::no_ignition) return "none to " + significant(100.0 * largest, 3);
+  if (gap == study::no_ignition) return "none to " + digits_of(largest, significant(3, centimetre));
   if (gap == 0.0) return "ignites without a gap";
-  return significant(100.0 * gap, 4);
+  return digits_of(gap, significant(4, centimetre));
 }
 
 const study::ModelAlternative* alternative_of(const ModelFormRecord& record, const std::string& name) {
@@ -62,61 +63,91 @@ std::string counts_for(const ModelFormRecord& record, const study::ModelAlternat
   if (alternative == nullptr) return "the default";
   if (!alternative->not_counted.empty()) return "no share; named only: " + alternative->not_counted;
   const std::string pressures = towards_ignition(record, *alternative);
-  if (pressures.empty()) return "no share: nowhere towards ignition by more than 0.0001 cm";
-  return "a share: towards ignition at " + pressures + " MPa";
+  if (pressures.empty()) return "no share: nowhere towards ignition by more than " + centimetres(least_shift);
+  return "a share: towards ignition at " + pressures + " " + quantity::peak_pressure().form.unit;
+}
+
+/// What is said of a model, or of all that count.
+struct ModelRow {
+  std::string name, title;
+  std::vector<std::string> gaps;  ///< at every pressure
+  std::string counts_as;
+};
+
+Quantities<ModelRow> model_quantities(const std::vector<double>& pressures) {
+  Quantities<ModelRow> quantities{
+      {{"model", "model", text(), "The model."}, &ModelRow::name},
+      {{"what_it_is", "what it is", text(), "What it does otherwise."}, &ModelRow::title}};
+  for (std::size_t i = 0; i < pressures.size(); ++i) {
+    const std::string pressure = in_words(pressures[i], quantity::peak_pressure().form);
+    quantities.emplace_back(Column{"critical_gap_at_" + keys::key_text(pressure), pressure, text(),
+                                   "Critical gap, cm, or its bound at that peak pressure."},
+                            [i](const ModelRow& row) { return row.gaps[i]; });
+  }
+  quantities.emplace_back(Column{"counts_as", "counts as", text(), "Whether verdicts carry a share for it."},
+                          &ModelRow::counts_as);
+  return quantities;
 }
 
 Table model_form_table(const ModelForm& form) {
-  Table table{"Critical gap [cm] by model and peak pressure",
-              {text_column("model"), text_column("what it is")}};
-  for (const double pressure : form.record.peak_pressures)
-    table.columns.push_back(
-        named_text(megapascals(pressure) + " MPa", "critical_gap_at_" + megapascals(pressure) + "_MPa"));
-  table.columns.push_back(text_column("counts as"));
+  std::vector<ModelRow> rows;
   for (const ModelFormEntry& each : form.entries) {
-    std::vector<Cell> cells{each.name, each.title};
-    for (const study::GapOrBound gap : each.critical_gap) cells.emplace_back(gap_text(gap, form.largest_gap));
-    cells.emplace_back(counts_for(form.record, alternative_of(form.record, each.name)));
-    table.rows.push_back(std::move(cells));
+    ModelRow& row = rows.emplace_back(ModelRow{each.name, each.title, {}, {}});
+    for (const study::GapOrBound gap : each.critical_gap) row.gaps.push_back(gap_text(gap, form.largest_gap));
+    row.counts_as = counts_for(form.record, alternative_of(form.record, each.name));
   }
-  std::vector<Cell> shift{std::string("shift"), std::string("of a SAFE's gap towards ignition")};
+  ModelRow shift{"shift", "of a SAFE's gap towards ignition", {}, "the largest of the models that count"};
   for (const double pressure : form.record.peak_pressures) {
     scene::Scene scene = form.record.scene;
     scene.load.peak = pressure;
     const auto most = study::model_form_shift(form.record, scene);
-    shift.emplace_back(std::isnan(most.gap) ? std::string("not known") : significant(100.0 * most.gap, 3));
+    shift.gaps.push_back(std::isnan(most.gap) ? "not known" : digits_of(most.gap, significant(3, centimetre)));
   }
-  shift.emplace_back(std::string("the largest of the models that count"));
-  table.rows.push_back(std::move(shift));
-  return table;
+  rows.push_back(std::move(shift));
+  return table_of("Critical gap [cm] by model and peak pressure", model_quantities(form.record.peak_pressures),
+                  rows);
+}
+
+/// A model that was calibrated.
+using CalibratedModel = const ModelFormEntry*;
+
+Quantities<CalibratedModel> model_constant_quantities() {
+  const auto of_scene = [](auto get) {
+    return [get](CalibratedModel model) { return get(model->calibration->calibration.scene); };
+  };
+  const auto of_record = [](double CalibrationRecord::*member) {
+    return [member](CalibratedModel model) { return model->calibration->*member; };
+  };
+  const auto of_stations = [](auto member) {
+    return [member](CalibratedModel model) { return std::invoke(member, model->calibration->stations); };
+  };
+  return {{{"model", "model", text(), "The model."}, &ModelFormEntry::name},
+          {quantity::load_peak_time(), of_scene([](const scene::Scene& scene) { return scene.load.peak_time; })},
+          {quantity::load_width(), of_scene([](const scene::Scene& scene) { return scene.load.width; })},
+          {quantity::load_steepness(), of_scene([](const scene::Scene& scene) { return scene.load.steepness; })},
+          {quantity::localisation(),
+           of_scene([](const scene::Scene& scene) { return scene.surface.localisation; })},
+          {quantity::exchange_time(),
+           of_scene([](const scene::Scene& scene) { return scene.surface.exchange_time; })},
+          {{"ignition_temperature", "T1", significant(6, kelvin), "Ignition temperature."},
+           of_scene([](const scene::Scene& scene) { return scene.charge().kinetics.ignition_temperature; })},
+          {{"selection_rms", "RMS of selection", significant(4, kelvin), quantity::selection_rms().meaning},
+           of_record(&CalibrationRecord::selection_root_mean_square)},
+          {{"misfit_bound", "95 % of misfits below", significant(3, kelvin),
+            "Bound of the misfits of what nothing was fitted to."},
+           of_record(&CalibrationRecord::misfit_bound)},
+          {quantity::change_to_finer(), of_stations(&StationConvergence::finer)},
+          {quantity::change_from_coarser(), of_stations(&StationConvergence::coarser)},
+          {{"stations_converge", "stations converge", text(), "Whether they settle as cells shrink."},
+           of_stations(&StationConvergence::converges)}};
 }
 
 Table model_constants_table(const ModelForm& form) {
-  Table table;
-  table.title = "Constants of each model, calibrated by the same rule";
-  table.columns = {text_column("model"),
-                   significant_column("peak time", "ms", 6, "peak_time_ms"),
-                   significant_column("width", "ms", 6, "width_ms"),
-                   significant_column("steepness", "", 6, "steepness"),
-                   quantity::localisation(),
-                   quantity::exchange_time(),
-                   significant_column("T1", "K", 6, "ignition_temperature_K"),
-                   significant_column("RMS of selection", "K", 4, "selection_rms_K"),
-                   significant_column("95 % of misfits below", "K", 3, "misfit_bound_K"),
-                   significant_column("change to the finer mesh", "K", 3, "station_change_to_finer_K"),
-                   significant_column("from the coarser", "K", 3, "station_change_from_coarser_K"),
-                   text_column("stations converge")};
-  for (const ModelFormEntry& each : form.entries) {
-    const study::CalibrationRecord& record = *each.calibration;
-    if (!record.failure.empty()) continue;
-    const scene::Scene& scene = record.calibration.scene;
-    table.rows.push_back(
-        {each.name, 1e3 * scene.load.peak_time, 1e3 * scene.load.width, scene.load.steepness,
-         scene.surface.localisation, 1e3 * scene.surface.exchange_time,
-         scene.charge().kinetics.ignition_temperature, optional_number(record.selection_root_mean_square),
-         optional_number(record.misfit_bound), optional_number(record.stations.finer),
-         optional_number(record.stations.coarser), std::string(record.stations.converges() ? "yes" : "no")});
-  }
+  std::vector<CalibratedModel> rows;
+  for (const ModelFormEntry& each : form.entries)
+    if (each.calibration->failure.empty()) rows.push_back(&each);
+  Table table =
+      table_of("Constants of each model, calibrated by the same rule", model_constant_quantities(), rows);
   table.notes.push_back(
       "Changes: of any station's temperature at the end of the launch without a gap, with the constants "
       "held.");
@@ -126,8 +157,8 @@ Table model_constants_table(const ModelForm& form) {
 Plot model_form_plot(const ModelForm& form) {
   Plot plot;
   plot.title = "Critical gap by model, each calibrated by the same rule";
-  plot.x.label = "peak pressure [MPa]";
-  plot.y.label = "critical gap [cm]";
+  plot.x.label = headed("peak pressure", quantity::peak_pressure()).label();
+  plot.y.label = quantity::critical_gap().label();
   plot.y.minimum = 0.0;
   plot.height = 620;
   for (const ModelFormEntry& each : form.entries) {
@@ -138,8 +169,8 @@ Plot model_form_plot(const ModelForm& form) {
     if (alternative != nullptr && !alternative->not_counted.empty()) series.style = Style::dashed_line;
     for (std::size_t i = 0; i < each.critical_gap.size(); ++i) {
       if (!std::isfinite(each.critical_gap[i])) continue;
-      series.x.push_back(1e-6 * form.record.peak_pressures[i]);
-      series.y.push_back(100.0 * each.critical_gap[i]);
+      series.add(shown_value(form.record.peak_pressures[i], quantity::peak_pressure().form),
+                 shown_gap(each.critical_gap[i]));
     }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
@@ -207,6 +238,11 @@ void add_model_form(const ComparisonResult& result, Report& report) {
   report.items.push_back(ReportTable{model_form_table(*form), "model_form.csv", "models"});
   report.items.push_back(Picture{"model_form.svg", model_form_plot(*form), "critical gap by model"});
   report.items.push_back(ReportTable{model_constants_table(*form), "", "constants", Shown::page});
+}
+
+std::vector<ResultTable> model_form_results() {
+  return {{"models", "model_form.csv", keys::described(model_quantities({}))},
+          {"constants", "", keys::described(model_constant_quantities())}};
 }
 
 }  // namespace launchsafe::kinds

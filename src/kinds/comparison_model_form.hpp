@@ -9,4 +9,7 @@ namespace launchsafe::kinds {
 /// models.
 void add_model_form(const ComparisonResult& result, report::Report& report);
 
+/// What its tables hold, but for the pressures of a study.
+std::vector<ResultTable> model_form_results();
+
 }  // namespace launchsafe::kinds

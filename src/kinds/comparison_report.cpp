@@ -2,7 +2,6 @@
 #include "answer_tables.hpp"
 #include "comparison_model_form.hpp"
 #include "launchsafe/kinds/comparison.hpp"
-#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/shown_key.hpp"
@@ -13,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace launchsafe::kinds {
 
@@ -21,17 +21,22 @@ using namespace report;
 
 namespace {
 
+using keys::fixed, keys::significant;
+
+/// A case of a comparison.
+struct CaseRow {
+  const ComparisonResult* result;
+  std::size_t index;
+
+  const ComparedCase& compared() const { return result->cases[index]; }
+  const study::StudyCase& input() const { return result->study.cases[index]; }
+  const std::string& variant() const { return result->variants()[compared().variant].name; }
+};
+
 /// Variant, and peak pressure where there are several.
-PlacedAnswers answers_of(const ComparisonResult& result) {
-  const std::vector<ShownKey> keys = shown_axes(result.study.study);
-  PlacedAnswers placed{{named_text("variant", "variant")}, {}};
-  for (const ShownKey& key : keys) placed.columns.push_back(key.column());
-  for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    std::vector<Cell> cells = axis_cells(keys, result.study.cases[i]);
-    cells.insert(cells.begin(), result.variants()[result.cases[i].variant].name);
-    placed.rows.push_back({std::move(cells), &result.cases[i].answer});
-  }
-  return placed;
+Quantities<CaseRow> place_quantities(const study::Study& study) {
+  return keys::joined<CaseRow>(
+      {{{quantity::variant(), &CaseRow::variant}}, of_part<CaseRow>(&CaseRow::input, axis_quantities(study))});
 }
 
 double hottest(const ComparedCase& each) {
@@ -72,8 +77,9 @@ std::string largest_shift_text(const ComparisonResult& result) {
     if (shift < 0.0 && (!most || shift < shift_of(result, *most))) most = i;
   }
   std::string text =
-      most ? fmt::format("The largest step towards ignition is {} cm, of {}.",
-                         significant(100.0 * shift_of(result, *most), 3), result.study.cases[*most].label)
+      most ? fmt::format("The largest step towards ignition is {}, of {}.",
+                         in_words(shift_of(result, *most), significant(3, centimetre)),
+                         result.study.cases[*most].label)
            : std::string("No variant has a smaller critical gap that is a value.");
   if (unknown > 0)
     text += fmt::format(" In {} case{} one of both critical gaps is none or a bound.", unknown,
@@ -81,81 +87,98 @@ std::string largest_shift_text(const ComparisonResult& result) {
   return text;
 }
 
+Quantities<CaseRow> compared_case_quantities(const study::Study& study) {
+  const auto of_run = [](auto member) {
+    return [member](const CaseRow& row) { return std::invoke(member, row.compared().answer.run); };
+  };
+  const auto unless_own = [](double (*difference)(const CaseRow&)) {
+    return [difference](const CaseRow& row) {
+      return row.compared().variant == 0 ? not_a_number : difference(row);
+    };
+  };
+  return keys::joined<CaseRow>(
+      {place_quantities(study),
+       of_part<CaseRow>([](const CaseRow& row) { return &row.compared().answer.critical; },
+                        critical_gap_quantities()),
+       {{{"critical_gap_difference", "less that of the scene", significant(3, centimetre),
+          "Critical gap minus that of the scene as it is."},
+         unless_own([](const CaseRow& row) { return shift_of(*row.result, row.index); })},
+        {quantity::temperature_max_inert(), [](const CaseRow& row) { return hottest(row.compared()); }},
+        {{"temperature_max_inert_difference", "less that of the scene", fixed(1, kelvin),
+          "The same minus that of the scene as it is."},
+         unless_own([](const CaseRow& row) {
+           return hottest(row.compared()) - hottest(row.result->cases[row.result->counterpart(row.index)]);
+         })},
+        {quantity::processor_time(), [](const CaseRow& row) { return row.compared().processor_time; }},
+        {quantity::particles(), of_run(&RunSummary::particles)},
+        {quantity::steps(), of_run(&RunSummary::steps)},
+        {quantity::energy_drift(), of_run(&RunSummary::energy_drift)},
+        {quantity::reason(), [](const CaseRow& row) {
+           const CaseAnswer& answer = row.compared().answer;
+           return answer.completed() ? answer.critical.reason : answer.failure;
+         }}}});
+}
+
 /// A row for every case: critical gap, hottest temperature, both less those of the scene as it is, and cost.
 Table comparison_table(const ComparisonResult& result) {
-  const PlacedAnswers answers = answers_of(result);
-  Table table = answers.table("Variants side by side");
-  append(table.columns, critical_gap_columns());
-  append(table.columns,
-         {significant_column("less that of the scene", "cm", 3, "critical_gap_difference_cm"),
-          quantity::temperature_max_inert(),
-          number_column("less that of the scene", "K", 1, "temperature_max_inert_difference_K"),
-          significant_column("processor time", "s", 3, "processor_time_s"), quantity::particles(),
-          quantity::steps(), quantity::energy_drift(), quantity::reason()});
-  for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    const ComparedCase& each = result.cases[i];
-    const ComparedCase& own = result.cases[result.counterpart(i)];
-    std::vector<Cell>& cells = table.rows.emplace_back(answers.rows[i].place);
-    add_critical_gap_cells(each.answer.critical, cells);
-    cells.push_back(each.variant == 0 ? Cell() : optional_number(100.0 * shift_of(result, i)));
-    cells.push_back(optional_number(hottest(each)));
-    cells.push_back(each.variant == 0 ? Cell() : optional_number(hottest(each) - hottest(own)));
-    cells.push_back(optional_number(each.processor_time));
-    cells.emplace_back(static_cast<std::int64_t>(each.answer.run.particles));
-    cells.emplace_back(static_cast<std::int64_t>(each.answer.run.steps));
-    cells.push_back(optional_number(each.answer.run.energy_drift));
-    cells.emplace_back(each.answer.completed() ? each.answer.critical.reason : each.answer.failure);
-  }
+  std::vector<CaseRow> rows;
+  for (std::size_t i = 0; i < result.cases.size(); ++i) rows.push_back({&result, i});
+  Table table = table_of("Variants side by side", compared_case_quantities(result.study.study), rows);
   table.notes.emplace_back(
       "T max without reaction: over stations and gaps. Only a critical gap that is a value has a "
       "difference.");
   return table;
 }
 
-/// A row for every station of every gap and case.
-Table station_table(const ComparisonResult& result) {
-  const PlacedAnswers answers = answers_of(result);
-  Table table = answers.table("T max of every station, without reaction");
-  append(table.columns,
-         {quantity::gap(), named_text("station", "station"), quantity::temperature_max_inert()});
-  const std::vector<double>& gaps = result.study.study.gaps;
-  for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    const auto& stations = result.cases[i].stations;
-    for (std::size_t gap = 0; gap < stations.size(); ++gap) {
-      for (const StationTemperature& each : stations[gap]) {
-        std::vector<Cell>& cells = table.rows.emplace_back(answers.rows[i].place);
-        cells.insert(cells.end(), {in_centimetres(gaps[gap]), each.name, each.temperature});
-      }
-    }
-  }
-  return table;
+/// A station under a gap of a case.
+struct StationRow {
+  CaseRow of;
+  double gap;  ///< m
+  const StationTemperature* station;
+};
+
+Quantities<StationRow> station_quantities(const study::Study& study) {
+  return keys::joined<StationRow>(
+      {of_part<StationRow>(&StationRow::of, place_quantities(study)),
+       {{quantity::gap(), &StationRow::gap},
+        {quantity::station(), [](const StationRow& row) { return row.station->name; }},
+        {always(quantity::temperature_max_inert()),
+         [](const StationRow& row) { return row.station->temperature; }}}});
 }
 
-/// Stations side by side at the largest gap: a column for each variant and peak pressure.
+/// A row for every station of every gap and case.
+Table station_table(const ComparisonResult& result) {
+  std::vector<StationRow> rows;
+  for (std::size_t i = 0; i < result.cases.size(); ++i) {
+    const auto& stations = result.cases[i].stations;
+    for (std::size_t gap = 0; gap < stations.size(); ++gap)
+      for (const StationTemperature& each : stations[gap])
+        rows.push_back({{&result, i}, result.study.study.gaps[gap], &each});
+  }
+  return table_of("T max of every station, without reaction", station_quantities(result.study.study), rows);
+}
+
+/// Stations side by side at the largest gap: a column for each variant. Peak pressures are compared in the
+/// files; here the first one of every variant.
 Table stations_side_by_side(const ComparisonResult& result) {
   const std::vector<double>& gaps = result.study.study.gaps;
   const auto gap = static_cast<std::size_t>(std::max_element(gaps.begin(), gaps.end()) - gaps.begin());
-  Table table{"T max [K] by station at " + centimetres(gaps[gap]) + ", without reaction",
-              {named_text("station", "station")}};
-  const auto row_of = [&table](const std::string& station) -> std::vector<Cell>& {
-    const auto found = std::find_if(table.rows.begin(), table.rows.end(),
-                                    [&](const auto& row) { return row.front() == Cell(station); });
-    return found == table.rows.end() ? table.rows.emplace_back(std::vector<Cell>{station}) : *found;
-  };
+  std::vector<std::string> rows;
+  Quantities<std::string> quantities{{quantity::station(), std::identity{}}};
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const ComparedCase& each = result.cases[i];
-    // Peak pressures are compared in the files; here the first one of every variant.
-    const bool shown = result.counterpart(i) == 0;
+    for (const StationTemperature& station : each.stations.empty() ? std::vector<StationTemperature>{} : each.stations[gap])
+      if (std::find(rows.begin(), rows.end(), station.name) == rows.end()) rows.push_back(station.name);
+    if (result.counterpart(i) != 0) continue;
     const std::string& variant = result.variants()[each.variant].name;
-    if (shown) table.columns.push_back(number_column(variant, "", 1, variant));
-    if (each.stations.empty()) continue;
-    for (const StationTemperature& station : each.stations[gap]) {
-      std::vector<Cell>& row = row_of(station.name);
-      row.resize(table.columns.size());
-      if (shown) row.back() = station.temperature;
-    }
+    quantities.emplace_back(Column{variant, variant, fixed(1), "T max of the station under that variant."},
+                            [&each, gap](const std::string& name) {
+                              if (each.stations.empty()) return not_a_number;
+                              const auto found = std::ranges::find(each.stations[gap], name, &StationTemperature::name);
+                              return found == each.stations[gap].end() ? not_a_number : found->temperature;
+                            });
   }
-  for (std::vector<Cell>& row : table.rows) row.resize(table.columns.size());
+  Table table = table_of("T max [K] by station at " + centimetres(gaps[gap]) + ", without reaction", quantities, rows);
   if (!result.study.study.axes.empty())
     table.notes.emplace_back("Under the first peak pressure; stations.csv has the others.");
   return table;
@@ -188,9 +211,17 @@ Report report_of(const ComparisonResult& result) {
   report.items.push_back(Statement{timing_sentence(result.timing)});
   report.json = study_json(result.study, report,
                            {{"axes", axes_json(result.study.study)},
-                            {"early_time_ms", 1e3 * result.study.study.early_time},
+                            {"early_time_ms", shown_value(result.study.study.early_time, quantity::time(2).form)},
                             {"timing", timing_json(result.timing)}});
   return report;
+}
+
+std::vector<ResultTable> comparison_results() {
+  const study::Study study;
+  std::vector<ResultTable> tables{{"cases", "comparison.csv", keys::described(compared_case_quantities(study))},
+                                  {"stations", "stations.csv", keys::described(station_quantities(study))}};
+  for (ResultTable& each : model_form_results()) tables.push_back(std::move(each));
+  return tables;
 }
 
 }  // namespace launchsafe::kinds

@@ -1,5 +1,6 @@
 #include "launchsafe/kinds/critical_gap.hpp"
 
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
@@ -17,7 +18,7 @@ using namespace study;
 using namespace report;
 
 std::string label_with_skin(const CaseOutcome& outcome, double gap) {
-  return fmt::format("{}, coupled at {:.6g} cm", outcome.input.label, 100.0 * gap);
+  return fmt::format("{}, coupled at {}", outcome.input.label, centimetres(gap));
 }
 
 bool CriticalGapResult::any_indeterminate() const {

@@ -6,23 +6,46 @@ namespace launchsafe::kinds {
 
 using namespace report;
 
+namespace {
+
+/// One gap of a case with one constant as calibrated.
+struct CalibratedRow {
+  const study::CaseOutcome* outcome;
+  const study::GapVerdict* gap;
+  const study::AsCalibrated* constant;
+};
+
+Quantities<CalibratedRow> calibrated_quantities() {
+  using keys::text;
+  return {{quantity::case_name(), [](const CalibratedRow& row) { return row.outcome->input.label; }},
+          {quantity::gap(), [](const CalibratedRow& row) { return row.gap->gap; }},
+          {quantity::verdict(), [](const CalibratedRow& row) { return row.gap->judgement.verdict; }},
+          {{"key", "constant", text(), "The constant that is put back."},
+           [](const CalibratedRow& row) {
+             return row.constant->key.empty() ? "all of gap and friction" : row.constant->key;
+           }},
+          {quantity::temperature_max(),
+           [](const CalibratedRow& row) { return known(row.gap->maximum.temperature); }},
+          {{"temperature_max_as_calibrated", "T max, as calibrated", keys::fixed(1, kelvin),
+            "Highest temperature with that constant as calibrated."},
+           [](const CalibratedRow& row) { return row.constant->temperature; }},
+          {{"ignites", "ignites then", text(), "Whether the gap ignites with it."},
+           [](const CalibratedRow& row) { return row.constant->ignites; }}};
+}
+
+}  // namespace
+
+std::vector<Column> as_calibrated_columns() { return keys::described(calibrated_quantities()); }
+
 Table as_calibrated_table(const CriticalGapResult& result) {
-  Table table{"With constants of the surface as calibrated",
-              {quantity::case_name(), quantity::gap(), quantity::verdict(), named_text("constant", "key"),
-               quantity::temperature_max(),
-               number_column("T max, as calibrated", "K", 1, "temperature_max_as_calibrated_K"),
-               named_text("ignites then", "ignites")}};
+  std::vector<CalibratedRow> rows;
   for (const study::CaseOutcome& outcome : result.cases)
-    for (const study::GapVerdict& row : outcome.verdicts)
-      for (const study::AsCalibrated& each : row.as_calibrated)
-        table.rows.push_back({outcome.input.label, 100.0 * row.gap, study::to_string(row.judgement.verdict),
-                              each.key.empty() ? "all of gap and friction" : each.key,
-                              optional_number(row.maximum.temperature), optional_number(each.temperature),
-                              each.ignites ? "yes" : "no"});
-  if (!table.rows.empty())
+    for (const study::GapVerdict& gap : outcome.verdicts)
+      for (const study::AsCalibrated& each : gap.as_calibrated) rows.push_back({&outcome, &gap, &each});
+  Table table = table_of("With constants of the surface as calibrated", calibrated_quantities(), rows);
+  if (!rows.empty())
     table.notes.emplace_back(
-        "The same skin on the same trace, but for this constant. What all of gap and friction together "
-        "change "
+        "The same skin on the same trace, but for this constant. What all of gap and friction together change "
         "lowers the bound of the critical gap.");
   return table;
 }

@@ -78,6 +78,7 @@ Kind critical_gap_kind() {
                 {"critical_gaps.svg"},
                 {"case_", ".h5"},
                 {"case_", ".xdmf"}},
+      .results = critical_gap_results,
   };
 }
 

@@ -1,5 +1,6 @@
 #include "critical_gap_marks.hpp"
 
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 
 #include <algorithm>
@@ -24,16 +25,16 @@ std::string bound_label(const std::vector<const CriticalGap*>& gaps, CriticalGap
   return label;
 }
 
-/// Where a gap stands, cm: a bound at its end, what is not known at 0.
+/// Where a gap stands, as shown: a bound at its end, what is not known at 0.
 double position_of(const CriticalGap& gap) {
   switch (drawn_kind(gap)) {
     case CriticalGapKind::value:
-      return 100.0 * gap.value;
+      return shown_gap(gap.value);
     case CriticalGapKind::all_safe:
     case CriticalGapKind::several_crossings:
-      return 100.0 * gap.lower;
+      return shown_gap(gap.lower);
     case CriticalGapKind::all_ignite:
-      return 100.0 * gap.upper;
+      return shown_gap(gap.upper);
     case CriticalGapKind::indeterminate:
       break;
   }
@@ -74,7 +75,7 @@ void GapMarks::add(const CriticalGap& gap, double place) {
   const double position = position_of(gap);
   const auto bound = [&](double of_gap) {
     const bool known = drawn_kind(gap) == CriticalGapKind::value && std::isfinite(of_gap);
-    return known ? 100.0 * of_gap : position;
+    return known ? shown_gap(of_gap) : position;
   };
   series.x.push_back(along_x_ ? position : place);
   series.y.push_back(along_x_ ? place : position);

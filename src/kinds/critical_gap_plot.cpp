@@ -1,7 +1,7 @@
 // The pictures of a critical-gap study.
 #include "critical_gap_marks.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
@@ -40,7 +40,7 @@ Series inert_series(const CaseOutcome& outcome, const std::string& label) {
     const double temperature = row.maximum.temperature;
     if (row.ignition || !std::isfinite(temperature)) continue;
     const Uncertainty& uncertainty = row.uncertainty;
-    series.x.push_back(100.0 * row.gap);
+    series.x.push_back(shown_gap(row.gap));
     series.y.push_back(temperature);
     // Of one that ignites at an end of the range no more is known.
     const auto at_most = [&](double share) { return std::isfinite(share) ? share : row.margin; };
@@ -55,8 +55,7 @@ Series ignited_series(const CaseOutcome& outcome) {
   Series series{"", {}, {}, Style::points};
   for (const GapVerdict& row : outcome.verdicts) {
     if (!row.ignition || !std::isfinite(row.maximum.temperature)) continue;
-    series.x.push_back(100.0 * row.gap);
-    series.y.push_back(row.maximum.temperature);
+    series.add(shown_gap(row.gap), row.maximum.temperature);
   }
   return series;
 }
@@ -64,8 +63,7 @@ Series ignited_series(const CaseOutcome& outcome) {
 Series fitted_line(const GapFit& fit, const std::string& label) {
   Series line{label, {}, {}, Style::line};
   for (const double gap : fit.gaps) {
-    line.x.push_back(100.0 * gap);
-    line.y.push_back(fit.ordinary.intercept + fit.ordinary.slope * 100.0 * gap);
+    line.add(shown_gap(gap), fit.ordinary.intercept + fit.ordinary.slope * shown_gap(gap));
   }
   return line;
 }
@@ -113,8 +111,7 @@ void add_published(const CriticalGapResult& result, Plot& plot) {
   for (const Reference& reference : result.study.study.references) {
     if (!std::isfinite(reference.maximum_temperature)) continue;
     Series& series = foreign ? published : by_use.at(used_for(reference));
-    series.x.push_back(100.0 * reference.gap);
-    series.y.push_back(reference.maximum_temperature);
+    series.add(shown_gap(reference.gap), reference.maximum_temperature);
   }
   std::vector<Series> all{published};
   for (auto& [use, series] : by_use) all.push_back(std::move(series));
@@ -132,9 +129,9 @@ void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
     plot.subtitle = "critical gap: " + reads_as(gap);
     return;
   }
-  const double value = 100.0 * gap.value;
+  const double value = shown_gap(gap.value);
   const auto known = report::measured_gap(gap);
-  const std::string label = "critical gap: " + (known ? known->text("cm") : centimetres(gap.value));
+  const std::string label = "critical gap: " + measured_text(gap);
   plot.vertical_lines = {{value, known ? "" : label}};
   if (known) plot.vertical_bands = {{std::max(0.0, known->lower()), known->upper(), label}};
 }
@@ -144,8 +141,8 @@ void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
 Plot temperature_plot(const CriticalGapResult& result) {
   Plot plot;
   plot.title = "Highest temperature of the charge bottom";
-  plot.x.label = "gap [cm]";
-  plot.y.label = "T max [K]";
+  plot.x.label = quantity::gap().label();
+  plot.y.label = quantity::temperature_max().label();
   // The legend stands below and takes two cases a line.
   plot.height = 600 + 14 * static_cast<int>(result.cases.size());
   for (std::size_t i = 0; i < result.cases.size(); ++i) add_case(result, i, plot);
@@ -154,14 +151,14 @@ Plot temperature_plot(const CriticalGapResult& result) {
   if (result.cases.size() == 1) add_critical_gap(result.cases.front(), plot);
   const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;
   plot.horizontal_lines.push_back(
-      {ignition, fmt::format("ignition temperature: {} K", significant(ignition, 4))});
+      {ignition, "ignition temperature: " + in_words(ignition, keys::significant(4, kelvin))});
   return plot;
 }
 
 Plot critical_gaps_plot(const CriticalGapResult& result) {
   Plot plot;
   plot.title = "Critical gaps with their uncertainty";
-  plot.x.label = "critical gap [cm]";
+  plot.x.label = quantity::critical_gap().label();
   plot.x.minimum = 0.0;
   const std::size_t count = result.cases.size();
   GapMarks marks(critical_gaps_of(result.cases), Style::horizontal_bars);

@@ -1,7 +1,7 @@
 // The page, the picture and the files of a critical-gap study.
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/scene/launch_end.hpp"
@@ -92,7 +92,7 @@ std::string limiter_remark(const CriticalGapResult& result) {
 /// The row of the only case; null where there are several, each with its own critical gap.
 nlohmann::ordered_json only_critical_gap(const CriticalGapResult& result) {
   if (result.cases.size() != 1) return nullptr;
-  return to_json(critical_gap_table(result))["rows"].front();
+  return json_of_row(critical_gap_table(result), 0);
 }
 
 }  // namespace
@@ -146,7 +146,7 @@ Report report_of(const CriticalGapResult& result) {
   report.items.push_back(Statement{timing_sentence(result.timing)});
   report.json = study_json(result.study, report,
                            {{"critical_gap", only_critical_gap(result)},
-                            {"early_time_ms", 1e3 * result.study.study.early_time},
+                            {"early_time_ms", shown_value(result.study.study.early_time, quantity::time(2).form)},
                             {"timing", timing_json(result.timing)}});
   return report;
 }

@@ -30,67 +30,76 @@ std::string early_used_for(const study::Reference& published) {
 /// calibration.
 constexpr double calibration_slack = 0.5;
 
-std::vector<Column> comparison_columns(double early_time) {
-  using namespace quantity;
-  const std::string early = early_text(early_time);
-  return {gap(),
-          used_for(),
-          temperature_max(),
-          number_column("published", "K", 1, "temperature_max_published_K"),
-          computed_minus_published("temperature_max_computed_minus_published_K"),
-          temperature_max_place(),
-          named_text("published at", "temperature_max_published_place"),
-          named_text("used for at " + early, "temperature_early_used_for"),
-          temperature_early(early_time),
-          number_column("published", "K", 1, "temperature_early_published_K"),
-          computed_minus_published("temperature_early_computed_minus_published_K"),
-          temperature_early_place(),
-          named_text("published at", "temperature_early_published_place"),
-          ignition_time(),
-          number_column("published", "ms", 2, "ignition_time_published_ms")};
+using keys::fixed, keys::scientific, keys::text;
+
+/// A row that stands beside a published one.
+using ComparedRow = const GapVerdict*;
+
+Column published(Column computed) {
+  return {computed.name + "_published", "published", computed.form, "What was published of it.",
+          computed.audience};
 }
 
-std::vector<Cell> comparison_cells(const GapVerdict& row, const study::Reference& published) {
-  return {100.0 * row.gap,
-          used_for(published),
-          row.until_exit.temperature,
-          optional_number(published.maximum_temperature),
-          optional_number(row.misfit()),
-          row.until_exit.point,
-          published.point,
-          early_used_for(published),
-          row.early.temperature,
-          optional_number(published.early_temperature),
-          optional_number(row.early_misfit()),
-          row.early.point,
-          published.early_point,
-          row.ignition ? optional_number(1e3 * row.ignition->time) : Cell(),
-          optional_number(1e3 * published.ignition_time)};
+Column published_place(Column computed) {
+  return {computed.name + "_published_place", "published at", text(), "Where that was published to be."};
+}
+
+Column difference_of(Column computed) {
+  return {computed.name + "_computed_minus_published", "computed - published", computed.form,
+          "Computed minus published; none where either ignited."};
+}
+
+Quantities<ComparedRow> comparison_quantities(double early_time) {
+  using namespace quantity;
+  const auto of_published = [](auto member) {
+    return [member](ComparedRow row) { return std::invoke(member, *row->reference); };
+  };
+  const Column early = temperature_early(early_time);
+  return {{gap(), &GapVerdict::gap},
+          {used_for(), of_published(report::used_for)},
+          {temperature_max(), [](ComparedRow row) { return row->until_exit.temperature; }},
+          {published(temperature_max()), of_published(&study::Reference::maximum_temperature)},
+          {difference_of(temperature_max()), &GapVerdict::misfit},
+          {temperature_max_place(), [](ComparedRow row) { return row->until_exit.point; }},
+          {published_place(temperature_max()), of_published(&study::Reference::point)},
+          {{"temperature_early_used_for", "used for at " + milliseconds(early_time), text(),
+            "The same of the temperature at early_time."},
+           of_published(early_used_for)},
+          {early, [](ComparedRow row) { return row->early.temperature; }},
+          {published(early), of_published(&study::Reference::early_temperature)},
+          {difference_of(early), &GapVerdict::early_misfit},
+          {temperature_early_place(), [](ComparedRow row) { return row->early.point; }},
+          {published_place(early), of_published(&study::Reference::early_point)},
+          {ignition_time(), [](ComparedRow row) { return row->ignition ? row->ignition->time : not_a_number; }},
+          {published(ignition_time()), of_published(&study::Reference::ignition_time)}};
+}
+
+Quantities<VerdictRow> judged_gap_quantities(const study::Study& study) {
+  using namespace quantity;
+  const auto of_input = [](double study::StudyCase::*member) {
+    return [member](const VerdictRow& row) { return row.input->*member; };
+  };
+  return keys::joined<VerdictRow>({{{gap(), &VerdictRow::width},
+                                    {peak_pressure(), of_input(&study::StudyCase::peak_pressure)},
+                                    {crack_radius(), of_input(&study::StudyCase::crack_radius)},
+                                    {flaw_size(), of_input(&study::StudyCase::flaw_size)}},
+                                   verdict_quantities(study)});
 }
 
 }  // namespace
 
 Table verdict_table(const CriticalGapResult& result) {
-  Table table{"Verdicts",
-              {quantity::gap(), quantity::peak_pressure(), quantity::crack_radius(), quantity::flaw_size()}};
-  append(table.columns, verdict_columns(result.study.study));
-  for (const CaseOutcome& outcome : result.cases) {
-    for (const GapVerdict& row : outcome.verdicts) {
-      std::vector<Cell> cells{100.0 * row.gap, 1e-6 * outcome.input.peak_pressure,
-                              1e6 * outcome.input.crack_radius, 1e3 * outcome.input.flaw_size};
-      add_verdict_cells(row, row.heated, cells);
-      table.rows.push_back(std::move(cells));
-    }
-  }
+  std::vector<VerdictRow> rows;
+  for (const CaseOutcome& outcome : result.cases)
+    for (const GapVerdict& row : outcome.verdicts) rows.push_back({&outcome.input, &row, row.heated});
+  Table table = table_of("Verdicts", judged_gap_quantities(result.study.study), rows);
   table.notes = mesh_notes(result.study);
   table.notes.push_back(station_note(result.study));
   return table;
 }
 
 Table comparison_table(const CriticalGapResult& result) {
-  Table table;
-  table.title = "Against the published results";
-  table.columns = comparison_columns(result.study.study.early_time);
+  std::vector<ComparedRow> rows;
   bool ignited = false;
   double worst = 0;  // |computed - published| of a calibrated row, K
   for (const CaseOutcome& outcome : result.cases) {
@@ -99,9 +108,11 @@ Table comparison_table(const CriticalGapResult& result) {
       ignited = ignited || row.reference->ignited() || row.ignition;
       if (row.reference->calibrated)
         worst = std::max(worst, std::isfinite(row.misfit()) ? std::abs(row.misfit()) : HUGE_VAL);
-      table.rows.push_back(comparison_cells(row, *row.reference));
+      rows.push_back(&row);
     }
   }
+  Table table = table_of("Against the published results",
+                         comparison_quantities(result.study.study.early_time), rows);
   table.notes.push_back(
       "Fitted: the load or constants were fitted to it. Chosen by: it was seen when a form of the model was "
       "picked, and is no prediction. Held out: a prediction.");
@@ -109,7 +120,7 @@ Table comparison_table(const CriticalGapResult& result) {
     table.notes.push_back(fmt::format(
         "The scene's constants do not meet the calibrated rows ({}): they belong to other settings, and no "
         "row here counts as calibrated.",
-        std::isfinite(worst) ? fmt::format("computed - published: {:.1f} K", worst)
+        std::isfinite(worst) ? "computed - published: " + in_words(worst, fixed(1, kelvin))
                              : std::string("one of them ignites")));
   }
   if (ignited) {
@@ -139,61 +150,114 @@ std::string confirmation_text(const CaseOutcome& outcome) {
 
 }  // namespace
 
-Table critical_gap_table(const CriticalGapResult& result) {
-  Table table{"Critical gap", {quantity::case_name()}};
-  append(table.columns, critical_gap_columns());
-  append(table.columns, critical_gap_bounds_columns());
-  append(table.columns,
-         {for_programs(named_text("coupled runs", "coupled_runs")), named_text("remark", "reason")});
-  for (const CaseOutcome& outcome : result.cases) {
-    std::vector<Cell>& cells = table.rows.emplace_back();
-    cells.emplace_back(outcome.input.label);
-    add_critical_gap_cells(outcome.critical, cells);
-    add_critical_gap_bounds_cells(outcome.critical, cells);
-    cells.insert(cells.end(), {confirmation_text(outcome), outcome.critical.reason});
-  }
-  return table;
-}
-
 namespace {
 
-/// What burnt in a coupled run; empty where nothing did.
-std::vector<Cell> burning_cells(const std::optional<run::CombustionHistory>& combustion) {
-  if (!combustion || combustion->burnt_mass.empty()) return std::vector<Cell>(5);
-  const BurntState state = burnt_state_of(*combustion);
-  return {optional_number(1e3 * combustion->complete_time), state.burnt_mass, state.released,
-          state.highest_pressure, combustion->energy_residual};
+using NamedOutcome = const CaseOutcome*;
+
+std::string label_of(NamedOutcome outcome) { return outcome->input.label; }
+
+Quantities<NamedOutcome> judged_case_quantities() {
+  return keys::joined<NamedOutcome>(
+      {{{quantity::case_name(), label_of}},
+       of_part<NamedOutcome>(&CaseOutcome::critical, bounded_gap_quantities()),
+       {{for_programs(Column{"coupled_runs", "coupled runs", text(),
+                             "What the coupled runs on both sides of the bracket did."}),
+         [](NamedOutcome outcome) { return confirmation_text(*outcome); }},
+        {quantity::remark(), [](NamedOutcome outcome) { return outcome->critical.reason; }}}});
+}
+
+/// A coupled run of a case.
+struct CoupledRow {
+  NamedOutcome of;
+  const Confirmation* run;
+};
+
+Quantities<CoupledRow> coupled_quantities() {
+  return keys::joined<CoupledRow>(
+      {{{quantity::case_name(), [](const CoupledRow& row) { return label_of(row.of); }},
+        {quantity::gap(), [](const CoupledRow& row) { return row.run->gap; }},
+        {{"expected", "expected", text(), "What the bracket says of the gap."},
+         [](const CoupledRow& row) { return ignition_word(row.run->expected_ignition); }},
+        {{"outcome", "outcome", text(), "What the coupled run did."},
+         [](const CoupledRow& row) { return outcome_word(*row.run); }},
+        {quantity::temperature_max(),
+         [](const CoupledRow& row) { return known(row.run->maximum_temperature); }},
+        {{"coupled_minus_traced", "coupled - traced", scientific(1, kelvin),
+          "T max of the coupled run less that on the trace; none where either ignited."},
+         [](const CoupledRow& row) { return row.run->difference; }}},
+       of_part<CoupledRow>(
+           [](const CoupledRow& row) {
+             const auto& combustion = row.run->combustion;
+             return combustion && !combustion->burnt_mass.empty() ? &*combustion : nullptr;
+           },
+           burnt_state_quantities()),
+       {{quantity::reason(), [](const CoupledRow& row) { return row.run->failure; }}}});
+}
+
+/// A gap of a case that also has an answer on other terms.
+struct OtherRow {
+  NamedOutcome of;
+  std::size_t gap;
+};
+
+/// T max with and without those terms. `name`: of what stands beside the answer.
+Quantities<OtherRow> other_quantities(Column usual, Column other,
+                                      std::optional<OtherAnswer> CaseOutcome::*member) {
+  return {{quantity::case_name(), [](const OtherRow& row) { return label_of(row.of); }},
+          {quantity::gap(), [](const OtherRow& row) { return row.of->verdicts[row.gap].gap; }},
+          {std::move(usual), [](const OtherRow& row) { return row.of->verdicts[row.gap].maximum.temperature; }},
+          {std::move(other),
+           [member](const OtherRow& row) { return (row.of->*member)->maximum_temperature.at(row.gap); }}};
+}
+
+Quantities<OtherRow> film_quantities() {
+  return other_quantities({"temperature_max_reservoir", "T max, reservoir", fixed(1, kelvin),
+                           "Highest temperature under the reservoir of air."},
+                          {"temperature_max_film", "T max, film", fixed(1, kelvin),
+                           "Highest temperature under the film of air: an optimistic bound."},
+                          &CaseOutcome::film);
+}
+
+Quantities<OtherRow> longer_launch_quantities() {
+  Quantities<OtherRow> quantities =
+      other_quantities({"temperature_max_with_exit", "T max, muzzle exit", fixed(1, kelvin),
+                        "Highest temperature with the muzzle exit."},
+                       {"temperature_max_without_exit", "T max, without", fixed(1, kelvin),
+                        "Highest temperature in a barrel without end."},
+                       &CaseOutcome::longer_launch);
+  quantities.emplace_back(for_programs(Column{"critical_gap_without_exit", "critical gap, without", text(),
+                                              "Critical gap in a barrel without end, in words."}),
+                          [](const OtherRow& row) { return reads_as(row.of->longer_launch->critical); });
+  return quantities;
+}
+
+/// The rows of a case, and the note on its critical gap.
+void add_other(const CaseOutcome& outcome, const OtherAnswer& other, const char* words,
+               std::vector<OtherRow>& rows, std::vector<std::string>& notes) {
+  for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) rows.push_back({&outcome, i});
+  notes.push_back(fmt::format(fmt::runtime(words), outcome.input.label, reads_as(outcome.critical),
+                              reads_as(other.critical)));
 }
 
 }  // namespace
 
+Table critical_gap_table(const CriticalGapResult& result) {
+  std::vector<NamedOutcome> rows;
+  for (const CaseOutcome& outcome : result.cases) rows.push_back(&outcome);
+  return table_of("Critical gap", judged_case_quantities(), rows);
+}
+
 Table coupled_run_table(const CriticalGapResult& result) {
-  Table table;
-  table.title = "Coupled runs, on through combustion where they ignite";
-  table.columns = {quantity::case_name(),
-                   quantity::gap(),
-                   named_text("expected", "expected"),
-                   named_text("outcome", "outcome"),
-                   quantity::temperature_max(),
-                   scientific_column("coupled - traced", "K", 1, "coupled_minus_traced_K"),
-                   quantity::skin_burnt_time(),
-                   quantity::burnt_mass(),
-                   quantity::heat_released(),
-                   quantity::bottom_pressure_max(),
-                   quantity::combustion_residual(),
-                   quantity::reason()};
-  for (const CaseOutcome& outcome : result.cases) {
+  std::vector<CoupledRow> rows;
+  std::vector<std::string> notes;
+  for (const CaseOutcome& outcome : result.cases)
     for (const Confirmation& each : outcome.confirmations) {
-      std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{
-          outcome.input.label, 100.0 * each.gap, ignition_word(each.expected_ignition), outcome_word(each),
-          optional_number(each.maximum_temperature), optional_number(each.difference)});
-      const std::vector<Cell> burning = burning_cells(each.combustion);
-      cells.insert(cells.end(), burning.begin(), burning.end());
-      cells.emplace_back(each.failure);
-      if (each.combustion && table.notes.empty())
-        table.notes.push_back(flame_kinetics_note(outcome.input.scene.scene));
+      rows.push_back({&outcome, &each});
+      if (each.combustion && notes.empty()) notes = {flame_kinetics_note(outcome.input.scene.scene)};
     }
-  }
+  Table table =
+      table_of("Coupled runs, on through combustion where they ignite", coupled_quantities(), rows);
+  table.notes = std::move(notes);
   return table;
 }
 
@@ -207,86 +271,97 @@ Table air_energy_table(const CriticalGapResult& result) {
 }
 
 Table air_model_table(const CriticalGapResult& result) {
-  Table table{"Under both models of the air",
-              {quantity::case_name(), quantity::gap(),
-               number_column("T max, reservoir", "K", 1, "temperature_max_reservoir_K"),
-               number_column("T max, film", "K", 1, "temperature_max_film_K")}};
-  for (const CaseOutcome& outcome : result.cases) {
-    if (!outcome.film) continue;
-    for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) {
-      const GapVerdict& row = outcome.verdicts[i];
-      table.rows.push_back({outcome.input.label, 100.0 * row.gap, optional_number(row.maximum.temperature),
-                            optional_number(outcome.film->maximum_temperature.at(i))});
-    }
-    table.notes.push_back(fmt::format("Critical gap, {}: {} with the reservoir, {} with the film.",
-                                      outcome.input.label, reads_as(outcome.critical),
-                                      reads_as(outcome.film->critical)));
-  }
-  if (!table.rows.empty()) {
-    table.notes.push_back(
+  std::vector<OtherRow> rows;
+  std::vector<std::string> notes;
+  for (const CaseOutcome& outcome : result.cases)
+    if (outcome.film)
+      add_other(outcome, *outcome.film, "Critical gap, {}: {} with the reservoir, {} with the film.", rows, notes);
+  if (!rows.empty())
+    notes.emplace_back(
         "The film conserves energy and conducts into charge and base: an optimistic bound, on which no "
         "verdict rests. Its temperature is that of the hottest depth of the charge: the base cools the "
         "surface.");
-  }
+  Table table = table_of("Under both models of the air", film_quantities(), rows);
+  table.notes = std::move(notes);
   return table;
 }
 
 Table without_exit_table(const CriticalGapResult& result) {
-  Table table{"In a barrel without end",
-              {quantity::case_name(), quantity::gap(),
-               number_column("T max, muzzle exit", "K", 1, "temperature_max_with_exit_K"),
-               number_column("T max, without", "K", 1, "temperature_max_without_exit_K"),
-               for_programs(named_text("critical gap, without", "critical_gap_without_exit"))}};
-  for (const CaseOutcome& outcome : result.cases) {
-    if (!outcome.longer_launch || scene::is_cut_short(outcome.input.scene.scene.load)) continue;
-    for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) {
-      const GapVerdict& row = outcome.verdicts[i];
-      table.rows.push_back({outcome.input.label, 100.0 * row.gap, optional_number(row.maximum.temperature),
-                            optional_number(outcome.longer_launch->maximum_temperature.at(i)),
-                            reads_as(outcome.longer_launch->critical)});
-    }
-    table.notes.push_back(fmt::format("Critical gap, {}: {} with the muzzle exit, {} without.",
-                                      outcome.input.label, reads_as(outcome.critical),
-                                      reads_as(outcome.longer_launch->critical)));
-  }
-  if (!table.rows.empty())
-    table.notes.push_back(
-        "Verdicts rest on the muzzle exit that the scene states. Without it the load goes on until it is "
-        "below "
+  std::vector<OtherRow> rows;
+  std::vector<std::string> notes;
+  for (const CaseOutcome& outcome : result.cases)
+    if (outcome.longer_launch && !scene::is_cut_short(outcome.input.scene.scene.load))
+      add_other(outcome, *outcome.longer_launch, "Critical gap, {}: {} with the muzzle exit, {} without.", rows,
+                notes);
+  if (!rows.empty())
+    notes.emplace_back(
+        "Verdicts rest on the muzzle exit that the scene states. Without it the load goes on until it is below "
         "1 % of its peak: what the answer would be if the exit were wrong.");
+  Table table = table_of("In a barrel without end", longer_launch_quantities(), rows);
+  table.notes = std::move(notes);
   return table;
 }
 
+namespace {
+
+/// A line over the gap; only that of least squares has errors.
+struct FittedLine {
+  std::string label, name;
+  const study::Line* line;
+  const math::LeastSquares* errors = nullptr;
+};
+
+Quantities<FittedLine> line_quantities(const std::vector<double>& gaps) {
+  const auto of_line = [](auto member) {
+    return [member](const FittedLine& row) { return std::invoke(member, *row.line); };
+  };
+  const auto of_errors = [](auto get) {
+    return [get](const FittedLine& row) { return row.errors ? std::optional(get(*row.errors)) : std::nullopt; };
+  };
+  Quantities<FittedLine> quantities{
+      {for_programs(quantity::case_name()), &FittedLine::label},
+      {{"line", "line", text(), "Which line it is."}, &FittedLine::name},
+      {{"slope", "slope", fixed(1, kelvin_per_centimetre), "Rise of T max over the gap."},
+       of_line(&study::Line::slope)},
+      {{"intercept", "intercept", fixed(3, kelvin), "T max without a gap."}, of_line(&study::Line::intercept)},
+      {{"rms", "RMS", fixed(2, kelvin), "Root mean square of the residuals."},
+       of_line(&study::Line::root_mean_square)}};
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const Form form = quantity::gap().form;
+    quantities.emplace_back(Column{"residual_" + digits_of(gaps[i], form) + "_" + form.unit,
+                                   "residual " + digits_of(gaps[i], form), fixed(2, kelvin),
+                                   "T max at that gap less the line."},
+                            [i](const FittedLine& row) {
+                              return i < row.line->residuals.size() ? row.line->residuals[i] : not_a_number;
+                            });
+  }
+  return keys::joined<FittedLine>(
+      {quantities,
+       {{for_programs(Column{"slope_standard_error", "slope error", fixed(1, kelvin_per_centimetre),
+                             "Standard error of the slope."}),
+         of_errors([](const math::LeastSquares& fit) { return fit.standard_errors[1]; })},
+        {for_programs(Column{"intercept_standard_error", "intercept error", fixed(2, kelvin),
+                             "Standard error of the intercept."}),
+         of_errors([](const math::LeastSquares& fit) { return fit.standard_errors[0]; })},
+        {for_programs(Column{"r_squared", "R^2", fixed(5), "Share of the variance that the line explains."}),
+         of_errors([](const math::LeastSquares& fit) { return fit.r_squared; })},
+        {for_programs(Column{"residual_deviation", "residual deviation", fixed(2, kelvin),
+                             "Standard deviation of the residuals."}),
+         of_errors([](const math::LeastSquares& fit) { return fit.residual_deviation; })}}});
+}
+
+}  // namespace
+
 Table fit_table(const CaseOutcome& outcome) {
-  Table table;
-  if (!outcome.fit) return table;
+  if (!outcome.fit) return {};
   const study::GapFit& fit = *outcome.fit;
   const auto& ols = fit.least_squares;
-  table.title = "T max = intercept + slope * gap over the rows that do not ignite, " + outcome.input.label;
-  table.columns = {for_programs(quantity::case_name()), text_column("line"),
-                   number_column("slope", "K/cm", 1, "slope_K_per_cm"),
-                   number_column("intercept", "K", 3, "intercept_K"), number_column("RMS", "K", 2, "rms_K")};
-  for (const double gap : fit.gaps) {
-    table.columns.push_back(number_column(fmt::format("residual {:.6g}", 100.0 * gap), "K", 2,
-                                          fmt::format("residual_{:.6g}_cm_K", 100.0 * gap)));
-  }
-  append(table.columns,
-         {for_programs(number_column("slope error", "K/cm", 1, "slope_standard_error_K_per_cm")),
-          for_programs(number_column("intercept error", "K", 2, "intercept_standard_error_K")),
-          for_programs(number_column("R^2", "", 5, "r_squared")),
-          for_programs(number_column("residual deviation", "K", 2, "residual_deviation_K"))});
-  const auto add = [&](std::string name, const study::Line& line) {
-    std::vector<Cell> cells{outcome.input.label, std::move(name), line.slope, line.intercept,
-                            line.root_mean_square};
-    for (const double residual : line.residuals) cells.emplace_back(residual);
-    table.rows.push_back(std::move(cells));
-  };
-  add("least squares", fit.ordinary);
-  table.rows.back().resize(table.columns.size() - 4);
-  table.rows.back().insert(table.rows.back().end(), {ols.standard_errors[1], ols.standard_errors[0],
-                                                     ols.r_squared, ols.residual_deviation});
-  if (fit.mixed) add("its slope through the zero-gap row (the published form)", *fit.mixed);
-  if (fit.published) add("as published", *fit.published);
+  const std::string& label = outcome.input.label;
+  std::vector<FittedLine> rows{{label, "least squares", &fit.ordinary, &ols}};
+  if (fit.mixed) rows.push_back({label, "its slope through the zero-gap row (the published form)", &*fit.mixed});
+  if (fit.published) rows.push_back({label, "as published", &*fit.published});
+  Table table = table_of("T max = intercept + slope * gap over the rows that do not ignite, " + label,
+                         line_quantities(fit.gaps), rows);
   if (ols.degrees_of_freedom > 0) {
     table.notes.push_back(
         fmt::format("Least squares: slope {:.1f} +- {:.1f} K/cm, intercept {:.2f} +- {:.2f} K "
@@ -306,13 +381,29 @@ Table run_table(const CriticalGapResult& result) {
 }
 
 Table gap_share_table(const CriticalGapResult& result) {
-  std::vector<std::pair<std::string, const CriticalGap*>> cases;
-  for (const CaseOutcome& outcome : result.cases) cases.emplace_back(outcome.input.label, &outcome.critical);
+  std::vector<NamedGap> cases;
+  for (const CaseOutcome& outcome : result.cases) cases.push_back({outcome.input.label, &outcome.critical});
   return report::gap_share_table(cases);
 }
 
 Table cited_limit_table(const CriticalGapResult& result) {
   return report::cited_limit_table(result.study, critical_gaps_of(result.cases));
+}
+
+std::vector<ResultTable> critical_gap_results() {
+  const study::Study study;
+  return {{"verdicts", "verdicts.csv", keys::described(judged_gap_quantities(study))},
+          {"comparison", "", keys::described(comparison_quantities(study.early_time))},
+          {"cases", "", keys::described(judged_case_quantities())},
+          {"coupled_runs", "", keys::described(coupled_quantities())},
+          {"cited_limits", "", cited_limit_columns()},
+          {"as_calibrated", "", as_calibrated_columns()},
+          {"without_exit", "", keys::described(longer_launch_quantities())},
+          {"air_models", "", keys::described(film_quantities())},
+          {"air_energy", "", air_energy_columns()},
+          {"gap_shares", "", gap_share_columns()},
+          {"fit", "", keys::described(line_quantities({}))},
+          {"runs", "", run_columns()}};
 }
 
 }  // namespace launchsafe::kinds

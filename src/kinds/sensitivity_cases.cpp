@@ -180,6 +180,7 @@ Kind sensitivity_kind() {
                 {"histogram.csv"},
                 {"histogram.svg"},
                 {"sensitivity_", ".svg"}},
+      .results = sensitivity_results,
   };
 }
 

@@ -293,8 +293,8 @@ Fault read_calibrated(InputReader& reader, const std::filesystem::path& folder) 
 }  // namespace
 
 StudyTable input_table() {
-  StudyTable table = table_of("input", input_keys({}));
-  for (scene::DocumentedKey& key : table_of("input", record_keys()).keys)
+  StudyTable table = study_table_of("input", input_keys({}));
+  for (scene::DocumentedKey& key : study_table_of("input", record_keys()).keys)
     table.keys.push_back(std::move(key));
   return table;
 }

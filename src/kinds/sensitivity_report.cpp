@@ -1,8 +1,7 @@
 // The answer, the page and the files of a sensitivity study.
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
-#include "launchsafe/report/columns.hpp"
-#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
@@ -32,16 +31,16 @@ std::string text_of(math::Design design) {
 
 std::string interval_text(const SensitivitySettings& own) {
   return fmt::format("{}% intervals from a bootstrap of {} resamples, seed {}",
-                     significant(100.0 * own.confidence, 6), own.resamples, own.seed);
+                     digits_of(own.confidence, keys::significant(6, percent)), own.resamples, own.seed);
 }
 
 }  // namespace
 
 const ShownOutput& shown_output(SensitivityOutput output) {
   static const std::array<ShownOutput, 3> all{
-      {{"T max", "T max", "temperature_max", "K", 1.0},
-       {"critical gap", "the critical gap", "critical_gap", "cm", 100.0},
-       {"margin", "the margin", "margin", "K", 1.0}}};
+      {{{"temperature_max", "T max", keys::significant(6, kelvin), quantity::temperature_max().meaning}, "T max"},
+       {quantity::critical_gap(), "the critical gap"},
+       {{"margin", "margin", keys::significant(6, kelvin), "Ignition temperature less T max."}, "the margin"}}};
   return all.at(static_cast<std::size_t>(output));
 }
 
@@ -52,12 +51,12 @@ std::vector<ShownInput> shown_inputs(const study::Study& study) {
     const auto text = [&](std::size_t axis) {
       return distribution_text(keys[axis], *study.axes[axis].distribution);
     };
-    ShownInput& shown = inputs.emplace_back(ShownInput{keys[input.first].name, text(input.first)});
+    ShownInput& shown = inputs.emplace_back(ShownInput{keys[input.first].heading, text(input.first)});
     if (input.count == 1) continue;
     shown = {"constants of the calibration", "together"};
     for (std::size_t axis = input.first; axis < input.first + input.count; ++axis)
       shown.distribution +=
-          fmt::format("{}{} {}", axis == input.first ? ": " : "; ", keys[axis].name, text(axis));
+          fmt::format("{}{} {}", axis == input.first ? ": " : "; ", keys[axis].heading, text(axis));
   }
   return inputs;
 }
@@ -190,7 +189,7 @@ class OutputAnswer {
     }
     if (names.empty()) return {};
     return fmt::format(" Below {}% of the variance, and so without influence here: {}.",
-                       100.0 * negligible_share, joined(names));
+                       digits_of(negligible_share, keys::significant(6, percent)), joined(names));
   }
 
   const SensitivityResult& result_;
@@ -201,13 +200,13 @@ class OutputAnswer {
 std::string share_failed(const SensitivityResult& result) {
   const std::size_t all = result.answers.size(), failed = counts_of(result.answers).failed;
   if (failed == 0) return fmt::format("All {} evaluations completed.", all);
-  return fmt::format("Failed: {} of {} evaluations ({:.1f}%): {}.", failed, all,
-                     100.0 * static_cast<double>(failed) / static_cast<double>(all),
+  return fmt::format("Failed: {} of {} evaluations ({}%): {}.", failed, all,
+                     digits_of(static_cast<double>(failed) / static_cast<double>(all), keys::fixed(1, percent)),
                      failures_list({}, result.study, result.answers));
 }
 
 std::string picture_name(const OutputSensitivity& output) {
-  return "sensitivity_" + shown_output(output.output).key + ".svg";
+  return "sensitivity_" + shown_output(output.output).column.name + ".svg";
 }
 
 nlohmann::ordered_json method_json(const SensitivityResult& result) {
@@ -242,7 +241,7 @@ Report report_of(const SensitivityResult& result) {
     report.items.push_back(ReportTable{.table = sensitivity_table(result, output), .shown = Shown::page});
     if (output.reason.empty())
       report.items.push_back(Picture{picture_name(output), sensitivity_plot(result, output),
-                                     "sensitivity of " + shown_output(output.output).name});
+                                     "sensitivity of " + shown_output(output.output).column.heading});
   }
   report.items.push_back(ReportTable{quantile_table(result), "quantiles.csv", "quantiles"});
   if (Plot plot = histogram_plot(result); !plot.panels.empty())
@@ -258,7 +257,7 @@ Report report_of(const SensitivityResult& result) {
                                      most_evaluation_rows});
   report.json = study_json(result.study, report,
                            {{"method", method_json(result)},
-                            {"gap_cm", number(in_centimetres(result.study.study.gaps.front()))},
+                            {"gap_cm", number(shown_gap(result.study.study.gaps.front()))},
                             {"inputs", axes_json(result.study.study)},
                             {"ignition", ignition_json(result)},
                             {"failed", counts_of(result.answers).failed},

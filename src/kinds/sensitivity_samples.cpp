@@ -1,6 +1,5 @@
 #include "sensitivity_samples.hpp"
 
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "sensitivity_text.hpp"
@@ -46,14 +45,14 @@ std::vector<const OutputSensitivity*> told_outputs(const SensitivityResult& resu
 /// "0.0278 cm", "ignites without a gap", "> 0.4 cm".
 std::string quantile_text(const SensitivityResult& result, double gap) {
   if (std::isnan(gap)) return "n/a";
-  if (std::isfinite(gap)) return significant(100.0 * gap, 3) + " cm";
+  if (std::isfinite(gap)) return in_words(gap, keys::significant(3, centimetre));
   return gap < 0 ? "ignites without a gap" : "> " + centimetres(result.study.study.largest_gap);
 }
 
-std::string percent(double share) { return significant(100.0 * share, 3) + " %"; }
+std::string in_percent(double share) { return in_words(share, keys::significant(3, percent)); }
 
 std::string title_of(const SensitivityResult& result, const OutputSensitivity& output) {
-  return shown_output(output.output).name + (output.inert ? " without reaction" : "") +
+  return shown_output(output.output).column.heading + (output.inert ? " without reaction" : "") +
          at_gap(result.study.study, output.output);
 }
 
@@ -79,11 +78,11 @@ struct Histogram {
   double edge(std::size_t i) const { return width * (first + static_cast<double>(i)); }
 };
 
-Histogram histogram_of(const OutputSample& sample, double scale) {
+Histogram histogram_of(const OutputSample& sample, const ShownOutput& shown) {
   constexpr double most_intervals = 20.0;
   std::vector<double> values;
   for (const double value : sample.values)
-    if (std::isfinite(value)) values.push_back(scale * value);
+    if (std::isfinite(value)) values.push_back(shown.value(value));
   Histogram histogram;
   if (values.empty() || !(values.back() > values.front())) return histogram;
   histogram.width = round_distance((values.back() - values.front()) / most_intervals);
@@ -100,7 +99,7 @@ Histogram histogram_of(const OutputSample& sample, double scale) {
 Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) {
   const ShownOutput& shown = shown_output(output.output);
   const OutputSample sample = sample_of(result, output);
-  const Histogram histogram = histogram_of(sample, shown.scale);
+  const Histogram histogram = histogram_of(sample, shown);
   Plot panel;
   if (histogram.counts.empty()) return panel;
   panel.title = title_of(result, output);
@@ -109,7 +108,7 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
     panel.subtitle += fmt::format("; {} ignite without a gap", count);
   if (const std::size_t count = sample.none_ignites())
     panel.subtitle += fmt::format("; {} ignite at no gap", count);
-  panel.x.label = fmt::format("{} [{}]", shown.name, shown.unit);
+  panel.x.label = shown.column.label();
   panel.y = {.label = "draws", .minimum = 0.0};
   Series steps{.style = Style::steps, .colour = 0};
   steps.add(histogram.edge(0), 0.0);
@@ -118,7 +117,7 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
   steps.add(histogram.edge(histogram.counts.size()), 0.0);
   panel.series = {std::move(steps)};
   for (const double share : quantile_shares)
-    if (const double at = shown.scale * sample.quantile(share); std::isfinite(at))
+    if (const double at = shown.value(sample.quantile(share)); std::isfinite(at))
       panel.vertical_lines.push_back({at, share == quantile_shares.front() ? "quantiles of the table" : ""});
   panel.width = 620;
   panel.height = 460;
@@ -176,8 +175,8 @@ std::string samples_text(const SensitivityResult& result) {
   std::string text = fmt::format(
       "Of {} launches drawn from these inputs {} at a gap of {}: a probability of {} to {} (95 %).",
       share.completed, counted(static_cast<std::int64_t>(share.igniting), "ignition"),
-      centimetres(result.study.study.gaps.front()), percent(share.interval.lower),
-      percent(share.interval.upper));
+      centimetres(result.study.study.gaps.front()), in_percent(share.interval.lower),
+      in_percent(share.interval.upper));
   if (share.failed > 0) text += fmt::format(" {} more failed, and may have done either.", share.failed);
   if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
     const OutputSample sample = sample_of(result, *gap);
@@ -199,20 +198,59 @@ nlohmann::ordered_json ignition_json(const SensitivityResult& result) {
           {"probability_to", number(share.interval.upper)}};
 }
 
+namespace {
+
+/// What a share of the draws is at or below.
+struct QuantileRow {
+  double share;
+  double gap;  ///< m; infinite where it is a bound
+  std::string gap_reads_as;
+  double temperature;  ///< K
+};
+
+Quantities<QuantileRow> quantile_quantities() {
+  return {{{"share", "share at or below", keys::significant(3, percent), "Share of the draws."},
+           &QuantileRow::share},
+          {for_programs(quantity::critical_gap()), &QuantileRow::gap},
+          {headed("critical gap", quantity::critical_gap_reads_as()), &QuantileRow::gap_reads_as},
+          {quantity::temperature_max(), [](const QuantileRow& row) { return known(row.temperature); }}};
+}
+
+/// An interval of a histogram, or what has no number; numbers are in the unit of the row.
+struct HistogramRow {
+  const ShownOutput* shown;
+  double from, to;
+  std::string reads_as;
+  std::int64_t draws;
+};
+
+Quantities<HistogramRow> histogram_quantities() {
+  using keys::significant, keys::text;
+  return {{quantity::output(), [](const HistogramRow& row) { return row.shown->column.name; }},
+          {quantity::unit(), [](const HistogramRow& row) { return row.shown->column.form.unit; }},
+          {{"from", "from", significant(6), "Begin of the interval."}, &HistogramRow::from},
+          {{"to", "to", significant(6), "End of the interval."}, &HistogramRow::to},
+          {{"reads_as", "without a number", text(), "What those have that have no number."},
+           &HistogramRow::reads_as},
+          {{"draws", "draws", count(), "Draws of the interval."}, &HistogramRow::draws}};
+}
+
+}  // namespace
+
+std::vector<Column> quantile_columns() { return keys::described(quantile_quantities()); }
+std::vector<Column> histogram_columns() { return keys::described(histogram_quantities()); }
+
 Table quantile_table(const SensitivityResult& result) {
-  Table table{"Quantiles over the draws from the inputs",
-              {significant_column("share at or below", "%", 3, "share_percent"),
-               for_programs(quantity::critical_gap()), named_text("critical gap", "critical_gap_reads_as"),
-               quantity::temperature_max()}};
   const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap);
   const OutputSensitivity* temperature = output_of(result, SensitivityOutput::maximum_temperature);
-  if (gap == nullptr || temperature == nullptr) return table;
-  const OutputSample gaps = sample_of(result, *gap), temperatures = sample_of(result, *temperature);
+  std::vector<QuantileRow> rows;
   for (const double share : quantile_shares) {
-    const double critical = gaps.quantile(share);
-    table.rows.push_back({100.0 * share, optional_number(100.0 * critical), quantile_text(result, critical),
-                          optional_number(temperatures.quantile(share))});
+    if (gap == nullptr || temperature == nullptr) continue;
+    const double critical = sample_of(result, *gap).quantile(share);
+    rows.push_back({share, critical, quantile_text(result, critical), sample_of(result, *temperature).quantile(share)});
   }
+  Table table = table_of("Quantiles over the draws from the inputs", quantile_quantities(), rows);
+  if (rows.empty()) return table;
   for (const OutputSensitivity* output : {gap, temperature})
     table.notes.push_back(sample_note(result, *output));
   table.notes.emplace_back(
@@ -223,27 +261,22 @@ Table quantile_table(const SensitivityResult& result) {
 }
 
 Table histogram_table(const SensitivityResult& result) {
-  Table table{"Histogram of the draws",
-              {named_text("output", "output"), named_text("unit", "unit"),
-               significant_column("from", "", 6, "from"), significant_column("to", "", 6, "to"),
-               named_text("without a number", "reads_as"), count_column("draws", "draws")}};
+  std::vector<HistogramRow> rows;
   for (const OutputSensitivity* output : told_outputs(result)) {
     const ShownOutput& shown = shown_output(output->output);
     const OutputSample sample = sample_of(result, *output);
     const auto without_number = [&](std::size_t count, std::string text) {
       if (count > 0)
-        table.rows.push_back(
-            {shown.key, shown.unit, Cell(), Cell(), std::move(text), static_cast<std::int64_t>(count)});
+        rows.push_back({&shown, not_a_number, not_a_number, std::move(text), static_cast<std::int64_t>(count)});
     };
     without_number(sample.ignites_at_zero(), quantile_text(result, -infinite));
-    const Histogram histogram = histogram_of(sample, shown.scale);
+    const Histogram histogram = histogram_of(sample, shown);
     for (std::size_t i = 0; i < histogram.counts.size(); ++i)
-      table.rows.push_back({shown.key, shown.unit, histogram.edge(i), histogram.edge(i + 1), std::string{},
-                            histogram.counts[i]});
+      rows.push_back({&shown, histogram.edge(i), histogram.edge(i + 1), {}, histogram.counts[i]});
     without_number(sample.none_ignites(), quantile_text(result, infinite));
     without_number(sample.missing, "not known");
   }
-  return table;
+  return table_of("Histogram of the draws", histogram_quantities(), rows);
 }
 
 Plot histogram_plot(const SensitivityResult& result) {

@@ -6,6 +6,7 @@
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "sensitivity_samples.hpp"
 #include "sensitivity_text.hpp"
 
 #include <fmt/format.h>
@@ -20,29 +21,108 @@ using namespace report;
 
 namespace {
 
-std::vector<Column> index_columns() {
-  return {number_column("S1", "", 3, "first_order"),
-          number_column("from", "", 3, "first_order_lower"),
-          number_column("to", "", 3, "first_order_upper"),
-          number_column("ST", "", 3, "total_order"),
-          number_column("from", "", 3, "total_order_lower"),
-          number_column("to", "", 3, "total_order_upper"),
-          count_column("rows used", "used"),
-          count_column("of", "of")};
+using keys::fixed, keys::significant, keys::text;
+
+/// One input of one output.
+struct IndexRow {
+  const OutputSensitivity* output;
+  ShownInput input;
+  std::size_t place;  ///< among the inputs
+
+  const math::InputIndices* indices() const {
+    return output->reason.empty() ? &output->sobol.inputs[place] : nullptr;
+  }
+};
+
+std::vector<IndexRow> index_rows(const SensitivityResult& result, const OutputSensitivity& output) {
+  std::vector<IndexRow> rows;
+  for (ShownInput& input : shown_inputs(result.study.study)) rows.push_back({&output, std::move(input), rows.size()});
+  return rows;
 }
 
-/// Input and distribution, and the numbers where there are any.
-std::vector<Cell> cells_of(const SensitivityResult& result, const OutputSensitivity& output,
-                           std::size_t input) {
-  const ShownInput shown = shown_inputs(result.study.study)[input];
-  std::vector<Cell> cells{shown.name, shown.distribution};
-  if (!output.reason.empty()) return cells;
-  const auto& [first, total] = output.sobol.inputs[input];
-  for (const math::Estimate& of : {first, total})
-    for (const double value : {of.value, of.lower, of.upper}) cells.push_back(optional_number(value));
-  cells.emplace_back(static_cast<std::int64_t>(output.sobol.rows_used));
-  cells.emplace_back(static_cast<std::int64_t>(output.sobol.rows_used + output.sobol.rows_left_out));
-  return cells;
+/// An index with the ends of its interval.
+Quantities<IndexRow> interval_quantities(const std::string& name, const std::string& heading,
+                                         math::Estimate math::InputIndices::*index, const char* meaning) {
+  const auto of = [index](double math::Estimate::*member) {
+    return [=](const IndexRow& row) {
+      return row.indices() != nullptr ? std::optional(row.indices()->*index.*member) : std::nullopt;
+    };
+  };
+  return {{{name, heading, fixed(3), meaning}, of(&math::Estimate::value)},
+          {{name + "_lower", "from", fixed(3), "Lower end of its interval."}, of(&math::Estimate::lower)},
+          {{name + "_upper", "to", fixed(3), "Upper end of its interval."}, of(&math::Estimate::upper)}};
+}
+
+Quantities<IndexRow> index_quantities() {
+  const auto of_rows = [](auto count) {
+    return [count](const IndexRow& row) {
+      return row.indices() != nullptr ? std::optional(count(row.output->sobol)) : std::nullopt;
+    };
+  };
+  return keys::joined<IndexRow>(
+      {{{{"input", "input", text(), "What varies."}, [](const IndexRow& row) { return row.input.name; }},
+        {quantity::distribution(), [](const IndexRow& row) { return row.input.distribution; }}},
+       interval_quantities("first_order", "S1", &math::InputIndices::first,
+                           "Share of the variance by the input alone."),
+       interval_quantities("total_order", "ST", &math::InputIndices::total,
+                           "Share of the variance with its interactions."),
+       {{{"used", "rows used", count(), "Rows of the design that the indices rest on."},
+         of_rows([](const math::SobolIndices& sobol) { return sobol.rows_used; })},
+        {{"of", "of", count(), "Rows of the design."},
+         of_rows([](const math::SobolIndices& sobol) { return sobol.rows_used + sobol.rows_left_out; })}}});
+}
+
+/// The same below each other for all outputs.
+Quantities<IndexRow> all_index_quantities() {
+  return keys::joined<IndexRow>(
+      {{{quantity::output(), [](const IndexRow& row) { return shown_output(row.output->output).column.name; }},
+        {quantity::unit(), [](const IndexRow&) { return ""; }},
+        {quantity::reason(), [](const IndexRow& row) { return row.output->reason; }}},
+       index_quantities()});
+}
+
+using OutputRow = const OutputSensitivity*;
+
+Quantities<OutputRow> output_quantities() {
+  const auto shown = [](double OutputSensitivity::*member) {
+    return [member](OutputRow row) { return shown_output(row->output).value(row->*member); };
+  };
+  return {{quantity::output(), [](OutputRow row) { return shown_output(row->output).column.name; }},
+          {quantity::unit(), [](OutputRow row) { return shown_output(row->output).column.form.unit; }},
+          {{"mean", "mean", significant(4), "Mean over the evaluations that sample the inputs."},
+           shown(&OutputSensitivity::mean)},
+          {{"standard_deviation", "standard deviation", significant(3), "Standard deviation over them."},
+           shown(&OutputSensitivity::deviation)},
+          {{"missing", "without a number", count(), "Evaluations without a number."}, &OutputSensitivity::missing},
+          {{"bounds", "bounds", count(), "Of these, critical gaps that are bounds."}, &OutputSensitivity::bounds},
+          {quantity::reason(), &OutputSensitivity::reason}};
+}
+
+/// One evaluation.
+struct EvaluationRow {
+  std::size_t place;
+  AnsweredCase of;
+};
+
+Quantities<EvaluationRow> evaluation_quantities(const study::Study& study,
+                                                const std::vector<OutputSensitivity>& outputs) {
+  Quantities<EvaluationRow> of_outputs;
+  for (const OutputSensitivity& output : outputs)
+    of_outputs.emplace_back(shown_output(output.output).column,
+                            [&output](const EvaluationRow& row) { return output.values[row.place]; });
+  return keys::joined<EvaluationRow>(
+      {{{{"number", "number", count(), "Number of the evaluation."},
+         [](const EvaluationRow& row) { return row.place + 1; }},
+        {{"evaluation", "evaluation", text(), "Its place in the design."},
+         [](const EvaluationRow& row) { return row.of.input->label; }}},
+       of_part<EvaluationRow>(&EvaluationRow::of, answered_axes(study)),
+       of_outputs,
+       {{for_programs(quantity::critical_gap_kind()),
+         [](const EvaluationRow& row) { return row.of.answer->critical.kind; }},
+        {headed("critical gap", quantity::critical_gap_reads_as()),
+         [](const EvaluationRow& row) { return reads_as(row.of.answer->critical); }},
+        {quantity::status(), [](const EvaluationRow& row) { return status_of(*row.of.answer); }},
+        {headed("failure", quantity::reason()), [](const EvaluationRow& row) { return row.of.answer->failure; }}}});
 }
 
 std::string inert_note() {
@@ -58,9 +138,13 @@ std::string missing_note(const OutputSensitivity& output) {
 
 std::string spread_note(const OutputSensitivity& output) {
   const ShownOutput& shown = shown_output(output.output);
-  return fmt::format("Mean {0} {2}, standard deviation {1} {2} over the evaluations that sample the inputs.",
-                     significant(shown.scale * output.mean, 4),
-                     significant(shown.scale * output.deviation, 3), shown.unit);
+  const auto words = [&](double value, int digits) {
+    Form form = shown.column.form;
+    form.digits = digits;
+    return in_words(value, form);
+  };
+  return fmt::format("Mean {}, standard deviation {} over the evaluations that sample the inputs.",
+                     words(output.mean, 4), words(output.deviation, 3));
 }
 
 /// Whether the estimates of an input contradict each other: no true total order is below the first.
@@ -101,75 +185,44 @@ std::vector<std::string> notes_of(const SensitivityResult& result, const OutputS
 }  // namespace
 
 Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity& output) {
-  const ShownOutput& shown = shown_output(output.output);
-  Table table{"Sensitivity of " + shown.phrase + at_gap(result.study.study, output.output),
-              {named_text("input", "input"), named_text("distribution", "distribution")}};
-  append(table.columns, index_columns());
-  for (std::size_t i = 0; i < inputs_of(result.study.study).size(); ++i)
-    table.rows.push_back(cells_of(result, output, i));
+  Table table = table_of(
+      "Sensitivity of " + shown_output(output.output).phrase + at_gap(result.study.study, output.output),
+      index_quantities(), index_rows(result, output));
   table.notes = notes_of(result, output);
   return table;
 }
 
 Table sensitivity_table(const SensitivityResult& result) {
-  Table table{"Sensitivity",
-              {named_text("output", "output"), named_text("unit", "unit"), quantity::reason(),
-               named_text("input", "input"), named_text("distribution", "distribution")}};
-  append(table.columns, index_columns());
-  for (const OutputSensitivity& output : result.outputs) {
-    const ShownOutput& shown = shown_output(output.output);
-    for (std::size_t i = 0; i < inputs_of(result.study.study).size(); ++i) {
-      std::vector<Cell> cells{shown.key, std::string{}, output.reason};
-      for (Cell& cell : cells_of(result, output, i)) cells.push_back(std::move(cell));
-      table.rows.push_back(std::move(cells));
-    }
-  }
+  std::vector<IndexRow> rows;
+  for (const OutputSensitivity& output : result.outputs)
+    for (IndexRow& row : index_rows(result, output)) rows.push_back(std::move(row));
+  Table table = table_of("Sensitivity", all_index_quantities(), rows);
   table.notes = {method_text(result)};
   return table;
 }
 
 Table output_table(const SensitivityResult& result) {
-  Table table;
-  table.title = "Outputs";
-  table.columns = {named_text("output", "output"),
-                   named_text("unit", "unit"),
-                   significant_column("mean", "", 4, "mean"),
-                   significant_column("standard deviation", "", 3, "standard_deviation"),
-                   count_column("without a number", "missing"),
-                   count_column("bounds", "bounds"),
-                   quantity::reason()};
-  for (const OutputSensitivity& output : result.outputs) {
-    const ShownOutput& shown = shown_output(output.output);
-    table.rows.push_back({shown.key, shown.unit, optional_number(shown.scale * output.mean),
-                          optional_number(shown.scale * output.deviation),
-                          static_cast<std::int64_t>(output.missing), static_cast<std::int64_t>(output.bounds),
-                          output.reason});
-  }
-  return table;
+  std::vector<OutputRow> rows;
+  for (const OutputSensitivity& output : result.outputs) rows.push_back(&output);
+  return table_of("Outputs", output_quantities(), rows);
 }
 
 Table evaluation_table(const SensitivityResult& result) {
-  const auto keys = shown_axes(result.study.study);
-  Table table{"Evaluations", {count_column("number", "number"), named_text("evaluation", "evaluation")}};
-  for (const ShownKey& key : keys) table.columns.push_back(key.column());
-  for (const OutputSensitivity& output : result.outputs) {
-    const ShownOutput& shown = shown_output(output.output);
-    table.columns.push_back(significant_column(shown.name, shown.unit, 6, shown.key + "_" + shown.unit));
-  }
-  append(table.columns,
-         {for_programs(quantity::critical_gap_kind()), named_text("critical gap", "critical_gap_reads_as"),
-          quantity::status(), named_text("failure", "reason")});
-  for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const study::StudyCase& input = result.study.cases[i];
-    const study::CaseAnswer& answer = result.answers[i];
-    std::vector<Cell>& cells = table.rows.emplace_back(axis_cells(keys, input));
-    cells.insert(cells.begin(), {static_cast<std::int64_t>(i + 1), input.label});
-    for (const OutputSensitivity& output : result.outputs)
-      cells.push_back(optional_number(shown_output(output.output).scale * output.values[i]));
-    cells.insert(cells.end(), {study::to_string(answer.critical.kind), reads_as(answer.critical),
-                               status_of(answer), answer.failure});
-  }
-  return table;
+  std::vector<EvaluationRow> rows;
+  for (const AnsweredCase& each : answered(result.study, result.answers)) rows.push_back({rows.size(), each});
+  return table_of("Evaluations", evaluation_quantities(result.study.study, result.outputs), rows);
+}
+
+std::vector<ResultTable> sensitivity_results() {
+  std::vector<OutputSensitivity> outputs(3);
+  outputs[0].output = SensitivityOutput::maximum_temperature;
+  outputs[1].output = SensitivityOutput::critical_gap;
+  outputs[2].output = SensitivityOutput::margin;
+  return {{"indices", "sensitivity.csv", keys::described(all_index_quantities())},
+          {"outputs", "", keys::described(output_quantities())},
+          {"quantiles", "quantiles.csv", quantile_columns()},
+          {"histogram", "histogram.csv", histogram_columns()},
+          {"evaluations", "evaluations.csv", keys::described(evaluation_quantities({}, outputs))}};
 }
 
 namespace {

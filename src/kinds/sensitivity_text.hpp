@@ -10,11 +10,10 @@ namespace launchsafe::kinds {
 
 /// How an output is shown.
 struct ShownOutput {
-  std::string name;    ///< "T max"
-  std::string phrase;  ///< "T max", "the margin": within a sentence
-  std::string key;     ///< "temperature_max", also of its picture's file
-  std::string unit;    ///< "K", "cm"
-  double scale = 1;    ///< units per SI unit
+  report::Column column;  ///< its name is also that of its picture's file
+  std::string phrase;     ///< "T max", "the margin": within a sentence
+
+  double value(double value_si) const { return report::shown_value(value_si, column.form); }
 };
 const ShownOutput& shown_output(SensitivityOutput output);
 

@@ -257,11 +257,12 @@ Kind stability_kind() {
                  .own_scenes = true,
                  .goes_through_ignition = true},
       .keys = joined({gaps_keys(), judging_keys()}),
-      .tables = {table_of("group", case_keys())},
+      .tables = {study_table_of("group", case_keys())},
       .read = [](const StudySource&, StudyFile&) -> Fault { return std::nullopt; },
       .make_cases = make_stability_cases,
       .run = outcome_of<run_stability, stability_failures>,
       .files = {{"stability.csv"}, {"outcomes.svg"}},
+      .results = stability_results,
   };
 }
 

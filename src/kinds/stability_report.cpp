@@ -47,48 +47,75 @@ std::string invariants_text(const StressCase& asked) {
   return names.size() == all_invariants().size() ? "all" : fmt::format("{}", fmt::join(names, " "));
 }
 
-/// What there is to say of a case and of one of its gaps, which may have none of the numbers.
-std::vector<Field> stress_fields(const StressCaseRow& row, std::size_t i) {
-  const CaseAnswer& answer = row.answer;
-  const GapVerdict gap = i < answer.verdicts.size() ? answer.verdicts[i] : GapVerdict{};
-  return {{named_text("group", "group"), row.asked.group},
-          {quantity::case_name(), row.asked.name},
-          {named_text("outcome", "outcome"), outcome_text(row)},
-          {named_text("expected", "expected"), expected_text(row.asked)},
-          {named_text("as expected", "as_expected"), row.is_as_expected() ? "yes" : "no"},
-          {named_text("invariants", "invariants"), invariants_text(row.asked)},
-          {named_text("finding", "finding"), finding_text(row)},
-          {quantity::status(), run::to_string(answer.run.status)},
-          {number_column("until", "ms", 4, "end_time_ms"), 1e3 * row.end_time},
-          {quantity::steps(), Cell(static_cast<std::int64_t>(answer.run.steps))},
-          {quantity::particles(), Cell(static_cast<std::int64_t>(answer.run.particles))},
-          {quantity::energy_drift(), answer.run.energy_drift},
-          {quantity::gap(), in_centimetres(gap.gap)},
-          {quantity::temperature_max(), gap.maximum.temperature},
-          {quantity::temperature_max_inert(), number_at(answer.heated_temperature, i)},
-          {number_column("safe computation", "K", 1, "safe_computation_K"), number_at(row.heated_against, i)},
-          {number_column("against", "K", 1, "deviation_K"), number_at(row.deviations, i)},
-          {quantity::uncertainty(), gap.uncertainty.total()},
-          {quantity::verdict(), study::to_string(gap.judgement.verdict)},
-          {quantity::reason(), gap.judgement.reason},
-          {quantity::limiters(), run::to_string(answer.run.limiters)}};
+/// A case, and one of its gaps where there is one.
+struct GapRow {
+  const StressCaseRow* of;
+  std::optional<std::size_t> gap;
+
+  const GapVerdict* verdict() const { return gap ? &of->answer.verdicts[*gap] : nullptr; }
+};
+
+Quantities<StressCaseRow> stress_case_quantities() {
+  using keys::text;
+  const auto asked = [](auto member) {
+    return [member](const StressCaseRow& row) { return std::invoke(member, row.asked); };
+  };
+  return {{{"group", "group", text(), "Group of the case."}, asked(&StressCase::group)},
+          {quantity::case_name(), asked(&StressCase::name)},
+          {{"outcome", "outcome", text(), "held, degraded, caught, WRONG, or not computed."}, outcome_text},
+          {{"expected", "expected", text(), "What the study expects."}, asked(expected_text)},
+          {{"as_expected", "as expected", text(), "Whether it came out so."}, &StressCaseRow::is_as_expected},
+          {{"invariants", "invariants", text(), "What must hold."}, asked(invariants_text)},
+          {{"finding", "finding", text(), "Why it came out so, and the numbers behind it."}, finding_text}};
 }
-/// So many of them are of the case; a row without a gap has no others.
-constexpr std::size_t fields_of_case = 7;
+
+/// What there is to say of a case and of one of its gaps, which may have none of the numbers.
+Quantities<GapRow> stability_quantities() {
+  using keys::fixed;
+  const auto of_run = [](auto get) {
+    return [get](const GapRow& row) { return row.gap ? keys::cell_of(get(*row.of)) : Cell(); };
+  };
+  const auto of_list = [](auto list) {
+    return [list](const GapRow& row) {
+      const std::vector<double>& values = list(*row.of);
+      return row.gap && *row.gap < values.size() ? values[*row.gap] : not_a_number;
+    };
+  };
+  const auto of_verdict = [](auto get) {
+    return [get](const GapRow& row) { return row.gap ? keys::cell_of(get(*row.verdict())) : Cell(); };
+  };
+  return keys::joined<GapRow>(
+      {of_part<GapRow>(&GapRow::of, stress_case_quantities()),
+       {{quantity::status(), of_run([](const auto& row) { return run::to_string(row.answer.run.status); })},
+        {{"end_time", "until", fixed(4, millisecond), "Instant that the run reached."},
+         of_run([](const auto& row) { return row.end_time; })},
+        {quantity::steps(), of_run([](const auto& row) { return row.answer.run.steps; })},
+        {quantity::particles(), of_run([](const auto& row) { return row.answer.run.particles; })},
+        {quantity::energy_drift(), of_run([](const auto& row) { return row.answer.run.energy_drift; })},
+        {quantity::gap(), of_verdict([](const GapVerdict& gap) { return gap.gap; })},
+        {quantity::temperature_max(),
+         of_verdict([](const GapVerdict& gap) { return known(gap.maximum.temperature); })},
+        {quantity::temperature_max_inert(),
+         of_list([](const StressCaseRow& row) -> auto& { return row.answer.heated_temperature; })},
+        {{"safe_computation", "safe computation", fixed(1, kelvin), "T max of the safe computation."},
+         of_list([](const StressCaseRow& row) -> auto& { return row.heated_against; })},
+        {{"deviation", "against", fixed(1, kelvin), "How far the case is off it."},
+         of_list([](const StressCaseRow& row) -> auto& { return row.deviations; })},
+        {quantity::uncertainty(), of_verdict([](const GapVerdict& gap) { return gap.uncertainty.total(); })},
+        {quantity::verdict(), of_verdict([](const GapVerdict& gap) { return gap.judgement.verdict; })},
+        {quantity::reason(), of_verdict([](const GapVerdict& gap) { return gap.judgement.reason; })},
+        {quantity::limiters(), of_run([](const auto& row) { return run::to_string(row.answer.run.limiters); })}}});
+}
 
 /// A row for every gap of every case: what must hold, what became of it, why, and the numbers behind it.
 Table stability_table(const StabilityResult& result) {
-  Table table;
-  table.title = "Stress cases";
+  std::vector<GapRow> rows;
   for (const StressCaseRow& row : result.rows) {
     const std::size_t gaps = row.computed() ? row.answer.verdicts.size() : 0;
-    for (std::size_t i = 0; i < std::max<std::size_t>(gaps, 1); ++i) {
-      std::vector<Field> fields = stress_fields(row, i);
-      for (std::size_t k = fields_of_case; gaps == 0 && k < fields.size(); ++k) fields[k].cell = {};
-      add_row(table, std::move(fields));
-    }
+    for (std::size_t i = 0; i < gaps; ++i) rows.push_back({&row, i});
+    if (gaps == 0) rows.push_back({&row, std::nullopt});
   }
-  return table;
+  return table_of("Stress cases", stability_quantities(), rows);
 }
 
 /// How many rows that is true of.
@@ -147,8 +174,8 @@ std::string legend(const Study& study) {
       "- **degraded**: it did not, a limiter acted or a validity warning holds, and the result says so.\n"
       "- **caught**: the run was stopped, or the scene refused.\n"
       "- **WRONG**: an invariant is violated, and yet a verdict says SAFE or UNSAFE.\n\n"
-      "Invariants, with an uncertainty of T max of {} K unless the case states its own:\n\n",
-      significant(study.numerical_uncertainty, 3));
+      "Invariants, with an uncertainty of T max of {} unless the case states its own:\n\n",
+      in_words(study.numerical_uncertainty, keys::significant(3, kelvin)));
   for (const Invariant& each : all_invariants()) text += fmt::format("- `{}`: {}.\n", each.name, each.words);
   return text;
 }
@@ -166,13 +193,16 @@ nlohmann::ordered_json counts_json(const StabilityResult& result) {
 
 /// A row for every case that is not held, with the reason in a few words.
 Table not_held_table(const StabilityResult& result) {
-  Table table;
-  table.title = "Not held";
-  table.columns = {quantity::case_name(), named_text("outcome", "outcome"), named_text("why", "why")};
-  for (const StressCaseRow& row : result.rows)
-    if (!row.is(Outcome::held))
-      table.rows.push_back({row.asked.label(), outcome_text(row), first_clause(finding_text(row))});
-  return table;
+  std::vector<StressCaseRow> rows;
+  std::ranges::copy_if(result.rows, std::back_inserter(rows),
+                       [](const StressCaseRow& row) { return !row.is(Outcome::held); });
+  return table_of<StressCaseRow>(
+      "Not held",
+      {{quantity::case_name(), [](const StressCaseRow& row) { return row.asked.label(); }},
+       {{"outcome", "outcome", keys::text(), "What became of it."}, outcome_text},
+       {{"why", "why", keys::text(), "Why."},
+        [](const StressCaseRow& row) { return first_clause(finding_text(row)); }}},
+      rows);
 }
 
 }  // namespace
@@ -201,6 +231,10 @@ Report report_of(const StabilityResult& result) {
   };
   report.json = study_json(result.study, report, {{"counts", counts_json(result)}});
   return report;
+}
+
+std::vector<ResultTable> stability_results() {
+  return {{"cases", "stability.csv", keys::described(stability_quantities())}};
 }
 
 }  // namespace launchsafe::kinds

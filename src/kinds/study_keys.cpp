@@ -262,9 +262,9 @@ std::string default_text(const scene::KeyDescription& key, const scene::Value& v
   return none ? std::string{} : scene::format_value(key, value);
 }
 
-StudyTable reference_table() { return table_of("reference", published_row_keys()); }
+StudyTable reference_table() { return study_table_of("reference", published_row_keys()); }
 
-StudyTable cited_limit_table() { return table_of("cited_limit", cited_limit_keys()); }
+StudyTable cited_limit_table() { return study_table_of("cited_limit", cited_limit_keys()); }
 
 Fault check_bare_uncertainties(const toml::table& root, const StudyKeys& keys, const std::string& file) {
   for (const auto& key : keys) {

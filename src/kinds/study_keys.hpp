@@ -62,7 +62,7 @@ std::string default_text(const scene::KeyDescription& key, const scene::Value& v
 
 /// A table of a study file with the keys of one of its entries, for documentation.
 template <class Owner>
-StudyTable table_of(const std::string& name, const std::vector<scene::Key<Owner>>& keys) {
+StudyTable study_table_of(const std::string& name, const std::vector<scene::Key<Owner>>& keys) {
   StudyTable table{name, {}};
   for (const scene::Key<Owner>& key : keys) {
     scene::DocumentedKey entry{key, default_text(key, key.default_value())};

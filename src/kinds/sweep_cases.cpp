@@ -132,6 +132,7 @@ Kind sweep_kind() {
                 {"critical_gaps.md"},
                 {"critical_gap", ".svg"},
                 {"safe_gap", ".svg"}},
+      .results = sweep_results,
   };
 }
 

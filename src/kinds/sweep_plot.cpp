@@ -2,7 +2,7 @@
 #include "answer_tables.hpp"
 #include "critical_gap_marks.hpp"
 #include "launchsafe/kinds/sweep.hpp"
-#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
@@ -59,7 +59,7 @@ std::vector<Tic> tics_at(const std::vector<double>& values, Scale scale) {
 
 PlotAxis picture_axis(const SweptAxis& swept) {
   PlotAxis axis;
-  axis.label = swept.key.heading();
+  axis.label = swept.key.label();
   if (swept.values.front() > 0 && swept.values.back() > 10.0 * swept.values.front())
     axis.scale = Scale::logarithmic;
   axis.tics = tics_at(swept.values, axis.scale);
@@ -73,39 +73,37 @@ std::string title_of(const char* quantity, const std::vector<SweptAxis>& axes,
   for (const SweptAxis& axis : axes) {
     const bool is_shown = std::find(shown_axes.begin(), shown_axes.end(), axis.index) != shown_axes.end();
     if (is_shown || axis.index >= input.coordinates.size()) continue;
-    fixed += fmt::format("{}{} {}", fixed.empty() ? " at " : ", ", axis.key.name,
+    fixed += fmt::format("{}{} {}", fixed.empty() ? " at " : ", ", axis.key.heading,
                          axis.key.text(input.coordinates[axis.index]));
   }
   return quantity + fixed;
 }
 
-double value_in_cm(const CaseAnswer& answer) { return 100.0 * value_of(answer.critical); }
+/// The critical gap as shown.
+double shown_critical_gap(const CaseAnswer& answer) { return shown_gap(value_of(answer.critical)); }
 
 // --- maps ---
 
-/// What a map shows, cm: NaN where there is no value, for which the kind of the answer is the reason, or else
+/// What a map shows: NaN where there is no value, for which the kind of the answer is the reason, or else
 /// `without_value`.
 struct MappedQuantity {
   const char* file;  ///< start of its name
   const char* title;
-  const char* label;
   double (*value)(const CaseAnswer&);
   const char* without_value;
 };
-constexpr MappedQuantity critical_gap{"critical_gap", "Critical gap", "critical gap [cm]", value_in_cm,
-                                      "not known"};
+constexpr MappedQuantity critical_gap{"critical_gap", "Critical gap", shown_critical_gap, "not known"};
 
-/// Up to which gap nothing ignites in spite of the uncertainty, cm; NaN where there is no such gap.
-double surely_safe_in_cm(const CaseAnswer& answer) {
-  const double least = 100.0 * answer.critical.bounds.at_least;
+/// Up to which gap nothing ignites in spite of the uncertainty; NaN where there is no such gap.
+double surely_safe(const CaseAnswer& answer) {
+  const double least = shown_gap(answer.critical.bounds.at_least);
   return answer.critical.kind == CriticalGapKind::value && least > 0.0 ? least : study::not_a_number;
 }
-/// cm, by which the critical gap may be smaller.
-double uncertainty_in_cm(const CaseAnswer& answer) {
-  return value_in_cm(answer) - 100.0 * answer.critical.bounds.at_least;
+/// By which the critical gap may be smaller.
+double uncertainty_of(const CaseAnswer& answer) {
+  return shown_critical_gap(answer) - shown_gap(answer.critical.bounds.at_least);
 }
-constexpr MappedQuantity safe_gap{"safe_gap", "Lower bound of the critical gap",
-                                  "lower bound of the critical gap [cm]", surely_safe_in_cm,
+constexpr MappedQuantity safe_gap{"safe_gap", "Lower bound of the critical gap", surely_safe,
                                   "no gap surely safe"};
 
 std::size_t place_in(const std::vector<double>& values, double value) {
@@ -114,9 +112,9 @@ std::size_t place_in(const std::vector<double>& values, double value) {
 
 /// The map of a case's plane, without values.
 Plot empty_map(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& x,
-               const SweptAxis& y, const MappedQuantity& quantity, const study::StudyCase& input) {
+               const SweptAxis& y, const MappedQuantity& mapped, const study::StudyCase& input) {
   Plot plot;
-  plot.title = title_of(quantity.title, axes, {x.index, y.index}, input);
+  plot.title = title_of(mapped.title, axes, {x.index, y.index}, input);
   plot.x = picture_axis(x);
   plot.y = picture_axis(y);
   plot.width = 900;
@@ -125,23 +123,24 @@ Plot empty_map(const SweepResult& result, const std::vector<SweptAxis>& axes, co
   map.x = x.values;
   map.y = y.values;
   map.values.assign(x.values.size() * y.values.size(), study::not_a_number);
-  map.label = quantity.label;
-  if (quantity.value == value_in_cm) map.uncertainty = map.values;
+  map.label = quantity::critical_gap().label();
+  if (mapped.value == surely_safe) map.label = "lower bound of the " + map.label;
+  if (mapped.value == shown_critical_gap) map.uncertainty = map.values;
   for (const CaseAnswer& answer : result.answers) {  // of all maps, so that their colours compare
-    const double value = quantity.value(answer);
+    const double value = mapped.value(answer);
     if (!std::isfinite(value)) continue;
     map.minimum = std::min(map.minimum.value_or(value), value);
     map.maximum = std::max(map.maximum.value_or(value), value);
-    const double uncertainty = uncertainty_in_cm(answer);
+    const double uncertainty = uncertainty_of(answer);
     if (std::isfinite(uncertainty)) map.least_step = std::max(map.least_step, uncertainty);
   }
   auto labels = kind_labels(critical_gaps_of(result.answers));
-  labels[static_cast<std::size_t>(CriticalGapKind::value)] = quantity.without_value;
+  labels[static_cast<std::size_t>(CriticalGapKind::value)] = mapped.without_value;
   constexpr std::array<Hatching, 5> hatchings{Hatching::rising, Hatching::dense, Hatching::falling,
                                               Hatching::crossed, Hatching::crossed};
   for (std::size_t kind = 0; kind < labels.size(); ++kind)
     map.hatched.push_back({labels[kind], hatchings[kind], {}});
-  if (quantity.value == surely_safe_in_cm)
+  if (mapped.value == surely_safe)
     map.hatched.push_back({"computation or model form assumed", Hatching::falling, {}});
   plot.map = std::move(map);
   return plot;
@@ -149,7 +148,7 @@ Plot empty_map(const SweepResult& result, const std::vector<SweptAxis>& axes, co
 
 /// One map over two axes for every combination of the others.
 std::vector<Plot> maps_of(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& x,
-                          const SweptAxis& y, const MappedQuantity& quantity) {
+                          const SweptAxis& y, const MappedQuantity& mapped) {
   std::vector<std::vector<double>> combinations;
   std::vector<Plot> plots;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
@@ -161,15 +160,15 @@ std::vector<Plot> maps_of(const SweepResult& result, const std::vector<SweptAxis
     const auto number = static_cast<std::size_t>(found - combinations.begin());
     if (found == combinations.end()) {
       combinations.push_back(std::move(others));
-      plots.push_back(empty_map(result, axes, x, y, quantity, input));
+      plots.push_back(empty_map(result, axes, x, y, mapped, input));
     }
     Map& map = *plots[number].map;
     const std::size_t cell = place_in(y.values, y.key.value(input.coordinates[y.index])) * x.values.size() +
                              place_in(x.values, x.key.value(input.coordinates[x.index]));
-    map.values[cell] = quantity.value(result.answers[i]);
-    if (!map.uncertainty.empty()) map.uncertainty[cell] = uncertainty_in_cm(result.answers[i]);
+    map.values[cell] = mapped.value(result.answers[i]);
+    if (!map.uncertainty.empty()) map.uncertainty[cell] = uncertainty_of(result.answers[i]);
     const CriticalGap& gap = result.answers[i].critical;
-    if (quantity.value == surely_safe_in_cm && std::isfinite(map.values[cell]) &&
+    if (mapped.value == surely_safe && std::isfinite(map.values[cell]) &&
         !assumed_shares(result.study.study, input, gap.value).empty())
       map.hatched.back().cells.push_back(cell);
     if (!std::isfinite(map.values[cell]))
@@ -179,9 +178,9 @@ std::vector<Plot> maps_of(const SweepResult& result, const std::vector<SweptAxis
 }
 
 /// Names the maps, and leaves out what would be too many.
-void add_maps(std::vector<Plot> plots, const MappedQuantity& quantity, SweepPictures& made) {
+void add_maps(std::vector<Plot> plots, const MappedQuantity& mapped, SweepPictures& made) {
   for (std::size_t i = 0; i < std::min(plots.size(), most_maps); ++i) {
-    made.pictures.push_back({fmt::format("{}{}.svg", quantity.file, i == 0 ? "" : fmt::format("_{}", i + 1)),
+    made.pictures.push_back({fmt::format("{}{}.svg", mapped.file, i == 0 ? "" : fmt::format("_{}", i + 1)),
                              std::move(plots[i]), picture_text});
   }
 }
@@ -191,7 +190,7 @@ void add_maps(std::vector<Plot> plots, const MappedQuantity& quantity, SweepPict
 Plot curve_of(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& axis) {
   Plot plot;
   plot.x = picture_axis(axis);
-  plot.y.label = "critical gap [cm]";
+  plot.y.label = quantity::critical_gap().label();
   Series line{"", axis.values, std::vector<double>(axis.values.size(), study::not_a_number), Style::line};
   line.colour = 0;
   GapMarks marks(critical_gaps_of(result.answers), Style::vertical_bars);
@@ -201,7 +200,7 @@ Plot curve_of(const SweepResult& result, const std::vector<SweptAxis>& axes, con
     if (plot.title.empty()) plot.title = title_of(critical_gap.title, axes, {axis.index}, input);
     const CaseAnswer& answer = result.answers[i];
     const double x = axis.key.value(input.coordinates[axis.index]);
-    line.y[place_in(axis.values, x)] = value_in_cm(answer);
+    line.y[place_in(axis.values, x)] = shown_critical_gap(answer);
     marks.add(answer.critical, x);
   }
   plot.series.push_back(std::move(line));
@@ -221,14 +220,14 @@ SweepPictures pictures(const SweepResult& result) {
   if (several.size() == 1)
     return {{{"critical_gap.svg", curve_of(result, axes, *several.front()), picture_text}}, {}};
   SweepPictures made;
-  for (const MappedQuantity* quantity : {&critical_gap, &safe_gap}) {
-    std::vector<Plot> maps = maps_of(result, axes, *several[0], *several[1], *quantity);
+  for (const MappedQuantity* mapped : {&critical_gap, &safe_gap}) {
+    std::vector<Plot> maps = maps_of(result, axes, *several[0], *several[1], *mapped);
     if (maps.size() > most_maps && made.remarks.empty()) {
       made.remarks.push_back(fmt::format(
           "The pictures show {} of the {} combinations of the other axes; critical_gaps.csv has all.",
           most_maps, maps.size()));
     }
-    add_maps(std::move(maps), *quantity, made);
+    add_maps(std::move(maps), *mapped, made);
   }
   return made;
 }

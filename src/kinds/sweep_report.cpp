@@ -1,7 +1,7 @@
 // The answer, the page and the files of a sweep.
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/sweep.hpp"
-#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/scene/launch_end.hpp"
@@ -26,7 +26,8 @@ std::string gaps_text(const std::vector<double>& gaps) {
   if (gaps.empty()) return "no gap";
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
   if (gaps.size() == 1) return "the gap " + centimetres(*least);
-  return fmt::format("{} gaps from {:.6g} to {}", gaps.size(), in_centimetres(*least), centimetres(*most));
+  return fmt::format("{} gaps from {} to {}", gaps.size(), digits_of(*least, quantity::gap().form),
+                     centimetres(*most));
 }
 
 /// What was swept.
@@ -38,7 +39,7 @@ std::string extent_text(const SweepResult& result, const std::vector<ShownKey>& 
                         axes.empty()          ? " over "
                         : i + 1 < keys.size() ? ", "
                                               : " and ",
-                        keys[i].name, values_text(keys[i], study.axes[i].values));
+                        keys[i].heading, values_text(keys[i], study.axes[i].values));
   }
   return fmt::format("{}{}, each judged at {}.", counted(result.answers.size(), "case"), axes,
                      gaps_text(study.gaps));
@@ -92,9 +93,7 @@ std::vector<std::size_t> without_safe_gap(const SweepResult& result) {
 std::string smallest_text(const SweepResult& result, const std::vector<ShownKey>& keys) {
   std::string text;
   if (const auto best = smallest(result)) {
-    const study::CriticalGap& gap = result.answers[*best].critical;
-    const auto known = measured_gap(gap);
-    text = fmt::format("The smallest value is {}, at {}.", known ? known->text("cm") : centimetres(gap.value),
+    text = fmt::format("The smallest value is {}, at {}.", measured_text(result.answers[*best].critical),
                        name_of(keys, result.study.cases[*best]));
   }
   const std::vector<std::size_t> none = without_safe_gap(result);
@@ -171,7 +170,7 @@ Report report_of(const SweepResult& result) {
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
   report.json = study_json(result.study, report,
                            {{"axes", axes_json(result.study.study)},
-                            {"early_time_ms", 1e3 * result.study.study.early_time},
+                            {"early_time_ms", shown_value(result.study.study.early_time, quantity::time(2).form)},
                             {"counts", counts_json(counts_of(result.answers))},
                             {"notes", mesh_notes(result.study)}});
   return report;

@@ -3,7 +3,6 @@
 #include "critical_gap_marks.hpp"
 #include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/report/columns.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
@@ -23,14 +22,7 @@ using namespace report;
 
 namespace {
 
-PlacedAnswers answers_of(const SweepResult& result) {
-  const auto keys = shown_axes(result.study.study);
-  PlacedAnswers placed;
-  for (const ShownKey& key : keys) placed.columns.push_back(key.column());
-  for (std::size_t i = 0; i < result.answers.size(); ++i)
-    placed.rows.push_back({axis_cells(keys, result.study.cases[i]), &result.answers[i]});
-  return placed;
-}
+using keys::fixed, keys::significant, keys::text;
 
 /// Places of the smallest and largest gap among those judged; one of them where they are the same.
 std::vector<std::size_t> outer_gaps(const std::vector<double>& gaps) {
@@ -41,22 +33,65 @@ std::vector<std::size_t> outer_gaps(const std::vector<double>& gaps) {
   return places;
 }
 
-std::vector<Column> outer_gap_columns(const std::vector<double>& gaps) {
-  std::vector<Column> columns;
+/// T max at the smallest and the largest gap.
+Quantities<AnsweredCase> outer_gap_quantities(const std::vector<double>& gaps) {
+  Quantities<AnsweredCase> quantities;
   for (const std::size_t place : outer_gaps(gaps)) {
-    const char* key = columns.empty() ? "temperature_max_smallest_gap_K" : "temperature_max_largest_gap_K";
-    columns.push_back(number_column("T max at " + centimetres(gaps[place]), "K", 1, key));
+    const char* name =
+        quantities.empty() ? "temperature_max_smallest_gap" : "temperature_max_largest_gap";
+    quantities.emplace_back(Column{name, "T max at " + centimetres(gaps[place]), fixed(1, kelvin),
+                                   "Highest temperature at that gap; of one that ignites the burning skin's."},
+                            [place](const AnsweredCase& row) {
+                              const auto& verdicts = row.answer->verdicts;
+                              return place < verdicts.size() ? verdicts[place].maximum.temperature : not_a_number;
+                            });
   }
-  return columns;
+  return quantities;
 }
 
-void add_run_cells(const CaseAnswer& answer, std::vector<Cell>& cells) {
-  cells.emplace_back(status_of(answer));
-  cells.push_back(optional_number(answer.run.energy_drift));
-  cells.emplace_back(static_cast<std::int64_t>(answer.run.steps));
-  cells.emplace_back(static_cast<std::int64_t>(answer.run.particles));
-  cells.emplace_back(limiters_text(answer.run.limiters));
-  cells.emplace_back(answer.completed() ? answer.critical.reason : answer.failure);
+Quantities<AnsweredCase> swept_case_quantities(const study::Study& study) {
+  const auto of_run = [](auto member) {
+    return [member](const AnsweredCase& row) { return std::invoke(member, row.answer->run); };
+  };
+  return keys::joined<AnsweredCase>(
+      {answered_axes(study),
+       of_part<AnsweredCase>([](const AnsweredCase& row) { return &row.answer->critical; },
+                             bounded_gap_quantities()),
+       {{{"assumed_shares", "assumed", text(), "What the bounds rest on and nothing says of the case."},
+         [study](const AnsweredCase& row) {
+           return assumed_shares(study, *row.input, row.answer->critical.value);
+         }}},
+       outer_gap_quantities(study.gaps),
+       {{quantity::status(), [](const AnsweredCase& row) { return status_of(*row.answer); }},
+        {quantity::energy_drift(), of_run(&RunSummary::energy_drift)},
+        {for_programs(quantity::steps()), of_run(&RunSummary::steps)},
+        {for_programs(quantity::particles()), of_run(&RunSummary::particles)},
+        {quantity::limiters(), [](const AnsweredCase& row) { return limiters_text(row.answer->run.limiters); }},
+        {quantity::remark(), [](const AnsweredCase& row) {
+           return row.answer->completed() ? row.answer->critical.reason : row.answer->failure;
+         }}}});
+}
+
+Quantities<VerdictRow> swept_verdict_quantities(const study::Study& study) {
+  return keys::joined<VerdictRow>(
+      {of_part<VerdictRow>(&VerdictRow::input, axis_quantities(study)),
+       {{quantity::gap(), &VerdictRow::width}},
+       verdict_quantities(study)});
+}
+
+/// SAFE, UNSAFE or INDET. by gap.
+Quantities<AnsweredCase> matrix_quantities(const study::Study& study) {
+  Quantities<AnsweredCase> quantities = answered_axes(study);
+  for (std::size_t i = 0; i < study.gaps.size(); ++i)
+    quantities.emplace_back(
+        Column{"gap_" + digits_of(study.gaps[i], quantity::gap().form) + "_cm", centimetres(study.gaps[i]), text(),
+               "The verdict at that gap."},
+        [i](const AnsweredCase& row) -> std::string {
+          if (i >= row.answer->verdicts.size()) return {};
+          const Verdict verdict = row.answer->verdicts[i].judgement.verdict;
+          return verdict == Verdict::indeterminate ? "INDET." : study::to_string(verdict);
+        });
+  return quantities;
 }
 
 /// What the audit of the air says of the gap where most was taken; there may be millions of others.
@@ -76,28 +111,8 @@ std::string air_energy_note(const SweepResult& result, const std::vector<ShownKe
 
 Table critical_gap_table(const SweepResult& result) {
   const auto keys = shown_axes(result.study.study);
-  const std::vector<double>& gaps = result.study.study.gaps;
-  const PlacedAnswers answers = answers_of(result);
-  Table table = answers.table("Critical gaps");
-  append(table.columns, critical_gap_columns());
-  append(table.columns, critical_gap_bounds_columns());
-  append(table.columns, {named_text("assumed", "assumed_shares")});
-  append(table.columns, outer_gap_columns(gaps));
-  append(table.columns,
-         {quantity::status(), quantity::energy_drift(), for_programs(quantity::steps()),
-          for_programs(quantity::particles()), quantity::limiters(), named_text("remark", "reason")});
-  for (std::size_t i = 0; i < answers.rows.size(); ++i) {
-    const auto& [place, answer] = answers.rows[i];
-    std::vector<Cell>& cells = table.rows.emplace_back(place);
-    add_critical_gap_cells(answer->critical, cells);
-    add_critical_gap_bounds_cells(answer->critical, cells);
-    cells.emplace_back(assumed_shares(result.study.study, result.study.cases[i], answer->critical.value));
-    for (const std::size_t gap : outer_gaps(gaps))
-      cells.push_back(gap < answer->verdicts.size()
-                          ? optional_number(answer->verdicts[gap].maximum.temperature)
-                          : Cell());
-    add_run_cells(*answer, cells);
-  }
+  Table table = table_of("Critical gaps", swept_case_quantities(result.study.study),
+                         answered(result.study, result.answers));
   table.notes.emplace_back(
       "Only a critical gap of kind value is a number. T max of a gap that ignites is that of the burning "
       "skin.");
@@ -110,14 +125,22 @@ Table critical_gap_table(const SweepResult& result) {
 }
 
 Table verdict_table(const SweepResult& result) {
-  Table table = verdict_table(result.study.study, answers_of(result));
+  std::vector<VerdictRow> rows;
+  for (const auto& [input, answer] : answered(result.study, result.answers)) {
+    for (std::size_t i = 0; i < answer->verdicts.size(); ++i) {
+      const bool known = i < answer->heated_temperature.size();
+      rows.push_back({input, &answer->verdicts[i], known ? answer->heated_temperature[i] : not_a_number});
+    }
+  }
+  Table table = table_of("Verdicts", swept_verdict_quantities(result.study.study), rows);
   table.notes = mesh_notes(result.study);
   table.notes.push_back(station_note(result.study));
   return table;
 }
 
 Table verdict_matrix(const SweepResult& result) {
-  Table table = verdict_matrix(result.study.study, answers_of(result));
+  Table table = table_of("Verdicts by gap", matrix_quantities(result.study.study),
+                         answered(result.study, result.answers));
   if (counts_of(result.answers).verdicts.at(Verdict::indeterminate) > 0)
     table.notes.emplace_back(indeterminate_note);
   return table;
@@ -185,10 +208,25 @@ Effect effect_of(const SweepResult& result, std::size_t axis, Counts counts) {
   return effect;
 }
 
-void add_row(Table& table, const ShownKey& key, const std::string& which, const Effect& effect) {
-  if (!(effect.lowest < effect.highest)) return;
-  table.rows.push_back({which, key.text(effect.lowest), key.text(effect.highest),
-                        optional_number(effect.temperature), optional_number(100.0 * effect.critical)});
+/// What an axis changes.
+struct EffectRow {
+  std::string axis;
+  ShownKey key;
+  Effect effect;
+};
+
+Quantities<EffectRow> effect_quantities() {
+  return {{{"axis", "axis", text(), "The axis."}, &EffectRow::axis},
+          {{"from", "from", text(), "Its lowest value."},
+           [](const EffectRow& row) { return row.key.text(row.effect.lowest); }},
+          {{"to", "to", text(), "Its highest value."},
+           [](const EffectRow& row) { return row.key.text(row.effect.highest); }},
+          {{"temperature_max_change", "T max by at most", significant(3, kelvin),
+            "Largest change of T max over the axis, all else the same, where nothing ignites."},
+           [](const EffectRow& row) { return row.effect.temperature; }},
+          {{"critical_gap_change", "critical gap by at most", significant(3, centimetre),
+            "Largest change of the critical gap over the axis, all else the same."},
+           [](const EffectRow& row) { return row.effect.critical; }}};
 }
 
 bool below_flaw(const study::StudyCase& input) { return input.crack_radius < input.flaw_size; }
@@ -203,9 +241,9 @@ std::string crack_note(const SweepResult& result, const Effect& below) {
   });
   const bool rubs = result.study.scene.scene.charge().strength.face_friction > 0.0;
   return fmt::format(
-      "Below the flaw size the crack radius is all but dead: T max moves by {} K at most, critical gaps by "
-      "{} cm. The strain that cracks add goes with the cube of crack radius over flaw size{}.",
-      significant(below.temperature, 2), significant(100.0 * below.critical, 2),
+      "Below the flaw size the crack radius is all but dead: T max moves by {} at most, critical gaps by {}. "
+      "The strain that cracks add goes with the cube of crack radius over flaw size{}.",
+      in_words(below.temperature, significant(2, kelvin)), in_words(below.critical, significant(2, centimetre)),
       rubs && !friction_varies
           ? ", and friction between closed crack faces keeps them from growing under the pressure of a launch"
           : "");
@@ -214,25 +252,36 @@ std::string crack_note(const SweepResult& result, const Effect& below) {
 }  // namespace
 
 Table axis_effect_table(const SweepResult& result) {
-  Table table{"What each axis changes",
-              {text_column("axis"), text_column("from"), text_column("to"),
-               significant_column("T max by at most", "K", 3, "temperature_max_change_K"),
-               significant_column("critical gap by at most", "cm", 3, "critical_gap_change_cm")}};
+  std::vector<EffectRow> rows;
+  std::vector<std::string> notes;
   const auto keys = shown_axes(result.study.study);
+  const auto add = [&](const ShownKey& key, const char* which, const Effect& effect) {
+    if (effect.lowest < effect.highest) rows.push_back({key.heading + which, key, effect});
+  };
   for (std::size_t axis = 0; axis < keys.size(); ++axis) {
-    add_row(table, keys[axis], keys[axis].name,
-            effect_of(result, axis, [](const study::StudyCase&) { return true; }));
+    add(keys[axis], "", effect_of(result, axis, [](const study::StudyCase&) { return true; }));
     if (keys[axis].scene_key != "charge.crack_radius") continue;
     const Effect below = effect_of(result, axis, below_flaw);
-    add_row(table, keys[axis], keys[axis].name + ", below the flaw size", below);
-    if (std::string note = crack_note(result, below); !note.empty()) table.notes.push_back(std::move(note));
+    add(keys[axis], ", below the flaw size", below);
+    if (std::string note = crack_note(result, below); !note.empty()) notes.push_back(std::move(note));
   }
-  if (!table.rows.empty()) {
+  Table table = table_of("What each axis changes", effect_quantities(), rows);
+  table.notes = std::move(notes);
+  if (!rows.empty()) {
     table.notes.push_back(
         "Changes over the whole axis with all other values the same: of T max at gaps where nothing ignites, "
         "and of critical gaps that are values.");
   }
   return table;
+}
+
+std::vector<ResultTable> sweep_results() {
+  study::Study study;
+  study.gaps = {0.0, 0.4e-3};
+  return {{"cases", "critical_gaps.csv", keys::described(swept_case_quantities(study))},
+          {"verdicts", "verdicts.csv", keys::described(swept_verdict_quantities(study))},
+          {"cited_limits", "", cited_limit_columns()},
+          {"axis_effects", "", keys::described(effect_quantities())}};
 }
 
 }  // namespace launchsafe::kinds

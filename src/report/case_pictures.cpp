@@ -26,7 +26,7 @@ Plot energy_plot(const DrawnCase& drawn, const char* what, const std::vector<Ene
   for (const EnergyTerm& term : terms) {
     Series& series = plot.series.emplace_back(Series{.label = term.name});
     for (const run::MonitorSample& sample : drawn.result.mechanics.monitor)
-      series.add(1e3 * sample.time, std::abs(sample.energy.*term.value));
+      series.add(shown_value(sample.time, drawn_time().form), std::abs(sample.energy.*term.value));
   }
   // What is smaller is round-off beside the largest term.
   constexpr double smallest = 1e-8;
@@ -77,26 +77,50 @@ Plot titled_plot(const DrawnCase& drawn, std::string title) {
   return plot;
 }
 
-std::vector<double> milliseconds_of(const std::vector<double>& seconds) {
-  std::vector<double> values;
-  values.reserve(seconds.size());
-  for (const double time : seconds) values.push_back(1e3 * time);
-  return values;
+std::vector<double> shown_values(const std::vector<double>& values, const Column& quantity) {
+  std::vector<double> shown;
+  shown.reserve(values.size());
+  for (const double value : values) shown.push_back(shown_value(value, quantity.form));
+  return shown;
 }
+
+Column drawn_time() { return quantity::time(4); }
 
 Plot time_plot(const DrawnCase& drawn, std::string title, std::string quantity) {
   Plot plot = titled_plot(drawn, std::move(title));
-  plot.x.label = "time [ms]";
+  plot.x.label = drawn_time().label();
   plot.y.label = std::move(quantity);
   return plot;
 }
 
-Series time_series(const char* label, const std::vector<double>& time, const std::vector<double>& values,
-                   double factor) {
-  Series series{.label = label, .x = milliseconds_of(time), .y = values, .style = Style::line};
-  for (double& value : series.y) value *= factor;
-  return series;
+Plot time_plot(const DrawnCase& drawn, std::string title, const Column& quantity) {
+  return time_plot(drawn, std::move(title), quantity.label());
 }
+
+Series time_series(const char* label, const std::vector<double>& time, const std::vector<double>& values,
+                   const Column& quantity) {
+  return {.label = label,
+          .x = shown_values(time, drawn_time()),
+          .y = shown_values(values, quantity),
+          .style = Style::line};
+}
+
+namespace {
+
+/// A sample of the trace.
+struct PressureRow {
+  double time, chamber, bottom;  ///< s, Pa
+};
+
+Quantities<PressureRow> pressure_quantities() {
+  return {{drawn_time(), &PressureRow::time},
+          {{"chamber", "chamber", keys::significant(6, megapascal), "Mean pressure of the chamber on the base."},
+           &PressureRow::chamber},
+          {{"bottom", "bottom", keys::significant(6, megapascal), "Mean pressure of the charge's bottom."},
+           &PressureRow::bottom}};
+}
+
+}  // namespace
 
 std::string lacks_pressure(const DrawnCase& drawn) {
   return drawn.result.mechanics.trace.samples() > 1 ? "" : "its trace has no samples";
@@ -104,19 +128,19 @@ std::string lacks_pressure(const DrawnCase& drawn) {
 
 std::vector<CasePicture> pressure_pictures(const DrawnCase& drawn) {
   const trace::BottomTrace& trace = drawn.result.mechanics.trace;
-  Plot plot = time_plot(drawn, "Pressures", "pressure [MPa]");
-  plot.series = {time_series("chamber, on the base", trace.time, trace.chamber_pressure, 1e-6),
-                 time_series("charge's bottom, area mean", trace.time, trace.bottom_pressure, 1e-6)};
+  Plot plot = time_plot(drawn, "Pressures", quantity::pressure());
+  plot.series = {
+      time_series("chamber, on the base", trace.time, trace.chamber_pressure, quantity::pressure()),
+      time_series("charge's bottom, area mean", trace.time, trace.bottom_pressure, quantity::pressure())};
   return {{"pressure.svg", std::move(plot)}};
 }
 
 std::vector<CaseTable> pressure_tables(const DrawnCase& drawn) {
   const trace::BottomTrace& trace = drawn.result.mechanics.trace;
-  Table table{.columns = {{"time", "ms"}, {"chamber", "MPa"}, {"bottom", "MPa"}}};
+  std::vector<PressureRow> rows;
   for (std::size_t i = 0; i < trace.samples(); ++i)
-    table.rows.push_back(
-        {1e3 * trace.time[i], 1e-6 * trace.chamber_pressure[i], 1e-6 * trace.bottom_pressure[i]});
-  return {{"pressure.csv", std::move(table)}};
+    rows.push_back({trace.time[i], trace.chamber_pressure[i], trace.bottom_pressure[i]});
+  return {{"pressure.csv", table_of({}, pressure_quantities(), rows)}};
 }
 
 std::string lacks_energy(const DrawnCase& drawn) {

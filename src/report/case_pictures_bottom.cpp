@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace launchsafe::report::detail {
 namespace {
@@ -37,9 +38,9 @@ std::size_t samples_before_ignition(const surface::SkinHistory& skin) {
 std::vector<Line> ignition_line(const DrawnCase& drawn, const run::GapResult& gap) {
   if (!gap.skin.ignition) return {};
   const surface::Ignition& ignition = *gap.skin.ignition;
-  return {{1e3 * ignition.time,
-           fmt::format("ignition at {}, {} ms", trace_of(drawn).stations[ignition.station].name,
-                       fixed(1e3 * ignition.time, 2))}};
+  return {{shown_value(ignition.time, drawn_time().form),
+           fmt::format("ignition at {}, {}", trace_of(drawn).stations[ignition.station].name,
+                       in_words(ignition.time, quantity::ignition_time().form))}};
 }
 
 std::string gap_title(const char* what, const run::GapResult& gap) {
@@ -47,7 +48,8 @@ std::string gap_title(const char* what, const run::GapResult& gap) {
 }
 
 /// A quantity of one gap against time.
-Plot gap_plot(const DrawnCase& drawn, const run::GapResult& gap, const char* what, const char* quantity) {
+Plot gap_plot(const DrawnCase& drawn, const run::GapResult& gap, const char* what,
+              const std::string& quantity) {
   Plot plot = time_plot(drawn, gap_title(what, gap), quantity);
   plot.vertical_lines = ignition_line(drawn, gap);
   return plot;
@@ -59,6 +61,10 @@ CasePicture picture_of_gap(const char* name, const run::GapResult& gap, Plot plo
 }
 
 // --- profiles ---
+
+Column distance_from_axis() {
+  return {"r", "distance from the axis, r", keys::significant(4, millimetre), "Distance from the axis."};
+}
 
 std::vector<double> profile_times(const DrawnCase& drawn) {
   if (!drawn.times.empty()) return drawn.times;
@@ -79,14 +85,15 @@ std::vector<double> temperatures_of(const surface::SkinHistory& skin, std::size_
 Plot profile_plot(const DrawnCase& drawn, const run::GapResult& gap) {
   const trace::BottomTrace& trace = trace_of(drawn);
   Plot plot = titled_plot(drawn, gap_title("Skin temperature along the bottom", gap));
-  plot.x = {.label = "distance from the axis, r [mm]", .minimum = 0.0};
-  plot.y.label = "skin temperature [K]";
+  plot.x = {.label = distance_from_axis().label(), .minimum = 0.0};
+  plot.y.label = quantity::skin_temperature().label();
   const std::vector<double> times = profile_times(drawn);
-  for (const double time : times) plot.series.push_back({.label = significant(1e3 * time, 4) + " ms"});
+  for (const double time : times) plot.series.push_back({.label = in_words(time, quantity::time_in_titles())});
   for (const std::size_t ring : rings_of(trace)) {
     const std::vector<double> history = temperatures_of(gap.skin, ring, trace.stations.size());
     for (std::size_t i = 0; i < times.size(); ++i)
-      plot.series[i].add(1e3 * trace.stations[ring].r, trace::interpolate(gap.skin.time, history, times[i]));
+      plot.series[i].add(shown_value(trace.stations[ring].r, distance_from_axis().form),
+                         trace::interpolate(gap.skin.time, history, times[i]));
   }
   return plot;
 }
@@ -104,14 +111,14 @@ Series spread_series(const DrawnCase& drawn, const run::GapResult& gap) {
       lowest = std::min(lowest, temperature);
       highest = std::max(highest, temperature);
     }
-    series.add(1e3 * gap.skin.time[sample], highest - lowest);
+    series.add(shown_value(gap.skin.time[sample], drawn_time().form), highest - lowest);
   }
   return series;
 }
 
 Plot spread_plot(const DrawnCase& drawn) {
   Plot plot =
-      time_plot(drawn, "Temperature difference along the bottom", "highest less lowest skin temperature [K]");
+      time_plot(drawn, "Temperature difference along the bottom", headed("highest less lowest skin temperature", quantity::skin_temperature()));
   for (const run::GapResult* gap : gaps_with(has_skin, drawn))
     plot.series.push_back(spread_series(drawn, *gap));
   return plot;
@@ -165,13 +172,14 @@ std::vector<Series> reached_series(const DrawnCase& drawn) {
              std::abs(each.state.pressure - state.pressure) < 1e-3 * state.pressure;
     });
     Reached& reached = same != all.end() ? *same : all.emplace_back(Reached{state, {}});
-    reached.gaps.push_back(significant(100.0 * gap->gap, 6));
+    reached.gaps.push_back(digits_of(gap->gap, quantity::gap().form));
   }
   std::vector<Series> series;
   for (const Reached& each : all)
     series.push_back(
-        {.label = fmt::format("{}: {} K at {} MPa", gaps_text(each.gaps, all.size() == 1),
-                              fixed(each.state.temperature, 0), significant(1e-6 * each.state.pressure, 4)),
+        {.label = fmt::format("{}: {} at {}", gaps_text(each.gaps, all.size() == 1),
+                              in_words(each.state.temperature, keys::fixed(0, kelvin)),
+                              in_words(each.state.pressure, keys::significant(4, megapascal))),
          .x = {each.state.compression},
          .y = {each.state.temperature},
          .style = Style::points});
@@ -195,16 +203,18 @@ Series adiabat(const materials::AirParameters& air, double highest_ratio) {
 void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vector<CasePicture>& pictures) {
   const run::CombustionHistory& history = *gap.combustion;
   const bool whole = drawn.scene.symmetry == scene::Symmetry::axisymmetric;
-  Plot mass = gap_plot(drawn, gap, "Burnt mass", whole ? "burnt mass [g]" : "burnt mass per metre [g]");
-  mass.series = {time_series("burnt mass", history.time, history.burnt_mass, 1e3)};
-  Plot pressure = gap_plot(drawn, gap, "Pressure while it burns", "pressure [MPa]");
-  pressure.series = {time_series("mean over the charge's bottom", history.time, history.pressure, 1e-6)};
+  const Column burnt = headed(whole ? "burnt mass" : "burnt mass per metre", quantity::burnt_mass());
+  Plot mass = gap_plot(drawn, gap, "Burnt mass", burnt.label());
+  mass.series = {time_series("burnt mass", history.time, history.burnt_mass, burnt)};
+  Plot pressure = gap_plot(drawn, gap, "Pressure while it burns", quantity::pressure().label());
+  pressure.series = {
+      time_series("mean over the charge's bottom", history.time, history.pressure, quantity::pressure())};
   Plot degree = gap_plot(drawn, gap, "Reaction of the skin", "reaction degree of the skin [1]");
   const std::size_t stations = trace_of(drawn).stations.size();
   const auto value = [&](std::size_t sample, std::size_t station) {
     return history.reaction_degree[sample * stations + station];
   };
-  degree.series = station_series(trace_of(drawn), milliseconds_of(history.time), value,
+  degree.series = station_series(trace_of(drawn), shown_values(history.time, drawn_time()), value,
                                  gap.skin.ignition ? gap.skin.ignition->station : stations);
   pictures.push_back(picture_of_gap("combustion_mass", gap, std::move(mass)));
   pictures.push_back(picture_of_gap("combustion_pressure", gap, std::move(pressure)));
@@ -219,7 +229,10 @@ bool has_combustion(const DrawnCase& drawn, const run::GapResult& gap) {
 
 }  // namespace
 
-std::string gap_in_name(double gap) { return significant(100.0 * gap, 6) + "cm"; }
+std::string gap_in_name(double gap) {
+  const Form form = quantity::gap().form;
+  return digits_of(gap, form) + form.unit;
+}
 
 std::vector<std::size_t> rings_of(const trace::BottomTrace& trace) {
   std::vector<std::size_t> rings;
@@ -246,7 +259,7 @@ std::vector<Series> station_series(const trace::BottomTrace& trace, const std::v
       background.push_back(std::move(series));
       continue;
     }
-    series.label = fmt::format("{}, r {} mm", station.name, significant(1e3 * station.r, 4));
+    series.label = fmt::format("{}, r {}", station.name, in_words(station.r, keys::significant(4, millimetre)));
     series.colour = static_cast<int>(named.size());
     named.push_back(std::move(series));
   }
@@ -266,9 +279,9 @@ std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
   const std::size_t stations = trace_of(drawn).stations.size();
   for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
     const surface::SkinHistory& skin = gap->skin;
-    Plot plot = gap_plot(drawn, *gap, "Skin temperatures", "skin temperature [K]");
+    Plot plot = gap_plot(drawn, *gap, "Skin temperatures", quantity::skin_temperature().label());
     plot.series = station_series(
-        trace_of(drawn), milliseconds_of(skin.time),
+        trace_of(drawn), shown_values(skin.time, drawn_time()),
         [&](std::size_t sample, std::size_t station) {
           return skin.temperature[sample * stations + station];
         },
@@ -282,15 +295,16 @@ std::vector<CaseTable> history_tables(const DrawnCase& drawn) {
   const std::vector<trace::Station>& stations = trace_of(drawn).stations;
   std::vector<CaseTable> tables;
   for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
-    Table table{.columns = {{"time", "ms"}}};
-    for (const trace::Station& station : stations)
-      table.columns.push_back({.name = station.name, .unit = "K", .key = station.name + "_K"});
-    for (std::size_t sample = 0; sample < gap->skin.time.size(); ++sample) {
-      std::vector<Cell>& row = table.rows.emplace_back(1, 1e3 * gap->skin.time[sample]);
-      for (std::size_t i = 0; i < stations.size(); ++i)
-        row.emplace_back(gap->skin.temperature[sample * stations.size() + i]);
-    }
-    tables.push_back({fmt::format("histories_{}.csv", gap_in_name(gap->gap)), std::move(table)});
+    const surface::SkinHistory& skin = gap->skin;
+    Quantities<std::size_t> quantities{{drawn_time(), [&skin](std::size_t sample) { return skin.time[sample]; }}};
+    for (std::size_t i = 0; i < stations.size(); ++i)
+      quantities.emplace_back(
+          named(stations[i].name, headed(stations[i].name, always(quantity::skin_temperature()))),
+          [&skin, i, count = stations.size()](std::size_t sample) { return skin.temperature[sample * count + i]; });
+    std::vector<std::size_t> samples(skin.time.size());
+    std::iota(samples.begin(), samples.end(), std::size_t{0});
+    tables.push_back(
+        {fmt::format("histories_{}.csv", gap_in_name(gap->gap)), table_of({}, quantities, samples)});
   }
   return tables;
 }
@@ -317,7 +331,7 @@ std::vector<CasePicture> air_pictures(const DrawnCase& drawn) {
                                      ? "Air at the highest pressure, on its adiabat whatever the gap"
                                      : "Air at the highest pressure");
   plot.x.label = "compression, density over initial density [1]";
-  plot.y.label = "air temperature [K]";
+  plot.y.label = headed("air temperature", quantity::skin_temperature()).label();
   plot.series = {adiabat(surface.air, 1.05 * highest)};
   plot.series.insert(plot.series.end(), reached.begin(), reached.end());
   return {{"air.svg", std::move(plot)}};

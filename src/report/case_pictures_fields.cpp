@@ -15,24 +15,24 @@
 namespace launchsafe::report::detail {
 namespace {
 
-constexpr double millimetres = 1e3;  // per m
+constexpr double millimetres = 1e3;  // per m, of the drawing
 
 /// A quantity of snapshots as it is drawn.
 struct DrawnField {
   const char* file;   ///< part of the name
   const char* name;   ///< in the title
-  const char* label;  ///< of the colour bar, with its unit
+  const char* label;  ///< of the colour bar
   std::vector<double> run::Snapshot::*values;
-  double factor;      ///< from SI
+  keys::Unit unit;    ///< pure numbers are told as such
   bool charges_only;  ///< what other bodies do not have
 };
 constexpr std::array drawn_fields{
-    DrawnField{"temperature", "bulk temperature", "temperature [K]", &run::Snapshot::temperature, 1.0, false},
-    DrawnField{"pressure", "pressure", "pressure [MPa]", &run::Snapshot::pressure, 1e-6, false},
-    DrawnField{"von_mises", "von Mises stress", "von Mises stress [MPa]", &run::Snapshot::von_mises, 1e-6,
+    DrawnField{"temperature", "bulk temperature", "temperature", &run::Snapshot::temperature, kelvin, false},
+    DrawnField{"pressure", "pressure", "pressure", &run::Snapshot::pressure, megapascal, false},
+    DrawnField{"von_mises", "von Mises stress", "von Mises stress", &run::Snapshot::von_mises, megapascal,
                false},
-    DrawnField{"crack_radius", "crack radius", "crack radius [um]", &run::Snapshot::crack_radius, 1e6, true},
-    DrawnField{"burnt_share", "burnt share", "burnt share [1]", &run::Snapshot::burnt_share, 1.0, true},
+    DrawnField{"crack_radius", "crack radius", "crack radius", &run::Snapshot::crack_radius, micrometre, true},
+    DrawnField{"burnt_share", "burnt share", "burnt share", &run::Snapshot::burnt_share, {}, true},
 };
 
 bool is_charge(const DrawnCase& drawn, int body) {
@@ -42,7 +42,7 @@ bool is_charge(const DrawnCase& drawn, int body) {
 double value_of(const DrawnCase& drawn, const DrawnField& field, const run::Snapshot& shot, std::size_t i) {
   if (field.charges_only && !is_charge(drawn, shot.body[i])) return std::numeric_limits<double>::quiet_NaN();
   const std::vector<double>& values = shot.*field.values;
-  return values.empty() ? 0.0 : field.factor * values[i];
+  return values.empty() ? 0.0 : shown_value(values[i], keys::significant(6, field.unit));
 }
 
 /// The bodies whose values share colours: stresses of a shell are many times those of its charge.
@@ -63,7 +63,9 @@ std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const DrawnField& f
 /// Over all snapshots of the launch, or of what burns, drawn or not, so that all pictures of a field in
 /// either compare: what burns may press harder by far than any launch.
 ColourScale scale_of(const DrawnCase& drawn, const DrawnField& field, const ScaleGroup& group, bool burning) {
-  ColourScale scale{fmt::format("{}: {}", group.name, field.label), HUGE_VAL, -HUGE_VAL};
+  ColourScale scale{fmt::format("{}: {} [{}]", group.name, field.label,
+                                field.unit.name.empty() ? "1" : field.unit.name),
+                    HUGE_VAL, -HUGE_VAL};
   for (const ShownSnapshot& each : shown_snapshots(drawn)) {
     if (each.gap.has_value() != burning) continue;
     const run::Snapshot& shot = *each.snapshot;
@@ -189,7 +191,7 @@ std::string name_of(const ShownSnapshot& shown) {
   std::string name;
   if (shown.gap) name += "_" + gap_in_name(*shown.gap);
   if (shown.asked_for || shown.snapshot->events.empty())
-    name += fmt::format("_{}ms", significant(1e3 * shown.time(), 6));
+    name += fmt::format("_{}ms", digits_of(shown.time(), keys::significant(6, millisecond)));
   if (!shown.snapshot->events.empty()) name += "_" + events_of(*shown.snapshot, "_");
   return name;
 }
@@ -198,7 +200,7 @@ CellPlot field_plot(const DrawnCase& drawn, const DrawnField& field, const Shown
                     const std::vector<ColourScale>& scales) {
   const run::Snapshot& shot = *shown.snapshot;
   CellPlot plot;
-  plot.title = fmt::format("{} at {} ms", field.name, significant(1e3 * shot.time, 4));
+  plot.title = fmt::format("{} at {}", field.name, in_words(shot.time, quantity::time_in_titles()));
   if (!shot.events.empty()) plot.title += ", " + events_of(shot, ", ");
   if (shown.gap) plot.title += fmt::format(", gap of {} burning", centimetres(*shown.gap));
   plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
@@ -273,37 +275,53 @@ std::vector<CasePicture> field_pictures(const DrawnCase& drawn) {
   return pictures;
 }
 
-std::vector<CaseTable> field_tables(const DrawnCase& drawn) {
-  struct Value {
-    Column column;
-    std::vector<double> run::Snapshot::*values;
-    double factor;  ///< from SI
+/// A particle of a snapshot.
+struct ParticleRow {
+  const DrawnCase* drawn;
+  const run::Snapshot* shot;
+  std::size_t particle;
+};
+
+Quantities<ParticleRow> particle_quantities() {
+  using run::Snapshot, keys::significant;
+  const auto of = [](std::vector<double> Snapshot::*values) {
+    return [values](const ParticleRow& row) {
+      const std::vector<double>& all = row.shot->*values;
+      return all.empty() ? std::nullopt : std::optional(all[row.particle]);
+    };
   };
-  using run::Snapshot;
-  const std::vector<Value> all{{{"x", "mm"}, &Snapshot::x, millimetres},
-                               {{"r", "mm"}, &Snapshot::r, millimetres},
-                               {{"half length x", "mm"}, &Snapshot::half_length_x, millimetres},
-                               {{"half length r", "mm"}, &Snapshot::half_length_r, millimetres},
-                               {{"temperature", "K"}, &Snapshot::temperature, 1.0},
-                               {{"pressure", "MPa"}, &Snapshot::pressure, 1e-6},
-                               {{"deviator xx", "MPa"}, &Snapshot::deviator_xx, 1e-6},
-                               {{"deviator rr", "MPa"}, &Snapshot::deviator_rr, 1e-6},
-                               {{"deviator rx", "MPa"}, &Snapshot::deviator_rx, 1e-6},
-                               {{"plastic strain", ""}, &Snapshot::plastic_strain, 1.0},
-                               {{"crack radius", "um"}, &Snapshot::crack_radius, 1e6},
-                               {{"burnt share", ""}, &Snapshot::burnt_share, 1.0}};
+  const auto stress = [&](std::string name, std::string heading, auto values) {
+    return Quantity<ParticleRow>({std::move(name), std::move(heading), significant(6, megapascal), "Of stress."},
+                                 of(values));
+  };
+  const auto length = [&](std::string name, std::string heading, auto values) {
+    return Quantity<ParticleRow>(
+        {std::move(name), std::move(heading), significant(6, millimetre), "Of the particle's cell."}, of(values));
+  };
+  return {{{"body", "body", keys::text(), "Body of the particle."},
+           [](const ParticleRow& row) {
+             return row.drawn->scene.bodies[static_cast<std::size_t>(row.shot->body[row.particle])].name;
+           }},
+          length("x", "x", &Snapshot::x),
+          length("r", "r", &Snapshot::r),
+          length("half_length_x", "half length x", &Snapshot::half_length_x),
+          length("half_length_r", "half length r", &Snapshot::half_length_r),
+          {{"temperature", "temperature", significant(6, kelvin), "Bulk temperature."}, of(&Snapshot::temperature)},
+          {quantity::pressure(), of(&Snapshot::pressure)},
+          stress("deviator_xx", "deviator xx", &Snapshot::deviator_xx),
+          stress("deviator_rr", "deviator rr", &Snapshot::deviator_rr),
+          stress("deviator_rx", "deviator rx", &Snapshot::deviator_rx),
+          {{"plastic_strain", "plastic strain", significant(6), "Of steel."}, of(&Snapshot::plastic_strain)},
+          {quantity::crack_radius(), of(&Snapshot::crack_radius)},
+          {{"burnt_share", "burnt share", significant(6), "Of the mass."}, of(&Snapshot::burnt_share)}};
+}
+
+std::vector<CaseTable> field_tables(const DrawnCase& drawn) {
   std::vector<CaseTable> tables;
   for (const ShownSnapshot& each : chosen_snapshots(drawn)) {
-    const Snapshot& shot = *each.snapshot;
-    Table table{.columns = {text_column("body")}};
-    for (const Value& value : all) table.columns.push_back(value.column);
-    for (std::size_t i = 0; i < shot.x.size(); ++i) {
-      std::vector<Cell>& row =
-          table.rows.emplace_back(1, drawn.scene.bodies[static_cast<std::size_t>(shot.body[i])].name);
-      for (const Value& value : all)
-        row.push_back((shot.*value.values).empty() ? Cell() : Cell(value.factor * (shot.*value.values)[i]));
-    }
-    tables.push_back({"field" + name_of(each) + ".csv", std::move(table)});
+    std::vector<ParticleRow> rows;
+    for (std::size_t i = 0; i < each.snapshot->x.size(); ++i) rows.push_back({&drawn, each.snapshot, i});
+    tables.push_back({"field" + name_of(each) + ".csv", table_of({}, particle_quantities(), rows)});
   }
   return tables;
 }

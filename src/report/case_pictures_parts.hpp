@@ -2,6 +2,7 @@
 #pragma once
 
 #include "launchsafe/report/case_pictures.hpp"
+#include "launchsafe/report/quantities.hpp"
 
 #include <functional>
 #include <string>
@@ -18,14 +19,17 @@ std::string gap_in_name(double gap);
 std::string shortened(const std::string& text, std::size_t longest);
 /// A plot with a title of its own above that of the scene.
 Plot titled_plot(const DrawnCase& drawn, std::string title);
-/// Likewise, of a quantity against time in ms.
+/// Likewise, of a quantity against time.
 Plot time_plot(const DrawnCase& drawn, std::string title, std::string quantity);
-/// Values, times a factor, against times in s.
+Plot time_plot(const DrawnCase& drawn, std::string title, const Column& quantity);
+/// Values of a quantity against times, all in SI.
 Series time_series(const char* label, const std::vector<double>& time, const std::vector<double>& values,
-                   double factor);
+                   const Column& quantity);
 
-/// Times in ms.
-std::vector<double> milliseconds_of(const std::vector<double>& seconds);
+/// Values in SI in the unit of a quantity.
+std::vector<double> shown_values(const std::vector<double>& values, const Column& quantity);
+/// The axis of time.
+Column drawn_time();
 
 /// A value for every station that tiles the bottom, against `x`: the first, the middle and the last station
 /// and the one of index `marked` by name, all others thin and grey.

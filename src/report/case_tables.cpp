@@ -9,12 +9,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace launchsafe::report {
 namespace {
 
+using keys::fixed, keys::scientific, keys::text;
+
 // --- faces that slide ---
+
+/// A face on which something slid, and its hottest node.
+struct FaceRow {
+  const run::InterfaceResult* faces;
+  std::size_t node;
+};
 
 double largest_in(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
@@ -29,11 +38,31 @@ std::string end_of(const run::CombustionHistory& combustion) {
   return "charge burnt through";
 }
 
-double last_of(const std::vector<double>& values) { return values.empty() ? 0.0 : values.back(); }
+/// The last value of a history; 0 before the first.
+auto last_of(std::vector<double> run::CombustionHistory::*history) {
+  return [history](const run::CombustionHistory& combustion) {
+    return (combustion.*history).empty() ? 0.0 : (combustion.*history).back();
+  };
+}
+
+/// A sample of a combustion.
+struct BurningRow {
+  const run::CombustionHistory* history;
+  std::size_t sample;
+};
+auto at_sample(std::vector<double> run::CombustionHistory::*history) {
+  return [history](const BurningRow& row) { return (row.history->*history)[row.sample]; };
+}
+double largest_degree(const BurningRow& row) {
+  const std::vector<double>& all = row.history->reaction_degree;
+  const auto stations = static_cast<std::ptrdiff_t>(all.size() / row.history->time.size());
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(row.sample) * stations;
+  return stations > 0 ? *std::max_element(begin, begin + stations) : 0.0;
+}
 
 // --- the energy of the air ---
 
-std::string kilojoules_per_area(double energy) { return significant(1e-3 * energy, 3) + " kJ/m2"; }
+std::string kilojoules_per_area(double energy) { return in_words(energy, quantity::skin_took().form); }
 
 /// "a gap of 0.04 cm (496 MPa, 30 um, 1 mm)".
 std::string place_of_gap(const AuditedGap& gap) {
@@ -61,44 +90,144 @@ std::string excess_text(const AuditedGap& worst) {
       kilojoules_per_area(worst.air.supplied));
 }
 
-}  // namespace
-
-Table run_table(const std::vector<NamedRun>& runs) {
-  Table table{"Runs",
-              {quantity::case_name(), quantity::status("status"), quantity::energy_drift(), quantity::steps(),
-               quantity::particles(), scientific_column("updates", "1/s", 2, "updates_per_second"),
-               quantity::limiters(), for_programs(named_text("stored case", "stored_case"))},
-              {}};
-  for (const NamedRun& each : runs) {
-    const run::MechanicsResult& run = *each.mechanics;
-    table.rows.push_back({each.name, each.failure.empty() ? "completed" : each.failure,
-                          optional_number(run::largest_energy_drift(run)),
-                          static_cast<std::int64_t>(run.steps), static_cast<std::int64_t>(run.particles),
-                          optional_number(run.update_rate()), limiters_text(run.limiters), each.stored});
-  }
-  return table;
+Quantities<NamedRun> run_quantities() {
+  using run::MechanicsResult;
+  const auto of = [](auto member) {
+    return [member](const NamedRun& run) { return std::invoke(member, *run.mechanics); };
+  };
+  return {{quantity::case_name(), &NamedRun::name},
+          {headed("status", quantity::status()),
+           [](const NamedRun& run) { return run.failure.empty() ? "completed" : run.failure; }},
+          {quantity::energy_drift(), of(run::largest_energy_drift)},
+          {quantity::steps(), of(&MechanicsResult::steps)},
+          {quantity::particles(), of(&MechanicsResult::particles)},
+          {quantity::updates_per_second(), of(&MechanicsResult::update_rate)},
+          {quantity::limiters(), [](const NamedRun& run) { return limiters_text(run.mechanics->limiters); }},
+          {for_programs(Column{"stored_case", "stored case", text(), "File in the folder that holds the run."}),
+           &NamedRun::stored}};
 }
 
+Quantities<FaceRow> face_quantities() {
+  using keys::significant;
+  const auto largest = [](auto member) {
+    return [member](const FaceRow& row) { return largest_in(std::invoke(member, *row.faces)); };
+  };
+  const auto at_node = [](auto member) {
+    return [member](const FaceRow& row) { return std::invoke(member, *row.faces).at(row.node); };
+  };
+  return {{{"body", "body", text(), "Body that slides on the charge."},
+           [](const FaceRow& row) { return row.faces->body; }},
+          {{"face", "face", text(), "Direction of the face."},
+           [](const FaceRow& row) { return row.faces->along_x ? "along x" : "along r"; }},
+          {{"friction_work", "friction work", significant(4, joule), "Work of friction on the whole face."},
+           [](const FaceRow& row) { return row.faces->friction_work; }},
+          {{"largest_heat", "largest heat", significant(3, kilojoule_per_area),
+            "Largest heat of friction on the face."},
+           at_node(&run::InterfaceResult::friction_heat)},
+          {{"at", "at", significant(4, centimetre), "Where that is."}, at_node(&run::InterfaceResult::place)},
+          {{"slid", "slid up to", significant(3, millimetre), "Longest way slid."},
+           largest(&run::InterfaceResult::slid)},
+          {{"open", "open up to", significant(3, millimetre), "Widest opening."},
+           largest(&run::InterfaceResult::largest_gap)},
+          {{"bonded", "bonded nodes", fixed(0, percent), "Nodes whose bond holds at the end."},
+           [](const FaceRow& row) {
+             const auto& bonded = row.faces->bonded;
+             return std::accumulate(bonded.begin(), bonded.end(), 0.0) / static_cast<double>(bonded.size());
+           }}};
+}
+
+using BurntGap = const run::GapResult*;
+
+Quantities<BurntGap> combustion_quantities() {
+  using keys::significant, run::CombustionHistory;
+  return keys::joined<BurntGap>(
+      {{{quantity::gap(), &run::GapResult::gap}},
+       of_part<BurntGap>(
+           [](BurntGap gap) { return &*gap->combustion; },
+           Quantities<CombustionHistory>{
+               {{"skin_flame_speed", "flame in the skin", significant(3, metre_per_second),
+                 "Speed of the flame through the skin."},
+                &CombustionHistory::skin_flame_speed},
+               {{"bulk_flame_speed", "behind it", significant(3, metre_per_second),
+                 "Speed of the flame through the charge behind the skin."},
+                &CombustionHistory::bulk_flame_speed},
+               {quantity::skin_burnt_time(), &CombustionHistory::complete_time},
+               {quantity::burnt_mass(), last_of(&CombustionHistory::burnt_mass)},
+               {quantity::gas_volume(), last_of(&CombustionHistory::gas_volume)},
+               {quantity::gas_temperature(), last_of(&CombustionHistory::gas_temperature)},
+               {quantity::bottom_pressure_max(),
+                [](const CombustionHistory& c) { return largest_in(c.pressure); }},
+               {quantity::heat_released(), last_of(&CombustionHistory::released)},
+               {{"heat_kept_back", "kept back", significant(3, kilojoule),
+                 "Heat of reaction of what burnt that was not released."},
+                last_of(&CombustionHistory::kept_back)},
+               {{"heat_brought", "brought", significant(3, kilojoule),
+                 "Heat above the initial temperature that what burnt had before."},
+                last_of(&CombustionHistory::brought)},
+               {quantity::combustion_residual(), &CombustionHistory::energy_residual},
+               {quantity::energy_drift(), &CombustionHistory::energy_drift},
+               {{"combustion_end", "ended by", text(), "What ended the run."}, end_of},
+               {quantity::wall_time(), &CombustionHistory::wall_time}})});
+}
+
+Quantities<BurningRow> burning_quantities() {
+  using run::CombustionHistory;
+  return {{quantity::time(3), at_sample(&CombustionHistory::time)},
+          {{"reaction_degree_max", "largest reaction degree", fixed(3), "Of any station."}, largest_degree},
+          {{"burnt_depth", "largest depth", fixed(4, millimetre), "Depth to which the charge has burnt."},
+           at_sample(&CombustionHistory::burnt_depth)},
+          {quantity::burnt_mass(), at_sample(&CombustionHistory::burnt_mass)},
+          {quantity::gas_volume(), at_sample(&CombustionHistory::gas_volume)},
+          {quantity::gas_temperature(), at_sample(&CombustionHistory::gas_temperature)},
+          {{"bottom_pressure", "p bottom", fixed(1, megapascal), "Mean pressure of the charge's bottom."},
+           at_sample(&CombustionHistory::pressure)},
+          {quantity::heat_released(), at_sample(&CombustionHistory::released)}};
+}
+
+Quantities<AuditedGap> air_quantities(bool labelled) {
+  Quantities<AuditedGap> quantities;
+  if (labelled) quantities.emplace_back(quantity::case_name(), &AuditedGap::label);
+  return keys::joined<AuditedGap>(
+      {quantities,
+       {{quantity::gap(), &AuditedGap::gap},
+        {quantity::skin_took(), [](const AuditedGap& gap) { return gap.air.taken; }},
+        {quantity::compression_supplies(), [](const AuditedGap& gap) { return gap.air.supplied; }},
+        {quantity::taken_over_supplied(), [](const AuditedGap& gap) { return gap.air.ratio(); }},
+        {{"adiabat_stores", "stored on the adiabat", keys::significant(3, kilojoule_per_area),
+          "Heat that the air stores under adiabatic compression to the highest pressure."},
+         [](const AuditedGap& gap) { return gap.air.stored; }},
+        {{"isothermal_work", "isothermal work", keys::significant(3, kilojoule_per_area),
+          "Work of isothermal compression to the highest pressure."},
+         [](const AuditedGap& gap) { return gap.air.isothermal; }}}});
+}
+
+}  // namespace
+
+Quantities<run::CombustionHistory> burnt_state_quantities() {
+  using run::CombustionHistory;
+  return {{quantity::skin_burnt_time(), &CombustionHistory::complete_time},
+          {quantity::burnt_mass(), last_of(&CombustionHistory::burnt_mass)},
+          {quantity::heat_released(), last_of(&CombustionHistory::released)},
+          {quantity::bottom_pressure_max(),
+           [](const CombustionHistory& c) { return largest_in(c.pressure); }},
+          {quantity::combustion_residual(), &CombustionHistory::energy_residual}};
+}
+
+std::vector<Column> run_columns() { return keys::described(run_quantities()); }
+std::vector<Column> face_columns() { return keys::described(face_quantities()); }
+std::vector<Column> combustion_columns() { return keys::described(combustion_quantities()); }
+std::vector<Column> air_energy_columns() { return keys::described(air_quantities(true)); }
+
+Table run_table(const std::vector<NamedRun>& runs) { return table_of("Runs", run_quantities(), runs); }
+
 Table interface_table(const run::MechanicsResult& mechanics) {
-  Table table{
-      "Faces that slide on the charge",
-      {text_column("body"), text_column("face"),
-       significant_column("friction work", "J", 4, "friction_work_J"),
-       significant_column("largest heat", "kJ/m2", 3, "largest_heat_kJ_per_m2"),
-       significant_column("at", "cm", 4, "at_cm"), significant_column("slid up to", "mm", 3, "slid_mm"),
-       significant_column("open up to", "mm", 3, "open_mm"),
-       number_column("bonded nodes", "%", 0, "bonded_percent")},
-      {}};
+  std::vector<FaceRow> rows;
   for (const run::InterfaceResult& faces : mechanics.interfaces) {
     const auto hottest = std::max_element(faces.friction_heat.begin(), faces.friction_heat.end());
-    if (hottest == faces.friction_heat.end()) continue;
-    const auto node = static_cast<std::size_t>(hottest - faces.friction_heat.begin());
-    const double bonded = std::accumulate(faces.bonded.begin(), faces.bonded.end(), 0.0);
-    table.rows.push_back({faces.body, std::string(faces.along_x ? "along x" : "along r"), faces.friction_work,
-                          1e-3 * *hottest, 100.0 * faces.place.at(node), 1e3 * largest_in(faces.slid),
-                          1e3 * largest_in(faces.largest_gap),
-                          100.0 * bonded / static_cast<double>(faces.bonded.size())});
+    if (hottest != faces.friction_heat.end())
+      rows.push_back({&faces, static_cast<std::size_t>(hottest - faces.friction_heat.begin())});
   }
+  Table table = table_of("Faces that slide on the charge", face_quantities(), rows);
   if (!table.rows.empty())
     table.notes.push_back(
         "Heat of friction is per area of the face, over the whole launch, and heats no skin: that at the "
@@ -106,31 +235,11 @@ Table interface_table(const run::MechanicsResult& mechanics) {
   return table;
 }
 
-BurntState burnt_state_of(const run::CombustionHistory& c) {
-  return {1e3 * last_of(c.burnt_mass), 1e-3 * last_of(c.released), 1e-6 * largest_in(c.pressure)};
-}
-
 Table combustion_table(const scene::Scene& scene, const run::CaseResult& result) {
-  Table table{"After ignition, with two-way coupling",
-              {quantity::gap(), significant_column("flame in the skin", "m/s", 3, "skin_flame_speed_m_per_s"),
-               significant_column("behind it", "m/s", 3, "bulk_flame_speed_m_per_s"),
-               quantity::skin_burnt_time(), quantity::burnt_mass(), quantity::gas_volume(),
-               quantity::gas_temperature(), quantity::bottom_pressure_max(), quantity::heat_released(),
-               significant_column("kept back", "kJ", 3, "heat_kept_back_kJ"),
-               significant_column("brought", "kJ", 3, "heat_brought_kJ"), quantity::combustion_residual(),
-               quantity::energy_drift(), named_text("ended by", "combustion_end"),
-               number_column("wall time", "s", 1, "wall_time_s")},
-              {}};
-  for (const run::GapResult& gap : result.gaps) {
-    if (!gap.combustion) continue;
-    const run::CombustionHistory& c = *gap.combustion;
-    const BurntState state = burnt_state_of(c);
-    table.rows.push_back({100.0 * gap.gap, c.skin_flame_speed, c.bulk_flame_speed,
-                          optional_number(1e3 * c.complete_time), state.burnt_mass,
-                          1e6 * last_of(c.gas_volume), last_of(c.gas_temperature), state.highest_pressure,
-                          state.released, 1e-3 * last_of(c.kept_back), 1e-3 * last_of(c.brought),
-                          c.energy_residual, c.energy_drift, end_of(c), c.wall_time});
-  }
+  std::vector<BurntGap> burnt;
+  for (const run::GapResult& gap : result.gaps)
+    if (gap.combustion) burnt.push_back(&gap);
+  Table table = table_of("After ignition, with two-way coupling", combustion_quantities(), burnt);
   if (table.rows.empty()) return table;
   table.notes = {
       "At the end of the run; p max is the largest over it. Released and kept back: of the heat of reaction "
@@ -144,27 +253,11 @@ Table combustion_table(const scene::Scene& scene, const run::CaseResult& result)
 }
 
 Table combustion_history_table(const run::CombustionHistory& c, double gap, std::size_t rows) {
-  Table table{"History of the combustion at " + centimetres(gap),
-              {number_column("time", "ms", 3, "time_ms"),
-               number_column("largest reaction degree", "", 3, "reaction_degree_max"),
-               number_column("largest depth", "mm", 4, "burnt_depth_mm"), quantity::burnt_mass(),
-               quantity::gas_volume(), quantity::gas_temperature(),
-               number_column("p bottom", "MPa", 1, "bottom_pressure_MPa"), quantity::heat_released()},
-              {}};
-  if (c.time.empty() || rows == 0) return table;
-  const std::size_t stations = c.reaction_degree.size() / c.time.size();
-  const std::size_t stride = std::max<std::size_t>(1, (c.time.size() + rows - 1) / rows);
-  for (std::size_t i = 0; i < c.time.size(); ++i) {
-    const bool last = i + 1 == c.time.size();
-    if (i % stride != 0 && !last) continue;
-    const auto begin = c.reaction_degree.begin() + static_cast<std::ptrdiff_t>(i * stations);
-    const double degree =
-        stations > 0 ? *std::max_element(begin, begin + static_cast<std::ptrdiff_t>(stations)) : 0.0;
-    table.rows.push_back({1e3 * c.time[i], degree, 1e3 * c.burnt_depth[i], 1e3 * c.burnt_mass[i],
-                          1e6 * c.gas_volume[i], c.gas_temperature[i], 1e-6 * c.pressure[i],
-                          1e-3 * c.released[i]});
-  }
-  return table;
+  std::vector<BurningRow> samples;
+  const std::size_t stride = rows == 0 ? 0 : std::max<std::size_t>(1, (c.time.size() + rows - 1) / rows);
+  for (std::size_t i = 0; stride > 0 && i < c.time.size(); ++i)
+    if (i % stride == 0 || i + 1 == c.time.size()) samples.push_back({&c, i});
+  return table_of("History of the combustion at " + centimetres(gap), burning_quantities(), samples);
 }
 
 std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps) {
@@ -186,24 +279,10 @@ std::string air_energy_statement(scene::AirModel model, const std::vector<Audite
 }
 
 Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps) {
-  Table table;
-  if (gaps.empty()) return table;
+  if (gaps.empty()) return {};
   const bool labelled =
       std::any_of(gaps.begin(), gaps.end(), [](const AuditedGap& gap) { return !gap.label.empty(); });
-  table.title = "The energy of the air";
-  if (labelled) table.columns.push_back(quantity::case_name());
-  append(table.columns, {quantity::gap(), quantity::skin_took(), quantity::compression_supplies(),
-                         quantity::taken_over_supplied(),
-                         significant_column("stored on the adiabat", "kJ/m2", 3, "adiabat_stores_kJ_per_m2"),
-                         significant_column("isothermal work", "kJ/m2", 3, "isothermal_work_kJ_per_m2")});
-  for (const AuditedGap& gap : gaps) {
-    std::vector<Cell>& cells = table.rows.emplace_back();
-    if (labelled) cells.emplace_back(gap.label);
-    cells.insert(cells.end(),
-                 {100.0 * gap.gap, optional_number(1e-3 * gap.air.taken),
-                  optional_number(1e-3 * gap.air.supplied), optional_number(gap.air.ratio()),
-                  optional_number(1e-3 * gap.air.stored), optional_number(1e-3 * gap.air.isothermal)});
-  }
+  Table table = table_of("The energy of the air", air_quantities(labelled), gaps);
   table.notes.push_back(
       "Per area of the charge's bottom, until the end or ignition. Taken: the heat that the exchange brought "
       "to the hottest station, net and at its most. Supplied: the upper bound for air that is compressed "

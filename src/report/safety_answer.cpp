@@ -1,5 +1,5 @@
 // Page one: the answer, and all that a reader of this page alone must know.
-#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "safety_sections.hpp"
@@ -77,10 +77,10 @@ void say_recommended(const Subject& subject, SafetySection& section) {
 // --- many cases ---
 
 Table case_table(const Subject& subject) {
-  Table table{.columns = {text_column("case"), text_column("critical gap"), text_column("largest SAFE gap"),
-                          number_column("before launch", "K", 0, "initial_temperature_K"),
-                          count_column("SAFE", "safe"), count_column("INDETERMINATE", "indeterminate"),
-                          count_column("UNSAFE", "unsafe")}};
+  Table table{.columns = {quantity::case_name(), Column{"critical_gap", "critical gap"}, Column{"largest_safe_gap", "largest SAFE gap"},
+                          Column{"initial_temperature", "before launch", keys::fixed(0, kelvin)},
+                          Column{"safe", "SAFE", count()}, Column{"indeterminate", "INDETERMINATE", count()},
+                          Column{"unsafe", "UNSAFE", count()}}};
   for (const JudgedCase& each : subject.cases) {
     const std::size_t safe = largest_safe(each);
     table.rows.push_back({each.label, gap_text(*each.critical),

@@ -1,5 +1,5 @@
 // What the uncertainty is made of, and what holds the results against what others published.
-#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
 #include "safety_sections.hpp"
 
@@ -20,13 +20,14 @@ std::string share_text(double size, double least) {
 constexpr double least_temperature_share = 0.1;  // K
 
 Table share_table(const JudgedCase& each) {
-  const auto kelvin = [](const char* name, const char* key) {
-    return Column{.name = name, .unit = "K", .key = key};
+  // Cells are texts: of next to nothing, what it is below.
+  const auto kelvins = [](const char* heading, const char* name) {
+    return Column{name, heading, keys::fixed(1, kelvin)};
   };
-  Table table{.columns = {significant_column("gap", "cm", 6, "gap_cm"), kelvin("computation", "computation"),
-                          kelvin("fit", "fit"), kelvin("inputs", "inputs"),
-                          kelvin("model form", "model_form"), kelvin("total", "uncertainty"),
-                          named_text("verdict", "verdict")}};
+  Table table{.columns = {quantity::gap(), kelvins("computation", "computation"),
+                          kelvins("fit", "fit"), kelvins("inputs", "inputs"),
+                          kelvins("model form", "model_form"), kelvins("total", "uncertainty"),
+                          quantity::verdict()}};
   for (const Row* row : each.verdicts) {
     if (!each.completed || !std::isfinite(number_of(*row, "uncertainty_K"))) continue;
     std::vector<Cell>& cells = table.rows.emplace_back();
@@ -52,10 +53,10 @@ void say_gap_shares(const Subject& subject, const JudgedCase& each, SafetySectio
   const Origin origin = subject.origin("gap_shares", each.label);
   section.say("budget.gap_shares", {{"case", each.label}}, origin);
   section.show("gap_shares",
-               table_of(causes, {named_text("cause", "cause"), named_text("class", "class"),
-                                 named_text("critical gap towards ignition", "raised"),
-                                 named_text("at the other end", "lowered"),
-                                 significant_column("lowers the bound by", "cm", 2, "lowers_cm")}),
+               table_of(causes, {Column{"cause", "cause"}, Column{"class", "class"},
+                                 Column{"raised", "critical gap towards ignition"},
+                                 Column{"lowered", "at the other end"},
+                                 Column{"lowers", "lowers the bound by", keys::significant(2, centimetre)}}),
                origin);
 }
 
@@ -96,14 +97,14 @@ void say_accuracy(const StudyEvidence& main, const StudyEvidence* accuracy, Safe
   std::sort(meshes.begin(), meshes.end(), [](const std::string& a, const std::string& b) {
     return std::strtod(a.c_str() + 6, nullptr) < std::strtod(b.c_str() + 6, nullptr);
   });
-  std::vector<Column> columns{named_text("quantity", "quantity"), named_text("unit", "unit")};
+  std::vector<Column> columns{quantity::subject(), quantity::unit()};
   for (const std::string& mesh : meshes) {
     std::string name = mesh.substr(6);
     std::replace(name.begin(), name.end(), '_', ' ');
-    columns.push_back(significant_column(name, "", 5, mesh));
+    columns.push_back({mesh, name, keys::significant(5)});
   }
-  append(columns, {significant_column("uncertainty of the limit", "", 2, "uncertainty"),
-                   named_text("method", "method")});
+  columns.push_back({"uncertainty", "uncertainty of the limit", keys::significant(2)});
+  columns.push_back({"method", "method"});
   section.show("meshes", table_of(rows, std::move(columns)), origin_of(*accuracy, "reference"));
 }
 
@@ -154,11 +155,11 @@ void say_quantiles(const StudyEvidence& sensitivity, const JudgedCase* own, Safe
 void say_sensitivity(const StudyEvidence* sensitivity, const JudgedCase* own, SafetySection& section) {
   if (sensitivity == nullptr || !sensitivity->finished()) return section.say("budget.no_sensitivity");
   say_quantiles(*sensitivity, own, section);
-  Table table{.columns = {named_text("input", "input"), named_text("distribution", "distribution"),
-                          significant_column("first order", "", 2, "first_order"),
-                          named_text("interval", "first_order_interval"),
-                          significant_column("total order", "", 2, "total_order"),
-                          named_text("interval", "total_order_interval")}};
+  Table table{.columns = {Column{"input", "input"}, quantity::distribution(),
+                          Column{"first_order", "first order", keys::significant(2)},
+                          Column{"first_order_interval", "interval"},
+                          Column{"total_order", "total order", keys::significant(2)},
+                          Column{"total_order_interval", "interval"}}};
   const Row* largest = nullptr;
   bool below_first = false;
   const auto interval = [](const Row& row, const std::string& order) {
@@ -210,16 +211,16 @@ Table model_table(const StudyEvidence& comparison, const std::vector<const Row*>
   const Row& models = comparison.rows("models");
   if (models.empty())
     return table_of(cases,
-                    {named_text("model", "variant"), named_text("critical gap", "critical_gap_reads_as"),
-                     named_text("reason", "reason")});
-  std::vector<Column> columns{named_text("model", "model"), named_text("what it is", "what_it_is")};
+                    {Column{"variant", "model"}, Column{"critical_gap_reads_as", "critical gap"},
+                     quantity::reason()});
+  std::vector<Column> columns{Column{"model", "model"}, Column{"what_it_is", "what it is"}};
   constexpr std::string_view prefix = "critical_gap_at_", unit = "_MPa";
   for (const auto& [key, value] : models.front().items()) {
     if (!key.starts_with(prefix) || !key.ends_with(unit)) continue;
     const std::string pressure = key.substr(prefix.size(), key.size() - prefix.size() - unit.size());
-    columns.push_back(named_text(fmt::format("gap at {} MPa [cm]", pressure), key));
+    columns.push_back({key, fmt::format("gap at {} MPa [cm]", pressure)});
   }
-  columns.push_back(named_text("counts as", "counts_as"));
+  columns.push_back(Column{"counts_as", "counts as"});
   return table_of(pointers_to(models), std::move(columns));
 }
 
@@ -280,24 +281,24 @@ void say_models(const Subject& subject, SafetySection& section) {
 
 Table published_table(const Subject& subject) {
   return table_of(pointers_to(subject.study.rows("comparison")),
-                  {significant_column("gap", "cm", 6, "gap_cm"), named_text("used for", "used_for"),
-                   number_column("computed", "K", 1, "temperature_max_K"),
-                   number_column("published", "K", 1, "temperature_max_published_K"),
-                   number_column("difference", "K", 1, "temperature_max_computed_minus_published_K"),
-                   named_text("used for, early", "temperature_early_used_for"),
-                   number_column("computed, early", "K", 1, "temperature_early_K"),
-                   number_column("published, early", "K", 1, "temperature_early_published_K"),
-                   number_column("ignition", "ms", 2, "ignition_time_ms"),
-                   number_column("published", "ms", 2, "ignition_time_published_ms")});
+                  {quantity::gap(), quantity::used_for(),
+                   Column{"temperature_max", "computed", keys::fixed(1, kelvin)},
+                   Column{"temperature_max_published", "published", keys::fixed(1, kelvin)},
+                   Column{"temperature_max_computed_minus_published", "difference", keys::fixed(1, kelvin)},
+                   Column{"temperature_early_used_for", "used for, early"},
+                   Column{"temperature_early", "computed, early", keys::fixed(1, kelvin)},
+                   Column{"temperature_early_published", "published, early", keys::fixed(1, kelvin)},
+                   quantity::ignition_time(),
+                   Column{"ignition_time_published", "published", keys::fixed(2, millisecond)}});
 }
 
 Table limit_table(const Subject& subject) {
   return table_of(
       pointers_to(subject.study.rows("cited_limits")),
-      {significant_column("cited limit", "cm", 4, "limit_cm"),
-       significant_column("at", "MPa", 4, "limit_peak_pressure_MPa"), named_text("source", "source"),
-       named_text("nearest case", "case"), named_text("computed", "critical_gap_reads_as"),
-       significant_column("computed less cited", "cm", 2, "difference_cm")});
+      {Column{"limit", "cited limit", keys::significant(4, centimetre)},
+       Column{"limit_peak_pressure", "at", keys::significant(4, megapascal)}, Column{"source", "source"},
+       Column{"case", "nearest case"}, Column{"critical_gap_reads_as", "computed"},
+       Column{"difference", "computed less cited", keys::significant(2, centimetre)}});
 }
 
 }  // namespace

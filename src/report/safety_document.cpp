@@ -1,6 +1,6 @@
 #include "launchsafe/report/safety_document.hpp"
 
-#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
 #include "safety_sections.hpp"
 
@@ -60,13 +60,13 @@ Table table_of(const std::vector<const Row*>& rows, std::vector<Column> columns)
   for (const Row* row : rows) {
     std::vector<Cell>& cells = table.rows.emplace_back();
     for (const Column& column : table.columns) {
-      const auto found = row->find(column.key);
+      const auto found = row->find(column.key());
       if (found != row->end() && found->is_string())
         cells.emplace_back(found->get<std::string>());
       else if (found != row->end() && found->is_number_integer())
         cells.emplace_back(found->get<std::int64_t>());
       else
-        cells.push_back(optional_number(number_of(*row, column.key)));
+        cells.push_back(optional_number(number_of(*row, column.key())));
     }
   }
   return table;
@@ -196,16 +196,15 @@ std::string short_reason(const std::string& verdict, const std::string& reason) 
 
 Table verdict_table(const Subject& subject) {
   const bool several = subject.cases.size() > 1;
-  Table table;
-  if (several) table.columns.push_back(named_text("case", "case"));
-  append(table.columns, {significant_column("gap", "cm", 6, "gap_cm"), named_text("verdict", "verdict"),
-                         number_column("before launch", "K", 0, "initial_temperature_K"),
-                         number_column("T max", "K", 0, "temperature_max_K"),
-                         significant_column("margin", "K", 6, "margin_K"),
-                         significant_column("uncertainty", "K", 6, "uncertainty_K"),
-                         number_column("margin over uncertainty", "", 1, "margin_over_uncertainty"),
-                         number_column("distance", "cm", 3, "distance_cm"),
-                         for_people(named_text("why", "why")), for_programs(named_text("reason", "reason"))});
+  Table table{.columns = {quantity::gap(), quantity::verdict(),
+                         Column{"initial_temperature", "before launch", keys::fixed(0, kelvin)},
+                         Column{"temperature_max", "T max", keys::fixed(0, kelvin)},
+                         Column{"margin", "margin", keys::significant(6, kelvin)},
+                         Column{"uncertainty", "uncertainty", keys::significant(6, kelvin)},
+                         Column{"margin_over_uncertainty", "margin over uncertainty", keys::fixed(1)},
+                         Column{"distance", "distance", keys::fixed(3, centimetre)},
+                         for_people(Column{"why", "why"}), for_programs(quantity::reason())}};
+  if (several) table.columns.insert(table.columns.begin(), quantity::case_name());
   for (const JudgedCase& each : subject.cases) {
     for (std::size_t i = 0; i < each.verdicts.size(); ++i) {
       const Row& row = *each.verdicts[i];

@@ -1,7 +1,7 @@
 // The fit of T max against gap: coefficients, residuals, what each row says of the others, and what curves
 // other than a straight line would change.
 #include "launchsafe/math/statistics.hpp"
-#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
 #include "safety_sections.hpp"
 
@@ -86,10 +86,10 @@ struct Comparison {
 
 Comparison compare_curves(const std::vector<Curve>& curves, const InertRows& data) {
   Comparison comparison;
-  comparison.table.columns = {named_text("curve", "curve"), count_column("coefficients", "coefficients"),
-                              significant_column("RMS of residuals", "K", 2, "rms_K"),
-                              significant_column("RMS left out", "K", 2, "left_out_rms_K"),
-                              significant_column("AICc", "", 3, "aicc")};
+  comparison.table.columns = {Column{"curve", "curve"}, Column{"coefficients", "coefficients", count()},
+                              Column{"rms", "RMS of residuals", keys::significant(2, kelvin)},
+                              Column{"left_out_rms", "RMS left out", keys::significant(2, kelvin)},
+                              Column{"aicc", "AICc", keys::significant(3)}};
   for (const Curve& curve : curves) {
     const auto fit = fitted(curve, data);
     if (!fit) continue;
@@ -107,11 +107,11 @@ Comparison compare_curves(const std::vector<Curve>& curves, const InertRows& dat
 
 Table residual_table(const InertRows& data, const math::LeastSquares& line,
                      const std::vector<double>& left_out) {
-  Table table{.columns = {significant_column("gap", "cm", 6, "gap_cm"),
-                          number_column("T max", "K", 1, "temperature_max_K"),
-                          number_column("on the line", "K", 1, "line_K"),
-                          number_column("residual", "K", 2, "residual_K"),
-                          number_column("less what the others predict", "K", 2, "left_out_K")}};
+  Table table{.columns = {quantity::gap(),
+                          Column{"temperature_max", "T max", keys::fixed(1, kelvin)},
+                          Column{"line", "on the line", keys::fixed(1, kelvin)},
+                          Column{"residual", "residual", keys::fixed(2, kelvin)},
+                          Column{"left_out", "less what the others predict", keys::fixed(2, kelvin)}}};
   for (std::size_t i = 0; i < data.gaps.size(); ++i)
     table.rows.push_back({data.gaps[i], data.temperatures[i], data.temperatures[i] - line.residuals[i],
                           line.residuals[i], optional_number(left_out[i])});
@@ -150,13 +150,13 @@ void say_inverse(const Subject& subject, const JudgedCase& each, const math::Lea
 
 /// Every case with a fit, a row each: how well a row follows from the others, by curve.
 Table left_out_table(const Subject& subject) {
-  Table table{.columns = {named_text("case", "case"), count_column("rows", "rows"),
-                          significant_column("slope", "K/cm", 4, "slope_K_per_cm"),
-                          significant_column("RMS of residuals", "K", 2, "rms_K"),
-                          significant_column("largest left out", "K", 2, "left_out_largest_K"),
-                          significant_column("RMS left out", "K", 2, "left_out_rms_K"),
-                          significant_column("of a parabola", "K", 2, "left_out_rms_quadratic_K"),
-                          significant_column("with an Arrhenius term", "K", 2, "left_out_rms_arrhenius_K")}};
+  Table table{.columns = {quantity::case_name(), Column{"rows", "rows", count()},
+                          Column{"slope", "slope", keys::significant(4, kelvin_per_centimetre)},
+                          Column{"rms", "RMS of residuals", keys::significant(2, kelvin)},
+                          Column{"left_out_largest", "largest left out", keys::significant(2, kelvin)},
+                          Column{"left_out_rms", "RMS left out", keys::significant(2, kelvin)},
+                          Column{"left_out_rms_quadratic", "of a parabola", keys::significant(2, kelvin)},
+                          Column{"left_out_rms_arrhenius", "with an Arrhenius term", keys::significant(2, kelvin)}}};
   for (const JudgedCase& each : subject.cases) {
     const InertRows data = inert_rows(each);
     const auto line = math::fit_line(data.gaps, data.temperatures);

@@ -1,5 +1,5 @@
 // T max against gap, and the safe envelope over what a sweep varies.
-#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/study/fit.hpp"
 #include "safety_sections.hpp"

@@ -67,14 +67,16 @@ std::string text_of(const Origin& origin) {
   return text;
 }
 
+bool is_number(const Column& column) { return column.form.notation != Notation::text; }
+
 /// A table with the headings and words of the templates.
 Table worded(const SaidTable& said, const Words& words) {
   Table table = said.table;
-  for (Column& column : table.columns) column.name = words.word("column." + column.key, column.name);
+  for (Column& column : table.columns) column.heading = words.word("column." + column.key(), column.heading);
   for (auto& row : table.rows)
     for (std::size_t i = 0; i < row.size(); ++i)
       if (auto* text = std::get_if<std::string>(&row[i]))
-        *text = words.word(table.columns[i].key + "." + *text, *text);
+        *text = words.word(table.columns[i].key() + "." + *text, *text);
   return table;
 }
 
@@ -138,7 +140,7 @@ struct Renderer {
     Parts columns = Parts::array(), rows = Parts::array();
     for (const Column& column : table.columns)
       if (for_people(column))
-        columns.push_back({{"name", heading_of(column)}, {"number", column.alignment == Alignment::right}});
+        columns.push_back({{"name", column.label()}, {"number", is_number(column)}});
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
       Parts cells = Parts::array();
       for (std::size_t i = 0; i < table.rows[row].size(); ++i) {
@@ -146,12 +148,12 @@ struct Renderer {
         if (!for_people(column)) continue;
         // The look follows from the program's word, also where a template translates it.
         const auto* word = std::get_if<std::string>(&said.table.rows[row][i]);
-        const bool is_verdict = column.key == "verdict" && word != nullptr;
-        cells.push_back({{"name", heading_of(column)},
+        const bool is_verdict = column.key() == "verdict" && word != nullptr;
+        cells.push_back({{"name", column.label()},
                          {"text", cell_text(table.rows[row][i], column)},
-                         {"look", is_verdict                             ? *word
-                                  : column.alignment == Alignment::right ? "number"
-                                                                         : ""}});
+                         {"look", is_verdict          ? *word
+                                  : is_number(column) ? "number"
+                                                      : ""}});
       }
       rows.push_back({{"cells", cells}});
     }

@@ -1,6 +1,6 @@
 // What was simulated: shell, load, inputs; and where and when it becomes hot.
 #include "launchsafe/report/case_pictures.hpp"
-#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/section_drawing.hpp"
 #include "launchsafe/run/run_case.hpp"
@@ -104,8 +104,8 @@ void add_sources_of_tables(const scene::SceneFile& file, Table& table) {
 Table input_table(const Subject& subject) {
   std::map<std::string, scene::DocumentedKey> documented;
   for (scene::DocumentedKey& key : scene::describe_keys()) documented.emplace(key.description.name, key);
-  Table table{.columns = {named_text("key", "key"), named_text("value", "value"),
-                          named_text("standing", "standing"), named_text("meaning", "meaning")}};
+  Table table{.columns = {Column{"key", "key"}, Column{"value", "value"},
+                          Column{"standing", "standing"}, Column{"meaning", "meaning"}}};
   for (const scene::ListedKey& key : scene::list_keys(subject.study.scene)) {
     if (is_of_unused_law(subject.scene(), key.name)) continue;
     // The manifest writes every key: one with the value of the program's default has the default's standing.
@@ -124,11 +124,11 @@ Table input_table(const Subject& subject) {
 }
 
 Table body_table(const scene::Scene& scene) {
-  Table table{.columns = {named_text("body", "body"), named_text("material", "material"),
-                          significant_column("x from", "cm", 6, "x_begin_cm"),
-                          significant_column("to", "cm", 6, "x_end_cm"),
-                          significant_column("r from", "cm", 6, "r_begin_cm"),
-                          significant_column("to", "cm", 6, "r_end_cm")}};
+  Table table{.columns = {Column{"body", "body"}, Column{"material", "material"},
+                          Column{"x_begin", "x from", keys::significant(6, centimetre)},
+                          Column{"x_end", "to", keys::significant(6, centimetre)},
+                          Column{"r_begin", "r from", keys::significant(6, centimetre)},
+                          Column{"r_end", "to", keys::significant(6, centimetre)}}};
   for (const scene::Body& body : scene.bodies)
     table.rows.push_back({body.name, scene::material_text(scene, body), 100 * body.x_begin, 100 * body.x_end,
                           100 * body.r_begin, 100 * body.r_end});
@@ -148,12 +148,12 @@ std::string held_text(const scene::Scene& scene) {
 Table place_table(const JudgedCase& each) {
   return table_of(
       each.verdicts,
-      {significant_column("gap", "cm", 6, "gap_cm"), number_column("T max", "K", 0, "temperature_max_K"),
-       named_text("hottest station", "temperature_max_place"),
-       number_column("at time", "ms", 2, "temperature_max_time_ms"),
-       number_column("ignition at", "ms", 2, "ignition_time_ms"), named_text("cause", "ignition_cause"),
-       number_column("chemical share", "", 2, "ignition_chemical_share"),
-       number_column("spread along the bottom", "K", 0, "spread_K")});
+      {quantity::gap(), Column{"temperature_max", "T max", keys::fixed(0, kelvin)},
+       Column{"temperature_max_place", "hottest station"},
+       Column{"temperature_max_time", "at time", keys::fixed(2, millisecond)},
+       Column{"ignition_time", "ignition at", keys::fixed(2, millisecond)}, Column{"ignition_cause", "cause"},
+       Column{"ignition_chemical_share", "chemical share", keys::fixed(2)},
+       Column{"spread", "spread along the bottom", keys::fixed(0, kelvin)}});
 }
 
 /// Gaps whose histories are shown: the largest that is SAFE, and the smallest that is not.

@@ -54,6 +54,8 @@ InertRows inert_rows(const JudgedCase& each);
 
 std::vector<const Row*> pointers_to(const Row& rows);
 /// Rows of a study's table under the columns, by their keys.
+/// Nothing for a number that is not there.
+inline Cell optional_number(double value) { return keys::cell_of(known(value)); }
 Table table_of(const std::vector<const Row*>& rows, std::vector<Column> columns);
 
 Subject subject_of(const SafetyEvidence& evidence, const std::optional<GapCriterion>& criterion);

@@ -1,5 +1,5 @@
 // How far the computations can be trusted, what was left out, and how to repeat all of it.
-#include "launchsafe/report/columns.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "safety_sections.hpp"
@@ -14,10 +14,10 @@ namespace {
 
 Table run_table_of(const StudyEvidence& study) {
   return table_of(pointers_to(study.rows("runs")),
-                  {named_text("case", "case"), named_text("status", "status"),
-                   scientific_column("energy drift", "", 1, "energy_drift"), count_column("steps", "steps"),
-                   count_column("particles", "particles"), named_text("limiters", "limiters"),
-                   named_text("stored case", "stored_case")});
+                  {quantity::case_name(), Column{"status", "status"},
+                   quantity::energy_drift(), quantity::steps(),
+                   quantity::particles(), Column{"limiters", "limiters"},
+                   Column{"stored_case", "stored case"}});
 }
 
 void say_stability(const StudyEvidence* stability, SafetySection& section) {
@@ -39,7 +39,7 @@ void say_stability(const StudyEvidence* stability, SafetySection& section) {
 /// The terms of the plan that were left out, and why.
 Table left_out_table(const scene::Scene& scene) {
   const scene::Plan plan = scene::make_plan(scene);
-  Table table{.columns = {named_text("term", "term"), named_text("why", "why")}};
+  Table table{.columns = {Column{"term", "term"}, Column{"why", "why"}}};
   const std::pair<const char*, const scene::Term*> terms[] = {{"conduction", &plan.conduction},
                                                               {"bulk_reaction", &plan.bulk_reaction},
                                                               {"air", &plan.air},
@@ -67,17 +67,17 @@ std::string record_text(const StudyEvidence& main, const StudyEvidence& study) {
 }
 
 Table study_table(const SafetyEvidence& evidence) {
-  Table table{.columns = {named_text("study", "label"), named_text("kind", "kind"),
-                          named_text("file", "study"), for_programs(named_text("command", "command")),
-                          named_text("state", "state"), named_text("made", "made"),
-                          for_people(named_text("commit", "commit_begins")),
-                          for_programs(named_text("commit", "commit")),
-                          for_programs(named_text("compiler", "compiler")),
-                          for_programs(named_text("compiler flags", "compiler_flags")),
-                          for_people(named_text("SHA-256 of the input", "input_begins")),
-                          for_programs(named_text("input SHA-256", "input_sha256")),
-                          named_text("its record is that of the main study", "record_used"),
-                          named_text("differs in", "differences")}};
+  Table table{.columns = {Column{"label", "study"}, Column{"kind", "kind"},
+                          Column{"study", "file"}, for_programs(Column{"command", "command"}),
+                          Column{"state", "state"}, Column{"made", "made"},
+                          for_people(Column{"commit_begins", "commit"}),
+                          for_programs(Column{"commit", "commit"}),
+                          for_programs(Column{"compiler", "compiler"}),
+                          for_programs(Column{"compiler_flags", "compiler flags"}),
+                          for_people(Column{"input_begins", "SHA-256 of the input"}),
+                          for_programs(Column{"input_sha256", "input SHA-256"}),
+                          Column{"record_used", "its record is that of the main study"},
+                          Column{"differences", "differs in"}}};
   constexpr std::size_t shown_digits = 12;
   for (const StudyEvidence& study : evidence.studies) {
     const store::Manifest& manifest = study.record.manifest;

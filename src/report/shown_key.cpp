@@ -5,26 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 namespace launchsafe::report {
 namespace {
-
-/// The double nearest to the shortest decimal of a value times ten to the power.
-double shifted(double value, int power) {
-  if (!std::isfinite(value) || value == 0.0 || power == 0) return value;
-  char text[48];
-  char* const end = std::to_chars(text, text + 32, value, std::chars_format::scientific).ptr;
-  char* const letter = std::find(text, end, 'e');
-  int exponent = 0;
-  std::from_chars(letter[1] == '+' ? letter + 2 : letter + 1, end, exponent);
-  const char* const stop = std::to_chars(letter + 1, text + sizeof text, exponent + power).ptr;
-  double result = std::numeric_limits<double>::quiet_NaN();
-  std::from_chars(text, stop, result);
-  return result;
-}
 
 /// The unit of a text such as "18 ms" or "1780 J/(kg K)".
 std::string unit_of(const std::string& quantity) {
@@ -65,16 +50,12 @@ std::size_t clutter(double value) {
 
 ShownKey shown_numbers(const std::string& name, const scene::KeyDescription& key,
                        const std::vector<double>& si_values) {
-  ShownKey result;
-  result.name = name;
+  ShownKey result{{.name = name, .heading = name, .meaning = key.sentence}, key.name};
   // An alias such as peak_pressure is words; a dotted name is shown as it is to be written.
-  if (name.find('.') == std::string::npos) std::replace(result.name.begin(), result.name.end(), '_', ' ');
-  result.dimension = key.dimension;
-  result.scene_key = key.name;
-  result.unit = unit_for(si_values, key.dimension);
-  result.key = name;
-  std::replace(result.key.begin(), result.key.end(), '.', '_');
-  if (!result.unit.empty()) result.key += "_" + key_text(result.unit);
+  const bool dotted = name.find('.') != std::string::npos;
+  if (!dotted) std::replace(result.heading.begin(), result.heading.end(), '_', ' ');
+  std::replace(result.name.begin(), result.name.end(), '.', '_');
+  result.form = {Notation::significant, 6, key.dimension, unit_for(si_values, key.dimension)};
   return result;
 }
 
@@ -94,32 +75,19 @@ std::vector<double> marks_of(const math::Distribution& distribution) {
 
 }  // namespace
 
-double as_written(double value_si, scene::Dimension dimension, std::string_view unit) {
-  if (unit.empty()) return value_si;
-  return shifted(value_si, static_cast<int>(std::lround(std::log10(scene::in_unit(1.0, dimension, unit)))));
-}
-
 std::string unit_for(const std::vector<double>& si_values, scene::Dimension dimension) {
   std::string best;
   std::size_t least = std::numeric_limits<std::size_t>::max();
   std::size_t place = 0;  // the units come in the order of their use
   for (const std::string& unit : candidate_units(si_values, dimension)) {
     std::size_t total = place++;
-    for (const double value : si_values) total += clutter(as_written(value, dimension, unit));
+    for (const double value : si_values) total += clutter(scene::as_written(value, dimension, unit));
     if (total >= least) continue;
     least = total;
     best = unit;
   }
   return best;
 }
-
-std::string ShownKey::text(double value_si) const {
-  return significant(value(value_si), 6) + (unit.empty() ? "" : " " + unit);
-}
-
-std::string ShownKey::heading() const { return unit.empty() ? name : name + " [" + unit + "]"; }
-
-Column ShownKey::column() const { return {name, unit, Alignment::right, 6, Notation::significant, key}; }
 
 ShownKey shown(const study::Axis& axis) {
   return shown_numbers(axis.name, axis.key, axis.distribution ? marks_of(*axis.distribution) : axis.values);
@@ -131,25 +99,36 @@ std::vector<ShownKey> shown_axes(const study::Study& study) {
   return keys;
 }
 
+Quantities<study::StudyCase> axis_quantities(const study::Study& study) {
+  Quantities<study::StudyCase> quantities;
+  for (const study::Axis& axis : study.axes) {
+    const std::size_t place = quantities.size();
+    quantities.emplace_back(always(shown(axis)), [place](const study::StudyCase& input) {
+      return place < input.coordinates.size() ? std::optional(input.coordinates[place]) : std::nullopt;
+    });
+  }
+  return quantities;
+}
+
 std::string values_text(const ShownKey& key, const std::vector<double>& si_values) {
   constexpr std::size_t most = 12;
-  const std::string unit = key.unit.empty() ? "" : " " + key.unit;
+  const std::string unit = key.form.unit.empty() ? "" : " " + key.form.unit;
   if (si_values.size() > most) {
     const auto [low, high] = std::minmax_element(si_values.begin(), si_values.end());
-    return fmt::format("{} values from {} to {}{}", si_values.size(), significant(key.value(*low), 6),
-                       significant(key.value(*high), 6), unit);
+    return fmt::format("{} values from {} to {}{}", si_values.size(), digits_of(*low, key.form),
+                       digits_of(*high, key.form), unit);
   }
   std::string text;
-  for (const double value : si_values) text += (text.empty() ? "" : ", ") + significant(key.value(value), 6);
+  for (const double value : si_values) text += (text.empty() ? "" : ", ") + digits_of(value, key.form);
   return text + unit;
 }
 
 std::string distribution_text(const ShownKey& key, const math::Distribution& distribution) {
-  const auto number = [&key](double value_si) { return significant(key.value(value_si), 6); };
-  const std::string unit = key.unit.empty() ? "" : " " + key.unit;
+  const auto number = [&key](double value_si) { return digits_of(value_si, key.form); };
+  const std::string unit = key.form.unit.empty() ? "" : " " + key.form.unit;
   if (is_log_normal(distribution))
-    return fmt::format("log-normal, {}{} +- {} %", number(distribution.centre), unit,
-                       significant(100.0 * distribution.deviation, 3));
+    return fmt::format("log-normal, {}{} +- {}", number(distribution.centre), unit,
+                       in_words(distribution.deviation, keys::significant(3, percent)));
   if (distribution.kind != math::Distribution::Kind::normal) {
     const bool uniform = distribution.kind == math::Distribution::Kind::uniform;
     return fmt::format("{} from {} to {}{}", uniform ? "uniform" : "log-uniform", number(distribution.lower),
@@ -170,7 +149,7 @@ std::string place_text(const std::vector<ShownKey>& keys, const std::vector<doub
   std::string text;
   for (std::size_t i = 0; i < std::min(keys.size(), coordinates.size()); ++i) {
     // A pure number says nothing without its name.
-    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", keys[i].unit.empty() ? keys[i].name + " " : "",
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", keys[i].form.unit.empty() ? keys[i].heading + " " : "",
                         keys[i].text(coordinates[i]));
   }
   return text;

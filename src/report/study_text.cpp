@@ -1,6 +1,7 @@
 #include "launchsafe/report/study_text.hpp"
 
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
@@ -89,13 +90,16 @@ std::string timing_sentence(const study::Timing& timing) {
 }
 
 nlohmann::ordered_json timing_json(const study::Timing& timing) {
-  return {{"wall_time_s", number(timing.wall_time)},
-          {"runs", timing.runs},
-          {"reused", timing.reused},
-          {"jobs", timing.jobs},
-          {"particle_updates", number(timing.particle_updates)},
-          {"run_time_s", number(timing.run_time)},
-          {"updates_per_second", number(timing.updates_per_second())}};
+  using study::Timing;
+  static const Quantities<Timing> quantities{
+      {quantity::wall_time(), &Timing::wall_time},
+      {{"runs", "runs", count(), "Mechanical runs that were made."}, &Timing::runs},
+      {{"reused", "used again", count(), "Mechanical runs that were stored."}, &Timing::reused},
+      {{"jobs", "jobs", count(), "Runs at once."}, &Timing::jobs},
+      {{"particle_updates", "particle updates", keys::scientific(2), "Of all runs."}, &Timing::particle_updates},
+      {{"run_time", "time of runs", keys::fixed(1, second), "Wall time of all runs."}, &Timing::run_time},
+      {quantity::updates_per_second(), &Timing::updates_per_second}};
+  return json_of(quantities, timing);
 }
 
 std::string limiters_text(const run::LimiterCounts& limiters) {
@@ -112,7 +116,7 @@ nlohmann::ordered_json axes_json(const study::Study& study) {
   for (const study::Axis& axis : study.axes) {
     const ShownKey key = shown(axis);
     nlohmann::ordered_json& json = axes.emplace_back();
-    json = {{"name", axis.name}, {"scene_key", key.scene_key}, {"key", key.key}, {"unit", key.unit}};
+    json = {{"name", axis.name}, {"scene_key", key.scene_key}, {"key", key.key()}, {"unit", key.form.unit}};
     if (axis.distribution) {
       json["distribution"] = distribution_text(key, *axis.distribution);
       continue;
@@ -126,7 +130,5 @@ nlohmann::ordered_json axes_json(const study::Study& study) {
 std::string json_file_text(const nlohmann::ordered_json& object) {
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
-
-std::string centimetres(double length) { return fmt::format("{:.6g} cm", 100.0 * length); }
 
 }  // namespace launchsafe::report

@@ -1,34 +1,45 @@
 #include "launchsafe/report/table.hpp"
 
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/scene/quantity.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string_view>
 
 namespace launchsafe::report {
 namespace {
 
-std::string rounded(double value, const Column& column) {
-  if (column.notation == Notation::scientific) return scientific(value, column.decimals);
-  if (column.notation == Notation::significant) return significant(value, column.decimals);
-  return fixed(value, column.decimals);
+std::string rounded(double value, const Form& form) {
+  if (form.notation == Notation::scientific) return scientific(value, form.digits);
+  if (form.notation == Notation::significant) return significant(value, form.digits);
+  return fixed(value, form.digits);
 }
 
 }  // namespace
 
-std::string cell_text(const Cell& cell, const Column& column) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  if (const auto* number = std::get_if<double>(&cell)) return rounded(*number, column);
-  if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
-  return {};
+double shown_value(double value_si, const Form& form) {
+  return scene::as_written(value_si, form.dimension, form.unit);
 }
 
-std::string heading_of(const Column& column) {
-  return column.unit.empty() ? column.name : column.name + " [" + column.unit + "]";
+Cell shown_cell(Cell cell_si, const Column& column) {
+  if (auto* number = std::get_if<double>(&cell_si)) *number = shown_value(*number, column.form);
+  return cell_si;
+}
+
+std::string digits_of(double value_si, const Form& form) { return rounded(shown_value(value_si, form), form); }
+
+std::string in_words(double value_si, const Form& form) {
+  return digits_of(value_si, form) + (form.unit.empty() ? "" : " " + form.unit);
+}
+
+std::string cell_text(const Cell& cell, const Column& column) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* number = std::get_if<double>(&cell)) return rounded(*number, column.form);
+  if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
+  return {};
 }
 
 std::string markdown_escaped(const std::string& text) {
@@ -49,11 +60,6 @@ std::string markdown_escaped(const std::string& text) {
 
 namespace {
 
-const Cell& cell_at(const std::vector<Cell>& row, std::size_t column) {
-  static const Cell nothing;
-  return column < row.size() ? row[column] : nothing;
-}
-
 /// Places of the columns that people or programs read.
 std::vector<std::size_t> places_for(const Table& table, Audience audience) {
   std::vector<std::size_t> places;
@@ -64,9 +70,11 @@ std::vector<std::size_t> places_for(const Table& table, Audience audience) {
   return places;
 }
 
-std::string padded(const std::string& text, std::size_t width, Alignment alignment) {
+bool is_text(const Column& column) { return column.form.notation == Notation::text; }
+
+std::string padded(const std::string& text, std::size_t width, const Column& column) {
   const std::string fill(width - std::min(width, display_width(text)), ' ');
-  return alignment == Alignment::left ? text + fill : fill + text;
+  return is_text(column) ? text + fill : fill + text;
 }
 
 /// What people read: the cells as text, the headings first.
@@ -81,12 +89,12 @@ Grid grid_of(const Table& table, Escape escape) {
   const std::vector<std::size_t> places = places_for(table, Audience::people);
   for (const std::size_t place : places) {
     grid.columns.push_back(table.columns[place]);
-    grid.lines.front().push_back(escape(heading_of(table.columns[place])));
+    grid.lines.front().push_back(escape(table.columns[place].label()));
   }
   for (const auto& row : table.rows) {
     auto& line = grid.lines.emplace_back();
     for (const std::size_t place : places)
-      line.push_back(escape(cell_text(cell_at(row, place), table.columns[place])));
+      line.push_back(escape(cell_text(row[place], table.columns[place])));
   }
   return grid;
 }
@@ -109,7 +117,7 @@ std::string text_line(const std::vector<std::string>& cells, const std::vector<s
                       const std::vector<Column>& columns) {
   std::string line;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    line += (i > 0 ? "  " : "") + padded(cells[i], widths[i], columns[i].alignment);
+    line += (i > 0 ? "  " : "") + padded(cells[i], widths[i], columns[i]);
   }
   return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
@@ -118,14 +126,14 @@ std::string markdown_line(const std::vector<std::string>& cells, const std::vect
                           const std::vector<Column>& columns) {
   std::string line = "|";
   for (std::size_t i = 0; i < cells.size(); ++i)
-    line += " " + padded(cells[i], widths[i], columns[i].alignment) + " |";
+    line += " " + padded(cells[i], widths[i], columns[i]) + " |";
   return line + "\n";
 }
 
 std::string markdown_rule(const std::vector<std::size_t>& widths, const std::vector<Column>& columns) {
   std::string line = "|";
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    line += columns[i].alignment == Alignment::right ? " " + std::string(widths[i] - 1, '-') + ": |"
+    line += !is_text(columns[i]) ? " " + std::string(widths[i] - 1, '-') + ": |"
                                                      : " " + std::string(widths[i], '-') + " |";
   }
   return line + "\n";
@@ -158,41 +166,12 @@ nlohmann::ordered_json json_cell(const Cell& cell) {
   return number != nullptr && std::isfinite(*number) ? nlohmann::ordered_json(*number) : nullptr;
 }
 
-std::string key_of(const Column& column) {
-  if (!column.key.empty()) return column.key;
-  std::string words = key_text(column.name);
-  std::transform(words.begin(), words.end(), words.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  if (words.empty()) words = "column";
-  return column.unit.empty() ? words : words + "_" + key_text(column.unit);
-}
-
 }  // namespace
-
-std::string key_text(const std::string& text) {
-  std::string key;
-  for (const char character : text) {
-    if (character == '%') {
-      key += "percent";
-    } else if (std::isalnum(static_cast<unsigned char>(character)) != 0) {
-      key += character;
-    } else {
-      if (!key.empty() && key.back() != '_') key += '_';
-      if (character == '/') key += "per_";
-    }
-  }
-  key.resize(key.find_last_not_of('_') + 1);
-  return key;
-}
-
-Column text_column(std::string name) {
-  return {.name = std::move(name), .unit = {}, .alignment = Alignment::left};
-}
 
 std::vector<std::string> keys_of(const Table& table) {
   std::vector<std::string> keys;
   for (const Column& column : table.columns) {
-    const std::string wanted = key_of(column);
+    const std::string wanted = column.key();
     std::string key = wanted;
     for (int number = 2; std::find(keys.begin(), keys.end(), key) != keys.end(); ++number) {
       key = wanted + "_" + std::to_string(number);
@@ -242,7 +221,7 @@ std::string to_csv(const Table& table) {
   };
   append_line([&](std::size_t place) { append_csv(csv, keys[place]); });
   for (const auto& row : table.rows)
-    append_line([&](std::size_t place) { append_csv(csv, cell_at(row, place)); });
+    append_line([&](std::size_t place) { append_csv(csv, row[place]); });
   return csv;
 }
 
@@ -250,27 +229,34 @@ Table for_programs(const Table& table) {
   Table part;
   const auto keys = keys_of(table);
   const auto places = places_for(table, Audience::programs);
-  for (const std::size_t place : places) part.columns.push_back({.name = keys[place], .unit = {}});
+  for (const std::size_t place : places) part.columns.push_back({.name = keys[place]});
   for (const auto& row : table.rows) {
     auto& cells = part.rows.emplace_back();
-    for (const std::size_t place : places) cells.push_back(cell_at(row, place));
+    for (const std::size_t place : places) cells.push_back(row[place]);
   }
   return part;
 }
 
+nlohmann::ordered_json json_of_row(const Table& table, std::size_t row) {
+  const auto keys = keys_of(table);
+  auto object = nlohmann::ordered_json::object();
+  for (const std::size_t i : places_for(table, Audience::programs))
+    object[keys[i]] = json_cell(table.rows[row][i]);
+  return object;
+}
+
 nlohmann::ordered_json to_json(const Table& table) {
   const auto keys = keys_of(table);
-  const auto places = places_for(table, Audience::programs);
   auto columns = nlohmann::ordered_json::array();
-  for (const std::size_t i : places) {
-    columns.push_back({{"key", keys[i]}, {"name", table.columns[i].name}, {"unit", table.columns[i].unit}});
+  for (const std::size_t i : places_for(table, Audience::programs)) {
+    const Column& column = table.columns[i];
+    columns.push_back({{"key", keys[i]},
+                       {"name", column.heading},
+                       {"unit", column.form.unit},
+                       {"meaning", column.meaning}});
   }
   auto rows = nlohmann::ordered_json::array();
-  for (const auto& row : table.rows) {
-    auto object = nlohmann::ordered_json::object();
-    for (const std::size_t i : places) object[keys[i]] = json_cell(cell_at(row, i));
-    rows.push_back(std::move(object));
-  }
+  for (std::size_t row = 0; row < table.rows.size(); ++row) rows.push_back(json_of_row(table, row));
   return {{"title", table.title}, {"columns", std::move(columns)}, {"rows", std::move(rows)}};
 }
 
@@ -284,7 +270,7 @@ void append_json_rows(std::string& text, const Table& table) {
     text += text.ends_with('[') ? "\n    {" : ",\n    {";
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (i > 0) text += ", ";
-      text += keys[places[i]] + json_cell(cell_at(row, places[i])).dump(-1, ' ', false, replace);
+      text += keys[places[i]] + json_cell(row[places[i]]).dump(-1, ' ', false, replace);
     }
     text += '}';
   }

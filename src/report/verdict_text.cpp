@@ -17,10 +17,33 @@
 namespace launchsafe::report {
 namespace {
 
-std::string ignition_text(const study::GapVerdict& row) {
-  if (!row.ignition) return {};
-  return fmt::format("{} at {:.2f} ms, {}", study::to_string(row.ignition->cause), 1e3 * row.ignition->time,
-                     row.ignition->point);
+using keys::fixed, keys::scientific, keys::text;
+
+std::string ignition_text(const study::NamedIgnition& ignition) {
+  return fmt::format("{} at {}, {}", study::to_string(ignition.cause),
+                     in_words(ignition.time, quantity::ignition_time().form), ignition.point);
+}
+
+/// A member of the gap, of its uncertainty, or of its ignition.
+template <class Member>
+auto of_gap(Member member) {
+  return [member](const VerdictRow& row) { return std::invoke(member, *row.gap); };
+}
+template <class Member>
+auto of_uncertainty(Member member) {
+  return [member](const VerdictRow& row) { return std::invoke(member, row.gap->uncertainty); };
+}
+template <class Member>
+auto of_ignition(Member member) {
+  return [member](const VerdictRow& row) {
+    return row.gap->ignition ? keys::cell_of(std::invoke(member, *row.gap->ignition)) : Cell();
+  };
+}
+
+/// A share of the uncertainty.
+Column share_of_uncertainty(std::string name, std::string heading, std::string meaning) {
+  return always({"uncertainty_of_" + std::move(name), std::move(heading), keys::significant(2, kelvin),
+                 std::move(meaning)});
 }
 
 /// Uncertainties that somebody stated by hand, with their sources; empty without any.
@@ -67,90 +90,135 @@ std::string off_grid_note(const study::StudyFile& study) {
                      study.cases.size(), count > 1 ? "the first is " : "", first, meaning);
 }
 
-/// Of a row of the cited limits.
-std::vector<Cell> cells_of_limit(const study::LimitComparison& comparison, const study::StudyFile& study,
-                                 const std::vector<const study::CriticalGap*>& critical) {
-  std::vector<Cell> cells{100.0 * comparison.limit.gap,
-                          optional_number(1e-6 * comparison.limit.peak_pressure), comparison.limit.source};
-  if (!comparison.nearest) return cells;
-  const study::StudyCase& input = study.cases[*comparison.nearest];
-  const study::CriticalGap& gap = *critical[*comparison.nearest];
-  cells.insert(cells.end(), {1e-6 * input.peak_pressure, input.label, optional_number(100.0 * value_of(gap)),
-                             reads_as(gap), optional_number(100.0 * comparison.difference)});
-  return cells;
+/// A cited limit beside the case that stands nearest to it, if there is one.
+struct LimitRow {
+  study::LimitComparison comparison;
+  const study::StudyCase* input = nullptr;
+  const study::CriticalGap* critical = nullptr;
+};
+
+Quantities<LimitRow> limit_quantities() {
+  using keys::significant;
+  const auto of_critical = [](auto get) {
+    return [get](const LimitRow& row) { return row.critical ? keys::cell_of(get(*row.critical)) : Cell(); };
+  };
+  return {{{"limit", "limit", significant(6, centimetre), "Limit of the gap that the source states."},
+           [](const LimitRow& row) { return row.comparison.limit.gap; }},
+          {named("limit_peak_pressure", headed("at", quantity::peak_pressure())),
+           [](const LimitRow& row) { return row.comparison.limit.peak_pressure; }},
+          {{"source", "source", text(), "Who states it."},
+           [](const LimitRow& row) { return row.comparison.limit.source; }},
+          {headed("computed at", quantity::peak_pressure()),
+           [](const LimitRow& row) { return row.input ? std::optional(row.input->peak_pressure) : std::nullopt; }},
+          {quantity::case_name(), [](const LimitRow& row) { return row.input ? row.input->label : ""; }},
+          {quantity::critical_gap(), of_critical(value_of)},
+          {quantity::critical_gap_reads_as(), of_critical(reads_as)},
+          {{"difference", "computed minus cited", significant(2, centimetre),
+            "Critical gap minus the limit, where the pressures agree."},
+           [](const LimitRow& row) { return row.comparison.difference; }}};
+}
+
+/// One cause that makes the critical gap of a case uncertain.
+struct ShareRow {
+  const NamedGap* of;
+  const study::GapShare* share;
+};
+
+std::string gap_or_bound_text(study::GapOrBound gap) {
+  if (std::isnan(gap)) return "not known";
+  if (gap == study::no_ignition) return "no ignition";
+  return gap > 0.0 ? in_words(gap, keys::significant(4, centimetre)) : "ignites without a gap";
+}
+
+Quantities<ShareRow> share_quantities() {
+  return {{quantity::case_name(), [](const ShareRow& row) { return row.of->label; }},
+          {{"cause", "cause", text(), "What is uncertain."},
+           [](const ShareRow& row) { return study::traits_of(row.share->kind).title; }},
+          {{"class", "class", text(), "Whether it scatters at random or is not known better."},
+           [](const ShareRow& row) { return study::traits_of(row.share->kind).of_class; }},
+          {{"raised", "critical gap towards ignition", text(), "Critical gap with the cause at its worse end."},
+           [](const ShareRow& row) { return gap_or_bound_text(row.share->raised); }},
+          {{"lowered", "at the other end", text(), "Critical gap with the cause at its better end."},
+           [](const ShareRow& row) { return gap_or_bound_text(row.share->lowered); }},
+          {{"lowers", "lowers the bound by", keys::significant(2, centimetre),
+            "By how much the cause moves the critical gap towards ignition."},
+           [](const ShareRow& row) { return study::move_towards_ignition(row.of->gap->lower, *row.share); }}};
 }
 
 }  // namespace
 
-std::vector<Column> verdict_columns(const study::Study& study) {
+Quantities<VerdictRow> verdict_quantities(const study::Study& study) {
+  using study::GapVerdict, study::NamedIgnition, study::Uncertainty;
   using namespace quantity;
-  return {temperature_max(),
-          temperature_max_place(),
-          temperature_max_time(),
-          temperature_early(study.early_time),
-          for_programs(temperature_early_place()),
-          for_programs(number_column("spread", "K", 1, "spread_K")),
-          for_programs(number_column("early spread", "K", 1, "spread_early_K")),
-          for_programs(temperature_max_inert()),
-          number_column("margin", "K", 2, "margin_K"),
-          uncertainty(),
-          significant_column("of computation", "K", 2, "uncertainty_of_computation_K"),
-          for_programs(significant_column("of sliding", "K", 2, "uncertainty_of_sliding_K")),
-          significant_column("of fit", "K", 2, "uncertainty_of_fit_K"),
-          significant_column("of inputs", "K", 2, "uncertainty_of_inputs_K"),
-          for_programs(significant_column("of load curve", "K", 2, "uncertainty_of_load_curve_K")),
-          significant_column("of model form", "K", 2, "uncertainty_of_model_form_K"),
-          verdict(),
-          reason(),
-          for_people(named_text("ignition", "ignition")),
-          for_programs(named_text("ignition cause", "ignition_cause")),
-          for_programs(ignition_time()),
-          for_programs(named_text("ignition at", "ignition_place")),
-          for_programs(number_column("chemical share", "", 3, "ignition_chemical_share")),
-          skin_took(),
-          compression_supplies(),
-          taken_over_supplied()};
+  return {
+      {temperature_max(), [](const VerdictRow& row) { return row.gap->maximum.temperature; }},
+      {temperature_max_place(), [](const VerdictRow& row) { return row.gap->maximum.point; }},
+      {temperature_max_time(), [](const VerdictRow& row) { return row.gap->maximum.time; }},
+      {temperature_early(study.early_time), [](const VerdictRow& row) { return row.gap->early.temperature; }},
+      {for_programs(temperature_early_place()), [](const VerdictRow& row) { return row.gap->early.point; }},
+      {for_programs(Column{"spread", "spread", fixed(1, kelvin),
+                           "Hottest less coldest station at the end of what is read."}),
+       of_gap(&GapVerdict::spread)},
+      {for_programs(Column{"spread_early", "early spread", fixed(1, kelvin), "The same at early_time."}),
+       of_gap(&GapVerdict::early_spread)},
+      {for_programs(temperature_max_inert()), &VerdictRow::inert},
+      {always({"margin", "margin", fixed(2, kelvin), "Ignition temperature less T max."}),
+       of_gap(&GapVerdict::margin)},
+      {always(uncertainty()), of_uncertainty(&Uncertainty::total)},
+      {share_of_uncertainty("computation", "of computation",
+                            "Of it: sampling, integration, mesh, step, scaling, and sliding on the base."),
+       of_uncertainty(&Uncertainty::computed)},
+      {for_programs(share_of_uncertainty("sliding", "of sliding",
+                                         "Of the computation: what temperatures leave out of sliding.")),
+       of_uncertainty(&Uncertainty::sliding)},
+      {share_of_uncertainty("fit", "of fit", "Of it: how well the calibrated constants are known."),
+       of_uncertainty(&Uncertainty::fit)},
+      {share_of_uncertainty("inputs", "of inputs", "Of it: how well load, gap and others are known."),
+       of_uncertainty(&Uncertainty::inputs)},
+      {for_programs(share_of_uncertainty("load_curve", "of load curve",
+                                         "Of the inputs: the noise of a measured pressure curve.")),
+       of_uncertainty(&Uncertainty::load_curve)},
+      {share_of_uncertainty("model_form", "of model form", "Of it: what other models would say."),
+       of_uncertainty(&Uncertainty::model_form)},
+      {verdict(), [](const VerdictRow& row) { return row.gap->judgement.verdict; }},
+      {reason(), [](const VerdictRow& row) { return row.gap->judgement.reason; }},
+      {for_people(Column{"ignition", "ignition", text(), "Cause, instant and station of ignition."}),
+       of_ignition(ignition_text)},
+      {for_programs(Column{"ignition_cause", "ignition cause", text(), "What began it."}),
+       of_ignition([](const NamedIgnition& ignition) { return study::to_string(ignition.cause); })},
+      {for_programs(ignition_time()), of_ignition(&NamedIgnition::time)},
+      {for_programs(Column{"ignition_place", "ignition at", text(), "Station that ignites."}),
+       of_ignition(&NamedIgnition::point)},
+      {for_programs(Column{"ignition_chemical_share", "chemical share", fixed(3),
+                           "Share of reaction in the heating rate at ignition."}),
+       of_ignition(&NamedIgnition::chemical_share)},
+      {skin_took(), [](const VerdictRow& row) { return row.gap->air.taken; }},
+      {compression_supplies(), [](const VerdictRow& row) { return row.gap->air.supplied; }},
+      {taken_over_supplied(), [](const VerdictRow& row) { return row.gap->air.ratio(); }}};
 }
 
-void add_verdict_cells(const study::GapVerdict& row, double inert, std::vector<Cell>& cells) {
-  cells.insert(cells.end(), {row.maximum.temperature, row.maximum.point, 1e3 * row.maximum.time,
-                             row.early.temperature, row.early.point, optional_number(row.spread),
-                             optional_number(row.early_spread), optional_number(inert), row.margin});
-  const study::Uncertainty& u = row.uncertainty;
-  cells.insert(cells.end(),
-               {u.total(), u.computed(), u.sliding, u.fit, u.inputs(), u.load_curve, u.model_form});
-  cells.insert(cells.end(),
-               {study::to_string(row.judgement.verdict), row.judgement.reason, ignition_text(row)});
-  if (row.ignition) {
-    cells.insert(cells.end(), {study::to_string(row.ignition->cause), 1e3 * row.ignition->time,
-                               row.ignition->point, row.ignition->chemical_share});
-  } else {
-    cells.resize(cells.size() + 4);
-  }
-  cells.insert(cells.end(), {optional_number(1e-3 * row.air.taken), optional_number(1e-3 * row.air.supplied),
-                             optional_number(row.air.ratio())});
+Quantities<study::CriticalGap> critical_gap_quantities() {
+  using study::CriticalGap, keys::significant;
+  return {{quantity::critical_gap_kind(), &CriticalGap::kind},
+          {quantity::critical_gap(), value_of},
+          {quantity::critical_gap_reads_as(), reads_as},
+          {{"critical_gap_lower", "no ignition", significant(6, centimetre),
+            "Lower end of the bracket: the largest gap there that does not ignite."},
+           &CriticalGap::lower},
+          {{"critical_gap_upper", "ignites", significant(6, centimetre),
+            "Upper end of the bracket: the smallest gap there that ignites."},
+           &CriticalGap::upper}};
 }
 
-std::vector<Column> critical_gap_columns() {
-  return {quantity::critical_gap_kind(), quantity::critical_gap(), quantity::critical_gap_reads_as(),
-          significant_column("no ignition", "cm", 6, "critical_gap_lower_cm"),
-          significant_column("ignites", "cm", 6, "critical_gap_upper_cm")};
-}
-
-std::vector<Column> critical_gap_bounds_columns() {
-  return {significant_column("at least", "cm", 3, "critical_gap_at_least_cm"),
-          significant_column("at most", "cm", 3, "critical_gap_at_most_cm")};
-}
-
-void add_critical_gap_cells(const study::CriticalGap& gap, std::vector<Cell>& cells) {
-  cells.insert(cells.end(),
-               {study::to_string(gap.kind), optional_number(100.0 * value_of(gap)), reads_as(gap),
-                optional_number(100.0 * gap.lower), optional_number(100.0 * gap.upper)});
-}
-
-void add_critical_gap_bounds_cells(const study::CriticalGap& gap, std::vector<Cell>& cells) {
-  cells.insert(cells.end(),
-               {optional_number(100.0 * gap.bounds.at_least), optional_number(100.0 * gap.bounds.at_most)});
+Quantities<study::CriticalGap> bounded_gap_quantities() {
+  return keys::joined<study::CriticalGap>(
+      {critical_gap_quantities(),
+       {{{"critical_gap_at_least", "at least", keys::significant(3, centimetre),
+          "Lower bound of the critical gap: what is below it is SAFE."},
+         [](const study::CriticalGap& gap) { return gap.bounds.at_least; }},
+        {{"critical_gap_at_most", "at most", keys::significant(3, centimetre),
+          "Upper bound of the critical gap."},
+         [](const study::CriticalGap& gap) { return gap.bounds.at_most; }}}});
 }
 
 std::vector<std::string> mesh_notes(const study::StudyFile& study) {
@@ -169,24 +237,19 @@ std::string station_note(const study::StudyFile& study) {
   const std::size_t count = scene::stations_of(study.scene.scene).size();
   return fmt::format(
       "Temperatures are those of the hottest of {} stations that tile the charge's bottom, S1 at the wall, "
-      "each {} mm deep; station.width {} mm.",
-      count, significant(1e3 * surface.station_depth, 4), significant(1e3 * surface.station_width, 4));
+      "each {} deep; station.width {}.",
+      count, in_words(surface.station_depth, keys::significant(4, millimetre)),
+      in_words(surface.station_width, keys::significant(4, millimetre)));
 }
 
 double value_of(const study::CriticalGap& gap) {
   return gap.kind == study::CriticalGapKind::value ? gap.value : study::not_a_number;
 }
 
-std::string gap_or_bound_text(study::GapOrBound gap) {
-  if (std::isnan(gap)) return "not known";
-  if (gap == study::no_ignition) return "no ignition";
-  return gap > 0.0 ? significant(100.0 * gap, 4) + " cm" : "ignites without a gap";
-}
-
 std::string reads_as(const study::CriticalGap& gap) {
   switch (gap.kind) {
     case study::CriticalGapKind::value:
-      return significant(100.0 * gap.value, 3) + " cm";
+      return in_words(gap.value, keys::significant(3, centimetre));
     case study::CriticalGapKind::all_safe:
       return "> " + centimetres(gap.lower);
     case study::CriticalGapKind::all_ignite:
@@ -202,28 +265,25 @@ std::string reads_as(const study::CriticalGap& gap) {
                                                            : gap_or_bound_text(gap.indicative));
 }
 
+std::vector<Column> gap_share_columns() { return keys::described(share_quantities()); }
+std::vector<Column> cited_limit_columns() { return keys::described(limit_quantities()); }
+
 Table cited_limit_table(const study::StudyFile& study,
                         const std::vector<const study::CriticalGap*>& critical) {
-  Table table;
-  if (study.study.cited_limits.empty()) return table;
-  table.title = "Cited limits of the gap";
-  table.columns = {significant_column("limit", "cm", 6, "limit_cm"),
-                   significant_column("at", "MPa", 6, "limit_peak_pressure_MPa"),
-                   named_text("source", "source"),
-                   significant_column("computed at", "MPa", 6, "peak_pressure_MPa"),
-                   quantity::case_name(),
-                   quantity::critical_gap(),
-                   quantity::critical_gap_reads_as(),
-                   significant_column("computed minus cited", "cm", 2, "difference_cm")};
+  if (study.study.cited_limits.empty()) return {};
+  std::vector<LimitRow> rows;
   bool chosen = false;
-  for (const study::LimitComparison& each : study::compare_with_limits(study, critical)) {
+  for (study::LimitComparison& each : study::compare_with_limits(study, critical)) {
     chosen = chosen || each.cases > 1;
-    table.rows.push_back(cells_of_limit(each, study, critical));
+    const auto nearest = each.nearest;
+    rows.push_back({std::move(each)});
+    if (nearest) rows.back() = {rows.back().comparison, &study.cases[*nearest], critical[*nearest]};
   }
+  Table table = table_of("Cited limits of the gap", limit_quantities(), rows);
   table.notes.push_back(fmt::format(
       "Beside each limit stands the case with the nearest peak pressure; for one without a pressure, that of "
-      "the study's scene. The difference is given where the pressures agree within {:.6g} %.",
-      100.0 * study::pressure_slack));
+      "the study's scene. The difference is given where the pressures agree within {}.",
+      in_words(study::pressure_slack, keys::significant(6, percent))));
   table.notes.emplace_back(
       "Whether the pressure of a cited limit is that at the breech, at the base or under the charge is not "
       "known.");
@@ -236,8 +296,8 @@ Table cited_limit_table(const study::StudyFile& study,
 std::string friction_remark(const study::StudyFile& study) {
   const scene::Scene& scene = study.scene.scene;
   std::string text = fmt::format(
-      "The friction closure is \"{}\" with a localisation of {}, and the exchange time is {} ms. These two "
-      "and the ignition temperature ({} K) are calibrated on published rows, as are the shape of the load "
+      "The friction closure is \"{}\" with a localisation of {}, and the exchange time is {}. These two "
+      "and the ignition temperature ({}) are calibrated on published rows, as are the shape of the load "
       "and the choice of the model (see `studies/calibrate_table8.toml` and "
       "`studies/model_form/README.md`), so the critical gap of the calibration's own load and defect is a "
       "fit, not a prediction. What it is computed for is how it moves with pressure, defect, load shape and "
@@ -246,8 +306,8 @@ std::string friction_remark(const study::StudyFile& study) {
       "of 100 um, and from none at 0.05 and above, where defects change T max by some kelvin "
       "(`studies/defects.toml`).\n",
       study::to_string(scene.surface.friction), significant(scene.surface.localisation, 6),
-      significant(1e3 * scene.surface.exchange_time, 6),
-      significant(scene.charge().kinetics.ignition_temperature, 6));
+      milliseconds(scene.surface.exchange_time),
+      in_words(scene.charge().kinetics.ignition_temperature, keys::significant(6, kelvin)));
   std::string varied;
   for (const char* key : {"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"}) {
     if (varies(study.study, key)) varied += fmt::format("{}`{}`", varied.empty() ? "" : ", ", key);
@@ -257,23 +317,21 @@ std::string friction_remark(const study::StudyFile& study) {
 }
 
 std::optional<Measured> measured_gap(const study::CriticalGap& gap) {
-  return measured_gap(100.0 * value_of(gap), 100.0 * gap.bounds.at_least, 100.0 * gap.bounds.at_most);
+  const Form form = quantity::critical_gap().form;
+  return measured_gap(shown_value(value_of(gap), form), shown_value(gap.bounds.at_least, form),
+                      shown_value(gap.bounds.at_most, form));
 }
 
-Table gap_share_table(const std::vector<std::pair<std::string, const study::CriticalGap*>>& cases) {
-  Table table{
-      "What makes the critical gap uncertain",
-      {quantity::case_name(), named_text("cause", "cause"), named_text("class", "class"),
-       named_text("critical gap towards ignition", "raised"), named_text("at the other end", "lowered"),
-       significant_column("lowers the bound by", "cm", 2, "lowers_cm")}};
-  for (const auto& [label, gap] : cases) {
-    for (const study::GapShare& share : gap->shares) {
-      const study::ShareTraits& traits = study::traits_of(share.kind);
-      table.rows.push_back({label, traits.title, study::to_string(traits.of_class),
-                            gap_or_bound_text(share.raised), gap_or_bound_text(share.lowered),
-                            optional_number(100.0 * study::move_towards_ignition(gap->lower, share))});
-    }
-  }
+std::string measured_text(const study::CriticalGap& gap) {
+  const auto known = measured_gap(gap);
+  return known ? known->text(quantity::critical_gap().form.unit) : centimetres(gap.value);
+}
+
+Table gap_share_table(const std::vector<NamedGap>& cases) {
+  std::vector<ShareRow> rows;
+  for (const NamedGap& each : cases)
+    for (const study::GapShare& share : each.gap->shares) rows.push_back({&each, &share});
+  Table table = table_of("What makes the critical gap uncertain", share_quantities(), rows);
   if (!table.rows.empty())
     table.notes.push_back(fmt::format(
         "Every cause is put to the ends of its range by itself, and the critical gap is searched anew. "

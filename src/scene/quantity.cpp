@@ -16,7 +16,7 @@
 namespace launchsafe::scene {
 namespace {
 
-constexpr std::size_t dimension_count = static_cast<std::size_t>(Dimension::toughness) + 1;
+constexpr std::size_t dimension_count = static_cast<std::size_t>(Dimension::memory) + 1;
 
 /// Most units are powers of ten of the SI unit, so that a decimal number converts without rounding twice. A
 /// number in any other unit becomes (number + shift) * factor in SI.
@@ -122,6 +122,12 @@ const DimensionInfo& info_of(Dimension dimension) {
        "Pa m^0.5",
        {{"MPa m^0.5", 6}, {"Pa m^0.5", 0}},
        {"MPa m^0.5", "Pa m^0.5"}},
+      {"share", "\"5 %\"", "", {{"%", -2}}, {}},
+      {"mass", "\"1 kg\"", "kg", {{"kg", 0}, {"g", -3}}, {}},
+      {"volume", "\"1 cm3\"", "m3", {{"cm3", -6}, {"m3", 0}}, {}},
+      {"heat", "\"1 kJ\"", "J", {{"kJ", 3}, {"J", 0}}, {}},
+      {"heat per area", "\"1 kJ/m2\"", "J/m2", {{"kJ/m2", 3}, {"J/m2", 0}}, {}},
+      {"size of memory", "\"1 MB\"", "B", {{"MB", 6}, {"B", 0}}, {}},
   }};
   return table[static_cast<std::size_t>(dimension)];
 }
@@ -395,6 +401,28 @@ double in_unit(double value_si, Dimension dimension, std::string_view unit_name)
   if (!unit->decimal) return static_cast<double>(value_si / unit->factor - unit->shift);
   const double factor = std::pow(10.0, std::abs(unit->power));
   return unit->power > 0 ? value_si / factor : value_si * factor;
+}
+
+int power_of(Dimension dimension, std::string_view unit_name) {
+  const std::optional<Unit> unit = find_unit(dimension, unit_name);
+  return unit ? unit->power : 0;
+}
+
+double shifted_point(double value, int power) {
+  if (!std::isfinite(value) || value == 0.0 || power == 0) return value;
+  char text[48];
+  char* const end = std::to_chars(text, text + 32, value, std::chars_format::scientific).ptr;
+  char* const letter = std::find(text, end, 'e');
+  int exponent = 0;
+  std::from_chars(letter[1] == '+' ? letter + 2 : letter + 1, end, exponent);
+  const char* const stop = std::to_chars(letter + 1, text + sizeof text, exponent + power).ptr;
+  double result = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(text, stop, result);
+  return result;
+}
+
+double as_written(double value_si, Dimension dimension, std::string_view unit) {
+  return shifted_point(value_si, -power_of(dimension, unit));
 }
 
 }  // namespace launchsafe::scene

@@ -35,7 +35,14 @@ enum class Dimension {
   specific_energy,
   specific_heat,
   conductivity,
-  toughness
+  toughness,
+  // Of results alone.
+  share,
+  mass,
+  volume,
+  energy,
+  energy_per_area,
+  memory
 };
 
 /// Where a value comes from; the letters are those of the reports: P, L, D, A, C; `input` is what the user

@@ -147,6 +147,9 @@ report::Table reference_table(const AccuracyResult& result);
 /// The same for every station: T max.
 report::Table point_table(const AccuracyResult& result);
 
+/// What these tables hold, but for the gaps, times and meshes of a study.
+std::vector<ResultTable> accuracy_results();
+
 /// Error of T max against processor time: bound and distance, and the front of the settings that no other one
 /// beats, which alone are named.
 report::Plot error_plot(const VariantAccuracy& variant);

@@ -195,6 +195,9 @@ Kind calibration_kind();
 /// What the evidence supports, and which constants the scene should hold.
 std::string answer(const CalibrationResult& result);
 
+/// What the tables of the report hold.
+std::vector<ResultTable> calibration_results();
+
 /// The recommended constants beside those of the scene file.
 report::Table constants_table(const CalibrationResult& result);
 

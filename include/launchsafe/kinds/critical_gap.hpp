@@ -46,6 +46,9 @@ report::Table verdict_table(const CriticalGapResult& result);
 report::Table comparison_table(const CriticalGapResult& result);
 /// What makes each critical gap uncertain, cause by cause.
 report::Table gap_share_table(const CriticalGapResult& result);
+/// What the tables below hold.
+std::vector<ResultTable> critical_gap_results();
+std::vector<report::Column> as_calibrated_columns();
 /// What the skin of every gap does with its foreign constants as calibrated; no rows where it has none.
 report::Table as_calibrated_table(const CriticalGapResult& result);
 /// Critical gap of every case, with bracket and confirmation.

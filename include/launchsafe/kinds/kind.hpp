@@ -52,6 +52,13 @@ struct StudySource {
   std::optional<double> tolerance;  ///< K, of T max: asked for on the command line
 };
 
+/// A table of results: its rows are an array of study.json, and a file where it has one.
+struct ResultTable {
+  std::string member;                  ///< of study.json: "verdicts"
+  std::string csv;                     ///< "verdicts.csv"; empty: none
+  std::vector<report::Column> columns; ///< of a study with the defaults: some depend on what it asks
+};
+
 struct Kind {
   study::KindTraits traits;
   std::vector<scene::Key<study::Study>> keys;  ///< of its study files, besides those of every kind
@@ -64,6 +71,7 @@ struct Kind {
   study::Fault (*make_cases)(const StudySource& source, study::StudyFile& study);
   StudyOutcome (*run)(const study::StudyFile& study, const study::StudyOptions& options);
   std::vector<FileName> files;  ///< that its reports may have, besides report.md and study.json
+  std::vector<ResultTable> (*results)();
 };
 
 /// Every kind of study there is.

@@ -99,6 +99,9 @@ report::Table output_table(const SensitivityResult& result);
 /// A row for every evaluation: its inputs, outputs and failure.
 report::Table evaluation_table(const SensitivityResult& result);
 
+/// What the tables hold, but for the inputs of a study.
+std::vector<ResultTable> sensitivity_results();
+
 /// First and total order of every input with their intervals.
 report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output);
 

@@ -43,6 +43,9 @@ report::Table verdict_table(const SweepResult& result);
 /// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
 report::Table verdict_matrix(const SweepResult& result);
 
+/// What these tables hold, but for the axes of a study.
+std::vector<ResultTable> sweep_results();
+
 /// Critical gap over the axes that have several values: a curve over one, or maps over the first two, one for
 /// each combination of the others, and then the same less its uncertainty.
 struct SweepPictures {

@@ -30,12 +30,7 @@ Table run_table(const std::vector<NamedRun>& runs);
 Table interface_table(const run::MechanicsResult& mechanics);
 
 /// What a run that burnt came to.
-struct BurntState {
-  double burnt_mass = 0;        ///< g, at its end
-  double released = 0;          ///< kJ, of the heat of reaction
-  double highest_pressure = 0;  ///< MPa, of the means over the charge's bottom
-};
-BurntState burnt_state_of(const run::CombustionHistory& combustion);
+Quantities<run::CombustionHistory> burnt_state_quantities();
 
 /// A row a gap that burnt in a run with two-way coupling: flame speeds, end state, balance of energy, cost.
 /// No rows where none did.
@@ -43,6 +38,12 @@ Table combustion_table(const scene::Scene& scene, const run::CaseResult& result)
 
 /// At most `rows` samples of one of them, from ignition to the end.
 Table combustion_history_table(const run::CombustionHistory& combustion, double gap, std::size_t rows);
+
+/// What the columns of these tables are.
+std::vector<Column> run_columns();
+std::vector<Column> face_columns();
+std::vector<Column> combustion_columns();
+std::vector<Column> air_energy_columns();
 
 /// The air of one gap of one case.
 struct AuditedGap {

@@ -10,30 +10,21 @@
 
 namespace launchsafe::report {
 
-/// A value in a unit of its dimension, as if it had been written so: 3e-05 m is 30 um, to the last digit.
-double as_written(double value_si, scene::Dimension dimension, std::string_view unit);
-
-/// A gap in cm, likewise.
-inline double in_centimetres(double metres) { return as_written(metres, scene::Dimension::length, "cm"); }
-
 /// The unit in which all of these values read best, among those that people use; empty for pure numbers.
 std::string unit_for(const std::vector<double>& si_values, scene::Dimension dimension);
 
-struct ShownKey {
-  std::string name;       ///< as people read it: "peak pressure", "load.exponent"
-  std::string key;        ///< of columns and JSON: "peak_pressure_MPa", "load_exponent"
-  std::string unit;       ///< empty for pure numbers
+/// The heading is "peak pressure" or "load.exponent", the name peak_pressure or load_exponent.
+struct ShownKey : Column {
   std::string scene_key;  ///< "load.peak"
-  scene::Dimension dimension = scene::Dimension::number;
 
-  double value(double value_si) const { return as_written(value_si, dimension, unit); }
-  std::string text(double value_si) const;  ///< "496 MPa"
-  std::string heading() const;              ///< "peak pressure [MPa]"
-  Column column() const;
+  double value(double value_si) const { return shown_value(value_si, form); }
+  std::string text(double value_si) const { return in_words(value_si, form); }  ///< "496 MPa"
 };
 
 ShownKey shown(const study::Axis& axis);
 std::vector<ShownKey> shown_axes(const study::Study& study);
+/// What the axes of a study are in its cases.
+Quantities<study::StudyCase> axis_quantities(const study::Study& study);
 
 /// "400, 450, 496 MPa"; long lists by their ends and their number.
 std::string values_text(const ShownKey& key, const std::vector<double>& si_values);

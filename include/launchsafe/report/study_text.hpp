@@ -42,7 +42,4 @@ nlohmann::ordered_json axes_json(const study::Study& study);
 /// Rows have a line each and are never objects in memory, as large sweeps would take too much of it.
 std::string study_json(const study::StudyFile& study, const Report& report,
                        const nlohmann::ordered_json& members);
-/// A length in cm as people read it, six digits.
-std::string centimetres(double length);
-
 }  // namespace launchsafe::report

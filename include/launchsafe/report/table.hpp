@@ -1,53 +1,71 @@
-// Tables as values, and as text for people and for programs.
+// Tables as values, made of typed rows and a list of quantities, and as text for people and for programs.
 #pragma once
+
+#include "launchsafe/keys/quantity.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <cstdint>
 #include <string>
-#include <variant>
+#include <utility>
 #include <vector>
 
 namespace launchsafe::report {
 
-enum class Alignment { left, right };
-enum class Notation { fixed, scientific, significant };
-/// Who a column is for: people read text and Markdown, programs read CSV and JSON.
-enum class Audience { everyone, people, programs };
+using keys::always, keys::Audience, keys::Cell, keys::count, keys::for_people, keys::for_programs, keys::Form,
+    keys::headed, keys::known, keys::named, keys::Notation, keys::of_part, keys::Quantities, keys::Quantity;
+using keys::centimetre, keys::cubic_centimetre, keys::gram, keys::joule, keys::kelvin,
+    keys::kelvin_per_centimetre, keys::kilojoule, keys::kilojoule_per_area, keys::megabyte, keys::megapascal,
+    keys::metre_per_second, keys::micrometre, keys::millimetre, keys::millisecond, keys::per_second,
+    keys::percent, keys::second;
 
-struct Column {
-  std::string name;  ///< as people read it: "T max"
-  std::string unit;  ///< "K"; empty for text and pure numbers
-  Alignment alignment = Alignment::right;
-  int decimals = 1;  ///< of numbers; for Notation::significant the significant digits
-  Notation notation = Notation::fixed;
-  std::string key = {};  ///< for CSV and JSON; empty: made of name and unit, such as "peak_time_ms"
-  Audience audience = Audience::everyone;
-};
-
-/// Letters, digits and single underscores: "J/(kg K)" becomes "J_per_kg_K", "%" "percent".
-std::string key_text(const std::string& text);
-
-/// A column of text, left-aligned.
-Column text_column(std::string name);
-
-/// Nothing, a text, a number, or a count.
-using Cell = std::variant<std::monostate, std::string, double, std::int64_t>;
+/// What is said of the cells of a column: those of a table have its unit already.
+using Column = keys::QuantityDescription;
 
 struct Table {
   std::string title = {};
   std::vector<Column> columns = {};
-  std::vector<std::vector<Cell>> rows = {};  ///< a row may be short: the rest is empty
-  std::vector<std::string> notes = {};       ///< sentences under the table; in text and Markdown only
+  std::vector<std::vector<Cell>> rows = {};
+  std::vector<std::string> notes = {};  ///< sentences under the table; in text and Markdown only
 };
 
 /// The columns that programs read, named by their keys; every row is whole.
 Table for_programs(const Table& table);
 
+/// A value in SI in the unit of a form, as if it had been written so: the only conversion there is.
+double shown_value(double value_si, const Form& form);
+/// A cell in SI in the unit of its column.
+Cell shown_cell(Cell cell_si, const Column& column);
+/// A value in SI as people read it within a sentence: "0.0381 cm".
+std::string in_words(double value_si, const Form& form);
+/// The same without the unit.
+std::string digits_of(double value_si, const Form& form);
+
+/// A row in the units of its quantities.
+template <class Row>
+std::vector<Cell> cells_of(const Quantities<Row>& quantities, const Row& row) {
+  std::vector<Cell> cells;
+  cells.reserve(quantities.size());
+  for (const Quantity<Row>& each : quantities) cells.push_back(shown_cell(each.value(row), each));
+  return cells;
+}
+
+/// A table with a column for every quantity.
+template <class Row>
+Table table_of(std::string title, const Quantities<Row>& quantities, const std::vector<Row>& rows) {
+  Table table{std::move(title), keys::described(quantities)};
+  table.rows.reserve(rows.size());
+  for (const Row& row : rows) table.rows.push_back(cells_of(quantities, row));
+  return table;
+}
+
 /// A cell as people read it.
 std::string cell_text(const Cell& cell, const Column& column);
-/// "T max [K]".
-std::string heading_of(const Column& column);
+/// What a quantity of a row is, as people read it, without its unit.
+template <class Row>
+std::string text_of(const Quantity<Row>& quantity, const Row& row) {
+  return cell_text(shown_cell(quantity.value(row), quantity), quantity);
+}
+
 /// Text in which nothing is markup to GitHub's Markdown.
 std::string markdown_escaped(const std::string& text);
 
@@ -64,12 +82,20 @@ std::string to_markdown(const Table& table);
 /// nothing as "".
 std::string to_csv(const Table& table);
 
-/// {"title", "columns": [{"key", "name", "unit"}], "rows": [{key: value}]}; numbers exact, NaN and nothing as
-/// null.
+/// {"title", "columns": [{"key", "name", "unit", "meaning"}], "rows": [{key: value}]}; numbers exact, NaN and
+/// nothing as null.
 nlohmann::ordered_json to_json(const Table& table);
 
 /// Adds the rows of `to_json`, a line each, to a text that ends in an open array: a long table is never the
 /// whole of it as objects in memory.
 void append_json_rows(std::string& text, const Table& table);
+
+/// The row of a table as an object.
+nlohmann::ordered_json json_of_row(const Table& table, std::size_t row);
+/// One row as an object, for programs.
+template <class Row, class Json = nlohmann::ordered_json>
+Json json_of(const Quantities<Row>& quantities, const Row& row) {
+  return json_of_row(table_of({}, quantities, std::vector<Row>{row}), 0);
+}
 
 }  // namespace launchsafe::report

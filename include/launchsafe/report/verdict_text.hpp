@@ -7,23 +7,30 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace launchsafe::report {
 
+/// One gap of one case.
+struct VerdictRow {
+  const study::StudyCase* input;
+  const study::GapVerdict* gap;
+  double inert;  ///< K, T max without reaction
+  double width() const { return gap->gap; }  ///< m
+};
 /// From T max to the energy of the air: what is known of one gap of one case.
-std::vector<Column> verdict_columns(const study::Study& study);
-/// The cells under them, put behind those that a row already has. `inert`: T max without reaction, K.
-void add_verdict_cells(const study::GapVerdict& row, double inert, std::vector<Cell>& cells);
+Quantities<VerdictRow> verdict_quantities(const study::Study& study);
 
 /// Kind, value and bracket of a critical gap, and how it reads.
-std::vector<Column> critical_gap_columns();
-/// Those of its bounds, of a kind that finds them; they follow.
-std::vector<Column> critical_gap_bounds_columns();
-/// The cells under them, put behind those that a row already has.
-void add_critical_gap_cells(const study::CriticalGap& gap, std::vector<Cell>& cells);
-void add_critical_gap_bounds_cells(const study::CriticalGap& gap, std::vector<Cell>& cells);
+Quantities<study::CriticalGap> critical_gap_quantities();
+/// Those and the bounds of it, of a kind that finds them.
+Quantities<study::CriticalGap> bounded_gap_quantities();
+
+/// A case with its critical gap, however the study keeps it.
+struct NamedGap {
+  std::string label;
+  const study::CriticalGap* gap;
+};
 
 /// What every table of verdicts must say: an uncertainty that is assumed or stated by hand, a charge off the
 /// grid lines.
@@ -38,10 +45,16 @@ std::string used_for(const study::Reference& published);
 double value_of(const study::CriticalGap& gap);
 /// cm: the value between its bounds; nothing where it is none, or one of them is not known.
 std::optional<Measured> measured_gap(const study::CriticalGap& gap);
-/// What makes critical gaps uncertain, cause by cause, of cases by their labels.
-Table gap_share_table(const std::vector<std::pair<std::string, const study::CriticalGap*>>& cases);
+/// "0.039 ± 0.010 cm", or six digits of the value where its bounds are not known.
+std::string measured_text(const study::CriticalGap& gap);
+/// What makes critical gaps uncertain, cause by cause.
+Table gap_share_table(const std::vector<NamedGap>& cases);
 /// "0.0395 cm", "> 0.1 cm", "ignites without a gap", "indeterminate".
 std::string reads_as(const study::CriticalGap& gap);
+
+/// The tables above and what their columns are.
+std::vector<Column> gap_share_columns();
+std::vector<Column> cited_limit_columns();
 
 /// The study's cited limits beside the critical gaps of its cases, which are in their order; without rows
 /// where it cites none.
