@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <fstream>
 #include <utility>
 
@@ -80,35 +81,48 @@ std::string amount(double value, const std::string& unit) {
   return unit.empty() ? number : number + " " + unit;
 }
 
+/// One setting of a series.
+struct SettingRow {
+  const ErrorSeries* series;
+  const Measured* setting;
+};
+
 /// What every setting gave: for people with units and to three digits, for programs exact.
 report::Table settings_table(const std::vector<MeasuredSeries>& measured) {
-  using enum report::Audience;
-  report::Table table;
-  table.title = "Settings";
-  table.columns = {
-      report::text_column("part"),
-      report::text_column("error of"),
-      report::text_column("setting"),
-      {.name = "size", .unit = "", .audience = programs},
-      {.name = "error", .unit = "", .key = "error_text", .audience = people},
-      {.name = "error", .unit = "", .audience = programs},
-      {.name = "error unit", .unit = "", .audience = programs},
-      {.name = "order", .unit = "", .key = "order_text", .audience = people},
-      {.name = "order", .unit = "", .audience = programs},
-      {.name = "order expected", .unit = "", .audience = programs},
-      {.name = "processor time", .unit = "s", .decimals = 3, .notation = report::Notation::significant},
-      {.name = "work", .unit = "", .audience = programs},
-      {.name = "reference", .unit = "", .audience = programs}};
-  table.columns[1].key = "quantity";
+  using keys::fixed, keys::significant, keys::text, report::for_people, report::for_programs, report::Column;
+  const auto of_series = [](auto member) {
+    return [member](const SettingRow& row) { return std::invoke(member, *row.series); };
+  };
+  const auto of_setting = [](auto member) {
+    return [member](const SettingRow& row) { return std::invoke(member, *row.setting); };
+  };
+  const auto number = [](std::string name, std::string heading, std::string meaning) {
+    return for_programs(always(Column{std::move(name), std::move(heading), fixed(1), std::move(meaning)}));
+  };
+  const report::Quantities<SettingRow> quantities{
+      {{"part", "part", text(), "Part of the program."}, of_series(&ErrorSeries::part)},
+      {{"quantity", "error of", text(), "What is off."}, of_series(&ErrorSeries::quantity)},
+      {{"setting", "setting", text(), "Step, cell or tolerance."}, of_setting(&Measured::text)},
+      {number("size", "size", "Its size."), of_setting(&Measured::size)},
+      {for_people(Column{"error_text", "error", text(), "The error."}),
+       [](const SettingRow& row) { return amount(row.setting->error, row.series->error_unit); }},
+      {number("error", "error", "The error."), of_setting(&Measured::error)},
+      {for_programs(Column{"error_unit", "error unit", text(), "Its unit."}), of_series(&ErrorSeries::error_unit)},
+      {for_people(Column{"order_text", "order", text(), "Order from one setting to the next."}),
+       [](const SettingRow& row) {
+         return std::isnan(row.setting->order) ? std::string() : report::fixed(row.setting->order, 2);
+       }},
+      {number("order", "order", "Order from one setting to the next."), of_setting(&Measured::order)},
+      {number("order_expected", "order expected", "Order of the theory."), of_series(&ErrorSeries::order)},
+      {always({"processor_time", "processor time", significant(3, keys::second), "Of one unit of work."}),
+       of_setting(&Measured::processor_time)},
+      {for_programs(Column{"work", "work", text(), "The unit of work."}), of_series(&ErrorSeries::work)},
+      {for_programs(Column{"reference", "reference", text(), "What it is compared with."}),
+       of_series(&ErrorSeries::reference)}};
+  std::vector<SettingRow> rows;
   for (const MeasuredSeries& each : measured)
-    for (const Measured& row : each.settings) {
-      const ErrorSeries& series = each.series;
-      table.rows.push_back(
-          {series.part, series.quantity, row.text, row.size, amount(row.error, series.error_unit), row.error,
-           series.error_unit,
-           std::isnan(row.order) ? report::Cell{} : report::Cell{report::fixed(row.order, 2)}, row.order,
-           series.order, row.processor_time, series.work, series.reference});
-    }
+    for (const Measured& row : each.settings) rows.push_back({&each.series, &row});
+  report::Table table = report::table_of("Settings", quantities, rows);
   table.notes = {
       "Errors without a unit are relative. The order is that of the error in the step, cell or tolerance, "
       "from one setting to the next; where the error is of round-off there is none.",
@@ -117,17 +131,19 @@ report::Table settings_table(const std::vector<MeasuredSeries>& measured) {
 }
 
 report::Table series_table(const std::vector<MeasuredSeries>& measured) {
-  report::Table table;
-  table.title = "What was measured";
-  table.columns = {report::text_column("part"),           report::text_column("error of"),
-                   report::text_column("against"),        report::text_column("processor time of"),
-                   report::text_column("order expected"), report::text_column("because")};
-  for (const MeasuredSeries& each : measured) {
-    const ErrorSeries& series = each.series;
-    table.rows.push_back(
-        {series.part, series.quantity, series.reference, series.work, expected_order(series), series.theory});
-  }
-  return table;
+  using keys::text;
+  const auto of_series = [](auto member) {
+    return [member](const MeasuredSeries& row) { return std::invoke(member, row.series); };
+  };
+  return report::table_of<MeasuredSeries>(
+      "What was measured",
+      {{{"part", "part", text(), "Part of the program."}, of_series(&ErrorSeries::part)},
+       {{"error_of", "error of", text(), "What is off."}, of_series(&ErrorSeries::quantity)},
+       {{"against", "against", text(), "What it is compared with."}, of_series(&ErrorSeries::reference)},
+       {{"processor_time_of", "processor time of", text(), "The unit of work."}, of_series(&ErrorSeries::work)},
+       {{"order_expected", "order expected", text(), "Order of the theory."}, of_series(expected_order)},
+       {{"because", "because", text(), "The theory."}, of_series(&ErrorSeries::theory)}},
+      measured);
 }
 
 bool is_exact(const MeasuredSeries& each) {

@@ -73,7 +73,7 @@ TEST(QuantityKeys, EndWithTheUnitAndAreTheSameInEveryTable) {
   for (const report::Table& table : tables_of_all_kinds()) {
     const std::vector<std::string> keys = report::keys_of(table);
     for (std::size_t i = 0; i < keys.size(); ++i) {
-      const std::string& unit = table.columns[i].unit;
+      const std::string& unit = table.columns[i].form.unit;
       std::string words = keys[i];
       if (!unit.empty() && unit != "1/s") {
         const std::string suffix = "_" + report::key_text(unit);

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace launchsafe::report {
@@ -13,11 +15,11 @@ namespace {
 Table verdicts() {
   Table table;
   table.title = "Verdicts";
-  table.columns = {{"gap", "cm", Alignment::right, 3},
-                   {"T max", "K", Alignment::right, 1},
-                   text_column("at"),
-                   {"steps", "", Alignment::right, 0},
-                   text_column("verdict")};
+  table.columns = {{"gap", "gap", keys::fixed(3, centimetre)},
+                   {"t_max", "T max", keys::fixed(1, kelvin)},
+                   {"at", "at"},
+                   {"steps", "steps", count()},
+                   {"verdict", "verdict"}};
   table.rows = {
       {0.0, 416.149, "G2", std::int64_t{36000}, "SAFE"},
       {0.04, std::numeric_limits<double>::quiet_NaN(), std::monostate{}, std::int64_t{9}, "UNSAFE"}};
@@ -36,14 +38,14 @@ TEST(Table, TextAlignsEveryColumn) {
 
 TEST(Table, TextAlignsByCharactersNotBytes) {
   Table table;
-  table.columns = {text_column("\u03c4"), text_column("b")};
+  table.columns = {{"tau", "\u03c4"}, {"b", "b"}};
   table.rows = {{"\u03b1\u03b2", "x"}, {"ab", "y"}};
   EXPECT_EQ(to_text(table), "\u03c4   b\n--  -\n\u03b1\u03b2  x\nab  y\n");
 }
 
 TEST(Table, TextKeepsARowOnItsLine) {
   Table table;
-  table.columns = {text_column("reason")};
+  table.columns = {{"reason", "reason"}};
   table.rows = {{"first\nsecond\tthird"}};
   EXPECT_EQ(to_text(table), "reason\n------------------\nfirst second third\n");
 }
@@ -67,7 +69,7 @@ TEST(Table, MarkdownHasItsRuleAndAlignment) {
 
 TEST(Table, MarkdownEscapesWhatWouldBeMarkup) {
   Table table;
-  table.columns = {text_column("a|b")};
+  table.columns = {{"a_b", "a|b"}};
   table.rows = {{"x|y \\ *z* _u_ `v` <b> & \nnew"}};
   const std::string text = to_markdown(table);
   EXPECT_NE(text.find("| a\\|b "), std::string::npos) << text;
@@ -76,27 +78,25 @@ TEST(Table, MarkdownEscapesWhatWouldBeMarkup) {
 
 TEST(Table, CsvFollowsRfc4180) {
   Table table;
-  table.columns = {text_column("case"), {"T max", "K", Alignment::right, 1}};
+  table.columns = {{"case", "case"}, {"t_max", "T max", keys::fixed(1, kelvin)}};
   table.rows = {{"plain", 1.0 / 3},
                 {"with, comma", 0.1},
                 {"a \"quote\"", 1e300},
                 {"two\nlines", std::monostate{}},
-                {"", std::numeric_limits<double>::quiet_NaN()},
-                {"short"}};
+                {"", std::numeric_limits<double>::quiet_NaN()}};
   EXPECT_EQ(to_csv(table),
             "case,t_max_K\r\n"
             "plain,0.3333333333333333\r\n"
             "\"with, comma\",0.1\r\n"
             "\"a \"\"quote\"\"\",1e+300\r\n"
             "\"two\nlines\",\r\n"
-            ",NaN\r\n"
-            "short,\r\n");
+            ",NaN\r\n");
 }
 
 TEST(Table, JsonKeepsNumbersExactlyAndOrder) {
   const nlohmann::ordered_json json = to_json(verdicts());
   EXPECT_EQ(json["title"], "Verdicts");
-  EXPECT_EQ(json["columns"][0], (nlohmann::ordered_json{{"key", "gap_cm"}, {"name", "gap"}, {"unit", "cm"}}));
+  EXPECT_EQ(json["columns"][0], (nlohmann::ordered_json{{"key", "gap_cm"}, {"name", "gap"}, {"unit", "cm"}, {"meaning", ""}}));
   EXPECT_EQ(json["rows"][0].dump(),
             R"({"gap_cm":0.0,"t_max_K":416.149,"at":"G2","steps":36000,"verdict":"SAFE"})");
   EXPECT_TRUE(json["rows"][1]["t_max_K"].is_null());
@@ -105,11 +105,68 @@ TEST(Table, JsonKeepsNumbersExactlyAndOrder) {
 
 TEST(Table, KeysAreMadeOfNameAndUnitAndAllDifferent) {
   Table table;
-  table.columns = {{"T max", "K"},       {"t-max", "K"},
-                   {"density", "kg/m3"}, {"GCI", "%"},
-                   {"\u03c4", ""},       {"T max", "K", Alignment::right, 1, Notation::fixed, "own"}};
-  EXPECT_EQ(keys_of(table), (std::vector<std::string>{"t_max_K", "t_max_K_2", "density_kg_per_m3",
-                                                      "gci_percent", "column", "own"}));
+  table.columns = {{"t_max", "", keys::fixed(1, kelvin)},
+                   {"t_max", "", keys::fixed(1, kelvin)},
+                   {"heat", "", keys::fixed(1, kilojoule_per_area)},
+                   {"gci", "", keys::fixed(1, percent)},
+                   {"updates", "", keys::fixed(1, per_second)},
+                   {"own", ""}};
+  EXPECT_EQ(keys_of(table), (std::vector<std::string>{"t_max_K", "t_max_K_2", "heat_kJ_per_m2", "gci_percent",
+                                                      "updates_per_second", "own"}));
+}
+
+/// A row as results have it, in SI.
+struct Measured {
+  std::string name;
+  double gap;                  ///< m
+  std::optional<double> peak;  ///< Pa
+  double drift;                ///< share
+  std::size_t steps;
+  bool sound;
+};
+struct Outer {
+  const Measured* part;
+};
+
+Quantities<Measured> measured_quantities() {
+  return {{{"case", "case", keys::text(), "The case."}, &Measured::name},
+          {{"gap", "gap", keys::significant(6, centimetre), "Its gap."}, &Measured::gap},
+          {{"peak", "p max", keys::fixed(1, megapascal), "Its peak."}, &Measured::peak},
+          {{"drift", "drift", keys::fixed(2, percent), "Its drift."}, &Measured::drift},
+          {{"steps", "steps", count(), "Its steps."}, &Measured::steps},
+          {{"sound", "sound", keys::text(), "Whether it is."}, &Measured::sound}};
+}
+
+TEST(Quantity, RowsInSiAreShownInTheUnitsOfTheirQuantities) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const Table table = table_of("Cases", measured_quantities(),
+                               {{"a", 0.00039, 496e6, 0.0123, 12, true}, {"b", 0.07, std::nullopt, nan, 0, false}});
+  EXPECT_EQ(to_csv(table),
+            "case,gap_cm,peak_MPa,drift_percent,steps,sound\r\n"
+            "a,0.039,496,1.23,12,yes\r\n"
+            "b,7,,,0,no\r\n")
+      << "a decimal number stays one to the last digit: 0.00039 m is 0.039 cm";
+  EXPECT_EQ(to_json(table)["columns"][1],
+            (nlohmann::ordered_json{{"key", "gap_cm"}, {"name", "gap"}, {"unit", "cm"}, {"meaning", "Its gap."}}));
+}
+
+TEST(Quantity, ANumberThatIsNotThereIsToldOnlyWhereItAlwaysIs) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const Column column{"u", "u", keys::fixed(1, kelvin), "Uncertainty."};
+  const Quantities<double> quantities{{column, std::identity{}}, {named("v", always(column)), std::identity{}}};
+  EXPECT_EQ(to_csv(table_of({}, quantities, {infinite})), "u_K,v_K\r\n,Infinity\r\n");
+}
+
+TEST(Quantity, ThoseOfAPartAreThoseOfTheWhole) {
+  const Measured part{"a", 0.01, std::nullopt, 0.0, 1, true};
+  const Table table = table_of({}, of_part<Outer>(&Outer::part, measured_quantities()),
+                               std::vector<Outer>{{&part}, {nullptr}});
+  EXPECT_EQ(to_csv(table), "case,gap_cm,peak_MPa,drift_percent,steps,sound\r\na,1,,0,1,yes\r\n,,,,,\r\n");
+}
+
+TEST(Quantity, InWordsAValueHasItsDigitsAndItsUnit) {
+  EXPECT_EQ(in_words(0.000380959, keys::significant(3, centimetre)), "0.0381 cm");
+  EXPECT_EQ(in_words(0.05, keys::significant(3)), "0.05");
 }
 
 TEST(Table, AColumnMayBeForPeopleOrForProgramsAlone) {
@@ -134,8 +191,7 @@ TEST(Table, RowsAppendedToAnArrayAreThoseOfTheJson) {
 
 TEST(Table, NotationsRound) {
   Table table;
-  table.columns = {{"a", "", Alignment::right, 2, Notation::scientific},
-                   {"b", "", Alignment::right, 3, Notation::significant}};
+  table.columns = {{"a", "a", keys::scientific(2)}, {"b", "b", keys::significant(3)}};
   table.rows = {{1.5e-5, 2.0e-9}};
   EXPECT_NE(to_text(table).find("1.50e-05  2e-09"), std::string::npos) << to_text(table);
 }
