@@ -77,6 +77,7 @@ Examples:
                                                          draws bodies, grid and observation points as well
   launchsafe explain studies/critical_gap_155mm.toml     the runs that the study needs
   launchsafe explain --keys                              every key of a scene file
+  launchsafe explain --results critical_gap              columns of results that begin so, with their meaning
 
 Nothing is overwritten: a FILE.svg that holds something else is refused.)";
 

@@ -110,12 +110,16 @@ void add_explain(CLI::App& app, CommandLine& line) {
       explain_footer);
   add_optional(
       command, "file", explain.file, "SCENE.toml|STUDY.toml|MATERIALS.toml",
-      "Scene, study or file of materials; with --keys or --materials the beginning of names, such as "
-      "load");
+      "Scene, study or file of materials; with --keys, --results or --materials the beginning of names, such "
+      "as load");
   CLI::Option* keys = command.add_flag("--keys", explain.keys,
                                        "List the keys of scene and study files, or those whose name begins "
                                        "with the word given in the place of a "
                                        "file: unit, range, default, standing, meaning");
+  CLI::Option* results = command.add_flag(
+      "--results", explain.results,
+      "List the columns of the tables that studies write, or those whose name begins with the word given in "
+      "the place of a file: name in files with its unit, meaning");
   CLI::Option* materials =
       command.add_flag("--materials", explain.materials,
                        "List the materials that ship, or those whose name begins with the "
@@ -125,8 +129,8 @@ void add_explain(CLI::App& app, CommandLine& line) {
                                         "Print the JSON schema of scene or study files, for editors")
                             ->check(CLI::IsMember({"scene", "study", "references"}))
                             ->type_name("scene|study|references");
-  for (CLI::Option* option : {keys, materials, schema})
-    for (CLI::Option* other : {keys, materials, schema})
+  for (CLI::Option* option : {keys, results, materials, schema})
+    for (CLI::Option* other : {keys, results, materials, schema})
       if (other != option) option->excludes(other);
   add_place(command, "--grid", explain.picture, "FILE.svg", "file",
             "File to draw the half section of a scene and its grid to");
@@ -226,10 +230,10 @@ std::string contradiction(const StudyArguments& study) {
 }
 std::string contradiction(const ExplainArguments& explain) {
   const bool of_program = !explain.schema.empty();
-  const bool lists = explain.keys || explain.materials;
+  const bool lists = explain.lists();
   if (!lists && of_program != explain.file.empty())
-    return "explain: allowed: a scene, study or file of materials, or one of --keys, --materials and "
-           "--schema";
+    return "explain: allowed: a scene, study or file of materials, or one of --keys, --results, "
+           "--materials and --schema";
   if (explain.picture && (of_program || lists))
     return "explain: --grid draws the grid of a scene; allowed: with a scene file";
   return {};

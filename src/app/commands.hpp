@@ -64,8 +64,9 @@ ExitCode perform(const VerifyArguments& arguments, Console& console);
 
 struct ExplainArguments {
   std::filesystem::path
-      file;  ///< scene or study; with `keys` or `materials` the beginning of names, or empty
-  bool keys = false, materials = false;
+      file;  ///< scene or study; with one of the lists that follow the beginning of names, or empty
+  bool keys = false, results = false, materials = false;
+  bool lists() const { return keys || results || materials; }
   std::string schema;                            ///< "scene", "study" or "references"; empty: not asked for
   std::optional<std::filesystem::path> picture;  ///< SVG file for the scene's grid; none: nothing is written
 };

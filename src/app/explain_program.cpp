@@ -2,6 +2,7 @@
 #include "explain_program.hpp"
 
 #include "key_schema.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
@@ -129,6 +130,49 @@ ExitCode explain_keys(const std::string& word, Console& console) {
   return ExitCode::done;
 }
 
+/// The columns of a table whose key begins with a word.
+std::vector<report::Column> beginning_with(const std::string& word, std::vector<report::Column> columns) {
+  std::erase_if(columns, [&](const report::Column& column) { return !column.key().starts_with(word); });
+  return columns;
+}
+
+/// Every column of the tables of all kinds, from the same descriptions that write them.
+ExitCode explain_results(const std::string& word, Console& console) {
+  std::string text;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const kinds::Kind& kind : kinds::kinds()) {
+    for (const kinds::ResultTable& table : kind.results()) {
+      const std::vector<report::Column> columns = beginning_with(word, table.columns);
+      if (columns.empty()) continue;
+      text += fmt::format("{}{}, `{}` of study.json{}\n", text.empty() ? "" : "\n", kind.traits.name,
+                          table.member, table.csv.empty() ? "" : ", " + table.csv);
+      nlohmann::ordered_json described = nlohmann::ordered_json::array();
+      for (const report::Column& column : columns) {
+        text += fmt::format("  {}\n      {}\n", column.key(), column.meaning);
+        described.push_back({{"key", column.key()},
+                             {"name", column.heading},
+                             {"unit", column.form.unit},
+                             {"meaning", column.meaning}});
+      }
+      list.push_back({{"kind", kind.traits.name},
+                      {"member", table.member},
+                      {"csv", table.csv},
+                      {"columns", std::move(described)}});
+    }
+  }
+  if (text.empty())
+    return console.refuse(fmt::format(
+        "explain --results: found \"{}\", with which no column begins; allowed: the beginning of a name, "
+        "such as critical_gap",
+        word));
+  console.print_text(text + (word.empty()
+                                 ? "\nTables also begin with the axes that their study varies, and some "
+                                   "have columns for every gap, mesh or pressure of their study.\n"
+                                 : ""));
+  console.print_json({{"results", std::move(list)}});
+  return ExitCode::done;
+}
+
 ExitCode explain_schema(const std::string& what, Console& console) {
   const nlohmann::ordered_json schema = what == "study"   ? study_schema()
                                         : what == "scene" ? scene_schema()
@@ -141,11 +185,12 @@ ExitCode explain_schema(const std::string& what, Console& console) {
 }  // namespace
 
 bool explains_program(const ExplainArguments& arguments) {
-  return arguments.keys || arguments.materials || !arguments.schema.empty();
+  return arguments.lists() || !arguments.schema.empty();
 }
 
 ExitCode explain_program(const ExplainArguments& arguments, Console& console) {
   if (arguments.keys) return explain_keys(arguments.file.string(), console);
+  if (arguments.results) return explain_results(arguments.file.string(), console);
   if (arguments.materials) return explain_materials(arguments.file.string(), console);
   return explain_schema(arguments.schema, console);
 }

@@ -42,16 +42,19 @@ report::Table interval_table(const scene::Scene& scene) {
         {heading, heading, keys::significant(digits, keys::millimetre), "Of the interval or its cells."},
         [member](const IntervalRow& row) { return row.interval.*member; });
   };
-  const auto edge = [](const char* name, const char* heading, std::vector<std::string> GridInterval::*member) {
-    return report::Quantity<IntervalRow>({name, heading, keys::text(), "Bodies whose edge is there."},
-                                         [member](const IntervalRow& row) { return list_of(row.interval.*member); });
+  const auto edge = [](const char* name, const char* heading,
+                       std::vector<std::string> GridInterval::*member) {
+    return report::Quantity<IntervalRow>(
+        {name, heading, keys::text(), "Bodies whose edge is there."},
+        [member](const IntervalRow& row) { return list_of(row.interval.*member); });
   };
   const report::Quantities<IntervalRow> quantities{
       {{"along", "along", keys::text(), "Direction."}, &IntervalRow::along},
       length("from", 7, &GridInterval::from),
       length("to", 7, &GridInterval::to),
       {{"cells", "cells", keys::count(), "Cells of the interval."},
-       [](const IntervalRow& row) { return row.interval.cells; }},
+       &IntervalRow::interval,
+       &GridInterval::cells},
       length("smallest", 4, &GridInterval::shortest),
       length("largest", 4, &GridInterval::longest),
       edge("edge_before", "edge before, of", &GridInterval::edge_before),
@@ -77,8 +80,9 @@ report::Table body_table(const scene::Scene& scene) {
   const report::Quantities<BodyRow> quantities{
       {{"body", "body", keys::text(), "The body."}, &BodyRow::name},
       {{"cells_in_x", "cells in x", keys::count(), "Its cells along x."},
-       [](const BodyRow& row) { return row.cells.nx; }},
-      {{"in_r", "in r", keys::count(), "Its cells along r."}, [](const BodyRow& row) { return row.cells.nr; }},
+       &BodyRow::cells,
+       &scene::CellRange::nx},
+      {{"in_r", "in r", keys::count(), "Its cells along r."}, &BodyRow::cells, &scene::CellRange::nr},
       {{"cells", "cells", keys::count(), "Its cells."},
        [](const BodyRow& row) { return std::int64_t{row.cells.nx} * row.cells.nr; }},
       {{"particles", "particles", keys::count(), "Its particles."}, &BodyRow::particles}};

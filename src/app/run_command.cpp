@@ -2,8 +2,8 @@
 #include "commands.hpp"
 #include "explain_scene.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
@@ -63,7 +63,9 @@ std::string line(std::string_view label, const std::string& value) {
   return fmt::format("  {:<22}{}\n", label, value);
 }
 
-std::string kilojoules(double joules) { return report::in_words(joules, keys::significant(6, keys::kilojoule)); }
+std::string kilojoules(double joules) {
+  return report::in_words(joules, keys::significant(6, keys::kilojoule));
+}
 
 std::string energy_text(const run::EnergyBalance& energy) {
   std::string text = "Energy balance at the end\n";
@@ -76,8 +78,9 @@ std::string energy_text(const run::EnergyBalance& energy) {
   if (energy.contact != 0.0) text += line("friction and contact", kilojoules(energy.contact));
   text += line("external work", kilojoules(energy.external));
   text += line("frame's body force", kilojoules(energy.body_force));
-  text += line("drift", fmt::format("{} of {}", report::in_words(energy.drift(), keys::significant(3, keys::percent)),
-                                     kilojoules(energy.scale())));
+  text += line("drift",
+               fmt::format("{} of {}", report::in_words(energy.drift(), keys::significant(3, keys::percent)),
+                           kilojoules(energy.scale())));
   return text;
 }
 
@@ -150,12 +153,12 @@ struct GapRow {
 
 report::Quantities<GapRow> gap_quantities(bool points) {
   report::Quantities<GapRow> quantities = keys::joined<GapRow>(
-      {{{report::quantity::gap(), [](const GapRow& row) { return row.gap->gap; }}},
-       report::of_part<GapRow>(&GapRow::at_stations, maximum_quantities({"T max", "at", "time"}))});
+      {{{report::quantity::gap(), &GapRow::gap, &run::GapResult::gap}},
+       report::of_part<GapRow>(maximum_quantities({"T max", "at", "time"}), &GapRow::at_stations)});
   if (points)
     quantities = keys::joined<GapRow>(
-        {quantities,
-         report::of_part<GapRow>(&GapRow::at_points, maximum_quantities({"T max at points", "where", "when"}))});
+        {quantities, report::of_part<GapRow>(maximum_quantities({"T max at points", "where", "when"}),
+                                             &GapRow::at_points)});
   quantities.emplace_back(
       report::Column{"ignition", "ignition", keys::text(), "Cause, instant and station of ignition."},
       [](const GapRow& row) { return ignition_text(row.gap->skin.ignition, *row.trace); });
@@ -253,9 +256,13 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result) 
 /// The same for programs, in SI units but for the gaps (see the keys).
 nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResult& result) {
   const run::MechanicsResult& mechanics = result.mechanics;
-  nlohmann::ordered_json object{{"title", scene.title},       {"status", run::to_string(mechanics.status)},
-                                {"reason", mechanics.reason}, {"end_time_ms", report::shown_value(mechanics.end_time, report::quantity::time(2).form)},
-                                {"load", load_json(scene)},   {"gaps", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json object{
+      {"title", scene.title},
+      {"status", run::to_string(mechanics.status)},
+      {"reason", mechanics.reason},
+      {"end_time_ms", report::shown_value(mechanics.end_time, report::quantity::time(2).form)},
+      {"load", load_json(scene)},
+      {"gaps", nlohmann::ordered_json::array()}};
   for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
   object["combustion"] = report::to_json(report::combustion_table(scene, result))["rows"];
   object["air_energy"] = report::to_json(air_table(scene, result))["rows"];

@@ -28,17 +28,16 @@ struct Check {
 
 report::Table check_table(const std::vector<Check>& checks, std::size_t failed) {
   using keys::text, keys::significant;
-  const auto of_test = [](auto member) {
-    return [member](const Check& check) { return std::invoke(member, check.test); };
-  };
   const report::Quantities<Check> quantities{
       {{"check", "check", text(), "What is checked."},
        [](const Check& check) { return check.test.group + ": " + check.test.name; }},
       {{"computed", "computed", significant(9), "What the program computed."}, &Check::computed},
-      {{"expected", "expected", significant(9), "What it must compute."}, of_test(&SelfTest::expected)},
+      {{"expected", "expected", significant(9), "What it must compute."}, &Check::test, &SelfTest::expected},
       {{"error", "error", significant(3), "Their difference."}, &Check::error},
-      {{"tolerance", "tolerance", significant(3), "The largest allowed."}, of_test(&SelfTest::tolerance)},
-      {{"unit", "unit", text(), "Unit of the numbers."}, of_test(&SelfTest::unit)},
+      {{"tolerance", "tolerance", significant(3), "The largest allowed."},
+       &Check::test,
+       &SelfTest::tolerance},
+      {{"unit", "unit", text(), "Unit of the numbers."}, &Check::test, &SelfTest::unit},
       {{"result", "result", text(), "pass or FAIL."},
        [](const Check& check) { return check.pass() ? "pass" : "FAIL"; }}};
   report::Table table = report::table_of({}, quantities, checks);

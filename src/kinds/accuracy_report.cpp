@@ -19,7 +19,9 @@ using namespace report;
 namespace {
 
 std::string kelvins(double value) { return in_words(value, keys::significant(2, kelvin)); }
-std::string in_cm(double length, int digits) { return in_words(length, keys::significant(digits, centimetre)); }
+std::string in_cm(double length, int digits) {
+  return in_words(length, keys::significant(digits, centimetre));
+}
 std::string seconds(double time, int digits = 3) { return in_words(time, keys::significant(digits, second)); }
 
 const char* limit_text(bool unjustified) {
@@ -163,9 +165,10 @@ Plot error_plot(const VariantAccuracy& variant) {
   Plot plot;
   plot.title = variant.name.empty() ? "Error of T max against processor time" : variant.name;
   plot.x = {headed("processor time of a run", quantity::processor_time()).label(), Scale::logarithmic};
-  plot.y = {headed(bounded ? "error of T max" : "distance of T max from the reference", quantity::temperature_max())
-                .label(),
-            Scale::logarithmic};
+  plot.y = {
+      headed(bounded ? "error of T max" : "distance of T max from the reference", quantity::temperature_max())
+          .label(),
+      Scale::logarithmic};
   plot.width = 1100;
   plot.height = 640;
   plot.subtitle = bounded ? "marks: bound of the error; bars: down to the distance from the reference"
@@ -192,8 +195,7 @@ Plot error_plot(const VariantAccuracy& variant) {
   std::erase_if(plot.series, [](const Series& each) { return each.x.empty(); });
   const double uncertainty = variant.reference_uncertainty();
   if (std::isfinite(uncertainty) && uncertainty > 0)
-    plot.horizontal_lines = {
-        {uncertainty, "reference uncertain by " + kelvins(uncertainty)}};
+    plot.horizontal_lines = {{uncertainty, "reference uncertain by " + kelvins(uncertainty)}};
   return plot;
 }
 

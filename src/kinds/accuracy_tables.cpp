@@ -69,9 +69,8 @@ Quantities<ReferenceRow> reference_quantities(const std::vector<double>& sizes) 
       return row.value->limit.justified ? std::optional(get(row)) : std::nullopt;
     };
   };
-  Quantities<ReferenceRow> quantities{
-      {quantity::subject(), [](const ReferenceRow& row) { return row.what.heading; }},
-      {quantity::unit(), [](const ReferenceRow& row) { return row.what.form.unit; }}};
+  Quantities<ReferenceRow> quantities{{quantity::subject(), &ReferenceRow::what, &Column::heading},
+                                      {quantity::unit(), &ReferenceRow::what, &Column::form, &Form::unit}};
   for (const double size : sizes) {
     const std::string cells = digits_of(size, quantity::cell_size().form);
     quantities.emplace_back(
@@ -82,9 +81,11 @@ Quantities<ReferenceRow> reference_quantities(const std::vector<double>& sizes) 
   }
   return keys::joined<ReferenceRow>(
       {quantities,
-       {{{"order", "order", fixed(2), "Order at which the meshes converge; none where no limit is justified."},
+       {{{"order", "order", fixed(2),
+          "Order at which the meshes converge; none where no limit is justified."},
          if_justified([](const ReferenceRow& row) { return row.value->limit.order; })},
-        {{"extrapolated", "extrapolated", significant(7), "Limit of the meshes; none where none is justified."},
+        {{"extrapolated", "extrapolated", significant(7),
+          "Limit of the meshes; none where none is justified."},
          if_justified(in_unit([](const ReferenceValue& value) { return value.limit.value; }))},
         {{"uncertainty", "uncertainty", significant(2), "By how much the reference may be off."},
          in_unit([](const ReferenceValue& value) { return value.limit.uncertainty; })},
@@ -101,7 +102,8 @@ struct ReferenceRows {
   std::vector<ReferenceRow>& rows;
 
   void add(std::string heading, Form form, const ReferenceValue& value) const {
-    if (!value.values.empty()) rows.push_back({&variant, {.heading = std::move(heading), .form = std::move(form)}, &value});
+    if (!value.values.empty())
+      rows.push_back({&variant, {.heading = std::move(heading), .form = std::move(form)}, &value});
   }
 };
 
@@ -111,7 +113,8 @@ Table quantity_table(const AccuracyResult& result,
   std::vector<ReferenceRow> rows;
   for (const VariantAccuracy& variant : result.variants)
     if (variant.reference) add({variant, rows}, *variant.reference);
-  return table_of({}, with_variants(result, reference_quantities(all_of_variants(result, cell_sizes_of))), rows);
+  return table_of({}, with_variants(result, reference_quantities(all_of_variants(result, cell_sizes_of))),
+                  rows);
 }
 
 std::string remark_of(const AccuracyRow& row) {
@@ -132,14 +135,6 @@ struct SettingRow {
   const AccuracyRow* row;
 };
 
-template <class Member>
-auto of_row(Member member) {
-  return [member](const SettingRow& row) { return std::invoke(member, *row.row); };
-}
-template <class Member>
-auto of_setting(Member member) {
-  return [member](const SettingRow& row) { return std::invoke(member, row.row->setting); };
-}
 /// One of a list, of which there is one for every gap, or time, of the variant.
 template <class Keys>
 auto of_list(std::vector<double> AccuracyRow::*list, Keys keys, double key) {
@@ -160,8 +155,8 @@ Quantities<SettingRow> by_gap(const std::vector<double>& gaps, const std::string
                               std::vector<double> AccuracyRow::*list) {
   Quantities<SettingRow> quantities;
   for (const double gap : gaps)
-    quantities.emplace_back(Column{name + "_" + gap_text(gap) + "_cm", heading + " at " + centimetres(gap), form,
-                                   "Error at that gap."},
+    quantities.emplace_back(Column{name + "_" + gap_text(gap) + "_cm", heading + " at " + centimetres(gap),
+                                   form, "Error at that gap."},
                             of_list(list, gaps_of, gap));
   return quantities;
 }
@@ -175,27 +170,35 @@ struct ComparedAt {
 Quantities<SettingRow> setting_quantities(const ComparedAt& at) {
   Quantities<SettingRow> quantities{
       {{"setting", "setting", text(), "What is set otherwise than in the scene."},
-       of_setting(&RecordedSetting::label)},
+       &SettingRow::row,
+       &AccuracyRow::setting,
+       &RecordedSetting::label},
       {{"cell", "cell", significant(3, millimetre), "Size of the charge's smallest cells, as computed."},
-       of_setting(&RecordedSetting::cell)},
-      {processor_time(), of_setting(&RecordedSetting::processor_time)},
-      {quantity::wall_time(), of_row(&AccuracyRow::wall_time)},
+       &SettingRow::row,
+       &AccuracyRow::setting,
+       &RecordedSetting::cell},
+      {processor_time(), &SettingRow::row, &AccuracyRow::setting, &RecordedSetting::processor_time},
+      {quantity::wall_time(), &SettingRow::row, &AccuracyRow::wall_time},
       {{"particle_steps", "particle steps", significant(3), "Particles times steps."},
-       of_row(&AccuracyRow::particle_steps)},
-      {quantity::memory(), of_row(&AccuracyRow::memory)}};
+       &SettingRow::row,
+       &AccuracyRow::particle_steps},
+      {quantity::memory(), &SettingRow::row, &AccuracyRow::memory}};
   quantities = keys::joined<SettingRow>(
       {quantities,
        by_gap(at.gaps, "T error", "temperature_error", fixed(2, kelvin), &AccuracyRow::temperature_error),
-       {{temperature_bound(), of_setting(&RecordedSetting::temperature_bound)},
-        {quantity::critical_gap(), of_setting(&RecordedSetting::critical_gap)},
+       {{temperature_bound(), &SettingRow::row, &AccuracyRow::setting, &RecordedSetting::temperature_bound},
+        {quantity::critical_gap(), &SettingRow::row, &AccuracyRow::setting, &RecordedSetting::critical_gap},
         {{"critical_gap_error", "its error", significant(2, centimetre), "Critical gap minus the reference."},
-         of_row(&AccuracyRow::critical_gap_error)},
-        {critical_gap_bound(), of_setting(&RecordedSetting::critical_gap_bound)},
+         &SettingRow::row,
+         &AccuracyRow::critical_gap_error},
+        {critical_gap_bound(), &SettingRow::row, &AccuracyRow::setting, &RecordedSetting::critical_gap_bound},
         {{"bottom_pressure_error", "p(t)", fixed(2, percent),
           "Relative L2 difference of the bottom pressure from the finest mesh."},
-         of_row(&AccuracyRow::pressure_error)},
+         &SettingRow::row,
+         &AccuracyRow::pressure_error},
         {{"bottom_pressure_peak_error", "p peak", fixed(2, percent), "Relative error of its peak."},
-         of_row(&AccuracyRow::peak_pressure_error)}},
+         &SettingRow::row,
+         &AccuracyRow::peak_pressure_error}},
        by_gap(at.igniting_gaps, "ignition", "ignition_time_error", fixed(3, millisecond),
               &AccuracyRow::ignition_time_error)});
   for (const double time : at.times)
@@ -206,15 +209,16 @@ Quantities<SettingRow> setting_quantities(const ComparedAt& at) {
         of_list(&AccuracyRow::error_at_times, times_of, time));
   return keys::joined<SettingRow>(
       {quantities,
-       {{quantity::energy_drift(), of_row([](const AccuracyRow& row) { return row.answer.run.energy_drift; })},
-        {{"remark", "remark", text(), "What is to be known of the setting."}, of_row(remark_of)}}});
+       {{quantity::energy_drift(), &SettingRow::row,
+         [](const AccuracyRow& row) { return row.answer.run.energy_drift; }},
+        {{"remark", "remark", text(), "What is to be known of the setting."}, &SettingRow::row, remark_of}}});
 }
 
 /// How wrong the own setting of a variant is: nothing but its name where that setting did not run soundly.
 struct VariantRow {
   const VariantAccuracy* variant;
-  const AccuracyRow* own;                        ///< nullptr where it did not run soundly
-  const RecordedSetting* half_bound = nullptr;   ///< the cheapest with half the bound
+  const AccuracyRow* own;                       ///< nullptr where it did not run soundly
+  const RecordedSetting* half_bound = nullptr;  ///< the cheapest with half the bound
   const AccuracyRow* most_distant = nullptr;
 };
 
@@ -230,10 +234,6 @@ VariantRow row_of(const VariantAccuracy& variant) {
 }
 
 Quantities<VariantRow> variant_quantities() {
-  /// Of its own setting, or of the most distant one, where they are known.
-  const auto of_own = [](auto get) {
-    return [get](const VariantRow& row) { return row.own ? keys::cell_of(get(row)) : Cell(); };
-  };
   return {
       {quantity::variant(),
        [](const VariantRow& row) {
@@ -241,27 +241,31 @@ Quantities<VariantRow> variant_quantities() {
          return row.variant->name + ": " +
                 (row.variant->reference ? "its own setting did not run soundly" : row.variant->no_reference);
        }},
-      {temperature_bound(), of_own([](const VariantRow& row) { return row.own->setting.temperature_bound; })},
+      {temperature_bound(), &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::temperature_bound},
       {{"temperature_distance", "T distance", fixed(2, kelvin), "Distance of T max from the reference."},
-       of_own([](const VariantRow& row) { return row.own->largest_temperature_error; })},
-      {quantity::critical_gap(), of_own([](const VariantRow& row) { return row.own->setting.critical_gap; })},
-      {critical_gap_bound(), of_own([](const VariantRow& row) { return row.own->setting.critical_gap_bound; })},
+       &VariantRow::own,
+       &AccuracyRow::largest_temperature_error},
+      {quantity::critical_gap(), &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::critical_gap},
+      {critical_gap_bound(), &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::critical_gap_bound},
       {{"reference_uncertainty", "reference uncertain by", fixed(2, kelvin),
         "By how much the reference of T max may itself be off."},
-       of_own([](const VariantRow& row) { return row.variant->reference_uncertainty(); })},
-      {processor_time(), of_own([](const VariantRow& row) { return row.own->setting.processor_time; })},
-      {{"half_bound_setting", "cheapest with half the bound", text(), "The cheapest setting with half the bound."},
-       of_own([](const VariantRow& row) {
-         return row.half_bound ? row.half_bound->label : std::string("none here");
-       })},
+       [](const VariantRow& row) { return row.own ? row.variant->reference_uncertainty() : not_a_number; }},
+      {processor_time(), &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::processor_time},
+      {{"half_bound_setting", "cheapest with half the bound", text(),
+        "The cheapest setting with half the bound."},
+       [](const VariantRow& row) -> std::string {
+         return row.half_bound ? row.half_bound->label : row.own ? "none here" : "";
+       }},
       {{"half_bound_processor_time", "its time", fixed(1, second), "Its processor time."},
-       of_own([](const VariantRow& row) {
-         return row.half_bound ? row.half_bound->processor_time : not_a_number;
-       })},
+       &VariantRow::half_bound,
+       &RecordedSetting::processor_time},
       {{"most_distant_setting", "most distant setting", text(), "The setting farthest from the reference."},
-       of_own([](const VariantRow& row) { return row.most_distant->setting.label; })},
+       &VariantRow::most_distant,
+       &AccuracyRow::setting,
+       &RecordedSetting::label},
       {{"most_distant", "its distance", fixed(2, kelvin), "Its distance of T max."},
-       of_own([](const VariantRow& row) { return row.most_distant->largest_temperature_error; })}};
+       &VariantRow::most_distant,
+       &AccuracyRow::largest_temperature_error}};
 }
 
 }  // namespace
@@ -271,8 +275,8 @@ Table reference_table(const AccuracyResult& result) {
     const study::Study& study = to.variant.study.study;
     for (std::size_t gap = 0; gap < study.gaps.size(); ++gap) {
       const std::string at = " at " + centimetres(study.gaps[gap]);
-      to.add((reference.inert[gap] ? "T max without reaction" : "T max") + at, quantity::temperature_max().form,
-             reference.temperature[gap]);
+      to.add((reference.inert[gap] ? "T max without reaction" : "T max") + at,
+             quantity::temperature_max().form, reference.temperature[gap]);
       to.add("ignition time" + at, quantity::ignition_time().form, reference.ignition_time[gap]);
     }
     to.add("critical gap", quantity::critical_gap().form, reference.critical_gap);
@@ -288,7 +292,8 @@ Table point_table(const AccuracyResult& result) {
   return quantity_table(result, [](const ReferenceRows& to, const AccuracyReference& reference) {
     const std::string gap = ", gap " + centimetres(to.variant.study.study.gaps.front());
     for (std::size_t i = 0; i < reference.points.size(); ++i)
-      to.add(to.variant.rows.front().points[i].name + gap, quantity::temperature_max().form, reference.points[i]);
+      to.add(to.variant.rows.front().points[i].name + gap, quantity::temperature_max().form,
+             reference.points[i]);
   });
 }
 

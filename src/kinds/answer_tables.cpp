@@ -74,7 +74,7 @@ std::vector<AnsweredCase> answered(const StudyFile& study, const std::vector<Cas
 }
 
 Quantities<AnsweredCase> answered_axes(const Study& study) {
-  return of_part<AnsweredCase>(&AnsweredCase::input, axis_quantities(study));
+  return of_part<AnsweredCase>(axis_quantities(study), &AnsweredCase::input);
 }
 
 }  // namespace launchsafe::kinds

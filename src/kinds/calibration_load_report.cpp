@@ -21,7 +21,8 @@ bool has_load(const CalibrationResult& result) { return result.load && result.lo
 
 std::string load_sentence(const FittedLoad& load) {
   return fmt::format(" The load has its peak at {}, a width of {} and a steepness of {}.",
-                     milliseconds(load.peak_time), milliseconds(load.width), in_words(load.steepness, keys::significant(6)));
+                     milliseconds(load.peak_time), milliseconds(load.width),
+                     in_words(load.steepness, keys::significant(6)));
 }
 
 namespace {
@@ -40,8 +41,9 @@ Quantities<FittedRow> fitted_quantities() {
        [](const FittedRow& row) { return row.load->deviation(row.place); }}};
   for (std::size_t other = 0; other < fitted_keys.size(); ++other) {
     const std::string key(fitted_keys[other]);
-    quantities.emplace_back(Column{"correlation_" + key, "with " + key, keys::fixed(2), "Correlation with it."},
-                            [other](const FittedRow& row) { return row.load->correlation(row.place, other); });
+    quantities.emplace_back(
+        Column{"correlation_" + key, "with " + key, keys::fixed(2), "Correlation with it."},
+        [other](const FittedRow& row) { return row.load->correlation(row.place, other); });
   }
   return quantities;
 }
@@ -54,8 +56,7 @@ Table fitted_table(const CalibrationResult& result) {
   if (!has_load(result)) return {};
   std::vector<FittedRow> rows;
   for (std::size_t i = 0; i < fitted_keys.size(); ++i) rows.push_back({&*result.load, i});
-  Table table =
-      table_of("How well the calibrated rows determine what is fitted", fitted_quantities(), rows);
+  Table table = table_of("How well the calibrated rows determine what is fitted", fitted_quantities(), rows);
   table.notes.push_back(
       "Correlations of their logarithms. The weights of the fit count as standard deviations of what is "
       "published, and larger ones where more than them is left.");

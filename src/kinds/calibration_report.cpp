@@ -48,27 +48,26 @@ Quantities<Constants> constant_quantities() {
 }
 
 Quantities<CalibrationRow> calibration_quantities(const study::Study& study) {
-  const auto fitted = [](auto member) {
-    return [member](const CalibrationRow& row) { return std::invoke(member, row.calibrated); };
-  };
   const auto left_over = [](const char* name, const char* heading, const char* meaning) {
     return for_programs(
         Column{std::string(name) + "_computed_minus_published", heading, fixed(2, kelvin), meaning});
   };
   return keys::joined<CalibrationRow>(
       {calibration_setting_quantities(),
-       of_part<CalibrationRow>([](const CalibrationRow& row) { return &row.calibrated.constants; },
-                               constant_quantities()),
+       of_part<CalibrationRow>(constant_quantities(), &CalibrationRow::calibrated,
+                               &CalibratedConstants::constants),
        {{{"ignition_lowest", "T1 from", fixed(2, kelvin), "T max, untriggered, of the largest safe gap."},
-         fitted(&CalibratedConstants::ignition_lowest)},
+         &CalibrationRow::calibrated,
+         &CalibratedConstants::ignition_lowest},
         {{"ignition_highest", "to", fixed(2, kelvin), "T max, untriggered, of the smallest igniting gap."},
-         fitted(&CalibratedConstants::ignition_highest)},
+         &CalibrationRow::calibrated,
+         &CalibratedConstants::ignition_highest},
         {{"published_bracket", "published bracket", text(), "Whether T1 lies in the published bracket."},
          [study](const CalibrationRow& row) { return bracket_check(study, row); }},
         {left_over("zero_gap", "without gap", "What the fit leaves of T max without a gap."),
-         fitted(&CalibratedConstants::zero_gap_misfit)},
+         &CalibrationRow::calibrated, &CalibratedConstants::zero_gap_misfit},
         {left_over("wide_gap", "wide gap", "What the fit leaves of T max at the wide gap."),
-         fitted(&CalibratedConstants::wide_gap_misfit)},
+         &CalibrationRow::calibrated, &CalibratedConstants::wide_gap_misfit},
         {{"rms", "RMS", fixed(2, kelvin), "Root mean square over temperatures that nothing was fitted to."},
          &CalibrationRow::root_mean_square},
         {{"spread_rms", "RMS of spreads", fixed(2, kelvin), "The same over the spreads."},
@@ -103,8 +102,8 @@ std::vector<RowOf<Compared>> rows_of(const CalibrationRow& row, const std::vecto
 template <class Compared>
 Quantities<RowOf<Compared>> with_setting(const Quantities<Compared>& quantities) {
   return keys::joined<RowOf<Compared>>(
-      {of_part<RowOf<Compared>>(&RowOf<Compared>::row, calibration_setting_quantities()),
-       of_part<RowOf<Compared>>(&RowOf<Compared>::compared, quantities)});
+      {of_part<RowOf<Compared>>(calibration_setting_quantities(), &RowOf<Compared>::row),
+       of_part<RowOf<Compared>>(quantities, &RowOf<Compared>::compared)});
 }
 
 /// Numbers are in the unit of the row.
@@ -116,7 +115,8 @@ Quantities<ComparedNumber> compared_quantities() {
   return {{quantity::subject(), &ComparedNumber::quantity},
           {quantity::gap(), &ComparedNumber::gap},
           {{"computed", "computed", fixed(2), "Computed number."}, in_unit(&ComparedNumber::computed)},
-          {always({"published", "published", fixed(2), "Published number."}), in_unit(&ComparedNumber::published)},
+          {always({"published", "published", fixed(2), "Published number."}),
+           in_unit(&ComparedNumber::published)},
           {{"computed_minus_published", "computed - published", fixed(2), "Their difference."},
            in_unit(&ComparedNumber::misfit)},
           {quantity::unit(), [form](const ComparedNumber& row) { return form(row).unit; }},
@@ -128,10 +128,10 @@ Quantities<ComparedNumber> compared_quantities() {
 
 /// Every published number beside what one row computes: with what it was used for, and the model's rival.
 Table compared_table(const CalibrationResult& result, const CalibrationRow& row) {
-  Table table = table_of(
-      fmt::format("Against the published results: {}, {}, {}", in_words(row.cell_size, quantity::cell_size().form),
-                  study::to_string(row.closure), row.kinetics),
-      compared_quantities(), row.compared);
+  Table table = table_of(fmt::format("Against the published results: {}, {}, {}",
+                                     in_words(row.cell_size, quantity::cell_size().form),
+                                     study::to_string(row.closure), row.kinetics),
+                         compared_quantities(), row.compared);
   for (const Placement& each : row.placements) {
     table.notes.push_back(fmt::format("Place of {} at {}: computed {}, published {}.", each.quantity,
                                       centimetres(each.gap), each.computed, each.published));
@@ -171,7 +171,8 @@ Table selection_table(const CalibrationResult& result) {
 Quantities<Convergence> convergence_quantities() {
   return {{quantity::closure(), [](const Convergence& each) { return study::to_string(each.closure); }},
           {quantity::kinetics(), &Convergence::kinetics},
-          {{"localisation_change", "localisation", fixed(1, percent), "Change from the coarsest to the finest mesh."},
+          {{"localisation_change", "localisation", fixed(1, percent),
+            "Change from the coarsest to the finest mesh."},
            &Convergence::localisation_change},
           {{"exchange_time_change", "exchange time", fixed(1, percent), "The same of the exchange time."},
            &Convergence::exchange_time_change}};
@@ -240,11 +241,12 @@ struct ConstantRow {
 };
 
 Quantities<ConstantRow> scene_quantities() {
-  return {{{"key", "key", text(), "Key of the scene."}, &ConstantRow::key},
-          {{"calibrated", "calibrated", text(), "Its calibrated value."}, &ConstantRow::calibrated},
-          {{"in_the_scene_now", "in the scene now", text(), "What the scene has."}, &ConstantRow::in_scene},
-          {{"difference", "difference", fixed(2, percent), "By how much the scene's is above the calibrated."},
-           &ConstantRow::difference}};
+  return {
+      {{"key", "key", text(), "Key of the scene."}, &ConstantRow::key},
+      {{"calibrated", "calibrated", text(), "Its calibrated value."}, &ConstantRow::calibrated},
+      {{"in_the_scene_now", "in the scene now", text(), "What the scene has."}, &ConstantRow::in_scene},
+      {{"difference", "difference", fixed(2, percent), "By how much the scene's is above the calibrated."},
+       &ConstantRow::difference}};
 }
 
 }  // namespace
@@ -256,8 +258,8 @@ Table constants_table(const CalibrationResult& result) {
   std::vector<ConstantRow> rows{{"friction.closure", study::to_string(row.closure),
                                  study::to_string(result.study.scene.scene.surface.friction)}};
   const auto add = [&rows](std::string key, double value, double held, const keys::Unit& unit = {}) {
-    rows.push_back({std::move(key), in_words(value, significant(6, unit)), in_words(held, significant(6, unit)),
-                    (held - value) / value});
+    rows.push_back({std::move(key), in_words(value, significant(6, unit)),
+                    in_words(held, significant(6, unit)), (held - value) / value});
   };
   add("friction.localisation", fitted.localisation, now.localisation);
   add("gap.exchange_time", fitted.exchange_time, now.exchange_time, millisecond);
@@ -308,8 +310,11 @@ Report report_of(const CalibrationResult& result) {
     const Shown shown = result.recommendation.row == row ? Shown::page_and_terminal : Shown::page;
     report.items.push_back(ReportTable{.table = compared_table(result, result.rows[row]), .shown = shown});
   }
-  report.items.push_back(ReportTable{table_of_all(result, compared_quantities(), &CalibrationRow::compared), "compared.csv", "compared", Shown::file});
-  report.items.push_back(ReportTable{table_of_all(result, placement_quantities(), &CalibrationRow::placements), "", "placements", Shown::file});
+  report.items.push_back(ReportTable{table_of_all(result, compared_quantities(), &CalibrationRow::compared),
+                                     "compared.csv", "compared", Shown::file});
+  report.items.push_back(
+      ReportTable{table_of_all(result, placement_quantities(), &CalibrationRow::placements), "", "placements",
+                  Shown::file});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
   report.items.push_back(ReportTable{run_table(result), "", "runs", Shown::page});
   report.items.push_back(Statement{timing_sentence(result.timing)});

@@ -101,11 +101,12 @@ Table model_form_table(const ModelForm& form) {
     scene::Scene scene = form.record.scene;
     scene.load.peak = pressure;
     const auto most = study::model_form_shift(form.record, scene);
-    shift.gaps.push_back(std::isnan(most.gap) ? "not known" : digits_of(most.gap, significant(3, centimetre)));
+    shift.gaps.push_back(std::isnan(most.gap) ? "not known"
+                                              : digits_of(most.gap, significant(3, centimetre)));
   }
   rows.push_back(std::move(shift));
-  return table_of("Critical gap [cm] by model and peak pressure", model_quantities(form.record.peak_pressures),
-                  rows);
+  return table_of("Critical gap [cm] by model and peak pressure",
+                  model_quantities(form.record.peak_pressures), rows);
 }
 
 /// A model that was calibrated.
@@ -115,31 +116,32 @@ Quantities<CalibratedModel> model_constant_quantities() {
   const auto of_scene = [](auto get) {
     return [get](CalibratedModel model) { return get(model->calibration->calibration.scene); };
   };
-  const auto of_record = [](double CalibrationRecord::*member) {
-    return [member](CalibratedModel model) { return model->calibration->*member; };
-  };
-  const auto of_stations = [](auto member) {
-    return [member](CalibratedModel model) { return std::invoke(member, model->calibration->stations); };
-  };
-  return {{{"model", "model", text(), "The model."}, &ModelFormEntry::name},
-          {quantity::load_peak_time(), of_scene([](const scene::Scene& scene) { return scene.load.peak_time; })},
-          {quantity::load_width(), of_scene([](const scene::Scene& scene) { return scene.load.width; })},
-          {quantity::load_steepness(), of_scene([](const scene::Scene& scene) { return scene.load.steepness; })},
-          {quantity::localisation(),
-           of_scene([](const scene::Scene& scene) { return scene.surface.localisation; })},
-          {quantity::exchange_time(),
-           of_scene([](const scene::Scene& scene) { return scene.surface.exchange_time; })},
-          {{"ignition_temperature", "T1", significant(6, kelvin), "Ignition temperature."},
-           of_scene([](const scene::Scene& scene) { return scene.charge().kinetics.ignition_temperature; })},
-          {{"selection_rms", "RMS of selection", significant(4, kelvin), quantity::selection_rms().meaning},
-           of_record(&CalibrationRecord::selection_root_mean_square)},
-          {{"misfit_bound", "95 % of misfits below", significant(3, kelvin),
-            "Bound of the misfits of what nothing was fitted to."},
-           of_record(&CalibrationRecord::misfit_bound)},
-          {quantity::change_to_finer(), of_stations(&StationConvergence::finer)},
-          {quantity::change_from_coarser(), of_stations(&StationConvergence::coarser)},
-          {{"stations_converge", "stations converge", text(), "Whether they settle as cells shrink."},
-           of_stations(&StationConvergence::converges)}};
+  return {
+      {{"model", "model", text(), "The model."}, &ModelFormEntry::name},
+      {quantity::load_peak_time(), of_scene([](const scene::Scene& scene) { return scene.load.peak_time; })},
+      {quantity::load_width(), of_scene([](const scene::Scene& scene) { return scene.load.width; })},
+      {quantity::load_steepness(), of_scene([](const scene::Scene& scene) { return scene.load.steepness; })},
+      {quantity::localisation(),
+       of_scene([](const scene::Scene& scene) { return scene.surface.localisation; })},
+      {quantity::exchange_time(),
+       of_scene([](const scene::Scene& scene) { return scene.surface.exchange_time; })},
+      {{"ignition_temperature", "T1", significant(6, kelvin), "Ignition temperature."},
+       of_scene([](const scene::Scene& scene) { return scene.charge().kinetics.ignition_temperature; })},
+      {{"selection_rms", "RMS of selection", significant(4, kelvin), quantity::selection_rms().meaning},
+       &ModelFormEntry::calibration,
+       &CalibrationRecord::selection_root_mean_square},
+      {{"misfit_bound", "95 % of misfits below", significant(3, kelvin),
+        "Bound of the misfits of what nothing was fitted to."},
+       &ModelFormEntry::calibration,
+       &CalibrationRecord::misfit_bound},
+      {quantity::change_to_finer(), &ModelFormEntry::calibration, &CalibrationRecord::stations,
+       &StationConvergence::finer},
+      {quantity::change_from_coarser(), &ModelFormEntry::calibration, &CalibrationRecord::stations,
+       &StationConvergence::coarser},
+      {{"stations_converge", "stations converge", text(), "Whether they settle as cells shrink."},
+       &ModelFormEntry::calibration,
+       &CalibrationRecord::stations,
+       &StationConvergence::converges}};
 }
 
 Table model_constants_table(const ModelForm& form) {

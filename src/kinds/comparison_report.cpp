@@ -35,8 +35,8 @@ struct CaseRow {
 
 /// Variant, and peak pressure where there are several.
 Quantities<CaseRow> place_quantities(const study::Study& study) {
-  return keys::joined<CaseRow>(
-      {{{quantity::variant(), &CaseRow::variant}}, of_part<CaseRow>(&CaseRow::input, axis_quantities(study))});
+  return keys::joined<CaseRow>({{{quantity::variant(), &CaseRow::variant}},
+                                of_part<CaseRow>(axis_quantities(study), &CaseRow::input)});
 }
 
 double hottest(const ComparedCase& each) {
@@ -76,11 +76,10 @@ std::string largest_shift_text(const ComparisonResult& result) {
     if (std::isnan(shift)) ++unknown;
     if (shift < 0.0 && (!most || shift < shift_of(result, *most))) most = i;
   }
-  std::string text =
-      most ? fmt::format("The largest step towards ignition is {}, of {}.",
-                         in_words(shift_of(result, *most), significant(3, centimetre)),
-                         result.study.cases[*most].label)
-           : std::string("No variant has a smaller critical gap that is a value.");
+  std::string text = most ? fmt::format("The largest step towards ignition is {}, of {}.",
+                                        in_words(shift_of(result, *most), significant(3, centimetre)),
+                                        result.study.cases[*most].label)
+                          : std::string("No variant has a smaller critical gap that is a value.");
   if (unknown > 0)
     text += fmt::format(" In {} case{} one of both critical gaps is none or a bound.", unknown,
                         unknown == 1 ? "" : "s");
@@ -88,9 +87,6 @@ std::string largest_shift_text(const ComparisonResult& result) {
 }
 
 Quantities<CaseRow> compared_case_quantities(const study::Study& study) {
-  const auto of_run = [](auto member) {
-    return [member](const CaseRow& row) { return std::invoke(member, row.compared().answer.run); };
-  };
   const auto unless_own = [](double (*difference)(const CaseRow&)) {
     return [difference](const CaseRow& row) {
       return row.compared().variant == 0 ? not_a_number : difference(row);
@@ -98,8 +94,8 @@ Quantities<CaseRow> compared_case_quantities(const study::Study& study) {
   };
   return keys::joined<CaseRow>(
       {place_quantities(study),
-       of_part<CaseRow>([](const CaseRow& row) { return &row.compared().answer.critical; },
-                        critical_gap_quantities()),
+       of_part<CaseRow>(critical_gap_quantities(), &CaseRow::compared, &ComparedCase::answer,
+                        &CaseAnswer::critical),
        {{{"critical_gap_difference", "less that of the scene", significant(3, centimetre),
           "Critical gap minus that of the scene as it is."},
          unless_own([](const CaseRow& row) { return shift_of(*row.result, row.index); })},
@@ -110,9 +106,11 @@ Quantities<CaseRow> compared_case_quantities(const study::Study& study) {
            return hottest(row.compared()) - hottest(row.result->cases[row.result->counterpart(row.index)]);
          })},
         {quantity::processor_time(), [](const CaseRow& row) { return row.compared().processor_time; }},
-        {quantity::particles(), of_run(&RunSummary::particles)},
-        {quantity::steps(), of_run(&RunSummary::steps)},
-        {quantity::energy_drift(), of_run(&RunSummary::energy_drift)},
+        {quantity::particles(), &CaseRow::compared, &ComparedCase::answer, &CaseAnswer::run,
+         &RunSummary::particles},
+        {quantity::steps(), &CaseRow::compared, &ComparedCase::answer, &CaseAnswer::run, &RunSummary::steps},
+        {quantity::energy_drift(), &CaseRow::compared, &ComparedCase::answer, &CaseAnswer::run,
+         &RunSummary::energy_drift},
         {quantity::reason(), [](const CaseRow& row) {
            const CaseAnswer& answer = row.compared().answer;
            return answer.completed() ? answer.critical.reason : answer.failure;
@@ -138,12 +136,11 @@ struct StationRow {
 };
 
 Quantities<StationRow> station_quantities(const study::Study& study) {
-  return keys::joined<StationRow>(
-      {of_part<StationRow>(&StationRow::of, place_quantities(study)),
-       {{quantity::gap(), &StationRow::gap},
-        {quantity::station(), [](const StationRow& row) { return row.station->name; }},
-        {always(quantity::temperature_max_inert()),
-         [](const StationRow& row) { return row.station->temperature; }}}});
+  return keys::joined<StationRow>({of_part<StationRow>(place_quantities(study), &StationRow::of),
+                                   {{quantity::gap(), &StationRow::gap},
+                                    {quantity::station(), &StationRow::station, &StationTemperature::name},
+                                    {always(quantity::temperature_max_inert()), &StationRow::station,
+                                     &StationTemperature::temperature}}});
 }
 
 /// A row for every station of every gap and case.
@@ -167,18 +164,21 @@ Table stations_side_by_side(const ComparisonResult& result) {
   Quantities<std::string> quantities{{quantity::station(), std::identity{}}};
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const ComparedCase& each = result.cases[i];
-    for (const StationTemperature& station : each.stations.empty() ? std::vector<StationTemperature>{} : each.stations[gap])
+    for (const StationTemperature& station :
+         each.stations.empty() ? std::vector<StationTemperature>{} : each.stations[gap])
       if (std::find(rows.begin(), rows.end(), station.name) == rows.end()) rows.push_back(station.name);
     if (result.counterpart(i) != 0) continue;
     const std::string& variant = result.variants()[each.variant].name;
     quantities.emplace_back(Column{variant, variant, fixed(1), "T max of the station under that variant."},
                             [&each, gap](const std::string& name) {
                               if (each.stations.empty()) return not_a_number;
-                              const auto found = std::ranges::find(each.stations[gap], name, &StationTemperature::name);
+                              const auto found =
+                                  std::ranges::find(each.stations[gap], name, &StationTemperature::name);
                               return found == each.stations[gap].end() ? not_a_number : found->temperature;
                             });
   }
-  Table table = table_of("T max [K] by station at " + centimetres(gaps[gap]) + ", without reaction", quantities, rows);
+  Table table =
+      table_of("T max [K] by station at " + centimetres(gaps[gap]) + ", without reaction", quantities, rows);
   if (!result.study.study.axes.empty())
     table.notes.emplace_back("Under the first peak pressure; stations.csv has the others.");
   return table;
@@ -209,17 +209,19 @@ Report report_of(const ComparisonResult& result) {
   report.items.push_back(Statement{station_note(result.study) + "\n"});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
   report.items.push_back(Statement{timing_sentence(result.timing)});
-  report.json = study_json(result.study, report,
-                           {{"axes", axes_json(result.study.study)},
-                            {"early_time_ms", shown_value(result.study.study.early_time, quantity::time(2).form)},
-                            {"timing", timing_json(result.timing)}});
+  report.json =
+      study_json(result.study, report,
+                 {{"axes", axes_json(result.study.study)},
+                  {"early_time_ms", shown_value(result.study.study.early_time, quantity::time(2).form)},
+                  {"timing", timing_json(result.timing)}});
   return report;
 }
 
 std::vector<ResultTable> comparison_results() {
   const study::Study study;
-  std::vector<ResultTable> tables{{"cases", "comparison.csv", keys::described(compared_case_quantities(study))},
-                                  {"stations", "stations.csv", keys::described(station_quantities(study))}};
+  std::vector<ResultTable> tables{
+      {"cases", "comparison.csv", keys::described(compared_case_quantities(study))},
+      {"stations", "stations.csv", keys::described(station_quantities(study))}};
   for (ResultTable& each : model_form_results()) tables.push_back(std::move(each));
   return tables;
 }

@@ -17,20 +17,23 @@ struct CalibratedRow {
 
 Quantities<CalibratedRow> calibrated_quantities() {
   using keys::text;
-  return {{quantity::case_name(), [](const CalibratedRow& row) { return row.outcome->input.label; }},
-          {quantity::gap(), [](const CalibratedRow& row) { return row.gap->gap; }},
-          {quantity::verdict(), [](const CalibratedRow& row) { return row.gap->judgement.verdict; }},
-          {{"key", "constant", text(), "The constant that is put back."},
-           [](const CalibratedRow& row) {
-             return row.constant->key.empty() ? "all of gap and friction" : row.constant->key;
-           }},
-          {quantity::temperature_max(),
-           [](const CalibratedRow& row) { return known(row.gap->maximum.temperature); }},
-          {{"temperature_max_as_calibrated", "T max, as calibrated", keys::fixed(1, kelvin),
-            "Highest temperature with that constant as calibrated."},
-           [](const CalibratedRow& row) { return row.constant->temperature; }},
-          {{"ignites", "ignites then", text(), "Whether the gap ignites with it."},
-           [](const CalibratedRow& row) { return row.constant->ignites; }}};
+  return {
+      {quantity::case_name(), &CalibratedRow::outcome, &study::CaseOutcome::input, &study::StudyCase::label},
+      {quantity::gap(), &CalibratedRow::gap, &study::GapVerdict::gap},
+      {quantity::verdict(), &CalibratedRow::gap, &study::GapVerdict::judgement, &study::Judgement::verdict},
+      {{"key", "constant", text(), "The constant that is put back."},
+       [](const CalibratedRow& row) {
+         return row.constant->key.empty() ? "all of gap and friction" : row.constant->key;
+       }},
+      {quantity::temperature_max(),
+       [](const CalibratedRow& row) { return known(row.gap->maximum.temperature); }},
+      {{"temperature_max_as_calibrated", "T max, as calibrated", keys::fixed(1, kelvin),
+        "Highest temperature with that constant as calibrated."},
+       &CalibratedRow::constant,
+       &study::AsCalibrated::temperature},
+      {{"ignites", "ignites then", text(), "Whether the gap ignites with it."},
+       &CalibratedRow::constant,
+       &study::AsCalibrated::ignites}};
 }
 
 }  // namespace
@@ -45,7 +48,8 @@ Table as_calibrated_table(const CriticalGapResult& result) {
   Table table = table_of("With constants of the surface as calibrated", calibrated_quantities(), rows);
   if (!rows.empty())
     table.notes.emplace_back(
-        "The same skin on the same trace, but for this constant. What all of gap and friction together change "
+        "The same skin on the same trace, but for this constant. What all of gap and friction together "
+        "change "
         "lowers the bound of the critical gap.");
   return table;
 }

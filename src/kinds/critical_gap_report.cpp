@@ -144,10 +144,11 @@ Report report_of(const CriticalGapResult& result) {
   }
   report.items.push_back(ReportTable{run_table(result), "", "runs"});
   report.items.push_back(Statement{timing_sentence(result.timing)});
-  report.json = study_json(result.study, report,
-                           {{"critical_gap", only_critical_gap(result)},
-                            {"early_time_ms", shown_value(result.study.study.early_time, quantity::time(2).form)},
-                            {"timing", timing_json(result.timing)}});
+  report.json =
+      study_json(result.study, report,
+                 {{"critical_gap", only_critical_gap(result)},
+                  {"early_time_ms", shown_value(result.study.study.early_time, quantity::time(2).form)},
+                  {"timing", timing_json(result.timing)}});
   return report;
 }
 

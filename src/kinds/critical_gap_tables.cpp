@@ -51,38 +51,34 @@ Column difference_of(Column computed) {
 
 Quantities<ComparedRow> comparison_quantities(double early_time) {
   using namespace quantity;
-  const auto of_published = [](auto member) {
-    return [member](ComparedRow row) { return std::invoke(member, *row->reference); };
-  };
   const Column early = temperature_early(early_time);
-  return {{gap(), &GapVerdict::gap},
-          {used_for(), of_published(report::used_for)},
-          {temperature_max(), [](ComparedRow row) { return row->until_exit.temperature; }},
-          {published(temperature_max()), of_published(&study::Reference::maximum_temperature)},
-          {difference_of(temperature_max()), &GapVerdict::misfit},
-          {temperature_max_place(), [](ComparedRow row) { return row->until_exit.point; }},
-          {published_place(temperature_max()), of_published(&study::Reference::point)},
-          {{"temperature_early_used_for", "used for at " + milliseconds(early_time), text(),
-            "The same of the temperature at early_time."},
-           of_published(early_used_for)},
-          {early, [](ComparedRow row) { return row->early.temperature; }},
-          {published(early), of_published(&study::Reference::early_temperature)},
-          {difference_of(early), &GapVerdict::early_misfit},
-          {temperature_early_place(), [](ComparedRow row) { return row->early.point; }},
-          {published_place(early), of_published(&study::Reference::early_point)},
-          {ignition_time(), [](ComparedRow row) { return row->ignition ? row->ignition->time : not_a_number; }},
-          {published(ignition_time()), of_published(&study::Reference::ignition_time)}};
+  return {
+      {gap(), &GapVerdict::gap},
+      {used_for(), &GapVerdict::reference, report::used_for},
+      {temperature_max(), [](ComparedRow row) { return row->until_exit.temperature; }},
+      {published(temperature_max()), &GapVerdict::reference, &study::Reference::maximum_temperature},
+      {difference_of(temperature_max()), &GapVerdict::misfit},
+      {temperature_max_place(), [](ComparedRow row) { return row->until_exit.point; }},
+      {published_place(temperature_max()), &GapVerdict::reference, &study::Reference::point},
+      {{"temperature_early_used_for", "used for at " + milliseconds(early_time), text(),
+        "The same of the temperature at early_time."},
+       &GapVerdict::reference,
+       early_used_for},
+      {early, [](ComparedRow row) { return row->early.temperature; }},
+      {published(early), &GapVerdict::reference, &study::Reference::early_temperature},
+      {difference_of(early), &GapVerdict::early_misfit},
+      {temperature_early_place(), [](ComparedRow row) { return row->early.point; }},
+      {published_place(early), &GapVerdict::reference, &study::Reference::early_point},
+      {ignition_time(), [](ComparedRow row) { return row->ignition ? row->ignition->time : not_a_number; }},
+      {published(ignition_time()), &GapVerdict::reference, &study::Reference::ignition_time}};
 }
 
 Quantities<VerdictRow> judged_gap_quantities(const study::Study& study) {
   using namespace quantity;
-  const auto of_input = [](double study::StudyCase::*member) {
-    return [member](const VerdictRow& row) { return row.input->*member; };
-  };
   return keys::joined<VerdictRow>({{{gap(), &VerdictRow::width},
-                                    {peak_pressure(), of_input(&study::StudyCase::peak_pressure)},
-                                    {crack_radius(), of_input(&study::StudyCase::crack_radius)},
-                                    {flaw_size(), of_input(&study::StudyCase::flaw_size)}},
+                                    {peak_pressure(), &VerdictRow::input, &study::StudyCase::peak_pressure},
+                                    {crack_radius(), &VerdictRow::input, &study::StudyCase::crack_radius},
+                                    {flaw_size(), &VerdictRow::input, &study::StudyCase::flaw_size}},
                                    verdict_quantities(study)});
 }
 
@@ -111,8 +107,8 @@ Table comparison_table(const CriticalGapResult& result) {
       rows.push_back(&row);
     }
   }
-  Table table = table_of("Against the published results",
-                         comparison_quantities(result.study.study.early_time), rows);
+  Table table =
+      table_of("Against the published results", comparison_quantities(result.study.study.early_time), rows);
   table.notes.push_back(
       "Fitted: the load or constants were fitted to it. Chosen by: it was seen when a form of the model was "
       "picked, and is no prediction. Held out: a prediction.");
@@ -154,12 +150,10 @@ namespace {
 
 using NamedOutcome = const CaseOutcome*;
 
-std::string label_of(NamedOutcome outcome) { return outcome->input.label; }
-
 Quantities<NamedOutcome> judged_case_quantities() {
   return keys::joined<NamedOutcome>(
-      {{{quantity::case_name(), label_of}},
-       of_part<NamedOutcome>(&CaseOutcome::critical, bounded_gap_quantities()),
+      {{{quantity::case_name(), &CaseOutcome::input, &StudyCase::label}},
+       of_part<NamedOutcome>(bounded_gap_quantities(), &CaseOutcome::critical),
        {{for_programs(Column{"coupled_runs", "coupled runs", text(),
                              "What the coupled runs on both sides of the bracket did."}),
          [](NamedOutcome outcome) { return confirmation_text(*outcome); }},
@@ -174,8 +168,8 @@ struct CoupledRow {
 
 Quantities<CoupledRow> coupled_quantities() {
   return keys::joined<CoupledRow>(
-      {{{quantity::case_name(), [](const CoupledRow& row) { return label_of(row.of); }},
-        {quantity::gap(), [](const CoupledRow& row) { return row.run->gap; }},
+      {{{quantity::case_name(), &CoupledRow::of, &CaseOutcome::input, &StudyCase::label},
+        {quantity::gap(), &CoupledRow::run, &Confirmation::gap},
         {{"expected", "expected", text(), "What the bracket says of the gap."},
          [](const CoupledRow& row) { return ignition_word(row.run->expected_ignition); }},
         {{"outcome", "outcome", text(), "What the coupled run did."},
@@ -184,14 +178,14 @@ Quantities<CoupledRow> coupled_quantities() {
          [](const CoupledRow& row) { return known(row.run->maximum_temperature); }},
         {{"coupled_minus_traced", "coupled - traced", scientific(1, kelvin),
           "T max of the coupled run less that on the trace; none where either ignited."},
-         [](const CoupledRow& row) { return row.run->difference; }}},
-       of_part<CoupledRow>(
-           [](const CoupledRow& row) {
-             const auto& combustion = row.run->combustion;
-             return combustion && !combustion->burnt_mass.empty() ? &*combustion : nullptr;
-           },
-           burnt_state_quantities()),
-       {{quantity::reason(), [](const CoupledRow& row) { return row.run->failure; }}}});
+         &CoupledRow::run,
+         &Confirmation::difference}},
+       of_part<CoupledRow>(burnt_state_quantities(), &CoupledRow::run,
+                           [](const Confirmation& run) {
+                             const auto& combustion = run.combustion;
+                             return combustion && !combustion->burnt_mass.empty() ? &*combustion : nullptr;
+                           }),
+       {{quantity::reason(), &CoupledRow::run, &Confirmation::failure}}});
 }
 
 /// A gap of a case that also has an answer on other terms.
@@ -203,11 +197,12 @@ struct OtherRow {
 /// T max with and without those terms. `name`: of what stands beside the answer.
 Quantities<OtherRow> other_quantities(Column usual, Column other,
                                       std::optional<OtherAnswer> CaseOutcome::*member) {
-  return {{quantity::case_name(), [](const OtherRow& row) { return label_of(row.of); }},
-          {quantity::gap(), [](const OtherRow& row) { return row.of->verdicts[row.gap].gap; }},
-          {std::move(usual), [](const OtherRow& row) { return row.of->verdicts[row.gap].maximum.temperature; }},
-          {std::move(other),
-           [member](const OtherRow& row) { return (row.of->*member)->maximum_temperature.at(row.gap); }}};
+  return {
+      {quantity::case_name(), &OtherRow::of, &CaseOutcome::input, &StudyCase::label},
+      {quantity::gap(), [](const OtherRow& row) { return row.of->verdicts[row.gap].gap; }},
+      {std::move(usual), [](const OtherRow& row) { return row.of->verdicts[row.gap].maximum.temperature; }},
+      {std::move(other),
+       [member](const OtherRow& row) { return (row.of->*member)->maximum_temperature.at(row.gap); }}};
 }
 
 Quantities<OtherRow> film_quantities() {
@@ -255,8 +250,7 @@ Table coupled_run_table(const CriticalGapResult& result) {
       rows.push_back({&outcome, &each});
       if (each.combustion && notes.empty()) notes = {flame_kinetics_note(outcome.input.scene.scene)};
     }
-  Table table =
-      table_of("Coupled runs, on through combustion where they ignite", coupled_quantities(), rows);
+  Table table = table_of("Coupled runs, on through combustion where they ignite", coupled_quantities(), rows);
   table.notes = std::move(notes);
   return table;
 }
@@ -275,7 +269,8 @@ Table air_model_table(const CriticalGapResult& result) {
   std::vector<std::string> notes;
   for (const CaseOutcome& outcome : result.cases)
     if (outcome.film)
-      add_other(outcome, *outcome.film, "Critical gap, {}: {} with the reservoir, {} with the film.", rows, notes);
+      add_other(outcome, *outcome.film, "Critical gap, {}: {} with the reservoir, {} with the film.", rows,
+                notes);
   if (!rows.empty())
     notes.emplace_back(
         "The film conserves energy and conducts into charge and base: an optimistic bound, on which no "
@@ -291,11 +286,12 @@ Table without_exit_table(const CriticalGapResult& result) {
   std::vector<std::string> notes;
   for (const CaseOutcome& outcome : result.cases)
     if (outcome.longer_launch && !scene::is_cut_short(outcome.input.scene.scene.load))
-      add_other(outcome, *outcome.longer_launch, "Critical gap, {}: {} with the muzzle exit, {} without.", rows,
-                notes);
+      add_other(outcome, *outcome.longer_launch, "Critical gap, {}: {} with the muzzle exit, {} without.",
+                rows, notes);
   if (!rows.empty())
     notes.emplace_back(
-        "Verdicts rest on the muzzle exit that the scene states. Without it the load goes on until it is below "
+        "Verdicts rest on the muzzle exit that the scene states. Without it the load goes on until it is "
+        "below "
         "1 % of its peak: what the answer would be if the exit were wrong.");
   Table table = table_of("In a barrel without end", longer_launch_quantities(), rows);
   table.notes = std::move(notes);
@@ -312,42 +308,40 @@ struct FittedLine {
 };
 
 Quantities<FittedLine> line_quantities(const std::vector<double>& gaps) {
-  const auto of_line = [](auto member) {
-    return [member](const FittedLine& row) { return std::invoke(member, *row.line); };
-  };
-  const auto of_errors = [](auto get) {
-    return [get](const FittedLine& row) { return row.errors ? std::optional(get(*row.errors)) : std::nullopt; };
-  };
   Quantities<FittedLine> quantities{
       {for_programs(quantity::case_name()), &FittedLine::label},
       {{"line", "line", text(), "Which line it is."}, &FittedLine::name},
       {{"slope", "slope", fixed(1, kelvin_per_centimetre), "Rise of T max over the gap."},
-       of_line(&study::Line::slope)},
-      {{"intercept", "intercept", fixed(3, kelvin), "T max without a gap."}, of_line(&study::Line::intercept)},
+       &FittedLine::line,
+       &study::Line::slope},
+      {{"intercept", "intercept", fixed(3, kelvin), "T max without a gap."},
+       &FittedLine::line,
+       &study::Line::intercept},
       {{"rms", "RMS", fixed(2, kelvin), "Root mean square of the residuals."},
-       of_line(&study::Line::root_mean_square)}};
+       &FittedLine::line,
+       &study::Line::root_mean_square}};
   for (std::size_t i = 0; i < gaps.size(); ++i) {
     const Form form = quantity::gap().form;
-    quantities.emplace_back(Column{"residual_" + digits_of(gaps[i], form) + "_" + form.unit,
-                                   "residual " + digits_of(gaps[i], form), fixed(2, kelvin),
-                                   "T max at that gap less the line."},
-                            [i](const FittedLine& row) {
-                              return i < row.line->residuals.size() ? row.line->residuals[i] : not_a_number;
-                            });
+    quantities.emplace_back(
+        Column{"residual_" + digits_of(gaps[i], form) + "_" + form.unit,
+               "residual " + digits_of(gaps[i], form), fixed(2, kelvin), "T max at that gap less the line."},
+        [i](const FittedLine& row) {
+          return i < row.line->residuals.size() ? row.line->residuals[i] : not_a_number;
+        });
   }
   return keys::joined<FittedLine>(
       {quantities,
        {{for_programs(Column{"slope_standard_error", "slope error", fixed(1, kelvin_per_centimetre),
                              "Standard error of the slope."}),
-         of_errors([](const math::LeastSquares& fit) { return fit.standard_errors[1]; })},
+         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.standard_errors[1]; }},
         {for_programs(Column{"intercept_standard_error", "intercept error", fixed(2, kelvin),
                              "Standard error of the intercept."}),
-         of_errors([](const math::LeastSquares& fit) { return fit.standard_errors[0]; })},
+         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.standard_errors[0]; }},
         {for_programs(Column{"r_squared", "R^2", fixed(5), "Share of the variance that the line explains."}),
-         of_errors([](const math::LeastSquares& fit) { return fit.r_squared; })},
+         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.r_squared; }},
         {for_programs(Column{"residual_deviation", "residual deviation", fixed(2, kelvin),
                              "Standard deviation of the residuals."}),
-         of_errors([](const math::LeastSquares& fit) { return fit.residual_deviation; })}}});
+         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.residual_deviation; }}}});
 }
 
 }  // namespace
@@ -358,7 +352,8 @@ Table fit_table(const CaseOutcome& outcome) {
   const auto& ols = fit.least_squares;
   const std::string& label = outcome.input.label;
   std::vector<FittedLine> rows{{label, "least squares", &fit.ordinary, &ols}};
-  if (fit.mixed) rows.push_back({label, "its slope through the zero-gap row (the published form)", &*fit.mixed});
+  if (fit.mixed)
+    rows.push_back({label, "its slope through the zero-gap row (the published form)", &*fit.mixed});
   if (fit.published) rows.push_back({label, "as published", &*fit.published});
   Table table = table_of("T max = intercept + slope * gap over the rows that do not ignite, " + label,
                          line_quantities(fit.gaps), rows);

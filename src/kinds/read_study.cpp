@@ -214,7 +214,8 @@ std::vector<scene::DocumentedKey> describe_study_keys() {
       for (const scene::DocumentedKey& key : table.keys) add(key, table.name);
     }
   }
-  for (scene::DocumentedKey& key : study_table_of("accept", scene::acceptance_keys()).keys) add(std::move(key), {});
+  for (scene::DocumentedKey& key : study_table_of("accept", scene::acceptance_keys()).keys)
+    add(std::move(key), {});
   return documented;
 }
 

@@ -38,9 +38,11 @@ std::string interval_text(const SensitivitySettings& own) {
 
 const ShownOutput& shown_output(SensitivityOutput output) {
   static const std::array<ShownOutput, 3> all{
-      {{{"temperature_max", "T max", keys::significant(6, kelvin), quantity::temperature_max().meaning}, "T max"},
+      {{{"temperature_max", "T max", keys::significant(6, kelvin), quantity::temperature_max().meaning},
+        "T max"},
        {quantity::critical_gap(), "the critical gap"},
-       {{"margin", "margin", keys::significant(6, kelvin), "Ignition temperature less T max."}, "the margin"}}};
+       {{"margin", "margin", keys::significant(6, kelvin), "Ignition temperature less T max."},
+        "the margin"}}};
   return all.at(static_cast<std::size_t>(output));
 }
 
@@ -200,9 +202,10 @@ class OutputAnswer {
 std::string share_failed(const SensitivityResult& result) {
   const std::size_t all = result.answers.size(), failed = counts_of(result.answers).failed;
   if (failed == 0) return fmt::format("All {} evaluations completed.", all);
-  return fmt::format("Failed: {} of {} evaluations ({}%): {}.", failed, all,
-                     digits_of(static_cast<double>(failed) / static_cast<double>(all), keys::fixed(1, percent)),
-                     failures_list({}, result.study, result.answers));
+  return fmt::format(
+      "Failed: {} of {} evaluations ({}%): {}.", failed, all,
+      digits_of(static_cast<double>(failed) / static_cast<double>(all), keys::fixed(1, percent)),
+      failures_list({}, result.study, result.answers));
 }
 
 std::string picture_name(const OutputSensitivity& output) {

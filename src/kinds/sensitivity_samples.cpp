@@ -226,8 +226,8 @@ struct HistogramRow {
 
 Quantities<HistogramRow> histogram_quantities() {
   using keys::significant, keys::text;
-  return {{quantity::output(), [](const HistogramRow& row) { return row.shown->column.name; }},
-          {quantity::unit(), [](const HistogramRow& row) { return row.shown->column.form.unit; }},
+  return {{quantity::output(), &HistogramRow::shown, &ShownOutput::column, &Column::name},
+          {quantity::unit(), &HistogramRow::shown, &ShownOutput::column, &Column::form, &Form::unit},
           {{"from", "from", significant(6), "Begin of the interval."}, &HistogramRow::from},
           {{"to", "to", significant(6), "End of the interval."}, &HistogramRow::to},
           {{"reads_as", "without a number", text(), "What those have that have no number."},
@@ -247,7 +247,8 @@ Table quantile_table(const SensitivityResult& result) {
   for (const double share : quantile_shares) {
     if (gap == nullptr || temperature == nullptr) continue;
     const double critical = sample_of(result, *gap).quantile(share);
-    rows.push_back({share, critical, quantile_text(result, critical), sample_of(result, *temperature).quantile(share)});
+    rows.push_back(
+        {share, critical, quantile_text(result, critical), sample_of(result, *temperature).quantile(share)});
   }
   Table table = table_of("Quantiles over the draws from the inputs", quantile_quantities(), rows);
   if (rows.empty()) return table;
@@ -267,7 +268,8 @@ Table histogram_table(const SensitivityResult& result) {
     const OutputSample sample = sample_of(result, *output);
     const auto without_number = [&](std::size_t count, std::string text) {
       if (count > 0)
-        rows.push_back({&shown, not_a_number, not_a_number, std::move(text), static_cast<std::int64_t>(count)});
+        rows.push_back(
+            {&shown, not_a_number, not_a_number, std::move(text), static_cast<std::int64_t>(count)});
     };
     without_number(sample.ignites_at_zero(), quantile_text(result, -infinite));
     const Histogram histogram = histogram_of(sample, shown);

@@ -36,7 +36,8 @@ struct IndexRow {
 
 std::vector<IndexRow> index_rows(const SensitivityResult& result, const OutputSensitivity& output) {
   std::vector<IndexRow> rows;
-  for (ShownInput& input : shown_inputs(result.study.study)) rows.push_back({&output, std::move(input), rows.size()});
+  for (ShownInput& input : shown_inputs(result.study.study))
+    rows.push_back({&output, std::move(input), rows.size()});
   return rows;
 }
 
@@ -60,8 +61,8 @@ Quantities<IndexRow> index_quantities() {
     };
   };
   return keys::joined<IndexRow>(
-      {{{{"input", "input", text(), "What varies."}, [](const IndexRow& row) { return row.input.name; }},
-        {quantity::distribution(), [](const IndexRow& row) { return row.input.distribution; }}},
+      {{{{"input", "input", text(), "What varies."}, &IndexRow::input, &ShownInput::name},
+        {quantity::distribution(), &IndexRow::input, &ShownInput::distribution}},
        interval_quantities("first_order", "S1", &math::InputIndices::first,
                            "Share of the variance by the input alone."),
        interval_quantities("total_order", "ST", &math::InputIndices::total,
@@ -75,9 +76,10 @@ Quantities<IndexRow> index_quantities() {
 /// The same below each other for all outputs.
 Quantities<IndexRow> all_index_quantities() {
   return keys::joined<IndexRow>(
-      {{{quantity::output(), [](const IndexRow& row) { return shown_output(row.output->output).column.name; }},
+      {{{quantity::output(),
+         [](const IndexRow& row) { return shown_output(row.output->output).column.name; }},
         {quantity::unit(), [](const IndexRow&) { return ""; }},
-        {quantity::reason(), [](const IndexRow& row) { return row.output->reason; }}},
+        {quantity::reason(), &IndexRow::output, &OutputSensitivity::reason}},
        index_quantities()});
 }
 
@@ -87,15 +89,17 @@ Quantities<OutputRow> output_quantities() {
   const auto shown = [](double OutputSensitivity::*member) {
     return [member](OutputRow row) { return shown_output(row->output).value(row->*member); };
   };
-  return {{quantity::output(), [](OutputRow row) { return shown_output(row->output).column.name; }},
-          {quantity::unit(), [](OutputRow row) { return shown_output(row->output).column.form.unit; }},
-          {{"mean", "mean", significant(4), "Mean over the evaluations that sample the inputs."},
-           shown(&OutputSensitivity::mean)},
-          {{"standard_deviation", "standard deviation", significant(3), "Standard deviation over them."},
-           shown(&OutputSensitivity::deviation)},
-          {{"missing", "without a number", count(), "Evaluations without a number."}, &OutputSensitivity::missing},
-          {{"bounds", "bounds", count(), "Of these, critical gaps that are bounds."}, &OutputSensitivity::bounds},
-          {quantity::reason(), &OutputSensitivity::reason}};
+  return {
+      {quantity::output(), [](OutputRow row) { return shown_output(row->output).column.name; }},
+      {quantity::unit(), [](OutputRow row) { return shown_output(row->output).column.form.unit; }},
+      {{"mean", "mean", significant(4), "Mean over the evaluations that sample the inputs."},
+       shown(&OutputSensitivity::mean)},
+      {{"standard_deviation", "standard deviation", significant(3), "Standard deviation over them."},
+       shown(&OutputSensitivity::deviation)},
+      {{"missing", "without a number", count(), "Evaluations without a number."},
+       &OutputSensitivity::missing},
+      {{"bounds", "bounds", count(), "Of these, critical gaps that are bounds."}, &OutputSensitivity::bounds},
+      {quantity::reason(), &OutputSensitivity::reason}};
 }
 
 /// One evaluation.
@@ -114,15 +118,18 @@ Quantities<EvaluationRow> evaluation_quantities(const study::Study& study,
       {{{{"number", "number", count(), "Number of the evaluation."},
          [](const EvaluationRow& row) { return row.place + 1; }},
         {{"evaluation", "evaluation", text(), "Its place in the design."},
-         [](const EvaluationRow& row) { return row.of.input->label; }}},
-       of_part<EvaluationRow>(&EvaluationRow::of, answered_axes(study)),
+         &EvaluationRow::of,
+         &AnsweredCase::input,
+         &study::StudyCase::label}},
+       of_part<EvaluationRow>(answered_axes(study), &EvaluationRow::of),
        of_outputs,
-       {{for_programs(quantity::critical_gap_kind()),
-         [](const EvaluationRow& row) { return row.of.answer->critical.kind; }},
+       {{for_programs(quantity::critical_gap_kind()), &EvaluationRow::of, &AnsweredCase::answer,
+         &study::CaseAnswer::critical, &study::CriticalGap::kind},
         {headed("critical gap", quantity::critical_gap_reads_as()),
          [](const EvaluationRow& row) { return reads_as(row.of.answer->critical); }},
         {quantity::status(), [](const EvaluationRow& row) { return status_of(*row.of.answer); }},
-        {headed("failure", quantity::reason()), [](const EvaluationRow& row) { return row.of.answer->failure; }}}});
+        {headed("failure", quantity::reason()), &EvaluationRow::of, &AnsweredCase::answer,
+         &study::CaseAnswer::failure}}});
 }
 
 std::string inert_note() {

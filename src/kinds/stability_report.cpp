@@ -57,15 +57,12 @@ struct GapRow {
 
 Quantities<StressCaseRow> stress_case_quantities() {
   using keys::text;
-  const auto asked = [](auto member) {
-    return [member](const StressCaseRow& row) { return std::invoke(member, row.asked); };
-  };
-  return {{{"group", "group", text(), "Group of the case."}, asked(&StressCase::group)},
-          {quantity::case_name(), asked(&StressCase::name)},
+  return {{{"group", "group", text(), "Group of the case."}, &StressCaseRow::asked, &StressCase::group},
+          {quantity::case_name(), &StressCaseRow::asked, &StressCase::name},
           {{"outcome", "outcome", text(), "held, degraded, caught, WRONG, or not computed."}, outcome_text},
-          {{"expected", "expected", text(), "What the study expects."}, asked(expected_text)},
+          {{"expected", "expected", text(), "What the study expects."}, &StressCaseRow::asked, expected_text},
           {{"as_expected", "as expected", text(), "Whether it came out so."}, &StressCaseRow::is_as_expected},
-          {{"invariants", "invariants", text(), "What must hold."}, asked(invariants_text)},
+          {{"invariants", "invariants", text(), "What must hold."}, &StressCaseRow::asked, invariants_text},
           {{"finding", "finding", text(), "Why it came out so, and the numbers behind it."}, finding_text}};
 }
 
@@ -81,30 +78,29 @@ Quantities<GapRow> stability_quantities() {
       return row.gap && *row.gap < values.size() ? values[*row.gap] : not_a_number;
     };
   };
-  const auto of_verdict = [](auto get) {
-    return [get](const GapRow& row) { return row.gap ? keys::cell_of(get(*row.verdict())) : Cell(); };
-  };
   return keys::joined<GapRow>(
-      {of_part<GapRow>(&GapRow::of, stress_case_quantities()),
+      {of_part<GapRow>(stress_case_quantities(), &GapRow::of),
        {{quantity::status(), of_run([](const auto& row) { return run::to_string(row.answer.run.status); })},
         {{"end_time", "until", fixed(4, millisecond), "Instant that the run reached."},
          of_run([](const auto& row) { return row.end_time; })},
         {quantity::steps(), of_run([](const auto& row) { return row.answer.run.steps; })},
         {quantity::particles(), of_run([](const auto& row) { return row.answer.run.particles; })},
         {quantity::energy_drift(), of_run([](const auto& row) { return row.answer.run.energy_drift; })},
-        {quantity::gap(), of_verdict([](const GapVerdict& gap) { return gap.gap; })},
-        {quantity::temperature_max(),
-         of_verdict([](const GapVerdict& gap) { return known(gap.maximum.temperature); })},
+        {quantity::gap(), &GapRow::verdict, [](const GapVerdict& gap) { return gap.gap; }},
+        {quantity::temperature_max(), &GapRow::verdict,
+         [](const GapVerdict& gap) { return known(gap.maximum.temperature); }},
         {quantity::temperature_max_inert(),
          of_list([](const StressCaseRow& row) -> auto& { return row.answer.heated_temperature; })},
         {{"safe_computation", "safe computation", fixed(1, kelvin), "T max of the safe computation."},
          of_list([](const StressCaseRow& row) -> auto& { return row.heated_against; })},
         {{"deviation", "against", fixed(1, kelvin), "How far the case is off it."},
          of_list([](const StressCaseRow& row) -> auto& { return row.deviations; })},
-        {quantity::uncertainty(), of_verdict([](const GapVerdict& gap) { return gap.uncertainty.total(); })},
-        {quantity::verdict(), of_verdict([](const GapVerdict& gap) { return gap.judgement.verdict; })},
-        {quantity::reason(), of_verdict([](const GapVerdict& gap) { return gap.judgement.reason; })},
-        {quantity::limiters(), of_run([](const auto& row) { return run::to_string(row.answer.run.limiters); })}}});
+        {quantity::uncertainty(), &GapRow::verdict,
+         [](const GapVerdict& gap) { return gap.uncertainty.total(); }},
+        {quantity::verdict(), &GapRow::verdict, [](const GapVerdict& gap) { return gap.judgement.verdict; }},
+        {quantity::reason(), &GapRow::verdict, [](const GapVerdict& gap) { return gap.judgement.reason; }},
+        {quantity::limiters(),
+         of_run([](const auto& row) { return run::to_string(row.answer.run.limiters); })}}});
 }
 
 /// A row for every gap of every case: what must hold, what became of it, why, and the numbers behind it.

@@ -168,11 +168,12 @@ Report report_of(const SweepResult& result) {
   report.items.push_back(Statement{uncertainty_text(result.study)});
   report.items.push_back(Statement{station_note(result.study) + "\n"});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
-  report.json = study_json(result.study, report,
-                           {{"axes", axes_json(result.study.study)},
-                            {"early_time_ms", shown_value(result.study.study.early_time, quantity::time(2).form)},
-                            {"counts", counts_json(counts_of(result.answers))},
-                            {"notes", mesh_notes(result.study)}});
+  report.json =
+      study_json(result.study, report,
+                 {{"axes", axes_json(result.study.study)},
+                  {"early_time_ms", shown_value(result.study.study.early_time, quantity::time(2).form)},
+                  {"counts", counts_json(counts_of(result.answers))},
+                  {"notes", mesh_notes(result.study)}});
   return report;
 }
 

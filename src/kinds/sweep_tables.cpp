@@ -37,60 +37,56 @@ std::vector<std::size_t> outer_gaps(const std::vector<double>& gaps) {
 Quantities<AnsweredCase> outer_gap_quantities(const std::vector<double>& gaps) {
   Quantities<AnsweredCase> quantities;
   for (const std::size_t place : outer_gaps(gaps)) {
-    const char* name =
-        quantities.empty() ? "temperature_max_smallest_gap" : "temperature_max_largest_gap";
-    quantities.emplace_back(Column{name, "T max at " + centimetres(gaps[place]), fixed(1, kelvin),
-                                   "Highest temperature at that gap; of one that ignites the burning skin's."},
-                            [place](const AnsweredCase& row) {
-                              const auto& verdicts = row.answer->verdicts;
-                              return place < verdicts.size() ? verdicts[place].maximum.temperature : not_a_number;
-                            });
+    const char* name = quantities.empty() ? "temperature_max_smallest_gap" : "temperature_max_largest_gap";
+    quantities.emplace_back(
+        Column{name, "T max at " + centimetres(gaps[place]), fixed(1, kelvin),
+               "Highest temperature at that gap; of one that ignites the burning skin's."},
+        [place](const AnsweredCase& row) {
+          const auto& verdicts = row.answer->verdicts;
+          return place < verdicts.size() ? verdicts[place].maximum.temperature : not_a_number;
+        });
   }
   return quantities;
 }
 
 Quantities<AnsweredCase> swept_case_quantities(const study::Study& study) {
-  const auto of_run = [](auto member) {
-    return [member](const AnsweredCase& row) { return std::invoke(member, row.answer->run); };
-  };
   return keys::joined<AnsweredCase>(
       {answered_axes(study),
-       of_part<AnsweredCase>([](const AnsweredCase& row) { return &row.answer->critical; },
-                             bounded_gap_quantities()),
+       of_part<AnsweredCase>(bounded_gap_quantities(), &AnsweredCase::answer, &CaseAnswer::critical),
        {{{"assumed_shares", "assumed", text(), "What the bounds rest on and nothing says of the case."},
          [study](const AnsweredCase& row) {
            return assumed_shares(study, *row.input, row.answer->critical.value);
          }}},
        outer_gap_quantities(study.gaps),
        {{quantity::status(), [](const AnsweredCase& row) { return status_of(*row.answer); }},
-        {quantity::energy_drift(), of_run(&RunSummary::energy_drift)},
-        {for_programs(quantity::steps()), of_run(&RunSummary::steps)},
-        {for_programs(quantity::particles()), of_run(&RunSummary::particles)},
-        {quantity::limiters(), [](const AnsweredCase& row) { return limiters_text(row.answer->run.limiters); }},
+        {quantity::energy_drift(), &AnsweredCase::answer, &CaseAnswer::run, &RunSummary::energy_drift},
+        {for_programs(quantity::steps()), &AnsweredCase::answer, &CaseAnswer::run, &RunSummary::steps},
+        {for_programs(quantity::particles()), &AnsweredCase::answer, &CaseAnswer::run,
+         &RunSummary::particles},
+        {quantity::limiters(),
+         [](const AnsweredCase& row) { return limiters_text(row.answer->run.limiters); }},
         {quantity::remark(), [](const AnsweredCase& row) {
            return row.answer->completed() ? row.answer->critical.reason : row.answer->failure;
          }}}});
 }
 
 Quantities<VerdictRow> swept_verdict_quantities(const study::Study& study) {
-  return keys::joined<VerdictRow>(
-      {of_part<VerdictRow>(&VerdictRow::input, axis_quantities(study)),
-       {{quantity::gap(), &VerdictRow::width}},
-       verdict_quantities(study)});
+  return keys::joined<VerdictRow>({of_part<VerdictRow>(axis_quantities(study), &VerdictRow::input),
+                                   {{quantity::gap(), &VerdictRow::width}},
+                                   verdict_quantities(study)});
 }
 
 /// SAFE, UNSAFE or INDET. by gap.
 Quantities<AnsweredCase> matrix_quantities(const study::Study& study) {
   Quantities<AnsweredCase> quantities = answered_axes(study);
   for (std::size_t i = 0; i < study.gaps.size(); ++i)
-    quantities.emplace_back(
-        Column{"gap_" + digits_of(study.gaps[i], quantity::gap().form) + "_cm", centimetres(study.gaps[i]), text(),
-               "The verdict at that gap."},
-        [i](const AnsweredCase& row) -> std::string {
-          if (i >= row.answer->verdicts.size()) return {};
-          const Verdict verdict = row.answer->verdicts[i].judgement.verdict;
-          return verdict == Verdict::indeterminate ? "INDET." : study::to_string(verdict);
-        });
+    quantities.emplace_back(Column{"gap_" + digits_of(study.gaps[i], quantity::gap().form) + "_cm",
+                                   centimetres(study.gaps[i]), text(), "The verdict at that gap."},
+                            [i](const AnsweredCase& row) -> std::string {
+                              if (i >= row.answer->verdicts.size()) return {};
+                              const Verdict verdict = row.answer->verdicts[i].judgement.verdict;
+                              return verdict == Verdict::indeterminate ? "INDET." : study::to_string(verdict);
+                            });
   return quantities;
 }
 
@@ -223,10 +219,12 @@ Quantities<EffectRow> effect_quantities() {
            [](const EffectRow& row) { return row.key.text(row.effect.highest); }},
           {{"temperature_max_change", "T max by at most", significant(3, kelvin),
             "Largest change of T max over the axis, all else the same, where nothing ignites."},
-           [](const EffectRow& row) { return row.effect.temperature; }},
+           &EffectRow::effect,
+           &Effect::temperature},
           {{"critical_gap_change", "critical gap by at most", significant(3, centimetre),
             "Largest change of the critical gap over the axis, all else the same."},
-           [](const EffectRow& row) { return row.effect.critical; }}};
+           &EffectRow::effect,
+           &Effect::critical}};
 }
 
 bool below_flaw(const study::StudyCase& input) { return input.crack_radius < input.flaw_size; }
@@ -243,7 +241,8 @@ std::string crack_note(const SweepResult& result, const Effect& below) {
   return fmt::format(
       "Below the flaw size the crack radius is all but dead: T max moves by {} at most, critical gaps by {}. "
       "The strain that cracks add goes with the cube of crack radius over flaw size{}.",
-      in_words(below.temperature, significant(2, kelvin)), in_words(below.critical, significant(2, centimetre)),
+      in_words(below.temperature, significant(2, kelvin)),
+      in_words(below.critical, significant(2, centimetre)),
       rubs && !friction_varies
           ? ", and friction between closed crack faces keeps them from growing under the pressure of a launch"
           : "");

@@ -113,11 +113,12 @@ struct PressureRow {
 };
 
 Quantities<PressureRow> pressure_quantities() {
-  return {{drawn_time(), &PressureRow::time},
-          {{"chamber", "chamber", keys::significant(6, megapascal), "Mean pressure of the chamber on the base."},
-           &PressureRow::chamber},
-          {{"bottom", "bottom", keys::significant(6, megapascal), "Mean pressure of the charge's bottom."},
-           &PressureRow::bottom}};
+  return {
+      {drawn_time(), &PressureRow::time},
+      {{"chamber", "chamber", keys::significant(6, megapascal), "Mean pressure of the chamber on the base."},
+       &PressureRow::chamber},
+      {{"bottom", "bottom", keys::significant(6, megapascal), "Mean pressure of the charge's bottom."},
+       &PressureRow::bottom}};
 }
 
 }  // namespace

@@ -88,7 +88,8 @@ Plot profile_plot(const DrawnCase& drawn, const run::GapResult& gap) {
   plot.x = {.label = distance_from_axis().label(), .minimum = 0.0};
   plot.y.label = quantity::skin_temperature().label();
   const std::vector<double> times = profile_times(drawn);
-  for (const double time : times) plot.series.push_back({.label = in_words(time, quantity::time_in_titles())});
+  for (const double time : times)
+    plot.series.push_back({.label = in_words(time, quantity::time_in_titles())});
   for (const std::size_t ring : rings_of(trace)) {
     const std::vector<double> history = temperatures_of(gap.skin, ring, trace.stations.size());
     for (std::size_t i = 0; i < times.size(); ++i)
@@ -117,8 +118,8 @@ Series spread_series(const DrawnCase& drawn, const run::GapResult& gap) {
 }
 
 Plot spread_plot(const DrawnCase& drawn) {
-  Plot plot =
-      time_plot(drawn, "Temperature difference along the bottom", headed("highest less lowest skin temperature", quantity::skin_temperature()));
+  Plot plot = time_plot(drawn, "Temperature difference along the bottom",
+                        headed("highest less lowest skin temperature", quantity::skin_temperature()));
   for (const run::GapResult* gap : gaps_with(has_skin, drawn))
     plot.series.push_back(spread_series(drawn, *gap));
   return plot;
@@ -176,13 +177,12 @@ std::vector<Series> reached_series(const DrawnCase& drawn) {
   }
   std::vector<Series> series;
   for (const Reached& each : all)
-    series.push_back(
-        {.label = fmt::format("{}: {} at {}", gaps_text(each.gaps, all.size() == 1),
-                              in_words(each.state.temperature, keys::fixed(0, kelvin)),
-                              in_words(each.state.pressure, keys::significant(4, megapascal))),
-         .x = {each.state.compression},
-         .y = {each.state.temperature},
-         .style = Style::points});
+    series.push_back({.label = fmt::format("{}: {} at {}", gaps_text(each.gaps, all.size() == 1),
+                                           in_words(each.state.temperature, keys::fixed(0, kelvin)),
+                                           in_words(each.state.pressure, keys::significant(4, megapascal))),
+                      .x = {each.state.compression},
+                      .y = {each.state.temperature},
+                      .style = Style::points});
   return series;
 }
 
@@ -259,7 +259,8 @@ std::vector<Series> station_series(const trace::BottomTrace& trace, const std::v
       background.push_back(std::move(series));
       continue;
     }
-    series.label = fmt::format("{}, r {}", station.name, in_words(station.r, keys::significant(4, millimetre)));
+    series.label =
+        fmt::format("{}, r {}", station.name, in_words(station.r, keys::significant(4, millimetre)));
     series.colour = static_cast<int>(named.size());
     named.push_back(std::move(series));
   }
@@ -296,11 +297,14 @@ std::vector<CaseTable> history_tables(const DrawnCase& drawn) {
   std::vector<CaseTable> tables;
   for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
     const surface::SkinHistory& skin = gap->skin;
-    Quantities<std::size_t> quantities{{drawn_time(), [&skin](std::size_t sample) { return skin.time[sample]; }}};
+    Quantities<std::size_t> quantities{
+        {drawn_time(), [&skin](std::size_t sample) { return skin.time[sample]; }}};
     for (std::size_t i = 0; i < stations.size(); ++i)
       quantities.emplace_back(
           named(stations[i].name, headed(stations[i].name, always(quantity::skin_temperature()))),
-          [&skin, i, count = stations.size()](std::size_t sample) { return skin.temperature[sample * count + i]; });
+          [&skin, i, count = stations.size()](std::size_t sample) {
+            return skin.temperature[sample * count + i];
+          });
     std::vector<std::size_t> samples(skin.time.size());
     std::iota(samples.begin(), samples.end(), std::size_t{0});
     tables.push_back(

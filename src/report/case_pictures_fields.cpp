@@ -31,7 +31,8 @@ constexpr std::array drawn_fields{
     DrawnField{"pressure", "pressure", "pressure", &run::Snapshot::pressure, megapascal, false},
     DrawnField{"von_mises", "von Mises stress", "von Mises stress", &run::Snapshot::von_mises, megapascal,
                false},
-    DrawnField{"crack_radius", "crack radius", "crack radius", &run::Snapshot::crack_radius, micrometre, true},
+    DrawnField{"crack_radius", "crack radius", "crack radius", &run::Snapshot::crack_radius, micrometre,
+               true},
     DrawnField{"burnt_share", "burnt share", "burnt share", &run::Snapshot::burnt_share, {}, true},
 };
 
@@ -63,9 +64,9 @@ std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const DrawnField& f
 /// Over all snapshots of the launch, or of what burns, drawn or not, so that all pictures of a field in
 /// either compare: what burns may press harder by far than any launch.
 ColourScale scale_of(const DrawnCase& drawn, const DrawnField& field, const ScaleGroup& group, bool burning) {
-  ColourScale scale{fmt::format("{}: {} [{}]", group.name, field.label,
-                                field.unit.name.empty() ? "1" : field.unit.name),
-                    HUGE_VAL, -HUGE_VAL};
+  ColourScale scale{
+      fmt::format("{}: {} [{}]", group.name, field.label, field.unit.name.empty() ? "1" : field.unit.name),
+      HUGE_VAL, -HUGE_VAL};
   for (const ShownSnapshot& each : shown_snapshots(drawn)) {
     if (each.gap.has_value() != burning) continue;
     const run::Snapshot& shot = *each.snapshot;
@@ -291,12 +292,13 @@ Quantities<ParticleRow> particle_quantities() {
     };
   };
   const auto stress = [&](std::string name, std::string heading, auto values) {
-    return Quantity<ParticleRow>({std::move(name), std::move(heading), significant(6, megapascal), "Of stress."},
-                                 of(values));
+    return Quantity<ParticleRow>(
+        {std::move(name), std::move(heading), significant(6, megapascal), "Of stress."}, of(values));
   };
   const auto length = [&](std::string name, std::string heading, auto values) {
     return Quantity<ParticleRow>(
-        {std::move(name), std::move(heading), significant(6, millimetre), "Of the particle's cell."}, of(values));
+        {std::move(name), std::move(heading), significant(6, millimetre), "Of the particle's cell."},
+        of(values));
   };
   return {{{"body", "body", keys::text(), "Body of the particle."},
            [](const ParticleRow& row) {
@@ -306,7 +308,8 @@ Quantities<ParticleRow> particle_quantities() {
           length("r", "r", &Snapshot::r),
           length("half_length_x", "half length x", &Snapshot::half_length_x),
           length("half_length_r", "half length r", &Snapshot::half_length_r),
-          {{"temperature", "temperature", significant(6, kelvin), "Bulk temperature."}, of(&Snapshot::temperature)},
+          {{"temperature", "temperature", significant(6, kelvin), "Bulk temperature."},
+           of(&Snapshot::temperature)},
           {quantity::pressure(), of(&Snapshot::pressure)},
           stress("deviator_xx", "deviator xx", &Snapshot::deviator_xx),
           stress("deviator_rr", "deviator rr", &Snapshot::deviator_rr),

@@ -92,19 +92,17 @@ std::string excess_text(const AuditedGap& worst) {
 
 Quantities<NamedRun> run_quantities() {
   using run::MechanicsResult;
-  const auto of = [](auto member) {
-    return [member](const NamedRun& run) { return std::invoke(member, *run.mechanics); };
-  };
-  return {{quantity::case_name(), &NamedRun::name},
-          {headed("status", quantity::status()),
-           [](const NamedRun& run) { return run.failure.empty() ? "completed" : run.failure; }},
-          {quantity::energy_drift(), of(run::largest_energy_drift)},
-          {quantity::steps(), of(&MechanicsResult::steps)},
-          {quantity::particles(), of(&MechanicsResult::particles)},
-          {quantity::updates_per_second(), of(&MechanicsResult::update_rate)},
-          {quantity::limiters(), [](const NamedRun& run) { return limiters_text(run.mechanics->limiters); }},
-          {for_programs(Column{"stored_case", "stored case", text(), "File in the folder that holds the run."}),
-           &NamedRun::stored}};
+  return {
+      {quantity::case_name(), &NamedRun::name},
+      {headed("status", quantity::status()),
+       [](const NamedRun& run) { return run.failure.empty() ? "completed" : run.failure; }},
+      {quantity::energy_drift(), &NamedRun::mechanics, run::largest_energy_drift},
+      {quantity::steps(), &NamedRun::mechanics, &MechanicsResult::steps},
+      {quantity::particles(), &NamedRun::mechanics, &MechanicsResult::particles},
+      {quantity::updates_per_second(), &NamedRun::mechanics, &MechanicsResult::update_rate},
+      {quantity::limiters(), [](const NamedRun& run) { return limiters_text(run.mechanics->limiters); }},
+      {for_programs(Column{"stored_case", "stored case", text(), "File in the folder that holds the run."}),
+       &NamedRun::stored}};
 }
 
 Quantities<FaceRow> face_quantities() {
@@ -116,11 +114,13 @@ Quantities<FaceRow> face_quantities() {
     return [member](const FaceRow& row) { return std::invoke(member, *row.faces).at(row.node); };
   };
   return {{{"body", "body", text(), "Body that slides on the charge."},
-           [](const FaceRow& row) { return row.faces->body; }},
+           &FaceRow::faces,
+           &run::InterfaceResult::body},
           {{"face", "face", text(), "Direction of the face."},
            [](const FaceRow& row) { return row.faces->along_x ? "along x" : "along r"; }},
           {{"friction_work", "friction work", significant(4, joule), "Work of friction on the whole face."},
-           [](const FaceRow& row) { return row.faces->friction_work; }},
+           &FaceRow::faces,
+           &run::InterfaceResult::friction_work},
           {{"largest_heat", "largest heat", significant(3, kilojoule_per_area),
             "Largest heat of friction on the face."},
            at_node(&run::InterfaceResult::friction_heat)},
@@ -143,7 +143,6 @@ Quantities<BurntGap> combustion_quantities() {
   return keys::joined<BurntGap>(
       {{{quantity::gap(), &run::GapResult::gap}},
        of_part<BurntGap>(
-           [](BurntGap gap) { return &*gap->combustion; },
            Quantities<CombustionHistory>{
                {{"skin_flame_speed", "flame in the skin", significant(3, metre_per_second),
                  "Speed of the flame through the skin."},
@@ -167,7 +166,8 @@ Quantities<BurntGap> combustion_quantities() {
                {quantity::combustion_residual(), &CombustionHistory::energy_residual},
                {quantity::energy_drift(), &CombustionHistory::energy_drift},
                {{"combustion_end", "ended by", text(), "What ended the run."}, end_of},
-               {quantity::wall_time(), &CombustionHistory::wall_time}})});
+               {quantity::wall_time(), &CombustionHistory::wall_time}},
+           &run::GapResult::combustion)});
 }
 
 Quantities<BurningRow> burning_quantities() {
@@ -190,27 +190,29 @@ Quantities<AuditedGap> air_quantities(bool labelled) {
   return keys::joined<AuditedGap>(
       {quantities,
        {{quantity::gap(), &AuditedGap::gap},
-        {quantity::skin_took(), [](const AuditedGap& gap) { return gap.air.taken; }},
-        {quantity::compression_supplies(), [](const AuditedGap& gap) { return gap.air.supplied; }},
-        {quantity::taken_over_supplied(), [](const AuditedGap& gap) { return gap.air.ratio(); }},
+        {quantity::skin_took(), &AuditedGap::air, &surface::AirEnergy::taken},
+        {quantity::compression_supplies(), &AuditedGap::air, &surface::AirEnergy::supplied},
+        {quantity::taken_over_supplied(), &AuditedGap::air, &surface::AirEnergy::ratio},
         {{"adiabat_stores", "stored on the adiabat", keys::significant(3, kilojoule_per_area),
           "Heat that the air stores under adiabatic compression to the highest pressure."},
-         [](const AuditedGap& gap) { return gap.air.stored; }},
+         &AuditedGap::air,
+         &surface::AirEnergy::stored},
         {{"isothermal_work", "isothermal work", keys::significant(3, kilojoule_per_area),
           "Work of isothermal compression to the highest pressure."},
-         [](const AuditedGap& gap) { return gap.air.isothermal; }}}});
+         &AuditedGap::air,
+         &surface::AirEnergy::isothermal}}});
 }
 
 }  // namespace
 
 Quantities<run::CombustionHistory> burnt_state_quantities() {
   using run::CombustionHistory;
-  return {{quantity::skin_burnt_time(), &CombustionHistory::complete_time},
-          {quantity::burnt_mass(), last_of(&CombustionHistory::burnt_mass)},
-          {quantity::heat_released(), last_of(&CombustionHistory::released)},
-          {quantity::bottom_pressure_max(),
-           [](const CombustionHistory& c) { return largest_in(c.pressure); }},
-          {quantity::combustion_residual(), &CombustionHistory::energy_residual}};
+  return {
+      {quantity::skin_burnt_time(), &CombustionHistory::complete_time},
+      {quantity::burnt_mass(), last_of(&CombustionHistory::burnt_mass)},
+      {quantity::heat_released(), last_of(&CombustionHistory::released)},
+      {quantity::bottom_pressure_max(), [](const CombustionHistory& c) { return largest_in(c.pressure); }},
+      {quantity::combustion_residual(), &CombustionHistory::energy_residual}};
 }
 
 std::vector<Column> run_columns() { return keys::described(run_quantities()); }

@@ -1,6 +1,6 @@
 // Page one: the answer, and all that a reader of this page alone must know.
-#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "safety_sections.hpp"
 
@@ -77,7 +77,8 @@ void say_recommended(const Subject& subject, SafetySection& section) {
 // --- many cases ---
 
 Table case_table(const Subject& subject) {
-  Table table{.columns = {quantity::case_name(), Column{"critical_gap", "critical gap"}, Column{"largest_safe_gap", "largest SAFE gap"},
+  Table table{.columns = {quantity::case_name(), Column{"critical_gap", "critical gap"},
+                          Column{"largest_safe_gap", "largest SAFE gap"},
                           Column{"initial_temperature", "before launch", keys::fixed(0, kelvin)},
                           Column{"safe", "SAFE", count()}, Column{"indeterminate", "INDETERMINATE", count()},
                           Column{"unsafe", "UNSAFE", count()}}};

@@ -1,6 +1,6 @@
 // What the uncertainty is made of, and what holds the results against what others published.
-#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "safety_sections.hpp"
 
 #include <fmt/format.h>
@@ -24,10 +24,9 @@ Table share_table(const JudgedCase& each) {
   const auto kelvins = [](const char* heading, const char* name) {
     return Column{name, heading, keys::fixed(1, kelvin)};
   };
-  Table table{.columns = {quantity::gap(), kelvins("computation", "computation"),
-                          kelvins("fit", "fit"), kelvins("inputs", "inputs"),
-                          kelvins("model form", "model_form"), kelvins("total", "uncertainty"),
-                          quantity::verdict()}};
+  Table table{.columns = {quantity::gap(), kelvins("computation", "computation"), kelvins("fit", "fit"),
+                          kelvins("inputs", "inputs"), kelvins("model form", "model_form"),
+                          kelvins("total", "uncertainty"), quantity::verdict()}};
   for (const Row* row : each.verdicts) {
     if (!each.completed || !std::isfinite(number_of(*row, "uncertainty_K"))) continue;
     std::vector<Cell>& cells = table.rows.emplace_back();
@@ -210,9 +209,8 @@ std::vector<const Row*> rows_at(const StudyEvidence& comparison, double pressure
 Table model_table(const StudyEvidence& comparison, const std::vector<const Row*>& cases) {
   const Row& models = comparison.rows("models");
   if (models.empty())
-    return table_of(cases,
-                    {Column{"variant", "model"}, Column{"critical_gap_reads_as", "critical gap"},
-                     quantity::reason()});
+    return table_of(cases, {Column{"variant", "model"}, Column{"critical_gap_reads_as", "critical gap"},
+                            quantity::reason()});
   std::vector<Column> columns{Column{"model", "model"}, Column{"what_it_is", "what it is"}};
   constexpr std::string_view prefix = "critical_gap_at_", unit = "_MPa";
   for (const auto& [key, value] : models.front().items()) {
@@ -280,16 +278,16 @@ void say_models(const Subject& subject, SafetySection& section) {
 // --- published results ---
 
 Table published_table(const Subject& subject) {
-  return table_of(pointers_to(subject.study.rows("comparison")),
-                  {quantity::gap(), quantity::used_for(),
-                   Column{"temperature_max", "computed", keys::fixed(1, kelvin)},
-                   Column{"temperature_max_published", "published", keys::fixed(1, kelvin)},
-                   Column{"temperature_max_computed_minus_published", "difference", keys::fixed(1, kelvin)},
-                   Column{"temperature_early_used_for", "used for, early"},
-                   Column{"temperature_early", "computed, early", keys::fixed(1, kelvin)},
-                   Column{"temperature_early_published", "published, early", keys::fixed(1, kelvin)},
-                   quantity::ignition_time(),
-                   Column{"ignition_time_published", "published", keys::fixed(2, millisecond)}});
+  return table_of(
+      pointers_to(subject.study.rows("comparison")),
+      {quantity::gap(), quantity::used_for(), Column{"temperature_max", "computed", keys::fixed(1, kelvin)},
+       Column{"temperature_max_published", "published", keys::fixed(1, kelvin)},
+       Column{"temperature_max_computed_minus_published", "difference", keys::fixed(1, kelvin)},
+       Column{"temperature_early_used_for", "used for, early"},
+       Column{"temperature_early", "computed, early", keys::fixed(1, kelvin)},
+       Column{"temperature_early_published", "published, early", keys::fixed(1, kelvin)},
+       quantity::ignition_time(),
+       Column{"ignition_time_published", "published", keys::fixed(2, millisecond)}});
 }
 
 Table limit_table(const Subject& subject) {

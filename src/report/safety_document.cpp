@@ -1,7 +1,7 @@
 #include "launchsafe/report/safety_document.hpp"
 
-#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "safety_sections.hpp"
 
 #include <fmt/format.h>
@@ -197,13 +197,13 @@ std::string short_reason(const std::string& verdict, const std::string& reason) 
 Table verdict_table(const Subject& subject) {
   const bool several = subject.cases.size() > 1;
   Table table{.columns = {quantity::gap(), quantity::verdict(),
-                         Column{"initial_temperature", "before launch", keys::fixed(0, kelvin)},
-                         Column{"temperature_max", "T max", keys::fixed(0, kelvin)},
-                         Column{"margin", "margin", keys::significant(6, kelvin)},
-                         Column{"uncertainty", "uncertainty", keys::significant(6, kelvin)},
-                         Column{"margin_over_uncertainty", "margin over uncertainty", keys::fixed(1)},
-                         Column{"distance", "distance", keys::fixed(3, centimetre)},
-                         for_people(Column{"why", "why"}), for_programs(quantity::reason())}};
+                          Column{"initial_temperature", "before launch", keys::fixed(0, kelvin)},
+                          Column{"temperature_max", "T max", keys::fixed(0, kelvin)},
+                          Column{"margin", "margin", keys::significant(6, kelvin)},
+                          Column{"uncertainty", "uncertainty", keys::significant(6, kelvin)},
+                          Column{"margin_over_uncertainty", "margin over uncertainty", keys::fixed(1)},
+                          Column{"distance", "distance", keys::fixed(3, centimetre)},
+                          for_people(Column{"why", "why"}), for_programs(quantity::reason())}};
   if (several) table.columns.insert(table.columns.begin(), quantity::case_name());
   for (const JudgedCase& each : subject.cases) {
     for (std::size_t i = 0; i < each.verdicts.size(); ++i) {

@@ -1,8 +1,8 @@
 // The fit of T max against gap: coefficients, residuals, what each row says of the others, and what curves
 // other than a straight line would change.
 #include "launchsafe/math/statistics.hpp"
-#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "safety_sections.hpp"
 
 #include <fmt/format.h>
@@ -107,8 +107,7 @@ Comparison compare_curves(const std::vector<Curve>& curves, const InertRows& dat
 
 Table residual_table(const InertRows& data, const math::LeastSquares& line,
                      const std::vector<double>& left_out) {
-  Table table{.columns = {quantity::gap(),
-                          Column{"temperature_max", "T max", keys::fixed(1, kelvin)},
+  Table table{.columns = {quantity::gap(), Column{"temperature_max", "T max", keys::fixed(1, kelvin)},
                           Column{"line", "on the line", keys::fixed(1, kelvin)},
                           Column{"residual", "residual", keys::fixed(2, kelvin)},
                           Column{"left_out", "less what the others predict", keys::fixed(2, kelvin)}}};
@@ -150,13 +149,14 @@ void say_inverse(const Subject& subject, const JudgedCase& each, const math::Lea
 
 /// Every case with a fit, a row each: how well a row follows from the others, by curve.
 Table left_out_table(const Subject& subject) {
-  Table table{.columns = {quantity::case_name(), Column{"rows", "rows", count()},
-                          Column{"slope", "slope", keys::significant(4, kelvin_per_centimetre)},
-                          Column{"rms", "RMS of residuals", keys::significant(2, kelvin)},
-                          Column{"left_out_largest", "largest left out", keys::significant(2, kelvin)},
-                          Column{"left_out_rms", "RMS left out", keys::significant(2, kelvin)},
-                          Column{"left_out_rms_quadratic", "of a parabola", keys::significant(2, kelvin)},
-                          Column{"left_out_rms_arrhenius", "with an Arrhenius term", keys::significant(2, kelvin)}}};
+  Table table{
+      .columns = {quantity::case_name(), Column{"rows", "rows", count()},
+                  Column{"slope", "slope", keys::significant(4, kelvin_per_centimetre)},
+                  Column{"rms", "RMS of residuals", keys::significant(2, kelvin)},
+                  Column{"left_out_largest", "largest left out", keys::significant(2, kelvin)},
+                  Column{"left_out_rms", "RMS left out", keys::significant(2, kelvin)},
+                  Column{"left_out_rms_quadratic", "of a parabola", keys::significant(2, kelvin)},
+                  Column{"left_out_rms_arrhenius", "with an Arrhenius term", keys::significant(2, kelvin)}}};
   for (const JudgedCase& each : subject.cases) {
     const InertRows data = inert_rows(each);
     const auto line = math::fit_line(data.gaps, data.temperatures);

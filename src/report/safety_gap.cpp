@@ -1,6 +1,6 @@
 // T max against gap, and the safe envelope over what a sweep varies.
-#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/study/fit.hpp"
 #include "safety_sections.hpp"
 

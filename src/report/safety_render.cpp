@@ -139,8 +139,7 @@ struct Renderer {
     const auto for_people = [](const Column& column) { return column.audience != Audience::programs; };
     Parts columns = Parts::array(), rows = Parts::array();
     for (const Column& column : table.columns)
-      if (for_people(column))
-        columns.push_back({{"name", column.label()}, {"number", is_number(column)}});
+      if (for_people(column)) columns.push_back({{"name", column.label()}, {"number", is_number(column)}});
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
       Parts cells = Parts::array();
       for (std::size_t i = 0; i < table.rows[row].size(); ++i) {

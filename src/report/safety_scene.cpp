@@ -1,7 +1,7 @@
 // What was simulated: shell, load, inputs; and where and when it becomes hot.
 #include "launchsafe/report/case_pictures.hpp"
-#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/section_drawing.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/scene/interfaces.hpp"
@@ -104,8 +104,8 @@ void add_sources_of_tables(const scene::SceneFile& file, Table& table) {
 Table input_table(const Subject& subject) {
   std::map<std::string, scene::DocumentedKey> documented;
   for (scene::DocumentedKey& key : scene::describe_keys()) documented.emplace(key.description.name, key);
-  Table table{.columns = {Column{"key", "key"}, Column{"value", "value"},
-                          Column{"standing", "standing"}, Column{"meaning", "meaning"}}};
+  Table table{.columns = {Column{"key", "key"}, Column{"value", "value"}, Column{"standing", "standing"},
+                          Column{"meaning", "meaning"}}};
   for (const scene::ListedKey& key : scene::list_keys(subject.study.scene)) {
     if (is_of_unused_law(subject.scene(), key.name)) continue;
     // The manifest writes every key: one with the value of the program's default has the default's standing.
@@ -146,14 +146,13 @@ std::string held_text(const scene::Scene& scene) {
 // --- where and when ---
 
 Table place_table(const JudgedCase& each) {
-  return table_of(
-      each.verdicts,
-      {quantity::gap(), Column{"temperature_max", "T max", keys::fixed(0, kelvin)},
-       Column{"temperature_max_place", "hottest station"},
-       Column{"temperature_max_time", "at time", keys::fixed(2, millisecond)},
-       Column{"ignition_time", "ignition at", keys::fixed(2, millisecond)}, Column{"ignition_cause", "cause"},
-       Column{"ignition_chemical_share", "chemical share", keys::fixed(2)},
-       Column{"spread", "spread along the bottom", keys::fixed(0, kelvin)}});
+  return table_of(each.verdicts, {quantity::gap(), Column{"temperature_max", "T max", keys::fixed(0, kelvin)},
+                                  Column{"temperature_max_place", "hottest station"},
+                                  Column{"temperature_max_time", "at time", keys::fixed(2, millisecond)},
+                                  Column{"ignition_time", "ignition at", keys::fixed(2, millisecond)},
+                                  Column{"ignition_cause", "cause"},
+                                  Column{"ignition_chemical_share", "chemical share", keys::fixed(2)},
+                                  Column{"spread", "spread along the bottom", keys::fixed(0, kelvin)}});
 }
 
 /// Gaps whose histories are shown: the largest that is SAFE, and the smallest that is not.

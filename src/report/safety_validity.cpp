@@ -1,6 +1,6 @@
 // How far the computations can be trusted, what was left out, and how to repeat all of it.
-#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "safety_sections.hpp"
 
@@ -13,11 +13,10 @@ namespace launchsafe::report::safety {
 namespace {
 
 Table run_table_of(const StudyEvidence& study) {
-  return table_of(pointers_to(study.rows("runs")),
-                  {quantity::case_name(), Column{"status", "status"},
-                   quantity::energy_drift(), quantity::steps(),
-                   quantity::particles(), Column{"limiters", "limiters"},
-                   Column{"stored_case", "stored case"}});
+  return table_of(
+      pointers_to(study.rows("runs")),
+      {quantity::case_name(), Column{"status", "status"}, quantity::energy_drift(), quantity::steps(),
+       quantity::particles(), Column{"limiters", "limiters"}, Column{"stored_case", "stored case"}});
 }
 
 void say_stability(const StudyEvidence* stability, SafetySection& section) {
@@ -67,10 +66,9 @@ std::string record_text(const StudyEvidence& main, const StudyEvidence& study) {
 }
 
 Table study_table(const SafetyEvidence& evidence) {
-  Table table{.columns = {Column{"label", "study"}, Column{"kind", "kind"},
-                          Column{"study", "file"}, for_programs(Column{"command", "command"}),
-                          Column{"state", "state"}, Column{"made", "made"},
-                          for_people(Column{"commit_begins", "commit"}),
+  Table table{.columns = {Column{"label", "study"}, Column{"kind", "kind"}, Column{"study", "file"},
+                          for_programs(Column{"command", "command"}), Column{"state", "state"},
+                          Column{"made", "made"}, for_people(Column{"commit_begins", "commit"}),
                           for_programs(Column{"commit", "commit"}),
                           for_programs(Column{"compiler", "compiler"}),
                           for_programs(Column{"compiler_flags", "compiler flags"}),

@@ -149,8 +149,8 @@ std::string place_text(const std::vector<ShownKey>& keys, const std::vector<doub
   std::string text;
   for (std::size_t i = 0; i < std::min(keys.size(), coordinates.size()); ++i) {
     // A pure number says nothing without its name.
-    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", keys[i].form.unit.empty() ? keys[i].heading + " " : "",
-                        keys[i].text(coordinates[i]));
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ",
+                        keys[i].form.unit.empty() ? keys[i].heading + " " : "", keys[i].text(coordinates[i]));
   }
   return text;
 }

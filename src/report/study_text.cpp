@@ -96,7 +96,8 @@ nlohmann::ordered_json timing_json(const study::Timing& timing) {
       {{"runs", "runs", count(), "Mechanical runs that were made."}, &Timing::runs},
       {{"reused", "used again", count(), "Mechanical runs that were stored."}, &Timing::reused},
       {{"jobs", "jobs", count(), "Runs at once."}, &Timing::jobs},
-      {{"particle_updates", "particle updates", keys::scientific(2), "Of all runs."}, &Timing::particle_updates},
+      {{"particle_updates", "particle updates", keys::scientific(2), "Of all runs."},
+       &Timing::particle_updates},
       {{"run_time", "time of runs", keys::fixed(1, second), "Wall time of all runs."}, &Timing::run_time},
       {quantity::updates_per_second(), &Timing::updates_per_second}};
   return json_of(quantities, timing);

@@ -29,7 +29,9 @@ Cell shown_cell(Cell cell_si, const Column& column) {
   return cell_si;
 }
 
-std::string digits_of(double value_si, const Form& form) { return rounded(shown_value(value_si, form), form); }
+std::string digits_of(double value_si, const Form& form) {
+  return rounded(shown_value(value_si, form), form);
+}
 
 std::string in_words(double value_si, const Form& form) {
   return digits_of(value_si, form) + (form.unit.empty() ? "" : " " + form.unit);
@@ -125,8 +127,7 @@ std::string text_line(const std::vector<std::string>& cells, const std::vector<s
 std::string markdown_line(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
                           const std::vector<Column>& columns) {
   std::string line = "|";
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    line += " " + padded(cells[i], widths[i], columns[i]) + " |";
+  for (std::size_t i = 0; i < cells.size(); ++i) line += " " + padded(cells[i], widths[i], columns[i]) + " |";
   return line + "\n";
 }
 
@@ -134,7 +135,7 @@ std::string markdown_rule(const std::vector<std::size_t>& widths, const std::vec
   std::string line = "|";
   for (std::size_t i = 0; i < columns.size(); ++i) {
     line += !is_text(columns[i]) ? " " + std::string(widths[i] - 1, '-') + ": |"
-                                                     : " " + std::string(widths[i], '-') + " |";
+                                 : " " + std::string(widths[i], '-') + " |";
   }
   return line + "\n";
 }
@@ -220,8 +221,7 @@ std::string to_csv(const Table& table) {
     csv += "\r\n";
   };
   append_line([&](std::size_t place) { append_csv(csv, keys[place]); });
-  for (const auto& row : table.rows)
-    append_line([&](std::size_t place) { append_csv(csv, row[place]); });
+  for (const auto& row : table.rows) append_line([&](std::size_t place) { append_csv(csv, row[place]); });
   return csv;
 }
 

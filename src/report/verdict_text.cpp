@@ -25,20 +25,6 @@ std::string ignition_text(const study::NamedIgnition& ignition) {
 }
 
 /// A member of the gap, of its uncertainty, or of its ignition.
-template <class Member>
-auto of_gap(Member member) {
-  return [member](const VerdictRow& row) { return std::invoke(member, *row.gap); };
-}
-template <class Member>
-auto of_uncertainty(Member member) {
-  return [member](const VerdictRow& row) { return std::invoke(member, row.gap->uncertainty); };
-}
-template <class Member>
-auto of_ignition(Member member) {
-  return [member](const VerdictRow& row) {
-    return row.gap->ignition ? keys::cell_of(std::invoke(member, *row.gap->ignition)) : Cell();
-  };
-}
 
 /// A share of the uncertainty.
 Column share_of_uncertainty(std::string name, std::string heading, std::string meaning) {
@@ -99,23 +85,25 @@ struct LimitRow {
 
 Quantities<LimitRow> limit_quantities() {
   using keys::significant;
-  const auto of_critical = [](auto get) {
-    return [get](const LimitRow& row) { return row.critical ? keys::cell_of(get(*row.critical)) : Cell(); };
-  };
-  return {{{"limit", "limit", significant(6, centimetre), "Limit of the gap that the source states."},
-           [](const LimitRow& row) { return row.comparison.limit.gap; }},
-          {named("limit_peak_pressure", headed("at", quantity::peak_pressure())),
-           [](const LimitRow& row) { return row.comparison.limit.peak_pressure; }},
-          {{"source", "source", text(), "Who states it."},
-           [](const LimitRow& row) { return row.comparison.limit.source; }},
-          {headed("computed at", quantity::peak_pressure()),
-           [](const LimitRow& row) { return row.input ? std::optional(row.input->peak_pressure) : std::nullopt; }},
-          {quantity::case_name(), [](const LimitRow& row) { return row.input ? row.input->label : ""; }},
-          {quantity::critical_gap(), of_critical(value_of)},
-          {quantity::critical_gap_reads_as(), of_critical(reads_as)},
-          {{"difference", "computed minus cited", significant(2, centimetre),
-            "Critical gap minus the limit, where the pressures agree."},
-           [](const LimitRow& row) { return row.comparison.difference; }}};
+  return {
+      {{"limit", "limit", significant(6, centimetre), "Limit of the gap that the source states."},
+       &LimitRow::comparison,
+       &study::LimitComparison::limit,
+       &study::CitedLimit::gap},
+      {named("limit_peak_pressure", headed("at", quantity::peak_pressure())), &LimitRow::comparison,
+       &study::LimitComparison::limit, &study::CitedLimit::peak_pressure},
+      {{"source", "source", text(), "Who states it."},
+       &LimitRow::comparison,
+       &study::LimitComparison::limit,
+       &study::CitedLimit::source},
+      {headed("computed at", quantity::peak_pressure()), &LimitRow::input, &study::StudyCase::peak_pressure},
+      {quantity::case_name(), &LimitRow::input, &study::StudyCase::label},
+      {quantity::critical_gap(), &LimitRow::critical, value_of},
+      {quantity::critical_gap_reads_as(), &LimitRow::critical, reads_as},
+      {{"difference", "computed minus cited", significant(2, centimetre),
+        "Critical gap minus the limit, where the pressures agree."},
+       &LimitRow::comparison,
+       &study::LimitComparison::difference}};
 }
 
 /// One cause that makes the critical gap of a case uncertain.
@@ -131,18 +119,19 @@ std::string gap_or_bound_text(study::GapOrBound gap) {
 }
 
 Quantities<ShareRow> share_quantities() {
-  return {{quantity::case_name(), [](const ShareRow& row) { return row.of->label; }},
-          {{"cause", "cause", text(), "What is uncertain."},
-           [](const ShareRow& row) { return study::traits_of(row.share->kind).title; }},
-          {{"class", "class", text(), "Whether it scatters at random or is not known better."},
-           [](const ShareRow& row) { return study::traits_of(row.share->kind).of_class; }},
-          {{"raised", "critical gap towards ignition", text(), "Critical gap with the cause at its worse end."},
-           [](const ShareRow& row) { return gap_or_bound_text(row.share->raised); }},
-          {{"lowered", "at the other end", text(), "Critical gap with the cause at its better end."},
-           [](const ShareRow& row) { return gap_or_bound_text(row.share->lowered); }},
-          {{"lowers", "lowers the bound by", keys::significant(2, centimetre),
-            "By how much the cause moves the critical gap towards ignition."},
-           [](const ShareRow& row) { return study::move_towards_ignition(row.of->gap->lower, *row.share); }}};
+  return {
+      {quantity::case_name(), [](const ShareRow& row) { return row.of->label; }},
+      {{"cause", "cause", text(), "What is uncertain."},
+       [](const ShareRow& row) { return study::traits_of(row.share->kind).title; }},
+      {{"class", "class", text(), "Whether it scatters at random or is not known better."},
+       [](const ShareRow& row) { return study::traits_of(row.share->kind).of_class; }},
+      {{"raised", "critical gap towards ignition", text(), "Critical gap with the cause at its worse end."},
+       [](const ShareRow& row) { return gap_or_bound_text(row.share->raised); }},
+      {{"lowered", "at the other end", text(), "Critical gap with the cause at its better end."},
+       [](const ShareRow& row) { return gap_or_bound_text(row.share->lowered); }},
+      {{"lowers", "lowers the bound by", keys::significant(2, centimetre),
+        "By how much the cause moves the critical gap towards ignition."},
+       [](const ShareRow& row) { return study::move_towards_ignition(row.of->gap->lower, *row.share); }}};
 }
 
 }  // namespace
@@ -151,50 +140,52 @@ Quantities<VerdictRow> verdict_quantities(const study::Study& study) {
   using study::GapVerdict, study::NamedIgnition, study::Uncertainty;
   using namespace quantity;
   return {
-      {temperature_max(), [](const VerdictRow& row) { return row.gap->maximum.temperature; }},
-      {temperature_max_place(), [](const VerdictRow& row) { return row.gap->maximum.point; }},
-      {temperature_max_time(), [](const VerdictRow& row) { return row.gap->maximum.time; }},
-      {temperature_early(study.early_time), [](const VerdictRow& row) { return row.gap->early.temperature; }},
-      {for_programs(temperature_early_place()), [](const VerdictRow& row) { return row.gap->early.point; }},
+      {temperature_max(), &VerdictRow::gap, &study::GapVerdict::maximum, &study::Peak::temperature},
+      {temperature_max_place(), &VerdictRow::gap, &study::GapVerdict::maximum, &study::Peak::point},
+      {temperature_max_time(), &VerdictRow::gap, &study::GapVerdict::maximum, &study::Peak::time},
+      {temperature_early(study.early_time), &VerdictRow::gap, &study::GapVerdict::early,
+       &study::Peak::temperature},
+      {for_programs(temperature_early_place()), &VerdictRow::gap, &study::GapVerdict::early,
+       &study::Peak::point},
       {for_programs(Column{"spread", "spread", fixed(1, kelvin),
                            "Hottest less coldest station at the end of what is read."}),
-       of_gap(&GapVerdict::spread)},
+       &VerdictRow::gap, &GapVerdict::spread},
       {for_programs(Column{"spread_early", "early spread", fixed(1, kelvin), "The same at early_time."}),
-       of_gap(&GapVerdict::early_spread)},
+       &VerdictRow::gap, &GapVerdict::early_spread},
       {for_programs(temperature_max_inert()), &VerdictRow::inert},
-      {always({"margin", "margin", fixed(2, kelvin), "Ignition temperature less T max."}),
-       of_gap(&GapVerdict::margin)},
-      {always(uncertainty()), of_uncertainty(&Uncertainty::total)},
+      {always({"margin", "margin", fixed(2, kelvin), "Ignition temperature less T max."}), &VerdictRow::gap,
+       &GapVerdict::margin},
+      {always(uncertainty()), &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::total},
       {share_of_uncertainty("computation", "of computation",
                             "Of it: sampling, integration, mesh, step, scaling, and sliding on the base."),
-       of_uncertainty(&Uncertainty::computed)},
+       &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::computed},
       {for_programs(share_of_uncertainty("sliding", "of sliding",
                                          "Of the computation: what temperatures leave out of sliding.")),
-       of_uncertainty(&Uncertainty::sliding)},
+       &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::sliding},
       {share_of_uncertainty("fit", "of fit", "Of it: how well the calibrated constants are known."),
-       of_uncertainty(&Uncertainty::fit)},
+       &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::fit},
       {share_of_uncertainty("inputs", "of inputs", "Of it: how well load, gap and others are known."),
-       of_uncertainty(&Uncertainty::inputs)},
+       &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::inputs},
       {for_programs(share_of_uncertainty("load_curve", "of load curve",
                                          "Of the inputs: the noise of a measured pressure curve.")),
-       of_uncertainty(&Uncertainty::load_curve)},
+       &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::load_curve},
       {share_of_uncertainty("model_form", "of model form", "Of it: what other models would say."),
-       of_uncertainty(&Uncertainty::model_form)},
-      {verdict(), [](const VerdictRow& row) { return row.gap->judgement.verdict; }},
-      {reason(), [](const VerdictRow& row) { return row.gap->judgement.reason; }},
+       &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::model_form},
+      {verdict(), &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::verdict},
+      {reason(), &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::reason},
       {for_people(Column{"ignition", "ignition", text(), "Cause, instant and station of ignition."}),
-       of_ignition(ignition_text)},
-      {for_programs(Column{"ignition_cause", "ignition cause", text(), "What began it."}),
-       of_ignition([](const NamedIgnition& ignition) { return study::to_string(ignition.cause); })},
-      {for_programs(ignition_time()), of_ignition(&NamedIgnition::time)},
+       &VerdictRow::gap, &GapVerdict::ignition, ignition_text},
+      {for_programs(Column{"ignition_cause", "ignition cause", text(), "What began it."}), &VerdictRow::gap,
+       &GapVerdict::ignition, [](const NamedIgnition& ignition) { return study::to_string(ignition.cause); }},
+      {for_programs(ignition_time()), &VerdictRow::gap, &GapVerdict::ignition, &NamedIgnition::time},
       {for_programs(Column{"ignition_place", "ignition at", text(), "Station that ignites."}),
-       of_ignition(&NamedIgnition::point)},
+       &VerdictRow::gap, &GapVerdict::ignition, &NamedIgnition::point},
       {for_programs(Column{"ignition_chemical_share", "chemical share", fixed(3),
                            "Share of reaction in the heating rate at ignition."}),
-       of_ignition(&NamedIgnition::chemical_share)},
-      {skin_took(), [](const VerdictRow& row) { return row.gap->air.taken; }},
-      {compression_supplies(), [](const VerdictRow& row) { return row.gap->air.supplied; }},
-      {taken_over_supplied(), [](const VerdictRow& row) { return row.gap->air.ratio(); }}};
+       &VerdictRow::gap, &GapVerdict::ignition, &NamedIgnition::chemical_share},
+      {skin_took(), &VerdictRow::gap, &study::GapVerdict::air, &surface::AirEnergy::taken},
+      {compression_supplies(), &VerdictRow::gap, &study::GapVerdict::air, &surface::AirEnergy::supplied},
+      {taken_over_supplied(), &VerdictRow::gap, &study::GapVerdict::air, &surface::AirEnergy::ratio}};
 }
 
 Quantities<study::CriticalGap> critical_gap_quantities() {
@@ -215,10 +206,12 @@ Quantities<study::CriticalGap> bounded_gap_quantities() {
       {critical_gap_quantities(),
        {{{"critical_gap_at_least", "at least", keys::significant(3, centimetre),
           "Lower bound of the critical gap: what is below it is SAFE."},
-         [](const study::CriticalGap& gap) { return gap.bounds.at_least; }},
+         &study::CriticalGap::bounds,
+         &study::GapBounds::at_least},
         {{"critical_gap_at_most", "at most", keys::significant(3, centimetre),
           "Upper bound of the critical gap."},
-         [](const study::CriticalGap& gap) { return gap.bounds.at_most; }}}});
+         &study::CriticalGap::bounds,
+         &study::GapBounds::at_most}}});
 }
 
 std::vector<std::string> mesh_notes(const study::StudyFile& study) {

@@ -13,8 +13,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <fstream>
+#include <functional>
 #include <utility>
 
 namespace {
@@ -107,7 +107,8 @@ report::Table settings_table(const std::vector<MeasuredSeries>& measured) {
       {for_people(Column{"error_text", "error", text(), "The error."}),
        [](const SettingRow& row) { return amount(row.setting->error, row.series->error_unit); }},
       {number("error", "error", "The error."), of_setting(&Measured::error)},
-      {for_programs(Column{"error_unit", "error unit", text(), "Its unit."}), of_series(&ErrorSeries::error_unit)},
+      {for_programs(Column{"error_unit", "error unit", text(), "Its unit."}),
+       of_series(&ErrorSeries::error_unit)},
       {for_people(Column{"order_text", "order", text(), "Order from one setting to the next."}),
        [](const SettingRow& row) {
          return std::isnan(row.setting->order) ? std::string() : report::fixed(row.setting->order, 2);
@@ -140,7 +141,8 @@ report::Table series_table(const std::vector<MeasuredSeries>& measured) {
       {{{"part", "part", text(), "Part of the program."}, of_series(&ErrorSeries::part)},
        {{"error_of", "error of", text(), "What is off."}, of_series(&ErrorSeries::quantity)},
        {{"against", "against", text(), "What it is compared with."}, of_series(&ErrorSeries::reference)},
-       {{"processor_time_of", "processor time of", text(), "The unit of work."}, of_series(&ErrorSeries::work)},
+       {{"processor_time_of", "processor time of", text(), "The unit of work."},
+        of_series(&ErrorSeries::work)},
        {{"order_expected", "order expected", text(), "Order of the theory."}, of_series(expected_order)},
        {{"because", "because", text(), "The theory."}, of_series(&ErrorSeries::theory)}},
       measured);

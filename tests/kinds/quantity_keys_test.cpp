@@ -4,6 +4,7 @@
 #include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/kinds/comparison.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/kinds/stability.hpp"
@@ -13,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -76,7 +78,7 @@ TEST(QuantityKeys, EndWithTheUnitAndAreTheSameInEveryTable) {
       const std::string& unit = table.columns[i].form.unit;
       std::string words = keys[i];
       if (!unit.empty() && unit != "1/s") {
-        const std::string suffix = "_" + report::key_text(unit);
+        const std::string suffix = "_" + keys::key_text(unit);
         ASSERT_TRUE(words.ends_with(suffix)) << table.title << ": " << words << " in " << unit;
         words.resize(words.size() - suffix.size());
       }
@@ -88,6 +90,36 @@ TEST(QuantityKeys, EndWithTheUnitAndAreTheSameInEveryTable) {
   }
   EXPECT_GT(columns, 200u);
   EXPECT_TRUE(units.contains("temperature_max_K"));
+}
+
+/// Those that depend on the study: an axis, or a column for every gap, mesh, instant or variant.
+bool depends_on_study(const std::string& key) {
+  return key.find_first_of("0123456789") != std::string::npos || key == "variant";
+}
+
+TEST(QuantityKeys, EveryColumnHasAMeaningAndStandsInTheReferenceOfResults) {
+  std::set<std::string> listed;
+  for (const Kind& kind : kinds())
+    for (const ResultTable& table : kind.results()) {
+      for (const report::Column& column : table.columns) {
+        EXPECT_FALSE(column.meaning.empty())
+            << kind.traits.name << ", " << table.member << ": " << column.key();
+        EXPECT_TRUE(column.meaning.ends_with(".")) << column.key() << ": " << column.meaning;
+        listed.insert(column.key());
+      }
+      EXPECT_TRUE(table.csv.empty() || may_write(kind, table.csv)) << table.csv;
+    }
+  for (const report::Report& report : reports_of_all_kinds())
+    for (const auto& item : report.items) {
+      const auto* table = std::get_if<report::ReportTable>(&item);
+      if (table == nullptr) continue;
+      for (const report::Column& column : table->table.columns) {
+        const std::string key = column.key();
+        EXPECT_FALSE(column.meaning.empty()) << table->table.title << ": " << key;
+        EXPECT_TRUE(table->member.empty() || listed.contains(key) || depends_on_study(key))
+            << table->member << ": " << key;
+      }
+    }
 }
 
 }  // namespace

@@ -96,7 +96,8 @@ TEST(Table, CsvFollowsRfc4180) {
 TEST(Table, JsonKeepsNumbersExactlyAndOrder) {
   const nlohmann::ordered_json json = to_json(verdicts());
   EXPECT_EQ(json["title"], "Verdicts");
-  EXPECT_EQ(json["columns"][0], (nlohmann::ordered_json{{"key", "gap_cm"}, {"name", "gap"}, {"unit", "cm"}, {"meaning", ""}}));
+  EXPECT_EQ(json["columns"][0],
+            (nlohmann::ordered_json{{"key", "gap_cm"}, {"name", "gap"}, {"unit", "cm"}, {"meaning", ""}}));
   EXPECT_EQ(json["rows"][0].dump(),
             R"({"gap_cm":0.0,"t_max_K":416.149,"at":"G2","steps":36000,"verdict":"SAFE"})");
   EXPECT_TRUE(json["rows"][1]["t_max_K"].is_null());
@@ -139,27 +140,30 @@ Quantities<Measured> measured_quantities() {
 
 TEST(Quantity, RowsInSiAreShownInTheUnitsOfTheirQuantities) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const Table table = table_of("Cases", measured_quantities(),
-                               {{"a", 0.00039, 496e6, 0.0123, 12, true}, {"b", 0.07, std::nullopt, nan, 0, false}});
+  const Table table =
+      table_of("Cases", measured_quantities(),
+               {{"a", 0.00039, 496e6, 0.0123, 12, true}, {"b", 0.07, std::nullopt, nan, 0, false}});
   EXPECT_EQ(to_csv(table),
             "case,gap_cm,peak_MPa,drift_percent,steps,sound\r\n"
             "a,0.039,496,1.23,12,yes\r\n"
             "b,7,,,0,no\r\n")
       << "a decimal number stays one to the last digit: 0.00039 m is 0.039 cm";
-  EXPECT_EQ(to_json(table)["columns"][1],
-            (nlohmann::ordered_json{{"key", "gap_cm"}, {"name", "gap"}, {"unit", "cm"}, {"meaning", "Its gap."}}));
+  EXPECT_EQ(
+      to_json(table)["columns"][1],
+      (nlohmann::ordered_json{{"key", "gap_cm"}, {"name", "gap"}, {"unit", "cm"}, {"meaning", "Its gap."}}));
 }
 
 TEST(Quantity, ANumberThatIsNotThereIsToldOnlyWhereItAlwaysIs) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const Column column{"u", "u", keys::fixed(1, kelvin), "Uncertainty."};
-  const Quantities<double> quantities{{column, std::identity{}}, {named("v", always(column)), std::identity{}}};
+  const Quantities<double> quantities{{column, std::identity{}},
+                                      {named("v", always(column)), std::identity{}}};
   EXPECT_EQ(to_csv(table_of({}, quantities, {infinite})), "u_K,v_K\r\n,Infinity\r\n");
 }
 
 TEST(Quantity, ThoseOfAPartAreThoseOfTheWhole) {
   const Measured part{"a", 0.01, std::nullopt, 0.0, 1, true};
-  const Table table = table_of({}, of_part<Outer>(&Outer::part, measured_quantities()),
+  const Table table = table_of({}, of_part<Outer>(measured_quantities(), &Outer::part),
                                std::vector<Outer>{{&part}, {nullptr}});
   EXPECT_EQ(to_csv(table), "case,gap_cm,peak_MPa,drift_percent,steps,sound\r\na,1,,0,1,yes\r\n,,,,,\r\n");
 }

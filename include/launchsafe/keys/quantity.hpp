@@ -30,11 +30,11 @@ struct Unit {
 inline constexpr Unit centimetre{Dimension::length, "cm"}, millimetre{Dimension::length, "mm"},
     micrometre{Dimension::length, "um"}, second{Dimension::time, "s"}, millisecond{Dimension::time, "ms"},
     megapascal{Dimension::pressure, "MPa"}, kelvin{Dimension::temperature, "K"},
-    metre_per_second{Dimension::speed, "m/s"},
-    per_second{Dimension::frequency, "1/s"}, percent{Dimension::share, "%"}, gram{Dimension::mass, "g"},
-    kilogram{Dimension::mass, "kg"}, cubic_centimetre{Dimension::volume, "cm3"},
-    joule{Dimension::energy, "J"}, kilojoule{Dimension::energy, "kJ"},
-    kilojoule_per_area{Dimension::energy_per_area, "kJ/m2"}, megabyte{Dimension::memory, "MB"};
+    metre_per_second{Dimension::speed, "m/s"}, per_second{Dimension::frequency, "1/s"},
+    percent{Dimension::share, "%"}, gram{Dimension::mass, "g"}, kilogram{Dimension::mass, "kg"},
+    cubic_centimetre{Dimension::volume, "cm3"}, joule{Dimension::energy, "J"},
+    kilojoule{Dimension::energy, "kJ"}, kilojoule_per_area{Dimension::energy_per_area, "kJ/m2"},
+    megabyte{Dimension::memory, "MB"};
 /// Of lines over the gap, which are fitted in this unit, as the paper prints them.
 inline constexpr Unit kelvin_per_centimetre{Dimension::number, "K/cm"};
 
@@ -151,15 +151,27 @@ Cell cell_of(const Value& value) {
   }
 }
 
+/// What a member of an object, or of a member of it, holds. Nothing beyond a pointer that is null, or an
+/// optional that is empty.
+template <class Object, class Member, class... Further>
+Cell cell_at(const Object& object, Member member, Further... further) {
+  const auto& part = std::invoke(member, object);
+  if constexpr (sizeof...(further) == 0)
+    return cell_of(part);
+  else if constexpr (requires { *part; })
+    return part ? cell_at(*part, further...) : Cell();
+  else
+    return cell_at(part, further...);
+}
+
 /// A described quantity bound to a row.
 template <class Row>
 struct Quantity : QuantityDescription {
-  /// `member`: a pointer to a member, or a function of a row.
-  template <class Member>
-  Quantity(QuantityDescription described, Member member)
-      : QuantityDescription(std::move(described)), get([member](const Row& row) {
-          return cell_of<std::remove_cvref_t<decltype(std::invoke(member, row))>>(std::invoke(member, row));
-        }) {}
+  /// `path`: a pointer to a member, or a function, of a row, then of what that is or points to, and so on.
+  template <class... Path>
+  Quantity(QuantityDescription described, Path... path)
+      : QuantityDescription(std::move(described)),
+        get([=](const Row& row) { return cell_at(row, path...); }) {}
 
   /// Its value in SI; nothing for a number that is not there.
   Cell value(const Row& row) const {
@@ -187,20 +199,12 @@ Quantities<Row> joined(std::initializer_list<Quantities<Row>> lists) {
   return all;
 }
 
-/// The quantities of a part as those of the row that has it. `member`: a pointer to it, or a function that
-/// returns a reference or a pointer, which may be null: then there is nothing.
-template <class Row, class Part, class Member>
-Quantities<Row> of_part(Member member, const Quantities<Part>& quantities) {
+/// The quantities of a part as those of the row that has it. `path`: to the part, as of a Quantity.
+template <class Row, class Part, class... Path>
+Quantities<Row> of_part(const Quantities<Part>& quantities, Path... path) {
   Quantities<Row> lifted;
   for (const Quantity<Part>& each : quantities)
-    lifted.emplace_back(each, [member, each](const Row& row) {
-      if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(std::invoke(member, row))>>) {
-        const Part* part = std::invoke(member, row);
-        return part == nullptr ? Cell() : each.value(*part);
-      } else {
-        return each.value(std::invoke(member, row));
-      }
-    });
+    lifted.emplace_back(each, path..., [each](const Part& part) { return each.value(part); });
   return lifted;
 }
 

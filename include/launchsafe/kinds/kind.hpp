@@ -54,9 +54,9 @@ struct StudySource {
 
 /// A table of results: its rows are an array of study.json, and a file where it has one.
 struct ResultTable {
-  std::string member;                  ///< of study.json: "verdicts"
-  std::string csv;                     ///< "verdicts.csv"; empty: none
-  std::vector<report::Column> columns; ///< of a study with the defaults: some depend on what it asks
+  std::string member;                   ///< of study.json: "verdicts"
+  std::string csv;                      ///< "verdicts.csv"; empty: none
+  std::vector<report::Column> columns;  ///< of a study with the defaults: some depend on what it asks
 };
 
 struct Kind {

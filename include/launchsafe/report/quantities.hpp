@@ -37,7 +37,9 @@ inline Column cell_size() {
 inline Column gap() {
   return always({"gap", "gap", significant(6, centimetre), "Gap between the charge and the base."});
 }
-inline Column station() { return {"station", "station", text(), "Station of the charge's bottom, S1 at the wall."}; }
+inline Column station() {
+  return {"station", "station", text(), "Station of the charge's bottom, S1 at the wall."};
+}
 
 // Of temperatures. Early: at Study::early_time, s.
 inline Column temperature_max() {
@@ -48,11 +50,13 @@ inline Column temperature_max_place() {
   return {"temperature_max_place", "at", text(), "Station of the highest temperature."};
 }
 inline Column temperature_max_time() {
-  return always({"temperature_max_time", "time", fixed(2, millisecond), "Instant of the highest temperature."});
+  return always(
+      {"temperature_max_time", "time", fixed(2, millisecond), "Instant of the highest temperature."});
 }
 inline Column temperature_max_inert() {
-  return {"temperature_max_inert", "T max without reaction", fixed(1, kelvin),
-          "Highest temperature of a skin that air and friction heat and that neither reacts nor is triggered."};
+  return {
+      "temperature_max_inert", "T max without reaction", fixed(1, kelvin),
+      "Highest temperature of a skin that air and friction heat and that neither reacts nor is triggered."};
 }
 inline Column temperature_early(double early_time) {
   return always({"temperature_early", "T at " + milliseconds(early_time), fixed(1, kelvin),
@@ -64,8 +68,9 @@ inline Column temperature_early_place() {
 
 // Of verdicts.
 inline Column uncertainty() {
-  return {"uncertainty", "uncertainty", significant(2, kelvin),
-          "By how much T max may be higher, all shares together; infinite where an end of the range ignites."};
+  return {
+      "uncertainty", "uncertainty", significant(2, kelvin),
+      "By how much T max may be higher, all shares together; infinite where an end of the range ignites."};
 }
 inline Column verdict() {
   return {"verdict", "verdict", text(), "SAFE, UNSAFE or INDETERMINATE; only SAFE promises anything."};
@@ -76,8 +81,9 @@ inline Column ignition_time() {
   return {"ignition_time", "ignition", fixed(2, millisecond), "Instant of ignition."};
 }
 inline Column skin_took() {
-  return {"skin_took", "skin took", significant(3, kilojoule_per_area),
-          "Heat that the exchange with the air brought to the skin of the hottest station, net and at its most."};
+  return {
+      "skin_took", "skin took", significant(3, kilojoule_per_area),
+      "Heat that the exchange with the air brought to the skin of the hottest station, net and at its most."};
 }
 inline Column compression_supplies() {
   return {"compression_supplies", "compression supplies", significant(3, kilojoule_per_area),
@@ -95,8 +101,9 @@ inline Column used_for() {
 
 // Of critical gaps.
 inline Column critical_gap() {
-  return {"critical_gap", "critical gap", significant(6, centimetre),
-          "Smallest gap that ignites, the middle of its bracket; none where the search gave a bound or nothing."};
+  return {
+      "critical_gap", "critical gap", significant(6, centimetre),
+      "Smallest gap that ignites, the middle of its bracket; none where the search gave a bound or nothing."};
 }
 inline Column critical_gap_kind() {
   return {"critical_gap_kind", "kind", text(), "Whether the search gave a value, a bound, or nothing."};
@@ -142,8 +149,12 @@ inline Column skin_temperature() {
 inline Column skin_burnt_time() {
   return {"skin_burnt_time", "skin burnt", fixed(3, millisecond), "Instant at which the skin had burnt."};
 }
-inline Column burnt_mass() { return {"burnt_mass", "burnt", significant(3, gram), "Mass of charge that has burnt."}; }
-inline Column gas_volume() { return {"gas_volume", "gas", significant(3, cubic_centimetre), "Volume of the gas."}; }
+inline Column burnt_mass() {
+  return {"burnt_mass", "burnt", significant(3, gram), "Mass of charge that has burnt."};
+}
+inline Column gas_volume() {
+  return {"gas_volume", "gas", significant(3, cubic_centimetre), "Volume of the gas."};
+}
 inline Column gas_temperature() {
   return {"gas_temperature", "T gas", fixed(0, kelvin), "Temperature of the gas."};
 }
@@ -166,7 +177,8 @@ inline Column localisation() {
   return {"localisation", "localisation", significant(6), "Localisation of the heat of friction."};
 }
 inline Column exchange_time() {
-  return {"exchange_time", "exchange time", significant(6, millisecond), "Exchange time between air and skin."};
+  return {"exchange_time", "exchange time", significant(6, millisecond),
+          "Exchange time between air and skin."};
 }
 inline Column ignition_temperature() {
   return {"ignition_temperature", "T1", fixed(2, kelvin), "Ignition temperature."};
@@ -179,11 +191,16 @@ inline Column selection_rms() {
 inline Column load_peak_time() {
   return {"peak_time", "peak time", significant(6, millisecond), "Instant of the load's peak."};
 }
-inline Column load_width() { return {"width", "width", significant(6, millisecond), "Width of the load's bell."}; }
-inline Column load_steepness() { return {"steepness", "steepness", significant(6), "Steepness of the load's bell."}; }
+inline Column load_width() {
+  return {"width", "width", significant(6, millisecond), "Width of the load's bell."};
+}
+inline Column load_steepness() {
+  return {"steepness", "steepness", significant(6), "Steepness of the load's bell."};
+}
 inline Column change_to_finer() {
   return {"station_change_to_finer", "change to the finer mesh", significant(3, kelvin),
-          "Largest change of a station's temperature at the end of the launch, without a gap, to the finer mesh."};
+          "Largest change of a station's temperature at the end of the launch, without a gap, to the finer "
+          "mesh."};
 }
 inline Column change_from_coarser() {
   return {"station_change_from_coarser", "from the coarser", significant(3, kelvin),

@@ -15,7 +15,7 @@ namespace launchsafe::report {
 struct VerdictRow {
   const study::StudyCase* input;
   const study::GapVerdict* gap;
-  double inert;  ///< K, T max without reaction
+  double inert;                              ///< K, T max without reaction
   double width() const { return gap->gap; }  ///< m
 };
 /// From T max to the energy of the air: what is known of one gap of one case.
