@@ -253,8 +253,9 @@ Quantities<VariantRow> variant_quantities() {
       {processor_time(), &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::processor_time},
       {{"half_bound_setting", "cheapest with half the bound", text(),
         "The cheapest setting with half the bound."},
-       [](const VariantRow& row) -> std::string {
-         return row.half_bound ? row.half_bound->label : row.own ? "none here" : "";
+       [](const VariantRow& row) {
+         if (row.half_bound != nullptr) return Cell(row.half_bound->label);
+         return row.own != nullptr ? Cell(std::string("none here")) : Cell();
        }},
       {{"half_bound_processor_time", "its time", fixed(1, second), "Its processor time."},
        &VariantRow::half_bound,

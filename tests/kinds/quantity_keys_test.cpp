@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -94,7 +95,12 @@ TEST(QuantityKeys, EndWithTheUnitAndAreTheSameInEveryTable) {
 
 /// Those that depend on the study: an axis, or a column for every gap, mesh, instant or variant.
 bool depends_on_study(const std::string& key) {
-  return key.find_first_of("0123456789") != std::string::npos || key == "variant";
+  const bool is_axis = std::ranges::any_of(scene::scene_keys(), [&key](const auto& each) {
+    std::string name = each.name;
+    std::ranges::replace(name, '.', '_');
+    return key.starts_with(name);
+  });
+  return is_axis || key.find_first_of("0123456789") != std::string::npos || key == "variant";
 }
 
 TEST(QuantityKeys, EveryColumnHasAMeaningAndStandsInTheReferenceOfResults) {

@@ -57,7 +57,9 @@ TEST(SensitivityReport, AnOutputWithoutIndicesShowsTheReason) {
   result.outputs[1].missing = 8;
   result.outputs[1].reason = "7 of 20 critical gaps are bounds, not numbers";
   const Table table = sensitivity_table(result, result.outputs[1]);
-  for (const auto& row : table.rows) EXPECT_EQ(row.size(), 2u) << "no number is shown";
+  for (const auto& row : table.rows)
+    EXPECT_TRUE(std::all_of(row.begin() + 2, row.end(), [](const Cell& cell) { return cell == Cell(); }))
+        << "no number is shown";
   const std::string& reason = result.outputs[1].reason;
   EXPECT_TRUE(has_note(table, reason));
   EXPECT_TRUE(has_note(table, "8 of 20"));

@@ -118,7 +118,7 @@ TEST(SweepReport, AFailedCaseHasItsReasonAndNoNumbers) {
   EXPECT_EQ(shown_text(matrix.rows[16].back()), "INDET.");
   EXPECT_EQ(shown_text(matrix.rows[0].back()), "SAFE");
   EXPECT_EQ(shown_text(matrix.rows[35].back()), "UNSAFE");
-  EXPECT_EQ(matrix.columns.back().name, "0.04 cm");
+  EXPECT_EQ(matrix.columns.back().heading, "0.04 cm");
 }
 
 TEST(SweepReport, TheLongTableHasARowForEveryGap) {

@@ -17,7 +17,7 @@ using namespace launchsafe::report;
 Table table_of(std::size_t rows, const std::string& title) {
   Table table;
   table.title = title;
-  table.columns = {{.name = "gap", .unit = "cm"}};
+  table.columns = {{"gap", "gap", launchsafe::keys::fixed(1, centimetre)}};
   for (std::size_t i = 0; i < rows; ++i) table.rows.push_back({static_cast<double>(i)});
   return table;
 }
