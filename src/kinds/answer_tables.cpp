@@ -69,12 +69,12 @@ std::string answer_of(std::vector<std::string> lines, const StudyFile& study,
 
 std::vector<AnsweredCase> answered(const StudyFile& study, const std::vector<CaseAnswer>& answers) {
   std::vector<AnsweredCase> cases;
-  for (std::size_t i = 0; i < answers.size(); ++i) cases.push_back({&study.cases[i], &answers[i]});
+  for (std::size_t i = 0; i < answers.size(); ++i) cases.push_back({&study, i, &answers[i]});
   return cases;
 }
 
 Quantities<AnsweredCase> answered_axes(const Study& study) {
-  return of_part<AnsweredCase>(axis_quantities(study), &AnsweredCase::input);
+  return of_part<AnsweredCase>(axis_quantities(study), &AnsweredCase::coordinates);
 }
 
 }  // namespace launchsafe::kinds

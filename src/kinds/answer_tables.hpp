@@ -54,8 +54,11 @@ inline constexpr const char* interrupted_note =
 
 /// A case with its answer, and where it lies.
 struct AnsweredCase {
-  const study::StudyCase* input;
+  const study::StudyFile* study;
+  std::size_t index;
   const study::CaseAnswer* answer;
+  const std::vector<double>& coordinates() const { return study->cases.coordinates(index); }
+  const std::string& label() const { return study->cases.label(index); }
 };
 std::vector<AnsweredCase> answered(const study::StudyFile& study,
                                    const std::vector<study::CaseAnswer>& answers);

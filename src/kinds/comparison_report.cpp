@@ -29,14 +29,14 @@ struct CaseRow {
   std::size_t index;
 
   const ComparedCase& compared() const { return result->cases[index]; }
-  const study::StudyCase& input() const { return result->study.cases[index]; }
+  const std::vector<double>& coordinates() const { return result->study.cases.coordinates(index); }
   const std::string& variant() const { return result->variants()[compared().variant].name; }
 };
 
 /// Variant, and peak pressure where there are several.
 Quantities<CaseRow> place_quantities(const study::Study& study) {
   return keys::joined<CaseRow>({{{quantity::variant(), &CaseRow::variant}},
-                                of_part<CaseRow>(axis_quantities(study), &CaseRow::input)});
+                                of_part<CaseRow>(axis_quantities(study), &CaseRow::coordinates)});
 }
 
 double hottest(const ComparedCase& each) {

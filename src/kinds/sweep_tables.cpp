@@ -55,7 +55,7 @@ Quantities<AnsweredCase> swept_case_quantities(const study::Study& study) {
        of_part<AnsweredCase>(bounded_gap_quantities(), &AnsweredCase::answer, &CaseAnswer::critical),
        {{{"assumed_shares", "assumed", text(), "What the bounds rest on and nothing says of the case."},
          [study](const AnsweredCase& row) {
-           return assumed_shares(study, *row.input, row.answer->critical.value);
+           return assumed_shares(study, row.study->cases[row.index], row.answer->critical.value);
          }}},
        outer_gap_quantities(study.gaps),
        {{quantity::status(), [](const AnsweredCase& row) { return status_of(*row.answer); }},
@@ -71,7 +71,7 @@ Quantities<AnsweredCase> swept_case_quantities(const study::Study& study) {
 }
 
 Quantities<VerdictRow> swept_verdict_quantities(const study::Study& study) {
-  return keys::joined<VerdictRow>({of_part<VerdictRow>(axis_quantities(study), &VerdictRow::input),
+  return keys::joined<VerdictRow>({of_part<VerdictRow>(axis_quantities(study), &VerdictRow::coordinates),
                                    {{quantity::gap(), &VerdictRow::width}},
                                    verdict_quantities(study)});
 }
@@ -122,10 +122,12 @@ Table critical_gap_table(const SweepResult& result) {
 
 Table verdict_table(const SweepResult& result) {
   std::vector<VerdictRow> rows;
-  for (const auto& [input, answer] : answered(result.study, result.answers)) {
+  for (const AnsweredCase& each : answered(result.study, result.answers)) {
+    const CaseAnswer* answer = each.answer;
     for (std::size_t i = 0; i < answer->verdicts.size(); ++i) {
       const bool known = i < answer->heated_temperature.size();
-      rows.push_back({input, &answer->verdicts[i], known ? answer->heated_temperature[i] : not_a_number});
+      rows.push_back({nullptr, &answer->verdicts[i], known ? answer->heated_temperature[i] : not_a_number,
+                      &each.coordinates()});
     }
   }
   Table table = table_of("Verdicts", swept_verdict_quantities(result.study.study), rows);

@@ -99,12 +99,12 @@ std::vector<ShownKey> shown_axes(const study::Study& study) {
   return keys;
 }
 
-Quantities<study::StudyCase> axis_quantities(const study::Study& study) {
-  Quantities<study::StudyCase> quantities;
+Quantities<std::vector<double>> axis_quantities(const study::Study& study) {
+  Quantities<std::vector<double>> quantities;
   for (const study::Axis& axis : study.axes) {
     const std::size_t place = quantities.size();
-    quantities.emplace_back(always(shown(axis)), [place](const study::StudyCase& input) {
-      return place < input.coordinates.size() ? std::optional(input.coordinates[place]) : std::nullopt;
+    quantities.emplace_back(always(shown(axis)), [place](const std::vector<double>& coordinates) {
+      return place < coordinates.size() ? std::optional(coordinates[place]) : std::nullopt;
     });
   }
   return quantities;

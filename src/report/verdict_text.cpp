@@ -79,7 +79,7 @@ std::string off_grid_note(const study::StudyFile& study) {
 /// A cited limit beside the case that stands nearest to it, if there is one.
 struct LimitRow {
   study::LimitComparison comparison;
-  const study::StudyCase* input = nullptr;
+  std::optional<study::StudyCase> input = {};
   const study::CriticalGap* critical = nullptr;
 };
 
@@ -270,7 +270,7 @@ Table cited_limit_table(const study::StudyFile& study,
     chosen = chosen || each.cases > 1;
     const auto nearest = each.nearest;
     rows.push_back({std::move(each)});
-    if (nearest) rows.back() = {rows.back().comparison, &study.cases[*nearest], critical[*nearest]};
+    if (nearest) rows.back() = {rows.back().comparison, study.cases[*nearest], critical[*nearest]};
   }
   Table table = table_of("Cited limits of the gap", limit_quantities(), rows);
   table.notes.push_back(fmt::format(

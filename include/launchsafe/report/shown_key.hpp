@@ -23,8 +23,8 @@ struct ShownKey : Column {
 
 ShownKey shown(const study::Axis& axis);
 std::vector<ShownKey> shown_axes(const study::Study& study);
-/// What the axes of a study are in its cases.
-Quantities<study::StudyCase> axis_quantities(const study::Study& study);
+/// What the axes of a study are in a case, of its coordinates.
+Quantities<std::vector<double>> axis_quantities(const study::Study& study);
 
 /// "400, 450, 496 MPa"; long lists by their ends and their number.
 std::string values_text(const ShownKey& key, const std::vector<double>& si_values);
