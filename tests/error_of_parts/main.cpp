@@ -89,7 +89,8 @@ struct SettingRow {
 
 /// What every setting gave: for people with units and to three digits, for programs exact.
 report::Table settings_table(const std::vector<MeasuredSeries>& measured) {
-  using keys::fixed, keys::significant, keys::text, report::for_people, report::for_programs, report::Column;
+  using keys::always, keys::fixed, keys::significant, keys::text, report::for_people, report::for_programs,
+      report::Column;
   const auto of_series = [](auto member) {
     return [member](const SettingRow& row) { return std::invoke(member, *row.series); };
   };
