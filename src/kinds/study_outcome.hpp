@@ -23,7 +23,7 @@ template <class Result>
 std::vector<Failure> failures_of(const Result& result) {
   std::vector<Failure> failures;
   for (std::size_t i = 0; i < result.answers.size(); ++i)
-    add_failure(failures, result.study.cases[i].label, result.answers[i].outcome, result.answers[i].failure);
+    add_failure(failures, result.study.cases.label(i), result.answers[i].outcome, result.answers[i].failure);
   return failures;
 }
 

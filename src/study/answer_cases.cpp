@@ -123,9 +123,25 @@ class AnswerRunner {
     // Cores that find no further run help here. A thread that waits for them must not start another run.
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t i) {
-        if (!answers_[members[i]]) answers_[members[i]] = answer(study_.cases[members[i]], runs);
+        if (answers_[members[i]]) return;
+        const FinishedRun* lacking = run_without_result(runs);
+        answers_[members[i]] = lacking != nullptr && is_of_no_report(*lacking)
+                                   ? without_rows(*lacking)
+                                   : answer(study_.cases[members[i]], runs);
       });
     });
+  }
+
+  /// A study that was stopped, and a shard, report nothing: there may be a million such cases.
+  bool is_of_no_report(const FinishedRun& lacking) const {
+    return lacking.outcome == RunOutcome::other_shard || stop_requested(options_);
+  }
+
+  static CaseAnswer without_rows(const FinishedRun& lacking) {
+    CaseAnswer answer;
+    answer.outcome = lacking.outcome;
+    answer.failure = lacking.failure;
+    return answer;
   }
 
   CaseAnswer answer(const StudyCase& input, const std::vector<FinishedRun>& runs) {
