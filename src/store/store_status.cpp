@@ -34,10 +34,14 @@ std::string writer_in(const std::filesystem::path& status_file) {
   const auto text = read_file(status_file);
   const nlohmann::json object = text ? parsed(*text) : nlohmann::json();
   try {
-    if (object.is_null() || object.at("ended").get<bool>()) return "another process";
-    return fmt::format("{} process {} since {}, {} of {} runs done", object.at("host").get<std::string>(),
-                       object.at("process").get<long>(), object.at("since").get<std::string>(),
-                       object.at("runs_done").get<std::size_t>(), object.at("runs_total").get<std::size_t>());
+    if (object.is_null()) return "another process";
+    const std::string writer =
+        fmt::format("{} process {} since {}, {} of {} runs done", object.at("host").get<std::string>(),
+                    object.at("process").get<long>(), object.at("since").get<std::string>(),
+                    object.at("runs_done").get<std::size_t>(), object.at("runs_total").get<std::size_t>());
+    // It may have ended while we waited, or somebody reads what it left.
+    if (object.at("ended").get<bool>()) return "another process; the last to write was " + writer;
+    return writer;
   } catch (const nlohmann::json::exception&) {
     return "another process";
   }
