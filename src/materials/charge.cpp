@@ -119,8 +119,7 @@ std::vector<Key<Charge>> heat_keys() {
                 Role{ActsOn::heat}),
       plausibly(number_key("conductivity", Dimension::conductivity, between(0, 1e4), Standing::paper,
                            "Thermal conductivity.", &Charge::conductivity),
-                between(0.05, 1), "explosives have 0.1 to 0.5 W/(m K)",
-                Role{ActsOn::conduction}),
+                between(0.05, 1), "explosives have 0.1 to 0.5 W/(m K)", Role{ActsOn::conduction}),
       plausibly(
           number_key("sliding_friction", Dimension::number, between(0, 10), Standing::paper,
                      "Coefficient mu_d of the friction that heats the charge.", &Charge::sliding_friction),

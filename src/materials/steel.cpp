@@ -69,8 +69,7 @@ std::vector<Key<JohnsonCookParameters>> strength_keys() {
           between(0.3, 1), "0.3 to 1 of plastic work was measured to become heat"),
       plausibly(number_key("conductivity", Dimension::conductivity, between(0, 1e4), Standing::literature,
                            "Thermal conductivity.", &JohnsonCookParameters::conductivity),
-                between(10, 80), "stainless steel has 15 W/(m K), pure iron 80",
-                Role{ActsOn::conduction}),
+                between(10, 80), "stainless steel has 15 W/(m K), pure iron 80", Role{ActsOn::conduction}),
   };
 }
 

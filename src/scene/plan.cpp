@@ -192,8 +192,8 @@ double time_step_at_rest(const Scene& scene, const MeshSize& mesh) {
     const Body& body = scene.bodies[i];
     const double inertia =
         numerics.inertial_scaling * (is_charge(scene, body) ? 1.0 : numerics.steel_inertia);
-    shortest = std::min(shortest, mesh.cells[i].shortest() / longitudinal_speed(law_of(scene, body)) *
-                                      std::sqrt(inertia));
+    shortest = std::min(
+        shortest, mesh.cells[i].shortest() / longitudinal_speed(law_of(scene, body)) * std::sqrt(inertia));
   }
   return numerics.time_step_factor * shortest;
 }
