@@ -1,6 +1,7 @@
 #include "validate_end.hpp"
 
 #include "launchsafe/scene/launch_end.hpp"
+#include "scene_fault.hpp"
 
 #include <fmt/format.h>
 
@@ -19,17 +20,12 @@ constexpr double largest_difference_of_velocity = 0.05;
 /// s; no launch is longer.
 constexpr double longest_launch = 1.0;
 
-InputError fault_of_key(const SceneFile& file, const std::string& key, std::string found,
-                        std::string allowed) {
-  return error_at(place_of_key(file, key), key, std::move(found), std::move(allowed));
-}
-
 /// What only an exit gives a meaning to.
 std::optional<InputError> fault_without_exit(const SceneFile& file) {
   for (const char* key : {"load.exit_decay", "load.muzzle_exit_spread"})
     if (file.given.contains(key))
-      return fault_of_key(file, key, "a number of the muzzle exit, which is not stated",
-                          "only together with load.muzzle_exit or load.muzzle_travel");
+      return fault_at(file, key, "a number of the muzzle exit, which is not stated",
+                      "only together with load.muzzle_exit or load.muzzle_travel");
   return std::nullopt;
 }
 
@@ -43,14 +39,13 @@ std::optional<InputError> fault_of_travel(const SceneFile& file) {
   if (!load.muzzle_exit) {
     if (exit_time(load)) return std::nullopt;
     const double end = launch_end(barrel.load);
-    return fault_of_key(file, "load.muzzle_travel",
-                        length_text(stated) + ", which the projectile does not reach",
-                        fmt::format("at most {}, where the load drives it until it ends at {}",
-                                    length_text(rigid_motion(barrel, end).travel), time_text(end)));
+    return fault_at(file, "load.muzzle_travel", length_text(stated) + ", which the projectile does not reach",
+                    fmt::format("at most {}, where the load drives it until it ends at {}",
+                                length_text(rigid_motion(barrel, end).travel), time_text(end)));
   }
   const double travel = rigid_motion(barrel, *load.muzzle_exit).travel;
   if (std::abs(stated - travel) <= largest_difference_of_travel * travel) return std::nullopt;
-  return fault_of_key(
+  return fault_at(
       file, "load.muzzle_travel",
       fmt::format("{}, while the load drives the projectile {:.3g} m until load.muzzle_exit, {}",
                   length_text(stated), travel, time_text(*load.muzzle_exit)),
@@ -70,9 +65,8 @@ std::optional<InputError> fault_of_exit(const SceneFile& file) {
   const double peak = PressureHistory(barrel).peak_time(), end = launch_end(barrel);
   const std::string allowed = fmt::format("a time after the peak, {}, and before the load is over, {}",
                                           time_text(peak), time_text(end));
-  if (!(exit > peak)) return fault_of_key(file, key, found + ", not after the peak of the load", allowed);
-  if (exit > end * (1.0 + 1e-9))
-    return fault_of_key(file, key, found + ", after the end of the load", allowed);
+  if (!(exit > peak)) return fault_at(file, key, found + ", not after the peak of the load", allowed);
+  if (exit > end * (1.0 + 1e-9)) return fault_at(file, key, found + ", after the end of the load", allowed);
   return std::nullopt;
 }
 
@@ -118,9 +112,8 @@ std::optional<InputError> fault_of_end(const SceneFile& file) {
   const bool measured = !load.curve_time.empty();
   const std::string key =
       measured ? load.curve_file.empty() ? "load.curve_time" : "load.curve" : "load.peak_time";
-  return fault_of_key(
-      file, key, fmt::format("a load that ends at {}", time_text(end)),
-      fmt::format("a load that is over within {}, or load.duration", time_text(longest_launch)));
+  return fault_at(file, key, fmt::format("a load that ends at {}", time_text(end)),
+                  fmt::format("a load that is over within {}, or load.duration", time_text(longest_launch)));
 }
 
 }  // namespace launchsafe::scene

@@ -2,6 +2,7 @@
 
 #include "launchsafe/scene/chamber.hpp"
 #include "launchsafe/scene/interfaces.hpp"
+#include "scene_fault.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +13,6 @@
 namespace launchsafe::scene {
 namespace {
 
-using Fault = std::optional<InputError>;
-
 /// Of numerics.cell_size.
 constexpr double least_distance = 0.1;
 
@@ -22,11 +21,6 @@ std::string centimetres(double length) {
 }
 std::string exact_range(double begin, double end) {
   return fmt::format("{:.10g} to {}", in_unit(begin, Dimension::length, "cm"), centimetres(end));
-}
-
-InputError fault_of_geometry(const SceneFile& file, const std::string& key, std::string found,
-                             std::string allowed, std::string suggestion) {
-  return error_at(place_of_key(file, key), key, std::move(found), std::move(allowed), std::move(suggestion));
 }
 
 /// The extent of a body along one axis.
@@ -53,7 +47,7 @@ InputError fault_of(const SceneFile& file, const NearEdge& near) {
   const double edge = near.at_end ? near.span.end : near.span.begin, distance = std::abs(edge - near.place);
   const std::string meant =
       near.at_end ? exact_range(near.span.begin, near.place) : exact_range(near.place, near.span.end);
-  return fault_of_geometry(
+  return fault_at(
       file, fmt::format("body.{}.{}", near.body.name, near.span.axis),
       fmt::format("\"{}\", which {} {:.3g} mm from {}, {}", exact_range(near.span.begin, near.span.end),
                   near.at_end ? "ends" : "begins", 1e3 * distance, near.what, centimetres(near.place)),
@@ -106,7 +100,7 @@ Fault check_bottom(const SceneFile& file) {
     if (borne >= width - tolerance * static_cast<double>(scene.bodies.size())) continue;
     const Body* next = next_behind(scene, charge);
     const bool moves = next != nullptr && borne <= tolerance;
-    return fault_of_geometry(
+    return fault_at(
         file, "gap.thickness",
         fmt::format("a gap in the drawing: no body lies against {} of the bottom of \"{}\", x = {}, r {}{}",
                     borne > tolerance ? "a part" : "any part", charge.name, centimetres(bottom),
@@ -137,7 +131,7 @@ Fault check_hold(const SceneFile& file) {
   const auto loose = std::find(held.begin(), held.end(), false);
   if (loose == held.end()) return std::nullopt;
   const Body& body = bodies[static_cast<std::size_t>(loose - held.begin())];
-  return fault_of_geometry(
+  return fault_at(
       file, fmt::format("body.{}.x", body.name),
       fmt::format("\"{}\", r {}, where no face holds it to \"{}\"", exact_range(body.x_begin, body.x_end),
                   exact_range(body.r_begin, body.r_end), bodies.front().name),
@@ -148,7 +142,7 @@ Fault check_chamber(const SceneFile& file) {
   const Chamber chamber = chamber_of(file.scene);
   if (chamber.unclear.empty()) return std::nullopt;
   const auto& stated = file.scene.load.obturation;
-  return fault_of_geometry(
+  return fault_at(
       file, "load.obturation", (stated ? centimetres(*stated) + ", " : "") + chamber.unclear,
       fmt::format("a driving band in a ring of the full radius, {}, that closes the chamber by itself "
                   "and with it the charge (the formulation \"total-lagrangian\" where not the "

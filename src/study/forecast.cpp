@@ -141,7 +141,7 @@ ForecastRun forecast_run(const CaseRun& needed, const StudyOptions& options, con
   run.refused = !refusal.empty();
   run.why = run.refused ? "refused: " + refusal : reasons.why_run(needed);
   run.given_up = run.refused || is_given_up(run.hash, options);
-  run.time = run.given_up ? 0.0 : needed.cost / update_rate;
+  run.time = run.given_up ? 0.0 : cost_of(needed) / update_rate;
   return run;
 }
 

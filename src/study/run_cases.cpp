@@ -3,7 +3,9 @@
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/mechanical_part.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/changed_scene.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -39,7 +41,7 @@ RunRecord entry_for(const CaseRun& run, CaseState state, std::string reason) {
   entry.label = run.label;
   entry.reason = std::move(reason);
   entry.model_version = run::model_version;
-  entry.predicted_updates = run.cost;
+  entry.predicted_updates = cost_of(run);
   return entry;
 }
 
@@ -101,10 +103,10 @@ class CaseLoop {
       finish(i, j, perform(i, *run, allotment));
     };
     if (options_.store != nullptr && options_.store->holds(run->hash))
-      return {reading_share * run->cost, work, 0.0, {}};
+      return {reading_share * cost_of(*run), work, 0.0, {}};
     if (std::string refusal = refusal_of(run->scene, options_); !refusal.empty())
       return {1.0, work, 0.0, std::move(refusal)};
-    return {run->cost, work, run::cost_of(run->scene).memory(), {}};
+    return {cost_of(*run), work, run::cost_of(run->scene).memory(), {}};
   }
 
   FinishedRun perform(std::size_t i, const CaseRun& run, const Allotment& allotment) {
@@ -225,18 +227,19 @@ class CaseLoop {
 double scheduled(double work) { return std::isfinite(work) ? std::max(work, 1.0) : 1.0; }
 
 CaseRun planned(scene::Scene scene, std::optional<double> gap, std::string label) {
-  CaseRun run{std::move(label), std::move(scene), gap, {}, 1.0};
+  CaseRun run{std::move(label), std::move(scene), gap, {}};
   run.hash = identity_of(run).hash();
-  run.cost = cost_of(run.scene);
   return run;
 }
 
 }  // namespace
 
 PlannedRun planned_run(CaseRun run) {
-  const double cost = run.cost;
+  const double cost = cost_of(run);
   return {[run = std::move(run)] { return run; }, cost};
 }
+
+double cost_of(const CaseRun& run) { return run.cost > 0.0 ? run.cost : cost_of(run.scene); }
 
 Runners simulation_runners() { return {run::run_mechanics, run::run_with_skin}; }
 
@@ -302,28 +305,43 @@ std::optional<scene::Scene> with_longer_launch(const scene::Scene& scene) {
 
 namespace {
 
-/// Whether cases that differ in the axes alone that reach the mechanics surely differ in their runs: not
-/// where a launch decides whether the mechanics knows a key.
-bool tells_runs_apart(const std::vector<Axis>& axes) {
-  return std::ranges::none_of(axes, [](const Axis& axis) {
+/// The axes that reach the mechanics.
+std::vector<std::size_t> mechanical_axes(const std::vector<Axis>& axes) {
+  std::vector<std::size_t> reaching;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (keys::reaches_mechanics(axes[i].key.role().acts_on)) reaching.push_back(i);
+  return reaching;
+}
+
+/// Whether the mechanics of a case has its values of these axes: not where a launch decides whether the
+/// mechanics knows a key, as its role says, or as its value is not there.
+bool keeps_values(const StudyFile& study, std::size_t index, const std::vector<std::size_t>& axes) {
+  const scene::Scene part = scene::mechanical_part(study.cases[index].scene.scene);
+  return std::ranges::all_of(axes, [&](std::size_t i) {
+    const Axis& axis = study.study.axes[i];
     const keys::ActsOn acts_on = axis.key.role().acts_on;
-    return keys::reaches_mechanics(acts_on) && acts_on != keys::ActsOn::mechanics &&
-           acts_on != keys::ActsOn::numerics;
+    const auto* key = scene::find_key(scene::scene_keys(), axis.key.name);
+    return (acts_on == keys::ActsOn::mechanics || acts_on == keys::ActsOn::numerics) && key != nullptr &&
+           same_value(key->get(part), scene::Value(study.cases.coordinates(index)[i]));
   });
 }
 
-/// What cases that share their runs have in common, and no others.
-std::string key_of_runs(const StudyFile& study, std::size_t index) {
-  const std::vector<Axis>& axes = study.study.axes;
-  const std::vector<double>& coordinates = study.cases.coordinates(index);
-  if (!study.cases.has_own_scene(index) && !study.study.kind.goes_through_ignition &&
-      tells_runs_apart(axes)) {
-    std::string key;
-    for (std::size_t i = 0; i < axes.size(); ++i)
-      if (keys::reaches_mechanics(axes[i].key.role().acts_on)) key += fmt::format("{} ", coordinates[i]);
-    return key;
-  }
-  const StudyCase input = study.cases[index];
+/// Whether cases that differ in these axes surely differ in their runs. The first and the last case have
+/// other values of each, of which one is not the default.
+bool tell_runs_apart(const StudyFile& study, const std::vector<std::size_t>& axes) {
+  if (study.cases.empty() || study.study.kind.goes_through_ignition) return false;
+  const std::size_t last = study.cases.size() - 1;
+  return !study.cases.has_own_scene(0) && !study.cases.has_own_scene(last) && keeps_values(study, 0, axes) &&
+         keeps_values(study, last, axes);
+}
+
+std::string key_by_values(const std::vector<double>& coordinates, const std::vector<std::size_t>& axes) {
+  std::string key;
+  for (const std::size_t i : axes) key += fmt::format("{} ", coordinates[i]);
+  return key;
+}
+
+std::string key_by_runs(const StudyFile& study, const StudyCase& input) {
   std::string key = mechanics_run(input.scene.scene, {}).hash;
   // A case that burns shares its launch alone with no other.
   for (const double gap : burning_gaps(study, input)) key += skin_run(input.scene.scene, gap, {}).hash;
@@ -333,7 +351,12 @@ std::string key_of_runs(const StudyFile& study, std::size_t index) {
 /// The cases that share runs, in the order of their first ones.
 std::vector<CaseRuns> cases_by_runs(const StudyFile& study) {
   std::vector<std::string> keys(study.cases.size());
-  tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) { keys[i] = key_of_runs(study, i); });
+  const std::vector<std::size_t> axes = mechanical_axes(study.study.axes);
+  const bool by_values = tell_runs_apart(study, axes);
+  tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) {
+    const bool varied = by_values && !study.cases.has_own_scene(i);
+    keys[i] = varied ? key_by_values(study.cases.coordinates(i), axes) : key_by_runs(study, study.cases[i]);
+  });
   std::vector<CaseRuns> cases;
   std::unordered_map<std::string, std::size_t> known;
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -382,7 +405,7 @@ void predict_costs(std::vector<CaseRuns>& cases) {
   const std::size_t every = (cases.size() + most_planned_before - 1) / most_planned_before;
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
     if (i % every != 0) return;
-    for (PlannedRun& run : cases[i].runs) run.cost = run.make().cost;
+    for (PlannedRun& run : cases[i].runs) run.cost = cost_of(run.make());
   });
   for (std::size_t i = 0; i < cases.size(); ++i)
     for (std::size_t j = 0; j < cases[i].runs.size(); ++j) {

@@ -1,11 +1,16 @@
 #include "launchsafe/study/run_cases.hpp"
 
+#include "launchsafe/scene/scene_keys.hpp"
 #include "scene/scene_text.hpp"
 #include "study/synthetic_launch.hpp"
+
+#include <fmt/format.h>
 
 #include <atomic>
 #include <map>
 #include <mutex>
+#include <set>
+#include <string>
 
 namespace {
 
@@ -48,6 +53,35 @@ TEST(RunCases, EveryCaseIsJudgedOnce) {
   const auto outcomes = outcomes_of(plain_study(two_cases), synthetic_options());
   EXPECT_EQ(outcomes.size(), 2u);
   EXPECT_EQ(count(outcomes, RunOutcome::ran), 2u);
+}
+
+/// Driven from the list of keys: whatever a study varies, cases that share a run have equal mechanics, and
+/// those that do not have other ones.
+TEST(RunCases, CasesShareARunWhereTheirMechanicsAreEqualAndNowhereElse) {
+  std::size_t tried = 0, shared = 0;
+  for (const auto& key : scene::scene_keys()) {
+    if (key.kind != scene::KeyKind::number || key.name == "load.peak") continue;
+    const double usual = std::get<double>(key.get(calibration_scene()));
+    const double other = key.dimension == scene::Dimension::count ? 1.0 : 0.01 * usual;
+    const auto study = parse_here(fmt::format(
+        "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\n[axes]\ngap = \"0.1 mm\"\n\"{}\" = [\"{}\", "
+        "\"{}\"]\npeak_pressure = \"450, 496 MPa\"\n",
+        key.name, scene::format_value(key, usual), scene::format_value(key, usual + other)));
+    if (!study) continue;  // no other value of it stands beside the rest of the scene
+    ++tried;
+    std::set<std::string> hashes;
+    for (const CaseRuns& each : case_runs(*study, 1)) {
+      shared += each.members.size() - 1;
+      const auto hash_of = [&](std::size_t member) {
+        return mechanics_run(study->cases[member].scene.scene, {}).hash;
+      };
+      const std::string hash = hash_of(each.members.front());
+      EXPECT_TRUE(hashes.insert(hash).second) << key.name << ": the same run twice";
+      for (const std::size_t member : each.members) EXPECT_EQ(hash_of(member), hash) << key.name;
+    }
+  }
+  EXPECT_GE(tried, 50u);
+  EXPECT_GE(shared, 20u);
 }
 
 TEST(RunCases, RunsUnderARaisedLoadBelongToTheirCase) {

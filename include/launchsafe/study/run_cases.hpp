@@ -20,7 +20,7 @@ struct CaseRun {
   scene::Scene scene;              ///< without all that does not influence the run
   std::optional<double> skin_gap;  ///< m
   std::string hash;                ///< of its identity: the name of its file in the store
-  double cost = 1;                 ///< predicted particle updates, > 0
+  double cost = 0;                 ///< predicted particle updates, where they are not those of the scene
   bool checkpoints = false;        ///< the result of the mechanics keeps them, where it is computed
   /// Of a complete run: the mechanics of its launch, from whose checkpoints it goes on; it outlives the run.
   const run::MechanicsResult* launch = nullptr;
@@ -41,6 +41,8 @@ struct PlannedRun {
 };
 /// Of a run that is there already.
 PlannedRun planned_run(CaseRun run);
+/// Predicted particle updates, > 0.
+double cost_of(const CaseRun& run);
 
 /// Runs that are judged together, and the cases of the study that are judged on them.
 struct CaseRuns {
