@@ -157,6 +157,7 @@ Quantities<NamedOutcome> judged_case_quantities() {
        {{for_programs(Column{"coupled_runs", "coupled runs", text(),
                              "What the coupled runs on both sides of the bracket did."}),
          [](NamedOutcome outcome) { return confirmation_text(*outcome); }},
+        {quantity::recorded_uncertainty(), &CaseOutcome::input, &StudyCase::recorded_uncertainty},
         {quantity::remark(), [](NamedOutcome outcome) { return outcome->critical.reason; }}}});
 }
 

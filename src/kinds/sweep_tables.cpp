@@ -57,6 +57,8 @@ Quantities<AnsweredCase> swept_case_quantities(const study::Study& study) {
          [study](const AnsweredCase& row) {
            return assumed_shares(study, row.study->cases[row.index], row.answer->critical.value);
          }}},
+       {{quantity::recorded_uncertainty(),
+         [](const AnsweredCase& row) { return row.study->cases[row.index].recorded_uncertainty(); }}},
        outer_gap_quantities(study.gaps),
        {{quantity::status(), [](const AnsweredCase& row) { return status_of(*row.answer); }},
         {quantity::energy_drift(), &AnsweredCase::answer, &CaseAnswer::run, &RunSummary::energy_drift},

@@ -77,10 +77,10 @@ Origin origin_of(const StudyEvidence& study, std::string of, std::string setting
 }
 
 const Row* setting_taken_by(const StudyEvidence& main, const StudyEvidence& accuracy) {
-  for (const Row& row : accuracy.rows("settings")) {
-    const std::string line = fmt::format("\n{} at a rise of ", number_of(row, "temperature_bound_K"));
-    if (main.record.manifest.input_text.find(line) != std::string::npos) return &row;
-  }
+  const std::string taken = quantity::recorded_uncertainty().key();
+  for (const Row& row : accuracy.rows("settings"))
+    for (const Row& each : main.rows("cases"))
+      if (number_of(each, taken) == number_of(row, "temperature_bound_K")) return &row;
   return nullptr;
 }
 

@@ -55,7 +55,7 @@ Table left_out_table(const scene::Scene& scene) {
 }
 
 /// Whether the main study took the record that a comparison or an accuracy study wrote: by its digest, or by
-/// an uncertainty that stands in the main study's input.
+/// a bound that its cases took from one.
 std::string record_text(const StudyEvidence& main, const StudyEvidence& study) {
   bool used = setting_taken_by(main, study) != nullptr;
   for (const store::WrittenFile& file : study.record.files)

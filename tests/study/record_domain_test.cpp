@@ -81,8 +81,9 @@ TEST(RecordDomain, AKeyThatDoesNotReachTheMechanicsOrTheSkinChangesNeither) {
     if (keys::reaches_mechanics(acts_on)) continue;
     for (const scene::SceneFile& other : scene::perturbed(own(), key)) {
       EXPECT_EQ(scene::to_toml(scene::mechanical_part(other.scene)), part) << key.name;
-      if (acts_on == ActsOn::nothing || acts_on == ActsOn::combustion)
+      if (acts_on == ActsOn::nothing || acts_on == ActsOn::combustion) {
         EXPECT_EQ(temperature(other.scene), temperature(own().scene)) << key.name;
+      }
     }
   }
 }

@@ -112,6 +112,14 @@ inline Column critical_gap_reads_as() {
   return {"critical_gap_reads_as", "reads as", text(), "The critical gap or its bound in words."};
 }
 
+/// By which a report finds the setting of an accuracy study that a case was computed with.
+inline Column recorded_uncertainty() {
+  return for_programs(
+      Column{"recorded_uncertainty", "recorded uncertainty", significant(3, kelvin),
+             "Bound of T max that an accuracy record has for the numerics and the launch of the "
+             "case; none where no record speaks of it."});
+}
+
 // Of runs.
 inline Column status() { return {"status", "run", text(), "How the mechanical run ended."}; }
 inline Column energy_drift() {

@@ -36,6 +36,11 @@ struct StudyCase {
   double covered_gap = std::numeric_limits<double>::infinity();
   double pressure_ratio = 1.0;  ///< peak pressure over that of the study's scene
   scene::SceneFile scene;
+  /// K, the bound that an accuracy record has for this case; NaN where it has none or none was taken.
+  double recorded_uncertainty() const {
+    const bool is_recorded = rise_of_uncertainty == rise_of_uncertainty && !numerical_uncertainty_assumed;
+    return is_recorded ? numerical_uncertainty : not_a_number;
+  }
 };
 
 /// The cases of a study in their order. A study may have a million: of those that vary keys of one scene it
