@@ -28,7 +28,11 @@ Lattice make_lattice(const scene::Scene& scene, const scene::Body& body) {
 
 ParticleFields make_kinematics(const scene::Scene& scene, int index, double density) {
   ParticleFields p;
-  p.lattice = make_lattice(scene, scene.bodies[static_cast<std::size_t>(index)]);
+  const scene::Body& body = scene.bodies[static_cast<std::size_t>(index)];
+  p.lattice = make_lattice(scene, body);
+  const scene::Numerics& numerics = scene.numerics;
+  const double inertial_factor =
+      numerics.inertial_scaling * (scene::is_charge(scene, body) ? 1.0 : numerics.steel_inertia);
   p.body = index;
   const Lattice& lattice = p.lattice;
   const std::size_t slots = lattice.slots();
@@ -38,6 +42,8 @@ ParticleFields make_kinematics(const scene::Scene& scene, int index, double dens
   p.velocity_x.assign(slots, 0.0);
   p.velocity_r.assign(slots, 0.0);
   p.mass.assign(slots, 0.0);
+  p.inertia_x.assign(slots, 0.0);
+  p.inertia_r.assign(slots, 0.0);
   p.volume_ratio.assign(slots, 1.0);
   p.pressure.assign(slots, 0.0);
   p.temperature.assign(slots, scene.initial_temperature);
@@ -48,6 +54,7 @@ ParticleFields make_kinematics(const scene::Scene& scene, int index, double dens
       p.r[slot] = lattice.r_of(j);
       const double radial_weight = scene.symmetry == scene::Symmetry::axisymmetric ? p.r[slot] : 1.0;
       p.mass[slot] = density * radial_weight * lattice.length_x(i) * lattice.length_r(j);
+      p.inertia_x[slot] = p.inertia_r[slot] = inertial_factor * p.mass[slot];
     }
   return p;
 }

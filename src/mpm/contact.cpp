@@ -92,7 +92,7 @@ void Contact::exchange_impulse(const Row& row, double normal, double slide) {
   for (std::size_t s = row.begin; s < row.end; ++s) {
     const Share& each = shares_[s];
     exchanged_velocity_.x(each.point) += each.give_x * j.x;
-    exchanged_velocity_.r(each.point) += each.give_x * j.r;
+    exchanged_velocity_.r(each.point) += each.free_r * j.r;
   }
 }
 
@@ -115,8 +115,8 @@ void Contact::exchange_momentum() {
   for (const Row& row : rows_) {
     if (!row.bonded) continue;
     const Velocity v = relative(row, exchanged_velocity_);
-    exchange_impulse(row, -(v.x * row.normal_x + v.r * row.normal_r) * row.inertia,
-                     -(v.r * row.normal_x - v.x * row.normal_r) * row.inertia);
+    exchange_impulse(row, -(v.x * row.normal_x + v.r * row.normal_r) * row.free_normal_inertia,
+                     -(v.r * row.normal_x - v.x * row.normal_r) * row.free_slide_inertia);
   }
 }
 

@@ -74,12 +74,12 @@ void Contact::make_fields(const std::vector<Nodes>& nodes) {
   for (std::size_t p = 0; p < points_; ++p) unconstrained_.x(p) = unconstrained_.r(p) = 1.0;
   for (const Member& m : members_) {
     const Nodes& n = nodes[m.nodes];
-    inertia_.x(m.point) += n.inertia[m.index];
-    inertia_.r(m.point) += n.inertia[m.index];
+    inertia_.x(m.point) += n.inertia_x[m.index];
+    inertia_.r(m.point) += n.inertia_r[m.index];
     mass_.x(m.point) += n.mass[m.index];
     unconstrained_.r(m.point) *= n.radially_free[m.index];
-    mobility_.x(m.point) = n.inverse_inertia[m.index];
-    mobility_.r(m.point) = n.inverse_inertia[m.index] * unconstrained_.r(m.point);
+    mobility_.x(m.point) = n.inverse_inertia_x[m.index];
+    mobility_.r(m.point) = n.inverse_inertia_r[m.index] * unconstrained_.r(m.point);
   }
 }
 
@@ -164,7 +164,8 @@ void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired,
     return face.other.points[each.node] == face.own.points[node];
   });
   if (!(paired.area > 0.0) || tied) {
-    row.normal = row.slide = row.inertia = row.normal_inertia = row.slide_inertia = 0.0;
+    row.normal = row.slide = row.normal_inertia = row.slide_inertia = 0.0;
+    row.free_normal_inertia = row.free_slide_inertia = 0.0;
     return;
   }
   // Where a node is held along r, by symmetry or by the barrel, the face runs along a line of the grid.
@@ -190,24 +191,27 @@ void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired,
         shares_[s].share += sign * each.share;
         return;
       }
-    shares_.push_back({point, sign * each.share, 0.0, 0.0});
+    shares_.push_back({point, sign * each.share, 0.0, 0.0, 0.0});
   };
   for (const PairShare& each : paired.own) take(face.own, each, -1.0);
   for (const PairShare& each : paired.other) take(face.other, each, 1.0);
   row.end = static_cast<std::uint32_t>(shares_.size());
-  double all = 0.0, normal = 0.0, slide = 0.0;
+  double normal = 0.0, slide = 0.0, free_normal = 0.0, free_slide = 0.0;
   const double nx = row.normal_x * row.normal_x, nr = row.normal_r * row.normal_r;
   for (std::size_t s = row.begin; s < row.end; ++s) {
     Share& each = shares_[s];
     each.give_x = each.share * mobility_.x(each.point);
     each.give_r = each.share * mobility_.r(each.point);
-    all += each.share * each.give_x;
+    each.free_r = each.share / inertia_.r(each.point);
+    free_normal += each.share * (nx * each.give_x + nr * each.free_r);
+    free_slide += each.share * (nr * each.give_x + nx * each.free_r);
     normal += each.share * (nx * each.give_x + nr * each.give_r);
     slide += each.share * (nr * each.give_x + nx * each.give_r);
   }
   const double least = least_mobility * mobility_.x(face.own.points[node]);
   const auto inertia = [least](double mobility) { return mobility > least ? 1.0 / mobility : 0.0; };
-  row.inertia = inertia(all);
+  row.free_normal_inertia = inertia(free_normal);
+  row.free_slide_inertia = inertia(free_slide);
   row.normal_inertia = inertia(normal);
   row.slide_inertia = inertia(slide);
 }

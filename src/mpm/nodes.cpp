@@ -66,9 +66,9 @@ Nodes make_nodes(const scene::Scene& scene, const scene::GridLines& lines, int i
   for (NodeSums* sums : {&n.inside, &n.outside})
     for (auto* field : {&sums->momentum_x, &sums->momentum_r, &sums->force_x, &sums->force_r})
       field->assign(size, 0.0);
-  for (auto* field : {&n.mass, &n.inertia, &n.inverse_inertia, &n.mass_share, &n.radially_free, &n.velocity_x,
-                      &n.velocity_r, &n.velocity_increment_x, &n.velocity_increment_r, &n.displacement_x,
-                      &n.displacement_r})
+  for (auto* field : {&n.mass, &n.inertia_x, &n.inertia_r, &n.inverse_inertia_x, &n.inverse_inertia_r,
+                      &n.mass_share, &n.radially_free, &n.velocity_x, &n.velocity_r, &n.velocity_increment_x,
+                      &n.velocity_increment_r, &n.displacement_x, &n.displacement_r})
     field->assign(size, 0.0);
   const double outer = scene::extent_of(scene).r_end;
   for (int j = 0; j < n.rows; ++j) {

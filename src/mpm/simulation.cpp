@@ -100,11 +100,6 @@ double Simulation::frame_acceleration(double time) const {
   return scene_.frame == scene::Frame::co_moving ? load_.at(time) * loaded_area_ / total_mass_ : 0.0;
 }
 
-double Simulation::inertial_factor(const ParticleFields& body) const {
-  if (const TotalLagrangian* form = total_lagrangian()) return form->inertial_factor(body);
-  return scene_.numerics.inertial_scaling;
-}
-
 void Simulation::step(double dt) {
   balance_ = energy_;
   const double damping_time = scene_.numerics.damping_time;
@@ -156,8 +151,9 @@ double Simulation::kinetic_energy() const {
   for_each_body([&](const ParticleFields& p) {
     double body = 0.0;
     for (std::size_t i = 0; i < p.mass.size(); ++i)
-      body += 0.5 * p.mass[i] * (p.velocity_x[i] * p.velocity_x[i] + p.velocity_r[i] * p.velocity_r[i]);
-    total += inertial_factor(p) * body;
+      body += 0.5 * (p.inertia_x[i] * p.velocity_x[i] * p.velocity_x[i] +
+                     p.inertia_r[i] * p.velocity_r[i] * p.velocity_r[i]);
+    total += body;
   });
   return total;
 }
@@ -166,8 +162,8 @@ double Simulation::axial_momentum() const {
   double total = 0.0;
   for_each_body([&](const ParticleFields& p) {
     double body = 0.0;
-    for (std::size_t i = 0; i < p.mass.size(); ++i) body += p.mass[i] * p.velocity_x[i];
-    total += inertial_factor(p) / scene_.numerics.inertial_scaling * body;
+    for (std::size_t i = 0; i < p.mass.size(); ++i) body += p.inertia_x[i] * p.velocity_x[i];
+    total += body / scene_.numerics.inertial_scaling;
   });
   return total;
 }

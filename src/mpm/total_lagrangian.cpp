@@ -3,6 +3,7 @@
 #include "burning_row.hpp"
 #include "launchsafe/mpm/material_step.hpp"
 #include "launchsafe/scene/chamber.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "total_lagrangian_row.hpp"
 
 #include <algorithm>
@@ -58,30 +59,29 @@ TotalLagrangian::TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>
     nodes_.push_back(make_nodes(scene, lines_, static_cast<int>(b)));
     parts_.push_back(make_part(bodies[b], nodes_[b]));
   }
+  lengthen_steps();
   sum_nodal_masses();
   ties_ = find_ties(nodes_, [&scene](std::size_t a, std::size_t b) {
     const scene::Interface* faces = scene::interface_between(scene, a, b);
     return faces != nullptr && scene::can_slide(*faces);
   });
   for (const Tie& tie : ties_) {
-    double mass = 0.0, inertia = 0.0;
+    double mass = 0.0, inertia_x = 0.0, inertia_r = 0.0;
     for (const Tie::Member& m : tie.members) {
       mass += nodes_[m.nodes].mass[m.index];
-      inertia += nodes_[m.nodes].inertia[m.index];
+      inertia_x += nodes_[m.nodes].inertia_x[m.index];
+      inertia_r += nodes_[m.nodes].inertia_r[m.index];
     }
     for (const Tie::Member& m : tie.members) {
-      nodes_[m.nodes].inverse_inertia[m.index] = 1.0 / inertia;
-      nodes_[m.nodes].mass_share[m.index] = mass / inertia;
+      nodes_[m.nodes].inverse_inertia_x[m.index] = 1.0 / inertia_x;
+      nodes_[m.nodes].inverse_inertia_r[m.index] = 1.0 / inertia_r;
+      nodes_[m.nodes].mass_share[m.index] = mass / inertia_x;
     }
   }
   contact_ = std::make_unique<Contact>(scene, lines_, nodes_, ties_);
   find_chamber_load();
   share_work();
   reset_grid();
-}
-
-double TotalLagrangian::inertial_factor(const ParticleFields& body) const {
-  return parts_[static_cast<std::size_t>(body.body)].inertial_factor;
 }
 
 TotalLagrangian::Part TotalLagrangian::make_part(const AnyBody& any, const Nodes& nodes) const {
@@ -99,8 +99,6 @@ TotalLagrangian::Part TotalLagrangian::make_part(const AnyBody& any, const Nodes
     const auto line = static_cast<std::size_t>(nodes.first_x + c);
     part.inverse_length[static_cast<std::size_t>(c)] = 1.0 / (lines_.x[line + 1] - lines_.x[line]);
   }
-  const bool metal = !scene::is_charge(scene_, scene_.bodies[static_cast<std::size_t>(p.body)]);
-  part.inertial_factor = numerics.inertial_scaling * (metal ? numerics.steel_inertia : 1.0);
   if (lattice.stride > 1 || !(numerics.hourglass_stiffness > 0.0)) return part;
   const auto [modulus, density] = std::visit(
       [](const auto& body) {
@@ -118,6 +116,44 @@ TotalLagrangian::Part TotalLagrangian::make_part(const AnyBody& any, const Nodes
   return part;
 }
 
+/// Selective mass scaling (Olovsson, Simonsson & Unosson, IJNME 63 (2005) 1436, who scale elements likewise),
+/// by direction: motion along x and along r whose own step in a cell would be shorter than the lengthened one
+/// gets the inertia with which it is not. Rows that are thin in r hold back the step through motion along r,
+/// where the shell is all but at rest; along x, where it is accelerated, shear between them allows twice
+/// that.
+void TotalLagrangian::lengthen_steps() {
+  const double longer = scene_.numerics.selective_inertia;
+  if (!(longer > 1.0)) return;
+  double fastest = 0.0;
+  for_each_cell([&fastest](ParticleFields& p, std::size_t slot, const CellRates& own) {
+    fastest = std::max(fastest, std::max(own.stretch_x, own.stretch_r) * p.mass[slot] / p.inertia_x[slot]);
+  });
+  // The sum of both bounds that of the fastest mode, as in run/stable_factor.hpp.
+  const double allowed = fastest / (longer * longer);
+  for_each_cell([allowed](ParticleFields& p, std::size_t slot, const CellRates& own) {
+    const double mass = p.mass[slot];
+    p.inertia_x[slot] = std::max(p.inertia_x[slot], mass * (own.stretch_x + own.shear_x) / allowed);
+    p.inertia_r[slot] = std::max(p.inertia_r[slot], mass * (own.stretch_r + own.shear_r) / allowed);
+  });
+}
+
+template <class F>
+void TotalLagrangian::for_each_cell(F&& f) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    ParticleFields& p = std::visit([](auto& body) -> ParticleFields& { return body.particles; }, bodies_[b]);
+    const materials::Law law = scene::law_of(scene_, scene_.bodies[static_cast<std::size_t>(p.body)]);
+    const double stretch = std::pow(scene::longitudinal_speed(law), 2),
+                 shear = materials::shear_modulus(law) / materials::initial_density(law);
+    for (int j = 0; j < p.lattice.rows(); ++j)
+      for (int i = 0; i < p.lattice.columns(); ++i) {
+        const double per_x = std::pow(
+                         parts_[b].inverse_length[static_cast<std::size_t>(i / p.lattice.stride)], 2),
+                     per_r = std::pow(parts_[b].rows[static_cast<std::size_t>(j)].inverse_length, 2);
+        f(p, p.lattice.slot(i, j), CellRates{stretch * per_x, shear * per_r, stretch * per_r, shear * per_x});
+      }
+  }
+}
+
 void TotalLagrangian::sum_nodal_masses() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     Nodes& n = nodes_[b];
@@ -128,19 +164,23 @@ void TotalLagrangian::sum_nodal_masses() {
       for (int i = 0; i < lattice.columns(); ++i) {
         const RowWeights& w = part.rows[static_cast<std::size_t>(j)];
         const double right = ((i % lattice.stride) + 0.5) / lattice.stride;
-        const double mass = p.mass[lattice.slot(i, j)];
+        const std::size_t slot = lattice.slot(i, j);
         for (int k = 0; k < 2; ++k) {
           const std::size_t node = n.index(i / lattice.stride, w.cell_row + k);
-          n.mass[node] += mass * w.value[k] * (1.0 - right);
-          n.mass[node + 1] += mass * w.value[k] * right;
+          for (const auto& [sum, own] : {std::pair{&n.mass, p.mass[slot]},
+                                         {&n.inertia_x, p.inertia_x[slot]},
+                                         {&n.inertia_r, p.inertia_r[slot]}}) {
+            (*sum)[node] += own * w.value[k] * (1.0 - right);
+            (*sum)[node + 1] += own * w.value[k] * right;
+          }
         }
       }
     for (std::size_t node = 0; node < n.mass.size(); ++node) {
-      n.inertia[node] = part.inertial_factor * n.mass[node];
-      inertia_ += n.inertia[node];
+      inertia_ += n.inertia_x[node];
       if (!(n.mass[node] > 0.0)) continue;
-      n.inverse_inertia[node] = 1.0 / n.inertia[node];
-      n.mass_share[node] = 1.0 / part.inertial_factor;
+      n.inverse_inertia_x[node] = 1.0 / n.inertia_x[node];
+      n.inverse_inertia_r[node] = 1.0 / n.inertia_r[node];
+      n.mass_share[node] = n.mass[node] / n.inertia_x[node];
     }
   }
 }
@@ -220,29 +260,28 @@ void TotalLagrangian::reset_grid() {
   StepInput still;
   damped_before_ = 0.0;
   for (std::size_t b = 0; b < bodies_.size(); ++b)
-    std::visit(
-        [&](auto& body) {
-          momentum_to_nodes(body.particles, nodes_[b], parts_[b].rows, parts_[b].inertial_factor);
-        },
-        bodies_[b]);
+    std::visit([&](auto& body) { momentum_to_nodes(body.particles, nodes_[b], parts_[b].rows); }, bodies_[b]);
   bond(ties_, nodes_);
   for (Nodes& n : nodes_)
     for (std::size_t node = 0; node < n.mass.size(); ++node) {
-      n.velocity_x[node] = (n.inside.momentum_x[node] + n.outside.momentum_x[node]) * n.inverse_inertia[node];
-      n.velocity_r[node] = (n.inside.momentum_r[node] + n.outside.momentum_r[node]) * n.inverse_inertia[node];
+      n.velocity_x[node] =
+          (n.inside.momentum_x[node] + n.outside.momentum_x[node]) * n.inverse_inertia_x[node];
+      n.velocity_r[node] =
+          (n.inside.momentum_r[node] + n.outside.momentum_r[node]) * n.inverse_inertia_r[node];
       n.velocity_increment_x[node] = n.velocity_increment_r[node] = 0.0;
     }
   if (contact_->any()) contact_->reset(nodes_);
 }
 
 double TotalLagrangian::stable_time_step() const {
+  const bool selective = scene_.numerics.selective_inertia > 1.0;
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     std::visit(
         [&](const auto& body) {
-          const double time = shortest_sound_time(body, nodes_[b], parts_[b].rows, parts_[b].inverse_length);
-          const double scaled = time * std::sqrt(parts_[b].inertial_factor);
-          if (!(scaled >= shortest)) shortest = scaled;  // NaN stays one
+          const double time =
+              shortest_sound_time(body, nodes_[b], parts_[b].rows, parts_[b].inverse_length, selective);
+          if (!(time >= shortest)) shortest = time;  // NaN stays one
         },
         bodies_[b]);
   return scene_.numerics.time_step_factor * shortest;
@@ -322,15 +361,16 @@ void TotalLagrangian::move_row(Nodes& n, int row, const StepInput& input, NodeTo
   totals = {};
   const std::size_t begin = n.index(0, row);
   for (std::size_t i = begin; i < begin + n.stride; i += math::pack_width) {
-    const Pack inverse = load(n.inverse_inertia, i), share = load(n.mass_share, i);
-    const Pack inertia = load(n.inertia, i), mass = load(n.mass, i);
+    const Pack inverse_x = load(n.inverse_inertia_x, i), inverse_r = load(n.inverse_inertia_r, i);
+    const Pack inertia_x = load(n.inertia_x, i), inertia_r = load(n.inertia_r, i);
+    const Pack share = load(n.mass_share, i), mass = load(n.mass, i);
     const Pack before_x = load(n.velocity_x, i), before_r = load(n.velocity_r, i);
     const Pack gained_x = load(n.velocity_increment_x, i), gained_r = load(n.velocity_increment_r, i);
-    const Pack old_x = (load(n.inside.momentum_x, i) + load(n.outside.momentum_x, i)) * inverse;
-    const Pack old_r = (load(n.inside.momentum_r, i) + load(n.outside.momentum_r, i)) * inverse;
+    const Pack old_x = (load(n.inside.momentum_x, i) + load(n.outside.momentum_x, i)) * inverse_x;
+    const Pack old_r = (load(n.inside.momentum_r, i) + load(n.outside.momentum_r, i)) * inverse_r;
     const Pack push_x =
-        (load(n.inside.force_x, i) + load(n.outside.force_x, i)) * inverse + input.acceleration * share;
-    const Pack push_r = (load(n.inside.force_r, i) + load(n.outside.force_r, i)) * inverse;
+        (load(n.inside.force_x, i) + load(n.outside.force_x, i)) * inverse_x + input.acceleration * share;
+    const Pack push_r = (load(n.inside.force_r, i) + load(n.outside.force_r, i)) * inverse_r;
     const Pack new_x = (old_x + dt * push_x) * input.damping_factor;
     const Pack new_r = load(n.radially_free, i) * (old_r + dt * push_r) * input.damping_factor;
     const Pack velocity_increment_x = new_x - old_x, velocity_increment_r = new_r - old_r;
@@ -340,12 +380,13 @@ void TotalLagrangian::move_row(Nodes& n, int row, const StepInput& input, NodeTo
     store(n.velocity_increment_r, i, velocity_increment_r);
     store(n.displacement_x, i, load(n.displacement_x, i) + dt * new_x);
     store(n.displacement_r, i, load(n.displacement_r, i) + dt * new_r);
-    const Pack half = 0.5 * inertia;
-    totals.lost_before += half * ((gained_x + velocity_increment_x) * (before_x - old_x) +
-                                  (gained_r + velocity_increment_r) * (before_r - old_r));
-    totals.lost_before += half * ((damped_before_ * before_x + damped * new_x) * before_x +
-                                  (damped_before_ * before_r + damped * new_r) * before_r);
-    totals.old_momentum += mass * old_x;
+    const Pack half_x = 0.5 * inertia_x, half_r = 0.5 * inertia_r;
+    totals.lost_before += half_x * ((gained_x + velocity_increment_x) * (before_x - old_x)) +
+                          half_r * ((gained_r + velocity_increment_r) * (before_r - old_r));
+    totals.lost_before += half_x * ((damped_before_ * before_x + damped * new_x) * before_x) +
+                          half_r * ((damped_before_ * before_r + damped * new_r) * before_r);
+    totals.old_momentum += inertia_x * old_x;
+    totals.inertial_momentum += inertia_x * new_x;
     totals.momentum += mass * new_x;
   }
 }
@@ -361,7 +402,6 @@ void TotalLagrangian::advance_rows(const Rows& rows, const StepInput& input) {
                              part.rows[static_cast<std::size_t>(j)],
                              part.inverse_length,
                              part.hourglass,
-                             part.inertial_factor,
                              input.dt,
                              input.pic_fraction,
                              j == rows.begin};
@@ -429,8 +469,8 @@ StepTotals TotalLagrangian::step(const StepInput& input) {
     for (const NodeTotals& row : node_totals_[b]) body.add(row);
     totals.nodes.add(body);
     // Contact's impulses are equal and opposite: they do not change the whole momentum.
-    totals.bulk.old_momentum += parts_[b].inertial_factor * sum(body.old_momentum);
-    totals.bulk.momentum += parts_[b].inertial_factor * sum(body.momentum);
+    totals.bulk.old_momentum += sum(body.old_momentum);
+    totals.bulk.momentum += sum(body.inertial_momentum);
   }
   totals.chamber_flow = chamber_flow();
   totals.bore_work = bore_work(input.dt);

@@ -19,8 +19,7 @@ struct RowStep {
   const RowWeights& weights;
   const math::AlignedArray& inverse_length;  ///< of the cells along x, 1/m
   const math::AlignedArray& hourglass;       ///< N/m by slot; empty without
-  double inertial_factor;
-  double dt;  ///< s
+  double dt;                                 ///< s
   double pic_fraction;
   bool first;  ///< in its row of cells: it writes the nodes' sums anew, later ones add to them
 };
@@ -165,15 +164,16 @@ template <bool burns, class Law>
       f.tt += 1.0;
 
       const Pack grid_x = in_cell(vx.mean(w.value)), grid_r = in_cell(vr.mean(w.value));
-      const Pack inertia = step.inertial_factor * mass;
-      update_velocity(p, slot, inertia, in_cell(in_cells(nodes.velocity_increment_x).mean(w.value)),
+      const Pack inertia_x = load(p.inertia_x, slot), inertia_r = load(p.inertia_r, slot);
+      update_velocity(p, slot, inertia_x, inertia_r,
+                      in_cell(in_cells(nodes.velocity_increment_x).mean(w.value)),
                       in_cell(in_cells(nodes.velocity_increment_r).mean(w.value)), grid_x, grid_r,
                       step.pic_fraction, totals);
       store(p.x, slot, load(p.x, slot) + step.dt * grid_x);
       store(p.r, slot, load(p.r, slot) + step.dt * grid_r);
 
-      const Pack momentum_x = inertia * load(p.velocity_x, slot),
-                 momentum_r = inertia * load(p.velocity_r, slot);
+      const Pack momentum_x = inertia_x * load(p.velocity_x, slot),
+                 momentum_r = inertia_r * load(p.velocity_r, slot);
       to_inner.momentum_x.add(i, (w.value[0] * (1.0 - s)) * momentum_x, (w.value[0] * s) * momentum_x);
       to_inner.momentum_r.add(i, (w.value[0] * (1.0 - s)) * momentum_r, (w.value[0] * s) * momentum_r);
       to_outer.momentum_x.add(i, (w.value[1] * (1.0 - s)) * momentum_x, (w.value[1] * s) * momentum_x);
@@ -216,8 +216,7 @@ template <bool burns, class Law>
 }
 
 /// Gives the particles' momentum to empty nodes.
-inline void momentum_to_nodes(const ParticleFields& p, Nodes& nodes, const std::vector<RowWeights>& rows,
-                              double inertial_factor) {
+inline void momentum_to_nodes(const ParticleFields& p, Nodes& nodes, const std::vector<RowWeights>& rows) {
   for (NodeSums* sums : {&nodes.inside, &nodes.outside}) {
     std::fill(sums->momentum_x.begin(), sums->momentum_x.end(), 0.0);
     std::fill(sums->momentum_r.begin(), sums->momentum_r.end(), 0.0);
@@ -231,21 +230,25 @@ inline void momentum_to_nodes(const ParticleFields& p, Nodes& nodes, const std::
       for (int k = 0; k < 2; ++k) {
         NodeSums& sums = k == 0 ? nodes.outside : nodes.inside;
         const std::size_t node = nodes.index(i / lattice.stride, w.cell_row + k);
-        const double mass = inertial_factor * p.mass[slot] * w.value[k];
-        sums.momentum_x[node] += mass * (1.0 - right) * p.velocity_x[slot];
-        sums.momentum_r[node] += mass * (1.0 - right) * p.velocity_r[slot];
-        sums.momentum_x[node + 1] += mass * right * p.velocity_x[slot];
-        sums.momentum_r[node + 1] += mass * right * p.velocity_r[slot];
+        const double x = p.inertia_x[slot] * w.value[k] * p.velocity_x[slot],
+                     r = p.inertia_r[slot] * w.value[k] * p.velocity_r[slot];
+        sums.momentum_x[node] += (1.0 - right) * x;
+        sums.momentum_r[node] += (1.0 - right) * r;
+        sums.momentum_x[node + 1] += right * x;
+        sums.momentum_r[node + 1] += right * r;
       }
     }
 }
 
-/// Shortest time (s) in which sound crosses the height of a cell of the body as it is deformed.
+/// Shortest time (s) in which sound crosses the height of a cell of the body as it is deformed, with the
+/// inertia that its particle has. `selective`: inertia differs along x and r, and shear across the one counts
+/// with stretch along the other (TotalLagrangian::lengthen_steps).
 template <class Law>
 double shortest_sound_time(const Body<Law>& body, const Nodes& nodes, const std::vector<RowWeights>& rows,
-                           const math::AlignedArray& inverse_lengths) {
+                           const math::AlignedArray& inverse_lengths, bool selective) {
   const Lattice& lattice = body.particles.lattice;
   const auto columns = static_cast<std::size_t>(lattice.padded_columns / lattice.stride);
+  const double shear_squared = selective ? body.law.shear_modulus() / body.law.initial_density() : 0.0;
   Pack fastest(0.0);  // (sound speed over height)^2, 1/s2
   std::size_t slot = 0;
   for (const RowWeights& w : rows)
@@ -263,7 +266,13 @@ double shortest_sound_time(const Body<Law>& body, const Nodes& nodes, const std:
         // Height along x: area over the edge along r, and the other way round.
         const Pack along_r = (rr * rr + g.xr * g.xr) * (inverse_length * inverse_length);
         const Pack along_x = (xx * xx + g.rx * g.rx) * Pack(w.inverse_length * w.inverse_length);
-        const Pack rate = sound_speed_squared(body, slot) * max(along_r, along_x) / (area * area);
+        const ParticleFields& p = body.particles;
+        const Pack mass = load(p.mass, slot);
+        const Pack sound = sound_speed_squared(body, slot);
+        const Pack shear = Pack(shear_squared) * load(p.volume_ratio, slot);
+        const Pack motion_x = (sound * along_r + shear * along_x) * (mass / load(p.inertia_x, slot)),
+                   motion_r = (sound * along_x + shear * along_r) * (mass / load(p.inertia_r, slot));
+        const Pack rate = max(motion_x, motion_r) / (area * area);
         const Pack counted = select(real, rate, Pack(0.0));
         fastest = select(counted <= fastest, fastest, counted);  // NaN wins
       }

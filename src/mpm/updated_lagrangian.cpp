@@ -66,8 +66,8 @@ template <class Law>
     const Pack x0 = load(p.x, slot), r0 = load(p.r, slot);
     const Stencil old_stencil = stencil_of(reading, x0, r0);
     const GridToParticle g = grid_to_particle(grid, old_stencil, real & old_stencil.inside);
-    update_velocity(p, slot, mass, g.velocity_increment_x, g.velocity_increment_r, g.velocity_x, g.velocity_r,
-                    transfer.pic_fraction, totals);
+    update_velocity(p, slot, mass, mass, g.velocity_increment_x, g.velocity_increment_r, g.velocity_x,
+                    g.velocity_r, transfer.pic_fraction, totals);
     const Pack x1 = x0 + transfer.dt * g.velocity_x, r1 = r0 + transfer.dt * g.velocity_r;
     store(p.x, slot, x1);
     store(p.r, slot, r1);
@@ -244,7 +244,8 @@ void UpdatedLagrangian::update_grid(const StepInput& input, NodeTotals& totals) 
       none.store(sums->data() + n);
   }
   totals.damping = scaling * damping;
-  totals.old_momentum = old_transport;
+  totals.old_momentum = scaling * old_transport;
+  totals.inertial_momentum = scaling * axial_transport;
   totals.momentum = axial_transport;
   if (scene_.frame == scene::Frame::lab) travel_ += sum(axial_transport) / total_mass_ * dt;
 }
@@ -257,8 +258,7 @@ StepTotals UpdatedLagrangian::step(const StepInput& input) {
   for (const LoadShare& share : bore_shares_) grid_.force_r[share.node] += share.force;
   update_grid(input, totals.nodes);
   const double scaling = scene_.numerics.inertial_scaling;
-  totals.bulk = {scaling * total_mass_, scaling * sum(totals.nodes.old_momentum),
-                 scaling * sum(totals.nodes.momentum)};
+  totals.bulk = {scaling * total_mass_, sum(totals.nodes.old_momentum), sum(totals.nodes.inertial_momentum)};
   for (const LoadShare& share : load_shares_)
     totals.chamber_flow += share.force * grid_.velocity_x[share.node];
   for (const LoadShare& share : bore_shares_)

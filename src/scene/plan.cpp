@@ -127,11 +127,17 @@ Term plan_friction_heat(const Scene& scene) {
 }
 
 Term plan_inertial_scaling(const Scene& scene) {
-  const double scaling = scene.numerics.inertial_scaling;
-  if (!(scaling > 1.0)) return {false, false, "full inertia", scaling, 1.0};
-  return {true, false,
-          fmt::format("inertia times {:.4g}, steps {:.3g} times longer", scaling, std::sqrt(scaling)),
-          scaling, 1.0};
+  const double scaling = scene.numerics.inertial_scaling, selective = scene.numerics.selective_inertia;
+  const double factor = scaling * selective * selective;
+  if (!(factor > 1.0)) return {false, false, "full inertia", factor, 1.0};
+  std::string reason;
+  if (scaling > 1.0)
+    reason = fmt::format("inertia times {:.4g}, steps {:.3g} times longer", scaling, std::sqrt(scaling));
+  if (selective > 1.0)
+    reason +=
+        fmt::format("{}steps {:.3g} times longer, with up to {:.4g} times the inertia in cells that need it",
+                    reason.empty() ? "" : "; ", selective, selective * selective);
+  return {true, false, std::move(reason), factor, 1.0};
 }
 
 /// s of the launch, at most, that the run of a gap computes before it ignites or the launch ends.
@@ -195,7 +201,7 @@ double time_step_at_rest(const Scene& scene, const MeshSize& mesh) {
     shortest = std::min(
         shortest, mesh.cells[i].shortest() / longitudinal_speed(law_of(scene, body)) * std::sqrt(inertia));
   }
-  return numerics.time_step_factor * shortest;
+  return numerics.time_step_factor * numerics.selective_inertia * shortest;
 }
 
 void count_particles(const Scene& scene, const MeshSize& mesh, Plan& plan) {

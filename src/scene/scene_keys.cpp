@@ -202,6 +202,14 @@ std::vector<Key<Numerics>> numerics_keys() {
                      "Factor on the inertia of what is no charge, beside inertial_scaling; an accuracy knob.",
                      &Numerics::steel_inertia),
           between(1, 10), "larger ones were never compared with a reference", setting_exact_at(1.0)),
+      written_where(
+          plausibly(
+              number_key("selective_inertia", Dimension::number, between(1, 100), Standing::assumed,
+                         "Multiple of the step that the smallest cells allow; cells that allow less get "
+                         "the inertia for it (selective mass scaling). 1 is true inertia.",
+                         &Numerics::selective_inertia),
+              between(1, 8), "larger ones were never compared with a reference", setting_exact_at(1.0)),
+          [](const Numerics& numerics) { return numerics.selective_inertia > 1.0; }),
       zero_or_plausibly(number_key("damping_time", Dimension::time, between(0, 1), Standing::assumed,
                                    "Decay time of the relative velocity; \"0 ms\" for no damping.",
                                    &Numerics::damping_time),

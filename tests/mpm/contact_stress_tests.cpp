@@ -96,6 +96,22 @@ TEST(ContactStressTests, TheLedgerClosesWithScaledInertiaAndWithDamping) {
   EXPECT_LT(watch.drift / watch.scale, 1e-5);
 }
 
+TEST(ContactStressTests, TheLedgerClosesWithSelectiveInertiaAsTheStepGetsShorter) {
+  const auto drift = [](double friction, double time_step_factor) {
+    const ContactWatch watch = watched_launch([&](scene::Scene& shell) {
+      set_friction(shell, friction);
+      shell.numerics.selective_inertia = 4.0;
+      shell.numerics.time_step_factor = time_step_factor;
+    });
+    return watch.drift / watch.scale;
+  };
+  for (const double friction : {0.0, 0.1}) {
+    const double whole = drift(friction, 0.6), half = drift(friction, 0.3);
+    EXPECT_LT(whole, 1e-4) << friction;
+    EXPECT_LT(half, 0.6 * whole) << friction;
+  }
+}
+
 TEST(ContactStressTests, ATiedCornerTakesNoPart) {
   // Charge and body are one node there. Nothing in the shell is pressed by more than its load's peak.
   for (const char* smooth : {"wall", "base", "nose"}) {

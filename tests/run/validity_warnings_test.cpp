@@ -67,11 +67,14 @@ TEST(ValidityWarnings, CombustionNeedsTrueInertiaAndAKnownLoad) {
   combustion.time = {17.7e-3, 18.7e-3};
   EXPECT_TRUE(combustion_validity_warnings(scene, combustion).empty());
   scene.numerics.inertial_scaling = 1.5;
-  expect_one(combustion_validity_warnings(scene, combustion), "inertia is scaled by 1.5");
+  expect_one(combustion_validity_warnings(scene, combustion), "inertia is scaled by up to 1.5");
   scene.numerics.inertial_scaling = 1.0;
   scene.numerics.steel_inertia = 4.0;
   expect_one(combustion_validity_warnings(scene, combustion), "that of steel by 4");
   scene.numerics.steel_inertia = 1.0;
+  scene.numerics.selective_inertia = 4.0;
+  expect_one(combustion_validity_warnings(scene, combustion), "inertia is scaled by up to 16");
+  scene.numerics.selective_inertia = 1.0;
   // A decay behind an exit goes on; the last point of a record does not.
   scene.load.curve_time = {0.0, 18e-3};
   EXPECT_TRUE(combustion_validity_warnings(scene, combustion).empty());
@@ -370,9 +373,10 @@ TEST(ValidityWarnings, CracksThatNoContinuumLawHolds) {
 TEST(ValidityWarnings, ScaledInertiaOfAChargeThatSlidesBeyondWhatWasMeasured) {
   scene::Scene scene = shipped_scene();
   scene.interfaces.clear();
-  const auto warnings_with = [&scene](double all, double steel) {
+  const auto warnings_with = [&scene](double all, double steel, double selective = 1.0) {
     scene.numerics.inertial_scaling = all;
     scene.numerics.steel_inertia = steel;
+    scene.numerics.selective_inertia = selective;
     MechanicsResult run = sound_run();
     run.monitor[1].energy.kinetic = 1.0;  // far from what any charge is warned of
     return validity_warnings(scene, run);
@@ -384,6 +388,22 @@ TEST(ValidityWarnings, ScaledInertiaOfAChargeThatSlidesBeyondWhatWasMeasured) {
   expect_one(warnings_with(17.0, 1.0), "measured up to 16");
   expect_one(warnings_with(1.0, 4.1), "measured up to 16");
   expect_one(warnings_with(16.0, 2.0), "measured up to 16");
+  EXPECT_TRUE(warnings_with(1.0, 1.0, 4.0).empty());
+  expect_one(warnings_with(1.0, 1.0, 4.1), "measured up to 16");
+  expect_one(warnings_with(1.0, 4.0, 4.0), "measured up to 16");
+}
+
+TEST(ValidityWarnings, SelectiveInertiaUnderALoadThatRisesFast) {
+  scene::Scene scene = shipped_scene();
+  scene.interfaces.clear();
+  scene.load.width = 0.25 * scene.load.width;  // from 10 to 90 % in 0.9 ms
+  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
+  scene.numerics.selective_inertia = 4.0;
+  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
+  scene.load.width = 0.5 * scene.load.width;
+  expect_one(validity_warnings(scene, sound_run()), "numerics.selective_inertia = 1 for this one");
+  scene.numerics.selective_inertia = 1.0;
+  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
 }
 
 TEST(ValidityWarnings, FacesThatPassIntoEachOther) {

@@ -138,6 +138,8 @@ TEST(ReadScene, WhatTheUpdatedLagrangianFormLacksIsRefusedWithIt) {
                "whose grid is even");
   expect_error(error_of(form + "numerics.refined_x = \"2 cm\"\n" + small_scene), 2, "numerics.refined_x",
                "2 cm", "absent");
+  expect_error(error_of(form + "numerics.selective_inertia = 4\n" + small_scene), 2,
+               "numerics.selective_inertia", "4", "one factor on all inertia");
   expect_error(error_of(form + "numerics.steel_inertia = 4\n" + small_scene), 2, "numerics.steel_inertia",
                "4", "one factor on all inertia");
 }

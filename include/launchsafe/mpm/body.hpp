@@ -58,6 +58,7 @@ struct ParticleFields {
   math::AlignedArray x, r;                    ///< m
   math::AlignedArray velocity_x, velocity_r;  ///< m/s
   math::AlignedArray mass;                    ///< kg per radian, or per metre of depth
+  math::AlignedArray inertia_x, inertia_r;    ///< the same with the inertial factors: what resists forces
   math::AlignedArray volume_ratio;            ///< V, the volume over that at rest
   math::AlignedArray pressure;                ///< Pa, compression positive
   math::AlignedArray temperature;             ///< K

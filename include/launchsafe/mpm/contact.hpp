@@ -132,14 +132,16 @@ class Contact {
     std::uint32_t point;
     double share;           ///< in the relative velocity, other face less own one
     double give_x, give_r;  ///< 1/kg, velocity of the point from a unit impulse of the row
+    double free_r;          ///< the same along r if the point were not held
   };
   /// A node of the charge's face with the points that it is paired with.
   struct Row {
     std::uint32_t begin = 0, end = 0;   ///< in shares_
     double normal_x = 0, normal_r = 0;  ///< from the charge to the other body
     double friction = 0;
-    /// kg, impulse per unit of relative velocity: if no point were held, along the normal, along the face.
-    double inertia = 0, normal_inertia = 0, slide_inertia = 0;
+    /// kg, impulse per unit of relative velocity along the normal and along the face; and if no point were
+    /// held.
+    double normal_inertia = 0, slide_inertia = 0, free_normal_inertia = 0, free_slide_inertia = 0;
     double area = 0;
     double gap = 0;                                   ///< m, at the begin of the step
     double target = 0;                                ///< m/s, least opening speed

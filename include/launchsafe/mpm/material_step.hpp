@@ -113,21 +113,21 @@ template <bool burns, class Law>
 }
 
 /// FLIP velocity update with an optional share of PIC. Adds the kinetic energy that the PIC share dissipates
-/// and the time-centred kinetic energy at the step's begin to `totals` (J). `inertia` is the mass in that
+/// and the time-centred kinetic energy at the step's begin to `totals` (J). The inertia is the mass in that
 /// balance, kg.
-[[gnu::always_inline]] inline void update_velocity(ParticleFields& p, std::size_t slot, Pack inertia,
-                                                   Pack velocity_increment_x, Pack velocity_increment_r,
-                                                   Pack grid_x, Pack grid_r, double pic_fraction,
-                                                   ParticleTotals& totals) {
+[[gnu::always_inline]] inline void update_velocity(ParticleFields& p, std::size_t slot, Pack inertia_x,
+                                                   Pack inertia_r, Pack velocity_increment_x,
+                                                   Pack velocity_increment_r, Pack grid_x, Pack grid_r,
+                                                   double pic_fraction, ParticleTotals& totals) {
   const Pack old_x = load(p.velocity_x, slot), old_r = load(p.velocity_r, slot);
   const Pack flip_x = old_x + velocity_increment_x, flip_r = old_r + velocity_increment_r;
   const Pack new_x = flip_x + pic_fraction * (grid_x - flip_x),
              new_r = flip_r + pic_fraction * (grid_r - flip_r);
   store(p.velocity_x, slot, new_x);
   store(p.velocity_r, slot, new_r);
-  const Pack half = 0.5 * inertia;
-  totals.pic_loss += half * (flip_x * flip_x + flip_r * flip_r - new_x * new_x - new_r * new_r);
-  totals.centred_kinetic += half * (old_x * flip_x + old_r * flip_r);
+  const Pack half_x = 0.5 * inertia_x, half_r = 0.5 * inertia_r;
+  totals.pic_loss += half_x * (flip_x * flip_x - new_x * new_x) + half_r * (flip_r * flip_r - new_r * new_r);
+  totals.centred_kinetic += half_x * (old_x * flip_x) + half_r * (old_r * flip_r);
 }
 
 /// Bulk moduli (Pa) of a Pack of particles, with those of the particles that burn in place of the law's.

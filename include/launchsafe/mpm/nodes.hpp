@@ -22,16 +22,17 @@ struct NodeSums {
 
 /// Nodal fields of one body; row j of nodes begins at j * stride. Per radian or per metre of depth.
 struct Nodes {
-  int body = 0;                               ///< index into Scene::bodies
-  int columns = 0, rows = 0;                  ///< of nodes
-  int first_x = 0, first_r = 0;               ///< index of the first line in the lattice
-  std::size_t stride = 0;                     ///< columns, padded to whole Packs with one to spare
-  NodeSums inside, outside;                   ///< from the cells towards the axis and away from it
-  math::AlignedArray mass;                    ///< kg, of this body
-  math::AlignedArray inertia;                 ///< kg, of this body, with inertial factors
-  math::AlignedArray inverse_inertia;         ///< 1/kg, of all that is tied at the place; 0 beyond the body
-  math::AlignedArray mass_share;              ///< true over inertial mass of all that is tied at the place
-  math::AlignedArray radially_free;           ///< 1 where v_r is free, 0 on the axis and at the barrel
+  int body = 0;                             ///< index into Scene::bodies
+  int columns = 0, rows = 0;                ///< of nodes
+  int first_x = 0, first_r = 0;             ///< index of the first line in the lattice
+  std::size_t stride = 0;                   ///< columns, padded to whole Packs with one to spare
+  NodeSums inside, outside;                 ///< from the cells towards the axis and away from it
+  math::AlignedArray mass;                  ///< kg, of this body
+  math::AlignedArray inertia_x, inertia_r;  ///< kg, of this body, with inertial factors
+  /// 1/kg, of all that is tied at the place; 0 beyond the body
+  math::AlignedArray inverse_inertia_x, inverse_inertia_r;
+  math::AlignedArray mass_share;     ///< true over inertial mass along x of all that is tied at the place
+  math::AlignedArray radially_free;  ///< 1 where v_r is free, 0 on the axis and at the barrel
   math::AlignedArray velocity_x, velocity_r;  ///< m/s, at the end of the step; displacements advance with it
   math::AlignedArray velocity_increment_x, velocity_increment_r;  ///< m/s, over the step
   math::AlignedArray displacement_x, displacement_r;              ///< m, since the start

@@ -63,8 +63,8 @@ class Simulation {
   const EventCounts& events() const { return events_; }
   /// Kinetic energy of the particles relative to the frame with scaled inertia, J per radian or metre.
   double kinetic_energy() const;
-  /// Axial momentum relative to the frame, kg m/s per radian or metre, of steel with its own inertial factor:
-  /// what no forces between bodies change.
+  /// Axial momentum relative to the frame, kg m/s per radian or metre, with the inertial factors that are not
+  /// common to all: what no forces between particles change.
   double axial_momentum() const;
   /// Particles that carry mass.
   std::uint64_t particles() const { return particles_; }
@@ -119,7 +119,6 @@ class Simulation {
 
  private:
   /// Inertial over true mass of a body.
-  double inertial_factor(const ParticleFields& body) const;
   void add_to_energy(const StepTotals& totals, double dt);
 
   scene::Scene scene_;

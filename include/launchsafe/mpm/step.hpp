@@ -32,10 +32,11 @@ struct ParticleTotals {
 
 /// Sums over nodes: energies (J per radian or metre) and momenta (kg m/s per radian or metre).
 struct NodeTotals {
-  Pack damping{0.0};       ///< taken out by damping in the step
-  Pack lost_before{0.0};   ///< total-Lagrangian: taken out by damping and FLIP until the step's begin
-  Pack old_momentum{0.0};  ///< axial, at the begin, true mass
-  Pack momentum{0.0};      ///< axial, with the velocity that the step moves by
+  Pack damping{0.0};            ///< taken out by damping in the step
+  Pack lost_before{0.0};        ///< total-Lagrangian: taken out by damping and FLIP until the step's begin
+  Pack old_momentum{0.0};       ///< axial, of the inertial mass, at the begin
+  Pack inertial_momentum{0.0};  ///< the same with the velocity that the step moves by
+  Pack momentum{0.0};           ///< axial, of the true mass, with that velocity
 
   void add(const NodeTotals& other);
 };
@@ -48,7 +49,7 @@ struct ContactTotals {
 };
 
 /// Axial motion of the centre of the inertial masses, on which forces act. It is not the centre of the true
-/// masses where the inertia of some bodies is scaled more than that of others.
+/// masses where the inertia of some particles is scaled more than that of others.
 struct BulkMotion {
   double inertia = 0;       ///< kg per radian or metre
   double old_momentum = 0;  ///< kg m/s, at the begin of the step
@@ -97,6 +98,7 @@ inline void NodeTotals::add(const NodeTotals& other) {
   damping += other.damping;
   lost_before += other.lost_before;
   old_momentum += other.old_momentum;
+  inertial_momentum += other.inertial_momentum;
   momentum += other.momentum;
 }
 

@@ -54,8 +54,6 @@ class TotalLagrangian {
   const std::vector<Nodes>& nodes() const { return nodes_; }
   const std::vector<Tie>& ties() const { return ties_; }
   const Contact& contact() const { return *contact_; }
-  /// Inertial over true mass of a body.
-  double inertial_factor(const ParticleFields& body) const;
 
  private:
   /// Constants of a body.
@@ -64,7 +62,11 @@ class TotalLagrangian {
     math::AlignedArray
         inverse_length;            ///< 1/m by slot column within a sub-row, of the cell along x; 0: no cell
     math::AlignedArray hourglass;  ///< N/m by slot: kappa G V/(3 L^2), G the hourglass modulus; empty without
-    double inertial_factor = 1;
+  };
+  /// Squared frequencies of a cell at rest with its true mass, over a factor that all have in common, 1/s2:
+  /// of the motion along x and along r, by stretching and by shearing it.
+  struct CellRates {
+    double stretch_x, shear_x, stretch_r, shear_r;
   };
   /// Rows of one body that a thread works through.
   struct Rows {
@@ -80,6 +82,9 @@ class TotalLagrangian {
   };
 
   Part make_part(const AnyBody& any, const Nodes& nodes) const;
+  void lengthen_steps();
+  template <class F>
+  void for_each_cell(F&& f);
   void sum_nodal_masses();
   void share_work();
   void find_chamber_load();

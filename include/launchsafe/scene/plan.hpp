@@ -44,7 +44,7 @@ struct Plan {
   std::vector<MaterialParticles> by_material;  ///< of the materials that bodies are made of
   std::int64_t particles() const;
   std::int64_t cells = 0;  ///< of the fitted grid over the shell at rest
-  double time_step = 0;    ///< s, at rest: CFL h/c_L, times sqrt(inertial_scaling)
+  double time_step = 0;    ///< s, at rest: CFL h/c_L, with the inertial factors
   /// Duration over time_step, most_counted at most; compression stiffens, so a run takes some more.
   std::int64_t steps = 0;
   /// Particle updates that the run is worth: steps times particles, and more where the crack law divides its

@@ -127,9 +127,11 @@ struct Numerics {
   double hourglass_stiffness =
       0.1;                     ///< share of the hourglass modulus: that of shear, a fifth of it in a charge
   int particles_per_cell = 1;  ///< in each direction
-  double time_step_factor = 0.5;     ///< CFL
-  double inertial_scaling = 1.0;     ///< s >= 1
-  double steel_inertia = 1.0;        ///< >= 1; factor on the inertia of metal bodies beside the scaling
+  double time_step_factor = 0.5;  ///< CFL
+  double inertial_scaling = 1.0;  ///< s >= 1
+  double steel_inertia = 1.0;     ///< >= 1; factor on the inertia of metal bodies beside the scaling
+  /// >= 1; steps over those that the cells at rest allow: cells that allow less get the inertia for it
+  double selective_inertia = 1.0;
   double damping_time = 0.0;         ///< s; decay time of the relative velocity, 0 = no damping
   double pic_fraction = 0.0;         ///< share of PIC in the velocity update, 0 = pure FLIP
   double energy_drift_limit = 0.05;  ///< of the energy scale; past it the run is stopped and indeterminate
